@@ -1,0 +1,39 @@
+# What every target of this project has in common.
+#
+# zerocount_target(<target>): C++20, include paths from the repository root (`#include "core/..."`), our warnings, and
+# no contraction of a·b + c into one rounding: the same source must give the same bits in every build, or the quantisers of
+# the loop would turn a last-bit difference into a different count.
+function(zerocount_target target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  target_include_directories(${target} PUBLIC "${CMAKE_SOURCE_DIR}")
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(ZEROCOUNT_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(ZEROCOUNT_NATIVE)
+    target_compile_options(${target} PRIVATE -march=native)
+  endif()
+  if(ZEROCOUNT_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${ZEROCOUNT_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=${ZEROCOUNT_SANITIZE})
+  endif()
+endfunction()
+
+# zerocount_library(<name> SOURCES ... LINKS ...): one layer, as a static library zerocount_<name>.
+function(zerocount_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  add_library(zerocount_${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(zerocount_${name} PUBLIC ${ARG_LINKS})
+  zerocount_target(zerocount_${name})
+endfunction()
+
+# zerocount_test(<name> SOURCES ... LINKS ...): one GoogleTest executable, each of its tests known to CTest.
+function(zerocount_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
+  zerocount_target(${name})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()

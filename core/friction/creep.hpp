@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/friction/parameters.hpp"
+
+namespace zerocount {
+
+/// The plastic module (paper, eq. 2): creep with work hardening,
+///
+///   dxh/dt = α·max(|σ|ⁿ/λ − xh, 0),   dxp/dt = sgn(σ)·dxh/dt.
+struct CreepState {
+  double extension{0.0};  ///< xp, rad
+  double hardening{0.0};  ///< xh, rad
+};
+
+/// |σ|ⁿ/λ: the hardening (rad) at which creep under the torque σ (N m) ends.
+inline double hardening_limit(const FrictionParameters& friction, double torque) {
+  return std::pow(std::abs(torque), friction.n) / friction.lambda;
+}
+
+/// The |σ| (N m) whose hardening limit is `hardening` (rad).
+inline double torque_of_limit(const FrictionParameters& friction, double hardening) {
+  return std::pow(friction.lambda * hardening, 1.0 / friction.n);
+}
+
+/// The exact state after `duration` (s) at the constant torque σ (N m): xh relaxes to its limit as exp(−αt).
+inline CreepState creep_at_constant_torque(const FrictionParameters& friction, CreepState start,
+                                           double torque, double duration) {
+  const double remaining = hardening_limit(friction, torque) - start.hardening;
+  if (!(remaining > 0.0)) return start;
+  const double growth = -remaining * std::expm1(-friction.alpha * duration);
+  return {start.extension + std::copysign(growth, torque), start.hardening + growth};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/friction/profile.hpp"
+
+namespace zerocount {
+
+/// Friction of one contact: constant within one pre-sliding range (paper, QN2). The defaults are the paper's
+/// rig where the paper gives a number, and assumed otherwise.
+struct FrictionParameters {
+  double k1{110.0};                ///< lowest tangent stiffness of the spring, N m/rad
+  double k2{750.0};                ///< highest tangent stiffness less k1, N m/rad
+  double beta{2.0e5};              ///< rate at which a branch softens from k1 + k2 to k1, 1/rad
+  double alpha{0.5};               ///< rate of creep, 1/s
+  double lambda{10.0};             ///< hardening modulus λ, (N m)ⁿ/rad
+  double n{2.0};                   ///< exponent of the torque in the creep law, dimensionless, at least 1
+  double breakaway{0.3};           ///< torque at which the hook starts to slide, N m
+  double coulomb_ratio{0.8};       ///< Coulomb level over breakaway, dimensionless, in (0, 1]
+  double stribeck_velocity{0.01};  ///< velocity over which sliding friction falls to the Coulomb level, rad/s
+};
+
+/// A friction parameter that varies along the rotor.
+struct ProfiledParameter {
+  double FrictionParameters::*parameter{nullptr};
+  std::shared_ptr<const Profile> profile;
+};
+
+/// Friction along the rotor: `uniform` everywhere, except the parameters that have a profile.
+struct FrictionAlongRotor {
+  FrictionParameters uniform;
+  std::vector<ProfiledParameter> profiled;
+};
+
+/// The parameters of a contact that forms at the rotor angle `angle` (rad, absolute, from the profile's
+/// origin).
+inline FrictionParameters friction_at(const FrictionAlongRotor& friction, double angle) {
+  FrictionParameters contact = friction.uniform;
+  for (const ProfiledParameter& entry : friction.profiled) {
+    contact.*entry.parameter = value_at(*entry.profile, angle);
+  }
+  return contact;
+}
+
+}  // namespace zerocount

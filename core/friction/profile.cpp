@@ -1,0 +1,26 @@
+#include "core/friction/profile.hpp"
+
+#include <cmath>
+#include <complex>
+
+namespace zerocount {
+
+double field_at(const Profile& profile, double angle) {
+  // exp(imθ) by repeated multiplication: one sine and one cosine whatever the number of harmonics. The
+  // rounding grows like m·2⁻⁵³, which is far below any spread a profile can have.
+  const std::complex<double> turn = std::polar(1.0, angle);
+  std::complex<double> harmonic{1.0, 0.0};
+  double field = 0.0;
+  for (std::size_t m = 0; m < profile.cosine.size(); ++m) {
+    field += profile.cosine[m] * harmonic.real() + profile.sine[m] * harmonic.imag();
+    harmonic *= turn;
+  }
+  return field;
+}
+
+double value_at(const Profile& profile, double angle) {
+  const double value = profile.location + profile.scale * field_at(profile, angle);
+  return profile.marginal == Marginal::lognormal ? std::exp(value) : value;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,129 @@
+#include "core/friction/spring.hpp"
+
+#include <cmath>
+
+namespace zerocount {
+namespace {
+
+SpringBranch branch_from(const FrictionParameters& friction, double elongation, double torque, double sign) {
+  return {elongation, torque, sign, friction.k1, friction.k2 / friction.beta, friction.beta};
+}
+
+SpringBranch virgin_branch(const FrictionParameters& friction, double sign) {
+  return {0.0, 0.0, sign, friction.k1, friction.k2 / (2.0 * friction.beta), 2.0 * friction.beta};
+}
+
+/// u ≥ 0 with k1·u + softening_torque·(1 − exp(−softening_rate·u)) = torque ≥ 0. The law is increasing and
+/// concave, so Newton's iteration from u = 0 climbs to the root without passing it; it ends where it no
+/// longer climbs.
+double travel_at(const SpringBranch& branch, double torque) {
+  double travel = 0.0;
+  for (;;) {
+    const double softness = std::exp(-branch.softening_rate * travel);
+    const double missing =
+        torque - branch.k1 * travel + branch.softening_torque * std::expm1(-branch.softening_rate * travel);
+    const double next =
+        travel + missing / (branch.k1 + branch.softening_torque * branch.softening_rate * softness);
+    if (!(next > travel)) return travel;
+    travel = next;
+  }
+}
+
+}  // namespace
+
+double torque_on(const SpringBranch& branch, double x) {
+  const double travel = branch.sign * (x - branch.elongation);
+  return branch.torque + branch.sign * (branch.k1 * travel - branch.softening_torque *
+                                                                 std::expm1(-branch.softening_rate * travel));
+}
+
+double stiffness_on(const SpringBranch& branch, double x) {
+  const double travel = branch.sign * (x - branch.elongation);
+  return branch.k1 +
+         branch.softening_torque * branch.softening_rate * std::exp(-branch.softening_rate * travel);
+}
+
+double branch_law(const FrictionParameters& friction, double travel) {
+  return torque_on(branch_from(friction, 0.0, 0.0, 1.0), travel);
+}
+
+double inverse_branch_law(const FrictionParameters& friction, double torque) {
+  return travel_at(branch_from(friction, 0.0, 0.0, 1.0), torque);
+}
+
+double virgin_elongation(const FrictionParameters& friction, double torque) {
+  return std::copysign(travel_at(virgin_branch(friction, 1.0), std::abs(torque)), torque);
+}
+
+void HystereticSpring::start_virgin(double elongation, int direction) {
+  stack_.clear();
+  elongation_ = elongation;
+  direction_ = direction;
+  select_branch();
+}
+
+void HystereticSpring::start_preloaded(double torque) {
+  if (torque == 0.0) return start_virgin(0.0, 0);
+  const double peak = virgin_elongation(friction_, torque);
+  stack_ = {{peak, torque}};
+  direction_ = torque > 0.0 ? -1 : 1;
+  elongation_ = peak + direction_ * inverse_branch_law(friction_, std::abs(torque));
+  select_branch();
+}
+
+std::optional<double> HystereticSpring::branch_end() const {
+  if (stack_.size() >= 2) return stack_[stack_.size() - 2].elongation;
+  if (stack_.size() == 1) {
+    const double peak = stack_.front().elongation;
+    if (direction_ * peak <= 0.0) return -peak;
+    return std::nullopt;
+  }
+  if (direction_ * elongation_ < 0.0) return 0.0;
+  return std::nullopt;
+}
+
+void HystereticSpring::set_direction(int direction) {
+  if (direction == direction_) return;
+  if (direction_ != 0) stack_.push_back({elongation_, torque()});
+  direction_ = direction;
+  select_branch();
+  close_loops();
+}
+
+void HystereticSpring::move_on_branch(double x) {
+  elongation_ = x;
+  close_loops();
+}
+
+void HystereticSpring::move_to(double x) {
+  if (x == elongation_) return;
+  set_direction(x > elongation_ ? 1 : -1);
+  for (std::optional<double> end = branch_end(); end && direction_ * (x - *end) >= 0.0; end = branch_end()) {
+    move_on_branch(*end);
+  }
+  move_on_branch(x);
+}
+
+void HystereticSpring::close_loops() {
+  bool closed = false;
+  // An empty stack has nothing to close: a virgin curve run inwards only changes sides at the origin.
+  while (!stack_.empty()) {
+    const std::optional<double> end = branch_end();
+    if (!end || direction_ * (elongation_ - *end) < 0.0) break;
+    stack_.resize(stack_.size() >= 2 ? stack_.size() - 2 : 0);
+    closed = true;
+  }
+  if (closed || (stack_.empty() && direction_ * elongation_ >= 0.0)) select_branch();
+}
+
+void HystereticSpring::select_branch() {
+  if (!stack_.empty()) {
+    branch_ = branch_from(friction_, stack_.back().elongation, stack_.back().torque, direction_);
+  } else if (elongation_ != 0.0) {
+    branch_ = virgin_branch(friction_, elongation_ > 0.0 ? 1.0 : -1.0);
+  } else {
+    branch_ = virgin_branch(friction_, direction_ < 0 ? -1.0 : 1.0);
+  }
+}
+
+}  // namespace zerocount

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/friction/parameters.hpp"
+
+namespace zerocount {
+
+/// One branch of the spring's hysteresis (paper, eq. 1):
+///
+///   σ(x) = σr + s·[k1·|x − xr| + (softening_torque)·(1 − exp(−softening_rate·|x − xr|))],   s = sgn(x − xr).
+///
+/// An ordinary branch starts at the last reversal point with softening_rate = β and softening_torque = k2/β.
+/// The virgin curve σ(x) = sgn(x)·½·f(2|x|) is the same law from the origin with 2β and k2/(2β).
+struct SpringBranch {
+  double elongation{0.0};        ///< xr, where the branch starts, rad
+  double torque{0.0};            ///< σr, N m
+  double sign{1.0};              ///< s, the side of xr on which the branch lies
+  double k1{0.0};                ///< N m/rad
+  double softening_torque{0.0};  ///< N m
+  double softening_rate{0.0};    ///< 1/rad
+};
+
+/// Torque (N m) of the branch at the elongation x (rad).
+double torque_on(const SpringBranch& branch, double x);
+
+/// Tangent stiffness dσ/dx (N m/rad) of the branch at the elongation x (rad): from k1 + k2 down to k1.
+double stiffness_on(const SpringBranch& branch, double x);
+
+/// f(u) = k1·u + (k2/β)·(1 − exp(−βu)) for u ≥ 0 (rad): torque gained (N m) along a branch after the travel
+/// u.
+double branch_law(const FrictionParameters& friction, double travel);
+
+/// The travel u ≥ 0 (rad) with branch_law(u) = torque, torque ≥ 0 (N m).
+double inverse_branch_law(const FrictionParameters& friction, double torque);
+
+/// The elongation (rad) at which the virgin curve carries `torque` (N m, either sign).
+double virgin_elongation(const FrictionParameters& friction, double torque);
+
+/// The hysteretic spring of the pre-sliding model: a Preisach hysteresis with wiping-out and congruency,
+/// whose state is the stack of surviving reversal points. The torque is always evaluated from the top of the
+/// stack, never accumulated.
+class HystereticSpring {
+ public:
+  struct ReversalPoint {
+    double elongation;  ///< rad
+    double torque;      ///< N m
+  };
+
+  explicit HystereticSpring(const FrictionParameters& friction) : friction_(friction) {}
+
+  /// An unstretched or re-stuck contact on the virgin curve at `elongation` (rad), last moving in `direction`
+  /// (−1, 0, 1).
+  void start_virgin(double elongation, int direction);
+
+  /// Stretched slowly from virgin to `torque` (N m) and let back to zero torque.
+  void start_preloaded(double torque);
+
+  double elongation() const { return elongation_; }                  ///< xs, rad
+  double torque() const { return torque_on(branch_, elongation_); }  ///< σ, N m
+  int direction() const { return direction_; }  ///< sign of the last motion; 0 before any
+  std::size_t depth() const { return stack_.size(); }
+  const SpringBranch& branch() const { return branch_; }
+
+  /// The elongation ahead (rad) at which the present branch ends: where the minor loop closes, where −xr of
+  /// the only reversal point is reached, or the origin of a virgin curve run inwards. None on an outward
+  /// virgin curve.
+  std::optional<double> branch_end() const;
+
+  /// Sets the direction of motion; a change of it makes the present elongation a reversal point.
+  void set_direction(int direction);
+
+  /// Moves along the present branch to x (rad), which lies ahead and not beyond branch_end(), and closes what
+  /// x reaches.
+  void move_on_branch(double x);
+
+  /// Moves to x (rad) through however many branches lie between: the spring by itself, rate independent.
+  void move_to(double x);
+
+ private:
+  void select_branch();
+  void close_loops();
+
+  FrictionParameters friction_;
+  std::vector<ReversalPoint> stack_;
+  SpringBranch branch_;
+  double elongation_{0.0};
+  int direction_{0};
+};
+
+}  // namespace zerocount

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace zerocount {
+
+/// Order of the Taylor expansions of the motion. Twelve takes a whole sample of the paper's rig (0.62 rad of
+/// its fastest oscillation) in one or two steps at 1e-10 count.
+inline constexpr std::size_t series_order = 12;
+
+/// Taylor coefficients of a function of time: Σ_k c[k]·tᵏ.
+using Series = std::array<double, series_order + 1>;
+
+/// The polynomial's value at t.
+inline double value_at(std::span<const double> coefficients, double t) {
+  double value = 0.0;
+  for (std::size_t k = coefficients.size(); k-- > 0;) value = value * t + coefficients[k];
+  return value;
+}
+
+/// Upper bound of |Σ_{k≥1} c[k]·tᵏ| over [0, t], t ≥ 0.
+inline double excursion_bound(std::span<const double> coefficients, double t) {
+  double bound = 0.0;
+  for (std::size_t k = coefficients.size(); k-- > 1;) bound = (bound + std::abs(coefficients[k])) * t;
+  return bound;
+}
+
+/// Coefficient k ≥ 1 of exp(a): from e′ = a′·e, given a[0…k] and e[0…k−1].
+inline double exponential_coefficient(const Series& a, const Series& e, std::size_t k) {
+  double sum = 0.0;
+  for (std::size_t j = 1; j <= k; ++j) sum += static_cast<double>(j) * a[j] * e[k - j];
+  return sum / static_cast<double>(k);
+}
+
+/// Coefficient k of the product a·b.
+inline double product_coefficient(const Series& a, const Series& b, std::size_t k) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j <= k; ++j) sum += a[j] * b[k - j];
+  return sum;
+}
+
+/// Coefficient k ≥ 1 of aⁿ, a[0] ≠ 0, any real n: from a·p′ = n·a′·p (Knuth, The Art of Computer Programming,
+/// vol. 2, section 4.7), given a[0…k] and p[0…k−1].
+inline double power_coefficient(const Series& a, const Series& p, double n, std::size_t k) {
+  double sum = 0.0;
+  for (std::size_t j = 1; j <= k; ++j) {
+    const double weight = n * static_cast<double>(j) - static_cast<double>(k - j);
+    sum += weight * a[j] * p[k - j];
+  }
+  return sum / (static_cast<double>(k) * a[0]);
+}
+
+}  // namespace zerocount

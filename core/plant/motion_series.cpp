@@ -1,0 +1,106 @@
+#include "core/plant/motion_series.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zerocount {
+namespace {
+
+/// |xs − xr|·softening_rate with its sign changed: the exponent of the branch, whose coefficients follow
+/// those of xs.
+double exponent_coefficient(const SpringBranch& branch, double elongation_coefficient) {
+  return -branch.softening_rate * branch.sign * elongation_coefficient;
+}
+
+/// Coefficient k ≥ 1 of |σ|ⁿ. The whole exponents 1 and 2 need no division by σ, which may be tiny.
+double torque_power_coefficient(const Series& magnitude, const Series& power, double n, std::size_t k) {
+  if (n == 1.0) return magnitude[k];
+  if (n == 2.0) return product_coefficient(magnitude, magnitude, k);
+  return power_coefficient(magnitude, power, n, k);
+}
+
+}  // namespace
+
+PreslidingSeries presliding_series(const PlantParameters& plant, const FrictionParameters& contact,
+                                   const HystereticSpring& spring, const CreepState& creep, double omega,
+                                   double torque, bool creeping) {
+  const SpringBranch& branch = spring.branch();
+  PreslidingSeries s{};
+  Series exponent{};   // −y
+  Series softness{};   // exp(−y)
+  Series magnitude{};  // |σ|
+  Series power{};      // |σ|ⁿ
+
+  s.elongation[0] = spring.elongation();
+  s.omega[0] = omega;
+  s.extension[0] = creep.extension;
+  s.hardening[0] = creep.hardening;
+  exponent[0] = exponent_coefficient(branch, spring.elongation() - branch.elongation);
+  softness[0] = std::exp(exponent[0]);
+  s.spring_torque[0] = spring.torque();
+  const double torque_sign = s.spring_torque[0] < 0.0 ? -1.0 : 1.0;  // creep never lasts until σ = 0
+  magnitude[0] = std::abs(s.spring_torque[0]);
+  if (creeping) power[0] = std::pow(magnitude[0], contact.n);
+
+  for (std::size_t k = 0; k <= series_order; ++k) {
+    if (k > 0) {
+      exponent[k] = exponent_coefficient(branch, s.elongation[k]);
+      softness[k] = exponential_coefficient(exponent, softness, k);
+      s.spring_torque[k] = branch.k1 * s.elongation[k] - branch.sign * branch.softening_torque * softness[k];
+    }
+    if (creeping) {
+      magnitude[k] = torque_sign * s.spring_torque[k];
+      if (k > 0) power[k] = torque_power_coefficient(magnitude, power, contact.n, k);
+      s.creep_rate[k] = contact.alpha * (power[k] / contact.lambda - s.hardening[k]);
+    }
+    if (k == series_order) break;
+    const double next = static_cast<double>(k + 1);
+    const double extension_rate = torque_sign * s.creep_rate[k];
+    s.hardening[k + 1] = s.creep_rate[k] / next;
+    s.extension[k + 1] = extension_rate / next;
+    s.elongation[k + 1] = (s.omega[k] - extension_rate) / next;
+    const double applied = k == 0 ? torque : 0.0;
+    s.omega[k + 1] =
+        (applied - plant.presliding_damping * s.omega[k] - s.spring_torque[k]) / (plant.inertia * next);
+  }
+  return s;
+}
+
+SlidingSeries sliding_series(const PlantParameters& plant, const FrictionParameters& contact, double theta,
+                             double omega, double direction, double torque) {
+  const double coulomb = contact.coulomb_ratio * contact.breakaway;
+  const double stribeck = contact.breakaway - coulomb;
+  const double per_velocity_squared = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
+  SlidingSeries s{};
+  Series exponent{};   // −(ω/ωs)²
+  Series lightness{};  // exp(−(ω/ωs)²)
+  s.theta[0] = theta;
+  s.omega[0] = omega;
+  for (std::size_t k = 0; k < series_order; ++k) {
+    exponent[k] = -per_velocity_squared * product_coefficient(s.omega, s.omega, k);
+    lightness[k] = k == 0 ? std::exp(exponent[0]) : exponential_coefficient(exponent, lightness, k);
+    const double next = static_cast<double>(k + 1);
+    const double constant = k == 0 ? torque - direction * coulomb : 0.0;
+    s.theta[k + 1] = s.omega[k] / next;
+    s.omega[k + 1] = (constant - plant.sliding_damping * s.omega[k] - direction * stribeck * lightness[k]) /
+                     (plant.inertia * next);
+  }
+  return s;
+}
+
+double step_within(const Series& position, const Series& velocity, double tolerance, double longest) {
+  const auto last_terms = [&](double t) {
+    double before_last = 1.0;  // t to the power of series_order − 1
+    for (std::size_t k = 1; k < series_order; ++k) before_last *= t;
+    return before_last * ((std::abs(position[series_order - 1]) + t * std::abs(velocity[series_order - 1])) +
+                          t * (std::abs(position[series_order]) + t * std::abs(velocity[series_order])));
+  };
+  double t = longest;
+  for (;;) {
+    const double terms = last_terms(t);
+    if (!(terms > tolerance) || t == 0.0) return t;
+    t *= std::clamp(0.9 * std::pow(tolerance / terms, 1.0 / static_cast<double>(series_order)), 0.01, 0.9);
+  }
+}
+
+}  // namespace zerocount

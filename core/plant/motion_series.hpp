@@ -1,0 +1,48 @@
+#pragma once
+
+#include "core/friction/creep.hpp"
+#include "core/friction/parameters.hpp"
+#include "core/friction/spring.hpp"
+#include "core/numerics/power_series.hpp"
+#include "core/plant/parameters.hpp"
+
+namespace zerocount {
+
+/// Taylor series in time of the pre-sliding motion from the present state, on one branch and under constant
+/// torque.
+struct PreslidingSeries {
+  Series elongation;     ///< xs, rad
+  Series omega;          ///< ω, rad/s
+  Series extension;      ///< xp, rad
+  Series hardening;      ///< xh, rad
+  Series spring_torque;  ///< σ, N m
+  Series creep_rate;  ///< α·(|σ|ⁿ/λ − xh), the rate of xh while creep is on, rad/s; zero while it is off
+};
+
+/// The solution of
+///   J·dω/dt = u − c·ω − σ(xs),   dxs/dt = ω − dxp/dt,   dxh/dt = α·(|σ|ⁿ/λ − xh),   dxp/dt = sgn(σ)·dxh/dt
+/// (paper, eqs. 1, 2 and 4, with creep kept) as power series, order by order. With y = softening_rate·|xs −
+/// xr| the branch is σ = σr + s·[k1·|xs − xr| + softening_torque·(1 − exp(−y))], so that the only exponential
+/// is that of y at the start.
+/// @param torque u, N m. @param creeping whether the creep law is on.
+PreslidingSeries presliding_series(const PlantParameters& plant, const FrictionParameters& contact,
+                                   const HystereticSpring& spring, const CreepState& creep, double omega,
+                                   double torque, bool creeping);
+
+/// Taylor series in time of the sliding motion under constant torque.
+struct SlidingSeries {
+  Series theta;  ///< θ, rad
+  Series omega;  ///< ω, rad/s
+};
+
+/// The solution of J·dω/dt = u − cs·ω − d·(Fc + (Fs − Fc)·exp(−(ω/ωs)²)), dθ/dt = ω (paper, eq. 3, with
+/// Stribeck friction).
+/// @param direction d, −1 or 1. @param torque u, N m.
+SlidingSeries sliding_series(const PlantParameters& plant, const FrictionParameters& contact, double theta,
+                             double omega, double direction, double torque);
+
+/// The longest step t ≤ `longest` (s) over which the last two terms of the series of a position, and those of
+/// its velocity times t, stay below `tolerance` (rad). Two terms, because one may vanish by chance.
+double step_within(const Series& position, const Series& velocity, double tolerance, double longest);
+
+}  // namespace zerocount

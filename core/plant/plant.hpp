@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/friction/creep.hpp"
+#include "core/friction/parameters.hpp"
+#include "core/friction/spring.hpp"
+#include "core/plant/parameters.hpp"
+
+namespace zerocount {
+
+/// What of the plant's motion is below notice.
+struct MotionTolerance {
+  /// Elongation (rad) that a Taylor step may leave out, below which an oscillation counts as rest, and by
+  /// which hardening must be exceeded before creep starts. A trial uses 1e-10 of a fine count.
+  double elongation{4e-16};
+};
+
+/// The rotor with its contact: the pre-sliding motion (paper, eq. 4, with creep) while the hook sticks,
+/// sliding (paper, eq. 3) after breakaway, and the changes between them.
+///
+/// The motion is integrated by Taylor series with every kink located in time: reversals, loop closures, the
+/// start and end of creep, breakaway, re-stick.
+///
+/// Rest rule: where |dxs/dt| < ε·ωn and |d²xs/dt²| < ε·ωn², with ε = MotionTolerance::elongation and ωn² =
+/// (k1 + k2)/J, the elongation is held for the rest of the torque step and creep, if any, follows its exact
+/// solution at constant torque. The elongation is then never further than ε·(k1 + k2)/k1 from the one that
+/// balances the torque. Without this rule rounding would make the elongation rate flip sign for ever.
+class Plant {
+ public:
+  /// @param position rotor angle (rad) of θ = 0 on the friction profiles.
+  /// @param preload torque (N m) of a slow load-and-unload before the start.
+  Plant(const PlantParameters& plant, FrictionAlongRotor friction, double position, double hardening,
+        double preload, MotionTolerance tolerance);
+
+  /// Holds `torque` (N m) for `duration` (s).
+  void advance(double torque, double duration);
+
+  double theta() const {
+    return sliding_ ? slide_theta_ : hook_ + spring_.elongation() + creep_.extension;
+  }                                        ///< rad
+  double omega() const { return omega_; }  ///< rad/s
+  const CreepState& creep() const {
+    return creep_;
+  }  ///< of the present contact, or the last one while sliding
+  const HystereticSpring& spring() const { return spring_; }
+  const FrictionParameters& contact() const { return contact_; }
+  bool sliding() const { return sliding_; }
+
+  std::int64_t breakaways() const { return breakaways_; }  ///< since the start
+  std::int64_t deepest() const { return deepest_; }  ///< largest stack depth since the last forget_deepest()
+  void forget_deepest() { deepest_ = static_cast<std::int64_t>(spring_.depth()); }
+
+  /// False once the motion could not be followed any more (non-finite, or steps without end); it stays false.
+  bool finite() const { return finite_; }
+
+ private:
+  double stick(double torque, double duration);  // both return the time used, at most duration
+  double slide(double torque, double duration);
+  void hold_at_rest(double duration);
+  void break_away(double direction);
+  void re_stick();
+  double creep_rate() const;
+
+  PlantParameters plant_;
+  FrictionAlongRotor friction_;
+  double position_;
+  MotionTolerance tolerance_;
+
+  FrictionParameters contact_;
+  HystereticSpring spring_;
+  CreepState creep_;
+  bool creeping_{false};
+  double creep_onset_torque_{0.0};  // |σ| at which creep starts, while it is off
+  double hook_{0.0};
+  double omega_{0.0};
+
+  bool sliding_{false};
+  double slide_theta_{0.0};
+  double slide_direction_{0.0};
+  double breakaway_spring_torque_{0.0};  // σb
+
+  std::int64_t breakaways_{0};
+  std::int64_t deepest_{0};
+  bool finite_{true};
+};
+
+}  // namespace zerocount

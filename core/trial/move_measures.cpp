@@ -1,0 +1,92 @@
+#include "core/trial/move_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace zerocount {
+namespace {
+
+int sign_of(std::int64_t value) {
+  return (value > 0) - (value < 0);
+}
+
+Outcome verdict(std::int64_t largest_error, bool finite) {
+  if (!finite) return Outcome::nonfinite;
+  if (largest_error == 0) return Outcome::zero_count;
+  return largest_error == 1 ? Outcome::one_count : Outcome::oscillating;
+}
+
+}  // namespace
+
+MoveTiming move_timing(const TrialParameters& parameters) {
+  const double rate = parameters.controller.sample_rate;
+  return {1.0 / rate, samples_per_move(parameters), samples_in(parameters.verdict.dwell, rate),
+          samples_in(parameters.verdict.window, rate)};
+}
+
+bool MoveMeasures::add(const MoveSample& sample) {
+  const std::int64_t error = sample.target - sample.count;
+  if (k_ == 0) direction_ = sign_of(error);
+
+  const bool dwelt = outcome_.arrived;  // the dwell ended before this sample
+  zeros_in_a_row_ = error == 0 ? zeros_in_a_row_ + 1 : 0;
+  if (!outcome_.arrived && zeros_in_a_row_ == timing_.dwell) {
+    outcome_.arrived = true;
+    outcome_.arrival = k_ - timing_.dwell + 1;
+    outcome_.settling_time = static_cast<double>(outcome_.arrival) * timing_.sample_time;
+  }
+  if (dwelt) largest_since_arrival_ = std::max(largest_since_arrival_, std::abs(error));
+  if (k_ >= timing_.samples - timing_.window)
+    largest_in_window_ = std::max(largest_in_window_, std::abs(error));
+
+  outcome_.overshoot = std::max(outcome_.overshoot, -direction_ * error);
+  outcome_.holding_torque = sample.torque;
+  outcome_.peak_torque = std::max(outcome_.peak_torque, std::abs(sample.torque));
+  outcome_.saturated = outcome_.saturated || sample.clipped;
+  outcome_.creep = sample.creep;
+  outcome_.final_position = sample.theta;
+
+  const bool jerk_ended = dwelt && track_jerk(error);
+  ++k_;
+  return jerk_ended;
+}
+
+bool MoveMeasures::track_jerk(std::int64_t error) {
+  if (error == 0) {
+    if (!in_jerk_) return false;
+    end_jerk();
+    return true;
+  }
+  if (!in_jerk_) {
+    in_jerk_ = true;
+    jerk_start_ = k_;
+    jerk_ = {move_, static_cast<double>(k_) * timing_.sample_time, 0.0, 0, -sign_of(error)};
+  }
+  jerk_.magnitude = std::max(jerk_.magnitude, std::abs(error));
+  return false;
+}
+
+void MoveMeasures::end_jerk() {
+  in_jerk_ = false;
+  jerk_.duration = static_cast<double>(k_ - jerk_start_) * timing_.sample_time;
+  ++outcome_.jerk_count;
+  ++(jerk_.direction > 0 ? jerks_up_ : jerks_down_);
+}
+
+bool MoveMeasures::finish(bool broke_away, std::int64_t reversal_depth, bool finite) {
+  const bool jerk_cut = in_jerk_;
+  if (jerk_cut) end_jerk();
+  outcome_.broke_away = broke_away;
+  outcome_.reversal_depth = reversal_depth;
+  outcome_.outcome = verdict(largest_in_window_, finite);
+  outcome_.stable = finite && outcome_.arrived && largest_since_arrival_ <= 1;
+  if (outcome_.jerk_count > 0) {
+    const std::int64_t agreeing =
+        outcome_.holding_torque > 0.0 ? jerks_up_ : (outcome_.holding_torque < 0.0 ? jerks_down_ : 0);
+    outcome_.jerk_agreement = static_cast<double>(agreeing) / static_cast<double>(outcome_.jerk_count);
+  }
+  return jerk_cut;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace zerocount {
+
+/// Verdict on a move by its last samples, best first. The numbers are those stored in results files.
+enum class Outcome : std::int8_t { zero_count = 0, one_count = 1, oscillating = 2, nonfinite = 3 };
+
+/// What is measured of one move.
+struct MoveOutcome {
+  Outcome outcome{Outcome::nonfinite};
+  bool arrived{false};       ///< the error was 0 for the whole dwell
+  bool stable{false};        ///< arrived, and |e| ≤ 1 count from then to the end
+  bool broke_away{false};    ///< the hook slid during the move
+  bool saturated{false};     ///< the DAC clipped
+  std::int64_t arrival{-1};  ///< first sample of the arrival dwell, from the move's start; −1 if never
+  double settling_time{std::numeric_limits<double>::quiet_NaN()};  ///< arrival·T, s; NaN if never
+  std::int64_t overshoot{0};       ///< counts beyond the target in the direction of the move, at least 0
+  double holding_torque{0.0};      ///< torque decided at the last sample, N m
+  double peak_torque{0.0};         ///< largest |torque| decided, N m
+  double creep{0.0};               ///< xp at the last sample, rad
+  double final_position{0.0};      ///< θ at the last sample, rad
+  std::int64_t reversal_depth{0};  ///< largest number of reversal points on the stack
+  std::int64_t jerk_count{0};      ///< excursions of the error after arrival
+  double jerk_agreement{
+      std::numeric_limits<double>::quiet_NaN()};  ///< share of jerks towards sgn(holding_torque); NaN if none
+};
+
+/// One excursion of the error away from zero after arrival.
+struct Jerk {
+  std::int64_t move{0};       ///< index of the move
+  double onset{0.0};          ///< s from the move's start
+  double duration{0.0};       ///< s; cut at the move's end
+  std::int64_t magnitude{0};  ///< max |e|, counts
+  int direction{0};           ///< sgn(count − target) at onset
+};
+
+/// What is measured of a trial: one entry per move.
+struct TrialOutcome {
+  std::vector<MoveOutcome> moves;
+};
+
+}  // namespace zerocount

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "core/trial/outcome.hpp"
+#include "core/trial/parameters.hpp"
+
+namespace zerocount {
+
+enum class HookMode { stick, slide };
+
+/// One sampling instant t_k of a trial. Values are those at t_k; code and torque those decided at t_k.
+struct SampleRecord {
+  std::int64_t k{0};             ///< sample number from the start of the trial
+  double t{0.0};                 ///< k·T, s
+  std::int64_t target{0};        ///< counts
+  std::int64_t count{0};         ///< fine encoder, counts
+  std::int64_t coarse_count{0};  ///< coarse encoder, counts
+  std::int64_t error{0};         ///< target − count, counts
+  std::int64_t code{0};          ///< DAC code
+  double torque{0.0};            ///< code·Δu, N m
+  double theta{0.0};             ///< rotor angle, rad
+  double omega{0.0};             ///< rotor velocity, rad/s
+  double xp{0.0};                ///< plastic extension, rad
+  double xh{0.0};                ///< hardening, rad
+  std::int64_t depth{0};         ///< reversal points on the stack
+  HookMode mode{HookMode::stick};
+};
+
+/// Who is told of a trial while it runs; an empty function is not called.
+struct TrialObservers {
+  std::function<void(const SampleRecord&)> sample;  ///< at every sampling instant, in order
+  std::function<void(const Jerk&)> jerk;            ///< at the end of every jerk, in order of onset
+};
+
+/// Runs one trial: quantised DAC → plant with friction → encoder, from t = 0 to the end of the last move.
+///
+/// A pure function: the same parameters give the same outcome and the same records, whatever ran before or
+/// runs beside it. The memory it uses does not grow with the number of samples.
+TrialOutcome run_trial(const TrialParameters& parameters, const TrialObservers& observers = {});
+
+}  // namespace zerocount

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/friction/profile.hpp"
+#include "core/trial/parameters.hpp"
+
+namespace zerocount {
+
+enum class Design { monte_carlo, latin_hypercube, sobol };
+
+/// One axis of the sweep: the value of one swept key (or the case) at every design point.
+struct SweepAxis {
+  enum class Kind { number, text };
+  std::string name;     ///< dotted path of the key, or "case"
+  std::string unit;     ///< "1" where dimensionless; empty for text
+  std::string meaning;  ///< one line, from the table of parameters
+  Kind kind{Kind::number};
+  std::vector<double> numbers;     ///< [point]; NaN where the point leaves the key to a distribution
+  std::vector<std::string> texts;  ///< [point]; used where kind is text
+};
+
+/// One column of trial inputs: a parameter that differs between trials or points.
+struct InputColumn {
+  std::string name;     ///< dotted path, e.g. "friction.k1" or "command.targets.0"
+  std::string unit;     ///< "1" where dimensionless
+  std::string meaning;  ///< one line, from the table of parameters
+};
+
+/// A friction profile realised for this study's seed.
+struct RealisedProfile {
+  std::string name;  ///< dotted path of the parameter, with "@point" appended where points differ
+  std::string unit;
+  std::shared_ptr<const Profile> profile;
+};
+
+struct StudyPlan;  // compiled form of the manifest, private to this folder
+
+/// One manifest, understood: everything that determines its trials.
+struct Study {
+  std::string name;
+  std::string description;
+  std::uint64_t seed{0};
+  std::int64_t trials{0};  ///< per design point
+  Design design{Design::monte_carlo};
+  bool independent_points{false};
+
+  std::string manifest_text;           ///< exact bytes of the manifest
+  std::string manifest_sha256;         ///< of manifest_text, lower-case hexadecimal
+  std::vector<std::string> overrides;  ///< "key=value", as given with --set, in order
+  std::string study_sha256;            ///< of manifest_text and overrides: equal means the same trials
+
+  std::vector<std::string> point_labels;  ///< [point]
+  std::vector<SweepAxis> axes;
+  std::vector<InputColumn> input_columns;
+  std::vector<RealisedProfile> profiles;
+  std::map<std::string, std::string>
+      observed;  ///< case label → what was observed on the real rig (manifest key `observed`)
+  std::vector<std::int64_t> retained_trials;  ///< trial indices whose sample records are kept, at every point
+  std::int64_t moves{1};                      ///< per trial
+
+  std::shared_ptr<const StudyPlan> plan;
+};
+
+/// One trial, ready to run, and what the results file records of its parameters.
+struct StudyTrial {
+  TrialParameters parameters;
+  std::vector<double>
+      inputs;  ///< [input column], in that column's unit; a profile's value where the trial starts
+};
+
+inline std::int64_t point_count(const Study& study) {
+  return static_cast<std::int64_t>(study.point_labels.size());
+}
+inline std::int64_t trial_count(const Study& study) {
+  return point_count(study) * study.trials;
+}
+
+/// Reads, checks and understands a manifest.
+/// @throws Failure (bad_input) whose message lists every error, one a line, as `file:line:column: path: what;
+/// expected`;
+///         Failure (machine_failed) where the file cannot be read.
+Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides = {});
+
+/// As load_study, from text; `source` stands for the file's name in messages.
+Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides = {});
+
+/// The parameters of trial `index` (0 … trials − 1) at design point `point` (0 … points − 1). A pure function
+/// of the study, safe to call from any thread.
+StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index);
+
+}  // namespace zerocount

@@ -80,7 +80,8 @@ std::optional<double> first_in(const BernsteinPiece& piece, std::span<const doub
 }  // namespace
 
 double bracketed_root(std::span<const double> c, double low, double high) {
-  const bool rising = value_at(c, high) > 0.0;
+  const bool rising =
+      value_at(c, low) < 0.0;  // asked at the low end, because the root may lie exactly at the high one
   double t = 0.5 * (low + high);
   double last_width = high - low;
   for (int iteration = 0; iteration < 200; ++iteration) {

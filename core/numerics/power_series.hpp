@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -25,6 +26,13 @@ inline double value_at(std::span<const double> coefficients, double t) {
 inline double excursion_bound(std::span<const double> coefficients, double t) {
   double bound = 0.0;
   for (std::size_t k = coefficients.size(); k-- > 1;) bound = (bound + std::abs(coefficients[k])) * t;
+  return bound;
+}
+
+/// Upper bound of Σ_{k≥1} c[k]·tᵏ over [0, t], t ≥ 0.
+inline double growth_bound(std::span<const double> coefficients, double t) {
+  double bound = 0.0;
+  for (std::size_t k = coefficients.size(); k-- > 1;) bound = (bound + std::max(coefficients[k], 0.0)) * t;
   return bound;
 }
 

@@ -6,6 +6,9 @@
 namespace zerocount {
 namespace {
 
+constexpr double most_exponent_growth = 6.0;
+constexpr double negligible_exponent = -40.0;  // exp(−40) = 4e-18
+
 /// |xs − xr|·softening_rate with its sign changed: the exponent of the branch, whose coefficients follow
 /// those of xs.
 double exponent_coefficient(const SpringBranch& branch, double elongation_coefficient) {
@@ -26,7 +29,7 @@ PreslidingSeries presliding_series(const PlantParameters& plant, const FrictionP
                                    double torque, bool creeping) {
   const SpringBranch& branch = spring.branch();
   PreslidingSeries s{};
-  Series exponent{};   // −y
+  Series& exponent = s.exponent;
   Series softness{};   // exp(−y)
   Series magnitude{};  // |σ|
   Series power{};      // |σ|ⁿ
@@ -72,7 +75,7 @@ SlidingSeries sliding_series(const PlantParameters& plant, const FrictionParamet
   const double stribeck = contact.breakaway - coulomb;
   const double per_velocity_squared = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
   SlidingSeries s{};
-  Series exponent{};   // −(ω/ωs)²
+  Series& exponent = s.exponent;
   Series lightness{};  // exp(−(ω/ωs)²)
   s.theta[0] = theta;
   s.omega[0] = omega;
@@ -88,7 +91,8 @@ SlidingSeries sliding_series(const PlantParameters& plant, const FrictionParamet
   return s;
 }
 
-double step_within(const Series& position, const Series& velocity, double tolerance, double longest) {
+double step_within(const Series& position, const Series& velocity, const Series& exponent, double tolerance,
+                   double longest) {
   const auto last_terms = [&](double t) {
     double before_last = 1.0;  // t to the power of series_order − 1
     for (std::size_t k = 1; k < series_order; ++k) before_last *= t;
@@ -96,11 +100,12 @@ double step_within(const Series& position, const Series& velocity, double tolera
                           t * (std::abs(position[series_order]) + t * std::abs(velocity[series_order])));
   };
   double t = longest;
-  for (;;) {
-    const double terms = last_terms(t);
-    if (!(terms > tolerance) || t == 0.0) return t;
+  for (double terms = last_terms(t); terms > tolerance && t > 0.0; terms = last_terms(t)) {
     t *= std::clamp(0.9 * std::pow(tolerance / terms, 1.0 / static_cast<double>(series_order)), 0.01, 0.9);
   }
+  const double highest = std::max(exponent[0] + most_exponent_growth, negligible_exponent);
+  while (exponent[0] + growth_bound(exponent, t) > highest && t > 0.0) t *= 0.7;
+  return t;
 }
 
 }  // namespace zerocount

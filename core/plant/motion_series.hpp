@@ -17,6 +17,7 @@ struct PreslidingSeries {
   Series hardening;      ///< xh, rad
   Series spring_torque;  ///< σ, N m
   Series creep_rate;  ///< α·(|σ|ⁿ/λ − xh), the rate of xh while creep is on, rad/s; zero while it is off
+  Series exponent;  ///< −y, the exponent of the branch law, dimensionless
 };
 
 /// The solution of
@@ -31,8 +32,9 @@ PreslidingSeries presliding_series(const PlantParameters& plant, const FrictionP
 
 /// Taylor series in time of the sliding motion under constant torque.
 struct SlidingSeries {
-  Series theta;  ///< θ, rad
-  Series omega;  ///< ω, rad/s
+  Series theta;     ///< θ, rad
+  Series omega;     ///< ω, rad/s
+  Series exponent;  ///< −(ω/ωs)², dimensionless
 };
 
 /// The solution of J·dω/dt = u − cs·ω − d·(Fc + (Fs − Fc)·exp(−(ω/ωs)²)), dθ/dt = ω (paper, eq. 3, with
@@ -41,8 +43,14 @@ struct SlidingSeries {
 SlidingSeries sliding_series(const PlantParameters& plant, const FrictionParameters& contact, double theta,
                              double omega, double direction, double torque);
 
-/// The longest step t ≤ `longest` (s) over which the last two terms of the series of a position, and those of
-/// its velocity times t, stay below `tolerance` (rad). Two terms, because one may vanish by chance.
-double step_within(const Series& position, const Series& velocity, double tolerance, double longest);
+/// The longest step t ≤ `longest` (s) over which both hold:
+/// - the last two terms of the series of a position, and those of its velocity times t, stay below
+/// `tolerance` (rad). Two terms,
+///   because one may vanish by chance;
+/// - the exponent of the motion's one exponential grows by at most 6, or stays below −40. The terms zᵏ/k! of
+/// exp(z) rise up to
+///   k = z: beyond that growth the last terms kept may be small before the largest have come.
+double step_within(const Series& position, const Series& velocity, const Series& exponent, double tolerance,
+                   double longest);
 
 }  // namespace zerocount

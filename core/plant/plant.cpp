@@ -161,7 +161,8 @@ double Plant::stick(double torque, double duration) {
   const PreslidingSeries series =
       presliding_series(plant_, contact_, spring_, creep_, omega_, torque, creeping_);
 
-  NextEvent next{step_within(series.elongation, series.omega, tolerance_.elongation, duration)};
+  NextEvent next{
+      step_within(series.elongation, series.omega, series.exponent, tolerance_.elongation, duration)};
   next.offer(next_sign_change(elongation_rate(series), next.time), Event::reversal);
   find_closure(spring_, series, next);
   find_creep_change(series, creeping_, creep_onset_torque_, next);
@@ -224,7 +225,7 @@ double Plant::slide(double torque, double duration) {
     re_stick();
     return 0.0;
   }
-  NextEvent next{step_within(series.theta, series.omega, tolerance_.elongation, duration)};
+  NextEvent next{step_within(series.theta, series.omega, series.exponent, tolerance_.elongation, duration)};
   next.offer(next_sign_change(series.omega, next.time), Event::velocity_zero);
   slide_theta_ = value_at(series.theta, next.time);
   omega_ = value_at(series.omega, next.time);

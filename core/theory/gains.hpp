@@ -1,0 +1,32 @@
+#pragma once
+
+#include "core/loop/parameters.hpp"
+
+namespace zerocount {
+
+/// PID gains of the continuous loop u = kP·e + kI·∫e dt + kD·de/dt with the error in rad, as in the paper's
+/// equation (4).
+struct AnalogueGains {
+  double kp{0.0};  ///< N m/rad
+  double ki{0.0};  ///< N m/(rad s)
+  double kd{0.0};  ///< N m s/rad
+};
+
+/// Δx = 2π/counts per revolution of the encoder that closes the loop, rad/count.
+double count_angle(const EncoderParameters& encoder);
+
+/// T = 1/sample rate, s.
+double sample_time(const ControllerParameters& controller);
+
+/// The continuous gains that a sampled controller stands for.
+///
+/// kP = kp/Δx, kI = 2·ki/(Δx·T), kD = kd·T/Δx: the proportional term counts the error, the trapezoidal rule
+/// adds kI·Δx·T/2 for each of two successive errors, and the difference of successive counts is the velocity
+/// times T/Δx.
+AnalogueGains analogue_gains(const ControllerParameters& controller, const EncoderParameters& encoder);
+
+/// `controller` with the gains that stand for `gains` at its sample rate: the inverse of analogue_gains.
+ControllerParameters with_analogue_gains(ControllerParameters controller, const AnalogueGains& gains,
+                                         const EncoderParameters& encoder);
+
+}  // namespace zerocount

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "core/loop/parameters.hpp"
+#include "core/plant/parameters.hpp"
+
+/// Stability of the sampled loop about a spring of constant stiffness, the count taken as a continuous
+/// quantity: what remains of the loop when friction, encoder and DAC are made linear, but sampling, hold and
+/// delay are kept exactly.
+namespace zerocount {
+
+/// Spectral radius (dimensionless) of the sampled loop about a spring of `stiffness` (N m/rad); below 1 it is
+/// stable.
+///
+/// The rotor obeys J·θ¨ + c·θ˙ + k·θ = u with u held over each sample, discretised exactly by the matrix
+/// exponential; the controller is the trapezoidal integral, kp, and kd on the difference of successive
+/// counts, with `controller.delay` samples between deciding a torque and applying it. Eigenvalues of the
+/// one-sample map of (count, its change per sample, last count, integral, torques decided and not yet
+/// applied).
+double sampled_spectral_radius(double stiffness, const PlantParameters& plant,
+                               const EncoderParameters& encoder, const ControllerParameters& controller);
+
+/// Digital integral gain (N m/count) below which the sampled loop about a spring of `stiffness` (N m/rad) is
+/// stable: the end of the interval of stable gains that begins at 0, to 1e-9 relative. 0 where the loop
+/// without integral is unstable already. The gain `controller.ki` does not enter.
+///
+/// The end is searched upwards from 1e-6 of the static stiffness per count in steps of 2 %, then bisected. It
+/// exists: the held plant has more poles than zeros, so a large enough gain drives an eigenvalue out of the
+/// unit circle.
+double sampled_critical_integral_gain(double stiffness, const PlantParameters& plant,
+                                      const EncoderParameters& encoder, ControllerParameters controller);
+
+}  // namespace zerocount

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "core/friction/parameters.hpp"
+#include "core/loop/parameters.hpp"
+#include "core/plant/parameters.hpp"
+
+/// The stability criteria and design rules of Lin, Pan and Hsieh (2002), "Precision-limit positioning of
+/// direct drive systems with the existence of friction", sections 3 and 4 ("the paper").
+namespace zerocount {
+
+/// Digital integral gain k_ID (N m/count) at which the continuous loop about a spring of constant stiffness k
+/// (N m/rad) is on the edge of stability:
+///
+///   k_ID = ((c + kD)·(k + kP)/J)·Δx·T/2,  kP = kp/Δx,  kD = kd·T/Δx.
+///
+/// This is the Hurwitz condition of J·s³ + (c + kD)·s² + (k + kP)·s + kI = 0; with k = k1 it is the paper's
+/// (6), with k = k1 + k2 its (7). The gain `controller.ki` and the delay do not enter.
+double critical_integral_gain(double stiffness, const PlantParameters& plant,
+                              const EncoderParameters& encoder, const ControllerParameters& controller);
+
+/// The paper's two criteria for one contact, as bounds on the digital integral gain.
+struct IntegralGainBounds {
+  double stable_below{0.0};    ///< (6), k = k1: stable for all histories below it, N m/count
+  double unstable_above{0.0};  ///< (7), k = k1 + k2: unstable above it, N m/count
+};
+
+/// The bounds of (6) and (7) where the contact's parameters are `contact`.
+IntegralGainBounds integral_gain_bounds(const PlantParameters& plant, const FrictionParameters& contact,
+                                        const EncoderParameters& encoder,
+                                        const ControllerParameters& controller);
+
+/// Lowest k1 (N m/rad) over a whole revolution: the one the paper says to use in (6) for a robust design
+/// (issue 1 of its section 3). A profile is searched at 16 points per shortest wavelength and the lowest of
+/// them refined, to 1e-6 relative.
+double lowest_k1(const FrictionAlongRotor& friction);
+
+/// Torque step Δu (N m) that the DAC must stay below for a zero-count error to be possible: k1·Δx (issue 4 of
+/// the paper's section 3: one code moves the rotor by at most Δu/k1).
+double dac_resolution_bound(double k1, const EncoderParameters& encoder);
+
+/// √(stiffness/J)/2π, Hz. With k1 + k2 it is the highest natural frequency of the pre-sliding motion.
+double natural_frequency(double stiffness, const PlantParameters& plant);
+
+/// Lowest advisable sample rate (Hz): ten times the highest natural frequency, as on the paper's rig (its
+/// section 4).
+double advised_sample_rate(const PlantParameters& plant, const FrictionParameters& contact);
+
+}  // namespace zerocount

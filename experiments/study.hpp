@@ -64,6 +64,7 @@ struct Study {
       observed;  ///< case label → what was observed on the real rig (manifest key `observed`)
   std::vector<std::int64_t> retained_trials;  ///< trial indices whose sample records are kept, at every point
   std::int64_t moves{1};                      ///< per trial
+  std::vector<std::string> warnings;  ///< what is allowed but may surprise, a line each, with its place
 
   std::shared_ptr<const StudyPlan> plan;
 };

@@ -1,0 +1,161 @@
+#include "analysis/point_accumulator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+void count_outcome(OutcomeCounts& counts, Outcome outcome) {
+  switch (outcome) {
+    case Outcome::zero_count:
+      ++counts.zero_count;
+      return;
+    case Outcome::one_count:
+      ++counts.one_count;
+      return;
+    case Outcome::oscillating:
+      ++counts.oscillating;
+      return;
+    case Outcome::nonfinite:
+      ++counts.nonfinite;
+      return;
+  }
+  throw Failure(ExitCode::bad_data,
+                fmt::format("a move with outcome {}; expected 0 to 3", static_cast<int>(outcome)));
+}
+
+/// Onsets are whole multiples of the sample time. Their differences carry rounding errors that would make
+/// equal intervals differ, in a tally and in a comparison: to the picosecond they do not.
+double rounded_interval(double seconds) {
+  return std::round(seconds * 1e12) / 1e12;
+}
+
+int sign(double value) {
+  return (value > 0.0) - (value < 0.0);
+}
+
+RateWithBounds rate_with_bounds(std::int64_t successes, std::int64_t trials) {
+  return {rate(successes, trials), clopper_pearson(successes, trials), wilson(successes, trials)};
+}
+
+void require_move_count(std::size_t moves, std::int64_t trials, std::size_t expected) {
+  if (moves > 0 && (trials == 0 || moves == expected)) return;
+  throw Failure(ExitCode::bad_data,
+                fmt::format("a trial with {} moves; expected {}", moves,
+                            trials == 0 ? "at least one" : fmt::format("{} as before", expected)));
+}
+
+}  // namespace
+
+void PointAccumulator::add(const TrialOutcome& trial, std::span<const Jerk> jerks) {
+  require_move_count(trial.moves.size(), counted_.trials, counted_.by_move.size());
+  add_moves(trial);
+  std::size_t next = 0;
+  for (std::size_t move = 0; move < trial.moves.size(); ++move) {
+    const std::size_t first = next;
+    while (next < jerks.size() && jerks[next].move == static_cast<std::int64_t>(move)) ++next;
+    add_jerks(trial.moves[move], jerks.subspan(first, next - first));
+  }
+  if (next != jerks.size()) {
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("jerk {} of a trial is of move {}; expected jerks in order of their moves, 0 to {}", next,
+                    jerks[next].move, trial.moves.size() - 1));
+  }
+  jerk_counts_.add(static_cast<std::int64_t>(jerks.size()));
+}
+
+void PointAccumulator::add_moves(const TrialOutcome& trial) {
+  counted_.by_move.resize(trial.moves.size());
+  Outcome worst = Outcome::zero_count;
+  bool stable = true, arrived = true, broke_away = false, saturated = false;
+  for (std::size_t i = 0; i < trial.moves.size(); ++i) {
+    const MoveOutcome& move = trial.moves[i];
+    MoveCounts& counts = counted_.by_move[i];
+    count_outcome(counts.outcomes, move.outcome);
+    counts.stable += move.stable;
+    counts.arrived += move.arrived;
+    counts.broke_away += move.broke_away;
+    counts.saturated += move.saturated;
+    worst = std::max(worst, move.outcome);
+    stable = stable && move.stable;
+    arrived = arrived && move.arrived;
+    broke_away = broke_away || move.broke_away;
+    saturated = saturated || move.saturated;
+    if (move.arrived) settling_times_.add(move.settling_time);
+    counted_.overshoot.add(static_cast<double>(move.overshoot));
+    counted_.holding_torque.add(move.holding_torque);
+    counted_.creep.add(move.creep);
+    counted_.peak_torque.add(move.peak_torque);
+    counted_.reversal_depth = std::max(counted_.reversal_depth, move.reversal_depth);
+  }
+  ++counted_.trials;
+  counted_.moves += static_cast<std::int64_t>(trial.moves.size());
+  count_outcome(counted_.outcomes, worst);
+  counted_.stable += stable;
+  counted_.arrived += arrived;
+  counted_.broke_away += broke_away;
+  counted_.saturated += saturated;
+}
+
+void PointAccumulator::add_jerks(const MoveOutcome& move, std::span<const Jerk> jerks) {
+  if (static_cast<std::int64_t>(jerks.size()) != move.jerk_count) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{} jerks recorded of a move that counted {}", jerks.size(), move.jerk_count));
+  }
+  intervals_.clear();
+  for (std::size_t i = 0; i < jerks.size(); ++i) {
+    counted_.jerks_agreeing += jerks[i].direction == sign(move.holding_torque);
+    one_count_jerks_ += jerks[i].magnitude == 1;
+    if (i == 0) continue;
+    const double interval = rounded_interval(jerks[i].onset - jerks[i - 1].onset);
+    if (!(interval > 0.0)) {
+      throw Failure(ExitCode::bad_data,
+                    fmt::format("a jerk at {} s after one at {} s; expected jerks in order of onset",
+                                jerks[i].onset, jerks[i - 1].onset));
+    }
+    intervals_.push_back(interval);
+    jerk_intervals_.add(interval);
+  }
+  if (intervals_.size() < 2) return;
+  const RankTrend trend = rank_trend(intervals_);
+  interval_trend_ += trend;
+  ++counted_.jerk_slowing.moves;
+  counted_.jerk_slowing.slowing += trend.rising > trend.falling;
+  counted_.jerk_slowing.quickening += trend.rising < trend.falling;
+}
+
+PointSummary PointAccumulator::statistics() const {
+  PointSummary result = counted_;
+  result.success_rate = rate_with_bounds(result.outcomes.zero_count, result.trials);
+  result.stable_rate = rate_with_bounds(result.stable, result.trials);
+
+  const Tally<double>& times = settling_times_;
+  result.settling_time = {times.size,           mean(times),           smallest(times),
+                          largest(times),       quantile(times, 0.05), quantile(times, 0.25),
+                          quantile(times, 0.5), quantile(times, 0.75), quantile(times, 0.95)};
+
+  const Tally<std::int64_t>& jerks = jerk_counts_;
+  const std::int64_t jerk_total = total(jerks);
+  result.jerk_count = {jerks.size,
+                       mean(jerks),
+                       standard_deviation(jerks),
+                       quantile(jerks, 0.5).value,
+                       quantile(jerks, 0.95).value,
+                       largest(jerks),
+                       jerk_total};
+  result.jerk_interval = {jerk_intervals_.size, mean(jerk_intervals_), quantile(jerk_intervals_, 0.5).value};
+  result.jerk_slowing.share = rate(result.jerk_slowing.slowing, result.jerk_slowing.moves);
+  result.jerk_slowing.tau = kendall_tau(interval_trend_);
+  result.jerk_agreement = rate(result.jerks_agreeing, jerk_total);
+  result.jerk_one_count_share = rate(one_count_jerks_, jerk_total);
+  return result;
+}
+
+}  // namespace zerocount

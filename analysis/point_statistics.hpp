@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "analysis/moments.hpp"
+#include "analysis/quantile.hpp"
+#include "analysis/trend.hpp"
+
+/// What is reported of a design point. Every share and mean names what it is a share or mean of: "of trials"
+/// is of all trials of the point, "of moves" of all moves of all its trials. No trial is left out of either.
+namespace zerocount {
+
+/// How many trials (or moves) had each outcome.
+struct OutcomeCounts {
+  std::int64_t zero_count{0};
+  std::int64_t one_count{0};
+  std::int64_t oscillating{0};
+  std::int64_t nonfinite{0};
+};
+
+/// The trials by one of their moves: all trials of the point have it.
+struct MoveCounts {
+  OutcomeCounts outcomes;
+  std::int64_t arrived{0};
+  std::int64_t stable{0};
+  std::int64_t broke_away{0};
+  std::int64_t saturated{0};
+};
+
+/// Share of trials with 95 % bounds.
+struct RateWithBounds {
+  double value{std::numeric_limits<double>::quiet_NaN()};
+  Interval clopper_pearson{0.0, 1.0};
+  Interval wilson{0.0, 1.0};
+};
+
+/// Settling time of the moves that arrived, s.
+struct SettlingStatistics {
+  std::int64_t n{0};  ///< moves that arrived
+  double mean{std::numeric_limits<double>::quiet_NaN()};
+  double min{std::numeric_limits<double>::quiet_NaN()};
+  double max{std::numeric_limits<double>::quiet_NaN()};
+  Quantile p05, p25, median, p75, p95;  ///< with 95 % order-statistic bounds
+};
+
+/// Jerks of a trial, over all its moves; of trials, those without jerks or arrival (0 jerks) included.
+struct JerkCountStatistics {
+  std::int64_t n{0};  ///< trials
+  double mean{std::numeric_limits<double>::quiet_NaN()};
+  double sd{std::numeric_limits<double>::quiet_NaN()};
+  double median{std::numeric_limits<double>::quiet_NaN()};
+  double p95{std::numeric_limits<double>::quiet_NaN()};
+  double max{std::numeric_limits<double>::quiet_NaN()};
+  std::int64_t total{0};  ///< jerks of the point
+};
+
+/// Time between the onsets of successive jerks of a move, s.
+struct JerkIntervalStatistics {
+  std::int64_t n{0};  ///< intervals: jerks − 1 for each move with jerks
+  double mean{std::numeric_limits<double>::quiet_NaN()};
+  double median{std::numeric_limits<double>::quiet_NaN()};
+};
+
+/// Whether jerks slow down, as the paper's Fig. 8 shows: whether the intervals of a move grow in their order.
+///
+/// Judged for each move with 3 jerks or more by the Mann–Kendall statistic S of its intervals (rank_trend):
+/// the move slows down if S > 0, speeds up if S < 0. Jerks at random times would make both equally frequent,
+/// whatever the distribution of the intervals, and τ zero on average.
+struct JerkSlowing {
+  std::int64_t moves{0};                                   ///< moves with 3 jerks or more
+  std::int64_t slowing{0};                                 ///< of them, S > 0
+  std::int64_t quickening{0};                              ///< of them, S < 0
+  double share{std::numeric_limits<double>::quiet_NaN()};  ///< slowing / moves
+  double tau{std::numeric_limits<double>::quiet_NaN()};  ///< Kendall's τ_a over the pairs of intervals within
+                                                         ///< a move, all moves pooled
+};
+
+/// Everything that is reported of a design point.
+struct PointSummary {
+  std::int64_t trials{0};
+  std::int64_t moves{0};  ///< moves of all trials
+
+  OutcomeCounts outcomes;           ///< trials by the worst of their moves
+  std::vector<MoveCounts> by_move;  ///< [move]
+  std::int64_t stable{0};           ///< trials all of whose moves were stable
+  std::int64_t arrived{0};          ///< trials all of whose moves arrived
+  std::int64_t broke_away{0};       ///< trials in which the hook slid during any move
+  std::int64_t saturated{0};        ///< trials in which the DAC clipped during any move
+  RateWithBounds success_rate;      ///< zero_count / trials
+  RateWithBounds stable_rate;       ///< stable / trials
+
+  SettlingStatistics settling_time;
+  JerkCountStatistics jerk_count;
+  JerkIntervalStatistics jerk_interval;
+  JerkSlowing jerk_slowing;
+  std::int64_t jerks_agreeing{0};  ///< jerks in the direction of the sign of their move's holding torque
+  double jerk_agreement{std::numeric_limits<double>::quiet_NaN()};        ///< jerks_agreeing / jerks
+  double jerk_one_count_share{std::numeric_limits<double>::quiet_NaN()};  ///< jerks of magnitude 1 / jerks
+
+  Moments overshoot;               ///< of moves, counts
+  Moments holding_torque;          ///< of moves, N m, signed
+  Moments creep;                   ///< of moves, rad, signed
+  Moments peak_torque;             ///< of moves, N m
+  std::int64_t reversal_depth{0};  ///< largest of all moves
+};
+
+}  // namespace zerocount

@@ -1,0 +1,59 @@
+#include "analysis/proportion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <fmt/format.h>
+
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+void require_proportion(std::int64_t successes, std::int64_t trials, double confidence) {
+  if (trials < 0 || successes < 0 || successes > trials) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("a rate of {} in {}; expected 0 ≤ successes ≤ trials", successes, trials));
+  }
+  if (!(confidence > 0.0 && confidence < 1.0)) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("a confidence of {}; expected a number between 0 and 1", confidence));
+  }
+}
+
+}  // namespace
+
+double rate(std::int64_t successes, std::int64_t trials) {
+  if (trials == 0) return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(successes) / static_cast<double>(trials);
+}
+
+Interval clopper_pearson(std::int64_t successes, std::int64_t trials, double confidence) {
+  require_proportion(successes, trials, confidence);
+  using Binomial = boost::math::binomial_distribution<double>;
+  const double n = static_cast<double>(trials);
+  const double k = static_cast<double>(successes);
+  const double tail = 0.5 * (1.0 - confidence);
+  return {successes == 0 ? 0.0 : Binomial::find_lower_bound_on_p(n, k, tail),
+          successes == trials ? 1.0 : Binomial::find_upper_bound_on_p(n, k, tail)};
+}
+
+Interval wilson(std::int64_t successes, std::int64_t trials, double confidence) {
+  require_proportion(successes, trials, confidence);
+  if (trials == 0) return {0.0, 1.0};
+  const double n = static_cast<double>(trials);
+  const double p = static_cast<double>(successes) / n;
+  const double z =
+      boost::math::quantile(boost::math::normal_distribution<double>(), 0.5 * (1.0 + confidence));
+  const double scale = 1.0 + z * z / n;
+  const double centre = (p + z * z / (2.0 * n)) / scale;
+  const double half_width = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / scale;
+  return {successes == 0 ? 0.0 : std::max(0.0, centre - half_width),
+          successes == trials ? 1.0 : std::min(1.0, centre + half_width)};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,158 @@
+#include "analysis/statistic_fields.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace zerocount {
+namespace {
+
+using S = const PointSummary&;
+
+double number(std::int64_t count) {
+  return static_cast<double>(count);
+}
+
+const std::vector<StatisticField>& fields() {
+  static const std::vector<StatisticField> list{
+      {"", "trials", "1", "trials of the point", true, [](S s) { return number(s.trials); }},
+      {"", "zero_count", "1", "trials whose worst move ended at zero error", true,
+       [](S s) { return number(s.outcomes.zero_count); }},
+      {"", "one_count", "1", "trials whose worst move ended within one count", true,
+       [](S s) { return number(s.outcomes.one_count); }},
+      {"", "oscillating", "1", "trials whose worst move ended beyond one count", true,
+       [](S s) { return number(s.outcomes.oscillating); }},
+      {"", "nonfinite", "1", "trials with a move that left the finite numbers", true,
+       [](S s) { return number(s.outcomes.nonfinite); }},
+      {"", "stable", "1", "trials all of whose moves arrived and stayed within one count", true,
+       [](S s) { return number(s.stable); }},
+      {"", "arrived", "1", "trials all of whose moves arrived", true, [](S s) { return number(s.arrived); }},
+      {"", "broke_away", "1", "trials in which the hook slid during any move", true,
+       [](S s) { return number(s.broke_away); }},
+      {"", "saturated", "1", "trials in which the DAC clipped during any move", true,
+       [](S s) { return number(s.saturated); }},
+      {"", "success_rate", "1", "zero_count as a share of trials", false,
+       [](S s) { return s.success_rate.value; }},
+      {"", "success_rate_low", "1", "lower 95 % Clopper-Pearson bound of success_rate", false,
+       [](S s) { return s.success_rate.clopper_pearson.low; }},
+      {"", "success_rate_high", "1", "upper 95 % Clopper-Pearson bound of success_rate", false,
+       [](S s) { return s.success_rate.clopper_pearson.high; }},
+      {"", "success_rate_wilson_low", "1", "lower 95 % Wilson bound of success_rate", false,
+       [](S s) { return s.success_rate.wilson.low; }},
+      {"", "success_rate_wilson_high", "1", "upper 95 % Wilson bound of success_rate", false,
+       [](S s) { return s.success_rate.wilson.high; }},
+      {"", "stable_rate", "1", "stable as a share of trials", false, [](S s) { return s.stable_rate.value; }},
+      {"", "stable_rate_low", "1", "lower 95 % Clopper-Pearson bound of stable_rate", false,
+       [](S s) { return s.stable_rate.clopper_pearson.low; }},
+      {"", "stable_rate_high", "1", "upper 95 % Clopper-Pearson bound of stable_rate", false,
+       [](S s) { return s.stable_rate.clopper_pearson.high; }},
+      {"", "stable_rate_wilson_low", "1", "lower 95 % Wilson bound of stable_rate", false,
+       [](S s) { return s.stable_rate.wilson.low; }},
+      {"", "stable_rate_wilson_high", "1", "upper 95 % Wilson bound of stable_rate", false,
+       [](S s) { return s.stable_rate.wilson.high; }},
+      {"settling_time", "n", "1", "moves that arrived, of which the settling times are", true,
+       [](S s) { return number(s.settling_time.n); }},
+      {"settling_time", "mean", "s", "mean settling time of the moves that arrived", false,
+       [](S s) { return s.settling_time.mean; }},
+      {"settling_time", "min", "s", "shortest settling time", false, [](S s) { return s.settling_time.min; }},
+      {"settling_time", "p05", "s", "5 % quantile of the settling time of the moves that arrived", false,
+       [](S s) { return s.settling_time.p05.value; }},
+      {"settling_time", "p25", "s", "25 % quantile of the settling time of the moves that arrived", false,
+       [](S s) { return s.settling_time.p25.value; }},
+      {"settling_time", "median", "s", "median of the settling time of the moves that arrived", false,
+       [](S s) { return s.settling_time.median.value; }},
+      {"settling_time", "median_low", "s",
+       "lower 95 % order-statistic bound of the median of the settling time", false,
+       [](S s) { return s.settling_time.median.low; }},
+      {"settling_time", "median_high", "s",
+       "upper 95 % order-statistic bound of the median of the settling time", false,
+       [](S s) { return s.settling_time.median.high; }},
+      {"settling_time", "p75", "s", "75 % quantile of the settling time of the moves that arrived", false,
+       [](S s) { return s.settling_time.p75.value; }},
+      {"settling_time", "p95", "s", "95 % quantile of the settling time of the moves that arrived", false,
+       [](S s) { return s.settling_time.p95.value; }},
+      {"settling_time", "p95_low", "s",
+       "lower 95 % order-statistic bound of the 95 % quantile of the settling time", false,
+       [](S s) { return s.settling_time.p95.low; }},
+      {"settling_time", "p95_high", "s",
+       "upper 95 % order-statistic bound of the 95 % quantile of the settling time", false,
+       [](S s) { return s.settling_time.p95.high; }},
+      {"settling_time", "max", "s", "longest settling time", false, [](S s) { return s.settling_time.max; }},
+      {"jerk_count", "n", "1", "trials, of which the jerk counts are", true,
+       [](S s) { return number(s.jerk_count.n); }},
+      {"jerk_count", "mean", "1", "mean number of jerks per trial", false,
+       [](S s) { return s.jerk_count.mean; }},
+      {"jerk_count", "sd", "1", "standard deviation of the number of jerks per trial", false,
+       [](S s) { return s.jerk_count.sd; }},
+      {"jerk_count", "median", "1", "median number of jerks per trial", false,
+       [](S s) { return s.jerk_count.median; }},
+      {"jerk_count", "p95", "1", "95 % quantile of the number of jerks per trial", false,
+       [](S s) { return s.jerk_count.p95; }},
+      {"jerk_count", "max", "1", "largest number of jerks of a trial", false,
+       [](S s) { return s.jerk_count.max; }},
+      {"jerk_count", "total", "1", "jerks of all trials", true,
+       [](S s) { return number(s.jerk_count.total); }},
+      {"jerk_interval", "n", "1", "intervals between the onsets of successive jerks of a move", true,
+       [](S s) { return number(s.jerk_interval.n); }},
+      {"jerk_interval", "mean", "s", "mean interval between successive jerks of a move", false,
+       [](S s) { return s.jerk_interval.mean; }},
+      {"jerk_interval", "median", "s", "median interval between successive jerks of a move", false,
+       [](S s) { return s.jerk_interval.median; }},
+      {"jerk_slowing", "moves", "1", "moves with 3 jerks or more", true,
+       [](S s) { return number(s.jerk_slowing.moves); }},
+      {"jerk_slowing", "slowing", "1", "moves with 3 jerks or more whose intervals grow (Mann-Kendall S > 0)",
+       true, [](S s) { return number(s.jerk_slowing.slowing); }},
+      {"jerk_slowing", "quickening", "1",
+       "moves with 3 jerks or more whose intervals shrink (Mann-Kendall S < 0)", true,
+       [](S s) { return number(s.jerk_slowing.quickening); }},
+      {"jerk_slowing", "share", "1", "slowing moves as a share of the moves with 3 jerks or more", false,
+       [](S s) { return s.jerk_slowing.share; }},
+      {"jerk_slowing", "tau", "1",
+       "Kendall's tau of jerk interval and its order, over the pairs within moves", false,
+       [](S s) { return s.jerk_slowing.tau; }},
+      {"", "jerk_agreement", "1", "jerks in the direction of the holding torque as a share of all jerks",
+       false, [](S s) { return s.jerk_agreement; }},
+      {"", "jerk_one_count_share", "1", "jerks of one count as a share of all jerks", false,
+       [](S s) { return s.jerk_one_count_share; }},
+      {"overshoot", "n", "1", "moves with a finite overshoot, of which these are", true,
+       [](S s) { return number(s.overshoot.n); }},
+      {"overshoot", "mean", "count", "mean overshoot of the moves", false,
+       [](S s) { return s.overshoot.mean; }},
+      {"overshoot", "max", "count", "largest overshoot of the moves", false,
+       [](S s) { return s.overshoot.max; }},
+      {"holding_torque", "n", "1", "moves with a finite holding torque, of which these are", true,
+       [](S s) { return number(s.holding_torque.n); }},
+      {"holding_torque", "mean", "N m", "mean holding torque of the moves", false,
+       [](S s) { return s.holding_torque.mean; }},
+      {"holding_torque", "min", "N m", "smallest holding torque of the moves", false,
+       [](S s) { return s.holding_torque.min; }},
+      {"holding_torque", "max", "N m", "largest holding torque of the moves", false,
+       [](S s) { return s.holding_torque.max; }},
+      {"peak_torque", "n", "1", "moves with a finite peak torque, of which these are", true,
+       [](S s) { return number(s.peak_torque.n); }},
+      {"peak_torque", "mean", "N m", "mean peak torque of the moves", false,
+       [](S s) { return s.peak_torque.mean; }},
+      {"peak_torque", "max", "N m", "largest peak torque of the moves", false,
+       [](S s) { return s.peak_torque.max; }},
+      {"creep", "n", "1", "moves with a finite creep, of which these are", true,
+       [](S s) { return number(s.creep.n); }},
+      {"creep", "mean", "rad", "mean creep of the moves", false, [](S s) { return s.creep.mean; }},
+      {"creep", "min", "rad", "smallest creep of the moves", false, [](S s) { return s.creep.min; }},
+      {"creep", "max", "rad", "largest creep of the moves", false, [](S s) { return s.creep.max; }},
+      {"", "reversal_depth_max", "1", "largest number of reversal points on the stack", true,
+       [](S s) { return number(s.reversal_depth); }},
+  };
+  return list;
+}
+
+}  // namespace
+
+std::span<const StatisticField> statistic_fields() {
+  return fields();
+}
+
+std::string flat_name(const StatisticField& field) {
+  if (field.group.empty()) return std::string(field.name);
+  return std::string(field.group) + "_" + std::string(field.name);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,125 @@
+#include "analysis/study_statistics.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/point_accumulator.hpp"
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::int64_t trials_at_once = 4096;
+constexpr std::int64_t jerks_at_once = 65536;
+
+[[noreturn]] void fail(const StudyFile& file, const std::string& what) {
+  throw Failure(ExitCode::bad_data, fmt::format("{}: {}", file.path().string(), what));
+}
+
+/// The jerks of a file, in the order of its trials, read in blocks of fixed size: a trial that never comes to
+/// rest may have thousands.
+class JerkStream {
+ public:
+  explicit JerkStream(const StudyFile& file) : file_(file), total_(file.jerk_count()) {}
+
+  /// The next `count` jerks, which must belong to the trial of the global row `row`. Valid until the next
+  /// call.
+  std::span<const Jerk> take(std::int64_t row, std::int64_t count) {
+    taken_.clear();
+    while (static_cast<std::int64_t>(taken_.size()) < count) {
+      if (next_ == block_.size() && !refill()) fail(file_, fmt::format("trial {}: jerks are missing", row));
+      if (block_[next_].trial != row) {
+        fail(file_, fmt::format("trial {}: {} jerks recorded; expected the {} it counted", row, taken_.size(),
+                                count));
+      }
+      taken_.push_back(block_[next_++]);
+    }
+    return taken_;
+  }
+
+  bool at_end() const { return next_ == block_.size() && read_ == total_; }
+
+ private:
+  bool refill() {
+    const std::int64_t count = std::min(jerks_at_once, total_ - read_);
+    block_ = file_.jerks_at(read_, count);
+    read_ += count;
+    next_ = 0;
+    return !block_.empty();
+  }
+
+  const StudyFile& file_;
+  std::int64_t total_;
+  std::int64_t read_{0};
+  std::vector<JerkRecord> block_;
+  std::size_t next_{0};
+  std::vector<Jerk> taken_;
+};
+
+void add_trial(PointAccumulator& point, const StudyFile& file, std::int64_t row, const TrialOutcome& trial,
+               JerkStream& jerk_stream) {
+  std::int64_t count = 0;
+  for (const MoveOutcome& move : trial.moves) count += move.jerk_count;
+  const std::span<const Jerk> jerks = jerk_stream.take(row, count);
+  try {
+    point.add(trial, jerks);
+  } catch (const Failure& failure) {
+    fail(file, fmt::format("trial {}: {}", row, failure.what()));
+  }
+}
+
+void require_all_trials(const StudyFile& file) {
+  const FileHeader& header = file.header();
+  if (file.rows() == RowRange{0, header.points * header.trials} && header.trials > 0) return;
+  fail(file, fmt::format("trials {} to {}; expected all {} trials of the study", file.rows().first,
+                         file.rows().end() - 1, header.points * header.trials));
+}
+
+}  // namespace
+
+std::vector<PointSummary> study_statistics(const StudyFile& file) {
+  require_all_trials(file);
+  const std::int64_t trials = file.header().trials;
+  const std::int64_t moves = file.moves();
+  std::vector<PointSummary> points;
+  PointAccumulator point;
+  JerkStream jerks(file);
+  TrialOutcome trial;
+  for (std::int64_t first = 0; first < file.rows().end(); first += trials_at_once) {
+    const RowRange block{first, std::min(trials_at_once, file.rows().end() - first)};
+    const std::vector<MoveOutcome> outcomes = file.outcomes(block);
+    for (std::int64_t row = block.first; row < block.end(); ++row) {
+      const auto begin = outcomes.begin() + (row - block.first) * moves;
+      trial.moves.assign(begin, begin + moves);
+      add_trial(point, file, row, trial, jerks);
+      if ((row + 1) % trials == 0) points.push_back(std::exchange(point, {}).statistics());
+    }
+  }
+  if (!jerks.at_end()) fail(file, "jerks are recorded beyond those that the trials counted");
+  return points;
+}
+
+std::vector<TheoryPrediction> study_predictions(const Study& study) {
+  std::vector<TheoryPrediction> predictions(study.point_labels.size());
+  for (std::int64_t point = 0; point < point_count(study); ++point) {
+    for (std::int64_t index = 0; index < study.trials; ++index) {
+      predictions[static_cast<std::size_t>(point)].add(predict(study_trial(study, point, index).parameters));
+    }
+  }
+  return predictions;
+}
+
+StudySummary summarise(const StudyFile& file) {
+  const FileHeader& header = file.header();
+  const Study study = parse_study(header.manifest, file.path().string() + ":/manifest", header.overrides);
+  return {header.name,    file.point_labels(),    file.axes(),
+          study.observed, study_statistics(file), study_predictions(study)};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/point_statistics.hpp"
+#include "analysis/summary.hpp"
+#include "analysis/theory_prediction.hpp"
+#include "experiments/study.hpp"
+#include "results/study_file.hpp"
+
+namespace zerocount {
+
+/// The statistics of every design point of a complete results file, [point].
+///
+/// Reads the file once from beginning to end in blocks. The memory does not grow with the number of trials
+/// (see PointAccumulator), only with the number of points.
+/// @throws Failure (bad_data) where trials are missing or the file contradicts itself; the message names the
+/// trial.
+std::vector<PointSummary> study_statistics(const StudyFile& file);
+
+/// What the criteria (6) and (7) say of the trials of every point, [point], from the parameters of each
+/// trial.
+std::vector<TheoryPrediction> study_predictions(const Study& study);
+
+/// The summary of a complete results file; what was observed and the parameters of the trials come from its
+/// manifest.
+StudySummary summarise(const StudyFile& file);
+
+}  // namespace zerocount

@@ -1,0 +1,32 @@
+#include "analysis/summary.hpp"
+
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "analysis/text.hpp"
+#include "core/failure.hpp"
+
+namespace zerocount {
+
+void require_consistent(const StudySummary& summary) {
+  const std::size_t points = summary.points.size();
+  bool consistent = summary.labels.size() == points;
+  consistent = consistent && (summary.predictions.empty() || summary.predictions.size() == points);
+  for (const SweepAxis& axis : summary.axes) {
+    const bool text = axis.kind == SweepAxis::Kind::text;
+    consistent = consistent && (text ? axis.texts.size() : axis.numbers.size()) == points;
+  }
+  if (!consistent) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("study {}: labels, axes and statistics are not of the same {} points",
+                              printable(summary.name), points));
+  }
+}
+
+std::string observed_at(const StudySummary& summary, std::int64_t point) {
+  const auto entry = summary.observed.find(summary.labels[static_cast<std::size_t>(point)]);
+  return entry != summary.observed.end() ? entry->second : std::string{};
+}
+
+}  // namespace zerocount

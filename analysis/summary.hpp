@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/point_statistics.hpp"
+#include "analysis/theory_prediction.hpp"
+#include "experiments/study.hpp"
+
+namespace zerocount {
+
+/// What a summary says of a study. Vectors by point have the length of `points`.
+struct StudySummary {
+  std::string name;                             ///< of the study
+  std::vector<std::string> labels;              ///< [point]
+  std::vector<SweepAxis> axes;                  ///< each with a value per point
+  std::map<std::string, std::string> observed;  ///< point label → what was observed on the real rig
+  std::vector<PointSummary> points;             ///< [point]
+  std::vector<TheoryPrediction> predictions;    ///< [point], or empty where not computed
+};
+
+/// @throws Failure (bad_data) where labels, axes, statistics and predictions are not of the same points. The
+/// functions below
+///         call it.
+void require_consistent(const StudySummary& summary);
+
+/// What was observed on the real rig at `point`; empty where nothing was.
+std::string observed_at(const StudySummary& summary, std::int64_t point);
+
+/// The table for people: a row per point in aligned columns, a legend below. UTF-8, one line per row.
+std::string summary_table(const StudySummary& summary);
+
+/// {"name", "points": [{"point", "label", "axes": {…}, …}]} with the names of statistic_fields(), by group.
+/// Whole numbers are integers, NaN is null, every other number reads back to the same double.
+nlohmann::ordered_json summary_json(const StudySummary& summary);
+
+/// summary_json as text, indented, ending with a line break.
+std::string summary_json_text(const StudySummary& summary);
+
+/// A line per point: point, label, axes, then statistic_fields() by flat_name, then the criteria's shares of
+/// trials and the observation. RFC 4180 with \n; NaN is `nan`; numbers read back to the same double.
+std::string summary_csv(const StudySummary& summary);
+
+}  // namespace zerocount

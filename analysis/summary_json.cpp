@@ -1,0 +1,84 @@
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "analysis/statistic_fields.hpp"
+#include "analysis/summary.hpp"
+
+namespace zerocount {
+namespace {
+
+nlohmann::ordered_json axes_json(const StudySummary& summary, std::size_t point) {
+  nlohmann::ordered_json axes = nlohmann::ordered_json::object();
+  for (const SweepAxis& axis : summary.axes) {
+    if (axis.kind == SweepAxis::Kind::text) {
+      axes[axis.name] = axis.texts[point];
+    } else {
+      axes[axis.name] = axis.numbers[point];
+    }
+  }
+  return axes;
+}
+
+void add_fields(nlohmann::ordered_json& json, const PointSummary& statistics) {
+  for (const StatisticField& field : statistic_fields()) {
+    nlohmann::ordered_json& place = field.group.empty() ? json : json[std::string(field.group)];
+    const double value = field.value(statistics);
+    if (field.whole) {
+      place[std::string(field.name)] = static_cast<std::int64_t>(value);
+    } else {
+      place[std::string(field.name)] = value;  // NaN is written as null
+    }
+  }
+}
+
+nlohmann::ordered_json moves_json(const PointSummary& statistics) {
+  nlohmann::ordered_json moves = nlohmann::ordered_json::array();
+  for (const MoveCounts& move : statistics.by_move) {
+    moves.push_back({{"zero_count", move.outcomes.zero_count},
+                     {"one_count", move.outcomes.one_count},
+                     {"oscillating", move.outcomes.oscillating},
+                     {"nonfinite", move.outcomes.nonfinite},
+                     {"stable", move.stable},
+                     {"arrived", move.arrived},
+                     {"broke_away", move.broke_away},
+                     {"saturated", move.saturated}});
+  }
+  return moves;
+}
+
+nlohmann::ordered_json prediction_json(const TheoryPrediction& prediction) {
+  return {{"trials", prediction.trials},
+          {"stable", prediction.stable},
+          {"unstable", prediction.unstable},
+          {"stable_share", rate(prediction.stable, prediction.trials)},
+          {"unstable_share", rate(prediction.unstable, prediction.trials)},
+          {"verdict", verdict(prediction)}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json summary_json(const StudySummary& summary) {
+  require_consistent(summary);
+  nlohmann::ordered_json points = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < summary.points.size(); ++i) {
+    nlohmann::ordered_json point{{"point", i}, {"label", summary.labels[i]}, {"axes", axes_json(summary, i)}};
+    add_fields(point, summary.points[i]);
+    point["moves"] = moves_json(summary.points[i]);
+    if (!summary.predictions.empty()) point["prediction"] = prediction_json(summary.predictions[i]);
+    if (const std::string seen = observed_at(summary, static_cast<std::int64_t>(i)); !seen.empty()) {
+      point["observed"] = seen;
+    }
+    points.push_back(std::move(point));
+  }
+  return {{"name", summary.name}, {"points", std::move(points)}};
+}
+
+std::string summary_json_text(const StudySummary& summary) {
+  constexpr int indent = 2;
+  return summary_json(summary).dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+         "\n";
+}
+
+}  // namespace zerocount

@@ -1,0 +1,67 @@
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/summary.hpp"
+#include "analysis/text.hpp"
+
+namespace zerocount {
+namespace {
+
+std::string interval_in_percent(const Interval& interval) {
+  return fmt::format("[{:.1f}, {:.1f}]", 100.0 * interval.low, 100.0 * interval.high);
+}
+
+bool any_observed(const StudySummary& summary) {
+  for (std::size_t i = 0; i < summary.points.size(); ++i) {
+    if (!observed_at(summary, static_cast<std::int64_t>(i)).empty()) return true;
+  }
+  return false;
+}
+
+constexpr std::string_view legend =
+    "stable: share of trials whose moves all arrived and stayed within one count\n"
+    "zero-count: share of trials whose moves all ended at zero error; bounds of it after Clopper and "
+    "Pearson, in %\n"
+    "median, p95: settling time of the moves that arrived; arrived: their share of all moves\n"
+    "jerks/trial: mean over all trials\n";
+
+constexpr std::string_view prediction_legend =
+    "(6)/(7) predict: by the friction where each trial starts, (6) ensures stability and (7) excludes it\n";
+
+}  // namespace
+
+std::string summary_table(const StudySummary& summary) {
+  require_consistent(summary);
+  const bool with_observed = any_observed(summary);
+  const bool with_predictions = !summary.predictions.empty();
+  std::vector<std::string> header{"point",      "trials",  "stable",  "zero-count", "95 % bounds",
+                                  "median (s)", "p95 (s)", "arrived", "jerks/trial"};
+  std::vector<bool> numeric{false, true, true, true, true, true, true, true, true};
+  if (with_observed) header.push_back("observed"), numeric.push_back(false);
+  if (with_predictions) header.push_back("(6)/(7) predict"), numeric.push_back(false);
+
+  std::vector<std::vector<std::string>> cells{header};
+  for (std::size_t i = 0; i < summary.points.size(); ++i) {
+    const PointSummary& point = summary.points[i];
+    std::vector<std::string> row{printable(summary.labels[i]),
+                                 fmt::format("{}", point.trials),
+                                 percentage(point.stable, point.trials),
+                                 percentage(point.outcomes.zero_count, point.trials),
+                                 interval_in_percent(point.success_rate.clopper_pearson),
+                                 short_number(point.settling_time.median.value),
+                                 short_number(point.settling_time.p95.value),
+                                 percentage(point.settling_time.n, point.moves),
+                                 short_number(point.jerk_count.mean)};
+    if (with_observed) row.push_back(printable(observed_at(summary, static_cast<std::int64_t>(i))));
+    if (with_predictions) row.push_back(verdict(summary.predictions[i]));
+    cells.push_back(std::move(row));
+  }
+  return printable(summary.name) + "\n\n" + aligned_table(cells, numeric) + "\n" + std::string(legend) +
+         std::string(with_predictions ? prediction_legend : "");
+}
+
+}  // namespace zerocount

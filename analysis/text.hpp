@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace zerocount {
+
+/// k of n as a percentage with one decimal at most; "–" where n is 0. Only 0 of n is "0 %" and only n of n
+/// "100 %": what would round to them is "< 0.1 %" or "> 99.9 %".
+std::string percentage(std::int64_t successes, std::int64_t trials);
+
+/// `value` with four significant digits, "–" for NaN.
+std::string short_number(double value);
+
+/// Columns that UTF-8 text takes on a terminal: combining marks none, East Asian wide characters and emoji
+/// two.
+std::size_t display_width(std::string_view text);
+
+/// `text` on one line: each control character, and each byte that is not UTF-8, replaced by U+FFFD.
+std::string printable(std::string_view text);
+
+/// A table as text: cells[row][column] in aligned columns two spaces apart, the first row underlined;
+/// `numeric` columns are aligned to the right. All rows must have the length of `numeric`.
+std::string aligned_table(const std::vector<std::vector<std::string>>& cells,
+                          const std::vector<bool>& numeric);
+
+/// A CSV field (RFC 4180): quoted where it holds a comma, a quote or a line break.
+std::string csv_field(std::string_view text);
+
+}  // namespace zerocount

@@ -1,0 +1,271 @@
+#include "experiments/distribution_forms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/distributions/normal.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiments/unknown_key.hpp"
+
+namespace zerocount {
+namespace {
+
+using Numbers = std::vector<double>;
+
+// Whole numbers that a double holds exactly, so that the draws do.
+constexpr std::int64_t largest_whole = std::int64_t{1} << 53;
+
+struct Fault {
+  std::string what;
+  std::string expected;
+};
+
+std::optional<Fault> ends_fault(double low, double high) {
+  if (low < high) return std::nullopt;
+  return Fault{fmt::format("low {} is not below high {}", low, high),
+               "low < high (for a constant, the number itself)"};
+}
+
+std::optional<Fault> positive_fault(std::string_view name, double value) {
+  if (value > 0.0) return std::nullopt;
+  return Fault{fmt::format("{} is {}", name, value), fmt::format("{} greater than 0", name)};
+}
+
+std::optional<Fault> fault_of(const Uniform& d) {
+  return ends_fault(d.low, d.high);
+}
+
+std::optional<Fault> fault_of(const LogUniform& d) {
+  if (auto fault = positive_fault("low", d.low)) return fault;
+  return ends_fault(d.low, d.high);
+}
+
+std::optional<Fault> fault_of(const Normal& d) {
+  return positive_fault("sd", d.sd);
+}
+
+std::optional<Fault> fault_of(const TruncatedNormal& d) {
+  if (auto fault = positive_fault("sd", d.sd)) return fault;
+  if (auto fault = ends_fault(d.low, d.high)) return fault;
+  constexpr double smallest_share = 1e-12;
+  const boost::math::normal standard;
+  const double low = (d.low - d.mean) / d.sd;
+  const double high = (d.high - d.mean) / d.sd;
+  const double share = low > 0.0 ? boost::math::cdf(standard, -low) - boost::math::cdf(standard, -high)
+                                 : boost::math::cdf(standard, high) - boost::math::cdf(standard, low);
+  if (share >= smallest_share) return std::nullopt;
+  return Fault{
+      fmt::format("only the share {:.3g} of the normal distribution lies between low and high", share),
+      fmt::format("at least {}", smallest_share)};
+}
+
+std::optional<Fault> fault_of(const Lognormal& d) {
+  if (auto fault = positive_fault("median", d.median)) return fault;
+  if (auto fault = positive_fault("cv", d.cv)) return fault;
+  constexpr double largest_cv = 10.0;
+  if (d.cv <= largest_cv) return std::nullopt;
+  return Fault{fmt::format("cv is {}", d.cv), fmt::format("cv at most {}", largest_cv)};
+}
+
+std::optional<Fault> fault_of(const Triangular& d) {
+  if (auto fault = ends_fault(d.low, d.high)) return fault;
+  if (d.low <= d.mode && d.mode <= d.high) return std::nullopt;
+  return Fault{fmt::format("the mode {} is outside of {} to {}", d.mode, d.low, d.high),
+               "low <= mode <= high"};
+}
+
+std::optional<Fault> fault_of(const Integers& d) {
+  if (d.low <= d.high) return std::nullopt;
+  return Fault{fmt::format("low {} is above high {}", d.low, d.high), "low <= high"};
+}
+
+std::optional<Fault> fault_of(const Choice& d) {
+  if (!d.values.empty()) return std::nullopt;
+  return Fault{"there is nothing to choose from", "a list of at least one number"};
+}
+
+std::optional<double> read_one(const DistributionForm& form, const Field& field, Problems& problems) {
+  if (!form.whole_numbers) return read_real(field, all_numbers(), problems);
+  const auto whole = read_whole(field, -largest_whole, largest_whole, problems);
+  if (!whole) return std::nullopt;
+  return static_cast<double>(*whole);
+}
+
+std::optional<Numbers> read_list(const DistributionForm& form, const Field& field, Problems& problems) {
+  const std::string expected = fmt::format("{}: {}", form.name, form.shown);
+  if (!check_list(field, expected, problems)) return std::nullopt;
+  const std::size_t count = field.node->items.size();
+  if (!form.keys.empty() && count != form.keys.size()) {
+    problems.add(field.node->place, field.path, fmt::format("a list of {} stands here", count), expected);
+    return std::nullopt;
+  }
+  Numbers numbers;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (const auto number = read_one(form, item_of(field, i), problems)) numbers.push_back(*number);
+  }
+  if (numbers.size() != count) return std::nullopt;
+  return numbers;
+}
+
+// The values of `keys` in the map, in their order.
+std::optional<Numbers> read_keys(const DistributionForm& form, const Field& field, Problems& problems) {
+  const std::string expected = fmt::format("{}: {}", form.name, form.shown);
+  if (!check_map(field, expected, problems)) return std::nullopt;
+  const std::vector<std::string> known(form.keys.begin(), form.keys.end());
+  for (const YamlEntry& entry : field.node->entries) {
+    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
+      add_unknown_key(field, entry, known, problems);
+    }
+  }
+  Numbers numbers;
+  for (const std::string& key : known) {
+    const YamlEntry* entry = find_entry(*field.node, key);
+    if (entry == nullptr) {
+      problems.add(field.node->place, field.path, fmt::format("{} is missing", key), expected);
+    } else if (const auto number = read_one(form, entry_of(field, *entry), problems)) {
+      numbers.push_back(*number);
+    }
+  }
+  if (numbers.size() != known.size()) return std::nullopt;
+  return numbers;
+}
+
+std::vector<DistributionForm> make_forms() {
+  return {
+      {"uniform",
+       "[low, high]",
+       {"low", "high"},
+       false,
+       false,
+       "equally likely anywhere from low to below high",
+       [](const Numbers& n) -> Distribution {
+         return Uniform{n[0], n[1]};
+       }},
+      {"log_uniform",
+       "[low, high]",
+       {"low", "high"},
+       false,
+       false,
+       "the logarithm is uniform; 0 < low",
+       [](const Numbers& n) -> Distribution {
+         return LogUniform{n[0], n[1]};
+       }},
+      {"normal",
+       "{mean, sd}",
+       {"mean", "sd"},
+       true,
+       false,
+       "Gaussian",
+       [](const Numbers& n) -> Distribution {
+         return Normal{n[0], n[1]};
+       }},
+      {"truncated_normal",
+       "{mean, sd, low, high}",
+       {"mean", "sd", "low", "high"},
+       true,
+       false,
+       "Gaussian of the given mean and sd, conditioned on low to below high",
+       [](const Numbers& n) -> Distribution {
+         return TruncatedNormal{n[0], n[1], n[2], n[3]};
+       }},
+      {"lognormal",
+       "{median, cv}",
+       {"median", "cv"},
+       true,
+       false,
+       "the logarithm is Gaussian; cv is the standard deviation over the mean of the variable itself",
+       [](const Numbers& n) -> Distribution {
+         return Lognormal{n[0], n[1]};
+       }},
+      {"triangular",
+       "[low, mode, high]",
+       {"low", "mode", "high"},
+       false,
+       false,
+       "density rising straight from low to mode and falling straight to high",
+       [](const Numbers& n) -> Distribution {
+         return Triangular{n[0], n[1], n[2]};
+       }},
+      {"integers",
+       "[low, high]",
+       {"low", "high"},
+       false,
+       true,
+       "each whole number from low to high, both included, equally likely",
+       [](const Numbers& n) -> Distribution {
+         return Integers{static_cast<std::int64_t>(n[0]), static_cast<std::int64_t>(n[1])};
+       }},
+      {"choice",
+       "[value, ...]",
+       {},
+       false,
+       false,
+       "each value of the list equally likely",
+       [](const Numbers& n) -> Distribution { return Choice{n}; }},
+  };
+}
+
+}  // namespace
+
+std::span<const DistributionForm> distribution_forms() {
+  static const std::vector<DistributionForm> forms = make_forms();
+  return forms;
+}
+
+std::string distribution_names() {
+  std::vector<std::string_view> names;
+  for (const DistributionForm& form : distribution_forms()) names.push_back(form.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::optional<Distribution> read_distribution(const DistributionForm& form, const Field& field,
+                                              Problems& problems) {
+  const auto numbers = form.by_key ? read_keys(form, field, problems) : read_list(form, field, problems);
+  if (!numbers) return std::nullopt;
+  Distribution distribution = form.make(*numbers);
+  const auto fault = std::visit([](const auto& d) { return fault_of(d); }, distribution);
+  if (fault) {
+    problems.add(field.node->place, field.path, fault->what, fault->expected);
+    return std::nullopt;
+  }
+  return distribution;
+}
+
+std::optional<ProfileDescription> read_profile(const Field& field, Problems& problems) {
+  static const std::vector<std::string> known{"mean", "cv", "correlation_length", "marginal"};
+  const std::string expected = "profile: {mean, cv, correlation_length, marginal}";
+  if (!check_map(field, expected, problems)) return std::nullopt;
+  const std::size_t before = problems.size();
+  ProfileDescription profile;
+  const auto number = [&](std::string_view key, const Interval& range, double& to) {
+    const YamlEntry* entry = find_entry(*field.node, key);
+    if (entry == nullptr) {
+      problems.add(field.node->place, field.path, fmt::format("{} is missing", key), expected);
+    } else if (const auto read = read_real(entry_of(field, *entry), range, problems)) {
+      to = *read;
+    }
+  };
+  number("mean", above(0.0), profile.mean);
+  number("cv", {.low = 0.0, .high = 10.0, .high_included = true}, profile.cv);
+  number("correlation_length", closed(shortest_correlation_length, longest_correlation_length),
+         profile.correlation_length);
+  for (const YamlEntry& entry : field.node->entries) {
+    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
+      add_unknown_key(field, entry, known, problems);
+    } else if (entry.key == "marginal") {
+      const std::string text = entry.value->text;
+      profile.marginal = text == "normal" ? Marginal::normal : Marginal::lognormal;
+      if (text != "normal" && text != "lognormal") {
+        problems.add(entry.value->place, entry_of(field, entry).path,
+                     fmt::format("{} is no marginal", in_quotes(flow_text(*entry.value))),
+                     "normal or lognormal");
+      }
+    }
+  }
+  if (problems.size() != before) return std::nullopt;
+  return profile;
+}
+
+}  // namespace zerocount

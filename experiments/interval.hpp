@@ -1,0 +1,34 @@
+#pragma once
+
+#include <limits>
+#include <string>
+
+namespace zerocount {
+
+/// A set of real numbers between two ends: the range that a parameter allows, or the support of a
+/// distribution. An infinite end is never included.
+struct Interval {
+  double low{-std::numeric_limits<double>::infinity()};
+  double high{std::numeric_limits<double>::infinity()};
+  bool low_included{false};
+  bool high_included{false};
+};
+
+Interval all_numbers();
+Interval above(double low);                   ///< (low, ∞)
+Interval at_least(double low);                ///< [low, ∞)
+Interval closed(double low, double high);     ///< [low, high]
+Interval half_open(double low, double high);  ///< [low, high)
+
+bool contains(const Interval& interval, double value);
+
+/// Whether every number of `inner` is in `outer`.
+bool contains(const Interval& outer, const Interval& inner);
+
+/// In mathematical notation: "(0, 1]", "[1, inf)".
+std::string notation(const Interval& interval);
+
+/// In words, for messages: "greater than 0 and at most 1"; "any finite number" where there is no limit.
+std::string in_words(const Interval& interval);
+
+}  // namespace zerocount

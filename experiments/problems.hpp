@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace zerocount {
+
+/// A place in a manifest or in an override. `source` must outlive it.
+struct Place {
+  std::string_view source;
+  int line{0};    ///< from 1; 0 where the source is one line by itself (an override)
+  int column{0};  ///< from 1, in bytes
+};
+
+/// What is wrong with a manifest, collected so that all of it can be told at once.
+class Problems {
+ public:
+  /// `path` is the dotted path of the key; `what` and `expected` are phrases without a full stop.
+  void add(const Place& place, std::string_view path, std::string_view what, std::string_view expected);
+
+  bool empty() const { return entries_.empty(); }
+  std::size_t size() const { return entries_.size(); }
+
+  /// @throws Failure (bad_input) with one line `file:line:column: path: what; expected` per problem, in the
+  /// order of
+  ///         the file, if there is any.
+  void raise_if_any() const;
+
+ private:
+  struct Entry {
+    Place place;
+    std::string text;
+  };
+  std::vector<Entry> entries_;
+};
+
+/// "file:line:column: path: text", the form of every message about a manifest.
+std::string at_place(const Place& place, std::string_view path, std::string_view text);
+
+/// `text` in single quotes, cut where it is long, control characters made visible.
+std::string in_quotes(std::string_view text);
+
+}  // namespace zerocount

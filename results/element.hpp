@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+
+namespace zerocount {
+
+/// What one element of a column is, in memory and in the file (little-endian there).
+enum class Element {
+  float64,  ///< double
+  int64,    ///< std::int64_t
+  int32,    ///< std::int32_t
+  int8,     ///< std::int8_t, an enumeration
+  flag,     ///< std::uint8_t, 0 or 1
+  text      ///< variable-length UTF-8 string
+};
+
+/// Bytes of one element in memory; text has none, because it is read and written as strings.
+constexpr std::size_t size_of(Element element) {
+  switch (element) {
+    case Element::float64:
+    case Element::int64:
+      return 8;
+    case Element::int32:
+      return 4;
+    case Element::int8:
+    case Element::flag:
+      return 1;
+    case Element::text:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "experiments/study.hpp"
+#include "results/row_range.hpp"
+#include "results/shard.hpp"
+
+namespace zerocount {
+
+/// Joins shards into the results file `output`, with the statistics of every design point where it is the
+/// whole study.
+/// @throws Failure; see merge_shards.
+void assemble(std::span<const ShardInfo> shards, const Study& study, const std::filesystem::path& output,
+              RowRange rows);
+
+}  // namespace zerocount

@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "analysis/theory_prediction.hpp"
+#include "core/theory/sampled_stability.hpp"
+#include "core/theory/stability.hpp"
+#include "experiments/study.hpp"
+#include "runners/commands.hpp"
+#include "runners/cost.hpp"
+#include "runners/progress.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr const char* help =
+    "Reports every error of the manifest, each with its place. If there is none, prints the plan (design "
+    "points, trials, cost)\n"
+    "and what the theory says of each design point: the bounds of the paper's criteria (6) and (7) on ki, "
+    "the bound\n"
+    "of the sampled loop about the lowest stiffness k1, and the rules for the DAC and the sample rate.\n\n"
+    "Example: zerocount check experiments/manifests/paper-gains.yaml\n";
+
+constexpr std::int64_t most_trials_examined = 200;
+constexpr std::int64_t points_shown = 20;
+
+/// A quantity over the trials of a point.
+struct Range {
+  double low{std::numeric_limits<double>::infinity()};
+  double high{-std::numeric_limits<double>::infinity()};
+
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+std::string text(const Range& range) {
+  if (range.low == range.high) return fmt::format("{:.3g}", range.low);
+  return fmt::format("{:.3g} … {:.3g}", range.low, range.high);
+}
+
+/// What section 3 of the paper says of the trials of a design point.
+struct PointTheory {
+  Range ki, stable_below, sampled_below, unstable_above;  // N m/count
+  Range dac_resolution, dac_bound;                        // N m
+  Range frequency, sample_rate;                           // Hz
+  TheoryPrediction prediction;
+};
+
+PointTheory examine(const Study& study, std::int64_t point) {
+  PointTheory theory;
+  for (std::int64_t index = 0; index < std::min(study.trials, most_trials_examined); ++index) {
+    const TrialParameters p = study_trial(study, point, index).parameters;
+    const FrictionParameters contact = friction_at(p.friction, p.initial.position);
+    const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
+    theory.ki.add(p.controller.ki);
+    theory.stable_below.add(bounds.stable_below);
+    theory.unstable_above.add(bounds.unstable_above);
+    theory.sampled_below.add(sampled_critical_integral_gain(contact.k1, p.plant, p.encoder, p.controller));
+    theory.dac_resolution.add(p.dac.resolution);
+    theory.dac_bound.add(dac_resolution_bound(contact.k1, p.encoder));
+    theory.frequency.add(natural_frequency(contact.k1 + contact.k2, p.plant));
+    theory.sample_rate.add(p.controller.sample_rate);
+    theory.prediction.add(predict(p));
+  }
+  return theory;
+}
+
+std::string describe(const PointTheory& theory) {
+  const bool fine_enough = theory.dac_resolution.high < theory.dac_bound.low;
+  const bool fast_enough = theory.sample_rate.low >= 0.99 * 10.0 * theory.frequency.high;
+  std::string out;
+  out += fmt::format("    ki                            {} N m/count: {}\n", text(theory.ki),
+                     verdict(theory.prediction));
+  out += fmt::format("    (6) stable below              {} N m/count\n", text(theory.stable_below));
+  out += fmt::format("    sampled loop at k1, below     {} N m/count\n", text(theory.sampled_below));
+  out += fmt::format("    (7) unstable above            {} N m/count\n", text(theory.unstable_above));
+  out += fmt::format("    DAC: resolution {} N m, must be below k1·Δx = {} N m: {}\n",
+                     text(theory.dac_resolution), text(theory.dac_bound),
+                     fine_enough ? "holds" : "does not hold in every trial");
+  out += fmt::format(
+      "    natural frequency {} Hz, sample rate {} Hz: {}\n", text(theory.frequency),
+      text(theory.sample_rate),
+      fast_enough ? "ten times as fast, as advised" : "slower than ten times that, which is advised");
+  return out;
+}
+
+void print_plan(const Study& study) {
+  const StudyCost cost = measure_cost(study);
+  fmt::print("{}: {}\n", study.name, study.description.empty() ? "(no description)" : study.description);
+  fmt::print("  {} design points × {} trials = {} trials, {} move{} each\n", point_count(study), study.trials,
+             trial_count(study), study.moves, study.moves == 1 ? "" : "s");
+  fmt::print("  {:.4g} samples at {:.0f} ns: about {} on {} core{}\n", cost.samples,
+             1e9 * cost.seconds_per_sample, duration_text(cost.seconds()), cost.cores,
+             cost.cores == 1 ? "" : "s");
+  fmt::print("  differing between trials:");
+  for (const InputColumn& column : study.input_columns) fmt::print(" {}", column.name);
+  fmt::print("{}\n", study.input_columns.empty() ? " nothing" : "");
+}
+
+ExitCode check(const Arguments& arguments) {
+  const Study study = load_study(arguments.operands()[0], arguments.values("set"));
+  print_plan(study);
+  fmt::print("\nTheory, over the first {} trials of each point, each with the k1 and k2 it starts on:\n",
+             std::min(study.trials, most_trials_examined));
+  const std::int64_t shown =
+      arguments.has("all-points") ? point_count(study) : std::min(point_count(study), points_shown);
+  for (std::int64_t point = 0; point < shown; ++point) {
+    fmt::print("  point {}: {}\n{}", point, study.point_labels[static_cast<std::size_t>(point)],
+               describe(examine(study, point)));
+  }
+  if (shown < point_count(study)) {
+    fmt::print("  … and {} more points (--all-points shows them)\n", point_count(study) - shown);
+  }
+  const FrictionAlongRotor friction = study_trial(study, 0, 0).parameters.friction;
+  if (!friction.profiled.empty()) {
+    fmt::print("\nLowest k1 along the rotor (point 0): {:.4g} N m/rad; the paper advises to use it in (6).\n",
+               lowest_k1(friction));
+  }
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Command check_command() {
+  return {{"check",
+           "MANIFEST",
+           1,
+           1,
+           {{"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
+            {"all-points", "", "print the theory of every design point, not only of the first 20"}}},
+          "validate a manifest; print its plan and what the theory says",
+          help,
+          check};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace zerocount {
+
+/// One option of a command: `--name VALUE`, or a bare flag.
+struct OptionSpec {
+  std::string name;   ///< "threads", or "output,o" with a short form
+  std::string value;  ///< what the help calls its value; empty for a flag
+  std::string help;
+  bool repeatable{false};
+};
+
+/// What a command takes.
+struct CommandSpec {
+  std::string name;
+  std::string operands;  ///< as the usage line shows them, e.g. "MANIFEST"
+  std::size_t least_operands{1};
+  std::size_t most_operands{1};
+  std::vector<OptionSpec> options;
+};
+
+/// A command's words, understood. Every value is still text.
+class Arguments {
+ public:
+  /// @throws Failure (bad_input) that names the word at fault and the help to read.
+  Arguments(const CommandSpec& spec, const std::vector<std::string>& words);
+
+  const std::vector<std::string>& operands() const { return operands_; }
+  bool has(std::string_view option) const { return !values(option).empty(); }
+  const std::vector<std::string>& values(
+      std::string_view option) const;  ///< every occurrence; a flag counts as ""
+  std::optional<std::string> value(std::string_view option) const;
+  std::string required(std::string_view option) const;
+  std::string one_of(std::string_view option,
+                     const std::vector<std::string>& words) const;  ///< the first word by default
+
+  /// A whole number in [low, high].
+  std::optional<std::int64_t> whole_number(std::string_view option, std::int64_t low,
+                                           std::int64_t high) const;
+
+  /// Throws Failure (bad_input): "zerocount COMMAND: `problem`", with a pointer to the help.
+  [[noreturn]] void refuse(const std::string& problem) const;
+
+ private:
+  std::string command_;
+  std::vector<std::string> operands_;
+  std::vector<std::pair<std::string, std::vector<std::string>>> values_;
+};
+
+/// The options of `spec` as lines of help.
+std::string options_help(const CommandSpec& spec);
+
+}  // namespace zerocount

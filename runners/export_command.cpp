@@ -1,0 +1,32 @@
+#include <fmt/format.h>
+
+#include "results/export.hpp"
+#include "results/study_file.hpp"
+#include "runners/commands.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr const char* help =
+    "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv, jerks.csv, "
+    "profiles.csv, and trace.csv\n"
+    "where the study retained trials. Numbers read back to the same double.\n\n"
+    "Example: zerocount export gains.h5 -o gains-csv\n";
+
+ExitCode export_file(const Arguments& arguments) {
+  const std::string directory = arguments.required("output");
+  export_csv(StudyFile(arguments.operands()[0]), directory);
+  fmt::print(stderr, "wrote the tables to {}\n", directory);
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Command export_command() {
+  return {{"export", "FILE -o DIR", 1, 1, {{"output,o", "DIR", "the folder for the tables (required)"}}},
+          "write a results file's tables as CSV",
+          help,
+          export_file};
+}
+
+}  // namespace zerocount

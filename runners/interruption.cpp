@@ -1,0 +1,43 @@
+#include "runners/interruption.hpp"
+
+#include <csignal>
+#include <ctime>
+
+#include <unistd.h>
+
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+sigset_t watched_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  return signals;
+}
+
+}  // namespace
+
+InterruptionWatch::InterruptionWatch() {
+  const sigset_t signals = watched_signals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  watcher_ = std::jthread([this, signals](std::stop_token done) {
+    const timespec patience{0, 50'000'000};  // ns
+    while (!done.stop_requested()) {
+      if (sigtimedwait(&signals, nullptr, &patience) < 0) continue;
+      if (interrupted_.stop_requested()) _exit(static_cast<int>(ExitCode::interrupted));
+      interrupted_.request_stop();
+    }
+  });
+}
+
+InterruptionWatch::~InterruptionWatch() {
+  watcher_.request_stop();
+  watcher_.join();
+  const sigset_t signals = watched_signals();
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <stop_token>
+#include <thread>
+
+namespace zerocount {
+
+/// Turns SIGINT and SIGTERM into a request to stop, from its construction to its end. A second signal ends
+/// the process at once, with the exit code of an interruption.
+///
+/// Construct it before any other thread is started: threads inherit the blocked signals from the one that
+/// starts them.
+class InterruptionWatch {
+ public:
+  InterruptionWatch();
+  InterruptionWatch(const InterruptionWatch&) = delete;
+  InterruptionWatch& operator=(const InterruptionWatch&) = delete;
+  ~InterruptionWatch();
+
+  std::stop_token token() const { return interrupted_.get_token(); }
+  bool interrupted() const { return interrupted_.stop_requested(); }
+
+ private:
+  std::stop_source interrupted_;
+  std::jthread watcher_;
+};
+
+}  // namespace zerocount

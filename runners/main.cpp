@@ -1,0 +1,40 @@
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "core/failure.hpp"
+#include "runners/commands.hpp"
+
+namespace {
+
+using zerocount::ExitCode;
+
+ExitCode say(ExitCode code, const std::string& message) {
+  std::fprintf(stderr, "%s%s", message.c_str(), message.ends_with('\n') ? "" : "\n");
+  return code;
+}
+
+ExitCode run(const std::vector<std::string>& words) {
+  try {
+    const ExitCode code = zerocount::run_command_line(words);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      return say(ExitCode::machine_failed, "zerocount: standard output cannot be written");
+    }
+    return code;
+  } catch (const zerocount::Failure& failure) {
+    return say(failure.code(), failure.what());
+  } catch (const std::bad_alloc&) {
+    return say(ExitCode::machine_failed, "zerocount: out of memory");
+  } catch (const std::exception&) {
+    return say(ExitCode::machine_failed,
+               "zerocount: an unexpected internal error; this is a fault of the program");
+  }
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  return static_cast<int>(run({words + 1, words + count}));
+}

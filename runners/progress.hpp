@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace zerocount {
+
+/// Tells how a run goes on stderr: one line rewritten in place on a terminal, a new line every few seconds
+/// elsewhere, and one at the end.
+class Progress {
+ public:
+  /// @param total trials to run. @param kept trials that earlier runs left. @param samples per trial, for the
+  /// rate.
+  Progress(std::int64_t total, std::int64_t kept, double samples, bool quiet);
+
+  /// `done` trials of the total are finished.
+  void update(std::int64_t done);
+  void finish(std::int64_t done);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string line(std::int64_t done, double elapsed) const;
+
+  std::int64_t total_;
+  std::int64_t kept_;
+  double samples_;
+  bool quiet_;
+  bool terminal_;
+  Clock::time_point start_;
+  Clock::time_point last_;
+};
+
+/// A duration for people: "850 ms", "12 s", "3 min 20 s", "5 h 02 min".
+std::string duration_text(double seconds);
+
+}  // namespace zerocount

@@ -1,0 +1,201 @@
+#include <charconv>
+#include <filesystem>
+#include <limits>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "experiments/study.hpp"
+#include "results/header.hpp"
+#include "results/output_lock.hpp"
+#include "results/shard.hpp"
+#include "results/study_file.hpp"
+#include "runners/assemble.hpp"
+#include "runners/commands.hpp"
+#include "runners/interruption.hpp"
+#include "runners/progress.hpp"
+#include "runners/study_runner.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* help =
+    "Runs the trials of the manifest on all cores, and writes them to the results file. Finished trials go "
+    "to\n"
+    "shards in FILE.shards/ while the run goes on; at the end they become FILE. A run that was interrupted "
+    "or\n"
+    "killed goes on where it stopped when the same command is given again. The data do not depend on the "
+    "number\n"
+    "of threads, on --shard, or on interruptions.\n\n"
+    "Examples:\n"
+    "  zerocount run experiments/manifests/paper-gains.yaml -o gains.h5\n"
+    "  zerocount run study.yaml --set trials=100000 --set controller.ki=9.45e-5 -o out.h5\n"
+    "  zerocount run study.yaml --shard 1/2 -o a.h5     on one machine, and on another\n"
+    "  zerocount run study.yaml --shard 2/2 -o b.h5     then: zerocount merge a.h5 b.h5 -o all.h5\n";
+
+/// The rows of part `text` = "I/N", I from 1 to N: parts differ by at most one trial in size.
+RowRange part_of(const Arguments& arguments, const std::string& text, const Study& study) {
+  std::int64_t part = 0;
+  std::int64_t parts = 0;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, part);
+  const bool slash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '/';
+  const auto second = slash ? std::from_chars(first.ptr + 1, end, parts) : first;
+  const std::int64_t rows = trial_count(study);
+  if (!slash || second.ec != std::errc{} || second.ptr != end || part < 1 || part > parts) {
+    arguments.refuse(fmt::format("option '--shard': '{}' is not I/N with 1 ≤ I ≤ N, such as 2/8", text));
+  }
+  if (parts > rows) {
+    arguments.refuse(
+        fmt::format("option '--shard': the study has {} trials, which cannot make {} parts", rows, parts));
+  }
+  const auto start = [&](std::int64_t i) { return rows / parts * i + std::min(i, rows % parts); };
+  return {start(part - 1), start(part) - start(part - 1)};
+}
+
+/// Whether `output` holds these rows already.
+/// @throws Failure (bad_input) where it holds anything else: nothing is ever overwritten.
+bool already_there(const fs::path& output, const Study& study, RowRange wanted) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(output, error))) return false;
+  const auto refuse = [&](std::string_view what) {
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: {}; give another name with -o, or remove the file first", output.string(), what));
+  };
+  FileHeader header;
+  try {
+    header = StudyFile(output, Require::any_part).header();
+  } catch (const Failure& failure) {
+    refuse(fmt::format("exists, and is no usable results file ({})", failure.what()));
+  }
+  if (header.study_sha256 != study.study_sha256) {
+    refuse("holds the results of another manifest (or of other --set values)");
+  }
+  if (!(header.rows == wanted)) {
+    refuse(fmt::format("holds trials {} to {} of this study, and this run is for {} to {}", header.rows.first,
+                       header.rows.end() - 1, wanted.first, wanted.end() - 1));
+  }
+  return true;
+}
+
+/// Whether a file in the folder of shards is a sound one of another study.
+bool of_another_study(const fs::path& path, const Study& study) {
+  try {
+    return StudyFile(path, Require::any_part).header().study_sha256 != study.study_sha256;
+  } catch (const Failure&) {
+    return false;
+  }
+}
+
+/// The shards of earlier runs that this run can build on. Damaged ones are set aside, and run again.
+std::vector<ShardInfo> usable_shards(const fs::path& directory, const Study& study, RowRange wanted) {
+  ShardSurvey survey = list_shards(directory, study);
+  for (const ShardProblem& bad : survey.problems) {
+    if (of_another_study(bad.path, study)) {
+      throw Failure(
+          ExitCode::bad_input,
+          fmt::format(
+              "{}: holds the unfinished run of another manifest (or of other --set values); finish that "
+              "run with its own manifest, give another name with -o, or remove the folder",
+              directory.string()));
+    }
+    fs::path aside = bad.path;
+    aside += ".damaged";
+    std::error_code error;
+    fs::rename(bad.path, aside, error);
+    fmt::print(stderr, "warning: {}; its trials are run again{}\n", bad.problem,
+               error ? "" : fmt::format(", and the file is kept as {}", aside.filename().string()));
+  }
+  remove_unfinished(survey);
+  std::erase_if(survey.shards, [&](const ShardInfo& shard) {
+    return shard.rows.first < wanted.first || shard.rows.end() > wanted.end();
+  });
+  return survey.shards;
+}
+
+std::int64_t rows_in(const std::vector<RowRange>& ranges) {
+  std::int64_t rows = 0;
+  for (const RowRange& range : ranges) rows += range.count;
+  return rows;
+}
+
+void make_directory(const fs::path& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) {
+    throw Failure(ExitCode::machine_failed,
+                  fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
+  }
+}
+
+/// Removes the shards that the finished file has replaced; files set aside as damaged stay.
+void remove_shards(const fs::path& directory, const std::vector<ShardInfo>& shards) {
+  std::error_code error;
+  for (const ShardInfo& shard : shards) fs::remove(shard.path, error);
+  fs::remove(directory, error);
+}
+
+ExitCode run(const Arguments& arguments) {
+  const fs::path output = arguments.required("output");
+  const Study study = load_study(arguments.operands()[0], arguments.values("set"));
+  const std::optional<std::string> part = arguments.value("shard");
+  const RowRange wanted = part ? part_of(arguments, *part, study) : all_rows(study);
+  const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
+  const bool quiet = arguments.has("quiet");
+
+  const InterruptionWatch interruption;
+  const OutputLock lock(output);
+  if (already_there(output, study, wanted)) {
+    if (!quiet) fmt::print(stderr, "{}: complete already, nothing to run\n", output.string());
+    return ExitCode::success;
+  }
+  const fs::path directory = shards_directory(output);
+  make_directory(directory);
+  const std::vector<RowRange> missing = missing_ranges(usable_shards(directory, study, wanted), wanted);
+  const std::int64_t kept = wanted.count - rows_in(missing);
+
+  Progress progress(wanted.count, kept, samples_per_trial(study), quiet);
+  std::int64_t done = kept;
+  RunSettings settings;
+  settings.threads = threads;
+  settings.finished = [&](std::int64_t trials) { progress.update(done += trials); };
+  run_trials(study, missing, directory, settings, interruption.token());
+  progress.finish(done);
+
+  if (done < wanted.count) {
+    throw Failure(
+        ExitCode::interrupted,
+        fmt::format("interrupted: {} of {} trials are kept in {}; give the same command again to go on", done,
+                    wanted.count, directory.string()));
+  }
+  const std::vector<ShardInfo> shards = usable_shards(directory, study, wanted);
+  assemble(shards, study, output, wanted);
+  remove_shards(directory, shards);
+  if (!quiet) fmt::print(stderr, "wrote {}\n", output.string());
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Command run_command() {
+  return {{"run",
+           "MANIFEST -o FILE",
+           1,
+           1,
+           {{"output,o", "FILE", "the results file to make (required)"},
+            {"threads", "N", "threads to use; default: all cores"},
+            {"shard", "I/N", "run only the I-th of N parts, into a part file for 'zerocount merge'"},
+            {"set", "KEY=VALUE",
+             "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
+            {"quiet,q", "", "say nothing of progress"}}},
+          "run a study: manifest in, results file out",
+          help,
+          run};
+}
+
+}  // namespace zerocount

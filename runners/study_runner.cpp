@@ -1,0 +1,177 @@
+#include "runners/study_runner.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "core/trial/trial.hpp"
+
+namespace zerocount {
+namespace {
+
+using Block = std::shared_ptr<std::vector<TrialResult>>;
+
+/// A block takes a fraction of a second, so that an interruption is answered soon and the threads end
+/// together.
+constexpr double samples_per_block = 1e5;
+constexpr std::int64_t most_trials_per_block = 256;
+
+constexpr std::size_t most_trials_per_shard = 1 << 16;
+constexpr std::size_t most_bytes_per_shard = std::size_t{64} << 20;
+constexpr std::chrono::seconds oldest_shard{20};
+
+bool retained(const Study& study, std::int64_t index) {
+  const auto& trials = study.retained_trials;
+  return std::find(trials.begin(), trials.end(), index) != trials.end();
+}
+
+std::size_t bytes_of(const TrialResult& result) {
+  return sizeof result + result.inputs.size() * sizeof(double) +
+         result.outcome.moves.size() * sizeof(MoveOutcome) + result.jerks.size() * sizeof(Jerk) +
+         result.trace.size() * sizeof(SampleRecord);
+}
+
+/// Hands out the rows of the ranges in blocks that do not cross from one range into the next.
+class BlockSource {
+ public:
+  BlockSource(std::span<const RowRange> ranges, std::int64_t block_size)
+      : ranges_(ranges), block_size_(block_size) {}
+
+  std::optional<RowRange> next() {
+    while (at_ < ranges_.size() && used_ == ranges_[at_].count) {
+      ++at_;
+      used_ = 0;
+    }
+    if (at_ == ranges_.size()) return std::nullopt;
+    const RowRange block{ranges_[at_].first + used_, std::min(block_size_, ranges_[at_].count - used_)};
+    used_ += block.count;
+    return block;
+  }
+
+ private:
+  std::span<const RowRange> ranges_;
+  std::int64_t block_size_;
+  std::size_t at_{0};
+  std::int64_t used_{0};
+};
+
+/// Gathers finished trials in order of rows and writes them as shards.
+class ShardWriter {
+ public:
+  ShardWriter(const Study& study, std::filesystem::path directory)
+      : study_(study), directory_(std::move(directory)), provenance_(current_provenance()) {}
+
+  void take(std::vector<TrialResult>&& block) {
+    if (block.empty()) return;
+    if (!waiting_.empty() && block.front().row != waiting_.back().row + 1) flush();
+    if (waiting_.empty()) begun_ = std::chrono::steady_clock::now();
+    for (const TrialResult& result : block) bytes_ += bytes_of(result);
+    waiting_.insert(waiting_.end(), std::make_move_iterator(block.begin()),
+                    std::make_move_iterator(block.end()));
+    if (waiting_.size() >= most_trials_per_shard || bytes_ >= most_bytes_per_shard ||
+        std::chrono::steady_clock::now() - begun_ >= oldest_shard) {
+      flush();
+    }
+  }
+
+  void flush() {
+    if (waiting_.empty()) return;
+    const RowRange rows{waiting_.front().row, static_cast<std::int64_t>(waiting_.size())};
+    write_shard(shard_path(directory_, rows), study_, rows.first, waiting_, provenance_);
+    waiting_.clear();
+    bytes_ = 0;
+  }
+
+ private:
+  const Study& study_;
+  std::filesystem::path directory_;
+  Provenance provenance_;
+  std::vector<TrialResult> waiting_;
+  std::size_t bytes_{0};
+  std::chrono::steady_clock::time_point begun_;
+};
+
+}  // namespace
+
+TrialResult run_study_trial(const Study& study, std::int64_t row) {
+  const std::int64_t index = row % study.trials;
+  StudyTrial trial = study_trial(study, row / study.trials, index);
+  TrialResult result;
+  result.row = row;
+  result.inputs = std::move(trial.inputs);
+  TrialObservers observers;
+  observers.jerk = [&](const Jerk& jerk) { result.jerks.push_back(jerk); };
+  if (retained(study, index)) {
+    observers.sample = [&](const SampleRecord& record) { result.trace.push_back(record); };
+  }
+  result.outcome = run_trial(trial.parameters, observers);
+  return result;
+}
+
+double samples_per_trial(const Study& study) {
+  double total = 0.0;
+  const std::int64_t asked = std::min<std::int64_t>(point_count(study), 64);
+  for (std::int64_t i = 0; i < asked; ++i) {
+    const TrialParameters parameters = study_trial(study, i * point_count(study) / asked, 0).parameters;
+    total += static_cast<double>(samples_per_move(parameters)) *
+             static_cast<double>(parameters.command.targets.size());
+  }
+  return total / static_cast<double>(asked);
+}
+
+std::int64_t run_trials(const Study& study, std::span<const RowRange> ranges,
+                        const std::filesystem::path& directory, const RunSettings& settings,
+                        std::stop_token stop) {
+  namespace tbb = oneapi::tbb;
+  const int threads = settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+
+  const double block_size = samples_per_block / std::max(samples_per_trial(study), 1.0);
+  BlockSource source(
+      ranges, std::clamp(static_cast<std::int64_t>(block_size), std::int64_t{1}, most_trials_per_block));
+  ShardWriter writer(study, directory);
+  std::int64_t done = 0;
+
+  const auto next_block = [&](tbb::flow_control& control) -> RowRange {
+    std::optional<RowRange> block = stop.stop_requested() ? std::nullopt : source.next();
+    if (!block) {
+      control.stop();
+      return {};
+    }
+    return *block;
+  };
+  const auto run_block = [&](RowRange rows) {
+    auto results = std::make_shared<std::vector<TrialResult>>();
+    results->reserve(static_cast<std::size_t>(rows.count));
+    for (std::int64_t row = rows.first; row < rows.end(); ++row)
+      results->push_back(run_study_trial(study, row));
+    return results;
+  };
+  const auto write_block = [&](const Block& block) {
+    const auto trials = static_cast<std::int64_t>(block->size());
+    writer.take(std::move(*block));
+    done += trials;
+    if (settings.finished) settings.finished(trials);
+  };
+  const auto pipeline = [&] {
+    tbb::parallel_pipeline(static_cast<std::size_t>(4 * threads),
+                           tbb::make_filter<void, RowRange>(tbb::filter_mode::serial_in_order, next_block) &
+                               tbb::make_filter<RowRange, Block>(tbb::filter_mode::parallel, run_block) &
+                               tbb::make_filter<Block, void>(tbb::filter_mode::serial_in_order, write_block));
+  };
+  tbb::task_arena(threads).execute(pipeline);
+  writer.flush();
+  return done;
+}
+
+}  // namespace zerocount

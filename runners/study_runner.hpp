@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <stop_token>
+
+#include "experiments/study.hpp"
+#include "results/row_range.hpp"
+#include "results/shard.hpp"
+
+namespace zerocount {
+
+/// Runs one trial of the study by its global row, and keeps what the results file keeps of it.
+TrialResult run_study_trial(const Study& study, std::int64_t row);
+
+/// Number of samples of the trial that is first at its point: what trials cost.
+double samples_per_trial(const Study& study);
+
+struct RunSettings {
+  int threads{0};  ///< 0: all that the machine has
+  std::function<void(std::int64_t trials)>
+      finished{};  ///< told of every block of finished trials, by the writer
+};
+
+/// Runs the trials of `ranges` and writes them as shards into `directory`.
+///
+/// Blocks of trials run in parallel; one of them at a time, in order of rows, is taken over by the writer. A
+/// shard is written when it is large enough or old enough, so memory and the work that a crash can lose are
+/// bounded. Where `stop` is requested, no new block is begun, and what is finished is written.
+/// @returns the number of trials run.
+std::int64_t run_trials(const Study& study, std::span<const RowRange> ranges,
+                        const std::filesystem::path& directory, const RunSettings& settings,
+                        std::stop_token stop);
+
+}  // namespace zerocount

@@ -1,0 +1,129 @@
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/trial/trial.hpp"
+#include "experiments/study.hpp"
+#include "results/study_file.hpp"
+#include "runners/commands.hpp"
+#include "runners/replay.hpp"
+#include "runners/trace_writer.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr const char* help =
+    "Runs one trial again and writes it sample by sample. From a results file the trial is rebuilt from the "
+    "manifest that the\n"
+    "file holds; where its outcome is not the recorded one, the differences are listed and the exit code is "
+    "4.\n\n"
+    "Columns: k, t (s), target, count, coarse_count, error (counts), code, torque (N m), theta (rad), omega "
+    "(rad/s),\n"
+    "xp, xh (rad), depth (reversal points), mode (stick or slide); values at the sampling instant, code and "
+    "torque\n"
+    "those decided there.\n\n"
+    "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
+
+/// Whether the file starts with the signature of HDF5.
+bool is_results_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  char signature[8] = {};
+  file.read(signature, sizeof signature);
+  return file.gcount() == 8 && std::string_view(signature, 8) == std::string_view("\x89HDF\r\n\x1a\n", 8);
+}
+
+std::int64_t index_option(const Arguments& arguments, const char* name, std::int64_t size,
+                          const std::string& study) {
+  const std::int64_t value = arguments.whole_number(name, 0, std::int64_t{1} << 53).value_or(0);
+  if (value >= size) {
+    arguments.refuse(
+        fmt::format("option '--{}': {} is too high; '{}' has {} to {}", name, value, study, 0, size - 1));
+  }
+  return value;
+}
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+File open_output(const std::string& path) {
+  File file(std::fopen(path.c_str(), "wx"), std::fclose);
+  if (!file) {
+    const int error = errno;
+    throw Failure(error == EEXIST ? ExitCode::bad_input : ExitCode::machine_failed,
+                  fmt::format("{}: cannot be written: {}", path, std::system_category().message(error)));
+  }
+  return file;
+}
+
+TrialOutcome write_trace(const TraceSubject& subject, std::FILE* file, bool json) {
+  TraceWriter writer(file, json);
+  writer.begin(subject);
+  TrialObservers observers;
+  observers.sample = [&](const SampleRecord& record) { writer.write(record); };
+  TrialOutcome outcome = run_trial(subject.trial.parameters, observers);
+  writer.end(outcome);
+  return outcome;
+}
+
+TrialOutcome write_trace_to(const TraceSubject& subject, const std::optional<std::string>& path, bool json) {
+  if (!path) return write_trace(subject, stdout, json);
+  const File file = open_output(*path);
+  TrialOutcome outcome = write_trace(subject, file.get(), json);
+  if (std::fflush(file.get()) != 0 || std::ferror(file.get()) != 0) {
+    const std::string reason = std::system_category().message(errno);
+    throw Failure(ExitCode::machine_failed, fmt::format("{}: cannot be written: {}", *path, reason));
+  }
+  return outcome;
+}
+
+ExitCode trace(const Arguments& arguments) {
+  const std::string input = arguments.operands()[0];
+  const bool json = arguments.one_of("format", {"csv", "json"}) == "json";
+  std::optional<StudyFile> file;
+  if (is_results_file(input)) file.emplace(input, Require::any_part);
+  if (file && arguments.has("set"))
+    arguments.refuse("option '--set' goes with a manifest, not with a results file");
+
+  const Study study =
+      file ? parse_study(file->header().manifest, input + ":/manifest", file->header().overrides)
+           : load_study(input, arguments.values("set"));
+  const std::int64_t point = index_option(arguments, "point", point_count(study), study.name);
+  const std::int64_t index = index_option(arguments, "trial", study.trials, study.name);
+  const RowRange row{point * study.trials + index, 1};
+  if (file && (row.first < file->rows().first || row.end() > file->rows().end())) {
+    arguments.refuse(fmt::format("{} is a part of the study and does not hold that trial", input));
+  }
+  const StudyTrial trial = study_trial(study, point, index);
+  const TrialOutcome outcome = write_trace_to({study, point, index, trial}, arguments.value("output"), json);
+  if (!file) return ExitCode::success;
+
+  const std::vector<std::string> different = differences(file->outcomes(row), outcome.moves);
+  if (different.empty()) return ExitCode::success;
+  std::string message =
+      fmt::format("{}: point {}, trial {}: the replay is not the recorded trial", input, point, index);
+  for (const std::string& line : different) message += "\n  " + line;
+  throw Failure(ExitCode::bad_data, message);
+}
+
+}  // namespace
+
+Command trace_command() {
+  return {{"trace",
+           "MANIFEST|FILE",
+           1,
+           1,
+           {{"point", "P", "design point, from 0 (default 0)"},
+            {"trial", "I", "trial of the point, from 0 (default 0)"},
+            {"format", "FORMAT", "csv (default) or json"},
+            {"output,o", "FILE", "write there instead of to standard output"},
+            {"set", "KEY=VALUE", "override a manifest key; may be repeated", true}}},
+          "run one trial again, sample by sample",
+          help,
+          trace};
+}
+
+}  // namespace zerocount

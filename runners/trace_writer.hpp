@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+#include "core/trial/outcome.hpp"
+#include "core/trial/trial.hpp"
+#include "experiments/study.hpp"
+
+namespace zerocount {
+
+/// Which trial a trace is of.
+struct TraceSubject {
+  const Study& study;
+  std::int64_t point{0};
+  std::int64_t index{0};
+  const StudyTrial& trial;
+};
+
+/// Writes the sample records of one trial, one by one. Numbers read back to the same double; in JSON what is
+/// not finite is null.
+class TraceWriter {
+ public:
+  /// @param json JSON: an object with the trial's inputs, its samples and its outcome; otherwise CSV: one
+  /// line per sample.
+  TraceWriter(std::FILE* file, bool json) : file_(file), json_(json) {}
+
+  void begin(const TraceSubject& subject);
+  void write(const SampleRecord& record);
+  void end(const TrialOutcome& outcome);
+
+ private:
+  std::FILE* file_;
+  bool json_;
+  bool first_{true};
+};
+
+}  // namespace zerocount

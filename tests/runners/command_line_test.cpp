@@ -1,0 +1,122 @@
+// The command line: help, usage errors, exit codes.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using ::testing::Values;
+
+class CommandLine : public ::testing::Test {
+ protected:
+  ProgramResult run(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+  WorkFolder folder_;
+};
+
+TEST_F(CommandLine, HelpGoesToStandardOutput) {
+  const ProgramResult help = run({"--help"});
+  EXPECT_EQ(help.code, 0);
+  for (const char* verb : {"check", "run", "summary", "trace", "merge", "export", "parameters", "schema"}) {
+    EXPECT_NE(help.out.find(verb), std::string::npos) << verb;
+    const ProgramResult more = run({verb, "--help"});
+    EXPECT_EQ(more.code, 0) << verb;
+    EXPECT_NE(more.out.find("usage: zerocount " + std::string(verb)), std::string::npos) << verb;
+    EXPECT_EQ(run({"help", verb}).out, more.out);
+  }
+  EXPECT_EQ(run({"--version"}).code, 0);
+}
+
+TEST_F(CommandLine, BadUsageExitsWithTwoAndOneMessage) {
+  folder_.write("study.yaml", small_manifest(2));
+  const std::vector<std::vector<std::string>> cases = {
+      {},
+      {"fly"},
+      {"run"},
+      {"run", "study.yaml"},
+      {"run", "study.yaml", "-o"},
+      {"run", "study.yaml", "-o", "a.h5", "-o", "b.h5"},
+      {"run", "study.yaml", "-o", "a.h5", "--thread", "2"},
+      {"run", "study.yaml", "-o", "a.h5", "--threads", "0"},
+      {"run", "study.yaml", "-o", "a.h5", "--threads", "two"},
+      {"run", "study.yaml", "-o", "a.h5", "--shard", "3/2"},
+      {"run", "study.yaml", "-o", "a.h5", "--shard", "0/2"},
+      {"run", "study.yaml", "-o", "a.h5", "--shard", "1"},
+      {"run", "study.yaml", "-o", "a.h5", "--shard", "1/5"},
+      {"run", "study.yaml", "more", "-o", "a.h5"},
+      {"run", "study.yaml", "-o", "a.h5", "--set", "controller.kii=1"},
+      {"run", "study.yaml", "-o", "a.h5", "--set", "controller.ki"},
+      {"run", "study.yaml", "-o", "a.h5", "--quiet=yes"},
+      {"check", "missing.yaml"},
+      {"summary", "missing.h5"},
+      {"summary", "study.yaml", "--format", "xml"},
+      {"trace", "study.yaml", "--point", "2"},
+      {"trace", "study.yaml", "--trial", "2"},
+      {"trace", "study.yaml", "--trial", "-1"},
+      {"trace", "missing.yaml"},
+      {"merge", "missing.h5", "-o", "a.h5"},
+      {"parameters", "study.yaml"},
+  };
+  for (const auto& words : cases) {
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.code, 2) << ::testing::PrintToString(words) << result.err;
+    EXPECT_FALSE(result.err.empty());
+    EXPECT_TRUE(result.out.empty()) << result.out;
+    EXPECT_EQ(result.err.find("exception"), std::string::npos) << result.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "a.h5"));
+}
+
+TEST_F(CommandLine, DataThatCannotBeUsedExitsWithFour) {
+  folder_.write("text.h5", "this is no HDF5 file, but it is long enough to look at\n");
+  EXPECT_EQ(run({"summary", "text.h5"}).code, 4);
+  EXPECT_EQ(run({"export", "text.h5", "-o", "csv"}).code, 4);
+  EXPECT_EQ(run({"merge", "text.h5", "-o", "all.h5"}).code, 4);
+}
+
+TEST_F(CommandLine, ManifestErrorsAreAllReportedWithTheirPlace) {
+  folder_.write(
+      "bad.yaml",
+      "zerocount: 1\nname: bad\nseed: 1\ntrials: 10\nfrictoin: {k1: 3}\nfriction: {k1: -5, n: 0.5}\n"
+      "command: {targets: [1], hold: no}\n");
+  const ProgramResult result = run({"check", "bad.yaml"});
+  EXPECT_EQ(result.code, 2);
+  for (const char* place : {"bad.yaml:5:1: frictoin", "bad.yaml:6:16: friction.k1",
+                            "bad.yaml:6:23: friction.n", "bad.yaml:7:32: command.hold"}) {
+    EXPECT_NE(result.err.find(place), std::string::npos) << place << "\n" << result.err;
+  }
+}
+
+TEST_F(CommandLine, CheckPrintsThePlanAndTheCriteria) {
+  folder_.write("study.yaml", "zerocount: 1\nname: rig\nseed: 1\ntrials: 10\ncommand: {targets: [5]}\n");
+  const ProgramResult result = run({"check", "study.yaml"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  for (const char* text : {"1 design points × 10 trials", "3.85e-05", "3.01e-04", "3.57e-05", "198"}) {
+    const std::string short_form = std::string(text) == "3.01e-04" ? "0.000301" : text;
+    EXPECT_NE(result.out.find(short_form), std::string::npos) << short_form << "\n" << result.out;
+  }
+}
+
+TEST_F(CommandLine, ParametersAndSchemaComeFromTheSameTable) {
+  const ProgramResult parameters = run({"parameters"});
+  EXPECT_EQ(parameters.code, 0);
+  EXPECT_NE(parameters.out.find("friction.k1"), std::string::npos);
+  EXPECT_NE(run({"parameters", "--format", "markdown"}).out.find("|"), std::string::npos);
+  const auto schema = nlohmann::json::parse(run({"schema"}).out);
+  EXPECT_TRUE(schema["properties"].contains("friction"));
+}
+
+TEST_F(CommandLine, AFullStandardOutputExitsWithFive) {
+  folder_.write("study.yaml", small_manifest(2));
+  const std::string command =
+      "cd " + folder_.path().string() + " && " ZEROCOUNT_PROGRAM " trace study.yaml > /dev/full 2> err";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 5);
+  EXPECT_NE(folder_.read("err").find("standard output"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,0 +1,104 @@
+#include "tests/runners/program.hpp"
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Starts the program with its output going to these files.
+pid_t start(const std::vector<std::string>& words, const fs::path& directory, const fs::path& out,
+            const fs::path& err) {
+  const pid_t process = fork();
+  if (process != 0) return process;
+  const int out_file = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int err_file = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (chdir(directory.c_str()) != 0 || dup2(out_file, STDOUT_FILENO) < 0 ||
+      dup2(err_file, STDERR_FILENO) < 0) {
+    _exit(126);
+  }
+  std::vector<char*> arguments{const_cast<char*>(ZEROCOUNT_PROGRAM)};
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  execv(arguments[0], arguments.data());
+  _exit(127);
+}
+
+int wait_for(pid_t process) {
+  int status = 0;
+  waitpid(process, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+ProgramResult zerocount_program(const std::vector<std::string>& words, const fs::path& directory) {
+  const WorkFolder outputs;
+  const fs::path out = outputs.path() / "out";
+  const fs::path err = outputs.path() / "err";
+  const int code = wait_for(start(words, directory, out, err));
+  return {code, contents(out), contents(err)};
+}
+
+RunningProgram::RunningProgram(const std::vector<std::string>& words, const fs::path& directory)
+    : process_(start(words, directory, "/dev/null", "/dev/null")) {}
+
+void RunningProgram::send(int signal) const {
+  kill(process_, signal);
+}
+
+int RunningProgram::wait() {
+  return wait_for(process_);
+}
+
+WorkFolder::WorkFolder() {
+  std::string name = (fs::temp_directory_path() / "zerocount-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  path_ = name;
+}
+
+WorkFolder::~WorkFolder() {
+  std::error_code error;
+  fs::remove_all(path_, error);
+}
+
+fs::path WorkFolder::write(const std::string& name, const std::string& text) const {
+  std::ofstream(path_ / name, std::ios::binary) << text;
+  return path_ / name;
+}
+
+std::string WorkFolder::read(const std::string& name) const {
+  return contents(path_ / name);
+}
+
+std::string small_manifest(int trials, const std::string& more) {
+  return "zerocount: 1\nname: small\nseed: 42\ntrials: " + std::to_string(trials) +
+         "\n"
+         "friction:\n"
+         "  k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.2, marginal: lognormal}}\n"
+         "  k2: {uniform: [600, 900]}\n"
+         "  lambda: 0.5\n"
+         "command: {targets: [{integers: [1, 10]}], hold: 0.15}\n"
+         "initial: {encoder_phase: {uniform: [0, 1]}, position: {uniform: [0, 6.283185307179586]}}\n"
+         "verdict: {dwell: 0.02, window: 0.02}\n"
+         "sweep: {cases: {low: {controller.ki: 3.85e-5}, high: {controller.ki: 2.08e-4}}}\n" +
+         more;
+}
+
+}  // namespace zerocount::testing

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace zerocount::testing {
+
+/// What a finished program said.
+struct ProgramResult {
+  int code{0};      ///< exit code; 128 + signal where a signal ended it
+  std::string out;  ///< standard output
+  std::string err;  ///< standard error
+};
+
+/// Runs `zerocount` with these words, in `directory`, and waits for it.
+ProgramResult zerocount_program(const std::vector<std::string>& words,
+                                const std::filesystem::path& directory);
+
+/// A `zerocount` that is running.
+class RunningProgram {
+ public:
+  RunningProgram(const std::vector<std::string>& words, const std::filesystem::path& directory);
+  void send(int signal) const;
+  int wait();  ///< exit code; 128 + signal where a signal ended it
+
+ private:
+  pid_t process_;
+};
+
+/// A fresh folder, removed at the end of the test.
+class WorkFolder {
+ public:
+  WorkFolder();
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  ~WorkFolder();
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path write(const std::string& name, const std::string& text) const;
+  std::string read(const std::string& name) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A small study with random friction, two cases and jerks: 2 × `trials` trials of 300 samples.
+std::string small_manifest(int trials, const std::string& more = "");
+
+}  // namespace zerocount::testing

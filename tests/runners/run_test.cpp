@@ -1,0 +1,189 @@
+// Runs: the same datasets for any threads, parts, interruptions and kills; nothing overwritten; nothing lost.
+#include <chrono>
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "results/study_file.hpp"
+#include "tests/results/raw_hdf5.hpp"
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Run : public ::testing::Test {
+ protected:
+  ProgramResult run(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+  fs::path at(const std::string& name) const { return folder_.path() / name; }
+
+  /// Runs to the end, and expects success.
+  void complete(const std::string& manifest, const std::string& output, std::vector<std::string> more = {}) {
+    std::vector<std::string> words{"run", manifest, "-o", output};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_FALSE(fs::exists(at(output + ".shards")));
+  }
+
+  void expect_same_datasets(const std::string& one, const std::string& other) const {
+    const auto left = test::stored_datasets(at(one));
+    const auto right = test::stored_datasets(at(other));
+    ASSERT_EQ(left.size(), right.size());
+    for (const auto& [path, bytes] : left) EXPECT_TRUE(right.at(path) == bytes) << path;
+  }
+
+  WorkFolder folder_;
+};
+
+TEST_F(Run, GivesTheSameDatasetsForAnyNumberOfThreads) {
+  folder_.write("study.yaml", small_manifest(150, "retain: {trials: [0, 3]}\n"));
+  complete("study.yaml", "one.h5", {"--threads", "1"});
+  for (const char* threads : {"2", "5"}) {
+    const std::string name = std::string("threads") + threads + ".h5";
+    complete("study.yaml", name, {"--threads", threads});
+    expect_same_datasets("one.h5", name);
+  }
+}
+
+TEST_F(Run, GivesTheSameDatasetsInParts) {
+  folder_.write("study.yaml", small_manifest(101, "retain: {trials: [7]}\n"));
+  complete("study.yaml", "whole.h5");
+  for (const char* part : {"3/3", "1/3", "2/3"}) {
+    complete("study.yaml", std::string("part") + part[0] + ".h5", {"--shard", part});
+  }
+  const ProgramResult incomplete = run({"merge", "part1.h5", "part3.h5", "-o", "merged.h5"});
+  EXPECT_EQ(incomplete.code, 4);
+  EXPECT_NE(incomplete.err.find("missing"), std::string::npos) << incomplete.err;
+  EXPECT_EQ(run({"summary", "part1.h5"}).code, 4);
+  const ProgramResult merged = run({"merge", "part3.h5", "part1.h5", "part2.h5", "-o", "merged.h5"});
+  EXPECT_EQ(merged.code, 0) << merged.err;
+  expect_same_datasets("whole.h5", "merged.h5");
+  EXPECT_EQ(run({"merge", "part3.h5", "part1.h5", "part2.h5", "-o", "merged.h5"}).code, 2);  // it exists
+  EXPECT_EQ(run({"merge", "part1.h5", "part1.h5", "part2.h5", "part3.h5", "-o", "twice.h5"}).code, 4);
+}
+
+TEST_F(Run, SurvivesBeingKilledAtRandomMoments) {
+  folder_.write("study.yaml", small_manifest(1500));
+  complete("study.yaml", "whole.h5");
+  std::mt19937 random(6);
+  std::uniform_int_distribution<int> moment(5, 400);
+  for (const int signal : {SIGKILL, SIGINT, SIGTERM}) {
+    const std::string name = "hit" + std::to_string(signal) + ".h5";
+    for (int kill = 0; kill < 6; ++kill) {
+      RunningProgram program({"run", "study.yaml", "-o", name, "--threads", "2"}, folder_.path());
+      std::this_thread::sleep_for(std::chrono::milliseconds(moment(random)));
+      program.send(signal);
+      const int code = program.wait();
+      // Finished in time, ended by the signal, or (before the watch is set up) by its default action.
+      EXPECT_TRUE(code == 0 || code == 130 || code == 128 + signal) << code;
+    }
+    complete("study.yaml", name);
+    expect_same_datasets("whole.h5", name);
+  }
+}
+
+TEST_F(Run, KeepsWhatIsFinishedWhenInterruptedAndGoesOn) {
+  folder_.write("study.yaml", small_manifest(20000));
+  RunningProgram program({"run", "study.yaml", "-o", "long.h5"}, folder_.path());
+  std::this_thread::sleep_for(std::chrono::milliseconds(800));
+  program.send(SIGINT);
+  EXPECT_EQ(program.wait(), 130);
+  EXPECT_FALSE(fs::exists(at("long.h5")));
+  EXPECT_FALSE(fs::is_empty(at("long.h5.shards")));
+  folder_.write("other.yaml", small_manifest(20001));
+  const ProgramResult other = run({"run", "other.yaml", "-o", "long.h5"});
+  EXPECT_EQ(other.code, 2) << other.err;
+  EXPECT_NE(other.err.find("another manifest"), std::string::npos) << other.err;
+  RunningProgram again({"run", "study.yaml", "-o", "long.h5"}, folder_.path());
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  again.send(SIGTERM);
+  EXPECT_EQ(again.wait(), 130);
+}
+
+TEST_F(Run, RunsAgainWhatADamagedShardHeld) {
+  folder_.write("study.yaml", small_manifest(40));
+  complete("study.yaml", "whole.h5");
+  complete("study.yaml", "part.h5", {"--shard", "1/2"});
+  const std::string bytes = folder_.read("part.h5");
+  fs::create_directory(at("new.h5.shards"));
+  folder_.write("new.h5.shards/damaged.h5", bytes.substr(0, bytes.size() / 2));
+  const ProgramResult result = run({"run", "study.yaml", "-o", "new.h5"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("warning"), std::string::npos) << result.err;
+  EXPECT_EQ(folder_.read("new.h5.shards/damaged.h5.damaged").size(), bytes.size() / 2);
+  expect_same_datasets("whole.h5", "new.h5");
+}
+
+TEST_F(Run, NeverOverwrites) {
+  folder_.write("study.yaml", small_manifest(4));
+  folder_.write("notes.h5", "my notes");
+  EXPECT_EQ(run({"run", "study.yaml", "-o", "notes.h5"}).code, 2);
+  EXPECT_EQ(folder_.read("notes.h5"), "my notes");
+
+  complete("study.yaml", "out.h5");
+  const std::string bytes = folder_.read("out.h5");
+  const ProgramResult again = run({"run", "study.yaml", "-o", "out.h5"});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_NE(again.err.find("nothing to run"), std::string::npos);
+  const ProgramResult other = run({"run", "study.yaml", "-o", "out.h5", "--set", "seed=43"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("another manifest"), std::string::npos);
+  EXPECT_EQ(folder_.read("out.h5"), bytes);
+}
+
+TEST_F(Run, RefusesASecondRunOnTheSameOutput) {
+  folder_.write("study.yaml", small_manifest(20000));
+  RunningProgram first({"run", "study.yaml", "-o", "out.h5"}, folder_.path());
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  const ProgramResult second = run({"run", "study.yaml", "-o", "out.h5"});
+  EXPECT_EQ(second.code, 5) << second.err;
+  EXPECT_NE(second.err.find("out.h5"), std::string::npos) << second.err;
+  first.send(SIGKILL);
+  first.wait();
+  RunningProgram third({"run", "study.yaml", "-o", "out.h5"},
+                       folder_.path());  // the lock died with its holder
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  third.send(SIGINT);
+  EXPECT_EQ(third.wait(), 130);
+}
+
+TEST_F(Run, SaysWhyAnOutputCannotBeWritten) {
+  folder_.write("study.yaml", small_manifest(4));
+  const ProgramResult result = run({"run", "study.yaml", "-o", "nowhere/out.h5"});
+  EXPECT_EQ(result.code, 5);
+  EXPECT_NE(result.err.find("nowhere"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("No such file or directory"), std::string::npos) << result.err;
+}
+
+TEST_F(Run, AFullDiskLosesNothingThatWasFinished) {
+  folder_.write("study.yaml", small_manifest(400));
+  complete("study.yaml", "whole.h5");
+  // A limit on file size stands for the full disk: shards fit, and the results file does not.
+  const std::string command = "cd " + folder_.path().string() +
+                              " && trap '' XFSZ && ulimit -f 60 && " ZEROCOUNT_PROGRAM
+                              " run study.yaml -o out.h5 2> err";
+  const int status = std::system(("bash -c \"" + command + "\"").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 5) << folder_.read("err");
+  EXPECT_NE(folder_.read("err").find("out.h5"), std::string::npos) << folder_.read("err");
+  EXPECT_FALSE(fs::exists(at("out.h5")));
+  complete("study.yaml", "out.h5");
+  expect_same_datasets("whole.h5", "out.h5");
+}
+
+TEST_F(Run, RecordsOverridesAndTraceReplaysThem) {
+  folder_.write("study.yaml", small_manifest(6));
+  complete("study.yaml", "set.h5", {"--set", "trials=3", "--set", "plant.inertia=6e-4"});
+  EXPECT_EQ(StudyFile(at("set.h5")).header().overrides,
+            (std::vector<std::string>{"trials=3", "plant.inertia=6e-4"}));
+  EXPECT_EQ(StudyFile(at("set.h5")).rows().count, 6);
+  EXPECT_EQ(run({"trace", "set.h5", "--point", "1", "--trial", "2"}).code, 0);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

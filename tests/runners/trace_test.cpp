@@ -1,0 +1,109 @@
+// Traces: the columns of the contract, numbers that read back, replay from the results file alone.
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/trial/trial.hpp"
+#include "experiments/study.hpp"
+#include "results/study_file.hpp"
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+constexpr const char* columns =
+    "k,t,target,count,coarse_count,error,code,torque,theta,omega,xp,xh,depth,mode";
+
+class Trace : public ::testing::Test {
+ protected:
+  Trace() { folder_.write("study.yaml", small_manifest(5, "retain: {trials: [2]}\n")); }
+  ProgramResult run(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+
+  std::vector<SampleRecord> records(std::int64_t point, std::int64_t index) const {
+    const Study study = load_study(folder_.path() / "study.yaml");
+    std::vector<SampleRecord> all;
+    TrialObservers observers;
+    observers.sample = [&](const SampleRecord& record) { all.push_back(record); };
+    run_trial(study_trial(study, point, index).parameters, observers);
+    return all;
+  }
+
+  WorkFolder folder_;
+};
+
+TEST_F(Trace, CsvHasTheColumnsAndReadsBackToTheSameNumbers) {
+  const ProgramResult result = run({"trace", "study.yaml", "--point", "1", "--trial", "3"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  std::istringstream lines(result.out);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, columns);
+  for (const SampleRecord& r : records(1, 3)) {
+    ASSERT_TRUE(std::getline(lines, line));
+    std::istringstream cells(line);
+    std::string cell;
+    const auto next = [&] {
+      std::getline(cells, cell, ',');
+      return std::strtod(cell.c_str(), nullptr);
+    };
+    EXPECT_EQ(next(), static_cast<double>(r.k));
+    EXPECT_EQ(next(), r.t);
+    EXPECT_EQ(next(), static_cast<double>(r.target));
+    EXPECT_EQ(next(), static_cast<double>(r.count));
+    EXPECT_EQ(next(), static_cast<double>(r.coarse_count));
+    EXPECT_EQ(next(), static_cast<double>(r.error));
+    EXPECT_EQ(next(), static_cast<double>(r.code));
+    EXPECT_EQ(next(), r.torque);
+    EXPECT_EQ(next(), r.theta);
+    EXPECT_EQ(next(), r.omega);
+    EXPECT_EQ(next(), r.xp);
+    EXPECT_EQ(next(), r.xh);
+    EXPECT_EQ(next(), static_cast<double>(r.depth));
+    std::getline(cells, cell, ',');
+    EXPECT_EQ(cell, r.mode == HookMode::stick ? "stick" : "slide");
+  }
+  EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST_F(Trace, JsonHoldsTheSame) {
+  const auto json =
+      nlohmann::json::parse(run({"trace", "study.yaml", "--trial", "1", "--format", "json"}).out);
+  const std::vector<SampleRecord> expected = records(0, 1);
+  ASSERT_EQ(json["samples"].size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(json["samples"][i]["theta"].get<double>(), expected[i].theta);
+    EXPECT_EQ(json["samples"][i]["count"].get<std::int64_t>(), expected[i].count);
+    EXPECT_EQ(json["samples"][i]["mode"], "stick");
+  }
+  EXPECT_EQ(json["trial"], 1);
+  EXPECT_TRUE(json["inputs"].contains("friction.k1"));
+  EXPECT_EQ(json["outcome"].size(), 1u);
+}
+
+TEST_F(Trace, ReplaysFromTheFileAloneAndEqualsTheRetainedRecord) {
+  ASSERT_EQ(run({"run", "study.yaml", "-o", "out.h5"}).code, 0);
+  const std::string from_manifest = run({"trace", "study.yaml", "--point", "1", "--trial", "2"}).out;
+  std::filesystem::remove(folder_.path() / "study.yaml");
+  const ProgramResult replay = run({"trace", "out.h5", "--point", "1", "--trial", "2", "-o", "trial.csv"});
+  EXPECT_EQ(replay.code, 0) << replay.err;
+  EXPECT_EQ(folder_.read("trial.csv"), from_manifest);
+  EXPECT_EQ(run({"trace", "out.h5", "-o", "trial.csv"}).code, 2);  // never over an existing file
+
+  const StudyFile file(folder_.path() / "out.h5");
+  const std::vector<TraceRecord> kept = file.trace_at(0, file.trace_count());
+  ASSERT_EQ(kept.size(), 600u);  // trial 2 of both points
+  EXPECT_EQ(kept[300].trial, 7);
+  EXPECT_EQ(kept[300].k, 0);
+}
+
+TEST_F(Trace, OfAPartHoldsOnlyItsTrials) {
+  ASSERT_EQ(run({"run", "study.yaml", "-o", "part.h5", "--shard", "1/2"}).code, 0);
+  EXPECT_EQ(run({"trace", "part.h5", "--point", "0", "--trial", "4"}).code, 0);
+  EXPECT_EQ(run({"trace", "part.h5", "--point", "1", "--trial", "0"}).code, 2);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "core/friction/parameters.hpp"
 
@@ -22,6 +23,13 @@ inline double hardening_limit(const FrictionParameters& friction, double torque)
 /// The |σ| (N m) whose hardening limit is `hardening` (rad).
 inline double torque_of_limit(const FrictionParameters& friction, double hardening) {
   return std::pow(friction.lambda * hardening, 1.0 / friction.n);
+}
+
+/// The |σ| (N m) beyond which creep goes on in a contact hardened to `hardening` (rad); infinite where α is
+/// 0.
+inline double creep_onset_torque(const FrictionParameters& friction, double hardening) {
+  if (friction.alpha == 0.0) return std::numeric_limits<double>::infinity();
+  return torque_of_limit(friction, hardening);
 }
 
 /// The exact state after `duration` (s) at the constant torque σ (N m): xh relaxes to its limit as exp(−αt).

@@ -111,7 +111,7 @@ Plant::Plant(const PlantParameters& plant, FrictionAlongRotor friction, double p
       contact_(friction_at(friction_, position)),
       spring_(contact_),
       creep_{0.0, hardening},
-      creep_onset_torque_(torque_of_limit(contact_, hardening + tolerance.elongation)) {
+      creep_onset_torque_(creep_onset_torque(contact_, hardening + tolerance.elongation)) {
   spring_.start_preloaded(preload);
   hook_ = -spring_.elongation();
   forget_deepest();
@@ -183,7 +183,7 @@ double Plant::stick(double torque, double duration) {
       break;
     case Event::creep_off:
       creeping_ = false;
-      creep_onset_torque_ = torque_of_limit(contact_, creep_.hardening + tolerance_.elongation);
+      creep_onset_torque_ = creep_onset_torque(contact_, creep_.hardening + tolerance_.elongation);
       break;
     case Event::breakaway:
       break_away(sign_of(omega_));
@@ -204,7 +204,7 @@ void Plant::hold_at_rest(double duration) {
     creep_ = creep_at_constant_torque(contact_, creep_, torque, duration);
     if (hardening_limit(contact_, torque) - creep_.hardening < 0.5 * tolerance_.elongation) {
       creeping_ = false;
-      creep_onset_torque_ = torque_of_limit(contact_, creep_.hardening + tolerance_.elongation);
+      creep_onset_torque_ = creep_onset_torque(contact_, creep_.hardening + tolerance_.elongation);
     }
   }
   omega_ = creep_rate();
@@ -240,7 +240,7 @@ void Plant::re_stick() {
   hook_ = slide_theta_ - spring_.elongation();
   creep_ = {};
   creeping_ = false;
-  creep_onset_torque_ = torque_of_limit(contact_, tolerance_.elongation);
+  creep_onset_torque_ = creep_onset_torque(contact_, tolerance_.elongation);
   omega_ = 0.0;
   sliding_ = false;
 }

@@ -12,7 +12,7 @@ namespace zerocount {
 /// What of the plant's motion is below notice.
 struct MotionTolerance {
   /// Elongation (rad) that a Taylor step may leave out, below which an oscillation counts as rest, and by
-  /// which hardening must be exceeded before creep starts. A trial uses 1e-10 of a fine count.
+  /// which hardening must be exceeded before creep starts. A trial uses 1e-11 of a fine count.
   double elongation{4e-16};
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 /// Fraction of a fine count that the plant's motion may leave out per step: four digits below the accuracy
 /// asked for.
-constexpr double motion_tolerance_in_counts = 1e-10;
+constexpr double motion_tolerance_in_counts = 1e-11;
 
 /// Torques on their way from decision to motor: zero until the first has come through.
 class DelayLine {

@@ -53,5 +53,11 @@ TEST(Creep, OnsetTorqueInvertsTheHardeningLimit) {
   }
 }
 
+TEST(Creep, NeverSetsInWhereItsRateIsZero) {
+  FrictionParameters friction;
+  friction.alpha = 0.0;
+  EXPECT_TRUE(std::isinf(creep_onset_torque(friction, 0.0)));
+}
+
 }  // namespace
 }  // namespace zerocount

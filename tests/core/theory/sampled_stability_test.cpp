@@ -1,0 +1,169 @@
+#include "core/theory/sampled_stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <deque>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/theory/gains.hpp"
+#include "core/theory/stability.hpp"
+
+namespace zerocount {
+namespace {
+
+const PlantParameters rig;
+const EncoderParameters encoder;
+
+/// The sampled loop run sample by sample in physical units, the rotor between samples by the closed form of
+/// the damped oscillator (complex exponents): an implementation apart from the one under test.
+class LinearLoop {
+ public:
+  LinearLoop(double stiffness, const PlantParameters& plant, const ControllerParameters& controller)
+      : stiffness_(stiffness),
+        controller_(controller),
+        pending_(static_cast<std::size_t>(controller.delay), 0.0) {
+    const std::complex<double> half = plant.presliding_damping / (2.0 * plant.inertia);
+    const std::complex<double> root = std::sqrt(half * half - stiffness / plant.inertia);
+    fast_ = -half - root;
+    slow_ = -half + root;
+  }
+
+  void step() {
+    const double count = angle_ / count_angle(encoder);
+    if (k_ == 0) last_count_ = count;
+    const double error = -count;
+    integral_ += controller_.ki * (error + last_error_);
+    pending_.push_back(integral_ + controller_.kp * error - controller_.kd * (count - last_count_));
+    last_error_ = error;
+    last_count_ = count;
+    hold(pending_.front());
+    pending_.pop_front();
+    ++k_;
+  }
+
+  double size() const { return std::abs(angle_) + std::abs(velocity_) / 1000.0; }
+
+ private:
+  void hold(double torque) {
+    const double T = 1.0 / controller_.sample_rate;
+    const double rest = torque / stiffness_;
+    const std::complex<double> x = angle_ - rest;
+    const std::complex<double> a = (velocity_ - slow_ * x) / (fast_ - slow_);
+    const std::complex<double> b = x - a;
+    angle_ = rest + (a * std::exp(fast_ * T) + b * std::exp(slow_ * T)).real();
+    velocity_ = (a * fast_ * std::exp(fast_ * T) + b * slow_ * std::exp(slow_ * T)).real();
+  }
+
+  double stiffness_;
+  ControllerParameters controller_;
+  std::deque<double> pending_;
+  std::complex<double> fast_, slow_;
+  double angle_{1e-5}, velocity_{0.0}, integral_{0.0}, last_error_{0.0}, last_count_{0.0};
+  int k_{0};
+};
+
+/// Growth per sample of the linear loop's largest motion, from its size over late windows.
+double simulated_growth(double stiffness, const PlantParameters& plant,
+                        const ControllerParameters& controller) {
+  LinearLoop loop(stiffness, plant, controller);
+  const auto largest_of_next = [&loop](int samples) {
+    double largest = 0.0;
+    for (int k = 0; k < samples; ++k) {
+      loop.step();
+      largest = std::max(largest, loop.size());
+    }
+    return largest;
+  };
+  constexpr int window = 2000;
+  largest_of_next(window);  // the transient of the other eigenvalues
+  const double early = largest_of_next(window);
+  largest_of_next(4 * window);
+  const double late = largest_of_next(window);
+  return std::pow(late / early, 1.0 / (5 * window));
+}
+
+TEST(SampledStability, BoundOfThePapersRigIsBelowTheContinuousOne) {
+  const ControllerParameters controller;
+  const double sampled = sampled_critical_integral_gain(110.0, rig, encoder, controller);
+  EXPECT_NEAR(sampled, 3.57e-5, 0.5e-7);
+  EXPECT_LT(sampled, critical_integral_gain(110.0, rig, encoder, controller));
+}
+
+TEST(SampledStability, ApproachesTheContinuousBoundAtHighSampleRates) {
+  ControllerParameters controller;
+  controller.kp = 3e-4;
+  double last_gap = 1.0;
+  for (const double rate : {4e3, 16e3, 64e3, 256e3}) {
+    controller.sample_rate = rate;
+    const double continuous = critical_integral_gain(110.0, rig, encoder, controller);
+    const double gap = 1.0 - sampled_critical_integral_gain(110.0, rig, encoder, controller) / continuous;
+    EXPECT_GT(gap, 0.0);
+    EXPECT_LT(gap, 0.3 * last_gap);  // the hold's delay of half a sample: an error of first order in T
+    last_gap = gap;
+  }
+  EXPECT_LT(last_gap, 2e-3);
+}
+
+TEST(SampledStability, LinearLoopDecaysBelowTheBoundAndGrowsAboveIt) {
+  std::mt19937_64 random(21);
+  std::uniform_real_distribution<double> factor(0.5, 2.0), part(0.0, 1.0);
+  int judged = 0;
+  for (int i = 0; i < 40; ++i) {
+    const double stiffness = 250.0 * factor(random);
+    PlantParameters plant = rig;
+    plant.inertia *= factor(random);
+    plant.presliding_damping *= factor(random);
+    ControllerParameters controller;
+    controller.kp = 0.5 * part(random) * stiffness * count_angle(encoder);
+    controller.kd = 2e-4 * part(random);
+    controller.delay = static_cast<int>(random() % 4);
+    const double bound = sampled_critical_integral_gain(stiffness, plant, encoder, controller);
+    if (bound == 0.0) continue;  // unstable without integral; its own test below
+    ++judged;
+    for (const double side : {0.99, 1.01}) {
+      controller.ki = side * bound;
+      const double growth = simulated_growth(stiffness, plant, controller);
+      const double radius = sampled_spectral_radius(stiffness, plant, encoder, controller);
+      EXPECT_EQ(growth < 1.0, side < 1.0) << "trial " << i << ", delay " << controller.delay;
+      EXPECT_EQ(radius < 1.0, side < 1.0) << "trial " << i << ", delay " << controller.delay;
+    }
+  }
+  EXPECT_GT(judged, 30);
+}
+
+TEST(SampledStability, SpectralRadiusIsTheGrowthOfTheLinearLoop) {
+  for (const int delay : {0, 1, 3}) {
+    ControllerParameters controller;
+    controller.delay = delay;
+    controller.kp = 1e-4;
+    controller.kd = 1e-4;
+    controller.ki = 1.02 * sampled_critical_integral_gain(300.0, rig, encoder, controller);
+    EXPECT_NEAR(simulated_growth(300.0, rig, controller),
+                sampled_spectral_radius(300.0, rig, encoder, controller), 2e-6);
+  }
+}
+
+TEST(SampledStability, DelayLowersTheBound) {
+  ControllerParameters controller;
+  double last = 1.0;
+  for (int delay = 0; delay < 5; ++delay) {
+    controller.delay = delay;
+    const double bound = sampled_critical_integral_gain(110.0, rig, encoder, controller);
+    EXPECT_LT(bound, last);
+    EXPECT_GT(bound, 0.0);
+    last = bound;
+  }
+}
+
+TEST(SampledStability, NoIntegralGainIsStableWhereTheLoopWithoutIntegralIsNot) {
+  ControllerParameters controller;
+  controller.kp = 1.0;  // N m/count: far beyond what half a sample of delay allows
+  EXPECT_EQ(sampled_critical_integral_gain(110.0, rig, encoder, controller), 0.0);
+}
+
+}  // namespace
+}  // namespace zerocount

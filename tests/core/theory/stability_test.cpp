@@ -1,0 +1,170 @@
+#include "core/theory/stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "core/theory/gains.hpp"
+#include "core/theory/sampled_stability.hpp"
+
+namespace zerocount {
+namespace {
+
+// The defaults of these structs are the paper's rig.
+const PlantParameters plant;
+const FrictionParameters contact;
+const EncoderParameters encoder;
+const ControllerParameters integral_only;
+
+/// Half a unit of the last digit that the paper (or the text quoting it) prints.
+void expect_as_printed(double value, double printed, double last_digit) {
+  EXPECT_NEAR(value, printed, 0.5 * last_digit);
+}
+
+ControllerParameters with_kp(double kp) {
+  ControllerParameters controller;
+  controller.kp = kp;
+  return controller;
+}
+
+TEST(Gains, AnalogueGainsOfThePaperArePrintedAsTorquePerCount) {
+  // Section 4 of the paper: c·k1/J = 0.15 and c·(k1 + k2)/J = 1.2 N m/(count s), which are 3.85e-5
+  // and 3.01e-4 N m/count.
+  const double lower = plant.presliding_damping * contact.k1 / plant.inertia;
+  const double upper = plant.presliding_damping * (contact.k1 + contact.k2) / plant.inertia;
+  expect_as_printed(lower * count_angle(encoder), 0.15, 0.01);
+  expect_as_printed(upper * count_angle(encoder), 1.2, 0.1);
+  expect_as_printed(with_analogue_gains({}, {0.0, lower, 0.0}, encoder).ki, 3.85e-5, 1e-7);
+  expect_as_printed(with_analogue_gains({}, {0.0, upper, 0.0}, encoder).ki, 3.01e-4, 1e-6);
+}
+
+TEST(Gains, ConversionsAreInverse) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> gain(0.0, 1e-3), rate(100.0, 2e4), counts(1e4, 1e7);
+  for (int i = 0; i < 200; ++i) {
+    ControllerParameters controller;
+    controller.sample_rate = rate(random);
+    controller.kp = gain(random);
+    controller.ki = gain(random);
+    controller.kd = gain(random);
+    EncoderParameters scale;
+    scale.fine = std::round(counts(random));
+    const ControllerParameters back =
+        with_analogue_gains(controller, analogue_gains(controller, scale), scale);
+    EXPECT_NEAR(back.kp, controller.kp, 1e-14 * controller.kp);
+    EXPECT_NEAR(back.ki, controller.ki, 1e-14 * controller.ki);
+    EXPECT_NEAR(back.kd, controller.kd, 1e-14 * controller.kd);
+    EXPECT_EQ(back.sample_rate, controller.sample_rate);
+  }
+}
+
+TEST(Gains, SampledControllerApproachesTheContinuousOneOnAMovingError) {
+  // e(t) = sin 2t rad, sampled finely: the sampled law with converted gains must give u = kP·e + kI·∫e +
+  // kD·e˙.
+  const AnalogueGains gains{3.0, 7.0, 0.5};
+  ControllerParameters controller;
+  controller.sample_rate = 1e5;
+  controller = with_analogue_gains(controller, gains, encoder);
+  const double dx = count_angle(encoder);
+  const auto error = [&](int k) { return k < 0 ? 0.0 : std::sin(2.0 * k / controller.sample_rate) / dx; };
+  double integral = 0.0;
+  const int samples = 100000;
+  for (int k = 0; k <= samples; ++k) integral += controller.ki * (error(k) + error(k - 1));
+  const double sampled =
+      integral + controller.kp * error(samples) + controller.kd * (error(samples) - error(samples - 1));
+  const double continuous =
+      3.0 * std::sin(2.0) + 7.0 * (1.0 - std::cos(2.0)) / 2.0 + 0.5 * 2.0 * std::cos(2.0);
+  EXPECT_NEAR(sampled, continuous, 1e-4);
+}
+
+TEST(Criteria, BoundsOfThePapersRig) {
+  const IntegralGainBounds bounds = integral_gain_bounds(plant, contact, encoder, integral_only);
+  expect_as_printed(bounds.stable_below, 3.85e-5, 1e-7);
+  expect_as_printed(bounds.unstable_above, 3.01e-4, 1e-6);
+}
+
+TEST(Criteria, ProportionalGainOfThePaperPutsItsIntegralGainOnTheLowerBound) {
+  const IntegralGainBounds bounds = integral_gain_bounds(plant, contact, encoder, with_kp(6.21e-4));
+  // Both printed numbers are rounded, 6.21e-4 by up to 1e-7 of the result.
+  EXPECT_NEAR(bounds.stable_below, 9.45e-5, 1e-7);
+}
+
+TEST(Criteria, CriticalGainPutsThePolesOfTheContinuousLoopOnTheImaginaryAxis) {
+  // Outside judge: the eigenvalues of the continuous loop's companion matrix, with every gain present.
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> factor(0.3, 3.0);
+  for (int i = 0; i < 200; ++i) {
+    PlantParameters rotor;
+    rotor.inertia *= factor(random);
+    rotor.presliding_damping *= factor(random);
+    ControllerParameters controller;
+    controller.kp = 5e-4 * factor(random);
+    controller.kd = 1e-3 * factor(random);
+    const double stiffness = 300.0 * factor(random);
+    controller.ki = critical_integral_gain(stiffness, rotor, encoder, controller);
+
+    const AnalogueGains gains = analogue_gains(controller, encoder);
+    Eigen::Matrix3d companion = Eigen::Matrix3d::Zero();
+    companion(0, 1) = companion(1, 2) = 1.0;
+    companion.row(2) << -gains.ki, -(stiffness + gains.kp), -(rotor.presliding_damping + gains.kd);
+    companion.row(2) /= rotor.inertia;
+    const Eigen::Vector3cd poles = companion.eigenvalues();
+    EXPECT_NEAR(poles.real().maxCoeff() / poles.cwiseAbs().maxCoeff(), 0.0, 1e-9);
+  }
+}
+
+TEST(Rules, DacStepOfThePapersRig) {
+  expect_as_printed(dac_resolution_bound(contact.k1, encoder), 4.27e-4, 1e-6);
+  EXPECT_LT(DacParameters{}.resolution, dac_resolution_bound(contact.k1, encoder));
+}
+
+TEST(Rules, NaturalFrequencyAndSampleRateOfThePapersRig) {
+  expect_as_printed(natural_frequency(contact.k1 + contact.k2, plant), 198.0, 1.0);
+  EXPECT_NEAR(advised_sample_rate(plant, contact), 1983.0, 1.0);
+  EXPECT_GT(integral_only.sample_rate, advised_sample_rate(plant, contact));
+}
+
+TEST(Rules, LowestStiffnessOfAUniformContactIsItsStiffness) {
+  EXPECT_EQ(lowest_k1({}), 110.0);
+}
+
+TEST(Rules, LowestStiffnessOfASingleHarmonicIsItsTrough) {
+  Profile profile{Marginal::normal, 100.0, 10.0, {0.0, 0.0, 0.0, 0.6}, {0.0, 0.0, 0.0, 0.8}};
+  FrictionAlongRotor friction;
+  friction.profiled.push_back({&FrictionParameters::k1, std::make_shared<Profile>(profile)});
+  EXPECT_NEAR(lowest_k1(friction), 90.0, 1e-9);  // amplitude √(0.6² + 0.8²) = 1
+
+  profile.marginal = Marginal::lognormal;
+  profile.location = std::log(100.0);
+  profile.scale = 0.1;
+  friction.profiled.front().profile = std::make_shared<Profile>(profile);
+  EXPECT_NEAR(lowest_k1(friction), 100.0 * std::exp(-0.1), 1e-9);
+}
+
+TEST(Rules, NoAngleHasALowerStiffnessThanTheLowest) {
+  std::mt19937_64 random(13);
+  std::normal_distribution<double> coefficient;
+  std::uniform_real_distribution<double> angle(0.0, 2.0 * std::numbers::pi);
+  for (int i = 0; i < 20; ++i) {
+    Profile profile{Marginal::lognormal, std::log(110.0), 0.1, {}, {}};
+    for (int m = 0; m < 30; ++m) {
+      profile.cosine.push_back(coefficient(random) / 5.0);
+      profile.sine.push_back(coefficient(random) / 5.0);
+    }
+    FrictionAlongRotor friction;
+    friction.profiled.push_back({&FrictionParameters::k1, std::make_shared<Profile>(profile)});
+    const double lowest = lowest_k1(friction);
+    double seen = 1e9;
+    for (int j = 0; j < 20000; ++j) seen = std::min(seen, value_at(profile, angle(random)));
+    EXPECT_GE(seen, lowest * (1.0 - 1e-6));
+    EXPECT_LE(seen, lowest * (1.0 + 1e-3));
+  }
+}
+
+}  // namespace
+}  // namespace zerocount

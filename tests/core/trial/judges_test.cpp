@@ -1,0 +1,82 @@
+// The judges of the friction loop against each other and against closed forms, before they judge anything
+// else.
+
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/agreement.hpp"
+#include "tests/support/odeint_motion.hpp"
+#include "tests/support/odeint_trial.hpp"
+#include "tests/support/python_trial.hpp"
+#include "tests/support/random_trials.hpp"
+#include "tests/support/trial_json.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+TEST(Judges, AgreeWithEachOther) {
+  Agreement total;
+  for (const TrialKind kind : {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away}) {
+    for (std::uint64_t index = 1000; index < 1003; ++index) {
+      TrialParameters parameters = random_trial(kind, index);
+      parameters.command.hold = 0.06;
+      const std::string name =
+          "kind " + std::to_string(static_cast<int>(kind)) + " trial " + std::to_string(index);
+      total.add(compare(parameters, odeint_trial(parameters), python_trial(parameters), name));
+    }
+  }
+  std::cout << "odeint against collocation: " << total.figures() << "\n";
+  for (const std::string& failure : total.failures) ADD_FAILURE() << failure;
+  EXPECT_LT(total.before_breakaway, 1e-9);
+  EXPECT_LT(total.after_breakaway, 1e-6);
+  EXPECT_GT(total.slide_samples, 0);
+}
+
+TEST(Judges, ReadBackTheParametersTheyWrite) {
+  for (std::uint64_t index = 0; index < 20; ++index) {
+    const std::string text = to_json(random_trial(TrialKind::breaking_away, index));
+    std::istringstream in(text);
+    EXPECT_EQ(to_json(trial_from_json(in)), text);
+  }
+}
+
+// Under a constant torque U the rotor comes to rest with the spring carrying U less the damper's share, and
+// creep follows xh(t) = (|U|ⁿ/λ)·(1 − exp(−αt)). A stiff, well damped rotor brings the start-up to nothing.
+TEST(OdeintMotion, CreepsExactlyAtConstantTorque) {
+  TrialParameters parameters;
+  parameters.plant = {1e-6, 0.02, 1e-3};
+  for (const double n : {1.0, 1.5, 2.0, 3.0}) {
+    parameters.friction.uniform.n = n;
+    parameters.friction.uniform.lambda = std::pow(0.05, n) / 2e-5;
+    OdeintMotion motion(parameters);
+    for (int k = 0; k < 600; ++k) motion.advance(-0.05L, 5e-4L);
+    const FrictionParameters& f = parameters.friction.uniform;
+    const double expected = 2e-5 * -std::expm1(-f.alpha * 0.3);
+    EXPECT_NEAR(static_cast<double>(motion.state()[3]) / expected, 1.0, 2e-3);
+    EXPECT_DOUBLE_EQ(static_cast<double>(motion.state()[2]), -static_cast<double>(motion.state()[3]));
+  }
+}
+
+// A slide without damping and with coulomb_ratio 1 has the constant friction Fs: while it lasts, uniform
+// acceleration.
+TEST(OdeintMotion, SlidesUniformlyUnderCoulombFriction) {
+  TrialParameters parameters;
+  parameters.plant.sliding_damping = 0.0;
+  parameters.friction.uniform.coulomb_ratio = 1.0;
+  OdeintMotion motion(parameters);
+  while (!motion.sliding()) motion.advance(0.45L, 1e-4L);
+  const long double speed = motion.state()[1];
+  const long double start = motion.theta();
+  motion.advance(0.45L, 0.01L);
+  const long double acceleration = (0.45L - 0.3) / 5.54e-4;
+  EXPECT_NEAR(static_cast<double>(motion.state()[1]), static_cast<double>(speed + acceleration * 0.01L),
+              1e-12);
+  EXPECT_NEAR(static_cast<double>(motion.theta() - start),
+              static_cast<double>(speed * 0.01L + acceleration * 0.00005L), 1e-13);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

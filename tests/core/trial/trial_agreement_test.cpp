@@ -1,0 +1,129 @@
+// The trial against two integrations written apart from it: Boost.odeint with located events for some hundred
+// random trials, and collocation in higher precision for a few. Counts and codes are equal, θ within the
+// promised accuracy.
+
+#include <iostream>
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include "core/trial/trial.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/odeint_trial.hpp"
+#include "tests/support/python_trial.hpp"
+#include "tests/support/random_trials.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+std::vector<SampleRecord> samples_of_trial(const TrialParameters& parameters) {
+  std::vector<SampleRecord> records;
+  TrialObservers observers;
+  observers.sample = [&records](const SampleRecord& record) { records.push_back(record); };
+  run_trial(parameters, observers);
+  return records;
+}
+
+struct Family {
+  const char* name;
+  TrialKind kind;
+  std::uint64_t trials;
+};
+
+void PrintTo(const Family& family, std::ostream* out) {
+  *out << family.name;
+}
+
+class RandomTrialAgreement : public ::testing::TestWithParam<Family> {};
+
+TEST_P(RandomTrialAgreement, EqualsBoostOdeintSampleBySample) {
+  Agreement total;
+  for (std::uint64_t index = 0; index < GetParam().trials; ++index) {
+    const TrialParameters parameters = random_trial(GetParam().kind, index);
+    const std::string name = std::string(GetParam().name) + " trial " + std::to_string(index);
+    total.add(compare(parameters, samples_of_trial(parameters), odeint_trial(parameters), name));
+  }
+  std::cout << GetParam().name << ": " << total.figures() << "\n";
+  for (const std::string& failure : total.failures) ADD_FAILURE() << failure;
+  EXPECT_LE(total.edge_trials, static_cast<std::int64_t>(GetParam().trials / 50));
+  // Promised are 1e-6 count and a share of 1; an integrator that lost an order would show here first.
+  EXPECT_LT(total.before_breakaway, 1e-7);
+  EXPECT_LT(total.after_breakaway_share, 0.1);
+}
+
+TEST_P(RandomTrialAgreement, EqualsHighPrecisionCollocation) {
+  Agreement total;
+  for (std::uint64_t index = 2000; index < 2004; ++index) {
+    TrialParameters parameters = random_trial(GetParam().kind, index);
+    parameters.command.hold = 0.1;
+    const std::string name = std::string(GetParam().name) + " trial " + std::to_string(index);
+    total.add(compare(parameters, samples_of_trial(parameters), python_trial(parameters), name));
+  }
+  std::cout << GetParam().name << ": " << total.figures() << "\n";
+  for (const std::string& failure : total.failures) ADD_FAILURE() << failure;
+  EXPECT_EQ(total.edge_trials, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeded, RandomTrialAgreement,
+                         ::testing::Values(Family{"calm", TrialKind::calm, 200},
+                                           Family{"ringing", TrialKind::ringing, 200},
+                                           Family{"breaking_away", TrialKind::breaking_away, 200}),
+                         [](const auto& family) { return std::string(family.param.name); });
+
+void expect_agreement(const TrialParameters& parameters, const std::string& name) {
+  const Agreement agreement =
+      compare(parameters, samples_of_trial(parameters), odeint_trial(parameters), name);
+  std::cout << name << ": " << agreement.figures() << "\n";
+  for (const std::string& failure : agreement.failures) ADD_FAILURE() << failure;
+  EXPECT_EQ(agreement.edge_trials, 0);
+}
+
+TEST(TrialAgreement, HoldsOverSecondsOfCreepAndJerks) {
+  TrialParameters parameters;
+  parameters.command = {{30}, 7.5};
+  expect_agreement(parameters, "30 counts for 7.5 s");
+}
+
+// Hardened beyond any creep, the rotor really comes to rest, and its ever smaller oscillation meets the rest
+// rule.
+TEST(TrialAgreement, HoldsAtRestWithoutCreep) {
+  TrialParameters parameters;
+  parameters.command = {{30, 29, 0}, 1.0};
+  parameters.initial.hardening = 1e-3;
+  expect_agreement(parameters, "from virgin");
+  parameters.initial.preload = 0.1;
+  expect_agreement(parameters, "from preload");
+}
+
+// The rotor leaves a preloaded rest only when a torque comes: rounding must not move it over an encoder edge
+// at θ = 0.
+TEST(TrialAgreement, StandsStillOnAnEdgeUntilTheFirstTorque) {
+  TrialParameters parameters;
+  parameters.command = {{-2000}, 0.05};
+  parameters.initial.encoder_phase = 0.0;
+  parameters.controller.delay = 3;
+  for (int i = -40; i <= 40; ++i) {
+    parameters.initial.preload = 0.0031 * i;
+    const std::vector<SampleRecord> records = samples_of_trial(parameters);
+    for (std::size_t k = 0; k <= 3; ++k) EXPECT_EQ(records.at(k).count, 0) << parameters.initial.preload;
+  }
+}
+
+// The spring by itself (α = 0), at every exponent of the creep that is off. From a preload the loops close
+// where σ = 0, the one point where |σ|ⁿ is not smooth.
+TEST(TrialAgreement, HoldsWithCreepOff) {
+  for (const double n : {1.0, 1.5, 2.0, 2.5, 3.0}) {
+    for (const double preload : {0.03, -0.08}) {
+      TrialParameters parameters;
+      parameters.friction.uniform.alpha = 0.0;
+      parameters.friction.uniform.n = n;
+      parameters.command = {{8, -40}, 0.1};
+      parameters.controller.ki = 1e-4;
+      parameters.initial.preload = preload;
+      expect_agreement(parameters, "creep off, n = " + std::to_string(n));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/trial/trial.hpp"
+
+namespace zerocount::testing {
+
+/// How well two integrations of the same trial agree, sample by sample.
+struct Agreement {
+  std::int64_t samples{0};            ///< compared
+  double before_breakaway{0.0};       ///< largest difference of θ until the first breakaway, counts
+  double after_breakaway{0.0};        ///< largest difference of θ after it, counts
+  double after_breakaway_share{0.0};  ///< the same, over the accuracy promised there
+  std::int64_t depth_differences{0};  ///< samples with different stack depths (the rest rules may differ)
+  std::int64_t slide_samples{0};      ///< samples taken while the hook slid
+  std::int64_t edge_trials{
+      0};  ///< trials cut short: θ on an encoder edge, within the accuracy, read differently
+  std::vector<std::string> failures;  ///< what disagrees, one line each
+
+  /// Takes in another comparison.
+  void add(const Agreement& other);
+  /// One line of figures.
+  std::string figures() const;
+};
+
+/// Accuracy promised of θ (rad): 1e-6 count until the first breakaway, and 1e-3 count + 1e-7 of the travel
+/// after it.
+///
+/// Counts, codes, errors, coarse counts and modes must be equal. Where a count differs because θ stands on an
+/// edge within the promised accuracy, the two trials part for good: that is counted in edge_trials and the
+/// rest is not compared.
+Agreement compare(const TrialParameters& parameters, const std::vector<SampleRecord>& trial,
+                  const std::vector<SampleRecord>& judge, const std::string& name);
+
+}  // namespace zerocount::testing

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/friction/parameters.hpp"
+#include "core/plant/parameters.hpp"
+#include "core/trial/parameters.hpp"
+
+namespace zerocount::testing {
+
+/// What happened to the contact so far.
+struct EventCounts {
+  std::int64_t reversals{0};
+  std::int64_t closures{0};
+  std::int64_t creep_kinks{0};
+  std::int64_t breakaways{0};
+  std::int64_t breakaways_against_spring{
+      0};  ///< the damper alone overcame the hook, the spring pulling the other way
+  std::int64_t resticks{0};
+};
+
+/// The rotor on its friction contact, integrated by Boost.odeint's Fehlberg 7(8) in 64-bit-mantissa
+/// arithmetic, with every kink located in time. Written from the equations alone, to judge another
+/// integrator; slow, and not for studies.
+///
+/// Rest rule: where, at the start of an interval of constant torque, the speed of the elongation is below
+/// δ·ω₀ and its acceleration below δ·ω₀² (δ = 1e-17 rad, ω₀ = √((k1 + k2)/J)), reversals are not looked for
+/// during that interval. The neglected oscillation is below 3e-12 count.
+class OdeintMotion {
+ public:
+  using Real = long double;
+  using State =
+      std::array<Real, 4>;  ///< travel since the contact formed (rad), ω (rad/s), xp (rad), xh (rad)
+
+  explicit OdeintMotion(const TrialParameters& parameters);
+
+  /// Moves the rotor under the constant torque `torque` (N m) for `duration` (s).
+  void advance(Real torque, Real duration);
+
+  Real theta() const { return origin_ + state_[0]; }  ///< rad
+  const State& state() const { return state_; }
+  std::int64_t depth() const { return static_cast<std::int64_t>(stack_.size()); }
+  bool sliding() const { return sliding_; }
+  const EventCounts& events() const { return events_; }
+
+ private:
+  enum Event {
+    reversal,
+    closure,
+    virgin_origin,
+    creep_kink,
+    breakaway_up,
+    breakaway_down,
+    stop,
+    event_count
+  };
+  using Guards =
+      std::array<Real, event_count>;  ///< each falls below zero at its event; +∞ where it cannot occur
+
+  struct Contact {  ///< the parameters of core/friction/parameters.hpp
+    Real k1, k2, beta, alpha, lambda, n, breakaway, coulomb_ratio, stribeck_velocity;
+  };
+  struct Crossing {
+    Real time{-1};
+    Event event{event_count};
+  };
+
+  static int sign(Real value) { return (value > 0) - (value < 0); }
+
+  Contact contact_at(Real theta) const;
+  Real branch(Real u) const;
+  Real branch_slope(Real u) const;
+  Real inverse_branch(Real torque) const;
+  Real elongation(const State& y) const { return y[0] + offset_ - y[2]; }
+  Real spring_torque(const State& y) const;
+  Real stiffness(const State& y) const;
+  Real driving(Real sigma) const;
+  Real hardening_rate(const State& y, Real sigma) const;
+  State slopes(const State& y) const;
+  Real elongation_acceleration(const State& y) const;
+
+  bool closure_ahead(Real& target) const;
+  Guards guards(const State& y) const;
+  State state_after(Real time) const;
+  Real longest_step() const;  ///< s; short enough that no Stribeck peak and no oscillation is jumped over
+  Crossing first_crossing(const State& end, Real length) const;
+  Real locate(Event event, Real low, Real low_value, Real high) const;
+  void happen(Event event);
+
+  void settle();
+  void reverse();
+  void close_loops();
+  void break_away(int sign);
+  void stick();
+
+  PlantParameters plant_;
+  FrictionAlongRotor friction_;
+  Real position_;
+  Contact contact_{};
+  Real frequency_{0};  ///< ω₀, rad/s
+  Real torque_{0};     ///< applied, N m
+  Real origin_{0};     ///< θ where the contact formed, rad
+  Real offset_{0};     ///< elongation there, rad
+  State state_{};
+  std::vector<std::pair<Real, Real>> stack_;  ///< (elongation, torque) of the surviving reversal points
+  int direction_{0};    ///< of the elongation, or of the slide; 0 before the first motion
+  int virgin_sign_{1};  ///< side of the virgin curve
+  bool sliding_{false};
+  bool resting_{false};
+  bool frozen_{false};
+  bool creeping_{true};
+  Real held_torque_{0};  ///< spring torque at breakaway, N m
+  Real step_{0};         ///< length to try next, s
+  EventCounts events_;
+};
+
+}  // namespace zerocount::testing

@@ -1,0 +1,90 @@
+#include "tests/support/odeint_trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <numbers>
+
+namespace zerocount::testing {
+
+namespace {
+
+std::int64_t read_encoder(long double theta, double counts_per_revolution, double phase) {
+  const double resolution = 2.0 * std::numbers::pi / counts_per_revolution;
+  return static_cast<std::int64_t>(std::floor(theta / resolution + phase));
+}
+
+/// Error, trapezoidal integral, PID and DAC: double precision, one rounding an operation, in the stated
+/// order.
+class SampledLoop {
+ public:
+  explicit SampledLoop(const TrialParameters& p)
+      : gains_(p.controller),
+        resolution_(p.dac.resolution),
+        lowest_(-std::ldexp(1.0, p.dac.bits - 1)),
+        highest_(std::ldexp(1.0, p.dac.bits - 1) - 1.0) {}
+
+  std::int64_t decide(std::int64_t target, std::int64_t count) {
+    const std::int64_t error = target - count;
+    const double change = first_ ? 0.0 : static_cast<double>(count - last_count_);
+    integral_ = integral_ + gains_.ki * static_cast<double>(error + last_error_);
+    if (gains_.anti_windup == AntiWindup::clamp) {
+      integral_ = std::clamp(integral_, lowest_ * resolution_, highest_ * resolution_);
+    }
+    const double torque = integral_ + gains_.kp * static_cast<double>(error) - gains_.kd * change;
+    first_ = false;
+    last_error_ = error;
+    last_count_ = count;
+    return static_cast<std::int64_t>(std::clamp(std::nearbyint(torque / resolution_), lowest_, highest_));
+  }
+
+ private:
+  ControllerParameters gains_;
+  double resolution_;
+  double lowest_;
+  double highest_;
+  double integral_{0.0};
+  std::int64_t last_error_{0};
+  std::int64_t last_count_{0};
+  bool first_{true};
+};
+
+}  // namespace
+
+std::vector<SampleRecord> odeint_trial(const TrialParameters& parameters, EventCounts* events) {
+  OdeintMotion motion(parameters);
+  SampledLoop loop(parameters);
+  const double rate = parameters.controller.sample_rate;
+  const long double period = 1.0L / rate;
+  const auto samples = static_cast<std::int64_t>(std::llround(parameters.command.hold * rate));
+  std::deque<double> waiting(static_cast<std::size_t>(parameters.controller.delay), 0.0);
+  std::vector<SampleRecord> records;
+  for (const std::int64_t target : parameters.command.targets) {
+    for (std::int64_t i = 0; i < samples; ++i) {
+      SampleRecord record;
+      record.k = static_cast<std::int64_t>(records.size());
+      record.t = static_cast<double>(record.k) / rate;
+      record.target = target;
+      record.count = read_encoder(motion.theta(), parameters.encoder.fine, parameters.initial.encoder_phase);
+      record.coarse_count =
+          read_encoder(motion.theta(), parameters.encoder.coarse, parameters.initial.encoder_phase);
+      record.error = target - record.count;
+      record.code = loop.decide(target, record.count);
+      record.torque = static_cast<double>(record.code) * parameters.dac.resolution;
+      record.theta = static_cast<double>(motion.theta());
+      record.omega = static_cast<double>(motion.state()[1]);
+      record.xp = static_cast<double>(motion.state()[2]);
+      record.xh = static_cast<double>(motion.state()[3]);
+      record.depth = motion.depth();
+      record.mode = motion.sliding() ? HookMode::slide : HookMode::stick;
+      records.push_back(record);
+      waiting.push_back(record.torque);
+      motion.advance(waiting.front(), period);
+      waiting.pop_front();
+    }
+  }
+  if (events != nullptr) *events = motion.events();
+  return records;
+}
+
+}  // namespace zerocount::testing

@@ -1,0 +1,117 @@
+#include "tests/support/random_trials.hpp"
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+namespace zerocount::testing {
+
+namespace {
+
+/// Draws that are the same on every platform: the standard's distributions are not.
+class Draws {
+ public:
+  explicit Draws(std::uint64_t seed) : engine_(seed) {}
+  double uniform(double low, double high) {
+    return low + (high - low) * std::ldexp(double(engine_() >> 11), -53);
+  }
+  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+  std::int64_t integer(std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1));
+  }
+  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+  int sign() { return chance(0.5) ? 1 : -1; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+std::shared_ptr<const Profile> random_profile(Draws& draws, double mean, double variation) {
+  auto profile = std::make_shared<Profile>();
+  const auto harmonics = static_cast<std::size_t>(draws.integer(1, 60));
+  const double size = std::sqrt(3.0 / static_cast<double>(harmonics));
+  profile->cosine.push_back(0.0);
+  profile->sine.push_back(0.0);
+  for (std::size_t m = 1; m <= harmonics; ++m) {
+    profile->cosine.push_back(size * draws.uniform(-1.0, 1.0));
+    profile->sine.push_back(size * draws.uniform(-1.0, 1.0));
+  }
+  profile->marginal = Marginal::lognormal;
+  profile->location = std::log(mean);
+  profile->scale = variation;
+  return profile;
+}
+
+FrictionAlongRotor random_friction(Draws& draws) {
+  FrictionAlongRotor friction;
+  FrictionParameters& f = friction.uniform;
+  f.k1 = draws.uniform(80.0, 140.0);
+  f.k2 = draws.uniform(300.0, 1000.0);
+  f.beta = draws.log_uniform(3e4, 6e5);
+  f.alpha = draws.chance(0.1) ? 0.0 : draws.log_uniform(0.05, 5.0);
+  constexpr double exponents[] = {1.0, 1.5, 2.0, 3.0};
+  f.n = exponents[draws.integer(0, 3)];
+  // At 0.02 N m, the torque of a move of some tens of counts, the creep limit is then around that of n = 2, λ
+  // = 10.
+  f.lambda = std::pow(0.02, f.n) / draws.log_uniform(1e-5, 1.6e-4);
+  f.breakaway = draws.uniform(0.15, 0.35);
+  f.coulomb_ratio = draws.chance(0.1) ? 1.0 : draws.uniform(0.5, 1.0);
+  f.stribeck_velocity = draws.log_uniform(3e-3, 3e-2);
+  if (draws.chance(0.25))
+    friction.profiled.push_back({&FrictionParameters::k1, random_profile(draws, f.k1, 0.1)});
+  if (draws.chance(0.25))
+    friction.profiled.push_back({&FrictionParameters::k2, random_profile(draws, f.k2, 0.1)});
+  if (draws.chance(0.25)) {
+    friction.profiled.push_back({&FrictionParameters::breakaway, random_profile(draws, f.breakaway, 0.1)});
+  }
+  return friction;
+}
+
+void choose_loop(Draws& draws, TrialKind kind, TrialParameters& p) {
+  ControllerParameters& c = p.controller;
+  c.sample_rate = draws.chance(0.7) ? 2000.0 : draws.uniform(1000.0, 5000.0);
+  c.kp = draws.chance(0.5) ? 0.0 : draws.uniform(0.0, 6e-4);
+  c.kd = draws.chance(0.7) ? 0.0 : draws.uniform(0.0, 4e-4);
+  c.delay = draws.chance(0.75) ? 0 : static_cast<int>(draws.integer(1, 3));
+  c.anti_windup = draws.chance(0.8) ? AntiWindup::clamp : AntiWindup::none;
+  p.dac.bits = draws.chance(0.7) ? 12 : static_cast<int>(draws.integer(10, 18));
+  p.dac.resolution = draws.chance(0.7) ? 2.4e-4 : 0.4915 / std::ldexp(1.0, p.dac.bits - 1);
+  const auto moves = draws.integer(1, 3);
+  for (std::int64_t move = 0; move < moves; ++move) {
+    p.command.targets.push_back(draws.sign() * draws.integer(move == 0 ? 1 : 0, 30));
+  }
+  switch (kind) {
+    case TrialKind::calm:
+      c.ki = draws.uniform(5e-6, 4.5e-5);
+      p.command.hold = draws.uniform(0.1, 0.5);
+      return;
+    case TrialKind::ringing:
+      c.ki = draws.log_uniform(5e-5, 2.5e-4);
+      p.command.hold = draws.uniform(0.05, 0.2);
+      return;
+    case TrialKind::breaking_away:
+      c.ki = draws.log_uniform(2e-5, 6e-4);
+      p.command.hold = draws.uniform(0.05, 0.15);
+      for (std::int64_t& target : p.command.targets) target = draws.sign() * draws.integer(100, 8000);
+      return;
+  }
+}
+
+}  // namespace
+
+TrialParameters random_trial(TrialKind kind, std::uint64_t index) {
+  Draws draws(20020721 + 1'000'003 * static_cast<std::uint64_t>(kind) + 7919 * index);
+  TrialParameters p;
+  p.plant.inertia = draws.uniform(4e-4, 8e-4);
+  p.plant.presliding_damping = draws.uniform(0.1, 0.4);
+  p.plant.sliding_damping = draws.chance(0.1) ? 0.0 : draws.log_uniform(1e-4, 1e-2);
+  p.friction = random_friction(draws);
+  choose_loop(draws, kind, p);
+  p.initial.encoder_phase = draws.chance(0.15) ? 0.0 : draws.uniform(0.0, 1.0);
+  p.initial.position = draws.uniform(0.0, 6.283185307179586);
+  p.initial.hardening = draws.chance(0.6) ? 0.0 : draws.log_uniform(1e-7, 1e-4);
+  p.initial.preload = draws.chance(0.5) ? 0.0 : draws.sign() * draws.log_uniform(1e-3, 0.12);
+  return p;
+}
+
+}  // namespace zerocount::testing

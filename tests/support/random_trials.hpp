@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/trial/parameters.hpp"
+
+namespace zerocount::testing {
+
+/// Kinds of random trials, by what the loop does with them.
+enum class TrialKind {
+  calm,          ///< a few counts at low gain: settles, creeps, jerks; the hook holds
+  ringing,       ///< gains around and above the stability bounds
+  breaking_away  ///< thousands of counts or large gains: breakaway, slides, re-sticks
+};
+
+/// The parameters of random trial `index` of a kind: always the same for the same arguments. All parameters
+/// of the model vary: creep exponents 1, 1.5, 2 and 3, creep off, preload of both signs, hardening, encoder
+/// phase (0 included), delay, kp, kd, anti-windup, word length, negative targets, one to three moves, and
+/// profiles of k1, k2 and breakaway.
+TrialParameters random_trial(TrialKind kind, std::uint64_t index);
+
+}  // namespace zerocount::testing

@@ -1,0 +1,135 @@
+#include "tests/support/trial_json.hpp"
+
+#include <array>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace zerocount::testing {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::pair<const char*, double FrictionParameters::*>, 9> friction_names{{
+    {"k1", &FrictionParameters::k1},
+    {"k2", &FrictionParameters::k2},
+    {"beta", &FrictionParameters::beta},
+    {"alpha", &FrictionParameters::alpha},
+    {"lambda", &FrictionParameters::lambda},
+    {"n", &FrictionParameters::n},
+    {"breakaway", &FrictionParameters::breakaway},
+    {"coulomb_ratio", &FrictionParameters::coulomb_ratio},
+    {"stribeck_velocity", &FrictionParameters::stribeck_velocity},
+}};
+
+json friction_json(const FrictionAlongRotor& friction) {
+  json out;
+  for (const auto& [name, member] : friction_names) out[name] = friction.uniform.*member;
+  out["profiled"] = json::array();
+  for (const ProfiledParameter& entry : friction.profiled) {
+    for (const auto& [name, member] : friction_names) {
+      if (member != entry.parameter) continue;
+      const Profile& p = *entry.profile;
+      out["profiled"].push_back({{"parameter", name},
+                                 {"marginal", p.marginal == Marginal::lognormal ? "lognormal" : "normal"},
+                                 {"location", p.location},
+                                 {"scale", p.scale},
+                                 {"cosine", p.cosine},
+                                 {"sine", p.sine}});
+    }
+  }
+  return out;
+}
+
+FrictionAlongRotor friction_from(const json& in) {
+  FrictionAlongRotor friction;
+  for (const auto& [name, member] : friction_names) friction.uniform.*member = in.at(name);
+  for (const json& entry : in.value("profiled", json::array())) {
+    Profile p;
+    p.marginal = entry.at("marginal") == "lognormal" ? Marginal::lognormal : Marginal::normal;
+    p.location = entry.at("location");
+    p.scale = entry.at("scale");
+    p.cosine = entry.at("cosine").get<std::vector<double>>();
+    p.sine = entry.at("sine").get<std::vector<double>>();
+    for (const auto& [name, member] : friction_names) {
+      if (entry.at("parameter") == name)
+        friction.profiled.push_back({member, std::make_shared<const Profile>(p)});
+    }
+  }
+  return friction;
+}
+
+}  // namespace
+
+std::string to_json(const TrialParameters& p) {
+  const ControllerParameters& c = p.controller;
+  const json out = {
+      {"plant",
+       {{"inertia", p.plant.inertia},
+        {"presliding_damping", p.plant.presliding_damping},
+        {"sliding_damping", p.plant.sliding_damping}}},
+      {"friction", friction_json(p.friction)},
+      {"encoder", {{"fine", p.encoder.fine}, {"coarse", p.encoder.coarse}}},
+      {"dac", {{"bits", p.dac.bits}, {"resolution", p.dac.resolution}}},
+      {"controller",
+       {{"sample_rate", c.sample_rate},
+        {"kp", c.kp},
+        {"ki", c.ki},
+        {"kd", c.kd},
+        {"delay", c.delay},
+        {"anti_windup", c.anti_windup == AntiWindup::clamp ? "clamp" : "none"}}},
+      {"command", {{"targets", p.command.targets}, {"hold", p.command.hold}}},
+      {"initial",
+       {{"encoder_phase", p.initial.encoder_phase},
+        {"position", p.initial.position},
+        {"hardening", p.initial.hardening},
+        {"preload", p.initial.preload}}},
+      {"verdict", {{"dwell", p.verdict.dwell}, {"window", p.verdict.window}}},
+  };
+  return out.dump(1);
+}
+
+TrialParameters trial_from_json(std::istream& in) {
+  const json j = json::parse(in);
+  TrialParameters p;
+  p.plant = {j["plant"].at("inertia"), j["plant"].at("presliding_damping"), j["plant"].at("sliding_damping")};
+  p.friction = friction_from(j.at("friction"));
+  p.encoder = {j["encoder"].at("fine"), j["encoder"].at("coarse")};
+  p.dac = {j["dac"].at("bits"), j["dac"].at("resolution")};
+  const json& c = j.at("controller");
+  p.controller = {c.at("sample_rate"), c.at("kp"),
+                  c.at("ki"),          c.at("kd"),
+                  c.at("delay"),       c.at("anti_windup") == "none" ? AntiWindup::none : AntiWindup::clamp};
+  p.command.targets = j["command"].at("targets").get<std::vector<std::int64_t>>();
+  p.command.hold = j["command"].at("hold");
+  const json& i = j.at("initial");
+  p.initial = {i.at("encoder_phase"), i.at("position"), i.at("hardening"), i.at("preload")};
+  p.verdict = {j["verdict"].at("dwell"), j["verdict"].at("window")};
+  return p;
+}
+
+std::vector<SampleRecord> read_trace_csv(std::istream& in) {
+  std::string line;
+  std::getline(in, line);
+  if (line != "k,t,target,count,coarse_count,error,code,torque,theta,omega,xp,xh,depth,mode") {
+    throw std::runtime_error("trace: unexpected header: " + line);
+  }
+  std::vector<SampleRecord> records;
+  while (std::getline(in, line)) {
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    if (cells.size() != 14) throw std::runtime_error("trace: unexpected row: " + line);
+    const auto integer = [&](std::size_t i) { return std::int64_t{std::stoll(cells[i])}; };
+    const auto number = [&](std::size_t i) { return std::strtod(cells[i].c_str(), nullptr); };
+    records.push_back({integer(0), number(1), integer(2), integer(3), integer(4), integer(5), integer(6),
+                       number(7), number(8), number(9), number(10), number(11), integer(12),
+                       cells[13] == "slide" ? HookMode::slide : HookMode::stick});
+  }
+  return records;
+}
+
+}  // namespace zerocount::testing

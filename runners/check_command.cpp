@@ -90,8 +90,9 @@ std::string describe(const PointTheory& theory) {
 void print_plan(const Study& study) {
   const StudyCost cost = measure_cost(study);
   fmt::print("{}: {}\n", study.name, study.description.empty() ? "(no description)" : study.description);
-  fmt::print("  {} design points × {} trials = {} trials, {} move{} each\n", point_count(study), study.trials,
-             trial_count(study), study.moves, study.moves == 1 ? "" : "s");
+  fmt::print("  {} design point{} × {} trials = {} trials, {} move{} each\n", point_count(study),
+             point_count(study) == 1 ? "" : "s", study.trials, trial_count(study), study.moves,
+             study.moves == 1 ? "" : "s");
   fmt::print("  {:.4g} samples at {:.0f} ns: about {} on {} core{}\n", cost.samples,
              1e9 * cost.seconds_per_sample, duration_text(cost.seconds()), cost.cores,
              cost.cores == 1 ? "" : "s");

@@ -2,6 +2,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "core/failure.hpp"
@@ -25,6 +26,9 @@ ExitCode run(const std::vector<std::string>& words) {
     return code;
   } catch (const zerocount::Failure& failure) {
     return say(failure.code(), failure.what());
+  } catch (const std::system_error& error) {
+    const char* what = std::ferror(stdout) != 0 ? "standard output cannot be written" : "the system failed";
+    return say(ExitCode::machine_failed, std::string("zerocount: ") + what + ": " + error.code().message());
   } catch (const std::bad_alloc&) {
     return say(ExitCode::machine_failed, "zerocount: out of memory");
   } catch (const std::exception&) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <limits>
@@ -92,10 +93,14 @@ bool of_another_study(const fs::path& path, const Study& study) {
   }
 }
 
+/// Ending of the name of a damaged shard that was set aside.
+constexpr const char* set_aside = ".damaged";
+
 /// The shards of earlier runs that this run can build on. Damaged ones are set aside, and run again.
 std::vector<ShardInfo> usable_shards(const fs::path& directory, const Study& study, RowRange wanted) {
   ShardSurvey survey = list_shards(directory, study);
   for (const ShardProblem& bad : survey.problems) {
+    if (bad.path.extension() == set_aside) continue;
     if (of_another_study(bad.path, study)) {
       throw Failure(
           ExitCode::bad_input,
@@ -105,7 +110,7 @@ std::vector<ShardInfo> usable_shards(const fs::path& directory, const Study& stu
               directory.string()));
     }
     fs::path aside = bad.path;
-    aside += ".damaged";
+    aside += set_aside;
     std::error_code error;
     fs::rename(bad.path, aside, error);
     fmt::print(stderr, "warning: {}; its trials are run again{}\n", bad.problem,
@@ -156,7 +161,8 @@ ExitCode run(const Arguments& arguments) {
   }
   const fs::path directory = shards_directory(output);
   make_directory(directory);
-  const std::vector<RowRange> missing = missing_ranges(usable_shards(directory, study, wanted), wanted);
+  std::vector<ShardInfo> shards = usable_shards(directory, study, wanted);
+  const std::vector<RowRange> missing = missing_ranges(shards, wanted);
   const std::int64_t kept = wanted.count - rows_in(missing);
 
   Progress progress(wanted.count, kept, samples_per_trial(study), quiet);
@@ -164,7 +170,8 @@ ExitCode run(const Arguments& arguments) {
   RunSettings settings;
   settings.threads = threads;
   settings.finished = [&](std::int64_t trials) { progress.update(done += trials); };
-  run_trials(study, missing, directory, settings, interruption.token());
+  const std::vector<ShardInfo> written =
+      run_trials(study, missing, directory, settings, interruption.token());
   progress.finish(done);
 
   if (done < wanted.count) {
@@ -173,7 +180,9 @@ ExitCode run(const Arguments& arguments) {
         fmt::format("interrupted: {} of {} trials are kept in {}; give the same command again to go on", done,
                     wanted.count, directory.string()));
   }
-  const std::vector<ShardInfo> shards = usable_shards(directory, study, wanted);
+  shards.insert(shards.end(), written.begin(), written.end());
+  std::sort(shards.begin(), shards.end(),
+            [](const ShardInfo& a, const ShardInfo& b) { return a.rows.first < b.rows.first; });
   assemble(shards, study, output, wanted);
   remove_shards(directory, shards);
   if (!quiet) fmt::print(stderr, "wrote {}\n", output.string());

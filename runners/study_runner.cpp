@@ -86,16 +86,20 @@ class ShardWriter {
   void flush() {
     if (waiting_.empty()) return;
     const RowRange rows{waiting_.front().row, static_cast<std::int64_t>(waiting_.size())};
-    write_shard(shard_path(directory_, rows), study_, rows.first, waiting_, provenance_);
+    written_.push_back({shard_path(directory_, rows), rows});
+    write_shard(written_.back().path, study_, rows.first, waiting_, provenance_);
     waiting_.clear();
     bytes_ = 0;
   }
+
+  const std::vector<ShardInfo>& written() const { return written_; }
 
  private:
   const Study& study_;
   std::filesystem::path directory_;
   Provenance provenance_;
   std::vector<TrialResult> waiting_;
+  std::vector<ShardInfo> written_;
   std::size_t bytes_{0};
   std::chrono::steady_clock::time_point begun_;
 };
@@ -128,9 +132,9 @@ double samples_per_trial(const Study& study) {
   return total / static_cast<double>(asked);
 }
 
-std::int64_t run_trials(const Study& study, std::span<const RowRange> ranges,
-                        const std::filesystem::path& directory, const RunSettings& settings,
-                        std::stop_token stop) {
+std::vector<ShardInfo> run_trials(const Study& study, std::span<const RowRange> ranges,
+                                  const std::filesystem::path& directory, const RunSettings& settings,
+                                  std::stop_token stop) {
   namespace tbb = oneapi::tbb;
   const int threads = settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
@@ -140,7 +144,6 @@ std::int64_t run_trials(const Study& study, std::span<const RowRange> ranges,
   BlockSource source(
       ranges, std::clamp(static_cast<std::int64_t>(block_size), std::int64_t{1}, most_trials_per_block));
   ShardWriter writer(study, directory);
-  std::int64_t done = 0;
 
   const auto next_block = [&](tbb::flow_control& control) -> RowRange {
     std::optional<RowRange> block = stop.stop_requested() ? std::nullopt : source.next();
@@ -160,7 +163,6 @@ std::int64_t run_trials(const Study& study, std::span<const RowRange> ranges,
   const auto write_block = [&](const Block& block) {
     const auto trials = static_cast<std::int64_t>(block->size());
     writer.take(std::move(*block));
-    done += trials;
     if (settings.finished) settings.finished(trials);
   };
   const auto pipeline = [&] {
@@ -171,7 +173,7 @@ std::int64_t run_trials(const Study& study, std::span<const RowRange> ranges,
   };
   tbb::task_arena(threads).execute(pipeline);
   writer.flush();
-  return done;
+  return writer.written();
 }
 
 }  // namespace zerocount

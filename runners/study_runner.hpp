@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <stop_token>
+#include <vector>
 
 #include "experiments/study.hpp"
 #include "results/row_range.hpp"
@@ -29,9 +30,9 @@ struct RunSettings {
 /// Blocks of trials run in parallel; one of them at a time, in order of rows, is taken over by the writer. A
 /// shard is written when it is large enough or old enough, so memory and the work that a crash can lose are
 /// bounded. Where `stop` is requested, no new block is begun, and what is finished is written.
-/// @returns the number of trials run.
-std::int64_t run_trials(const Study& study, std::span<const RowRange> ranges,
-                        const std::filesystem::path& directory, const RunSettings& settings,
-                        std::stop_token stop);
+/// @returns the shards written, in order of rows.
+std::vector<ShardInfo> run_trials(const Study& study, std::span<const RowRange> ranges,
+                                  const std::filesystem::path& directory, const RunSettings& settings,
+                                  std::stop_token stop);
 
 }  // namespace zerocount

@@ -85,7 +85,7 @@ TEST_F(CommandLine, ManifestErrorsAreAllReportedWithTheirPlace) {
   const ProgramResult result = run({"check", "bad.yaml"});
   EXPECT_EQ(result.code, 2);
   for (const char* place : {"bad.yaml:5:1: frictoin", "bad.yaml:6:16: friction.k1",
-                            "bad.yaml:6:23: friction.n", "bad.yaml:7:32: command.hold"}) {
+                            "bad.yaml:6:23: friction.n", "bad.yaml:7:31: command.hold"}) {
     EXPECT_NE(result.err.find(place), std::string::npos) << place << "\n" << result.err;
   }
 }
@@ -94,7 +94,7 @@ TEST_F(CommandLine, CheckPrintsThePlanAndTheCriteria) {
   folder_.write("study.yaml", "zerocount: 1\nname: rig\nseed: 1\ntrials: 10\ncommand: {targets: [5]}\n");
   const ProgramResult result = run({"check", "study.yaml"});
   EXPECT_EQ(result.code, 0) << result.err;
-  for (const char* text : {"1 design points × 10 trials", "3.85e-05", "3.01e-04", "3.57e-05", "198"}) {
+  for (const char* text : {"1 design point × 10 trials", "3.85e-05", "3.01e-04", "3.57e-05", "198"}) {
     const std::string short_form = std::string(text) == "3.01e-04" ? "0.000301" : text;
     EXPECT_NE(result.out.find(short_form), std::string::npos) << short_form << "\n" << result.out;
   }

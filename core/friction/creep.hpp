@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,10 +27,10 @@ inline double torque_of_limit(const FrictionParameters& friction, double hardeni
 }
 
 /// The |σ| (N m) beyond which creep goes on in a contact hardened to `hardening` (rad); infinite where α is
-/// 0.
+/// 0. Never below 1e-14 of the breakaway torque, because the sign of a smaller σ is a matter of rounding.
 inline double creep_onset_torque(const FrictionParameters& friction, double hardening) {
   if (friction.alpha == 0.0) return std::numeric_limits<double>::infinity();
-  return torque_of_limit(friction, hardening);
+  return std::max(torque_of_limit(friction, hardening), 1e-14 * friction.breakaway);
 }
 
 /// The exact state after `duration` (s) at the constant torque σ (N m): xh relaxes to its limit as exp(−αt).

@@ -100,8 +100,10 @@ double step_within(const Series& position, const Series& velocity, const Series&
                           t * (std::abs(position[series_order]) + t * std::abs(velocity[series_order])));
   };
   double t = longest;
-  for (double terms = last_terms(t); terms > tolerance && t > 0.0; terms = last_terms(t)) {
-    t *= std::clamp(0.9 * std::pow(tolerance / terms, 1.0 / static_cast<double>(series_order)), 0.01, 0.9);
+  for (;;) {
+    const double excess = last_terms(t) / (tolerance * t / longest);
+    if (!(excess > 1.0) || t == 0.0) break;
+    t *= std::clamp(0.9 * std::pow(excess, -1.0 / static_cast<double>(series_order)), 0.01, 0.9);
   }
   const double highest = std::max(exponent[0] + most_exponent_growth, negligible_exponent);
   while (exponent[0] + growth_bound(exponent, t) > highest && t > 0.0) t *= 0.7;

@@ -45,8 +45,9 @@ SlidingSeries sliding_series(const PlantParameters& plant, const FrictionParamet
 
 /// The longest step t ≤ `longest` (s) over which both hold:
 /// - the last two terms of the series of a position, and those of its velocity times t, stay below
-/// `tolerance` (rad). Two terms,
-///   because one may vanish by chance;
+/// `tolerance`·t/longest
+///   (rad), so that the steps of a whole interval leave out no more than `tolerance`. Two terms, because one
+///   may vanish by chance;
 /// - the exponent of the motion's one exponential grows by at most 6, or stays below −40. The terms zᵏ/k! of
 /// exp(z) rise up to
 ///   k = z: beyond that growth the last terms kept may be small before the largest have come.

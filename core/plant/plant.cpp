@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -182,8 +183,7 @@ double Plant::stick(double torque, double duration) {
       creeping_ = true;
       break;
     case Event::creep_off:
-      creeping_ = false;
-      creep_onset_torque_ = creep_onset_torque(contact_, creep_.hardening + tolerance_.elongation);
+      end_creep();
       break;
     case Event::breakaway:
       break_away(sign_of(omega_));
@@ -198,13 +198,23 @@ double Plant::stick(double torque, double duration) {
   return next.time;
 }
 
+void Plant::end_creep() {
+  creeping_ = false;
+  // The onset lies beyond the rounding of σ, or creep would set in again at once where σ moves by less than
+  // that per step.
+  const double torque = std::abs(spring_.torque());
+  const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *
+                          (torque + (contact_.k1 + contact_.k2) * std::abs(spring_.elongation()));
+  creep_onset_torque_ =
+      std::max(creep_onset_torque(contact_, creep_.hardening + tolerance_.elongation), torque + rounding);
+}
+
 void Plant::hold_at_rest(double duration) {
   if (creeping_) {
     const double torque = spring_.torque();
     creep_ = creep_at_constant_torque(contact_, creep_, torque, duration);
     if (hardening_limit(contact_, torque) - creep_.hardening < 0.5 * tolerance_.elongation) {
-      creeping_ = false;
-      creep_onset_torque_ = creep_onset_torque(contact_, creep_.hardening + tolerance_.elongation);
+      end_creep();
     }
   }
   omega_ = creep_rate();

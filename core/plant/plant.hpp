@@ -58,6 +58,7 @@ class Plant {
   double stick(double torque, double duration);  // both return the time used, at most duration
   double slide(double torque, double duration);
   void hold_at_rest(double duration);
+  void end_creep();
   void break_away(double direction);
   void re_stick();
   double creep_rate() const;

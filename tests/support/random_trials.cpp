@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <random>
 
 namespace zerocount::testing {
@@ -94,13 +95,57 @@ void choose_loop(Draws& draws, TrialKind kind, TrialParameters& p) {
       p.command.hold = draws.uniform(0.05, 0.15);
       for (std::int64_t& target : p.command.targets) target = draws.sign() * draws.integer(100, 8000);
       return;
+    case TrialKind::unlike_the_paper:
+      return;  // chosen elsewhere
   }
+}
+
+/// A rig with nothing in common with the paper's: every number over orders of magnitude, the gains scaled to
+/// stay near the stability bounds.
+TrialParameters unlike_the_paper(Draws& draws) {
+  TrialParameters p;
+  p.plant = {draws.log_uniform(5e-5, 5e-2), draws.log_uniform(0.01, 3.0),
+             draws.chance(0.3) ? 0.0 : draws.log_uniform(1e-4, 0.1)};
+  FrictionParameters& f = p.friction.uniform;
+  f.k1 = draws.log_uniform(10.0, 2000.0);
+  f.k2 = draws.chance(0.15) ? 0.0 : draws.log_uniform(10.0, 20000.0);
+  f.beta = draws.log_uniform(1e3, 3e6);
+  f.alpha = draws.chance(0.2) ? 0.0 : draws.log_uniform(0.01, 60.0);
+  f.lambda = draws.log_uniform(0.1, 1e4);
+  constexpr double exponents[] = {1.0, 1.2, 1.5, 2.0, 2.7, 3.0};
+  f.n = exponents[draws.integer(0, 5)];
+  f.breakaway = draws.log_uniform(0.005, 0.5);
+  f.coulomb_ratio = draws.chance(0.25) ? 1.0 : draws.uniform(0.2, 1.0);
+  f.stribeck_velocity = draws.log_uniform(1e-4, 3.0);
+  p.encoder.fine = std::floor(draws.log_uniform(1e4, 1e7));
+  p.dac.bits = static_cast<int>(draws.integer(8, 16));
+  p.dac.resolution = std::ldexp(1.0, -p.dac.bits);
+
+  ControllerParameters& c = p.controller;
+  c.sample_rate = std::floor(draws.log_uniform(100.0, 30000.0));
+  c.delay = static_cast<int>(draws.integer(0, 2));
+  c.anti_windup = draws.chance(0.25) ? AntiWindup::none : AntiWindup::clamp;
+  const double count = 2.0 * std::numbers::pi / p.encoder.fine;
+  const double lowest_bound =
+      p.plant.presliding_damping * f.k1 / p.plant.inertia * count / c.sample_rate / 2.0;
+  c.ki = lowest_bound * draws.log_uniform(0.05, 3.0);
+  c.kp = draws.chance(0.5) ? 0.0 : f.k1 * count * draws.log_uniform(0.1, 2.0);
+  c.kd = draws.chance(0.7)
+             ? 0.0
+             : p.plant.presliding_damping * count * c.sample_rate * draws.log_uniform(0.01, 0.3);
+  const std::int64_t farthest = draws.chance(0.25) ? 3000 : 40;
+  p.command = {{draws.integer(-farthest, farthest), draws.integer(-farthest, farthest)},
+               150.0 / c.sample_rate};
+  p.initial = {draws.uniform(0.0, 1.0), 0.0, draws.chance(0.7) ? 0.0 : draws.log_uniform(1e-8, 1e-5),
+               draws.chance(0.7) ? 0.0 : draws.uniform(-0.9, 0.9) * f.breakaway};
+  return p;
 }
 
 }  // namespace
 
 TrialParameters random_trial(TrialKind kind, std::uint64_t index) {
   Draws draws(20020721 + 1'000'003 * static_cast<std::uint64_t>(kind) + 7919 * index);
+  if (kind == TrialKind::unlike_the_paper) return unlike_the_paper(draws);
   TrialParameters p;
   p.plant.inertia = draws.uniform(4e-4, 8e-4);
   p.plant.presliding_damping = draws.uniform(0.1, 0.4);

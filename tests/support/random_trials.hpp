@@ -8,9 +8,10 @@ namespace zerocount::testing {
 
 /// Kinds of random trials, by what the loop does with them.
 enum class TrialKind {
-  calm,          ///< a few counts at low gain: settles, creeps, jerks; the hook holds
-  ringing,       ///< gains around and above the stability bounds
-  breaking_away  ///< thousands of counts or large gains: breakaway, slides, re-sticks
+  calm,             ///< a few counts at low gain: settles, creeps, jerks; the hook holds
+  ringing,          ///< gains around and above the stability bounds
+  breaking_away,    ///< thousands of counts or large gains: breakaway, slides, re-sticks
+  unlike_the_paper  ///< other rigs: every parameter over orders of magnitude
 };
 
 /// The parameters of random trial `index` of a kind: always the same for the same arguments. All parameters

@@ -1,0 +1,94 @@
+#include "tests/analysis/study_files.hpp"
+
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include <stdlib.h>
+
+#include "experiments/sha256.hpp"
+#include "results/merge.hpp"
+#include "results/shard.hpp"
+
+namespace zerocount::test {
+
+Study plain_study(std::int64_t points, std::int64_t trials, std::int64_t moves) {
+  Study study;
+  study.name = "plain";
+  study.seed = 1;
+  study.trials = trials;
+  study.moves = moves;
+  study.manifest_text = "zerocount: 1\n";
+  study.manifest_sha256 = sha256_hex(study.manifest_text);
+  study.study_sha256 = study.manifest_sha256;
+  SweepAxis axis{"controller.ki", "N m/count", "integral gain", SweepAxis::Kind::number, {}, {}};
+  for (std::int64_t point = 0; point < points; ++point) {
+    study.point_labels.push_back("point " + std::to_string(point));
+    axis.numbers.push_back(1e-5 * static_cast<double>(point + 1));
+  }
+  study.axes = {axis};
+  return study;
+}
+
+TrialRecord random_trial(std::int64_t row, std::int64_t moves) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(row) + 1);
+  std::normal_distribution<double> normal;
+  TrialRecord trial;
+  for (std::int64_t index = 0; index < moves; ++index) {
+    MoveOutcome move;
+    move.outcome = static_cast<Outcome>(random() % 4);
+    move.arrived = random() % 4 != 0;
+    if (move.arrived) {
+      move.arrival = static_cast<std::int64_t>(random() % 300);
+      move.settling_time = static_cast<double>(move.arrival) / 2000.0;
+      move.stable = random() % 3 != 0;
+      move.jerk_count = static_cast<std::int64_t>(random() % 30);
+    }
+    move.broke_away = random() % 5 == 0;
+    move.saturated = random() % 9 == 0;
+    move.overshoot = static_cast<std::int64_t>(random() % 5);
+    move.holding_torque = 0.01 * normal(random);
+    move.peak_torque = 0.05;
+    move.creep = 1e-7 * normal(random);
+    move.reversal_depth = static_cast<std::int64_t>(random() % 12);
+    std::int64_t sample = move.arrival + 100;
+    for (std::int64_t count = 0; count < move.jerk_count; ++count) {
+      sample += 1 + static_cast<std::int64_t>(random() % 200);
+      const auto magnitude = static_cast<std::int64_t>(1 + random() % 2);
+      trial.jerks.push_back(
+          {index, static_cast<double>(sample) / 2000.0, 0.0005, magnitude, random() % 2 == 0 ? 1 : -1});
+    }
+    trial.outcome.moves.push_back(move);
+  }
+  return trial;
+}
+
+void write_study_file(const std::filesystem::path& path, const Study& study,
+                      const std::vector<TrialRecord>& trials) {
+  std::vector<TrialResult> results(trials.size());
+  for (std::size_t row = 0; row < trials.size(); ++row) {
+    results[row].row = static_cast<std::int64_t>(row);
+    results[row].inputs.assign(study.input_columns.size(), 0.0);
+    results[row].outcome = trials[row].outcome;
+    results[row].jerks = trials[row].jerks;
+  }
+  const RowRange rows{0, static_cast<std::int64_t>(trials.size())};
+  const std::filesystem::path shard = path.string() + ".shard.h5";
+  write_shard(shard, study, 0, results);
+  const std::vector<ShardInfo> shards{{shard, rows}};
+  merge_shards(shards, study, path, rows, {});
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "zerocount-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace zerocount::test

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "core/trial/outcome.hpp"
+#include "experiments/study.hpp"
+
+namespace zerocount::test {
+
+/// What a test says of one trial.
+struct TrialRecord {
+  TrialOutcome outcome;
+  std::vector<Jerk> jerks;
+};
+
+/// A study of this size without a manifest that could be read: names, labels and one axis.
+Study plain_study(std::int64_t points, std::int64_t trials, std::int64_t moves);
+
+/// Some trial with `moves` moves: random, a function of the row alone. Some have no jerks, some dozens.
+TrialRecord random_trial(std::int64_t row, std::int64_t moves);
+
+/// Writes the results file of `study` with these trials, [row], by way of one shard in the folder of `path`.
+void write_study_file(const std::filesystem::path& path, const Study& study,
+                      const std::vector<TrialRecord>& trials);
+
+/// A folder that is removed with all it holds.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder();
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace zerocount::test

@@ -1,0 +1,154 @@
+#include "analysis/study_statistics.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "analysis/point_accumulator.hpp"
+#include "analysis/summary.hpp"
+#include "core/failure.hpp"
+#include "results/study_file.hpp"
+#include "tests/analysis/study_files.hpp"
+
+namespace zerocount {
+namespace {
+
+std::vector<test::TrialRecord> random_trials(const Study& study) {
+  std::vector<test::TrialRecord> trials;
+  for (std::int64_t row = 0; row < trial_count(study); ++row)
+    trials.push_back(test::random_trial(row, study.moves));
+  return trials;
+}
+
+/// Every number of the statistics as text: equal text is equal statistics.
+std::string text_of(const Study& study, const std::vector<PointSummary>& points) {
+  return summary_json_text({study.name, study.point_labels, study.axes, {}, points, {}});
+}
+
+void expect_refused(const Study& study, const std::vector<test::TrialRecord>& trials,
+                    const std::string& place) {
+  const test::TemporaryFolder folder;
+  test::write_study_file(folder.path() / "study.h5", study, trials);
+  const StudyFile file(folder.path() / "study.h5");
+  try {
+    study_statistics(file);
+    FAIL() << "expected a failure that names " << place;
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::bad_data);
+    EXPECT_NE(std::string(failure.what()).find("study.h5"), std::string::npos) << failure.what();
+    EXPECT_NE(std::string(failure.what()).find(place), std::string::npos) << failure.what();
+  }
+}
+
+TEST(StudyStatistics, OfAFileAreThoseOfItsTrials) {
+  // More trials and more jerks than are read at once, and points that do not end where a block does.
+  const Study study = test::plain_study(5, 1700, 2);
+  const std::vector<test::TrialRecord> trials = random_trials(study);
+  std::vector<PointSummary> expected;
+  std::size_t jerks = 0;
+  for (std::int64_t point = 0; point < point_count(study); ++point) {
+    PointAccumulator accumulator;
+    for (std::int64_t index = 0; index < study.trials; ++index) {
+      const test::TrialRecord& trial = trials[static_cast<std::size_t>(point * study.trials + index)];
+      accumulator.add(trial.outcome, trial.jerks);
+      jerks += trial.jerks.size();
+    }
+    expected.push_back(accumulator.statistics());
+  }
+  ASSERT_GT(jerks, 65536U);
+
+  const test::TemporaryFolder folder;
+  test::write_study_file(folder.path() / "study.h5", study, trials);
+  EXPECT_EQ(text_of(study, study_statistics(StudyFile(folder.path() / "study.h5"))),
+            text_of(study, expected));
+}
+
+TEST(StudyStatistics, EachPointHasAllOfItsTrialsAndNoOther) {
+  const Study study = test::plain_study(7, 3, 1);
+  std::vector<test::TrialRecord> trials(21);
+  for (std::int64_t row = 0; row < 21; ++row) {
+    MoveOutcome move;
+    move.outcome = row / 3 == 4 ? Outcome::zero_count : Outcome::oscillating;
+    trials[static_cast<std::size_t>(row)].outcome.moves = {move};
+  }
+  const test::TemporaryFolder folder;
+  test::write_study_file(folder.path() / "study.h5", study, trials);
+  const std::vector<PointSummary> points = study_statistics(StudyFile(folder.path() / "study.h5"));
+  ASSERT_EQ(points.size(), 7U);
+  for (std::size_t point = 0; point < 7; ++point) {
+    EXPECT_EQ(points[point].trials, 3);
+    EXPECT_EQ(points[point].outcomes.zero_count, point == 4 ? 3 : 0);
+  }
+}
+
+TEST(StudyStatistics, AFileThatContradictsItselfIsRefusedWithTheTrial) {
+  const Study study = test::plain_study(2, 10, 1);
+  std::vector<test::TrialRecord> trials = random_trials(study);
+  for (test::TrialRecord& trial : trials) {
+    trial.jerks.clear();
+    trial.outcome.moves[0].jerk_count = 0;
+  }
+  const Jerk jerk{0, 0.5, 0.01, 1, 1};
+
+  std::vector<test::TrialRecord> missing = trials;
+  missing[13].outcome.moves[0].jerk_count = 1;
+  expect_refused(study, missing, "trial 13");
+
+  std::vector<test::TrialRecord> shifted = missing;
+  shifted[14].jerks = {jerk};
+  expect_refused(study, shifted, "trial 13");
+
+  std::vector<test::TrialRecord> left_over = trials;
+  left_over[19].jerks = {jerk};
+  expect_refused(study, left_over, "beyond those");
+
+  std::vector<test::TrialRecord> unordered = trials;
+  unordered[5].outcome.moves[0].jerk_count = 2;
+  unordered[5].jerks = {jerk, jerk};
+  expect_refused(study, unordered, "trial 5");
+}
+
+TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
+  const Study study = parse_study(
+      "zerocount: 1\n"
+      "name: two gains\n"
+      "seed: 5\n"
+      "trials: 30\n"
+      "command: {targets: [10], hold: 0.2}\n"
+      "friction: {k1: {choice: [100, 120]}}\n"
+      "sweep: {cases: {low: {controller.ki: 3.85e-5}, high: {controller.ki: 4.0e-4}}}\n"
+      "observed: {low: stable in all tests}\n",
+      "test");
+  const std::vector<test::TrialRecord> trials = random_trials(study);
+  const test::TemporaryFolder folder;
+  test::write_study_file(folder.path() / "study.h5", study, trials);
+  const StudyFile file(folder.path() / "study.h5");
+  const StudySummary summary = summarise(file);
+
+  EXPECT_EQ(summary.name, "two gains");
+  EXPECT_EQ(summary.labels, study.point_labels);
+  EXPECT_EQ(text_of(study, summary.points), text_of(study, study_statistics(file)));
+  EXPECT_EQ(observed_at(summary, 0), "stable in all tests");
+  EXPECT_EQ(observed_at(summary, 1), "");
+
+  // (6) at k1 = 100 is 3.50e-5, at 120 it is 4.20e-5: it holds for the share of trials with the stiffer
+  // spring.
+  ASSERT_EQ(summary.predictions.size(), 2U);
+  std::int64_t stiff = 0;
+  for (std::int64_t i = 0; i < study.trials; ++i) {
+    stiff += study_trial(study, 0, i).parameters.friction.uniform.k1 == 120.0;
+  }
+  EXPECT_GT(stiff, 0);
+  EXPECT_LT(stiff, study.trials);
+  EXPECT_EQ(summary.predictions[0].trials, 30);
+  EXPECT_EQ(summary.predictions[0].stable, stiff);
+  EXPECT_EQ(verdict(summary.predictions[1]), "unstable");
+
+  const nlohmann::ordered_json json = summary_json(summary);
+  EXPECT_EQ(json["points"][0]["axes"]["case"], "low");
+}
+
+}  // namespace
+}  // namespace zerocount

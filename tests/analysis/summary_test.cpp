@@ -1,0 +1,208 @@
+#include "analysis/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "analysis/point_accumulator.hpp"
+#include "analysis/point_columns.hpp"
+#include "analysis/statistic_fields.hpp"
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+/// Statistics of `zero` trials that succeed at random times with jerks and `lost` that never arrive.
+PointSummary point_of(int zero, int lost) {
+  std::mt19937_64 random(51);
+  PointAccumulator point;
+  for (int i = 0; i < zero; ++i) {
+    MoveOutcome move;
+    move.outcome = Outcome::zero_count;
+    move.arrived = move.stable = true;
+    move.settling_time = static_cast<double>(random() % 400) / 2000.0;
+    move.holding_torque = 0.013 + 1e-5 * static_cast<double>(random() % 1000);
+    move.jerk_count = 2;
+    const double onset = static_cast<double>(random() % 1000) / 2000.0;
+    point.add({{move}}, std::vector<Jerk>{{0, onset, 0.001, 1, 1}, {0, onset + 0.1, 0.001, 1, -1}});
+  }
+  for (int i = 0; i < lost; ++i) {
+    MoveOutcome move;
+    move.outcome = Outcome::oscillating;
+    point.add({{move}}, {});
+  }
+  return point.statistics();
+}
+
+StudySummary two_cases() {
+  StudySummary summary;
+  summary.name = "paper-gains";
+  summary.labels = {"low gain", "high, gain"};
+  summary.axes.push_back({"case", "", "case of the sweep", SweepAxis::Kind::text, {}, {"a", "b"}});
+  summary.axes.push_back(
+      {"controller.ki", "N m/count", "integral gain", SweepAxis::Kind::number, {3.85e-5, std::nan("")}, {}});
+  summary.observed = {{"low gain", "stable in all tests"}};
+  summary.points = {point_of(40, 0), point_of(0, 7)};
+  summary.predictions = {{40, 40, 0}, {7, 1, 2}};
+  return summary;
+}
+
+bool same_double(double a, double b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(SummaryJson, HasTheKeysOfTheContract) {
+  const auto json = nlohmann::json::parse(summary_json_text(two_cases()));
+  EXPECT_EQ(json["name"], "paper-gains");
+  ASSERT_EQ(json["points"].size(), 2U);
+  const auto& point = json["points"][0];
+  for (const char* count :
+       {"point", "trials", "zero_count", "one_count", "oscillating", "nonfinite", "stable", "broke_away"}) {
+    ASSERT_TRUE(point.contains(count)) << count;
+    EXPECT_TRUE(point[count].is_number_integer()) << count;
+  }
+  for (const char* rate : {"success_rate", "success_rate_low", "success_rate_high", "jerk_agreement"}) {
+    ASSERT_TRUE(point.contains(rate)) << rate;
+    EXPECT_TRUE(point[rate].is_number_float()) << rate;
+  }
+  EXPECT_EQ(point["label"], "low gain");
+  EXPECT_EQ(point["axes"]["case"], "a");
+  EXPECT_EQ(point["axes"]["controller.ki"], 3.85e-5);
+  EXPECT_EQ(point["trials"], 40);
+  EXPECT_EQ(point["settling_time"]["n"], 40);
+  EXPECT_TRUE(point["settling_time"].contains("median"));
+  EXPECT_TRUE(point["settling_time"].contains("p95"));
+  EXPECT_EQ(point["jerk_count"]["mean"], 2.0);
+  EXPECT_EQ(point["jerk_agreement"], 0.5);
+  EXPECT_EQ(point["success_rate"], 1.0);
+  EXPECT_NEAR(point["success_rate_low"].get<double>(), std::pow(0.025, 1.0 / 40.0),
+              1e-12);  // Clopper–Pearson
+  EXPECT_EQ(point["success_rate_high"], 1.0);
+  EXPECT_EQ(point["moves"].size(), 1U);
+  EXPECT_EQ(point["observed"], "stable in all tests");
+  EXPECT_EQ(point["prediction"]["verdict"], "stable");
+}
+
+TEST(SummaryJson, WhatIsNotDefinedIsNull) {
+  const auto json = nlohmann::json::parse(summary_json_text(two_cases()));
+  const auto& lost = json["points"][1];
+  EXPECT_EQ(lost["success_rate"], 0.0);
+  EXPECT_TRUE(lost["settling_time"]["median"].is_null());
+  EXPECT_TRUE(lost["jerk_agreement"].is_null());
+  EXPECT_TRUE(lost["axes"]["controller.ki"].is_null());
+  EXPECT_FALSE(lost.contains("observed"));
+  EXPECT_EQ(json["points"][0]["settling_time"]["p95_high"], nullptr);  // 40 trials are too few
+}
+
+TEST(SummaryJson, NumbersReadBackToTheSameDouble) {
+  const StudySummary summary = two_cases();
+  const auto json = nlohmann::json::parse(summary_json_text(summary));
+  for (std::size_t i = 0; i < summary.points.size(); ++i) {
+    for (const StatisticField& field : statistic_fields()) {
+      const auto& place =
+          field.group.empty() ? json["points"][i] : json["points"][i][std::string(field.group)];
+      const auto& written = place[std::string(field.name)];
+      const double value = field.value(summary.points[i]);
+      if (std::isnan(value)) {
+        EXPECT_TRUE(written.is_null()) << flat_name(field);
+      } else {
+        EXPECT_TRUE(same_double(written.get<double>(), value)) << flat_name(field);
+      }
+    }
+  }
+}
+
+TEST(SummaryJson, TextThatIsNotUtf8DoesNotStopIt) {
+  StudySummary summary = two_cases();
+  summary.labels[0] = "bad \xFF byte";
+  EXPECT_EQ(nlohmann::json::parse(summary_json_text(summary))["points"][0]["label"], "bad \uFFFD byte");
+}
+
+TEST(SummaryCsv, HasALinePerPointAndReadsBackToTheSameDoubles) {
+  const StudySummary summary = two_cases();
+  const std::vector<std::string> lines = lines_of(summary_csv(summary));
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[0].rfind("point,label,case,controller.ki,trials,zero_count,", 0), 0U);
+  EXPECT_EQ(lines[2].rfind("1,\"high, gain\",b,nan,7,0,0,7,0,", 0), 0U);
+
+  std::istringstream row(lines[1]);
+  std::string cell;
+  for (int skipped = 0; skipped < 4; ++skipped) std::getline(row, cell, ',');
+  for (const StatisticField& field : statistic_fields()) {
+    ASSERT_TRUE(std::getline(row, cell, ','));
+    const double value = field.value(summary.points[0]);
+    if (std::isnan(value)) {
+      EXPECT_EQ(cell, "nan") << flat_name(field);
+    } else {
+      EXPECT_TRUE(same_double(std::stod(cell), value)) << flat_name(field) << ": " << cell;
+    }
+  }
+  EXPECT_EQ(lines[1].substr(lines[1].size() - 30), "1,0,stable,stable in all tests");
+}
+
+TEST(SummaryTable, HasARowPerPointWithItsRateItsBoundsAndWhatIsKnownOfIt) {
+  const std::vector<std::string> lines = lines_of(summary_table(two_cases()));
+  ASSERT_GE(lines.size(), 6U);
+  EXPECT_EQ(lines[0], "paper-gains");
+  for (const char* part : {"low gain", "40", "100 %", "[91.2, 100.0]", "stable in all tests"}) {
+    EXPECT_NE(lines[4].find(part), std::string::npos) << part << " in: " << lines[4];
+  }
+  for (const char* part :
+       {"high, gain", "7", "0 %", "[0.0, 41.0]", "–", "(6) holds in 14.3 %, (7) exceeded in 28.6 %"}) {
+    EXPECT_NE(lines[5].find(part), std::string::npos) << part << " in: " << lines[5];
+  }
+}
+
+TEST(SummaryTable, LeavesOutWhatNoPointHas) {
+  StudySummary summary = two_cases();
+  summary.observed.clear();
+  summary.predictions.clear();
+  const std::string table = summary_table(summary);
+  EXPECT_EQ(table.find("observed"), std::string::npos);
+  EXPECT_EQ(table.find("(6)/(7)"), std::string::npos);
+}
+
+TEST(Summary, PartsOfDifferentLengthAreRefused) {
+  StudySummary summary = two_cases();
+  summary.axes[1].numbers.pop_back();
+  EXPECT_THROW(summary_json(summary), Failure);
+  EXPECT_THROW(summary_csv(summary), Failure);
+  EXPECT_THROW(summary_table(summary), Failure);
+}
+
+TEST(PointColumns, AreTheFieldsOfTheReportByPoint) {
+  const StudySummary summary = two_cases();
+  const std::vector<PointColumn> columns = point_columns(summary.points);
+  ASSERT_EQ(columns.size(), statistic_fields().size());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    EXPECT_EQ(columns[i].name, flat_name(statistic_fields()[i]));
+    EXPECT_FALSE(columns[i].unit.empty());
+    EXPECT_FALSE(columns[i].long_name.empty());
+    EXPECT_EQ(columns[i].values.size(), 2U);
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(columns[i].name, columns[j].name);
+  }
+  const auto success =
+      std::find_if(columns.begin(), columns.end(), [](const auto& c) { return c.name == "success_rate"; });
+  ASSERT_NE(success, columns.end());
+  EXPECT_EQ(success->values, (std::vector<double>{1.0, 0.0}));
+  const std::vector<PointColumn> predictions = prediction_columns(summary.predictions);
+  EXPECT_EQ(predictions[0].values, (std::vector<double>{1.0, 1.0 / 7.0}));
+  EXPECT_EQ(predictions[1].values, (std::vector<double>{0.0, 2.0 / 7.0}));
+}
+
+}  // namespace
+}  // namespace zerocount

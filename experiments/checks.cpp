@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -126,13 +128,14 @@ void check_points(const StudyPlan& plan, const PlanPlaces& places, Problems& pro
   if (any_swept(plan, slots)) {
     for (const PlanAxis& axis : plan.axes) points *= option_count(axis);
   }
-  std::set<std::string> reported;  // the same fault at many points is one
+  std::set<std::pair<Involved, std::string>> reported;  // the same fault at many points is one
   for (std::size_t point = 0; point < points && reported.size() < most_reported; ++point) {
     const std::vector<const Value*> values = values_at(plan, point);
     PointLimits limits{};
     for (std::size_t i = 0; i < slots.size(); ++i) limits[i] = limits_of(plan, *values[slots[i]]);
     for (const Fault& fault : find_faults(limits, plan.moves)) {
-      if (reported.insert(fault.what).second) report(plan, places, slots, fault, point, problems);
+      if (reported.insert({fault.between[0], fault.what}).second)
+        report(plan, places, slots, fault, point, problems);
     }
   }
 }

@@ -25,7 +25,7 @@ struct DistributionForm {
 /// All distributions, except `profile`.
 std::span<const DistributionForm> distribution_forms();
 
-/// The number form names, "uniform, log_uniform, …", for messages.
+/// The names, "uniform, log_uniform, …", for messages.
 std::string distribution_names();
 
 /// The distribution in `field`, the value of the key `form.name`. Reports what is wrong and returns nothing,

@@ -25,8 +25,8 @@ constexpr double longest_correlation_length = 6.283185307179586;
 ///
 /// The correlation wanted is ρ(d) = exp(−(d/ℓ)²), so that ρ(ℓ) = 1/e, wrapped on the circle and scaled to
 /// ρ(0) = 1: ρ(d) ∝ Σ_k exp(−((d + 2πk)/ℓ)²). By Poisson's summation formula its Fourier coefficients are S_0
-/// ∝ 1 and S_m ∝ 2·exp(−(mℓ/2)²), all positive, and ρ(d) = Σ S_m·cos(md). (Up to ℓ ≈ 2 rad the wrapping
-/// changes ρ(ℓ) by less than 1e-4·…; at longer ℓ the field tends to a constant over the rotor.) The series is
+/// ∝ 1 and S_m ∝ 2·exp(−(mℓ/2)²), all positive, and ρ(d) = Σ S_m·cos(md). Up to ℓ = 1.5 rad the wrapping
+/// changes ρ(ℓ) by less than 1e-4; at longer ℓ the field tends to a constant over the rotor. The series is
 /// cut where the rest holds less than 1e-12 of the variance, and scaled back to unit variance.
 std::vector<double> field_spectrum(double correlation_length);
 

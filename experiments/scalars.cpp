@@ -106,6 +106,16 @@ std::optional<Whole> read_whole_of(const Field& field, Whole low, Whole high, Pr
   return std::nullopt;
 }
 
+bool check_kind(const Field& field, YamlNode::Kind kind, const std::string& expected, Problems& problems) {
+  const YamlNode& node = *field.node;
+  if (node.kind == kind) return true;
+  const std::string what = node.kind == YamlNode::Kind::scalar
+                               ? fmt::format("the single value {} stands here", in_quotes(node.text))
+                               : describe(node);
+  problems.add(node.place, field.path, what, expected);
+  return false;
+}
+
 }  // namespace
 
 Field entry_of(const Field& map, const YamlEntry& entry) {
@@ -181,15 +191,11 @@ std::optional<std::string> read_text(const Field& field, Problems& problems) {
 }
 
 bool check_map(const Field& field, const std::string& expected, Problems& problems) {
-  if (field.node->kind == YamlNode::Kind::map) return true;
-  add_wrong_type(field, expected, problems);
-  return false;
+  return check_kind(field, YamlNode::Kind::map, expected, problems);
 }
 
 bool check_list(const Field& field, const std::string& expected, Problems& problems) {
-  if (field.node->kind == YamlNode::Kind::list) return true;
-  add_wrong_type(field, expected, problems);
-  return false;
+  return check_kind(field, YamlNode::Kind::list, expected, problems);
 }
 
 }  // namespace zerocount

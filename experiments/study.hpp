@@ -61,7 +61,7 @@ struct Study {
   std::vector<InputColumn> input_columns;
   std::vector<RealisedProfile> profiles;
   std::map<std::string, std::string>
-      observed;  ///< case label → what was observed on the real rig (manifest key `observed`)
+      observed;  ///< point label → what was observed on the real rig (a case's text at all its points)
   std::vector<std::int64_t> retained_trials;  ///< trial indices whose sample records are kept, at every point
   std::int64_t moves{1};                      ///< per trial
   std::vector<std::string> warnings;  ///< what is allowed but may surprise, a line each, with its place
@@ -84,9 +84,9 @@ inline std::int64_t trial_count(const Study& study) {
 }
 
 /// Reads, checks and understands a manifest.
-/// @throws Failure (bad_input) whose message lists every error, one a line, as `file:line:column: path: what;
-/// expected`;
-///         Failure (machine_failed) where the file cannot be read.
+/// @throws Failure (bad_input) whose message lists every error, one a line, as
+///         `file:line:column: path: what; expected`; likewise where there is no such file, or it is a
+///         directory or too large; Failure (machine_failed) where the file is there and cannot be read.
 Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides = {});
 
 /// As load_study, from text; `source` stands for the file's name in messages.

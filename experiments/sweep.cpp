@@ -5,9 +5,9 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "experiments/slots.hpp"
+#include "experiments/spacing.hpp"
 #include "experiments/unknown_key.hpp"
 
 namespace zerocount {
@@ -122,63 +122,6 @@ void read_listed(const Field& field, const SlotRange& slots, SweptAxis& axis, Sw
   }
 }
 
-struct Spacing {
-  double from;
-  double to;
-  std::size_t count;
-  bool logarithmic;
-};
-
-// To 15 digits, so that 2e-05 does not become 1.9999999999999998e-05 in a label.
-double without_rounding_noise(double value) {
-  return std::stod(fmt::format("{:.15g}", value));
-}
-
-double spaced(const Spacing& spacing, std::size_t i) {
-  if (i == 0) return spacing.from;
-  if (i + 1 == spacing.count) return spacing.to;
-  const double t = static_cast<double>(i) / static_cast<double>(spacing.count - 1);
-  if (!spacing.logarithmic) return without_rounding_noise(std::lerp(spacing.from, spacing.to, t));
-  return without_rounding_noise(std::exp(std::lerp(std::log(spacing.from), std::log(spacing.to), t)));
-}
-
-std::optional<Spacing> read_spacing(const Field& field, const std::string& name, Problems& problems) {
-  const bool logarithmic = name == "logspace";
-  const std::string expected = fmt::format("{}: [first value, last value, number of values]", name);
-  if (!check_list(field, expected, problems)) return std::nullopt;
-  if (field.node->items.size() != 3) {
-    problems.add(field.node->place, field.path,
-                 fmt::format("a list of {} stands here", field.node->items.size()), expected);
-    return std::nullopt;
-  }
-  const Interval range = logarithmic ? above(0.0) : all_numbers();
-  const auto from = read_real(item_of(field, 0), range, problems);
-  const auto to = read_real(item_of(field, 1), range, problems);
-  const auto count = read_whole(item_of(field, 2), 2, static_cast<std::int64_t>(most_points), problems);
-  if (!from || !to || !count) return std::nullopt;
-  if (*from == *to) {
-    problems.add(field.node->place, field.path, "the first and the last value are the same",
-                 "different values");
-    return std::nullopt;
-  }
-  return Spacing{*from, *to, static_cast<std::size_t>(*count), logarithmic};
-}
-
-std::vector<double> spaced_values(const Spacing& spacing) {
-  std::vector<double> values(spacing.count);
-  for (std::size_t i = 0; i < spacing.count; ++i) values[i] = spaced(spacing, i);
-  return values;
-}
-
-// As short as still tells the values apart: 2.44211e-05 where the value is 2.44211060013514e-05.
-std::vector<std::string> spaced_labels(const std::string& name, const std::vector<double>& values) {
-  std::vector<std::string> labels;
-  for (const double value : values) labels.push_back(fmt::format("{}={:.6g}", name, value));
-  if (std::adjacent_find(labels.begin(), labels.end()) == labels.end()) return labels;
-  for (std::size_t i = 0; i < values.size(); ++i) labels[i] = fmt::format("{}={}", name, values[i]);
-  return labels;
-}
-
 void read_spaced(const Field& sweep, const Field& field, const SlotRange& slots, SweptAxis& axis,
                  SweepReading& state) {
   const auto& entries = field.node->entries;
@@ -193,7 +136,7 @@ void read_spaced(const Field& sweep, const Field& field, const SlotRange& slots,
     return;
   }
   const Field inner = entry_of(field, entries[0]);
-  const auto spacing = read_spacing(inner, entries[0].key, state.reading.problems);
+  const auto spacing = read_spacing(inner, entries[0].key, most_points, state.reading.problems);
   if (!spacing || !check_point_count(sweep, spacing->count, state)) return;
   const std::vector<double> values = spaced_values(*spacing);
   std::vector<std::string> labels = spaced_labels(axis.name, values);
@@ -296,75 +239,6 @@ std::vector<SweptAxis> read_sweep(const Field& sweep, std::size_t moves, Reading
   if (const YamlEntry* grid = find_entry(*sweep.node, "grid"))
     read_grid(sweep, entry_of(sweep, *grid), axes, state);
   return axes;
-}
-
-std::vector<std::string> label_points(const std::vector<SweptAxis>& axes) {
-  std::vector<std::string> labels{axes.empty() ? "all" : ""};
-  for (const SweptAxis& axis : axes) {
-    std::vector<std::string> longer;
-    longer.reserve(labels.size() * axis.labels.size());
-    for (const std::string& label : labels) {
-      for (const std::string& option : axis.labels)
-        longer.push_back(label.empty() ? option : label + ", " + option);
-    }
-    labels = std::move(longer);
-  }
-  return labels;
-}
-
-namespace {
-
-SweepAxis empty_axis(std::size_t slot, std::size_t points) {
-  const Parameter& parameter = parameter_table()[row_of_slot(slot)];
-  SweepAxis axis;
-  axis.name = slot_name(slot);
-  axis.unit = parameter.unit;
-  axis.meaning = parameter.meaning;
-  if (parameter.kind == ParameterKind::enumeration) {
-    axis.kind = SweepAxis::Kind::text;
-    axis.unit.clear();
-    axis.texts.reserve(points);
-  } else {
-    axis.numbers.reserve(points);
-  }
-  return axis;
-}
-
-void append_value(SweepAxis& axis, std::size_t slot, const Value& value) {
-  if (axis.kind == SweepAxis::Kind::text) {
-    axis.texts.emplace_back(parameter_table()[slot].words[static_cast<std::size_t>(value.number)]);
-  } else {
-    axis.numbers.push_back(value.kind == Value::Kind::number ? value.number
-                                                             : std::numeric_limits<double>::quiet_NaN());
-  }
-}
-
-}  // namespace
-
-std::vector<SweepAxis> describe_axes(const std::vector<SweptAxis>& axes, const StudyPlan& plan) {
-  std::size_t points = 1;
-  for (const SweptAxis& axis : axes) points *= axis.labels.size();
-  std::vector<SweepAxis> described;
-  std::set<std::size_t> shown;
-  for (std::size_t a = 0; a < axes.size(); ++a) {
-    if (axes[a].cases) {
-      SweepAxis names;
-      names.name = axes[a].name;
-      names.meaning = "name of the case";
-      names.kind = SweepAxis::Kind::text;
-      for (std::size_t point = 0; point < points; ++point)
-        names.texts.push_back(axes[a].labels[option_at(plan, a, point)]);
-      described.push_back(std::move(names));
-    }
-    for (const std::size_t slot : axes[a].slots) {
-      if (!shown.insert(slot).second) continue;  // swept by the cases and by the grid
-      SweepAxis axis = empty_axis(slot, points);
-      for (std::size_t point = 0; point < points; ++point)
-        append_value(axis, slot, *value_at_point(plan, slot, point));
-      described.push_back(std::move(axis));
-    }
-  }
-  return described;
 }
 
 }  // namespace zerocount

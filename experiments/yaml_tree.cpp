@@ -5,12 +5,13 @@
 #include <set>
 #include <sstream>
 
-#include <boost/locale/utf.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
+
+#include "experiments/yaml_faults.hpp"
 
 namespace zerocount {
 namespace {
@@ -25,8 +26,12 @@ struct Refusal {
 
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(std::string_view source, bool one_line, Problems& problems)
-      : source_(source), one_line_(one_line), problems_(problems) {}
+  TreeBuilder(const std::string& text, std::string_view source, bool one_line, Problems& problems)
+      : text_(text), source_(source), one_line_(one_line), problems_(problems) {
+    for (std::size_t at = 0; at < text.size(); ++at) {
+      if (text[at] == '\n') line_starts_.push_back(at + 1);
+    }
+  }
 
   YamlPointer root() const { return root_; }
 
@@ -52,6 +57,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     refuse_tag(mark, tag);
+    if (tag != "?") refuse_unclosed_quotes(mark);
     YamlNode node;
     node.kind = YamlNode::Kind::scalar;
     node.place = place(mark);
@@ -74,6 +80,11 @@ class TreeBuilder : public YAML::EventHandler {
 
   [[noreturn]] void refuse(const Place& where, std::string what, std::string expected) const {
     throw Refusal{where, path(), std::move(what), std::move(expected)};
+  }
+
+  // Where the innermost list or map starts that has not ended; else the mark.
+  Place open_place(const YAML::Mark& mark) const {
+    return open_.empty() ? place(mark) : open_.back().node.place;
   }
 
   Place place(const YAML::Mark& mark) const {
@@ -114,6 +125,17 @@ class TreeBuilder : public YAML::EventHandler {
       refuse(place(mark), fmt::format("the tag {} is not understood", in_quotes(tag)),
              "a value without a tag");
     }
+  }
+
+  // yaml-cpp 0.7 takes a double-quoted text that the end of the file cuts off for complete.
+  void refuse_unclosed_quotes(const YAML::Mark& mark) const {
+    std::size_t at =
+        line_starts_[static_cast<std::size_t>(mark.line)] + static_cast<std::size_t>(mark.column);
+    if (at >= text_.size() || text_[at] != '"') return;
+    for (++at; at < text_.size() && text_[at] != '"'; ++at) {
+      if (text_[at] == '\\') ++at;
+    }
+    if (at >= text_.size()) refuse(place(mark), "a quotation mark is not closed", "valid YAML");
   }
 
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, YamlNode::Kind kind) {
@@ -182,6 +204,8 @@ class TreeBuilder : public YAML::EventHandler {
     }
   }
 
+  const std::string& text_;
+  std::vector<std::size_t> line_starts_{0};
   std::string_view source_;
   bool one_line_;
   Problems& problems_;
@@ -189,51 +213,6 @@ class TreeBuilder : public YAML::EventHandler {
   std::map<YAML::anchor_t, Anchored> anchored_;
   YamlPointer root_;
 };
-
-// What yaml-cpp found, in words for those who have not read the YAML specification.
-std::string syntax_fault(const std::string& message) {
-  using namespace YAML::ErrorMsg;
-  const auto starts = [&](const char* known) { return message.rfind(known, 0) == 0; };
-  if (starts(MAP_VALUE)) return "a ':' stands where no value can start";
-  if (starts(MAP_KEY)) return "a key stands where none can start";
-  if (starts(BLOCK_ENTRY)) return "a '-' stands where no list item can start";
-  if (starts(FLOW_END)) return "a closing bracket matches no opening one";
-  if (starts(END_OF_MAP) || starts(END_OF_MAP_FLOW))
-    return "a map is not complete (bracket, comma or indentation)";
-  if (starts(END_OF_SEQ) || starts(END_OF_SEQ_FLOW))
-    return "a list is not complete (bracket, comma or indentation)";
-  if (starts(TAB_IN_INDENTATION)) return "a tab stands in the indentation";
-  if (starts(EOF_IN_SCALAR)) return "a quotation mark is not closed";
-  if (starts(DOC_IN_SCALAR)) return "a document mark stands inside a quoted text";
-  if (starts(INVALID_ESCAPE) || starts(INVALID_HEX) || starts(INVALID_UNICODE)) {
-    return "an escape sequence in a quoted text is not known";
-  }
-  if (starts(UNKNOWN_ANCHOR) || starts(ALIAS_NOT_FOUND) || starts(ALIAS_CONTENT)) {
-    return "an alias names no anchor that stands before it";
-  }
-  if (starts(UNKNOWN_TOKEN)) return "a character stands here that can start nothing";
-  return "the text is not YAML from here on";
-}
-
-// The first place that is not UTF-8 text, or a place with line 0.
-Place first_bad_byte(const std::string& text, std::string_view source) {
-  int line = 1;
-  const char* line_start = text.data();
-  const char* const end = text.data() + text.size();
-  for (const char* p = text.data(); p != end;) {
-    const char* const start = p;
-    const auto code = boost::locale::utf::utf_traits<char>::decode(p, end);
-    const bool control = code < 0x20 && code != '\n' && code != '\r' && code != '\t';
-    if (code == boost::locale::utf::illegal || code == boost::locale::utf::incomplete || control) {
-      return {source, line, static_cast<int>(start - line_start) + 1};
-    }
-    if (code == '\n') {
-      ++line;
-      line_start = p;
-    }
-  }
-  return {source};
-}
 
 }  // namespace
 
@@ -245,7 +224,7 @@ YamlPointer parse_yaml(const std::string& text, std::string_view source, bool on
     problems.add(bad, whole, "this byte is not UTF-8 text", "a manifest in UTF-8 without control characters");
     return nullptr;
   }
-  TreeBuilder builder(source, one_line, problems);
+  TreeBuilder builder(text, source, one_line, problems);
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
@@ -255,7 +234,9 @@ YamlPointer parse_yaml(const std::string& text, std::string_view source, bool on
     problems.add(refusal.place, refusal.path, refusal.what, refusal.expected);
     return nullptr;
   } catch (const YAML::Exception& error) {
-    problems.add(builder.place(error.mark), whole, syntax_fault(error.msg), "valid YAML");
+    const bool cut_off = error.msg.rfind("end of ", 0) == 0 && error.mark.pos <= 0;  // its mark says nothing
+    problems.add(cut_off ? builder.open_place(error.mark) : builder.place(error.mark), whole,
+                 syntax_fault(error.msg), "valid YAML");
     return nullptr;
   }
   return builder.root();

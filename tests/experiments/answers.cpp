@@ -1,0 +1,93 @@
+// Prints, as JSON, what the judges in Python compare with their own computation.
+
+#include <iostream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "experiments/distribution_forms.hpp"
+#include "experiments/json_schema.hpp"
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// [{name, numbers, quantiles: [[u, x], …]}, …]
+Json distributions() {
+  const std::vector<std::pair<std::string, std::vector<double>>> examples{
+      {"uniform", {600, 900}},
+      {"log_uniform", {0.1, 2}},
+      {"normal", {-3, 2}},
+      {"truncated_normal", {110, 15, 90, 130}},
+      {"truncated_normal", {0, 1, 4, 6}},
+      {"truncated_normal", {0, 1, -6, -4}},
+      {"lognormal", {2e5, 0.2}},
+      {"lognormal", {1, 2}},
+      {"triangular", {0.25, 0.3, 0.35}},
+      {"integers", {-4, 30}},
+  };
+  Json all = Json::array();
+  for (const auto& [name, numbers] : examples) {
+    for (const DistributionForm& form : distribution_forms()) {
+      if (form.name != name) continue;
+      Json quantiles = Json::array();
+      for (const double u : {1e-12, 1e-6, 0.01, 0.123, 0.5, 0.77, 0.99, 1 - 1e-6}) {
+        quantiles.push_back({u, quantile(form.make(numbers), u)});
+      }
+      all.push_back({{"name", name}, {"numbers", numbers}, {"quantiles", quantiles}});
+    }
+  }
+  return all;
+}
+
+// Draws of a study with two parameters that are uniform on [1, 2), for each design: value − 1 is the uniform
+// number.
+Json draws() {
+  Json all = Json::array();
+  for (const char* design : {"monte_carlo", "sobol"}) {
+    for (const char* independent : {"false", "true"}) {
+      const Study study = study_of(
+          minimal_manifest("friction: {k1: {uniform: [1, 2]}}\ninitial: {position: {uniform: [1, 2]}}\n"),
+          {"seed=20020721", "trials=5000000000", std::string("design=") + design,
+           std::string("independent_points=") + independent, "sweep={grid: {controller.ki: [0, 1, 2]}}"});
+      for (const std::int64_t trial : {0L, 1L, 2L, 999L, 4'999'999'999L}) {
+        for (const std::int64_t point : {0L, 2L}) {
+          const std::vector<double> inputs = study_trial(study, point, trial).inputs;
+          all.push_back({{"design", design},
+                         {"independent", study.independent_points},
+                         {"seed", study.seed},
+                         {"point", point},
+                         {"trial", trial},
+                         {"friction.k1", inputs[column_of(study, "friction.k1")] - 1},
+                         {"initial.position", inputs[column_of(study, "initial.position")] - 1}});
+        }
+      }
+    }
+  }
+  return all;
+}
+
+int answer(const std::string& question) {
+  if (question == "distributions") {
+    std::cout << distributions().dump() << '\n';
+  } else if (question == "draws") {
+    std::cout << draws().dump() << '\n';
+  } else if (question == "schema") {
+    std::cout << json_schema().dump() << '\n';
+  } else if (question == "full_manifest") {
+    std::cout << full_manifest();
+  } else {
+    std::cerr << "expected distributions, draws, schema or full_manifest\n";
+    return 2;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace zerocount
+
+int main(int argc, char** argv) {
+  return zerocount::answer(argc == 2 ? argv[1] : "");
+}

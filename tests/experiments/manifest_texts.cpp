@@ -1,0 +1,67 @@
+#include "tests/experiments/manifest_texts.hpp"
+
+#include <stdexcept>
+
+namespace zerocount {
+
+std::string minimal_manifest(const std::string& more) {
+  return "zerocount: 1\n"
+         "name: test\n"
+         "seed: 1\n"
+         "trials: 10\n"
+         "command: {targets: [5]}\n" +
+         more;
+}
+
+std::string full_manifest() {
+  return R"(zerocount: 1                       # manifest version
+name: everything
+description: Every section once
+seed: 20020721
+trials: 1000                       # per design point
+design: monte_carlo
+independent_points: false
+plant:
+  inertia: 5.54e-4                 # kg m^2
+  presliding_damping: 0.2
+  sliding_damping: 1.0e-3
+friction:
+  k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.2, marginal: lognormal}}
+  k2: {uniform: [600, 900]}
+  beta: {lognormal: {median: 2.0e5, cv: 0.2}}
+  alpha: {log_uniform: [0.1, 2.0]}
+  lambda: 10
+  n: 2
+  breakaway: {triangular: [0.25, 0.3, 0.35]}
+  coulomb_ratio: 0.8
+  stribeck_velocity: 0.01
+encoder: {fine: 1620000, coarse: 86400}
+dac: {bits: 12, resolution: 2.4e-4}
+controller: {sample_rate: 2000, kp: 0, ki: 3.85e-5, kd: 0, delay: {choice: [0, 1]}, anti_windup: clamp}
+command: {targets: [{integers: [1, 30]}, 0], hold: 1.0}
+initial:
+  encoder_phase: {uniform: [0, 1]}
+  position: {normal: {mean: 3, sd: 1}}
+  hardening: 0
+  preload: {truncated_normal: {mean: 0, sd: 0.01, low: -0.02, high: 0.02}}
+verdict: {dwell: 0.05, window: 0.05}
+retain: {trials: [0, 7]}
+observed: {a: "stable", "b, controller.kp=0.0003, plant.inertia=0.0006": unstable}
+sweep:
+  cases: {a: {controller.ki: 3.85e-5}, b: {controller.ki: 9.45e-5, controller.anti_windup: none}}
+  grid: {controller.kp: [0, 3.0e-4], plant.inertia: {linspace: [5.0e-4, 6.0e-4, 3]}}
+)";
+}
+
+Study study_of(const std::string& text, const std::vector<std::string>& overrides) {
+  return parse_study(text, "m.yaml", overrides);
+}
+
+std::size_t column_of(const Study& study, const std::string& name) {
+  for (std::size_t i = 0; i < study.input_columns.size(); ++i) {
+    if (study.input_columns[i].name == name) return i;
+  }
+  throw std::invalid_argument("no input column " + name);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,142 @@
+#include <chrono>
+#include <cmath>
+#include <set>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount {
+namespace {
+
+const std::vector<std::string> designs{"monte_carlo", "latin_hypercube", "sobol"};
+
+std::vector<double> column(const Study& study, const std::string& name, std::int64_t point = 0) {
+  std::vector<double> values;
+  for (std::int64_t i = 0; i < study.trials; ++i) {
+    values.push_back(study_trial(study, point, i).inputs[column_of(study, name)]);
+  }
+  return values;
+}
+
+TEST(StudyTrial, DoesNotDependOnTheOrderOrTheThread) {
+  for (const std::string& design : designs) {
+    const Study study = study_of(full_manifest(), {"design=" + design});
+    std::vector<std::vector<double>> forward;
+    for (std::int64_t i = 0; i < 200; ++i) forward.push_back(study_trial(study, 2, i).inputs);
+    std::vector<std::vector<double>> backward(200);
+    const auto run = [&](std::int64_t first) {
+      for (std::int64_t i = 199 - first; i >= 0; i -= 4)
+        backward[static_cast<std::size_t>(i)] = study_trial(study, 2, i).inputs;
+    };
+    std::vector<std::thread> threads;
+    for (std::int64_t t = 0; t < 4; ++t) threads.emplace_back(run, t);
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(forward, backward) << design;
+  }
+}
+
+TEST(StudyTrial, AddingARandomParameterChangesNoOthersDraws) {
+  for (const std::string& design : designs) {
+    const std::string text = minimal_manifest("friction: {k2: {uniform: [1, 2]}}\n");
+    const Study before = study_of(text, {"design=" + design, "command.targets=[{integers: [1, 1000]}]"});
+    const Study after =
+        study_of(text, {"design=" + design, "command.targets=[{integers: [1, 1000]}, {integers: [0, 9]}]",
+                        "friction.k1={uniform: [1, 2]}", "verdict.dwell={uniform: [0.1, 0.2]}",
+                        "sweep={grid: {controller.ki: [0, 1]}}"});
+    EXPECT_EQ(column(before, "friction.k2"), column(after, "friction.k2")) << design;
+    EXPECT_EQ(column(before, "command.targets.0"), column(after, "command.targets.0")) << design;
+    EXPECT_NE(column(after, "friction.k2"), column(after, "friction.k1")) << design;
+  }
+}
+
+TEST(StudyTrial, MoreTrialsLeaveTheFirstOnesAloneExceptInALatinHypercube) {
+  for (const std::string design : {"monte_carlo", "sobol"}) {
+    const Study few = study_of(full_manifest(), {"design=" + design, "trials=10"});
+    const Study many = study_of(full_manifest(), {"design=" + design, "trials=1000000"});
+    for (std::int64_t i = 0; i < 10; ++i)
+      EXPECT_EQ(study_trial(few, 1, i).inputs, study_trial(many, 1, i).inputs);
+  }
+}
+
+TEST(StudyTrial, AllPointsShareTheDrawsUnlessTheyAreIndependent) {
+  for (const std::string& design : designs) {
+    const Study shared = study_of(full_manifest(), {"design=" + design});
+    EXPECT_EQ(column(shared, "friction.k2", 0), column(shared, "friction.k2", 5)) << design;
+    const Study independent = study_of(full_manifest(), {"design=" + design, "independent_points=true"});
+    EXPECT_NE(column(independent, "friction.k2", 0), column(independent, "friction.k2", 5)) << design;
+    EXPECT_NE(column(independent, "friction.k2", 0), column(shared, "friction.k2", 0)) << design;
+    // All points are on the same rotor, independent or not.
+    EXPECT_EQ(independent.profiles[0].profile->cosine, shared.profiles[0].profile->cosine);
+  }
+}
+
+TEST(StudyTrial, TheSeedChangesEverything) {
+  for (const std::string& design : designs) {
+    const Study one = study_of(full_manifest(), {"design=" + design, "seed=1"});
+    const Study two = study_of(full_manifest(), {"design=" + design, "seed=2"});
+    for (const char* name : {"friction.k1", "friction.k2", "command.targets.0", "initial.position"}) {
+      EXPECT_NE(column(one, name), column(two, name)) << design << " " << name;
+    }
+  }
+}
+
+// Every parameter of a stratified design has one trial in each stratum; of Monte Carlo trials, 1 − 1/e of the
+// strata are hit.
+TEST(StudyTrial, StratifiedDesignsFillEveryStratum) {
+  const std::string text = minimal_manifest(
+      "friction: {k1: {uniform: [1, 2]}, k2: {uniform: [1, 2]}}\n"
+      "initial: {position: {uniform: [1, 2]}}\n");
+  for (const std::string& design : designs) {
+    const Study study = study_of(text, {"design=" + design, "trials=1024"});
+    for (const char* name : {"friction.k1", "friction.k2", "initial.position"}) {
+      std::set<int> strata;
+      for (const double value : column(study, name)) strata.insert(static_cast<int>(1024 * (value - 1)));
+      if (design == "monte_carlo") {
+        EXPECT_NEAR(static_cast<double>(strata.size()), 1024 * (1 - std::exp(-1.0)), 5 * 11);
+      } else {
+        EXPECT_EQ(strata.size(), 1024u) << design << " " << name;
+      }
+    }
+  }
+}
+
+// For n independent uniforms the mean is within 5/√(12n) of ½ but once in 1.7 million, and the correlation
+// within 5/√n of 0.
+TEST(StudyTrial, DrawsAreUniformAndIndependentBetweenParameters) {
+  const Study study = study_of(minimal_manifest("friction: {k1: {uniform: [1, 2]}, k2: {uniform: [1, 2]}}\n"),
+                               {"trials=40000"});
+  const std::vector<double> k1 = column(study, "friction.k1");
+  const std::vector<double> k2 = column(study, "friction.k2");
+  const auto n = static_cast<double>(k1.size());
+  double mean = 0.0;
+  double product = 0.0;
+  double with_next = 0.0;
+  for (std::size_t i = 0; i < k1.size(); ++i) {
+    mean += (k1[i] - 1.5) / n;
+    product += 12 * (k1[i] - 1.5) * (k2[i] - 1.5) / n;
+    with_next += 12 * (k1[i] - 1.5) * (k1[(i + 1) % k1.size()] - 1.5) / n;
+  }
+  EXPECT_LT(std::abs(mean), 5 / std::sqrt(12 * n));
+  EXPECT_LT(std::abs(product), 5 / std::sqrt(n));
+  EXPECT_LT(std::abs(with_next), 5 / std::sqrt(n));
+}
+
+TEST(StudyTrial, IsFarQuickerThanATrial) {
+  for (const std::string& design : designs) {
+    const Study study = study_of(full_manifest(), {"design=" + design, "trials=1000000"});
+    constexpr int trials = 20000;
+    const auto start = std::chrono::steady_clock::now();
+    double sum = 0.0;
+    for (std::int64_t i = 0; i < trials; ++i) sum += study_trial(study, i % 12, i).inputs[1];
+    const double each =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / trials;
+    EXPECT_GT(sum, 0.0);
+    // A trial of 300 samples takes some 300 µs. Sanitizers and a busy machine are allowed for.
+    EXPECT_LT(each, 100e-6) << design;
+  }
+}
+
+}  // namespace
+}  // namespace zerocount

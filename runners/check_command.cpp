@@ -10,6 +10,7 @@
 #include "runners/commands.hpp"
 #include "runners/cost.hpp"
 #include "runners/progress.hpp"
+#include "runners/warnings.hpp"
 
 namespace zerocount {
 namespace {
@@ -103,6 +104,7 @@ void print_plan(const Study& study) {
 
 ExitCode check(const Arguments& arguments) {
   const Study study = load_study(arguments.operands()[0], arguments.values("set"));
+  warn(study);
   print_plan(study);
   fmt::print("\nTheory, over the first {} trials of each point, each with the k1 and k2 it starts on:\n",
              std::min(study.trials, most_trials_examined));

@@ -18,6 +18,7 @@
 #include "runners/interruption.hpp"
 #include "runners/progress.hpp"
 #include "runners/study_runner.hpp"
+#include "runners/warnings.hpp"
 
 namespace zerocount {
 namespace {
@@ -148,6 +149,7 @@ void remove_shards(const fs::path& directory, const std::vector<ShardInfo>& shar
 ExitCode run(const Arguments& arguments) {
   const fs::path output = arguments.required("output");
   const Study study = load_study(arguments.operands()[0], arguments.values("set"));
+  warn(study);
   const std::optional<std::string> part = arguments.value("shard");
   const RowRange wanted = part ? part_of(arguments, *part, study) : all_rows(study);
   const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));

@@ -98,7 +98,8 @@ TEST_P(SpringProperties, ClosedExcursionIsForgotten) {
   HystereticSpring spring(friction_);
   for (const double x : random_targets(random_, friction_.beta, 30)) spring.move_to(x);
   const int direction = spring.direction();
-  spring.move_to(spring.elongation() + direction * 5.0 * length_);  // so that the excursion below closes no older loop
+  spring.move_to(spring.elongation() +
+                 direction * 5.0 * length_);  // so that the excursion below closes no older loop
   const HystereticSpring before = spring;
   // Back, wander inside, and return: the loop closes and everything inside is wiped out.
   const double span = length_ * std::uniform_real_distribution<double>(0.1, 2.0)(random_);

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "results/fields.hpp"
+#include "results/layout.hpp"
+
+namespace zerocount::test {
+
+/// Equal in every bit of every field, NaN included.
+template <class Record>
+void expect_equal_records(const std::vector<Field<Record>>& fields, const std::vector<Record>& left,
+                          const std::vector<Record>& right) {
+  ASSERT_EQ(left.size(), right.size());
+  for (const Field<Record>& field : fields) {
+    EXPECT_EQ(gather(field, std::span<const Record>(left)), gather(field, std::span<const Record>(right)))
+        << field.column.name;
+  }
+}
+
+}  // namespace zerocount::test

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/failure.hpp"
+
+namespace zerocount::test {
+
+/// Expects `action` to throw Failure with this code and a message that contains `words`.
+inline void expect_failure(ExitCode code, const std::string& words, const std::function<void()>& action) {
+  try {
+    action();
+    ADD_FAILURE() << "no failure; expected one with '" << words << "'";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), code) << failure.what();
+    EXPECT_NE(std::string(failure.what()).find(words), std::string::npos) << failure.what();
+    EXPECT_EQ(std::string(failure.what()).find("H5"), std::string::npos)
+        << "text of the library: " << failure.what();
+  }
+}
+
+}  // namespace zerocount::test

@@ -1,0 +1,144 @@
+#include "tests/results/raw_hdf5.hpp"
+
+#include <stdexcept>
+#include <vector>
+
+#include <hdf5.h>
+
+#include "results/seal.hpp"
+
+namespace zerocount::test {
+namespace {
+
+hid_t checked(hid_t id) {
+  if (id < 0) throw std::runtime_error("the HDF5 library refuses");
+  return id;
+}
+
+hid_t open_file(const std::filesystem::path& path, unsigned flags) {
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  const hid_t file = H5Fopen(path.c_str(), flags, access);
+  H5Pclose(access);
+  return checked(file);
+}
+
+std::string describe(hid_t dataset, hid_t type) {
+  const hid_t space = H5Dget_space(dataset);
+  std::string text = "rank " + std::to_string(H5Sget_simple_extent_ndims(space));
+  text += " size " + std::to_string(H5Sget_simple_extent_npoints(space));
+  text += " class " + std::to_string(H5Tget_class(type)) + " bytes " + std::to_string(H5Tget_size(type));
+  const hid_t properties = H5Dget_create_plist(dataset);
+  text += " filters " + std::to_string(H5Pget_nfilters(properties)) + "\n";
+  H5Pclose(properties);
+  H5Sclose(space);
+  return text;
+}
+
+std::string texts_of(hid_t dataset, hid_t type) {
+  const hid_t space = H5Dget_space(dataset);
+  std::vector<char*> texts(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)), nullptr);
+  std::string joined;
+  if (!texts.empty()) {
+    H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data());
+    for (const char* text : texts) joined += std::string(text == nullptr ? "" : text) + "\n";
+    H5Dvlen_reclaim(type, space, H5P_DEFAULT, texts.data());
+  }
+  H5Sclose(space);
+  return joined;
+}
+
+std::string chunks_of(hid_t dataset) {
+  const hid_t space = H5Dget_space(dataset);
+  hsize_t chunks = 0;
+  H5Dget_num_chunks(dataset, space, &chunks);
+  std::string bytes;
+  for (hsize_t chunk = 0; chunk < chunks; ++chunk) {
+    hsize_t offset[2] = {0, 0};
+    hsize_t size = 0;
+    std::uint32_t mask = 0;
+    H5Dget_chunk_info(dataset, space, chunk, offset, &mask, nullptr, &size);
+    std::string content(size, '\0');
+    H5Dread_chunk(dataset, H5P_DEFAULT, offset, &mask, content.data());
+    bytes += std::to_string(offset[0]) + "," + std::to_string(offset[1]) + ":" + content;
+  }
+  H5Sclose(space);
+  return bytes;
+}
+
+herr_t visit(hid_t file, const char* name, const H5O_info_t* info, void* found) {
+  if (info->type != H5O_TYPE_DATASET) return 0;
+  const hid_t dataset = checked(H5Dopen2(file, name, H5P_DEFAULT));
+  const hid_t type = H5Dget_type(dataset);
+  (*static_cast<std::map<std::string, std::string>*>(found))[std::string("/") + name] =
+      describe(dataset, type) + (H5Tis_variable_str(type) > 0 ? texts_of(dataset, type) : chunks_of(dataset));
+  H5Tclose(type);
+  H5Dclose(dataset);
+  return 0;
+}
+
+void replace(const std::filesystem::path& path, const std::string& name, hid_t type, const void* value) {
+  unseal(path);
+  const hid_t file = open_file(path, H5F_ACC_RDWR);
+  H5Adelete(file, name.c_str());
+  const hid_t space = H5Screate(H5S_SCALAR);
+  const hid_t attribute = checked(H5Acreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT));
+  H5Awrite(attribute, type, value);
+  H5Sclose(space);
+  H5Fclose(file);
+  seal(path);
+}
+
+}  // namespace
+
+std::map<std::string, std::string> stored_datasets(const std::filesystem::path& path) {
+  const hid_t file = open_file(path, H5F_ACC_RDONLY);
+  std::map<std::string, std::string> datasets;
+  H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, visit, &datasets, H5O_INFO_BASIC);
+  H5Fclose(file);
+  return datasets;
+}
+
+void replace_attribute(const std::filesystem::path& path, const std::string& name, std::int64_t value) {
+  replace(path, name, H5T_NATIVE_INT64, &value);
+}
+
+void replace_attribute(const std::filesystem::path& path, const std::string& name, const std::string& value) {
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, H5T_VARIABLE);
+  const char* text = value.c_str();
+  replace(path, name, type, &text);
+  H5Tclose(type);
+}
+
+void remove_attribute(const std::filesystem::path& path, const std::string& name) {
+  unseal(path);
+  const hid_t file = open_file(path, H5F_ACC_RDWR);
+  H5Adelete(file, name.c_str());
+  H5Fclose(file);
+  seal(path);
+}
+
+void write_empty_hdf5(const std::filesystem::path& path) {
+  H5Fclose(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)));
+}
+
+void unseal(const std::filesystem::path& path) {
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - seal_length);
+}
+
+std::uint64_t chunk_address(const std::filesystem::path& path, const std::string& name) {
+  const hid_t file = open_file(path, H5F_ACC_RDONLY);
+  const hid_t dataset = checked(H5Dopen2(file, name.c_str(), H5P_DEFAULT));
+  const hid_t space = H5Dget_space(dataset);
+  hsize_t offset[2] = {0, 0};
+  std::uint32_t mask = 0;
+  haddr_t address = 0;
+  hsize_t size = 0;
+  H5Dget_chunk_info(dataset, space, 0, offset, &mask, &address, &size);
+  H5Sclose(space);
+  H5Fclose(file);
+  return address;
+}
+
+}  // namespace zerocount::test

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace zerocount::test {
+
+/// What is stored of every dataset of a file, by path: extent, type, filters, and the bytes of every chunk as
+/// they stand on the disk (for texts, which the library keeps elsewhere, the texts). Read with the library
+/// alone.
+std::map<std::string, std::string> stored_datasets(const std::filesystem::path& path);
+
+/// Changes an attribute of the root group, and seals the file anew.
+void replace_attribute(const std::filesystem::path& path, const std::string& name, std::int64_t value);
+void replace_attribute(const std::filesystem::path& path, const std::string& name, const std::string& value);
+void remove_attribute(const std::filesystem::path& path, const std::string& name);
+
+/// A file of the HDF5 format with nothing in it.
+void write_empty_hdf5(const std::filesystem::path& path);
+
+/// Takes the seal off the end of a file, so that it can be changed and sealed again.
+void unseal(const std::filesystem::path& path);
+
+/// Where in the file the first chunk of a dataset is stored.
+std::uint64_t chunk_address(const std::filesystem::path& path, const std::string& dataset);
+
+}  // namespace zerocount::test

@@ -1,0 +1,196 @@
+#include "tests/results/samples.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <random>
+
+#include <stdlib.h>
+
+#include "experiments/sha256.hpp"
+#include "results/header.hpp"
+
+namespace zerocount::test {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+SweepAxis sample_number_axis(std::int64_t points) {
+  SweepAxis axis{"controller.ki", "N m/count", "integral gain", SweepAxis::Kind::number, {}, {}};
+  for (std::int64_t point = 0; point < points; ++point) {
+    axis.numbers.push_back(point == 0 ? nan : 3.85e-5 * static_cast<double>(point));
+  }
+  return axis;
+}
+
+SweepAxis sample_case_axis(std::int64_t points) {
+  SweepAxis axis{"case", "", "named case of the sweep", SweepAxis::Kind::text, {}, {}};
+  for (std::int64_t point = 0; point < points; ++point)
+    axis.texts.push_back("Fall \u00e4, \"" + std::to_string(point) + "\"");
+  return axis;
+}
+
+MoveOutcome sample_move(std::mt19937_64& random, std::int64_t move, std::vector<Jerk>& jerks) {
+  std::normal_distribution<double> normal;
+  std::uniform_int_distribution<int> small(0, 9);
+  MoveOutcome outcome;
+  outcome.outcome = static_cast<Outcome>(small(random) % 4);
+  outcome.arrived = small(random) < 8;
+  if (outcome.arrived) {
+    outcome.arrival = small(random) * 10;
+    outcome.settling_time = static_cast<double>(outcome.arrival) / 2000.0;
+    outcome.stable = small(random) < 7;
+  }
+  outcome.broke_away = small(random) < 2;
+  outcome.saturated = small(random) < 1;
+  outcome.overshoot = small(random);
+  outcome.holding_torque = 0.01 * normal(random);
+  outcome.peak_torque = std::abs(outcome.holding_torque) + 0.01;
+  outcome.creep = 1e-7 * normal(random);
+  outcome.final_position = 1e-4 * normal(random);
+  outcome.reversal_depth = small(random);
+  outcome.jerk_count = outcome.arrived && small(random) < 6 ? small(random) / 2 : 0;
+  for (std::int64_t count = 0; count < outcome.jerk_count; ++count) {
+    const double onset = 0.1 * static_cast<double>(count) + 0.01;
+    jerks.push_back(
+        {move, onset, 0.0005 * (1 + small(random)), 1 + small(random) / 8, small(random) < 5 ? -1 : 1});
+    outcome.jerk_agreement = 0.5;
+  }
+  return outcome;
+}
+
+SampleRecord sample_record(std::int64_t k) {
+  const auto time = static_cast<double>(k);
+  return {k,           time / 2000.0,
+          10,          k / 3,
+          k / 60,      10 - k / 3,
+          k % 5,       2.4e-4 * static_cast<double>(k % 5),
+          1e-6 * time, 1e-3,
+          1e-9 * time, 2e-9 * time,
+          k % 4,       k % 7 == 6 ? HookMode::slide : HookMode::stick};
+}
+
+}  // namespace
+
+Study sample_study(std::int64_t points, std::int64_t trials, std::int64_t moves) {
+  Study study;
+  study.name = "sample";
+  study.seed = 0xfedcba9876543210ULL;
+  study.trials = trials;
+  study.moves = moves;
+  study.manifest_text =
+      "zerocount: 1\n# \u03bb, a comment\nname: sample\ntrials: " + std::to_string(trials) + "\n";
+  study.manifest_sha256 = sha256_hex(study.manifest_text);
+  study.overrides = {"trials=" + std::to_string(trials), "name=sample"};
+  study.study_sha256 = sha256_hex(study.manifest_text + std::to_string(points) + "," + std::to_string(moves));
+  for (std::int64_t point = 0; point < points; ++point)
+    study.point_labels.push_back("point " + std::to_string(point));
+  study.axes = {sample_number_axis(points), sample_case_axis(points)};
+  study.input_columns = {{"friction.k1", "N m/rad", "lowest stiffness"},
+                         {"command.targets.0", "count", "target"}};
+  auto profile = std::make_shared<Profile>();
+  profile->location = std::log(110.0);
+  profile->scale = 0.1;
+  profile->cosine = {0.0, 0.5};
+  profile->sine = {0.0, 0.25};
+  study.profiles = {{"friction.k1", "N m/rad", profile}};
+  study.retained_trials = {0};
+  return study;
+}
+
+TrialResult sample_result(const Study& study, std::int64_t row) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(row) + 1);
+  std::normal_distribution<double> normal;
+  TrialResult result;
+  result.row = row;
+  for (std::size_t input = 0; input < study.input_columns.size(); ++input)
+    result.inputs.push_back(normal(random));
+  for (std::int64_t move = 0; move < study.moves; ++move) {
+    result.outcome.moves.push_back(sample_move(random, move, result.jerks));
+  }
+  const std::int64_t index = row % study.trials;
+  for (const std::int64_t retained : study.retained_trials) {
+    for (std::int64_t k = 0; retained == index && k < 50; ++k) result.trace.push_back(sample_record(k));
+  }
+  return result;
+}
+
+std::vector<TrialResult> sample_results(const Study& study, RowRange rows) {
+  std::vector<TrialResult> results;
+  for (std::int64_t row = rows.first; row < rows.end(); ++row) results.push_back(sample_result(study, row));
+  return results;
+}
+
+Provenance sample_provenance() {
+  Provenance provenance = current_provenance();
+  provenance.created = "2002-07-21T12:00:00Z";
+  return provenance;
+}
+
+ShardInfo write_sample_shard(const std::filesystem::path& directory, const Study& study, RowRange rows) {
+  const std::filesystem::path path = shard_path(directory, rows);
+  write_shard(path, study, rows.first, sample_results(study, rows), sample_provenance());
+  return {path, rows};
+}
+
+std::vector<ShardInfo> write_sample_shards(const std::filesystem::path& directory, const Study& study,
+                                           RowRange rows, std::int64_t size) {
+  std::filesystem::create_directories(directory);
+  std::vector<ShardInfo> shards;
+  for (std::int64_t first = rows.first; first < rows.end(); first += size) {
+    shards.push_back(write_sample_shard(directory, study, {first, std::min(size, rows.end() - first)}));
+  }
+  return shards;
+}
+
+std::vector<PointColumn> sample_statistics(const StudyFile& file) {
+  const std::int64_t trials = file.header().trials;
+  PointColumn count{"trials", "1", "trials of the design point", {}};
+  PointColumn settling{"settling_time_mean", "s", "mean settling time of the first move", {}};
+  for (std::int64_t point = 0; point < file.header().points; ++point) {
+    const std::vector<double> times = file.measure("settling_time", {point * trials, trials});
+    double sum = 0.0;
+    double arrived = 0.0;
+    for (std::size_t i = 0; i < times.size(); i += static_cast<std::size_t>(file.moves())) {
+      if (std::isnan(times[i])) continue;
+      sum += times[i];
+      arrived += 1.0;
+    }
+    count.values.push_back(static_cast<double>(trials));
+    settling.values.push_back(sum / arrived);
+  }
+  return {count, settling};
+}
+
+std::filesystem::path write_sample_file(const std::filesystem::path& directory, const Study& study,
+                                        std::int64_t size) {
+  const std::filesystem::path path = directory / "sample.h5";
+  const std::vector<ShardInfo> shards =
+      write_sample_shards(shards_directory(path), study, all_rows(study), size);
+  merge_shards(shards, study, path, all_rows(study), sample_statistics, sample_provenance());
+  return path;
+}
+
+TemporaryDirectory::TemporaryDirectory() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "zerocount-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary directory");
+  path_ = pattern;
+}
+
+TemporaryDirectory::~TemporaryDirectory() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+}  // namespace zerocount::test

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/study.hpp"
+#include "results/merge.hpp"
+#include "results/shard.hpp"
+
+namespace zerocount::test {
+
+/// A study with two sweep axes (numbers and a case), two inputs, one profile and one retained trial. Nothing
+/// reads its manifest, which is any text.
+Study sample_study(std::int64_t points = 3, std::int64_t trials = 40, std::int64_t moves = 2);
+
+/// Some result of a row: random, a function of the row alone. Some trials have no jerks, some many.
+TrialResult sample_result(const Study& study, std::int64_t row);
+std::vector<TrialResult> sample_results(const Study& study, RowRange rows);
+
+/// The same for every call, so that whole files can be compared.
+Provenance sample_provenance();
+
+/// Writes one shard into `directory`.
+ShardInfo write_sample_shard(const std::filesystem::path& directory, const Study& study, RowRange rows);
+
+/// Writes the shards of `rows` cut into pieces of `size` rows.
+std::vector<ShardInfo> write_sample_shards(const std::filesystem::path& directory, const Study& study,
+                                           RowRange rows, std::int64_t size);
+
+/// Two statistics, computed from the file: trials per point, and the mean settling time of the first move.
+std::vector<PointColumn> sample_statistics(const StudyFile& file);
+
+/// A whole results file of the study, by way of shards of `size` rows.
+std::filesystem::path write_sample_file(const std::filesystem::path& directory, const Study& study,
+                                        std::int64_t size = 17);
+
+/// A directory that is removed with all it holds.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory();
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+  ~TemporaryDirectory();
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_bytes(const std::filesystem::path& path);
+void write_bytes(const std::filesystem::path& path, const std::string& bytes);
+
+}  // namespace zerocount::test

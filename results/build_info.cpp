@@ -1,9 +1,9 @@
 #include "results/build_info.hpp"
 
-#include <fmt/chrono.h>
-
 #include <chrono>
 #include <fstream>
+
+#include <fmt/chrono.h>
 
 #include "zerocount_git_commit.hpp"
 

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <filesystem>
 
-#include "results/header.hpp"
 #include "results/row_range.hpp"
 #include "results/table_io.hpp"
 
@@ -21,7 +20,7 @@ std::vector<Source> find_sources(const Table& table, std::span<const ShardInfo> 
   std::vector<Source> sources;
   std::int64_t next = 0;
   for (const ShardInfo& shard : shards) {
-    const hdf5::File file = open_results(shard.path);
+    const hdf5::File file = hdf5::File::open_to_read(shard.path);
     const TableIo io = TableIo::open(file, table);
     if (io.width() != width) io.row_scale().fail("its trials have another number of moves than the study");
     sources.push_back({shard.path, {next, io.rows()}});
@@ -38,10 +37,11 @@ void read_share(const Table& table, const Source& source, RowRange wanted, std::
   const std::int64_t first = std::max(source.rows.first, wanted.first);
   const std::int64_t count = std::min(source.rows.end(), wanted.end()) - first;
   if (count <= 0) return;
-  const hdf5::File file = open_results(source.path);
+  const hdf5::File file = hdf5::File::open_to_read(source.path);
   const TableIo io = TableIo::open(file, table);
   for (std::size_t index = 0; index < table.columns.size(); ++index) {
-    const auto offset = static_cast<std::size_t>((first - wanted.first) * width) * size_of(table.columns[index].element);
+    const auto offset =
+        static_cast<std::size_t>((first - wanted.first) * width) * size_of(table.columns[index].element);
     io.column(index).read(first - source.rows.first, count, block[index].data() + offset);
   }
 }
@@ -59,10 +59,12 @@ void concatenate(hdf5::File& file, const Table& table, std::span<const ShardInfo
   for (RowRange wanted; wanted.first < rows; wanted.first = wanted.end()) {
     wanted.count = std::min(chunk_rows(width), rows - wanted.first);
     for (std::size_t index = 0; index < block.size(); ++index) {
-      block[index].resize(static_cast<std::size_t>(wanted.count * width) * size_of(table.columns[index].element));
+      block[index].resize(static_cast<std::size_t>(wanted.count * width) *
+                          size_of(table.columns[index].element));
     }
     while (sources[next].rows.end() <= wanted.first) ++next;
-    for (std::size_t source = next; source < sources.size() && sources[source].rows.first < wanted.end(); ++source) {
+    for (std::size_t source = next; source < sources.size() && sources[source].rows.first < wanted.end();
+         ++source) {
       read_share(table, sources[source], wanted, width, block);
     }
     for (std::size_t index = 0; index < block.size(); ++index) {

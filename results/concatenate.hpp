@@ -12,8 +12,8 @@ namespace zerocount {
 
 /// Creates `table` in `file` and fills it with that table of the shards, one after the other.
 ///
-/// It goes by blocks of the table written, each one chunk of every column, so that memory is bounded and the order of
-/// writing does not depend on how the rows are divided among the shards.
+/// It goes by blocks of the table written, each one chunk of every column, so that memory is bounded and the
+/// order of writing does not depend on how the rows are divided among the shards.
 /// @param width        size of the second dimension, 1 where the table has none
 /// @param first_number first value of the scale of the rows
 void concatenate(hdf5::File& file, const Table& table, std::span<const ShardInfo> shards, std::int64_t width,

@@ -1,10 +1,10 @@
 #include "results/csv.hpp"
 
-#include <fcntl.h>
-
 #include <array>
 #include <cerrno>
 #include <charconv>
+
+#include <fcntl.h>
 
 namespace zerocount {
 namespace {
@@ -62,13 +62,7 @@ void CsvFile::end_row() {
 }
 
 void CsvFile::flush() {
-  std::string_view rest = buffer_;
-  while (!rest.empty()) {
-    const ssize_t written = ::write(file_.get(), rest.data(), rest.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail_with(path_, "write", errno);
-    rest.remove_prefix(static_cast<std::size_t>(written));
-  }
+  write_all(path_, file_, buffer_);
   buffer_.clear();
 }
 

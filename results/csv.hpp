@@ -13,7 +13,8 @@ namespace zerocount {
 /// The shortest decimal text that reads back to the same double; "nan", "inf" and "-inf" for the others.
 std::string number_text(double value);
 
-/// A table in the form of RFC 4180, but with lines that end in a single line feed. It stands at PATH.part until finish().
+/// A table in the form of RFC 4180, but with lines that end in a single line feed. It stands at PATH.part
+/// until finish().
 /// @throws Failure (machine_failed) with the path and the reason, from every function.
 class CsvFile {
  public:

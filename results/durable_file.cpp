@@ -1,26 +1,29 @@
 #include "results/durable_file.hpp"
 
+#include <cerrno>
+#include <system_error>
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <cerrno>
-#include <system_error>
-
 #include "core/failure.hpp"
-#include "results/file_descriptor.hpp"
 
 namespace zerocount {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path directory_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+fs::path directory_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
 
 void synchronise_directory(const fs::path& path) {
   const FileDescriptor directory(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  // Some file systems have no fsync of directories and say EINVAL: the names are as safe there as they can be.
-  if (!directory.valid() || (::fsync(directory.get()) != 0 && errno != EINVAL)) fail_with(path, "write", errno);
+  // Some file systems have no fsync of directories and say EINVAL: the names are as safe there as they can
+  // be.
+  if (!directory.valid() || (::fsync(directory.get()) != 0 && errno != EINVAL))
+    fail_with(path, "write", errno);
 }
 
 }  // namespace
@@ -36,7 +39,9 @@ fs::path part_of(const fs::path& path) {
   return part;
 }
 
-UnfinishedFile::~UnfinishedFile() { ::unlink(part_.c_str()); }
+UnfinishedFile::~UnfinishedFile() {
+  ::unlink(part_.c_str());
+}
 
 void publish(const fs::path& path) {
   const fs::path part = part_of(path);
@@ -46,6 +51,15 @@ void publish(const fs::path& path) {
   }
   if (::rename(part.c_str(), path.c_str()) != 0) fail_with(path, "write", errno);
   synchronise_directory(directory_of(path));
+}
+
+void write_all(const fs::path& path, const FileDescriptor& file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file.get(), text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail_with(path, "write", errno);
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
 }
 
 void make_directory(const fs::path& path) {

@@ -3,13 +3,16 @@
 #include <filesystem>
 #include <string_view>
 
+#include "results/file_descriptor.hpp"
+
 namespace zerocount {
 
-/// Where a file stands until it is finished: PATH.part. What has the name PATH is whole, whatever happened to the process
-/// that wrote it.
+/// Where a file stands until it is finished: PATH.part. What has the name PATH is whole, whatever happened to
+/// the process that wrote it.
 std::filesystem::path part_of(const std::filesystem::path& path);
 
-/// Removes part_of(path) at the end of its life, if it is still there: a failed write must not hold on to the disk.
+/// Removes part_of(path) at the end of its life, if it is still there: a failed write must not hold on to the
+/// disk.
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(const std::filesystem::path& path) : part_(part_of(path)) {}
@@ -26,6 +29,10 @@ class UnfinishedFile {
 /// Brings the finished file part_of(path) to the disk and gives it its name `path`.
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void publish(const std::filesystem::path& path);
+
+/// Writes all of `text` at the file's position; `path` is its name in messages.
+/// @throws Failure (machine_failed) with the path and the system's reason.
+void write_all(const std::filesystem::path& path, const FileDescriptor& file, std::string_view text);
 
 /// Makes the directory and those above it, durably.
 /// @throws Failure (machine_failed) with the path and the system's reason.

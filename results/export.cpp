@@ -1,10 +1,10 @@
 #include "results/export.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <functional>
 #include <string>
+
+#include <fmt/format.h>
 
 #include "core/failure.hpp"
 #include "results/csv.hpp"
@@ -83,19 +83,21 @@ void export_trials(const StudyFile& file, CsvFile& csv) {
   for (const char* name : {"trial", "point", "index"}) csv.add(name);
   for (const InputColumn& input : file.input_columns()) csv.add(input.name);
   csv.end_row();
-  for_each_block(file.rows().first, file.rows().end(), chunk_elements, [&](std::int64_t first, std::int64_t count) {
-    std::vector<std::vector<double>> inputs;
-    for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
-      inputs.push_back(file.input(column, {first, count}));
-    }
-    for (std::int64_t row = first; row < first + count; ++row) {
-      csv.add(row);
-      csv.add(row / file.header().trials);
-      csv.add(row % file.header().trials);
-      for (const std::vector<double>& values : inputs) csv.add(values[static_cast<std::size_t>(row - first)]);
-      csv.end_row();
-    }
-  });
+  for_each_block(file.rows().first, file.rows().end(), chunk_elements,
+                 [&](std::int64_t first, std::int64_t count) {
+                   std::vector<std::vector<double>> inputs;
+                   for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
+                     inputs.push_back(file.input(column, {first, count}));
+                   }
+                   for (std::int64_t row = first; row < first + count; ++row) {
+                     csv.add(row);
+                     csv.add(row / file.header().trials);
+                     csv.add(row % file.header().trials);
+                     for (const std::vector<double>& values : inputs)
+                       csv.add(values[static_cast<std::size_t>(row - first)]);
+                     csv.end_row();
+                   }
+                 });
 }
 
 void export_outcomes(const StudyFile& file, CsvFile& csv) {
@@ -104,16 +106,17 @@ void export_outcomes(const StudyFile& file, CsvFile& csv) {
   add_names(csv, outcome_fields());
   csv.end_row();
   const std::int64_t moves = file.moves();
-  for_each_block(file.rows().first, file.rows().end(), chunk_rows(moves), [&](std::int64_t first, std::int64_t count) {
-    std::int64_t position = 0;
-    for (const MoveOutcome& outcome : file.outcomes({first, count})) {
-      csv.add(first + position / moves);
-      csv.add(position % moves);
-      add_values(csv, outcome_fields(), outcome);
-      csv.end_row();
-      ++position;
-    }
-  });
+  for_each_block(file.rows().first, file.rows().end(), chunk_rows(moves),
+                 [&](std::int64_t first, std::int64_t count) {
+                   std::int64_t position = 0;
+                   for (const MoveOutcome& outcome : file.outcomes({first, count})) {
+                     csv.add(first + position / moves);
+                     csv.add(position % moves);
+                     add_values(csv, outcome_fields(), outcome);
+                     csv.end_row();
+                     ++position;
+                   }
+                 });
 }
 
 void export_jerks(const StudyFile& file, CsvFile& csv) {
@@ -174,8 +177,9 @@ std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& director
   for (const ExportedTable& table : tables) {
     std::error_code ignored;
     if (fs::exists(table.path, ignored)) {
-      throw Failure(ExitCode::bad_input,
-                    fmt::format("{}: exists already; remove it or name another directory", table.path.string()));
+      throw Failure(
+          ExitCode::bad_input,
+          fmt::format("{}: exists already; remove it or name another directory", table.path.string()));
     }
   }
   std::vector<fs::path> paths;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <hdf5.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -12,14 +10,16 @@
 #include <string_view>
 #include <vector>
 
+#include <hdf5.h>
+
 #include "core/failure.hpp"
 #include "results/element.hpp"
 
 /// A thin layer over the HDF5 C library: handles that close themselves, and failures in our own words.
 ///
-/// A failed operation throws Failure: machine_failed where the file is being written or the system reports an error,
-/// bad_data where a file being read does not hold what it should. No text of the library reaches the message.
-/// All objects of one file must be used by one thread at a time.
+/// A failed operation throws Failure: machine_failed where the file is being written or the system reports an
+/// error, bad_data where a file being read does not hold what it should. No text of the library reaches the
+/// message. All objects of one file must be used by one thread at a time.
 namespace zerocount::hdf5 {
 
 /// An identifier of the library, closed at the end of its life.
@@ -81,7 +81,8 @@ class Object {
   Handle handle_;
 
  private:
-  void write_attribute(const std::string& name, hid_t file_type, hid_t memory_type, hid_t space, const void* data);
+  void write_attribute(const std::string& name, hid_t file_type, hid_t memory_type, hid_t space,
+                       const void* data);
   Handle open_attribute(const std::string& name) const;
 
   std::shared_ptr<const Origin> origin_;
@@ -101,15 +102,13 @@ class Dataset : public Object {
   Element element() const { return element_; }
   std::vector<hsize_t> extent() const;
 
-  /// Rows [first, first + rows) of the first dimension, whole in the others; `data` holds elements of type element().
+  /// Rows [first, first + rows) of the first dimension, whole in the others; `data` holds elements of type
+  /// element().
   void write(std::int64_t first, std::int64_t rows, const void* data);
   void read(std::int64_t first, std::int64_t rows, void* data) const;
 
   void write_texts(std::span<const std::string> texts);
   std::vector<std::string> read_texts() const;
-
-  /// True where every chunk that the extent needs is there. (The library reads a lost chunk as zeros without a word.)
-  bool has_all_chunks() const;
 
   void make_scale(const std::string& name);
   void attach_scale(const Dataset& scale, unsigned dimension);

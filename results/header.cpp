@@ -1,16 +1,17 @@
 #include "results/header.hpp"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <string_view>
 
-#include "results/checksum.hpp"
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include "experiments/sha256.hpp"
 #include "results/durable_file.hpp"
 #include "results/file_descriptor.hpp"
 #include "results/layout.hpp"
+#include "results/seal.hpp"
 
 namespace zerocount {
 namespace {
@@ -22,14 +23,6 @@ constexpr std::string_view shard_format = "zerocount-shard";
   throw Failure(ExitCode::bad_data, fmt::format("{}: {}", path.string(), problem));
 }
 
-/// Everything textual of a header that nothing else checks.
-std::string text_checksum(const FileHeader& header) {
-  const Provenance& by = header.provenance;
-  std::vector<std::string> texts{header.name, by.zerocount_version, by.git_commit, by.compiler, by.cpu, by.created};
-  texts.insert(texts.end(), header.overrides.begin(), header.overrides.end());
-  return sha256_of_texts(texts);
-}
-
 /// A text with a zero byte would be cut there without a word.
 const std::string& storable(const hdf5::File& file, const std::string& text) {
   if (text.find('\0') != std::string::npos) file.fail("a text with a zero byte cannot be stored");
@@ -39,7 +32,8 @@ const std::string& storable(const hdf5::File& file, const std::string& text) {
 void write_overrides(hdf5::File& file, const std::vector<std::string>& overrides) {
   const bool empty = overrides.empty();
   const hsize_t size = overrides.size();
-  hdf5::Dataset dataset = file.create_dataset("overrides", {Element::text, {size}, {empty ? 1 : size}, empty});
+  hdf5::Dataset dataset =
+      file.create_dataset("overrides", {Element::text, {size}, {empty ? 1 : size}, empty});
   for (const std::string& override_text : overrides) storable(file, override_text);
   dataset.write_texts(overrides);
   dataset.make_scale("overrides");
@@ -55,7 +49,8 @@ void write_manifest(hdf5::File& file, const std::string& text) {
 }
 
 FileKind read_kind(const hdf5::File& file) {
-  if (!file.has_attribute("format")) file.fail("it is no results file of zerocount: the attribute 'format' is missing");
+  if (!file.has_attribute("format"))
+    file.fail("it is no results file of zerocount: the attribute 'format' is missing");
   const std::string format = file.text("format");
   if (format == study_format) return FileKind::study;
   if (format == shard_format) return FileKind::shard;
@@ -65,19 +60,21 @@ FileKind read_kind(const hdf5::File& file) {
 void check_version(const hdf5::File& file) {
   const std::int64_t version = file.integer("format_version");
   if (version > format_version) {
-    file.fail(fmt::format("its format version is {}, newer than the {} that this program knows; read it with the "
-                          "zerocount that wrote it or a later one",
-                          version, format_version));
+    file.fail(
+        fmt::format("its format version is {}, newer than the {} that this program knows; read it with the "
+                    "zerocount that wrote it or a later one",
+                    version, format_version));
   }
-  if (version < 1) file.fail(fmt::format("its format version is {}; expected 1 to {}", version, format_version));
+  if (version < 1)
+    file.fail(fmt::format("its format version is {}; expected 1 to {}", version, format_version));
 }
 
 void check_numbers(const hdf5::File& file, const FileHeader& header) {
-  const bool possible = header.trials > 0 && header.points > 0 && header.rows.first >= 0 && header.rows.count > 0 &&
-                        header.rows.end() <= header.trials * header.points;
+  const bool possible = header.trials > 0 && header.points > 0 && header.rows.first >= 0 &&
+                        header.rows.count > 0 && header.rows.end() <= header.trials * header.points;
   if (!possible) {
-    file.fail(fmt::format("trials {} to {} cannot be of {} design points with {} trials each", header.rows.first,
-                          header.rows.end() - 1, header.points, header.trials));
+    file.fail(fmt::format("trials {} to {} cannot be of {} design points with {} trials each",
+                          header.rows.first, header.rows.end() - 1, header.points, header.trials));
   }
   const bool all = header.rows.count == header.trials * header.points;
   if (header.complete != (all && header.kind == FileKind::study)) {
@@ -87,7 +84,9 @@ void check_numbers(const hdf5::File& file, const FileHeader& header) {
 
 }  // namespace
 
-RowRange all_rows(const Study& study) { return {0, trial_count(study)}; }
+RowRange all_rows(const Study& study) {
+  return {0, trial_count(study)};
+}
 
 FileHeader make_header(const Study& study, FileKind kind, RowRange rows, Provenance provenance) {
   return {kind,
@@ -117,7 +116,6 @@ void write_header(hdf5::File& file, const FileHeader& header) {
   file.set_unsigned("seed", header.seed);
   file.set_text("manifest_sha256", header.manifest_sha256);
   file.set_text("study_sha256", header.study_sha256);
-  file.set_text("text_sha256", text_checksum(header));
   file.set_integer("trials", header.trials);
   file.set_integer("points", header.points);
   file.set_integer("first_trial", header.rows.first);
@@ -127,15 +125,17 @@ void write_header(hdf5::File& file, const FileHeader& header) {
   write_overrides(file, header.overrides);
 }
 
-void mark_finished(hdf5::File& file) { file.set_integer("finished", 1); }
+void mark_finished(hdf5::File& file) {
+  file.set_integer("finished", 1);
+}
 
 FileHeader read_header(const hdf5::File& file) {
   FileHeader header;
   header.kind = read_kind(file);
   check_version(file);
   header.name = file.text("name");
-  header.provenance = {file.text("zerocount_version"), file.text("git_commit"), file.text("compiler"), file.text("cpu"),
-                       file.text("created")};
+  header.provenance = {file.text("zerocount_version"), file.text("git_commit"), file.text("compiler"),
+                       file.text("cpu"), file.text("created")};
   header.seed = file.unsigned_integer("seed");
   header.manifest_sha256 = file.text("manifest_sha256");
   header.study_sha256 = file.text("study_sha256");
@@ -149,18 +149,19 @@ FileHeader read_header(const hdf5::File& file) {
   header.manifest = manifest.front();
   header.overrides = file.open_dataset("overrides").read_texts();
   check_numbers(file, header);
-  if (sha256_hex(header.manifest) != header.manifest_sha256) file.fail("the checksum of the manifest is wrong");
-  if (text_checksum(header) != file.text("text_sha256")) file.fail("the checksum of the attributes is wrong");
+  if (sha256_hex(header.manifest) != header.manifest_sha256)
+    file.fail("the checksum of the manifest is wrong");
   return header;
 }
 
 void require_same_study(const std::filesystem::path& path, const FileHeader& header, const Study& study) {
   if (header.study_sha256 != study.study_sha256) {
-    fail(path, fmt::format("of another study: '{}' with other contents or overrides, not '{}'", header.name, study.name));
+    fail(path, fmt::format("of another study: '{}' with other contents or overrides, not '{}'", header.name,
+                           study.name));
   }
   if (header.trials != study.trials || header.points != point_count(study)) {
-    fail(path, fmt::format("has {} design points with {} trials each; the study has {} with {}", header.points,
-                           header.trials, point_count(study), study.trials));
+    fail(path, fmt::format("has {} design points with {} trials each; the study has {} with {}",
+                           header.points, header.trials, point_count(study), study.trials));
   }
   const std::string version = current_provenance().zerocount_version;
   if (header.provenance.zerocount_version != version) {
@@ -169,16 +170,18 @@ void require_same_study(const std::filesystem::path& path, const FileHeader& hea
   }
 }
 
-hdf5::File open_results(const std::filesystem::path& path) {
+hdf5::File open_results(const std::filesystem::path& path, Seal seal) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
     throw Failure(ExitCode::bad_input, fmt::format("{}: no such file", path.string()));
   }
   if (std::filesystem::is_directory(path, ignored)) {
-    throw Failure(ExitCode::bad_input, fmt::format("{}: a directory; a results file was expected", path.string()));
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: a directory; a results file was expected", path.string()));
   }
   if (!FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)).valid()) fail_with(path, "read", errno);
   if (!hdf5::is_hdf5(path)) fail(path, "not a results file of zerocount: it is not in the HDF5 format");
+  if (seal == Seal::required) require_seal(path);
   return hdf5::File::open_to_read(path);
 }
 

@@ -40,16 +40,20 @@ FileHeader make_header(const Study& study, FileKind kind, RowRange rows, Provena
 void write_header(hdf5::File& file, const FileHeader& header);
 void mark_finished(hdf5::File& file);
 
-/// Reads the header, and checks the format and its version and the checksums of the texts.
+/// Reads the header, and checks the format, its version and the checksum of the manifest.
 /// @throws Failure (bad_data)
 FileHeader read_header(const hdf5::File& file);
 
-/// @throws Failure (bad_data) unless `header`, of the file `path`, is of this study and by this version of the program.
+/// @throws Failure (bad_data) unless `header`, of the file `path`, is of this study and by this version of
+/// the program.
 void require_same_study(const std::filesystem::path& path, const FileHeader& header, const Study& study);
 
+/// Whether a file must have its seal (see seal.hpp) to be opened.
+enum class Seal { required, not_yet };
+
 /// Opens a file of this program's format.
-/// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read, bad_data where it is
-/// damaged or something else.
-hdf5::File open_results(const std::filesystem::path& path);
+/// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read, bad_data
+/// where it is damaged or something else.
+hdf5::File open_results(const std::filesystem::path& path, Seal seal = Seal::required);
 
 }  // namespace zerocount

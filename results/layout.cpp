@@ -53,8 +53,10 @@ const std::vector<Field<MoveOutcome>>& outcome_fields() {
   static const std::vector<Field<M>> fields{
       field<M>("outcome", "1", "verdict on the last window of the move", &M::outcome, outcome_words()),
       field<M>("arrived", "1", "the error was 0 for a whole dwell", &M::arrived),
-      field<M>("arrival", "1", "first sample of the arrival dwell from the start of the move, -1 if never", &M::arrival),
-      field<M>("settling_time", "s", "time of arrival from the start of the move, NaN if never", &M::settling_time),
+      field<M>("arrival", "1", "first sample of the arrival dwell from the start of the move, -1 if never",
+               &M::arrival),
+      field<M>("settling_time", "s", "time of arrival from the start of the move, NaN if never",
+               &M::settling_time),
       field<M>("stable", "1", "arrived, and the error within one count from then to the end", &M::stable),
       field<M>("broke_away", "1", "the hook slid during the move", &M::broke_away),
       field<M>("saturated", "1", "the DAC clipped", &M::saturated),
@@ -66,8 +68,8 @@ const std::vector<Field<MoveOutcome>>& outcome_fields() {
       field<M>("final_position", "rad", "rotor angle at the last sample", &M::final_position),
       field<M>("reversal_depth", "1", "largest number of reversal points on the stack", &M::reversal_depth),
       field<M>("jerk_count", "1", "excursions of the error from zero after arrival", &M::jerk_count),
-      field<M>("jerk_agreement", "1", "share of the jerks in the direction of the holding torque, NaN if none",
-               &M::jerk_agreement)};
+      field<M>("jerk_agreement", "1",
+               "share of the jerks in the direction of the holding torque, NaN if none", &M::jerk_agreement)};
   return fields;
 }
 
@@ -109,8 +111,12 @@ Table point_table(const std::vector<SweepAxis>& axes, const std::vector<PointCol
   table.columns.push_back({"label", "1", "name of the design point", Element::text, {}, {}});
   for (const SweepAxis& axis : axes) {
     const bool text = axis.kind == SweepAxis::Kind::text;
-    table.columns.push_back({axis.name, text || axis.unit.empty() ? "1" : axis.unit, axis.meaning,
-                             text ? Element::text : Element::float64, {}, "axis"});
+    table.columns.push_back({axis.name,
+                             text || axis.unit.empty() ? "1" : axis.unit,
+                             axis.meaning,
+                             text ? Element::text : Element::float64,
+                             {},
+                             "axis"});
   }
   for (const PointColumn& statistic : statistics) {
     table.columns.push_back(
@@ -119,29 +125,39 @@ Table point_table(const std::vector<SweepAxis>& axes, const std::vector<PointCol
   return table;
 }
 
-std::string input_column_name(const std::string& parameter) { return "input/" + parameter; }
+std::string input_column_name(const std::string& parameter) {
+  return "input/" + parameter;
+}
 
 Table trial_table(const std::vector<InputColumn>& inputs) {
-  Table table{"trial", whole_numbers("trial", "global row of the trial, point times trials plus index"), {}, {}};
+  Table table{
+      "trial", whole_numbers("trial", "global row of the trial, point times trials plus index"), {}, {}};
   table.columns.push_back(whole_numbers("point", "index of the design point"));
   table.columns.push_back(whole_numbers("index", "index of the trial within its design point"));
   for (const InputColumn& input : inputs) {
-    table.columns.push_back({input_column_name(input.name), input.unit, input.meaning, Element::float64, {}, {}});
+    table.columns.push_back(
+        {input_column_name(input.name), input.unit, input.meaning, Element::float64, {}, {}});
   }
   return table;
 }
 
 Table outcome_table() {
-  return {"outcome", whole_numbers("trial", "global row of the trial"), whole_numbers("move", "index of the move"),
-          columns_of(outcome_fields())};
+  return {"outcome", whole_numbers("trial", "global row of the trial"),
+          whole_numbers("move", "index of the move"), columns_of(outcome_fields())};
 }
 
 Table jerk_table() {
-  return {"jerk", whole_numbers("jerk", "index of the jerk, by trial, move and onset"), {}, columns_of(jerk_fields())};
+  return {"jerk",
+          whole_numbers("jerk", "index of the jerk, by trial, move and onset"),
+          {},
+          columns_of(jerk_fields())};
 }
 
 Table trace_table() {
-  return {"trace", whole_numbers("record", "index of the record, by trial and sample"), {}, columns_of(trace_fields())};
+  return {"trace",
+          whole_numbers("record", "index of the record, by trial and sample"),
+          {},
+          columns_of(trace_fields())};
 }
 
 Table profile_table(const std::string& name, const std::string& unit) {

@@ -11,8 +11,8 @@
 #include "experiments/study.hpp"
 #include "results/element.hpp"
 
-/// The layout of results files: the one description from which the writer, the reader, the CSV export and the test of
-/// the format's documentation (README.md of this folder) all derive.
+/// The layout of results files: the one description from which the writer, the reader, the CSV export and the
+/// test of the format's documentation (README.md of this folder) all derive.
 namespace zerocount {
 
 /// Version of the layout. A file with a higher number was written by a later program, and is refused.
@@ -44,8 +44,8 @@ struct Table {
 
 /// Where a column's value stands in a record.
 template <class Record>
-using Member = std::variant<double Record::*, std::int64_t Record::*, int Record::*, bool Record::*, Outcome Record::*,
-                            HookMode Record::*>;
+using Member = std::variant<double Record::*, std::int64_t Record::*, int Record::*, bool Record::*,
+                            Outcome Record::*, HookMode Record::*>;
 
 template <class Record>
 struct Field {

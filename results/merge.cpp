@@ -1,17 +1,17 @@
 #include "results/merge.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "core/failure.hpp"
 #include "core/friction/profile.hpp"
 #include "results/concatenate.hpp"
 #include "results/durable_file.hpp"
 #include "results/header.hpp"
-#include "results/point_texts.hpp"
+#include "results/seal.hpp"
 #include "results/table_io.hpp"
 
 namespace zerocount {
@@ -39,26 +39,31 @@ std::vector<fs::path> expand(std::span<const fs::path> inputs) {
     if (files.size() == before) fail(ExitCode::bad_input, input, "no shards (*.h5) in this directory");
     std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
   }
-  if (files.empty()) throw Failure(ExitCode::bad_input, "nothing to merge: name shards, parts or directories of shards");
+  if (files.empty())
+    throw Failure(ExitCode::bad_input, "nothing to merge: name shards, parts or directories of shards");
   return files;
 }
 
-/// @throws Failure unless the shards, in order of rows, follow one another from the start of `rows` to its end.
+/// @throws Failure unless the shards, in order of rows, follow one another from the start of `rows` to its
+/// end.
 void require_cover(std::span<const ShardInfo> shards, RowRange rows, const fs::path& output) {
   std::int64_t next = rows.first;
   const ShardInfo* previous = nullptr;
   for (const ShardInfo& shard : shards) {
     if (previous != nullptr && shard.rows.first < next) {
-      fail(ExitCode::bad_data, shard.path, fmt::format("holds trials {} to {}, which overlap those of {}",
-                                                       shard.rows.first, shard.rows.end() - 1, previous->path.string()));
+      fail(ExitCode::bad_data, shard.path,
+           fmt::format("holds trials {} to {}, which overlap those of {}", shard.rows.first,
+                       shard.rows.end() - 1, previous->path.string()));
     }
     if (shard.rows.first < rows.first || shard.rows.end() > rows.end()) {
-      fail(ExitCode::bad_data, shard.path, fmt::format("holds trials {} to {}, outside the {} to {} to be merged",
-                                                       shard.rows.first, shard.rows.end() - 1, rows.first, rows.end() - 1));
+      fail(ExitCode::bad_data, shard.path,
+           fmt::format("holds trials {} to {}, outside the {} to {} to be merged", shard.rows.first,
+                       shard.rows.end() - 1, rows.first, rows.end() - 1));
     }
     if (shard.rows.first > next) {
-      fail(ExitCode::bad_data, output, fmt::format("cannot merge: trials {} to {} are in none of the shards", next,
-                                                   shard.rows.first - 1));
+      fail(
+          ExitCode::bad_data, output,
+          fmt::format("cannot merge: trials {} to {} are in none of the shards", next, shard.rows.first - 1));
     }
     next = shard.rows.end();
     previous = &shard;
@@ -82,7 +87,6 @@ void write_points(hdf5::File& file, const Study& study) {
       io.column(1 + index).write(0, points, axis.numbers.data());
     }
   }
-  file.open_group("point").set_text("text_sha256", point_texts_checksum(study.point_labels, study.axes));
 }
 
 void write_profiles(hdf5::File& file, const Study& study) {
@@ -100,8 +104,8 @@ void write_profiles(hdf5::File& file, const Study& study) {
 }
 
 /// Writes everything but the statistics and the mark that the file is finished.
-void write_trials_of(std::span<const ShardInfo> shards, const Study& study, const fs::path& part, RowRange rows,
-                     const Provenance& provenance) {
+void write_trials_of(std::span<const ShardInfo> shards, const Study& study, const fs::path& part,
+                     RowRange rows, const Provenance& provenance) {
   hdf5::File file = hdf5::File::create(part);
   write_header(file, make_header(study, FileKind::study, rows, provenance));
   write_points(file, study);
@@ -120,7 +124,8 @@ void write_statistics(const fs::path& part, const Study& study, const std::vecto
   for (std::size_t index = 0; index < statistics.size(); ++index) {
     const PointColumn& statistic = statistics[index];
     if (std::ssize(statistic.values) != io.rows()) {
-      throw std::invalid_argument(fmt::format("the statistic '{}' needs one value per design point", statistic.name));
+      throw std::invalid_argument(
+          fmt::format("the statistic '{}' needs one value per design point", statistic.name));
     }
     io.add(described.columns[1 + index]).write(0, io.rows(), statistic.values.data());
   }
@@ -132,11 +137,7 @@ void write_statistics(const fs::path& part, const Study& study, const std::vecto
 
 std::vector<ShardInfo> merge_inputs(std::span<const fs::path> inputs, const Study& study) {
   std::vector<ShardInfo> shards;
-  for (const fs::path& path : expand(inputs)) {
-    const StudyFile file(path, Require::any_part);
-    require_same_study(path, file.header(), study);
-    shards.push_back({path, file.rows()});
-  }
+  for (const fs::path& path : expand(inputs)) shards.push_back(inspect_shard(path, study));
   std::sort(shards.begin(), shards.end(),
             [](const ShardInfo& left, const ShardInfo& right) { return left.rows.first < right.rows.first; });
   return shards;
@@ -146,19 +147,22 @@ FileHeader first_header(std::span<const fs::path> inputs) {
   return StudyFile(expand(inputs).front(), Require::any_part).header();
 }
 
-void merge_shards(std::span<const ShardInfo> shards, const Study& study, const fs::path& output, RowRange rows,
-                  const PointStatistics& statistics, const Provenance& provenance) {
+void merge_shards(std::span<const ShardInfo> shards, const Study& study, const fs::path& output,
+                  RowRange rows, const PointStatistics& statistics, const Provenance& provenance) {
   std::vector<ShardInfo> ordered(shards.begin(), shards.end());
   std::sort(ordered.begin(), ordered.end(),
             [](const ShardInfo& left, const ShardInfo& right) { return left.rows.first < right.rows.first; });
   require_cover(ordered, rows, output);
   std::error_code error;
-  if (fs::exists(output, error)) fail(ExitCode::bad_input, output, "exists already; remove it or name another output");
+  if (fs::exists(output, error))
+    fail(ExitCode::bad_input, output, "exists already; remove it or name another output");
   const UnfinishedFile part(output);
   write_trials_of(ordered, study, part.path(), rows, provenance);
   std::vector<PointColumn> columns;
-  if (statistics && rows == all_rows(study)) columns = statistics(StudyFile(part.path(), Require::unfinished));
+  if (statistics && rows == all_rows(study))
+    columns = statistics(StudyFile(part.path(), Require::unfinished));
   write_statistics(part.path(), study, columns);
+  seal(part.path());
   publish(output);
 }
 

@@ -1,13 +1,14 @@
 #include "results/shard.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "core/failure.hpp"
 #include "results/durable_file.hpp"
 #include "results/header.hpp"
+#include "results/seal.hpp"
 #include "results/study_file.hpp"
 #include "results/table_io.hpp"
 
@@ -95,8 +96,8 @@ fs::path shard_path(const fs::path& directory, RowRange rows) {
   return directory / fmt::format("trials-{:012}-{:012}.h5", rows.first, rows.end() - 1);
 }
 
-void write_shard(const fs::path& path, const Study& study, std::int64_t first_row, std::span<const TrialResult> results,
-                 const Provenance& provenance) {
+void write_shard(const fs::path& path, const Study& study, std::int64_t first_row,
+                 std::span<const TrialResult> results, const Provenance& provenance) {
   require_fit(study, first_row, results);
   const UnfinishedFile part(path);
   hdf5::File file = hdf5::File::create(part.path());
@@ -107,13 +108,13 @@ void write_shard(const fs::path& path, const Study& study, std::int64_t first_ro
   if (!study.retained_trials.empty()) write_trace(file, results);
   mark_finished(file);
   file.close();
+  seal(part.path());
   publish(path);
 }
 
 ShardInfo inspect_shard(const fs::path& path, const Study& study) {
   const StudyFile file(path, Require::any_part);
   require_same_study(path, file.header(), study);
-  file.verify();
   return {path, file.rows()};
 }
 

@@ -16,11 +16,11 @@ namespace zerocount {
 
 /// What is kept of one trial.
 struct TrialResult {
-  std::int64_t row{0};                 ///< global row: point·trials + index
-  std::vector<double> inputs;          ///< [input column of the study], in that column's unit
-  TrialOutcome outcome;                ///< one entry per move
-  std::vector<Jerk> jerks;             ///< by move and onset
-  std::vector<SampleRecord> trace;     ///< every sample of a retained trial; otherwise empty
+  std::int64_t row{0};              ///< global row: point·trials + index
+  std::vector<double> inputs;       ///< [input column of the study], in that column's unit
+  TrialOutcome outcome;             ///< one entry per move
+  std::vector<Jerk> jerks;          ///< by move and onset
+  std::vector<SampleRecord> trace;  ///< every sample of a retained trial; otherwise empty
 };
 
 /// The folder of an output's shards, OUTPUT.shards.
@@ -31,7 +31,8 @@ std::filesystem::path shard_path(const std::filesystem::path& directory, RowRang
 
 /// Writes the results of the rows first_row, first_row + 1, … as one shard at `path`. The shard
 /// gets its name only when it is whole on the disk.
-/// @throws Failure (machine_failed) with the path and the reason; std::invalid_argument where the results are not those
+/// @throws Failure (machine_failed) with the path and the reason; std::invalid_argument where the results are
+/// not those
 ///         rows in order, or do not fit the study.
 void write_shard(const std::filesystem::path& path, const Study& study, std::int64_t first_row,
                  std::span<const TrialResult> results, const Provenance& provenance = current_provenance());
@@ -50,12 +51,12 @@ struct ShardProblem {
 
 /// What stands in a folder of shards.
 struct ShardSurvey {
-  std::vector<ShardInfo> shards;                   ///< valid, in order of rows
-  std::vector<ShardProblem> problems;              ///< damaged, foreign or of another study
+  std::vector<ShardInfo> shards;                  ///< valid, in order of rows
+  std::vector<ShardProblem> problems;             ///< damaged, foreign or of another study
   std::vector<std::filesystem::path> unfinished;  ///< *.part, left by a process that died; safe to remove
 };
 
-/// Reads the shard whole, and checks format, version, study, completion mark and checksums.
+/// Reads the shard whole, and checks seal, format, version, study and completion mark.
 /// @throws Failure (bad_data) where it cannot be used; see also open_results.
 ShardInfo inspect_shard(const std::filesystem::path& path, const Study& study);
 

@@ -1,14 +1,12 @@
 #include "results/study_file.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/failure.hpp"
-#include "results/checksum.hpp"
-#include "results/point_texts.hpp"
-#include "results/walk.hpp"
 
 namespace zerocount {
 namespace {
@@ -19,10 +17,11 @@ FileHeader read_required(const hdf5::File& file, const std::filesystem::path& pa
   FileHeader header = read_header(file);
   if (!header.finished && require != Require::unfinished) file.fail("it was never finished");
   if (!header.complete && require == Require::complete) {
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: incomplete: it holds trials {} to {} of {}; run the others and join them with "
-                              "'zerocount merge'",
-                              path.string(), header.rows.first, header.rows.end() - 1, header.trials * header.points));
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: incomplete: it holds trials {} to {} of {}; run the others and join them with "
+                    "'zerocount merge'",
+                    path.string(), header.rows.first, header.rows.end() - 1, header.trials * header.points));
   }
   return header;
 }
@@ -45,7 +44,8 @@ std::optional<TableIo> open_trace(const hdf5::File& file) {
 }
 
 std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
-  if (dataset.element() != Element::float64 || dataset.extent().size() != 1) dataset.fail("it should be numbers in one dimension");
+  if (dataset.element() != Element::float64 || dataset.extent().size() != 1)
+    dataset.fail("it should be numbers in one dimension");
   std::vector<double> values(dataset.extent()[0]);
   dataset.read(0, std::ssize(values), values.data());
   return values;
@@ -67,22 +67,24 @@ std::vector<double> as_doubles(const Field<Record>& field, const std::vector<Rec
 
 StudyFile::StudyFile(const std::filesystem::path& path, Require require)
     : path_(path),
-      file_(open_results(path)),
+      file_(open_results(path, require == Require::unfinished ? Seal::not_yet : Seal::required)),
       header_(read_required(file_, path, require)),
       inputs_(read_input_columns(file_)),
       trials_(TableIo::open(file_, trial_table(inputs_))),
       outcomes_(TableIo::open(file_, outcome_table())),
       jerks_(TableIo::open(file_, jerk_table())),
       trace_(open_trace(file_)) {
-  if (trials_.rows() != rows().count) trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
-  if (outcomes_.rows() != rows().count) outcomes_.row_scale().fail("its size differs from the attribute 'trial_count'");
+  if (trials_.rows() != rows().count)
+    trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
+  if (outcomes_.rows() != rows().count)
+    outcomes_.row_scale().fail("its size differs from the attribute 'trial_count'");
 }
 
 std::int64_t StudyFile::local(RowRange range) const {
   if (range.first < rows().first || range.count < 0 || range.end() > rows().end()) {
     throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: trials {} to {} were asked for; it holds {} to {}", path_.string(), range.first,
-                              range.end() - 1, rows().first, rows().end() - 1));
+                  fmt::format("{}: trials {} to {} were asked for; it holds {} to {}", path_.string(),
+                              range.first, range.end() - 1, rows().first, rows().end() - 1));
   }
   return range.first - rows().first;
 }
@@ -133,7 +135,8 @@ std::vector<double> StudyFile::input(std::size_t column, RowRange range) const {
 
 std::vector<double> StudyFile::inputs_of(std::int64_t row) const {
   std::vector<double> values;
-  for (std::size_t column = 0; column < inputs_.size(); ++column) values.push_back(input(column, {row, 1}).front());
+  for (std::size_t column = 0; column < inputs_.size(); ++column)
+    values.push_back(input(column, {row, 1}).front());
   return values;
 }
 
@@ -143,12 +146,14 @@ std::vector<MoveOutcome> StudyFile::outcomes(RowRange range) const {
 
 std::vector<double> StudyFile::measure(std::string_view name, RowRange range) const {
   const std::vector<Field<MoveOutcome>>& fields = outcome_fields();
-  const auto found = std::find_if(fields.begin(), fields.end(),
-                                  [name](const Field<MoveOutcome>& field) { return field.column.name == name; });
+  const auto found = std::find_if(fields.begin(), fields.end(), [name](const Field<MoveOutcome>& field) {
+    return field.column.name == name;
+  });
   if (found == fields.end()) throw std::invalid_argument(fmt::format("'{}' is no measure of a move", name));
   std::vector<MoveOutcome> moves(static_cast<std::size_t>(range.count * outcomes_.width()));
   std::vector<std::byte> bytes(moves.size() * size_of(found->column.element));
-  outcomes_.column(static_cast<std::size_t>(found - fields.begin())).read(local(range), range.count, bytes.data());
+  outcomes_.column(static_cast<std::size_t>(found - fields.begin()))
+      .read(local(range), range.count, bytes.data());
   scatter(*found, bytes, std::span(moves));
   return as_doubles(*found, moves);
 }
@@ -193,53 +198,10 @@ std::vector<StoredProfile> StudyFile::profiles() const {
   for (const std::string& name : group.children()) {
     const hdf5::Group profile = group.open_group(name);
     const hdf5::Dataset value = profile.open_dataset("value");
-    profiles.push_back({name, value.text("units"), read_doubles(profile.open_dataset("theta")), read_doubles(value)});
+    profiles.push_back(
+        {name, value.text("units"), read_doubles(profile.open_dataset("theta")), read_doubles(value)});
   }
   return profiles;
-}
-
-void StudyFile::verify() const {
-  read_everything(file_);
-  verify_numbering();
-  verify_point_texts();
-}
-
-void StudyFile::verify_numbering() const {
-  const auto require_counting = [](const hdf5::Dataset& dataset, std::int64_t count, auto expected) {
-    std::vector<std::int64_t> numbers;
-    for (std::int64_t first = 0; first < count; first += chunk_elements) {
-      numbers.resize(static_cast<std::size_t>(std::min(chunk_elements, count - first)));
-      dataset.read(first, std::ssize(numbers), numbers.data());
-      for (std::int64_t i = 0; i < std::ssize(numbers); ++i) {
-        if (numbers[static_cast<std::size_t>(i)] != expected(first + i)) {
-          dataset.fail(fmt::format("entry {} is {}; expected {}", first + i, numbers[static_cast<std::size_t>(i)],
-                                   expected(first + i)));
-        }
-      }
-    }
-  };
-  const std::int64_t start = rows().first;
-  const std::int64_t trials = header_.trials;
-  const auto row = [start](std::int64_t i) { return start + i; };
-  require_counting(trials_.row_scale(), trials_.rows(), row);
-  require_counting(outcomes_.row_scale(), outcomes_.rows(), row);
-  require_counting(trials_.column(0), trials_.rows(), [=](std::int64_t i) { return (start + i) / trials; });
-  require_counting(trials_.column(1), trials_.rows(), [=](std::int64_t i) { return (start + i) % trials; });
-  std::int64_t previous = start;
-  for (std::int64_t first = 0; first < jerk_count(); first += chunk_elements) {
-    for (const JerkRecord& jerk : jerks_at(first, std::min(chunk_elements, jerk_count() - first))) {
-      if (jerk.trial < previous || jerk.trial >= rows().end()) jerks_.column(0).fail("its trials are out of order");
-      previous = jerk.trial;
-    }
-  }
-}
-
-void StudyFile::verify_point_texts() const {
-  if (!file_.contains("point")) return;
-  const hdf5::Group group = file_.open_group("point");
-  if (point_texts_checksum(point_labels(), axes()) != group.text("text_sha256")) {
-    group.fail("the checksum of its texts is wrong");
-  }
 }
 
 }  // namespace zerocount

@@ -31,12 +31,14 @@ struct StoredProfile {
   std::vector<double> value;  ///< in `unit`
 };
 
-/// A results file, open to be read. Rows are global rows, here and in the file. Every function may find that the file is
-/// damaged, and throws Failure (bad_data) then. One thread at a time.
+/// A results file, open to be read. Rows are global rows, here and in the file. Every function may find that
+/// the file is damaged, and throws Failure (bad_data) then. One thread at a time.
 class StudyFile {
  public:
-  /// Checks format, version, completion mark, checksums of the texts, and completeness as required.
-  /// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read, otherwise bad_data.
+  /// Checks seal, format, version, completion mark, and completeness as required. Reads the file once from
+  /// beginning to end.
+  /// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read,
+  /// otherwise bad_data.
   explicit StudyFile(const std::filesystem::path& path, Require require = Require::complete);
 
   const std::filesystem::path& path() const { return path_; }
@@ -50,8 +52,8 @@ class StudyFile {
   std::vector<PointColumn> statistics() const;
 
   const std::vector<InputColumn>& input_columns() const { return inputs_; }
-  std::vector<double> input(std::size_t column, RowRange rows) const;         ///< [row]
-  std::vector<double> inputs_of(std::int64_t row) const;                      ///< [input column]
+  std::vector<double> input(std::size_t column, RowRange rows) const;  ///< [row]
+  std::vector<double> inputs_of(std::int64_t row) const;               ///< [input column]
 
   /// All measures of the moves of these trials: [row][move], flattened.
   std::vector<MoveOutcome> outcomes(RowRange rows) const;
@@ -59,8 +61,9 @@ class StudyFile {
   std::vector<double> measure(std::string_view name, RowRange rows) const;
 
   std::int64_t jerk_count() const { return jerks_.rows(); }
-  std::vector<JerkRecord> jerks_at(std::int64_t first, std::int64_t count) const;  ///< by position in the table
-  std::vector<JerkRecord> jerks(RowRange rows) const;                              ///< of these trials
+  std::vector<JerkRecord> jerks_at(std::int64_t first,
+                                   std::int64_t count) const;  ///< by position in the table
+  std::vector<JerkRecord> jerks(RowRange rows) const;          ///< of these trials
 
   bool has_trace() const { return trace_.has_value(); }
   std::int64_t trace_count() const { return trace_ ? trace_->rows() : 0; }
@@ -69,14 +72,14 @@ class StudyFile {
   bool has_profiles() const { return file_.contains("profile"); }
   std::vector<StoredProfile> profiles() const;
 
-  /// Reads everything: every checksum, every text, every numbering.
+  /// Reads everything; compares the checksums of HDF5 and every numbering. (The whole file was compared with
+  /// its seal when it was opened.)
   void verify() const;
 
  private:
   std::int64_t local(RowRange rows) const;
   std::int64_t first_jerk_from(std::int64_t row) const;
   void verify_numbering() const;
-  void verify_point_texts() const;
 
   std::filesystem::path path_;
   hdf5::File file_;

@@ -1,9 +1,9 @@
 #include "results/table_io.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
+
+#include <fmt/format.h>
 
 namespace zerocount {
 namespace {
@@ -42,7 +42,8 @@ hdf5::Dataset make_dataset(hdf5::Group& group, const std::string& name, const hd
 hdf5::Dataset make_scale(hdf5::Group& group, const Column& column, std::int64_t size) {
   const bool empty = size == 0;
   const auto chunk = static_cast<hsize_t>(empty ? chunk_elements : std::min(size, chunk_elements));
-  hdf5::Dataset scale = group.create_dataset(column.name, {column.element, {static_cast<hsize_t>(size)}, {chunk}, empty});
+  hdf5::Dataset scale =
+      group.create_dataset(column.name, {column.element, {static_cast<hsize_t>(size)}, {chunk}, empty});
   scale.make_scale(column.name);
   describe(scale, column);
   return scale;
@@ -59,7 +60,9 @@ void write_numbers(hdf5::Dataset& scale, std::int64_t size, std::int64_t first_v
 
 }  // namespace
 
-std::int64_t chunk_rows(std::int64_t width) { return std::max<std::int64_t>(1, chunk_elements / width); }
+std::int64_t chunk_rows(std::int64_t width) {
+  return std::max<std::int64_t>(1, chunk_elements / width);
+}
 
 TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t width) {
   hdf5::Group group = make_group(root, table.group);
@@ -85,7 +88,8 @@ TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
   if (table.second) {
     io.second_scale_ = io.group_.open_dataset(table.second->name);
     const std::vector<hsize_t> second = io.second_scale_->extent();
-    if (second.size() != 1 || second[0] == 0) io.second_scale_->fail("it should have one dimension, not empty");
+    if (second.size() != 1 || second[0] == 0)
+      io.second_scale_->fail("it should have one dimension, not empty");
     expected.push_back(second[0]);
     io.width_ = static_cast<std::int64_t>(second[0]);
   }
@@ -100,10 +104,11 @@ TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
 
 hdf5::Storage TableIo::storage_of(const Column& column) const {
   const bool empty = rows_ == 0;
-  hdf5::Storage storage{column.element,
-                        {static_cast<hsize_t>(rows_)},
-                        {static_cast<hsize_t>(empty ? chunk_rows(width_) : std::min(rows_, chunk_rows(width_)))},
-                        empty};
+  hdf5::Storage storage{
+      column.element,
+      {static_cast<hsize_t>(rows_)},
+      {static_cast<hsize_t>(empty ? chunk_rows(width_) : std::min(rows_, chunk_rows(width_)))},
+      empty};
   if (second_scale_) {
     storage.extent.push_back(static_cast<hsize_t>(width_));
     storage.chunk.push_back(static_cast<hsize_t>(std::min(width_, chunk_elements)));
@@ -119,6 +124,8 @@ hdf5::Dataset& TableIo::add(const Column& column) {
   return datasets_.emplace_back(std::move(dataset));
 }
 
-void TableIo::number_rows(std::int64_t first_value) { write_numbers(row_scale_, rows_, first_value); }
+void TableIo::number_rows(std::int64_t first_value) {
+  write_numbers(row_scale_, rows_, first_value);
+}
 
 }  // namespace zerocount

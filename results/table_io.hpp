@@ -14,8 +14,8 @@
 
 namespace zerocount {
 
-/// Elements in a chunk of a column that is long enough to fill one. A constant of the format: chunks depend on the
-/// study alone and not on how it was run.
+/// Elements in a chunk of a column that is long enough to fill one. A constant of the format: chunks depend
+/// on the study alone and not on how it was run.
 inline constexpr std::int64_t chunk_elements = 16384;
 
 /// Rows in a chunk of a table with `width` elements a row.
@@ -24,9 +24,9 @@ std::int64_t chunk_rows(std::int64_t width);
 /// The datasets of a table in an open file.
 class TableIo {
  public:
-  /// Creates the groups, the dimension scales and the columns, attached to their scales. `width` is the size of the
-  /// second dimension, 1 where the table has none. A table without rows is made extendible, because the netCDF library
-  /// knows a length of zero only of an unlimited dimension.
+  /// Creates the groups, the dimension scales and the columns, attached to their scales. `width` is the size
+  /// of the second dimension, 1 where the table has none. A table without rows is made extendible, because
+  /// the netCDF library knows a length of zero only of an unlimited dimension.
   static TableIo create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t width);
   /// Opens the columns of `table`, and checks that they have its element types and equal sizes.
   static TableIo open(const hdf5::Group& root, const Table& table);
@@ -44,7 +44,8 @@ class TableIo {
   hdf5::Dataset& add(const Column& column);
 
  private:
-  TableIo(hdf5::Group group, hdf5::Dataset row_scale) : group_(std::move(group)), row_scale_(std::move(row_scale)) {}
+  TableIo(hdf5::Group group, hdf5::Dataset row_scale)
+      : group_(std::move(group)), row_scale_(std::move(row_scale)) {}
   hdf5::Storage storage_of(const Column& column) const;
 
   std::int64_t rows_{0};
@@ -66,8 +67,8 @@ void write_records(TableIo& io, const std::vector<Field<Record>>& fields, std::i
 }
 
 template <class Record>
-std::vector<Record> read_records(const TableIo& io, const std::vector<Field<Record>>& fields, std::int64_t first,
-                                 std::int64_t rows) {
+std::vector<Record> read_records(const TableIo& io, const std::vector<Field<Record>>& fields,
+                                 std::int64_t first, std::int64_t rows) {
   std::vector<Record> records(static_cast<std::size_t>(rows * io.width()));
   for (std::size_t index = 0; index < fields.size(); ++index) {
     std::vector<std::byte> bytes(records.size() * size_of(fields[index].column.element));

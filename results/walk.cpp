@@ -1,6 +1,7 @@
 #include "results/walk.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "results/table_io.hpp"
@@ -9,16 +10,17 @@ namespace zerocount {
 namespace {
 
 void read_whole(const hdf5::Dataset& dataset) {
-  if (!dataset.has_all_chunks()) dataset.fail("blocks of its values are missing");
   if (dataset.element() == Element::text) {
     dataset.read_texts();
     return;
   }
   const std::vector<hsize_t> extent = dataset.extent();
-  const auto rows = static_cast<std::int64_t>(extent.at(0));
+  if (extent.empty() || extent.size() > 2) dataset.fail("it should have one or two dimensions");
+  const auto rows = static_cast<std::int64_t>(extent[0]);
   const std::int64_t width = extent.size() > 1 ? static_cast<std::int64_t>(extent[1]) : 1;
   const std::int64_t block = chunk_rows(std::max<std::int64_t>(1, width));
-  std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(block, rows) * width) * size_of(dataset.element()));
+  std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(block, rows) * width) *
+                               size_of(dataset.element()));
   for (std::int64_t first = 0; first < rows; first += block) {
     dataset.read(first, std::min(block, rows - first), bytes.data());
   }
@@ -36,6 +38,8 @@ void for_each_dataset(const hdf5::Group& group, const std::function<void(const h
   }
 }
 
-void read_everything(const hdf5::Group& group) { for_each_dataset(group, read_whole); }
+void read_everything(const hdf5::Group& group) {
+  for_each_dataset(group, read_whole);
+}
 
 }  // namespace zerocount

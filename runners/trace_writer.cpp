@@ -81,8 +81,7 @@ void TraceWriter::begin(const TraceSubject& subject) {
 }
 
 void TraceWriter::write(const SampleRecord& sample) {
-  TraceRecord record;
-  static_cast<SampleRecord&>(record) = sample;
+  const TraceRecord record{sample, 0};
   std::string line;
   for (const Field<TraceRecord>& field : trace_fields()) {
     if (!is_column(field)) continue;

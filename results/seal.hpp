@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+namespace zerocount {
+
+/// Length of the seal in bytes: the text "zerocount-seal sha256 ", 64 hexadecimal digits and a line feed.
+inline constexpr std::size_t seal_length = 22 + 64 + 1;
+
+/// Appends the seal to a finished file: the SHA-256 of everything before it. HDF5 ends where its own header
+/// says, and takes no notice of what follows.
+///
+/// HDF5's checksums do not reach texts and parts of its index, and the library can crash on a damaged file.
+/// The seal is checked before the library sees a file.
+/// @throws Failure (machine_failed) with the path and the reason
+void seal(const std::filesystem::path& path);
+
+/// Reads the file once from beginning to end, and compares it with its seal.
+/// @throws Failure: bad_data where the seal is missing or wrong, machine_failed where the file cannot be
+/// read.
+void require_seal(const std::filesystem::path& path);
+
+}  // namespace zerocount

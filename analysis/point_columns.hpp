@@ -5,7 +5,7 @@
 
 #include "analysis/point_statistics.hpp"
 #include "analysis/theory_prediction.hpp"
-#include "results/layout.hpp"
+#include "results/layout/layout.hpp"
 
 namespace zerocount {
 

@@ -6,7 +6,7 @@
 #include "analysis/summary.hpp"
 #include "analysis/theory_prediction.hpp"
 #include "experiments/study.hpp"
-#include "results/study_file.hpp"
+#include "results/reading/study_file.hpp"
 
 namespace zerocount {
 

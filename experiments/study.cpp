@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "core/failure.hpp"
-#include "experiments/manifest.hpp"
-#include "experiments/overrides.hpp"
-#include "experiments/sha256.hpp"
+#include "experiments/designs/sha256.hpp"
+#include "experiments/language/manifest.hpp"
+#include "experiments/language/overrides.hpp"
 
 namespace zerocount {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "analysis/point_columns.hpp"
 #include "analysis/study_statistics.hpp"
-#include "results/merge.hpp"
+#include "results/shards/merge.hpp"
 
 namespace zerocount {
 

@@ -4,8 +4,8 @@
 #include <span>
 
 #include "experiments/study.hpp"
-#include "results/row_range.hpp"
-#include "results/shard.hpp"
+#include "results/layout/row_range.hpp"
+#include "results/shards/shard.hpp"
 
 namespace zerocount {
 

@@ -95,7 +95,7 @@ std::string Arguments::required(std::string_view option) const {
 }
 
 std::string Arguments::one_of(std::string_view option, const std::vector<std::string>& words) const {
-  const std::string given = value(option).value_or(words.front());
+  std::string given = value(option).value_or(words.front());
   if (std::find(words.begin(), words.end(), given) == words.end()) {
     refuse(fmt::format("option '--{}': '{}' is none of {}", option, given, fmt::join(words, ", ")));
   }

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "results/build_info.hpp"
+#include "results/layout/build_info.hpp"
 
 namespace zerocount {
 namespace {

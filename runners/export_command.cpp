@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "results/export.hpp"
-#include "results/study_file.hpp"
+#include "results/reading/export.hpp"
+#include "results/reading/study_file.hpp"
 #include "runners/commands.hpp"
 
 namespace zerocount {

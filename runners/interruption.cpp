@@ -23,7 +23,7 @@ sigset_t watched_signals() {
 InterruptionWatch::InterruptionWatch() {
   const sigset_t signals = watched_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  watcher_ = std::jthread([this, signals](std::stop_token done) {
+  watcher_ = std::jthread([this, signals](const std::stop_token& done) {
     const timespec patience{0, 50'000'000};  // ns
     while (!done.stop_requested()) {
       if (sigtimedwait(&signals, nullptr, &patience) < 0) continue;

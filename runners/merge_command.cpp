@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "results/header.hpp"
-#include "results/merge.hpp"
-#include "results/output_lock.hpp"
+#include "results/layout/header.hpp"
+#include "results/shards/merge.hpp"
+#include "results/storage/output_lock.hpp"
 #include "runners/assemble.hpp"
 #include "runners/commands.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "results/layout.hpp"
+#include "results/layout/layout.hpp"
 
 namespace zerocount {
 namespace {

@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "experiments/study.hpp"
-#include "results/header.hpp"
-#include "results/output_lock.hpp"
-#include "results/shard.hpp"
-#include "results/study_file.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
+#include "results/shards/shard.hpp"
+#include "results/storage/output_lock.hpp"
 #include "runners/assemble.hpp"
 #include "runners/commands.hpp"
 #include "runners/interruption.hpp"

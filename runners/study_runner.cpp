@@ -166,7 +166,7 @@ std::vector<ShardInfo> run_trials(const Study& study, std::span<const RowRange> 
     if (settings.finished) settings.finished(trials);
   };
   const auto pipeline = [&] {
-    tbb::parallel_pipeline(static_cast<std::size_t>(4 * threads),
+    tbb::parallel_pipeline(4 * static_cast<std::size_t>(threads),
                            tbb::make_filter<void, RowRange>(tbb::filter_mode::serial_in_order, next_block) &
                                tbb::make_filter<RowRange, Block>(tbb::filter_mode::parallel, run_block) &
                                tbb::make_filter<Block, void>(tbb::filter_mode::serial_in_order, write_block));

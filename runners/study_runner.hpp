@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "experiments/study.hpp"
-#include "results/row_range.hpp"
-#include "results/shard.hpp"
+#include "results/layout/row_range.hpp"
+#include "results/shards/shard.hpp"
 
 namespace zerocount {
 

@@ -4,7 +4,7 @@
 
 #include "analysis/study_statistics.hpp"
 #include "analysis/summary.hpp"
-#include "results/study_file.hpp"
+#include "results/reading/study_file.hpp"
 #include "runners/commands.hpp"
 
 namespace zerocount {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "experiments/json_schema.hpp"
-#include "experiments/parameter_listing.hpp"
+#include "experiments/language/json_schema.hpp"
+#include "experiments/parameters/parameter_listing.hpp"
 #include "runners/commands.hpp"
 
 namespace zerocount {

@@ -9,7 +9,7 @@
 
 #include "core/trial/trial.hpp"
 #include "experiments/study.hpp"
-#include "results/study_file.hpp"
+#include "results/reading/study_file.hpp"
 #include "runners/commands.hpp"
 #include "runners/replay.hpp"
 #include "runners/trace_writer.hpp"

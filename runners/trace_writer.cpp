@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "results/layout.hpp"
+#include "results/layout/layout.hpp"
 
 namespace zerocount {
 namespace {

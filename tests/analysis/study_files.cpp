@@ -7,9 +7,9 @@
 
 #include <stdlib.h>
 
-#include "experiments/sha256.hpp"
-#include "results/merge.hpp"
-#include "results/shard.hpp"
+#include "experiments/designs/sha256.hpp"
+#include "results/shards/merge.hpp"
+#include "results/shards/shard.hpp"
 
 namespace zerocount::test {
 

@@ -9,7 +9,7 @@
 #include "analysis/point_accumulator.hpp"
 #include "analysis/summary.hpp"
 #include "core/failure.hpp"
-#include "results/study_file.hpp"
+#include "results/reading/study_file.hpp"
 #include "tests/analysis/study_files.hpp"
 
 namespace zerocount {

@@ -10,7 +10,7 @@
 
 #include "core/trial/trial.hpp"
 #include "experiments/study.hpp"
-#include "results/shard.hpp"
+#include "results/shards/shard.hpp"
 #include "runners/study_runner.hpp"
 #include "tests/support/odeint_trial.hpp"
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "experiments/distribution_forms.hpp"
-#include "experiments/json_schema.hpp"
+#include "experiments/distributions/distribution_forms.hpp"
+#include "experiments/language/json_schema.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "results/fields.hpp"
-#include "results/layout.hpp"
+#include "results/layout/fields.hpp"
+#include "results/layout/layout.hpp"
 
 namespace zerocount::test {
 

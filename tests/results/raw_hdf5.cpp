@@ -5,7 +5,7 @@
 
 #include <hdf5.h>
 
-#include "results/seal.hpp"
+#include "results/storage/seal.hpp"
 
 namespace zerocount::test {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <stdlib.h>
 
-#include "experiments/sha256.hpp"
-#include "results/header.hpp"
+#include "experiments/designs/sha256.hpp"
+#include "results/layout/header.hpp"
 
 namespace zerocount::test {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "experiments/study.hpp"
-#include "results/merge.hpp"
-#include "results/shard.hpp"
+#include "results/shards/merge.hpp"
+#include "results/shards/shard.hpp"
 
 namespace zerocount::test {
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "results/study_file.hpp"
+#include "results/reading/study_file.hpp"
 #include "tests/results/raw_hdf5.hpp"
 #include "tests/runners/program.hpp"
 

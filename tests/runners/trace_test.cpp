@@ -6,7 +6,7 @@
 
 #include "core/trial/trial.hpp"
 #include "experiments/study.hpp"
-#include "results/study_file.hpp"
+#include "results/reading/study_file.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {

@@ -1,0 +1,105 @@
+#include "experiments/distributions/distribution.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/distributions/lognormal.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/triangular.hpp>
+
+namespace zerocount {
+namespace {
+
+template <class... Cases>
+struct Overload : Cases... {
+  using Cases::operator()...;
+};
+template <class... Cases>
+Overload(Cases...) -> Overload<Cases...>;
+
+// Rounding may carry a quantile onto or over the end; the supports are half open.
+double kept_inside(double value, double low, double high) {
+  return std::clamp(value, low, std::nextafter(high, low));
+}
+
+std::int64_t place_among(std::int64_t count, double u) {
+  return std::min(static_cast<std::int64_t>(u * static_cast<double>(count)), count - 1);
+}
+
+double quantile_of(const Uniform& d, double u) {
+  return kept_inside(d.low + u * (d.high - d.low), d.low, d.high);
+}
+
+double quantile_of(const LogUniform& d, double u) {
+  return kept_inside(std::exp(std::lerp(std::log(d.low), std::log(d.high), u)), d.low, d.high);
+}
+
+double quantile_of(const Normal& d, double u) {
+  return boost::math::quantile(boost::math::normal(d.mean, d.sd), u);
+}
+
+double quantile_of(const TruncatedNormal& d, double u) {
+  const boost::math::normal standard;
+  double low = (d.low - d.mean) / d.sd;
+  double high = (d.high - d.mean) / d.sd;
+  // The probabilities of an upper tail are differences of numbers near 1; those of its mirror image are not.
+  const bool mirrored = low > 0.0;
+  if (mirrored) {
+    std::swap(low, high);
+    low = -low;
+    high = -high;
+    u = 1.0 - u;
+  }
+  const double z = boost::math::quantile(
+      standard, std::lerp(boost::math::cdf(standard, low), boost::math::cdf(standard, high), u));
+  return kept_inside(d.mean + d.sd * (mirrored ? -z : z), d.low, d.high);
+}
+
+double quantile_of(const Lognormal& d, double u) {
+  return boost::math::quantile(boost::math::lognormal(std::log(d.median), std::sqrt(std::log1p(d.cv * d.cv))),
+                               u);
+}
+
+double quantile_of(const Triangular& d, double u) {
+  return kept_inside(boost::math::quantile(boost::math::triangular(d.low, d.mode, d.high), u), d.low, d.high);
+}
+
+double quantile_of(const Integers& d, double u) {
+  return static_cast<double>(d.low + place_among(d.high - d.low + 1, u));
+}
+
+double quantile_of(const Choice& d, double u) {
+  return d.values[static_cast<std::size_t>(place_among(static_cast<std::int64_t>(d.values.size()), u))];
+}
+
+}  // namespace
+
+Interval support(const Distribution& distribution) {
+  return std::visit(Overload{[](const Uniform& d) { return half_open(d.low, d.high); },
+                             [](const LogUniform& d) { return half_open(d.low, d.high); },
+                             [](const Normal&) { return all_numbers(); },
+                             [](const TruncatedNormal& d) { return half_open(d.low, d.high); },
+                             [](const Lognormal&) { return above(0.0); },
+                             [](const Triangular& d) { return half_open(d.low, d.high); },
+                             [](const Integers& d) {
+                               return closed(static_cast<double>(d.low), static_cast<double>(d.high));
+                             },
+                             [](const Choice& d) {
+                               const auto [low, high] = std::minmax_element(d.values.begin(), d.values.end());
+                               return closed(*low, *high);
+                             }},
+                    distribution);
+}
+
+double quantile(const Distribution& distribution, double u) {
+  return std::visit([u](const auto& d) { return quantile_of(d, u); }, distribution);
+}
+
+bool whole_numbers_only(const Distribution& distribution) {
+  if (std::holds_alternative<Integers>(distribution)) return true;
+  const auto* choice = std::get_if<Choice>(&distribution);
+  return choice != nullptr && std::all_of(choice->values.begin(), choice->values.end(),
+                                          [](double v) { return v == std::trunc(v); });
+}
+
+}  // namespace zerocount

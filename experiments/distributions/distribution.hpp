@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "experiments/parameters/interval.hpp"
+
+namespace zerocount {
+
+// The distributions of a manifest. Parameters have the unit of the quantity; all are sampled by their
+// quantile function, so that every design, stratified or not, is the same map of uniform numbers.
+
+/// Equally likely anywhere in [low, high).
+struct Uniform {
+  double low{0.0};
+  double high{1.0};
+};
+
+/// The logarithm is equally likely anywhere: density ∝ 1/x on [low, high), 0 < low.
+struct LogUniform {
+  double low{1.0};
+  double high{2.0};
+};
+
+/// Gaussian with the given mean and standard deviation.
+struct Normal {
+  double mean{0.0};
+  double sd{1.0};
+};
+
+/// A Gaussian of mean and standard deviation `mean`, `sd` (those of the parent) conditioned on [low, high).
+struct TruncatedNormal {
+  double mean{0.0};
+  double sd{1.0};
+  double low{-1.0};
+  double high{1.0};
+};
+
+/// The logarithm is Gaussian: median exp(μ), coefficient of variation (sd/mean of the variable itself)
+/// cv = √(exp(s²) − 1), so s = √ln(1 + cv²).
+struct Lognormal {
+  double median{1.0};
+  double cv{0.1};
+};
+
+/// Density rising from `low` to `mode` and falling to `high`, straight on both sides.
+struct Triangular {
+  double low{0.0};
+  double mode{0.5};
+  double high{1.0};
+};
+
+/// Each whole number from `low` to `high`, both included, equally likely.
+struct Integers {
+  std::int64_t low{0};
+  std::int64_t high{1};
+};
+
+/// Each of the values equally likely.
+struct Choice {
+  std::vector<double> values;
+};
+
+using Distribution =
+    std::variant<Uniform, LogUniform, Normal, TruncatedNormal, Lognormal, Triangular, Integers, Choice>;
+
+/// The values that can be drawn.
+Interval support(const Distribution& distribution);
+
+/// The smallest x with P(X ≤ x) ≥ u, 0 < u < 1, in the quantity's unit.
+double quantile(const Distribution& distribution, double u);
+
+/// Whether only whole numbers can be drawn.
+bool whole_numbers_only(const Distribution& distribution);
+
+}  // namespace zerocount

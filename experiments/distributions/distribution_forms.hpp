@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "experiments/distributions/distribution.hpp"
+#include "experiments/distributions/random_field.hpp"
+#include "experiments/yaml/scalars.hpp"
+
+namespace zerocount {
+
+/// How a manifest writes one distribution: a map with the one key `name`.
+struct DistributionForm {
+  std::string_view name;
+  std::string_view shown;              ///< what stands after the name: "[low, high]"
+  std::vector<std::string_view> keys;  ///< the numbers it takes; none: a list of any length
+  bool by_key{false};                  ///< a map of the keys; else a list in their order
+  bool whole_numbers{false};           ///< takes and draws whole numbers
+  std::string_view meaning;
+  Distribution (*make)(const std::vector<double>& numbers){nullptr};
+};
+
+/// All distributions, except `profile`.
+std::span<const DistributionForm> distribution_forms();
+
+/// The names, "uniform, log_uniform, …", for messages.
+std::string distribution_names();
+
+/// The distribution in `field`, the value of the key `form.name`. Reports what is wrong and returns nothing,
+/// also where the numbers make no distribution (low above high, say).
+std::optional<Distribution> read_distribution(const DistributionForm& form, const Field& field,
+                                              Problems& problems);
+
+/// The same for the value of the key `profile`: {mean, cv, correlation_length, marginal}, marginal lognormal
+/// if left out.
+std::optional<ProfileDescription> read_profile(const Field& field, Problems& problems);
+
+}  // namespace zerocount

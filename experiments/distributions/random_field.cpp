@@ -1,0 +1,73 @@
+#include "experiments/distributions/random_field.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/special_functions/erf.hpp>
+
+#include "experiments/designs/random.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr double neglected_variance = 1e-12;
+
+double standard_normal(const RandomStream& stream, std::size_t harmonic, Draw draw) {
+  return boost::math::quantile(boost::math::normal{}, open_uniform(random_bits(stream, harmonic, draw)));
+}
+
+}  // namespace
+
+std::vector<double> field_spectrum(double correlation_length) {
+  // Beyond m = M the terms hold less than ∫_M^∞ 2·exp(−(mℓ/2)²) dm = (2√π/ℓ)·erfc(Mℓ/2), and all of them
+  // together at least max(1, 2√π/ℓ).
+  const double whole = std::max(1.0, 2.0 * std::sqrt(std::numbers::pi) / correlation_length);
+  const double tail = neglected_variance * whole * correlation_length / (2.0 * std::sqrt(std::numbers::pi));
+  const double last = 2.0 / correlation_length * boost::math::erfc_inv(tail);
+  std::vector<double> spectrum{1.0};
+  for (double m = 1.0; m <= std::ceil(last); m += 1.0) {
+    spectrum.push_back(2.0 * std::exp(-0.25 * m * m * correlation_length * correlation_length));
+  }
+  const double sum = std::accumulate(spectrum.rbegin(), spectrum.rend(), 0.0);
+  for (double& variance : spectrum) variance /= sum;
+  return spectrum;
+}
+
+Profile realise_profile(const ProfileDescription& description, std::uint64_t seed, std::string_view name) {
+  const std::vector<double> spectrum = field_spectrum(description.correlation_length);
+  const RandomStream stream{.key = random_key(seed, name)};
+  Profile profile;
+  profile.marginal = description.marginal;
+  if (description.marginal == Marginal::lognormal) {
+    const double variance = std::log1p(description.cv * description.cv);
+    profile.location = std::log(description.mean) - 0.5 * variance;
+    profile.scale = std::sqrt(variance);
+  } else {
+    profile.location = description.mean;
+    profile.scale = description.mean * description.cv;
+  }
+  for (std::size_t m = 0; m < spectrum.size(); ++m) {
+    profile.cosine.push_back(std::sqrt(spectrum[m]) * standard_normal(stream, m, Draw::profile_cosine));
+    profile.sine.push_back(m == 0 ? 0.0
+                                  : std::sqrt(spectrum[m]) * standard_normal(stream, m, Draw::profile_sine));
+  }
+  return profile;
+}
+
+Interval support(const ProfileDescription& description) {
+  return description.marginal == Marginal::lognormal ? above(0.0) : all_numbers();
+}
+
+Interval limits(const Profile& profile) {
+  double largest = 0.0;
+  for (std::size_t m = 0; m < profile.cosine.size(); ++m) {
+    largest += std::hypot(profile.cosine[m], profile.sine[m]);
+  }
+  const double low = profile.location - profile.scale * largest;
+  const double high = profile.location + profile.scale * largest;
+  return profile.marginal == Marginal::lognormal ? closed(std::exp(low), std::exp(high)) : closed(low, high);
+}
+
+}  // namespace zerocount

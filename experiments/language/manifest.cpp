@@ -1,0 +1,266 @@
+#include "experiments/language/manifest.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "experiments/language/checks.hpp"
+#include "experiments/language/manifest_keys.hpp"
+#include "experiments/language/slots.hpp"
+#include "experiments/language/sweep.hpp"
+#include "experiments/language/values.hpp"
+#include "experiments/plan/study_assembly.hpp"
+#include "experiments/yaml/nearest_name.hpp"
+#include "experiments/yaml/unknown_key.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::int64_t most_trials = std::int64_t{1} << 53;
+
+// The manifest while it is read.
+struct Manifest {
+  Field root;
+  Reading reading;
+  PlanPlaces places{};
+  std::vector<SweptAxis> axes{};
+  Study study{};
+
+  Problems& problems() { return reading.problems; }
+  StudyPlan& plan() { return reading.plan; }
+};
+
+// The value of a top-level key; where it is missing, null, which is reported if it is required.
+std::optional<Field> find_field(Manifest& m, std::string_view key) {
+  if (const YamlEntry* entry = find_entry(*m.root.node, key)) return entry_of(m.root, *entry);
+  return std::nullopt;
+}
+
+std::optional<Field> find_required(Manifest& m, std::string_view key, std::string_view expected) {
+  auto field = find_field(m, key);
+  if (!field) m.problems().add(m.root.node->place, key, "the key is missing", expected);
+  return field;
+}
+
+void read_version(Manifest& m) {
+  const auto field = find_required(m, "zerocount", fmt::format("zerocount: {}", manifest_version));
+  if (!field) return;
+  const auto version = read_whole(*field, 1, std::numeric_limits<std::int64_t>::max(), m.problems());
+  if (version && *version > manifest_version) {
+    m.problems().add(field->node->place, field->path,
+                     fmt::format("the manifest is of version {}, newer than this program", *version),
+                     fmt::format("version {}, or a newer program", manifest_version));
+  }
+}
+
+void read_texts(Manifest& m) {
+  if (const auto field = find_required(m, "name", "a name for the study")) {
+    m.study.name = read_text(*field, m.problems()).value_or("");
+    if (field->node->kind == YamlNode::Kind::scalar &&
+        field->node->text.find_first_not_of(" \t\r\n") == std::string::npos) {
+      m.problems().add(field->node->place, field->path, "the name is empty", "a name for the study");
+    }
+  }
+  if (const auto field = find_field(m, "description")) {
+    m.study.description = read_text(*field, m.problems()).value_or("");
+  }
+}
+
+void read_design(Manifest& m) {
+  const auto field = find_field(m, "design");
+  if (!field) return;
+  const std::span<const std::string_view> words = design_words();
+  const auto word = std::find(words.begin(), words.end(), field->node->text);
+  if (field->node->kind == YamlNode::Kind::scalar && word != words.end()) {
+    m.study.design = static_cast<Design>(word - words.begin());
+  } else {
+    m.problems().add(field->node->place, field->path,
+                     fmt::format("{} is no design", in_quotes(flow_text(*field->node))),
+                     "monte_carlo, latin_hypercube or sobol");
+  }
+}
+
+void read_numbers(Manifest& m) {
+  if (const auto field = find_required(m, "seed", "a whole number")) {
+    m.study.seed = read_seed(*field, m.problems()).value_or(0);
+  }
+  if (const auto field = find_required(m, "trials", "the number of trials at each design point")) {
+    m.study.trials = read_whole(*field, 1, most_trials, m.problems()).value_or(0);
+  }
+  if (const auto field = find_field(m, "independent_points")) {
+    m.study.independent_points = read_truth(*field, m.problems()).value_or(false);
+  }
+}
+
+void read_targets(Manifest& m, const Field& field) {
+  constexpr std::size_t most_moves = 3000;
+  const std::string expected = fmt::format("a list of 1 to {} targets", most_moves);
+  if (!check_list(field, expected, m.problems())) return;
+  const std::size_t moves = field.node->items.size();
+  if (moves < 1 || moves > most_moves) {
+    m.problems().add(field.node->place, field.path, fmt::format("a list of {} stands here", moves), expected);
+    return;
+  }
+  m.plan().moves = moves;
+  m.plan().base.resize(slot_count(moves));
+  m.places.base.resize(slot_count(moves));
+  m.places.written.resize(slot_count(moves), true);
+  for (std::size_t move = 0; move < moves; ++move) {
+    const Field item = item_of(field, move);
+    m.plan().base[target_slot(move)] = read_value(item, targets_row(), m.reading);
+    m.places.base[target_slot(move)] = item.node->place;
+  }
+}
+
+void read_section(Manifest& m, const std::string& section) {
+  const auto field = find_field(m, section);
+  if (!field || !check_map(*field, "a map", m.problems())) return;
+  const std::vector<std::string> known = section_keys(section);
+  for (const YamlEntry& entry : field->node->entries) {
+    const Field value = entry_of(*field, entry);
+    const auto row = find_parameter(value.path);
+    if (!row) {
+      add_unknown_key(*field, entry, known, m.problems());
+    } else if (*row == targets_row()) {
+      read_targets(m, value);
+    } else {
+      m.plan().base[*row] = read_value(value, *row, m.reading);
+      m.places.base[*row] = value.node->place;
+      m.places.written[*row] = true;
+    }
+  }
+}
+
+void read_parameters(Manifest& m) {
+  m.plan().base.resize(slot_count(1));
+  m.places.base.resize(slot_count(1), m.root.node->place);
+  m.places.written.resize(slot_count(1), false);
+  const auto table = parameter_table();
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    if (!table[row].per_move) m.plan().base[row].number = default_value(table[row]);
+  }
+  for (const std::string& section : section_names()) read_section(m, section);
+  const std::string targets(table[targets_row()].name);
+  const auto command = find_required(m, "command", "command: {targets: [..]}");
+  if (command && command->node->kind == YamlNode::Kind::map && !find_entry(*command->node, "targets")) {
+    m.problems().add(command->node->place, targets, "the key is missing", "a list of targets");
+  }
+}
+
+void read_axes(Manifest& m) {
+  if (const auto field = find_field(m, "sweep")) m.axes = read_sweep(*field, m.plan().moves, m.reading);
+  for (const SweptAxis& axis : m.axes) {
+    if (axis.labels.empty()) continue;  // could not be read
+    m.plan().axes.push_back(axis.axis);
+    m.places.axes.push_back(axis.places);
+  }
+}
+
+void check_trial_count(Manifest& m) {
+  std::int64_t points = 1;
+  for (const PlanAxis& axis : m.plan().axes) points *= static_cast<std::int64_t>(option_count(axis));
+  const auto field = find_field(m, "trials");
+  if (field && m.study.trials > most_trials / points) {
+    m.problems().add(field->node->place, field->path,
+                     fmt::format("{} trials at {} points are too many", m.study.trials, points),
+                     fmt::format("at most {} trials in all", most_trials));
+  }
+}
+
+void read_retained(Manifest& m) {
+  const auto field = find_field(m, "retain");
+  if (!field || !check_map(*field, "retain: {trials: [..]}", m.problems())) return;
+  const std::vector<std::string> known{"trials"};
+  for (const YamlEntry& entry : field->node->entries) {
+    const Field list = entry_of(*field, entry);
+    if (entry.key != known.front()) {
+      add_unknown_key(*field, entry, known, m.problems());
+    } else if (check_list(list, "a list of trial indices", m.problems())) {
+      for (std::size_t i = 0; i < list.node->items.size(); ++i) {
+        const Field item = item_of(list, i);
+        const auto index = read_whole(item, 0, std::max<std::int64_t>(m.study.trials - 1, 0), m.problems());
+        if (index) m.study.retained_trials.push_back(*index);
+      }
+      std::vector<std::int64_t>& kept = m.study.retained_trials;
+      std::sort(kept.begin(), kept.end());
+      if (std::adjacent_find(kept.begin(), kept.end()) != kept.end()) {
+        m.problems().add(list.node->place, list.path, "a trial stands twice in the list", "each trial once");
+      }
+    }
+  }
+}
+
+// What was observed of a case holds at each of its points, unless the point has a text of its own.
+void read_observed(Manifest& m) {
+  const auto field = find_field(m, "observed");
+  if (!field || !check_map(*field, "a map from cases or point labels to texts", m.problems())) return;
+  const bool complete =
+      std::none_of(m.axes.begin(), m.axes.end(), [](const auto& axis) { return axis.labels.empty(); });
+  if (!complete) return;  // reported already
+  const std::vector<std::string> labels = label_points(m.axes);
+  const bool has_cases = !m.axes.empty() && m.axes.front().cases;
+  const std::vector<std::string> cases = has_cases ? m.axes.front().labels : std::vector<std::string>{};
+  std::vector<std::string> known = cases;
+  known.insert(known.end(), labels.begin(), labels.end());
+  const std::set<std::string> known_labels(labels.begin(), labels.end());
+  std::map<std::string, std::string> of_case;
+  for (const YamlEntry& entry : field->node->entries) {
+    const auto text = read_text(entry_of(*field, entry), m.problems());
+    if (known_labels.count(entry.key) > 0) {
+      m.study.observed[entry.key] = text.value_or("");
+    } else if (std::find(cases.begin(), cases.end(), entry.key) != cases.end()) {
+      of_case[entry.key] = text.value_or("");
+    } else {
+      m.problems().add(
+          entry.place, entry_of(*field, entry).path,
+          fmt::format("no case or point has this label, nearest known: {}", nearest_name(entry.key, known)),
+          "the name of a case or the label of a point");
+    }
+  }
+  for (std::size_t point = 0; !of_case.empty() && point < labels.size(); ++point) {
+    const auto text = of_case.find(cases[point / (labels.size() / cases.size())]);
+    if (text != of_case.end()) m.study.observed.emplace(labels[point], text->second);
+  }
+}
+
+void report_unknown_keys(Manifest& m) {
+  const std::vector<std::string> known = top_level_keys();
+  for (const YamlEntry& entry : m.root.node->entries) {
+    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
+      add_unknown_key(m.root, entry, known, m.problems());
+    }
+  }
+}
+
+}  // namespace
+
+Study read_manifest(const YamlNode& root, Problems& problems) {
+  auto plan = std::make_shared<StudyPlan>();
+  Manifest m{.root = {&root, ""}, .reading = {problems, *plan}};
+  if (root.kind != YamlNode::Kind::map) {
+    add_wrong_type({&root, "manifest"}, "a map with the keys zerocount, name, seed, trials, command",
+                   problems);
+    return {};
+  }
+  report_unknown_keys(m);
+  read_version(m);
+  read_texts(m);
+  read_numbers(m);
+  read_design(m);
+  read_parameters(m);
+  read_axes(m);
+  check_trial_count(m);
+  read_retained(m);
+  read_observed(m);
+  realise_profiles(m.reading.profiles, m.study.seed, *plan);
+  check_points(*plan, m.places, problems);
+  if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, m.study);
+  m.study.warnings = std::move(m.reading.warnings);
+  m.study.plan = std::move(plan);
+  return std::move(m.study);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "experiments/study.hpp"
+#include "experiments/yaml/yaml_tree.hpp"
+
+namespace zerocount {
+
+/// Newest manifest version that this program understands: the value of the key `zerocount`.
+constexpr std::int64_t manifest_version = 1;
+
+/// Understands the manifest `root`: everything of a Study but its text, overrides and hashes. What is wrong
+/// goes to `problems`; where there is any, the study is not to be used.
+Study read_manifest(const YamlNode& root, Problems& problems);
+
+}  // namespace zerocount

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "experiments/yaml/yaml_tree.hpp"
+
+namespace zerocount {
+
+/// The tree `root` with each of `overrides` ("key=value", the value YAML text) put in its place, in order.
+/// Keys are dotted paths, with an index for lists: trials, plant.inertia, command.targets.0,
+/// sweep.grid.controller.kp. Maps on the way that are missing are made; `zerocount` cannot be overridden.
+/// `sources` gets the names under which the overrides appear in messages, and must outlive the result.
+YamlPointer apply_overrides(YamlPointer root, const std::vector<std::string>& overrides,
+                            std::deque<std::string>& sources, Problems& problems);
+
+}  // namespace zerocount

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/yaml/scalars.hpp"
+
+namespace zerocount {
+
+/// `count` numbers from `from` to `to`, both included, at equal distances or, where logarithmic, at equal
+/// ratios.
+struct Spacing {
+  double from{0.0};
+  double to{1.0};
+  std::size_t count{2};
+  bool logarithmic{false};
+};
+
+/// The spacing in `field`, the value of the key `name`, linspace or logspace: [first value, last value,
+/// number of values]. At most `most` values. What is wrong is reported, and nothing returned.
+std::optional<Spacing> read_spacing(const Field& field, const std::string& name, std::size_t most,
+                                    Problems& problems);
+
+/// The numbers; those between the ends are rounded to 15 significant digits.
+std::vector<double> spaced_values(const Spacing& spacing);
+
+/// "name=value" for each of `values`, as short as still tells them apart.
+std::vector<std::string> spaced_labels(const std::string& name, const std::vector<double>& values);
+
+}  // namespace zerocount

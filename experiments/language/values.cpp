@@ -1,0 +1,156 @@
+#include "experiments/language/values.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiments/distributions/distribution_forms.hpp"
+#include "experiments/yaml/nearest_name.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::string_view profile_name = "profile";
+
+std::string expected_of(const Parameter& parameter) {
+  const std::string words = in_words(parameter.range);
+  const std::string noun = parameter.kind == ParameterKind::whole_number ? "whole numbers" : "numbers";
+  return words.rfind("any", 0) == 0 ? "finite " + noun + " only" : noun + " " + words + " only";
+}
+
+Value number_value(double number) {
+  return {.kind = Value::Kind::number, .number = number};
+}
+
+Value read_word(const Field& field, const Parameter& parameter, Problems& problems) {
+  const YamlNode& node = *field.node;
+  const auto word = std::find(parameter.words.begin(), parameter.words.end(), node.text);
+  if (node.kind == YamlNode::Kind::scalar && word != parameter.words.end()) {
+    return number_value(static_cast<double>(word - parameter.words.begin()));
+  }
+  problems.add(node.place, field.path, fmt::format("{} is none of its words", in_quotes(flow_text(node))),
+               fmt::format("one of {}", fmt::join(parameter.words, ", ")));
+  return unreadable_value();
+}
+
+Value read_number(const Field& field, const Parameter& parameter, Problems& problems) {
+  if (parameter.kind == ParameterKind::whole_number) {
+    const auto whole = read_whole(field, static_cast<std::int64_t>(parameter.range.low),
+                                  static_cast<std::int64_t>(parameter.range.high), problems);
+    return whole ? number_value(static_cast<double>(*whole)) : unreadable_value();
+  }
+  const auto real = read_real(field, parameter.range, problems);
+  return real ? number_value(*real) : unreadable_value();
+}
+
+// The extreme draws, as a guard against numbers so large that their quantiles overflow.
+bool extremes_are_inside(const Distribution& distribution, const Interval& range) {
+  try {
+    return contains(range, quantile(distribution, 0x1p-53)) &&
+           contains(range, quantile(distribution, 1.0 - 0x1p-53));
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+bool check_support(const Field& field, const Parameter& parameter, const Interval& values,
+                   Problems& problems) {
+  if (contains(parameter.range, values)) return true;
+  problems.add(
+      field.node->place, field.path,
+      fmt::format("its values {} leave the range allowed {}", notation(values), notation(parameter.range)),
+      expected_of(parameter));
+  return false;
+}
+
+Value read_drawn(const DistributionForm& form, const Field& field, const Parameter& parameter,
+                 Reading& reading) {
+  const auto distribution = read_distribution(form, field, reading.problems);
+  if (!distribution || !check_support(field, parameter, support(*distribution), reading.problems)) {
+    return unreadable_value();
+  }
+  if (parameter.kind == ParameterKind::whole_number && !whole_numbers_only(*distribution)) {
+    reading.problems.add(field.node->place, field.path, "its values are not whole numbers",
+                         "integers, or a choice of whole numbers");
+    return unreadable_value();
+  }
+  if (!extremes_are_inside(*distribution, parameter.range)) {
+    reading.problems.add(field.node->place, field.path,
+                         "its extreme values are too large or too small for a double",
+                         expected_of(parameter));
+    return unreadable_value();
+  }
+  reading.plan.distributions.push_back(*distribution);
+  return {.kind = Value::Kind::distribution,
+          .index = static_cast<std::uint32_t>(reading.plan.distributions.size() - 1)};
+}
+
+Value read_profile_value(const Field& field, std::size_t row, Reading& reading) {
+  const Parameter& parameter = parameter_table()[row];
+  constexpr std::size_t most_profiles = 1000;
+  if (parameter.profiled == nullptr) {
+    reading.problems.add(field.node->place, field.path, "this parameter does not vary along the rotor",
+                         "a number or a distribution other than profile");
+    return unreadable_value();
+  }
+  const auto description = read_profile(field, reading.problems);
+  if (!description || !check_support(field, parameter, support(*description), reading.problems)) {
+    return unreadable_value();
+  }
+  if (reading.profiles.size() == most_profiles) {
+    reading.problems.add(field.node->place, field.path, "there are too many profiles",
+                         fmt::format("at most {} in a study", most_profiles));
+    return unreadable_value();
+  }
+  reading.profiles.push_back({row, *description});
+  return {.kind = Value::Kind::profile, .index = static_cast<std::uint32_t>(reading.profiles.size() - 1)};
+}
+
+Value read_map(const Field& field, std::size_t row, Reading& reading) {
+  const std::string expected = fmt::format("a map with one of {}, {}", distribution_names(), profile_name);
+  const auto& entries = field.node->entries;
+  if (entries.size() != 1) {
+    reading.problems.add(field.node->place, field.path,
+                         fmt::format("a map with {} keys stands here", entries.size()), expected);
+    return unreadable_value();
+  }
+  const YamlEntry& entry = entries.front();
+  if (entry.key == profile_name) return read_profile_value(entry_of(field, entry), row, reading);
+  std::vector<std::string> names{std::string(profile_name)};
+  for (const DistributionForm& form : distribution_forms()) {
+    if (form.name == entry.key)
+      return read_drawn(form, entry_of(field, entry), parameter_table()[row], reading);
+    names.emplace_back(form.name);
+  }
+  reading.problems.add(entry.place, entry_of(field, entry).path,
+                       fmt::format("unknown distribution, nearest known: {}", nearest_name(entry.key, names)),
+                       expected);
+  return unreadable_value();
+}
+
+}  // namespace
+
+Value unreadable_value() {
+  return number_value(std::numeric_limits<double>::quiet_NaN());
+}
+
+Value read_value(const Field& field, std::size_t row, Reading& reading) {
+  const Parameter& parameter = parameter_table()[row];
+  if (parameter.kind == ParameterKind::enumeration) return read_word(field, parameter, reading.problems);
+  if (field.node->kind == YamlNode::Kind::map) return read_map(field, row, reading);
+  return read_number(field, parameter, reading.problems);
+}
+
+Value checked_number(const Field& field, std::size_t row, double number, Reading& reading) {
+  const Parameter& parameter = parameter_table()[row];
+  const bool fits = parameter.kind == ParameterKind::real ||
+                    (parameter.kind == ParameterKind::whole_number && number == std::trunc(number));
+  if (fits && contains(parameter.range, number)) return number_value(number);
+  reading.problems.add(field.node->place, field.path, fmt::format("the value {} is not allowed", number),
+                       expected_of(parameter));
+  return unreadable_value();
+}
+
+}  // namespace zerocount

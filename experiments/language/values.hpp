@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "experiments/distributions/random_field.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+#include "experiments/plan/plan.hpp"
+#include "experiments/yaml/scalars.hpp"
+
+namespace zerocount {
+
+/// A profile that the manifest asks for, to be realised once the seed is known.
+struct ProfileRequest {
+  std::size_t row{0};  ///< of the table of parameters
+  ProfileDescription description;
+};
+
+/// What reading a manifest builds up.
+struct Reading {
+  Problems& problems;
+  StudyPlan& plan;                         ///< gets the distributions
+  std::vector<ProfileRequest> profiles{};  ///< [index of a value of kind profile]
+  std::vector<std::string> warnings{};     ///< what is allowed but may surprise
+};
+
+/// A value that could not be read: NaN, so that no later check fires on it.
+Value unreadable_value();
+
+/// The value of the parameter in row `row`: a number, a word, a distribution or a profile, checked against
+/// the range that the parameter allows. What is wrong is reported, and an unreadable value returned.
+Value read_value(const Field& field, std::size_t row, Reading& reading);
+
+/// `number` as a value of the parameter, checked likewise; `field` is where it comes from.
+Value checked_number(const Field& field, std::size_t row, double number, Reading& reading);
+
+}  // namespace zerocount

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "experiments/language/sweep.hpp"
+#include "experiments/language/values.hpp"
+#include "experiments/study.hpp"
+
+namespace zerocount {
+
+/// Realises the profiles asked for: plan.profiles, in the order of the requests. All of one parameter are the
+/// same field, whatever their mean, spread and correlation length.
+void realise_profiles(const std::vector<ProfileRequest>& requests, std::uint64_t seed, StudyPlan& plan);
+
+/// Completes a study whose manifest is free of problems: the random numbers of each slot, the labels of the
+/// points, the axes, the input columns, the list of profiles.
+void assemble_study(const std::vector<ProfileRequest>& requests, const std::vector<SweptAxis>& axes,
+                    StudyPlan& plan, Study& study);
+
+}  // namespace zerocount

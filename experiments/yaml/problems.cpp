@@ -1,0 +1,58 @@
+#include "experiments/yaml/problems.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "core/failure.hpp"
+
+namespace zerocount {
+
+std::string at_place(const Place& place, std::string_view path, std::string_view text) {
+  if (place.line == 0) return fmt::format("{}: {}: {}", place.source, path, text);
+  return fmt::format("{}:{}:{}: {}: {}", place.source, place.line, place.column, path, text);
+}
+
+void Problems::add(const Place& place, std::string_view path, std::string_view what,
+                   std::string_view expected) {
+  entries_.push_back({place, at_place(place, path, fmt::format("{}; expected {}", what, expected))});
+}
+
+void Problems::raise_if_any() const {
+  if (empty()) return;
+  std::vector<Entry> sorted = entries_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Entry& a, const Entry& b) {
+    // Overrides (line 0) after the file.
+    const auto key = [](const Entry& e) {
+      return std::tuple(e.place.line == 0, e.place.line, e.place.column);
+    };
+    return key(a) < key(b);
+  });
+  std::string message;
+  std::string_view last;
+  for (const Entry& entry : sorted) {
+    if (entry.text == last) continue;  // an alias can bring the same place up twice
+    if (!message.empty()) message += '\n';
+    message += entry.text;
+    last = entry.text;
+  }
+  throw Failure(ExitCode::bad_input, message);
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  std::string shown = "'";
+  for (const char c : text.substr(0, longest)) {
+    shown += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  // A cut may fall inside a UTF-8 sequence: drop what is left of it.
+  if (text.size() > longest) {
+    while (!shown.empty() && (static_cast<unsigned char>(shown.back()) & 0xC0) == 0x80) shown.pop_back();
+    if (static_cast<unsigned char>(shown.back()) >= 0xC0) shown.pop_back();
+    shown += "…";
+  }
+  return shown + "'";
+}
+
+}  // namespace zerocount

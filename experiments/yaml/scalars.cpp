@@ -1,0 +1,201 @@
+#include "experiments/yaml/scalars.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <regex>
+
+#include <boost/algorithm/string/case_conv.hpp>
+#include <fmt/format.h>
+
+namespace zerocount {
+namespace {
+
+bool is_one_of(std::string_view text, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), text) != words.end();
+}
+
+bool is_yaml11_truth(const std::string& text) {
+  return is_one_of(boost::algorithm::to_lower_copy(text),
+                   {"yes", "no", "on", "off", "true", "false", "y", "n"});
+}
+
+bool is_nonfinite(const std::string& text) {
+  std::string word = boost::algorithm::to_lower_copy(text);
+  if (!word.empty() && (word.front() == '-' || word.front() == '+')) word.erase(0, 1);
+  return is_one_of(word, {".inf", ".nan", "inf", "nan", "infinity"});
+}
+
+bool matches(const std::string& text, const char* pattern) {
+  return std::regex_match(text, std::regex(pattern));
+}
+
+bool has_leading_zero(const std::string& text) {
+  const std::size_t first = text.rfind('-', 0) == 0 ? 1 : 0;
+  return text.size() > first + 1 && text[first] == '0' && text[first + 1] >= '0' && text[first + 1] <= '9';
+}
+
+// The number of `text`, where the whole of it is one in the sense of YAML 1.2 (and not only of from_chars).
+template <class Number>
+std::errc parse_number(const std::string& text, Number& number) {
+  if (has_leading_zero(text) || is_nonfinite(text)) return std::errc::invalid_argument;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (end != text.data() + text.size()) return std::errc::invalid_argument;
+  return error;
+}
+
+bool reads_as_number(const std::string& text) {
+  double number = 0.0;
+  return parse_number(text, number) != std::errc::invalid_argument;
+}
+
+// What a scalar is, where a number or a truth value was expected.
+std::string describe_scalar(const YamlNode& node) {
+  const std::string shown = in_quotes(node.text);
+  if (!node.plain) return fmt::format("{} is a quoted text", shown);
+  const std::string text = node.text.substr(0, 100);  // long enough for every kind below
+  if (text.empty()) return "the value is empty";
+  if (is_yaml11_truth(text)) return fmt::format("{} is a truth value", shown);
+  if (is_nonfinite(text)) return fmt::format("{} is not finite", shown);
+  if (matches(text, "[-+]?0[xob][0-9A-Fa-f_]+")) return fmt::format("{} is not decimal", shown);
+  if (matches(text, "[-+]?0[0-9]+.*"))
+    return fmt::format("{} starts with a zero, which some read as octal", shown);
+  if (matches(text, "[-+]?[0-9][0-9.eE+-]*_[0-9_.eE+-]*"))
+    return fmt::format("{} has underscores in it", shown);
+  if (matches(text, "[-+]?[0-9]+(:[0-9.]+)+"))
+    return fmt::format("{} has a colon in it, which some read to base 60", shown);
+  if (text.front() == '+') return fmt::format("{} starts with a plus sign", shown);
+  return fmt::format("{} is not a number", shown);
+}
+
+std::string describe(const YamlNode& node) {
+  switch (node.kind) {
+    case YamlNode::Kind::null:
+      return "the value is empty";
+    case YamlNode::Kind::list:
+      return "a list stands here";
+    case YamlNode::Kind::map:
+      return "a map stands here";
+    case YamlNode::Kind::scalar:
+      return describe_scalar(node);
+  }
+  return {};
+}
+
+bool is_plain_scalar(const YamlNode& node) {
+  return node.kind == YamlNode::Kind::scalar && node.plain;
+}
+
+template <class Whole>
+std::optional<Whole> read_whole_of(const Field& field, Whole low, Whole high, Problems& problems) {
+  const std::string expected = fmt::format("a whole number from {} to {}", low, high);
+  const YamlNode& node = *field.node;
+  Whole number{};
+  const std::errc error =
+      is_plain_scalar(node) ? parse_number(node.text, number) : std::errc::invalid_argument;
+  if (error == std::errc{} && number >= low && number <= high) return number;
+  if (error == std::errc::invalid_argument && !(is_plain_scalar(node) && reads_as_number(node.text))) {
+    add_wrong_type(field, expected, problems);
+  } else if (error == std::errc::invalid_argument && !matches(node.text.substr(0, 100), "-?[0-9]+")) {
+    problems.add(node.place, field.path,
+                 fmt::format("{} is not written as a whole number", in_quotes(node.text)), expected);
+  } else {
+    problems.add(node.place, field.path, fmt::format("{} is out of range", in_quotes(node.text)), expected);
+  }
+  return std::nullopt;
+}
+
+bool check_kind(const Field& field, YamlNode::Kind kind, const std::string& expected, Problems& problems) {
+  const YamlNode& node = *field.node;
+  if (node.kind == kind) return true;
+  const std::string what = node.kind == YamlNode::Kind::scalar
+                               ? fmt::format("the single value {} stands here", in_quotes(node.text))
+                               : describe(node);
+  problems.add(node.place, field.path, what, expected);
+  return false;
+}
+
+}  // namespace
+
+Field entry_of(const Field& map, const YamlEntry& entry) {
+  return {entry.value.get(), map.path.empty() ? entry.key : map.path + "." + entry.key};
+}
+
+Field item_of(const Field& list, std::size_t index) {
+  return {list.node->items[index].get(), fmt::format("{}.{}", list.path, index)};
+}
+
+void add_wrong_type(const Field& field, const std::string& expected, Problems& problems) {
+  problems.add(field.node->place, field.path, describe(*field.node), expected);
+}
+
+std::optional<double> read_real(const Field& field, const Interval& range, Problems& problems) {
+  const YamlNode& node = *field.node;
+  const std::string words = in_words(range);
+  const std::string expected = words.rfind("any", 0) == 0 ? words : "a number " + words;
+  double number = 0.0;
+  const std::errc error =
+      is_plain_scalar(node) ? parse_number(node.text, number) : std::errc::invalid_argument;
+  if (error == std::errc::invalid_argument) {
+    add_wrong_type(field, expected, problems);
+  } else if (error != std::errc{}) {
+    problems.add(node.place, field.path,
+                 fmt::format("{} is too large or too small for a double", in_quotes(node.text)), expected);
+  } else if (!contains(range, number)) {
+    problems.add(node.place, field.path, fmt::format("{} is out of range", in_quotes(node.text)), expected);
+  } else {
+    return number;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> read_whole(const Field& field, std::int64_t low, std::int64_t high,
+                                       Problems& problems) {
+  return read_whole_of<std::int64_t>(field, low, high, problems);
+}
+
+std::optional<std::uint64_t> read_seed(const Field& field, Problems& problems) {
+  return read_whole_of<std::uint64_t>(field, 0, std::numeric_limits<std::uint64_t>::max(), problems);
+}
+
+std::optional<bool> read_truth(const Field& field, Problems& problems) {
+  const YamlNode& node = *field.node;
+  if (is_plain_scalar(node) && (node.text == "true" || node.text == "false")) return node.text == "true";
+  if (is_plain_scalar(node) && !is_yaml11_truth(node.text)) {
+    problems.add(node.place, field.path, fmt::format("{} is not a truth value", in_quotes(node.text)),
+                 "true or false");
+  } else {
+    const std::string what =
+        is_plain_scalar(node)
+            ? fmt::format("{} is a truth value only in some versions of YAML", in_quotes(node.text))
+            : describe(node);
+    problems.add(node.place, field.path, what, "true or false");
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> read_text(const Field& field, Problems& problems) {
+  const YamlNode& node = *field.node;
+  if (node.kind != YamlNode::Kind::scalar) {
+    add_wrong_type(field, "a text", problems);
+    return std::nullopt;
+  }
+  if (node.plain && (reads_as_number(node.text) || is_yaml11_truth(node.text) || is_nonfinite(node.text))) {
+    problems.add(node.place, field.path,
+                 fmt::format("{} reads as a number or a truth value", in_quotes(node.text)),
+                 "a text, in quotation marks where it could be taken for something else");
+    return std::nullopt;
+  }
+  return node.text;
+}
+
+bool check_map(const Field& field, const std::string& expected, Problems& problems) {
+  return check_kind(field, YamlNode::Kind::map, expected, problems);
+}
+
+bool check_list(const Field& field, const std::string& expected, Problems& problems) {
+  return check_kind(field, YamlNode::Kind::list, expected, problems);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,51 @@
+#include "experiments/yaml/yaml_faults.hpp"
+
+#include <boost/locale/utf.hpp>
+#include <yaml-cpp/exceptions.h>
+
+namespace zerocount {
+
+std::string syntax_fault(const std::string& message) {
+  using namespace YAML::ErrorMsg;
+  const auto starts = [&](const char* known) { return message.rfind(known, 0) == 0; };
+  if (starts(MAP_VALUE)) return "a ':' stands where no value can start";
+  if (starts(MAP_KEY)) return "a key stands where none can start";
+  if (starts(BLOCK_ENTRY)) return "a '-' stands where no list item can start";
+  if (starts(FLOW_END)) return "a closing bracket matches no opening one";
+  if (starts(END_OF_MAP) || starts(END_OF_MAP_FLOW))
+    return "a map is not complete (bracket, comma or indentation)";
+  if (starts(END_OF_SEQ) || starts(END_OF_SEQ_FLOW))
+    return "a list is not complete (bracket, comma or indentation)";
+  if (starts(TAB_IN_INDENTATION)) return "a tab stands in the indentation";
+  if (starts(EOF_IN_SCALAR)) return "a quotation mark is not closed";
+  if (starts(DOC_IN_SCALAR)) return "a document mark stands inside a quoted text";
+  if (starts(INVALID_ESCAPE) || starts(INVALID_HEX) || starts(INVALID_UNICODE)) {
+    return "an escape sequence in a quoted text is not known";
+  }
+  if (starts(UNKNOWN_ANCHOR) || starts(ALIAS_NOT_FOUND) || starts(ALIAS_CONTENT)) {
+    return "an alias names no anchor that stands before it";
+  }
+  if (starts(UNKNOWN_TOKEN)) return "a character stands here that can start nothing";
+  return "the text is not YAML from here on";
+}
+
+Place first_bad_byte(const std::string& text, std::string_view source) {
+  int line = 1;
+  const char* line_start = text.data();
+  const char* const end = text.data() + text.size();
+  for (const char* p = text.data(); p != end;) {
+    const char* const start = p;
+    const auto code = boost::locale::utf::utf_traits<char>::decode(p, end);
+    const bool control = code < 0x20 && code != '\n' && code != '\r' && code != '\t';
+    if (code == boost::locale::utf::illegal || code == boost::locale::utf::incomplete || control) {
+      return {source, line, static_cast<int>(start - line_start) + 1};
+    }
+    if (code == '\n') {
+      ++line;
+      line_start = p;
+    }
+  }
+  return {source};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "results/hdf5/hdf5_detail.hpp"
+
+namespace zerocount::hdf5 {
+namespace {
+
+hid_t memory_type(Element element) {
+  switch (element) {
+    case Element::float64:
+      return H5T_NATIVE_DOUBLE;
+    case Element::int64:
+      return H5T_NATIVE_INT64;
+    case Element::int32:
+      return H5T_NATIVE_INT32;
+    case Element::int8:
+      return H5T_NATIVE_INT8;
+    case Element::flag:
+      return H5T_NATIVE_UINT8;
+    case Element::text:
+      break;
+  }
+  return H5I_INVALID_HID;
+}
+
+}  // namespace
+
+Dataset::Dataset(Handle handle, std::shared_ptr<const Origin> origin, std::string path)
+    : Object(std::move(handle), std::move(origin), std::move(path)), element_(stored_element()) {}
+
+Element Dataset::stored_element() const {
+  const Handle type = own(H5Dget_type(id()), H5Tclose, "its type cannot be read");
+  if (H5Tis_variable_str(type.get()) > 0) return Element::text;
+  for (const Element element :
+       {Element::float64, Element::int64, Element::int32, Element::int8, Element::flag}) {
+    if (H5Tequal(type.get(), file_type(element)) > 0) return element;
+  }
+  fail("its elements have an unexpected type");
+}
+
+std::vector<hsize_t> Dataset::extent() const {
+  const Handle space = own(H5Dget_space(id()), H5Sclose, "its size cannot be read");
+  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
+  H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
+  return extent;
+}
+
+Dataset::Selection Dataset::select(std::int64_t first, std::int64_t rows) const {
+  std::vector<hsize_t> count = extent();
+  if (count.empty() || first < 0 || rows < 0 ||
+      static_cast<hsize_t>(first) + static_cast<hsize_t>(rows) > count[0]) {
+    fail(fmt::format("it has {} rows; rows {} to {} were expected", count.empty() ? 0 : count[0], first,
+                     first + rows));
+  }
+  count[0] = static_cast<hsize_t>(rows);
+  std::vector<hsize_t> start(count.size(), 0);
+  start[0] = static_cast<hsize_t>(first);
+  Selection selection{
+      own(H5Dget_space(id()), H5Sclose, "its size cannot be read"),
+      Handle(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose)};
+  require(
+      H5Sselect_hyperslab(selection.file.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+      "its rows cannot be selected");
+  return selection;
+}
+
+void Dataset::write(std::int64_t first, std::int64_t rows, const void* data) {
+  const Selection selection = select(first, rows);
+  require(
+      H5Dwrite(id(), memory_type(element_), selection.memory.get(), selection.file.get(), H5P_DEFAULT, data),
+      "its values");
+}
+
+void Dataset::read(std::int64_t first, std::int64_t rows, void* data) const {
+  const Selection selection = select(first, rows);
+  require(
+      H5Dread(id(), memory_type(element_), selection.memory.get(), selection.file.get(), H5P_DEFAULT, data),
+      "its values cannot be read or their checksum is wrong");
+}
+
+void Dataset::write_texts(std::span<const std::string> texts) {
+  if (texts.empty()) return;
+  std::vector<const char*> data(texts.size());
+  std::transform(texts.begin(), texts.end(), data.begin(),
+                 [](const std::string& text) { return text.c_str(); });
+  require(H5Dwrite(id(), text_type().get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()), "its texts");
+}
+
+std::vector<std::string> Dataset::read_texts() const {
+  if (element_ != Element::text) fail("its elements are not texts");
+  const Handle space = own(H5Dget_space(id()), H5Sclose, "its size cannot be read");
+  std::vector<char*> data(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())), nullptr);
+  if (data.empty()) return {};
+  const Handle type = text_type();
+  require(H5Dread(id(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()),
+          "its texts cannot be read or their checksum is wrong");
+  std::vector<std::string> texts(data.size());
+  std::transform(data.begin(), data.end(), texts.begin(),
+                 [](const char* text) { return text == nullptr ? "" : text; });
+  H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, data.data());
+  return texts;
+}
+
+void Dataset::make_scale(const std::string& name) {
+  require(H5DSset_scale(id(), name.c_str()), "its name as an axis");
+}
+
+void Dataset::attach_scale(const Dataset& scale, unsigned dimension) {
+  require(H5DSattach_scale(id(), scale.id(), dimension), "its axis");
+}
+
+}  // namespace zerocount::hdf5

@@ -1,0 +1,188 @@
+#include "results/layout/header.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <string_view>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include "experiments/designs/sha256.hpp"
+#include "results/layout/layout.hpp"
+#include "results/storage/durable_file.hpp"
+#include "results/storage/file_descriptor.hpp"
+#include "results/storage/seal.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::string_view study_format = "zerocount-study";
+constexpr std::string_view shard_format = "zerocount-shard";
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& problem) {
+  throw Failure(ExitCode::bad_data, fmt::format("{}: {}", path.string(), problem));
+}
+
+/// A text with a zero byte would be cut there without a word.
+const std::string& storable(const hdf5::File& file, const std::string& text) {
+  if (text.find('\0') != std::string::npos) file.fail("a text with a zero byte cannot be stored");
+  return text;
+}
+
+void write_overrides(hdf5::File& file, const std::vector<std::string>& overrides) {
+  const bool empty = overrides.empty();
+  const hsize_t size = overrides.size();
+  hdf5::Dataset dataset =
+      file.create_dataset("overrides", {Element::text, {size}, {empty ? 1 : size}, empty});
+  for (const std::string& override_text : overrides) storable(file, override_text);
+  dataset.write_texts(overrides);
+  dataset.make_scale("overrides");
+  dataset.set_text("units", "1");
+  dataset.set_text("long_name", "values given on the command line in place of the manifest's");
+}
+
+void write_manifest(hdf5::File& file, const std::string& text) {
+  hdf5::Dataset dataset = file.create_dataset("manifest", {Element::text, {}, {}, false});
+  dataset.write_texts(std::vector<std::string>{storable(file, text)});
+  dataset.set_text("units", "1");
+  dataset.set_text("long_name", "exact text of the manifest");
+}
+
+FileKind read_kind(const hdf5::File& file) {
+  if (!file.has_attribute("format"))
+    file.fail("it is no results file of zerocount: the attribute 'format' is missing");
+  const std::string format = file.text("format");
+  if (format == study_format) return FileKind::study;
+  if (format == shard_format) return FileKind::shard;
+  file.fail(fmt::format("its format is '{}'; expected '{}' or '{}'", format, study_format, shard_format));
+}
+
+void check_version(const hdf5::File& file) {
+  const std::int64_t version = file.integer("format_version");
+  if (version > format_version) {
+    file.fail(
+        fmt::format("its format version is {}, newer than the {} that this program knows; read it with the "
+                    "zerocount that wrote it or a later one",
+                    version, format_version));
+  }
+  if (version < 1)
+    file.fail(fmt::format("its format version is {}; expected 1 to {}", version, format_version));
+}
+
+void check_numbers(const hdf5::File& file, const FileHeader& header) {
+  const bool possible = header.trials > 0 && header.points > 0 && header.rows.first >= 0 &&
+                        header.rows.count > 0 && header.rows.end() <= header.trials * header.points;
+  if (!possible) {
+    file.fail(fmt::format("trials {} to {} cannot be of {} design points with {} trials each",
+                          header.rows.first, header.rows.end() - 1, header.points, header.trials));
+  }
+  const bool all = header.rows.count == header.trials * header.points;
+  if (header.complete != (all && header.kind == FileKind::study)) {
+    file.fail("the attribute 'complete' contradicts the number of trials");
+  }
+}
+
+}  // namespace
+
+RowRange all_rows(const Study& study) {
+  return {0, trial_count(study)};
+}
+
+FileHeader make_header(const Study& study, FileKind kind, RowRange rows, Provenance provenance) {
+  return {kind,
+          study.name,
+          std::move(provenance),
+          study.seed,
+          study.trials,
+          point_count(study),
+          rows,
+          kind == FileKind::study && rows == all_rows(study),
+          false,
+          study.manifest_text,
+          study.overrides,
+          study.manifest_sha256,
+          study.study_sha256};
+}
+
+void write_header(hdf5::File& file, const FileHeader& header) {
+  file.set_text("format", std::string(header.kind == FileKind::study ? study_format : shard_format));
+  file.set_integer("format_version", format_version);
+  file.set_text("name", storable(file, header.name));
+  file.set_text("zerocount_version", header.provenance.zerocount_version);
+  file.set_text("git_commit", header.provenance.git_commit);
+  file.set_text("compiler", header.provenance.compiler);
+  file.set_text("cpu", header.provenance.cpu);
+  file.set_text("created", header.provenance.created);
+  file.set_unsigned("seed", header.seed);
+  file.set_text("manifest_sha256", header.manifest_sha256);
+  file.set_text("study_sha256", header.study_sha256);
+  file.set_integer("trials", header.trials);
+  file.set_integer("points", header.points);
+  file.set_integer("first_trial", header.rows.first);
+  file.set_integer("trial_count", header.rows.count);
+  file.set_integer("complete", header.complete ? 1 : 0);
+  write_manifest(file, header.manifest);
+  write_overrides(file, header.overrides);
+}
+
+void mark_finished(hdf5::File& file) {
+  file.set_integer("finished", 1);
+}
+
+FileHeader read_header(const hdf5::File& file) {
+  FileHeader header;
+  header.kind = read_kind(file);
+  check_version(file);
+  header.name = file.text("name");
+  header.provenance = {file.text("zerocount_version"), file.text("git_commit"), file.text("compiler"),
+                       file.text("cpu"), file.text("created")};
+  header.seed = file.unsigned_integer("seed");
+  header.manifest_sha256 = file.text("manifest_sha256");
+  header.study_sha256 = file.text("study_sha256");
+  header.trials = file.integer("trials");
+  header.points = file.integer("points");
+  header.rows = {file.integer("first_trial"), file.integer("trial_count")};
+  header.complete = file.integer("complete") != 0;
+  header.finished = file.has_attribute("finished") && file.integer("finished") == 1;
+  const std::vector<std::string> manifest = file.open_dataset("manifest").read_texts();
+  if (manifest.size() != 1) file.fail("the manifest is not a single text");
+  header.manifest = manifest.front();
+  header.overrides = file.open_dataset("overrides").read_texts();
+  check_numbers(file, header);
+  if (sha256_hex(header.manifest) != header.manifest_sha256)
+    file.fail("the checksum of the manifest is wrong");
+  return header;
+}
+
+void require_same_study(const std::filesystem::path& path, const FileHeader& header, const Study& study) {
+  if (header.study_sha256 != study.study_sha256) {
+    fail(path, fmt::format("of another study: '{}' with other contents or overrides, not '{}'", header.name,
+                           study.name));
+  }
+  if (header.trials != study.trials || header.points != point_count(study)) {
+    fail(path, fmt::format("has {} design points with {} trials each; the study has {} with {}",
+                           header.points, header.trials, point_count(study), study.trials));
+  }
+  const std::string version = current_provenance().zerocount_version;
+  if (header.provenance.zerocount_version != version) {
+    fail(path, fmt::format("written by zerocount {}, this is {}: trials of both must not be mixed",
+                           header.provenance.zerocount_version, version));
+  }
+}
+
+hdf5::File open_results(const std::filesystem::path& path, Seal seal) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    throw Failure(ExitCode::bad_input, fmt::format("{}: no such file", path.string()));
+  }
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: a directory; a results file was expected", path.string()));
+  }
+  if (!FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)).valid()) fail_with(path, "read", errno);
+  if (!hdf5::is_hdf5(path)) fail(path, "not a results file of zerocount: it is not in the HDF5 format");
+  if (seal == Seal::required) require_seal(path);
+  return hdf5::File::open_to_read(path);
+}
+
+}  // namespace zerocount

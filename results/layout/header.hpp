@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/study.hpp"
+#include "results/hdf5/hdf5.hpp"
+#include "results/layout/build_info.hpp"
+#include "results/layout/row_range.hpp"
+
+namespace zerocount {
+
+enum class FileKind { study, shard };
+
+/// What a results file says of itself: the attributes of its root, and the manifest.
+struct FileHeader {
+  FileKind kind{FileKind::study};
+  std::string name;
+  Provenance provenance;
+  std::uint64_t seed{0};
+  std::int64_t trials{0};  ///< per design point
+  std::int64_t points{0};
+  RowRange rows;         ///< the trials in this file
+  bool complete{false};  ///< these are all trials of the study
+  bool finished{false};  ///< everything that the file should hold was written
+  std::string manifest;  ///< exact text
+  std::vector<std::string> overrides;
+  std::string manifest_sha256;
+  std::string study_sha256;
+};
+
+/// All rows of a study.
+RowRange all_rows(const Study& study);
+
+FileHeader make_header(const Study& study, FileKind kind, RowRange rows, Provenance provenance);
+
+/// Writes the header, all but the mark that the file is finished.
+void write_header(hdf5::File& file, const FileHeader& header);
+void mark_finished(hdf5::File& file);
+
+/// Reads the header, and checks the format, its version and the checksum of the manifest.
+/// @throws Failure (bad_data)
+FileHeader read_header(const hdf5::File& file);
+
+/// @throws Failure (bad_data) unless `header`, of the file `path`, is of this study and by this version of
+/// the program.
+void require_same_study(const std::filesystem::path& path, const FileHeader& header, const Study& study);
+
+/// Whether a file must have its seal (see seal.hpp) to be opened.
+enum class Seal { required, not_yet };
+
+/// Opens a file of this program's format.
+/// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read, bad_data
+/// where it is damaged or something else.
+hdf5::File open_results(const std::filesystem::path& path, Seal seal = Seal::required);
+
+}  // namespace zerocount

@@ -1,0 +1,131 @@
+#include "results/layout/table_io.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+namespace zerocount {
+namespace {
+
+void describe(hdf5::Dataset& dataset, const Column& column) {
+  dataset.set_text("units", column.unit);
+  dataset.set_text("long_name", column.long_name);
+  if (!column.role.empty()) dataset.set_text("role", column.role);
+  if (column.flags.empty()) return;
+  std::vector<std::int64_t> values;
+  std::string words;
+  for (const FlagMeaning& flag : column.flags) {
+    values.push_back(flag.value);
+    words += (words.empty() ? "" : " ") + flag.word;
+  }
+  dataset.set_integers("flag_values", column.element, values);
+  dataset.set_text("flag_meanings", words);
+}
+
+/// The group at `path` below `root`, made where it is not there yet, each step of it.
+hdf5::Group make_group(hdf5::Group& root, const std::string& path) {
+  const std::size_t slash = path.find('/');
+  const std::string name = path.substr(0, slash);
+  hdf5::Group group = root.contains(name) ? root.open_group(name) : root.create_group(name);
+  return slash == std::string::npos ? std::move(group) : make_group(group, path.substr(slash + 1));
+}
+
+/// Creates `name` (a path) below `group`.
+hdf5::Dataset make_dataset(hdf5::Group& group, const std::string& name, const hdf5::Storage& storage) {
+  const std::size_t slash = name.rfind('/');
+  if (slash == std::string::npos) return group.create_dataset(name, storage);
+  hdf5::Group folder = make_group(group, name.substr(0, slash));
+  return folder.create_dataset(name.substr(slash + 1), storage);
+}
+
+hdf5::Dataset make_scale(hdf5::Group& group, const Column& column, std::int64_t size) {
+  const bool empty = size == 0;
+  const auto chunk = static_cast<hsize_t>(empty ? chunk_elements : std::min(size, chunk_elements));
+  hdf5::Dataset scale =
+      group.create_dataset(column.name, {column.element, {static_cast<hsize_t>(size)}, {chunk}, empty});
+  scale.make_scale(column.name);
+  describe(scale, column);
+  return scale;
+}
+
+void write_numbers(hdf5::Dataset& scale, std::int64_t size, std::int64_t first_value) {
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t first = 0; first < size; first += chunk_elements) {
+    numbers.resize(static_cast<std::size_t>(std::min(chunk_elements, size - first)));
+    std::iota(numbers.begin(), numbers.end(), first_value + first);
+    scale.write(first, static_cast<std::int64_t>(numbers.size()), numbers.data());
+  }
+}
+
+}  // namespace
+
+std::int64_t chunk_rows(std::int64_t width) {
+  return std::max<std::int64_t>(1, chunk_elements / width);
+}
+
+TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t width) {
+  hdf5::Group group = make_group(root, table.group);
+  hdf5::Dataset scale = make_scale(group, table.rows, rows);
+  TableIo io(std::move(group), std::move(scale));
+  io.rows_ = rows;
+  io.width_ = width;
+  if (table.second) {
+    io.second_scale_ = make_scale(io.group_, *table.second, width);
+    write_numbers(*io.second_scale_, width, 0);
+  }
+  for (const Column& column : table.columns) io.add(column);
+  return io;
+}
+
+TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
+  hdf5::Group group = root.open_group(table.group);
+  hdf5::Dataset scale = group.open_dataset(table.rows.name);
+  TableIo io(std::move(group), std::move(scale));
+  std::vector<hsize_t> expected = io.row_scale_.extent();
+  if (expected.size() != 1) io.row_scale_.fail("it should have one dimension");
+  io.rows_ = static_cast<std::int64_t>(expected[0]);
+  if (table.second) {
+    io.second_scale_ = io.group_.open_dataset(table.second->name);
+    const std::vector<hsize_t> second = io.second_scale_->extent();
+    if (second.size() != 1 || second[0] == 0)
+      io.second_scale_->fail("it should have one dimension, not empty");
+    expected.push_back(second[0]);
+    io.width_ = static_cast<std::int64_t>(second[0]);
+  }
+  for (const Column& column : table.columns) {
+    hdf5::Dataset dataset = io.group_.open_dataset(column.name);
+    if (dataset.element() != column.element) dataset.fail("its elements have an unexpected type");
+    if (dataset.extent() != expected) dataset.fail("its size differs from that of its axes");
+    io.datasets_.push_back(std::move(dataset));
+  }
+  return io;
+}
+
+hdf5::Storage TableIo::storage_of(const Column& column) const {
+  const bool empty = rows_ == 0;
+  hdf5::Storage storage{
+      column.element,
+      {static_cast<hsize_t>(rows_)},
+      {static_cast<hsize_t>(empty ? chunk_rows(width_) : std::min(rows_, chunk_rows(width_)))},
+      empty};
+  if (second_scale_) {
+    storage.extent.push_back(static_cast<hsize_t>(width_));
+    storage.chunk.push_back(static_cast<hsize_t>(std::min(width_, chunk_elements)));
+  }
+  return storage;
+}
+
+hdf5::Dataset& TableIo::add(const Column& column) {
+  hdf5::Dataset dataset = make_dataset(group_, column.name, storage_of(column));
+  describe(dataset, column);
+  dataset.attach_scale(row_scale_, 0);
+  if (second_scale_) dataset.attach_scale(*second_scale_, 1);
+  return datasets_.emplace_back(std::move(dataset));
+}
+
+void TableIo::number_rows(std::int64_t first_value) {
+  write_numbers(row_scale_, rows_, first_value);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "results/hdf5/hdf5.hpp"
+#include "results/layout/fields.hpp"
+#include "results/layout/layout.hpp"
+
+namespace zerocount {
+
+/// Elements in a chunk of a column that is long enough to fill one. A constant of the format: chunks depend
+/// on the study alone and not on how it was run.
+inline constexpr std::int64_t chunk_elements = 16384;
+
+/// Rows in a chunk of a table with `width` elements a row.
+std::int64_t chunk_rows(std::int64_t width);
+
+/// The datasets of a table in an open file.
+class TableIo {
+ public:
+  /// Creates the groups, the dimension scales and the columns, attached to their scales. `width` is the size
+  /// of the second dimension, 1 where the table has none. A table without rows is made extendible, because
+  /// the netCDF library knows a length of zero only of an unlimited dimension.
+  static TableIo create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t width);
+  /// Opens the columns of `table`, and checks that they have its element types and equal sizes.
+  static TableIo open(const hdf5::Group& root, const Table& table);
+
+  std::int64_t rows() const { return rows_; }
+  std::int64_t width() const { return width_; }
+  hdf5::Dataset& row_scale() { return row_scale_; }
+  const hdf5::Dataset& row_scale() const { return row_scale_; }
+  hdf5::Dataset& column(std::size_t index) { return datasets_[index]; }
+  const hdf5::Dataset& column(std::size_t index) const { return datasets_[index]; }
+
+  /// Writes first_value, first_value + 1, … to the scale of the rows.
+  void number_rows(std::int64_t first_value);
+  /// Creates one more column.
+  hdf5::Dataset& add(const Column& column);
+
+ private:
+  TableIo(hdf5::Group group, hdf5::Dataset row_scale)
+      : group_(std::move(group)), row_scale_(std::move(row_scale)) {}
+  hdf5::Storage storage_of(const Column& column) const;
+
+  std::int64_t rows_{0};
+  std::int64_t width_{1};
+  hdf5::Group group_;
+  hdf5::Dataset row_scale_;
+  std::optional<hdf5::Dataset> second_scale_;
+  std::vector<hdf5::Dataset> datasets_;
+};
+
+/// Writes records to the rows from `first` on; a row of a table of width w takes w records.
+template <class Record>
+void write_records(TableIo& io, const std::vector<Field<Record>>& fields, std::int64_t first,
+                   std::span<const Record> records) {
+  const std::int64_t rows = static_cast<std::int64_t>(records.size()) / io.width();
+  for (std::size_t index = 0; index < fields.size(); ++index) {
+    io.column(index).write(first, rows, gather(fields[index], records).data());
+  }
+}
+
+template <class Record>
+std::vector<Record> read_records(const TableIo& io, const std::vector<Field<Record>>& fields,
+                                 std::int64_t first, std::int64_t rows) {
+  std::vector<Record> records(static_cast<std::size_t>(rows * io.width()));
+  for (std::size_t index = 0; index < fields.size(); ++index) {
+    std::vector<std::byte> bytes(records.size() * size_of(fields[index].column.element));
+    io.column(index).read(first, rows, bytes.data());
+    scatter(fields[index], bytes, std::span(records));
+  }
+  return records;
+}
+
+}  // namespace zerocount

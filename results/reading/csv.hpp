@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "results/storage/durable_file.hpp"
+#include "results/storage/file_descriptor.hpp"
+
+namespace zerocount {
+
+/// The shortest decimal text that reads back to the same double; "nan", "inf" and "-inf" for the others.
+std::string number_text(double value);
+
+/// A table in the form of RFC 4180, but with lines that end in a single line feed. It stands at PATH.part
+/// until finish().
+/// @throws Failure (machine_failed) with the path and the reason, from every function.
+class CsvFile {
+ public:
+  explicit CsvFile(const std::filesystem::path& path);
+
+  void add(double value);
+  void add(std::int64_t value);
+  void add(std::string_view text);  ///< quoted where it must be
+  void end_row();
+  void finish();
+
+ private:
+  void separate();
+  void flush();
+
+  std::filesystem::path path_;
+  UnfinishedFile part_;
+  FileDescriptor file_;
+  std::string buffer_;
+  bool row_started_{false};
+};
+
+}  // namespace zerocount

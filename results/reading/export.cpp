@@ -1,0 +1,195 @@
+#include "results/reading/export.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/failure.hpp"
+#include "results/layout/layout.hpp"
+#include "results/layout/table_io.hpp"
+#include "results/reading/csv.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Calls `take(first, count)` for successive blocks of [first, end).
+void for_each_block(std::int64_t first, std::int64_t end, std::int64_t size,
+                    const std::function<void(std::int64_t, std::int64_t)>& take) {
+  for (; first < end; first += size) take(first, std::min(size, end - first));
+}
+
+template <class Record>
+void add_names(CsvFile& csv, const std::vector<Field<Record>>& fields) {
+  for (const Field<Record>& field : fields) csv.add(field.column.name);
+}
+
+void add_word(CsvFile& csv, const Column& column, std::int64_t value) {
+  const auto flag = std::find_if(column.flags.begin(), column.flags.end(),
+                                 [value](const FlagMeaning& meaning) { return meaning.value == value; });
+  if (flag == column.flags.end()) {
+    csv.add(value);
+  } else {
+    csv.add(flag->word);
+  }
+}
+
+template <class Record>
+void add_values(CsvFile& csv, const std::vector<Field<Record>>& fields, const Record& record) {
+  for (const Field<Record>& field : fields) {
+    std::visit(
+        [&]<class Value>(Value Record::*member) {
+          const Value value = record.*member;
+          if constexpr (std::is_enum_v<Value>) {
+            add_word(csv, field.column, static_cast<std::int64_t>(value));
+          } else if constexpr (std::is_same_v<Value, double>) {
+            csv.add(value);
+          } else {
+            csv.add(static_cast<std::int64_t>(value));
+          }
+        },
+        field.member);
+  }
+}
+
+void export_points(const StudyFile& file, CsvFile& csv) {
+  const std::vector<std::string> labels = file.point_labels();
+  const std::vector<SweepAxis> axes = file.axes();
+  const std::vector<PointColumn> statistics = file.statistics();
+  csv.add("point");
+  csv.add("label");
+  for (const SweepAxis& axis : axes) csv.add(axis.name);
+  for (const PointColumn& statistic : statistics) csv.add(statistic.name);
+  csv.end_row();
+  for (std::size_t point = 0; point < labels.size(); ++point) {
+    csv.add(static_cast<std::int64_t>(point));
+    csv.add(labels[point]);
+    for (const SweepAxis& axis : axes) {
+      if (axis.kind == SweepAxis::Kind::text) {
+        csv.add(axis.texts.at(point));
+      } else {
+        csv.add(axis.numbers.at(point));
+      }
+    }
+    for (const PointColumn& statistic : statistics) csv.add(statistic.values.at(point));
+    csv.end_row();
+  }
+}
+
+void export_trials(const StudyFile& file, CsvFile& csv) {
+  for (const char* name : {"trial", "point", "index"}) csv.add(name);
+  for (const InputColumn& input : file.input_columns()) csv.add(input.name);
+  csv.end_row();
+  for_each_block(file.rows().first, file.rows().end(), chunk_elements,
+                 [&](std::int64_t first, std::int64_t count) {
+                   std::vector<std::vector<double>> inputs;
+                   for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
+                     inputs.push_back(file.input(column, {first, count}));
+                   }
+                   for (std::int64_t row = first; row < first + count; ++row) {
+                     csv.add(row);
+                     csv.add(row / file.header().trials);
+                     csv.add(row % file.header().trials);
+                     for (const std::vector<double>& values : inputs)
+                       csv.add(values[static_cast<std::size_t>(row - first)]);
+                     csv.end_row();
+                   }
+                 });
+}
+
+void export_outcomes(const StudyFile& file, CsvFile& csv) {
+  csv.add("trial");
+  csv.add("move");
+  add_names(csv, outcome_fields());
+  csv.end_row();
+  const std::int64_t moves = file.moves();
+  for_each_block(file.rows().first, file.rows().end(), chunk_rows(moves),
+                 [&](std::int64_t first, std::int64_t count) {
+                   std::int64_t position = 0;
+                   for (const MoveOutcome& outcome : file.outcomes({first, count})) {
+                     csv.add(first + position / moves);
+                     csv.add(position % moves);
+                     add_values(csv, outcome_fields(), outcome);
+                     csv.end_row();
+                     ++position;
+                   }
+                 });
+}
+
+void export_jerks(const StudyFile& file, CsvFile& csv) {
+  add_names(csv, jerk_fields());
+  csv.end_row();
+  for_each_block(0, file.jerk_count(), chunk_elements, [&](std::int64_t first, std::int64_t count) {
+    for (const JerkRecord& jerk : file.jerks_at(first, count)) {
+      add_values(csv, jerk_fields(), jerk);
+      csv.end_row();
+    }
+  });
+}
+
+void export_profiles(const StudyFile& file, CsvFile& csv) {
+  for (const char* name : {"profile", "theta", "value"}) csv.add(name);
+  csv.end_row();
+  for (const StoredProfile& profile : file.profiles()) {
+    for (std::size_t i = 0; i < profile.theta.size(); ++i) {
+      csv.add(profile.name);
+      csv.add(profile.theta[i]);
+      csv.add(profile.value.at(i));
+      csv.end_row();
+    }
+  }
+}
+
+void export_trace(const StudyFile& file, CsvFile& csv) {
+  add_names(csv, trace_fields());
+  csv.end_row();
+  for_each_block(0, file.trace_count(), chunk_elements, [&](std::int64_t first, std::int64_t count) {
+    for (const TraceRecord& record : file.trace_at(first, count)) {
+      add_values(csv, trace_fields(), record);
+      csv.end_row();
+    }
+  });
+}
+
+struct ExportedTable {
+  fs::path path;
+  void (*write)(const StudyFile&, CsvFile&);
+};
+
+std::vector<ExportedTable> tables_of(const StudyFile& file, const fs::path& directory) {
+  std::vector<ExportedTable> tables{{directory / "points.csv", export_points},
+                                    {directory / "trials.csv", export_trials},
+                                    {directory / "outcomes.csv", export_outcomes},
+                                    {directory / "jerks.csv", export_jerks}};
+  if (file.has_profiles()) tables.push_back({directory / "profiles.csv", export_profiles});
+  if (file.has_trace()) tables.push_back({directory / "trace.csv", export_trace});
+  return tables;
+}
+
+}  // namespace
+
+std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& directory) {
+  const std::vector<ExportedTable> tables = tables_of(file, directory);
+  make_directory(directory);
+  for (const ExportedTable& table : tables) {
+    std::error_code ignored;
+    if (fs::exists(table.path, ignored)) {
+      throw Failure(
+          ExitCode::bad_input,
+          fmt::format("{}: exists already; remove it or name another directory", table.path.string()));
+    }
+  }
+  std::vector<fs::path> paths;
+  for (const ExportedTable& table : tables) {
+    CsvFile csv(table.path);
+    table.write(file, csv);
+    csv.finish();
+    paths.push_back(table.path);
+  }
+  return paths;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,207 @@
+#include "results/reading/study_file.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::size_t columns_before_inputs = 2;  // point and index
+
+FileHeader read_required(const hdf5::File& file, const std::filesystem::path& path, Require require) {
+  FileHeader header = read_header(file);
+  if (!header.finished && require != Require::unfinished) file.fail("it was never finished");
+  if (!header.complete && require == Require::complete) {
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: incomplete: it holds trials {} to {} of {}; run the others and join them with "
+                    "'zerocount merge'",
+                    path.string(), header.rows.first, header.rows.end() - 1, header.trials * header.points));
+  }
+  return header;
+}
+
+std::vector<InputColumn> read_input_columns(const hdf5::File& file) {
+  std::vector<InputColumn> inputs;
+  const hdf5::Group trial = file.open_group("trial");
+  if (!trial.contains("input")) return inputs;
+  const hdf5::Group group = trial.open_group("input");
+  for (const std::string& name : group.children()) {
+    const hdf5::Dataset dataset = group.open_dataset(name);
+    inputs.push_back({name, dataset.text("units"), dataset.text("long_name")});
+  }
+  return inputs;
+}
+
+std::optional<TableIo> open_trace(const hdf5::File& file) {
+  if (!file.contains("trace")) return std::nullopt;
+  return TableIo::open(file, trace_table());
+}
+
+std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
+  if (dataset.element() != Element::float64 || dataset.extent().size() != 1)
+    dataset.fail("it should be numbers in one dimension");
+  std::vector<double> values(dataset.extent()[0]);
+  dataset.read(0, std::ssize(values), values.data());
+  return values;
+}
+
+template <class Record>
+std::vector<double> as_doubles(const Field<Record>& field, const std::vector<Record>& records) {
+  std::vector<double> values(records.size());
+  std::visit(
+      [&](auto member) {
+        std::transform(records.begin(), records.end(), values.begin(),
+                       [member](const Record& record) { return static_cast<double>(record.*member); });
+      },
+      field.member);
+  return values;
+}
+
+}  // namespace
+
+StudyFile::StudyFile(const std::filesystem::path& path, Require require)
+    : path_(path),
+      file_(open_results(path, require == Require::unfinished ? Seal::not_yet : Seal::required)),
+      header_(read_required(file_, path, require)),
+      inputs_(read_input_columns(file_)),
+      trials_(TableIo::open(file_, trial_table(inputs_))),
+      outcomes_(TableIo::open(file_, outcome_table())),
+      jerks_(TableIo::open(file_, jerk_table())),
+      trace_(open_trace(file_)) {
+  if (trials_.rows() != rows().count)
+    trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
+  if (outcomes_.rows() != rows().count)
+    outcomes_.row_scale().fail("its size differs from the attribute 'trial_count'");
+}
+
+std::int64_t StudyFile::local(RowRange range) const {
+  if (range.first < rows().first || range.count < 0 || range.end() > rows().end()) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: trials {} to {} were asked for; it holds {} to {}", path_.string(),
+                              range.first, range.end() - 1, rows().first, rows().end() - 1));
+  }
+  return range.first - rows().first;
+}
+
+std::vector<std::string> StudyFile::point_labels() const {
+  if (!file_.contains("point")) return {};
+  return file_.open_group("point").open_dataset("label").read_texts();
+}
+
+std::vector<SweepAxis> StudyFile::axes() const {
+  std::vector<SweepAxis> axes;
+  if (!file_.contains("point")) return axes;
+  const hdf5::Group group = file_.open_group("point");
+  for (const std::string& name : group.children()) {
+    const hdf5::Dataset dataset = group.open_dataset(name);
+    if (!dataset.has_attribute("role") || dataset.text("role") != "axis") continue;
+    SweepAxis axis{name, dataset.text("units"), dataset.text("long_name"), SweepAxis::Kind::number, {}, {}};
+    if (dataset.element() == Element::text) {
+      axis.kind = SweepAxis::Kind::text;
+      axis.unit.clear();
+      axis.texts = dataset.read_texts();
+    } else {
+      axis.numbers = read_doubles(dataset);
+    }
+    axes.push_back(std::move(axis));
+  }
+  return axes;
+}
+
+std::vector<PointColumn> StudyFile::statistics() const {
+  std::vector<PointColumn> statistics;
+  if (!file_.contains("point")) return statistics;
+  const hdf5::Group group = file_.open_group("point");
+  for (const std::string& name : group.children()) {
+    const hdf5::Dataset dataset = group.open_dataset(name);
+    if (!dataset.has_attribute("role") || dataset.text("role") != "statistic") continue;
+    statistics.push_back({name, dataset.text("units"), dataset.text("long_name"), read_doubles(dataset)});
+  }
+  return statistics;
+}
+
+std::vector<double> StudyFile::input(std::size_t column, RowRange range) const {
+  const std::int64_t first = local(range);
+  std::vector<double> values(static_cast<std::size_t>(range.count));
+  trials_.column(columns_before_inputs + column).read(first, range.count, values.data());
+  return values;
+}
+
+std::vector<double> StudyFile::inputs_of(std::int64_t row) const {
+  std::vector<double> values;
+  for (std::size_t column = 0; column < inputs_.size(); ++column)
+    values.push_back(input(column, {row, 1}).front());
+  return values;
+}
+
+std::vector<MoveOutcome> StudyFile::outcomes(RowRange range) const {
+  return read_records(outcomes_, outcome_fields(), local(range), range.count);
+}
+
+std::vector<double> StudyFile::measure(std::string_view name, RowRange range) const {
+  const std::vector<Field<MoveOutcome>>& fields = outcome_fields();
+  const auto found = std::find_if(fields.begin(), fields.end(), [name](const Field<MoveOutcome>& field) {
+    return field.column.name == name;
+  });
+  if (found == fields.end()) throw std::invalid_argument(fmt::format("'{}' is no measure of a move", name));
+  std::vector<MoveOutcome> moves(static_cast<std::size_t>(range.count * outcomes_.width()));
+  std::vector<std::byte> bytes(moves.size() * size_of(found->column.element));
+  outcomes_.column(static_cast<std::size_t>(found - fields.begin()))
+      .read(local(range), range.count, bytes.data());
+  scatter(*found, bytes, std::span(moves));
+  return as_doubles(*found, moves);
+}
+
+std::vector<JerkRecord> StudyFile::jerks_at(std::int64_t first, std::int64_t count) const {
+  return read_records(jerks_, jerk_fields(), first, count);
+}
+
+/// Position of the first jerk of a trial not before `row`: the table is ordered by trial.
+std::int64_t StudyFile::first_jerk_from(std::int64_t row) const {
+  const hdf5::Dataset& trial = jerks_.column(0);
+  std::int64_t low = 0;
+  std::int64_t high = jerks_.rows();
+  while (low < high) {
+    const std::int64_t middle = low + (high - low) / 2;
+    std::int64_t value = 0;
+    trial.read(middle, 1, &value);
+    if (value < row) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+std::vector<JerkRecord> StudyFile::jerks(RowRange range) const {
+  local(range);
+  const std::int64_t first = first_jerk_from(range.first);
+  return jerks_at(first, first_jerk_from(range.end()) - first);
+}
+
+std::vector<TraceRecord> StudyFile::trace_at(std::int64_t first, std::int64_t count) const {
+  if (!trace_) return {};
+  return read_records(*trace_, trace_fields(), first, count);
+}
+
+std::vector<StoredProfile> StudyFile::profiles() const {
+  std::vector<StoredProfile> profiles;
+  if (!has_profiles()) return profiles;
+  const hdf5::Group group = file_.open_group("profile");
+  for (const std::string& name : group.children()) {
+    const hdf5::Group profile = group.open_group(name);
+    const hdf5::Dataset value = profile.open_dataset("value");
+    profiles.push_back(
+        {name, value.text("units"), read_doubles(profile.open_dataset("theta")), read_doubles(value)});
+  }
+  return profiles;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/trial/outcome.hpp"
+#include "experiments/study.hpp"
+#include "results/layout/header.hpp"
+#include "results/layout/layout.hpp"
+#include "results/layout/row_range.hpp"
+#include "results/layout/table_io.hpp"
+
+namespace zerocount {
+
+/// How much of its study a file must hold to be opened.
+enum class Require {
+  complete,   ///< every trial: what statistics may be made of
+  any_part,   ///< also a part or a shard
+  unfinished  ///< also a file that is still being made
+};
+
+/// A profile as it stands in a results file.
+struct StoredProfile {
+  std::string name;
+  std::string unit;
+  std::vector<double> theta;  ///< rad
+  std::vector<double> value;  ///< in `unit`
+};
+
+/// A results file, open to be read. Rows are global rows, here and in the file. Every function may find that
+/// the file is damaged, and throws Failure (bad_data) then. One thread at a time.
+class StudyFile {
+ public:
+  /// Checks seal, format, version, completion mark, and completeness as required. Reads the file once from
+  /// beginning to end.
+  /// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read,
+  /// otherwise bad_data.
+  explicit StudyFile(const std::filesystem::path& path, Require require = Require::complete);
+
+  const std::filesystem::path& path() const { return path_; }
+  const FileHeader& header() const { return header_; }
+  RowRange rows() const { return header_.rows; }
+  std::int64_t moves() const { return outcomes_.width(); }
+
+  /// Empty in a shard, like axes and statistics.
+  std::vector<std::string> point_labels() const;
+  std::vector<SweepAxis> axes() const;
+  std::vector<PointColumn> statistics() const;
+
+  const std::vector<InputColumn>& input_columns() const { return inputs_; }
+  std::vector<double> input(std::size_t column, RowRange rows) const;  ///< [row]
+  std::vector<double> inputs_of(std::int64_t row) const;               ///< [input column]
+
+  /// All measures of the moves of these trials: [row][move], flattened.
+  std::vector<MoveOutcome> outcomes(RowRange rows) const;
+  /// One measure of section 4 by its name, [row][move], flattened, whatever its type in the file, as doubles.
+  std::vector<double> measure(std::string_view name, RowRange rows) const;
+
+  std::int64_t jerk_count() const { return jerks_.rows(); }
+  std::vector<JerkRecord> jerks_at(std::int64_t first,
+                                   std::int64_t count) const;  ///< by position in the table
+  std::vector<JerkRecord> jerks(RowRange rows) const;          ///< of these trials
+
+  bool has_trace() const { return trace_.has_value(); }
+  std::int64_t trace_count() const { return trace_ ? trace_->rows() : 0; }
+  std::vector<TraceRecord> trace_at(std::int64_t first, std::int64_t count) const;
+
+  bool has_profiles() const { return file_.contains("profile"); }
+  std::vector<StoredProfile> profiles() const;
+
+  /// Reads everything; compares the checksums of HDF5 and every numbering. (The whole file was compared with
+  /// its seal when it was opened.)
+  void verify() const;
+
+ private:
+  std::int64_t local(RowRange rows) const;
+  std::int64_t first_jerk_from(std::int64_t row) const;
+  void verify_numbering() const;
+
+  std::filesystem::path path_;
+  hdf5::File file_;
+  FileHeader header_;
+  std::vector<InputColumn> inputs_;
+  TableIo trials_;  ///< point, index, then one column per input
+  TableIo outcomes_;
+  TableIo jerks_;
+  std::optional<TableIo> trace_;
+};
+
+}  // namespace zerocount

@@ -1,0 +1,76 @@
+#include "results/shards/concatenate.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+
+#include "results/layout/row_range.hpp"
+#include "results/layout/table_io.hpp"
+
+namespace zerocount {
+namespace {
+
+/// One shard's share of the table.
+struct Source {
+  std::filesystem::path path;
+  RowRange rows;  ///< where its rows go in the table written
+};
+
+std::vector<Source> find_sources(const Table& table, std::span<const ShardInfo> shards, std::int64_t width) {
+  std::vector<Source> sources;
+  std::int64_t next = 0;
+  for (const ShardInfo& shard : shards) {
+    const hdf5::File file = hdf5::File::open_to_read(shard.path);
+    const TableIo io = TableIo::open(file, table);
+    if (io.width() != width) io.row_scale().fail("its trials have another number of moves than the study");
+    sources.push_back({shard.path, {next, io.rows()}});
+    next += io.rows();
+  }
+  return sources;
+}
+
+/// The bytes of some rows, by column.
+using Block = std::vector<std::vector<std::byte>>;
+
+/// Reads the rows that `source` has of `wanted` into their place in `block`.
+void read_share(const Table& table, const Source& source, RowRange wanted, std::int64_t width, Block& block) {
+  const std::int64_t first = std::max(source.rows.first, wanted.first);
+  const std::int64_t count = std::min(source.rows.end(), wanted.end()) - first;
+  if (count <= 0) return;
+  const hdf5::File file = hdf5::File::open_to_read(source.path);
+  const TableIo io = TableIo::open(file, table);
+  for (std::size_t index = 0; index < table.columns.size(); ++index) {
+    const auto offset =
+        static_cast<std::size_t>((first - wanted.first) * width) * size_of(table.columns[index].element);
+    io.column(index).read(first - source.rows.first, count, block[index].data() + offset);
+  }
+}
+
+}  // namespace
+
+void concatenate(hdf5::File& file, const Table& table, std::span<const ShardInfo> shards, std::int64_t width,
+                 std::int64_t first_number) {
+  const std::vector<Source> sources = find_sources(table, shards, width);
+  const std::int64_t rows = sources.empty() ? 0 : sources.back().rows.end();
+  TableIo out = TableIo::create(file, table, rows, width);
+  out.number_rows(first_number);
+  Block block(table.columns.size());
+  std::size_t next = 0;
+  for (RowRange wanted; wanted.first < rows; wanted.first = wanted.end()) {
+    wanted.count = std::min(chunk_rows(width), rows - wanted.first);
+    for (std::size_t index = 0; index < block.size(); ++index) {
+      block[index].resize(static_cast<std::size_t>(wanted.count * width) *
+                          size_of(table.columns[index].element));
+    }
+    while (sources[next].rows.end() <= wanted.first) ++next;
+    for (std::size_t source = next; source < sources.size() && sources[source].rows.first < wanted.end();
+         ++source) {
+      read_share(table, sources[source], wanted, width, block);
+    }
+    for (std::size_t index = 0; index < block.size(); ++index) {
+      out.column(index).write(wanted.first, wanted.count, block[index].data());
+    }
+  }
+}
+
+}  // namespace zerocount

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "results/hdf5/hdf5.hpp"
+#include "results/layout/layout.hpp"
+#include "results/shards/shard.hpp"
+
+namespace zerocount {
+
+/// Creates `table` in `file` and fills it with that table of the shards, one after the other.
+///
+/// It goes by blocks of the table written, each one chunk of every column, so that memory is bounded and the
+/// order of writing does not depend on how the rows are divided among the shards.
+/// @param width        size of the second dimension, 1 where the table has none
+/// @param first_number first value of the scale of the rows
+void concatenate(hdf5::File& file, const Table& table, std::span<const ShardInfo> shards, std::int64_t width,
+                 std::int64_t first_number);
+
+}  // namespace zerocount

@@ -1,0 +1,169 @@
+#include "results/shards/merge.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "core/failure.hpp"
+#include "core/friction/profile.hpp"
+#include "results/layout/header.hpp"
+#include "results/layout/table_io.hpp"
+#include "results/shards/concatenate.hpp"
+#include "results/storage/durable_file.hpp"
+#include "results/storage/seal.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(ExitCode code, const fs::path& path, const std::string& problem) {
+  throw Failure(code, fmt::format("{}: {}", path.string(), problem));
+}
+
+std::vector<fs::path> expand(std::span<const fs::path> inputs) {
+  std::vector<fs::path> files;
+  for (const fs::path& input : inputs) {
+    std::error_code error;
+    if (!fs::is_directory(input, error)) {
+      files.push_back(input);
+      continue;
+    }
+    const std::size_t before = files.size();
+    for (fs::directory_iterator entry(input, error), end; !error && entry != end; entry.increment(error)) {
+      if (entry->path().extension() == ".h5") files.push_back(entry->path());
+    }
+    if (error) fail_with(input, "read the directory", error.value());
+    if (files.size() == before) fail(ExitCode::bad_input, input, "no shards (*.h5) in this directory");
+    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+  }
+  if (files.empty())
+    throw Failure(ExitCode::bad_input, "nothing to merge: name shards, parts or directories of shards");
+  return files;
+}
+
+/// @throws Failure unless the shards, in order of rows, follow one another from the start of `rows` to its
+/// end.
+void require_cover(std::span<const ShardInfo> shards, RowRange rows, const fs::path& output) {
+  std::int64_t next = rows.first;
+  const ShardInfo* previous = nullptr;
+  for (const ShardInfo& shard : shards) {
+    if (previous != nullptr && shard.rows.first < next) {
+      fail(ExitCode::bad_data, shard.path,
+           fmt::format("holds trials {} to {}, which overlap those of {}", shard.rows.first,
+                       shard.rows.end() - 1, previous->path.string()));
+    }
+    if (shard.rows.first < rows.first || shard.rows.end() > rows.end()) {
+      fail(ExitCode::bad_data, shard.path,
+           fmt::format("holds trials {} to {}, outside the {} to {} to be merged", shard.rows.first,
+                       shard.rows.end() - 1, rows.first, rows.end() - 1));
+    }
+    if (shard.rows.first > next) {
+      fail(
+          ExitCode::bad_data, output,
+          fmt::format("cannot merge: trials {} to {} are in none of the shards", next, shard.rows.first - 1));
+    }
+    next = shard.rows.end();
+    previous = &shard;
+  }
+  if (next < rows.end()) {
+    fail(ExitCode::bad_data, output,
+         fmt::format("cannot merge: trials {} to {} are in none of the shards", next, rows.end() - 1));
+  }
+}
+
+void write_points(hdf5::File& file, const Study& study) {
+  const std::int64_t points = point_count(study);
+  TableIo io = TableIo::create(file, point_table(study.axes, {}), points, 1);
+  io.number_rows(0);
+  io.column(0).write_texts(study.point_labels);
+  for (std::size_t index = 0; index < study.axes.size(); ++index) {
+    const SweepAxis& axis = study.axes[index];
+    if (axis.kind == SweepAxis::Kind::text) {
+      io.column(1 + index).write_texts(axis.texts);
+    } else {
+      io.column(1 + index).write(0, points, axis.numbers.data());
+    }
+  }
+}
+
+void write_profiles(hdf5::File& file, const Study& study) {
+  std::vector<double> theta(profile_angles);
+  std::vector<double> value(profile_angles);
+  for (const RealisedProfile& realised : study.profiles) {
+    TableIo io = TableIo::create(file, profile_table(realised.name, realised.unit), profile_angles, 1);
+    for (std::size_t i = 0; i < theta.size(); ++i) {
+      theta[i] = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(profile_angles);
+      value[i] = value_at(*realised.profile, theta[i]);
+    }
+    io.row_scale().write(0, profile_angles, theta.data());
+    io.column(0).write(0, profile_angles, value.data());
+  }
+}
+
+/// Writes everything but the statistics and the mark that the file is finished.
+void write_trials_of(std::span<const ShardInfo> shards, const Study& study, const fs::path& part,
+                     RowRange rows, const Provenance& provenance) {
+  hdf5::File file = hdf5::File::create(part);
+  write_header(file, make_header(study, FileKind::study, rows, provenance));
+  write_points(file, study);
+  concatenate(file, trial_table(study.input_columns), shards, 1, rows.first);
+  concatenate(file, outcome_table(), shards, study.moves, rows.first);
+  concatenate(file, jerk_table(), shards, 1, 0);
+  write_profiles(file, study);
+  if (!study.retained_trials.empty()) concatenate(file, trace_table(), shards, 1, 0);
+  file.close();
+}
+
+void write_statistics(const fs::path& part, const Study& study, const std::vector<PointColumn>& statistics) {
+  hdf5::File file = hdf5::File::open_to_change(part);
+  TableIo io = TableIo::open(file, point_table(study.axes, {}));
+  const Table described = point_table({}, statistics);
+  for (std::size_t index = 0; index < statistics.size(); ++index) {
+    const PointColumn& statistic = statistics[index];
+    if (std::ssize(statistic.values) != io.rows()) {
+      throw std::invalid_argument(
+          fmt::format("the statistic '{}' needs one value per design point", statistic.name));
+    }
+    io.add(described.columns[1 + index]).write(0, io.rows(), statistic.values.data());
+  }
+  mark_finished(file);
+  file.close();
+}
+
+}  // namespace
+
+std::vector<ShardInfo> merge_inputs(std::span<const fs::path> inputs, const Study& study) {
+  std::vector<ShardInfo> shards;
+  for (const fs::path& path : expand(inputs)) shards.push_back(inspect_shard(path, study));
+  std::sort(shards.begin(), shards.end(),
+            [](const ShardInfo& left, const ShardInfo& right) { return left.rows.first < right.rows.first; });
+  return shards;
+}
+
+FileHeader first_header(std::span<const fs::path> inputs) {
+  return StudyFile(expand(inputs).front(), Require::any_part).header();
+}
+
+void merge_shards(std::span<const ShardInfo> shards, const Study& study, const fs::path& output,
+                  RowRange rows, const PointStatistics& statistics, const Provenance& provenance) {
+  std::vector<ShardInfo> ordered(shards.begin(), shards.end());
+  std::sort(ordered.begin(), ordered.end(),
+            [](const ShardInfo& left, const ShardInfo& right) { return left.rows.first < right.rows.first; });
+  require_cover(ordered, rows, output);
+  std::error_code error;
+  if (fs::exists(output, error))
+    fail(ExitCode::bad_input, output, "exists already; remove it or name another output");
+  const UnfinishedFile part(output);
+  write_trials_of(ordered, study, part.path(), rows, provenance);
+  std::vector<PointColumn> columns;
+  if (statistics && rows == all_rows(study))
+    columns = statistics(StudyFile(part.path(), Require::unfinished));
+  write_statistics(part.path(), study, columns);
+  seal(part.path());
+  publish(output);
+}
+
+}  // namespace zerocount

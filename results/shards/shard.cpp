@@ -1,0 +1,166 @@
+#include "results/shards/shard.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "core/failure.hpp"
+#include "results/layout/header.hpp"
+#include "results/layout/table_io.hpp"
+#include "results/reading/study_file.hpp"
+#include "results/storage/durable_file.hpp"
+#include "results/storage/seal.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace fs = std::filesystem;
+
+void require_fit(const Study& study, std::int64_t first_row, std::span<const TrialResult> results) {
+  if (results.empty() || first_row < 0 || first_row + std::ssize(results) > trial_count(study)) {
+    throw std::invalid_argument("a shard needs trials of its study");
+  }
+  std::int64_t row = first_row;
+  for (const TrialResult& result : results) {
+    const bool fits = result.row == row && result.inputs.size() == study.input_columns.size() &&
+                      std::ssize(result.outcome.moves) == study.moves;
+    if (!fits) throw std::invalid_argument(fmt::format("the result for row {} does not fit the study", row));
+    ++row;
+  }
+}
+
+void write_trials(hdf5::File& file, const Study& study, std::span<const TrialResult> results) {
+  const std::int64_t rows = std::ssize(results);
+  TableIo io = TableIo::create(file, trial_table(study.input_columns), rows, 1);
+  io.number_rows(results.front().row);
+  std::vector<std::int64_t> point(results.size());
+  std::vector<std::int64_t> index(results.size());
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    point[i] = results[i].row / study.trials;
+    index[i] = results[i].row % study.trials;
+  }
+  io.column(0).write(0, rows, point.data());
+  io.column(1).write(0, rows, index.data());
+  std::vector<double> values(results.size());
+  for (std::size_t input = 0; input < study.input_columns.size(); ++input) {
+    std::transform(results.begin(), results.end(), values.begin(),
+                   [input](const TrialResult& result) { return result.inputs[input]; });
+    io.column(2 + input).write(0, rows, values.data());
+  }
+}
+
+void write_outcomes(hdf5::File& file, const Study& study, std::span<const TrialResult> results) {
+  std::vector<MoveOutcome> moves;
+  for (const TrialResult& result : results) {
+    moves.insert(moves.end(), result.outcome.moves.begin(), result.outcome.moves.end());
+  }
+  TableIo io = TableIo::create(file, outcome_table(), std::ssize(results), study.moves);
+  io.number_rows(results.front().row);
+  write_records(io, outcome_fields(), 0, std::span<const MoveOutcome>(moves));
+}
+
+void write_jerks(hdf5::File& file, std::span<const TrialResult> results) {
+  std::vector<JerkRecord> jerks;
+  for (const TrialResult& result : results) {
+    for (const Jerk& jerk : result.jerks) jerks.push_back({jerk, result.row});
+  }
+  TableIo io = TableIo::create(file, jerk_table(), std::ssize(jerks), 1);
+  io.number_rows(0);
+  write_records(io, jerk_fields(), 0, std::span<const JerkRecord>(jerks));
+}
+
+void write_trace(hdf5::File& file, std::span<const TrialResult> results) {
+  std::vector<TraceRecord> records;
+  for (const TrialResult& result : results) {
+    for (const SampleRecord& record : result.trace) records.push_back({record, result.row});
+  }
+  TableIo io = TableIo::create(file, trace_table(), std::ssize(records), 1);
+  io.number_rows(0);
+  write_records(io, trace_fields(), 0, std::span<const TraceRecord>(records));
+}
+
+bool by_rows(const ShardInfo& left, const ShardInfo& right) {
+  return left.rows.first != right.rows.first ? left.rows.first < right.rows.first : left.path < right.path;
+}
+
+}  // namespace
+
+fs::path shards_directory(const fs::path& output) {
+  fs::path directory = output;
+  directory += ".shards";
+  return directory;
+}
+
+fs::path shard_path(const fs::path& directory, RowRange rows) {
+  return directory / fmt::format("trials-{:012}-{:012}.h5", rows.first, rows.end() - 1);
+}
+
+void write_shard(const fs::path& path, const Study& study, std::int64_t first_row,
+                 std::span<const TrialResult> results, const Provenance& provenance) {
+  require_fit(study, first_row, results);
+  const UnfinishedFile part(path);
+  hdf5::File file = hdf5::File::create(part.path());
+  write_header(file, make_header(study, FileKind::shard, {first_row, std::ssize(results)}, provenance));
+  write_trials(file, study, results);
+  write_outcomes(file, study, results);
+  write_jerks(file, results);
+  if (!study.retained_trials.empty()) write_trace(file, results);
+  mark_finished(file);
+  file.close();
+  seal(part.path());
+  publish(path);
+}
+
+ShardInfo inspect_shard(const fs::path& path, const Study& study) {
+  const StudyFile file(path, Require::any_part);
+  require_same_study(path, file.header(), study);
+  return {path, file.rows()};
+}
+
+ShardSurvey list_shards(const fs::path& directory, const Study& study) {
+  ShardSurvey survey;
+  std::error_code error;
+  if (!fs::exists(directory, error)) return survey;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
+    const fs::path& path = entry->path();
+    if (path.extension() == ".part") {
+      survey.unfinished.push_back(path);
+      continue;
+    }
+    try {
+      survey.shards.push_back(inspect_shard(path, study));
+    } catch (const Failure& failure) {
+      survey.problems.push_back({path, failure.what()});
+    }
+  }
+  if (error) fail_with(directory, "read the directory", error.value());
+  std::sort(survey.shards.begin(), survey.shards.end(), by_rows);
+  std::sort(survey.problems.begin(), survey.problems.end(),
+            [](const ShardProblem& left, const ShardProblem& right) { return left.path < right.path; });
+  return survey;
+}
+
+std::vector<RowRange> missing_ranges(std::span<const ShardInfo> shards, RowRange wanted) {
+  std::vector<ShardInfo> ordered(shards.begin(), shards.end());
+  std::sort(ordered.begin(), ordered.end(), by_rows);
+  std::vector<RowRange> missing;
+  std::int64_t next = wanted.first;
+  for (const ShardInfo& shard : ordered) {
+    const std::int64_t end = std::min(shard.rows.first, wanted.end());
+    if (end > next) missing.push_back({next, end - next});
+    next = std::max(next, shard.rows.end());
+  }
+  if (next < wanted.end()) missing.push_back({next, wanted.end() - next});
+  return missing;
+}
+
+void remove_unfinished(const ShardSurvey& survey) {
+  for (const fs::path& path : survey.unfinished) {
+    std::error_code error;
+    fs::remove(path, error);
+    if (error) fail_with(path, "remove", error.value());
+  }
+}
+
+}  // namespace zerocount

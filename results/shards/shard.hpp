@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/trial/outcome.hpp"
+#include "core/trial/trial.hpp"
+#include "experiments/study.hpp"
+#include "results/layout/build_info.hpp"
+#include "results/layout/row_range.hpp"
+
+namespace zerocount {
+
+/// What is kept of one trial.
+struct TrialResult {
+  std::int64_t row{0};              ///< global row: point·trials + index
+  std::vector<double> inputs;       ///< [input column of the study], in that column's unit
+  TrialOutcome outcome;             ///< one entry per move
+  std::vector<Jerk> jerks;          ///< by move and onset
+  std::vector<SampleRecord> trace;  ///< every sample of a retained trial; otherwise empty
+};
+
+/// The folder of an output's shards, OUTPUT.shards.
+std::filesystem::path shards_directory(const std::filesystem::path& output);
+
+/// Where in `directory` the shard of these rows belongs.
+std::filesystem::path shard_path(const std::filesystem::path& directory, RowRange rows);
+
+/// Writes the results of the rows first_row, first_row + 1, … as one shard at `path`. The shard
+/// gets its name only when it is whole on the disk.
+/// @throws Failure (machine_failed) with the path and the reason; std::invalid_argument where the results are
+/// not those
+///         rows in order, or do not fit the study.
+void write_shard(const std::filesystem::path& path, const Study& study, std::int64_t first_row,
+                 std::span<const TrialResult> results, const Provenance& provenance = current_provenance());
+
+/// A shard (or a part of a study) that is whole and of the study.
+struct ShardInfo {
+  std::filesystem::path path;
+  RowRange rows;
+};
+
+/// A file that cannot be used, and why.
+struct ShardProblem {
+  std::filesystem::path path;
+  std::string problem;  ///< complete message, the path included
+};
+
+/// What stands in a folder of shards.
+struct ShardSurvey {
+  std::vector<ShardInfo> shards;                  ///< valid, in order of rows
+  std::vector<ShardProblem> problems;             ///< damaged, foreign or of another study
+  std::vector<std::filesystem::path> unfinished;  ///< *.part, left by a process that died; safe to remove
+};
+
+/// Reads the shard whole, and checks seal, format, version, study and completion mark.
+/// @throws Failure (bad_data) where it cannot be used; see also open_results.
+ShardInfo inspect_shard(const std::filesystem::path& path, const Study& study);
+
+/// Inspects every file in `directory`; a directory that does not exist has none.
+/// @throws Failure (machine_failed) where the directory cannot be read.
+ShardSurvey list_shards(const std::filesystem::path& directory, const Study& study);
+
+/// The parts of `wanted` that no shard covers, in order. Shards may overlap.
+std::vector<RowRange> missing_ranges(std::span<const ShardInfo> shards, RowRange wanted);
+
+/// Removes files left by processes that died.
+void remove_unfinished(const ShardSurvey& survey);
+
+}  // namespace zerocount

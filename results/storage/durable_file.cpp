@@ -1,0 +1,78 @@
+#include "results/storage/durable_file.hpp"
+
+#include <cerrno>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path directory_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+void synchronise_directory(const fs::path& path) {
+  const FileDescriptor directory(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  // Some file systems have no fsync of directories and say EINVAL: the names are as safe there as they can
+  // be.
+  if (!directory.valid() || (::fsync(directory.get()) != 0 && errno != EINVAL))
+    fail_with(path, "write", errno);
+}
+
+}  // namespace
+
+void fail_with(const fs::path& path, std::string_view action, int error) {
+  throw Failure(ExitCode::machine_failed, fmt::format("{}: cannot {}: {}", path.string(), action,
+                                                      std::system_category().message(error)));
+}
+
+fs::path part_of(const fs::path& path) {
+  fs::path part = path;
+  part += ".part";
+  return part;
+}
+
+UnfinishedFile::~UnfinishedFile() {
+  ::unlink(part_.c_str());
+}
+
+void publish(const fs::path& path) {
+  const fs::path part = part_of(path);
+  {
+    const FileDescriptor file(::open(part.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file.valid() || ::fsync(file.get()) != 0) fail_with(part, "write", errno);
+  }
+  if (::rename(part.c_str(), path.c_str()) != 0) fail_with(path, "write", errno);
+  synchronise_directory(directory_of(path));
+}
+
+void write_all(const fs::path& path, const FileDescriptor& file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file.get(), text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail_with(path, "write", errno);
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void make_directory(const fs::path& path) {
+  if (::mkdir(path.c_str(), 0777) != 0) {
+    if (errno == ENOENT && path.has_parent_path() && path.parent_path() != path) {
+      make_directory(path.parent_path());
+      return make_directory(path);
+    }
+    std::error_code ignored;
+    if (errno == EEXIST && fs::is_directory(path, ignored)) return;
+    fail_with(path, "make the directory", errno);
+  }
+  synchronise_directory(directory_of(path));
+}
+
+}  // namespace zerocount

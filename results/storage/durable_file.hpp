@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "results/storage/file_descriptor.hpp"
+
+namespace zerocount {
+
+/// Where a file stands until it is finished: PATH.part. What has the name PATH is whole, whatever happened to
+/// the process that wrote it.
+std::filesystem::path part_of(const std::filesystem::path& path);
+
+/// Removes part_of(path) at the end of its life, if it is still there: a failed write must not hold on to the
+/// disk.
+class UnfinishedFile {
+ public:
+  explicit UnfinishedFile(const std::filesystem::path& path) : part_(part_of(path)) {}
+  UnfinishedFile(const UnfinishedFile&) = delete;
+  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+  ~UnfinishedFile();
+
+  const std::filesystem::path& path() const { return part_; }
+
+ private:
+  std::filesystem::path part_;
+};
+
+/// Brings the finished file part_of(path) to the disk and gives it its name `path`.
+/// @throws Failure (machine_failed) with the path and the system's reason.
+void publish(const std::filesystem::path& path);
+
+/// Writes all of `text` at the file's position; `path` is its name in messages.
+/// @throws Failure (machine_failed) with the path and the system's reason.
+void write_all(const std::filesystem::path& path, const FileDescriptor& file, std::string_view text);
+
+/// Makes the directory and those above it, durably.
+/// @throws Failure (machine_failed) with the path and the system's reason.
+void make_directory(const std::filesystem::path& path);
+
+/// @throws Failure (machine_failed): "PATH: cannot ACTION: reason of `error`" (an errno).
+[[noreturn]] void fail_with(const std::filesystem::path& path, std::string_view action, int error);
+
+}  // namespace zerocount

@@ -1,0 +1,47 @@
+#include "results/storage/output_lock.hpp"
+
+#include <cerrno>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+
+#include "core/failure.hpp"
+#include "results/storage/durable_file.hpp"
+
+namespace zerocount {
+namespace {
+
+/// True where `path` still names the file behind `file`: between opening and locking, a run that ended may
+/// have removed it.
+bool still_named(const std::filesystem::path& path, const FileDescriptor& file) {
+  struct stat named {};
+  struct stat held {};
+  return ::stat(path.c_str(), &named) == 0 && ::fstat(file.get(), &held) == 0 &&
+         named.st_ino == held.st_ino && named.st_dev == held.st_dev;
+}
+
+}  // namespace
+
+OutputLock::OutputLock(const std::filesystem::path& output) : path_(output) {
+  path_ += ".lock";
+  do {
+    file_ = FileDescriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+    if (!file_.valid()) fail_with(path_, "make the lock file", errno);
+    if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0) {
+      if (errno != EWOULDBLOCK) fail_with(path_, "lock", errno);
+      throw Failure(
+          ExitCode::machine_failed,
+          fmt::format("{}: another run is writing this output (it holds {}); wait for it or stop it, or name "
+                      "another output",
+                      output.string(), path_.string()));
+    }
+  } while (!still_named(path_, file_));
+}
+
+OutputLock::~OutputLock() {
+  ::unlink(path_.c_str());
+}
+
+}  // namespace zerocount

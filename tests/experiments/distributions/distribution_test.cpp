@@ -1,0 +1,128 @@
+#include "experiments/distributions/distribution.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <boost/math/distributions/normal.hpp>
+#include <gtest/gtest.h>
+
+namespace zerocount {
+namespace {
+
+struct Moments {
+  double mean;
+  double sd;
+};
+
+// Mean and standard deviation as integrals of the quantile function over (0, 1), by the midpoint rule.
+Moments moments_of(const Distribution& distribution) {
+  constexpr int n = 200000;
+  double sum = 0.0;
+  double squares = 0.0;
+  const double centre = quantile(distribution, 0.5);
+  for (int i = 0; i < n; ++i) {
+    const double x = quantile(distribution, (i + 0.5) / n) - centre;
+    sum += x;
+    squares += x * x;
+  }
+  return {centre + sum / n, std::sqrt(squares / n - std::pow(sum / n, 2))};
+}
+
+void expect_moments(const Distribution& distribution, double mean, double sd) {
+  const Moments moments = moments_of(distribution);
+  EXPECT_NEAR(moments.mean, mean, 2e-4 * sd);
+  EXPECT_NEAR(moments.sd, sd, 2e-3 * sd);
+}
+
+TEST(Distribution, MomentsAreThoseOfTheTextbook) {
+  expect_moments(Uniform{600, 900}, 750, 300 / std::sqrt(12));
+  const double log_ratio = std::log(20.0);
+  const double log_mean = 1.9 / log_ratio;
+  expect_moments(LogUniform{0.1, 2.0}, log_mean,
+                 std::sqrt((4.0 - 0.01) / (2 * log_ratio) - log_mean * log_mean));
+  expect_moments(Normal{-3, 2}, -3, 2);
+  expect_moments(Triangular{0.25, 0.3, 0.35}, 0.3, 0.1 / std::sqrt(24));
+  expect_moments(Triangular{0, 0, 3}, 1, std::sqrt(0.5));
+  expect_moments(Integers{1, 30}, 15.5, std::sqrt((900 - 1) / 12.0));
+  expect_moments(Choice{{1, 2, 6}}, 3, std::sqrt(14.0 / 3.0));
+  expect_moments(Choice{{5, 5, 8}}, 6, std::sqrt(2.0));
+}
+
+TEST(Distribution, LognormalHasItsMedianAndItsCoefficientOfVariation) {
+  for (const double cv : {0.05, 0.2, 1.0}) {
+    const Lognormal lognormal{2.0e5, cv};
+    EXPECT_NEAR(quantile(lognormal, 0.5) / 2.0e5, 1.0, 1e-14);
+    const double mean = 2.0e5 * std::sqrt(1 + cv * cv);
+    const Moments moments = moments_of(lognormal);
+    EXPECT_NEAR(moments.mean / mean, 1.0, 1e-4 * cv);
+    EXPECT_NEAR(moments.sd / moments.mean, cv, 5e-3 * cv);
+  }
+}
+
+// Mean of a standard normal conditioned on (a, b): (φ(a) − φ(b)) / (Φ(b) − Φ(a)).
+TEST(Distribution, TruncatedNormalHasTheMeanOfTheConditionedParent) {
+  const boost::math::normal standard;
+  for (const auto& [a, b] : {std::pair{-1.0, 2.0}, {3.0, 5.0}, {-9.0, -6.0}, {6.0, 9.0}, {-0.1, 0.1}}) {
+    const bool upper = a > 0;
+    const double mass = upper ? cdf(complement(standard, a)) - cdf(complement(standard, b))
+                              : cdf(standard, b) - cdf(standard, a);
+    const double mean = (pdf(standard, a) - pdf(standard, b)) / mass;
+    EXPECT_NEAR(moments_of(TruncatedNormal{10, 2, 10 + 2 * a, 10 + 2 * b}).mean, 10 + 2 * mean, 1e-4);
+  }
+}
+
+TEST(Distribution, WholeNumbersAreEquallyLikely) {
+  const Integers integers{-2, 4};
+  std::vector<int> counts(7, 0);
+  for (int i = 0; i < 7000; ++i) ++counts[static_cast<std::size_t>(quantile(integers, (i + 0.5) / 7000) + 2)];
+  EXPECT_EQ(counts, std::vector<int>(7, 1000));
+  EXPECT_EQ(quantile(Integers{3, 3}, 0.9), 3.0);
+}
+
+std::vector<Distribution> examples() {
+  return {Uniform{0, 1},
+          Uniform{-7, 1e9},
+          LogUniform{0.1, 2},
+          Normal{1, 2},
+          TruncatedNormal{0, 1, -0.5, 3},
+          TruncatedNormal{0, 1, 5, 6},
+          TruncatedNormal{0, 1, -6, -5},
+          Lognormal{1, 0.3},
+          Triangular{0, 0.5, 1},
+          Triangular{0, 1, 1},
+          Integers{1, 30},
+          Choice{{3, 1, 2}}};
+}
+
+TEST(Distribution, EveryDrawIsInTheSupportUpToTheExtremes) {
+  for (const Distribution& distribution : examples()) {
+    const Interval values = support(distribution);
+    for (const double u : {0x1p-53, 1e-9, 0.1, 0.5, 0.9, 1 - 1e-9, 1 - 0x1p-53}) {
+      EXPECT_TRUE(contains(values, quantile(distribution, u))) << distribution.index() << " at " << u;
+    }
+  }
+}
+
+TEST(Distribution, QuantilesNeverFall) {
+  for (const Distribution& distribution : examples()) {
+    if (std::holds_alternative<Choice>(distribution)) continue;  // in the order of the list
+    for (int i = 1; i < 1000; ++i) {
+      ASSERT_LE(quantile(distribution, (i - 0.5) / 1000), quantile(distribution, (i + 0.5) / 1000));
+    }
+  }
+}
+
+TEST(Distribution, TheUpperEndOfAContinuousSupportIsNeverDrawn) {
+  EXPECT_LT(quantile(Uniform{0.5, 1}, 1 - 0x1p-53), 1.0);
+  EXPECT_LT(quantile(Triangular{0, 1, 1}, 1 - 0x1p-53), 1.0);
+}
+
+TEST(Distribution, OnlyIntegersAndChoicesOfThemAreWhole) {
+  EXPECT_TRUE(whole_numbers_only(Integers{0, 1}));
+  EXPECT_TRUE(whole_numbers_only(Choice{{0, 5, -3}}));
+  EXPECT_FALSE(whole_numbers_only(Choice{{0, 0.5}}));
+  EXPECT_FALSE(whole_numbers_only(Uniform{0, 1}));
+}
+
+}  // namespace
+}  // namespace zerocount

@@ -1,0 +1,147 @@
+#include "experiments/yaml/yaml_tree.hpp"
+
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+YamlPointer parse(const std::string& text, Problems& problems) {
+  return parse_yaml(text, "m.yaml", false, problems);
+}
+
+std::string message_of(const Problems& problems) {
+  try {
+    problems.raise_if_any();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::bad_input);
+    return failure.what();
+  }
+  return "";
+}
+
+std::string problem_with(const std::string& text) {
+  Problems problems;
+  parse(text, problems);
+  return message_of(problems);
+}
+
+TEST(YamlTree, KeepsOrderPlacesAndQuotes) {
+  Problems problems;
+  const YamlPointer root = parse("b: 'x'\na: [1, {c: ~}]\n", problems);
+  ASSERT_TRUE(problems.empty());
+  ASSERT_EQ(root->entries.size(), 2u);
+  EXPECT_EQ(root->entries[0].key, "b");
+  EXPECT_FALSE(root->entries[0].value->plain);
+  EXPECT_EQ(root->entries[1].place.line, 2);
+  const YamlNode& list = *root->entries[1].value;
+  EXPECT_EQ(list.items[0]->place.column, 5);
+  EXPECT_TRUE(list.items[0]->plain);
+  EXPECT_EQ(list.items[1]->entries[0].value->kind, YamlNode::Kind::null);
+  EXPECT_EQ(flow_text(list), "[1, {c: ~}]");
+}
+
+TEST(YamlTree, AnAliasSharesTheNodeOfItsAnchor) {
+  Problems problems;
+  const YamlPointer root = parse("a: &x [1, 2]\nb: *x\n", problems);
+  ASSERT_TRUE(problems.empty());
+  EXPECT_EQ(root->entries[0].value, root->entries[1].value);
+}
+
+TEST(YamlTree, ReportsEveryDuplicateKeyWhereItStands) {
+  EXPECT_EQ(problem_with("a: 1\nb: {c: 1, c: 2}\na: 3\n"),
+            "m.yaml:2:11: b.c: the key stands twice in the same map; expected each key once\n"
+            "m.yaml:3:1: a: the key stands twice in the same map; expected each key once");
+}
+
+TEST(YamlTree, RefusesWhatIsNotYaml) {
+  EXPECT_NE(problem_with("b: 1\na: [1, 2\n").find("m.yaml:3:1: manifest: a list is not complete"),
+            std::string::npos);
+  EXPECT_NE(problem_with("b: 1\na: [1, 2").find("m.yaml:2:1: manifest: a list is not complete"),
+            std::string::npos);
+  EXPECT_NE(problem_with("a: b: c\n").find("m.yaml:1:5: manifest: a ':' stands where no value can start"),
+            std::string::npos);
+  EXPECT_NE(problem_with("a: \"x\\\"\nb: 1\n").find("m.yaml:1:4: a: a quotation mark is not closed"),
+            std::string::npos);
+  EXPECT_NE(problem_with("a: 1\n\tb: 2\n").find("m.yaml:2:1: manifest: a tab stands in the indentation"),
+            std::string::npos);
+  EXPECT_NE(problem_with("a: *nothing\n").find("an alias names no anchor"), std::string::npos);
+  EXPECT_NE(problem_with("a: ]\n").find("m.yaml:1:"), std::string::npos);
+}
+
+TEST(YamlTree, RefusesASecondDocumentTagsAndOddKeys) {
+  EXPECT_NE(problem_with("a: 1\n---\nb: 2\n").find("a second document starts here"), std::string::npos);
+  EXPECT_NE(problem_with("a: !!float 1\n").find("a: the tag"), std::string::npos);
+  EXPECT_NE(problem_with("a: !mine [1]\n").find("a: the tag '!mine'"), std::string::npos);
+  EXPECT_NE(problem_with("? [1, 2]\n: 3\n").find("stands where a key should"), std::string::npos);
+  EXPECT_NE(problem_with("? {a: 2}\n: 3\n").find("stands where a key should"), std::string::npos);
+  EXPECT_NE(problem_with("~: 3\n").find("the key is empty"), std::string::npos);
+  EXPECT_NE(problem_with("x: &l [1]\ny: {*l : 2}\n").find("stands where a key should"), std::string::npos);
+}
+
+TEST(YamlTree, RefusesAnchorsThatContainThemselves) {
+  EXPECT_EQ(problem_with("a: &x [1, *x]\n"),
+            "m.yaml:1:11: a.1: the alias stands inside its own anchor; expected a document that ends");
+  EXPECT_NE(problem_with("a: &x {b: {c: *x}}\n").find("a.b.c: the alias stands inside"), std::string::npos);
+}
+
+TEST(YamlTree, RefusesExponentialAliases) {
+  std::string laughs = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 12; ++i) {
+    laughs += fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i, i - 1);
+  }
+  EXPECT_NE(problem_with(laughs).find("the aliases expand to too much"), std::string::npos);
+}
+
+TEST(YamlTree, RefusesDeepNesting) {
+  const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+  EXPECT_EQ(problem_with(nested(deepest_nesting)), "");
+  EXPECT_NE(problem_with(nested(deepest_nesting + 1)).find("the nesting is too deep"), std::string::npos);
+  EXPECT_NE(problem_with(nested(300000)).find("m.yaml:1:"), std::string::npos);
+}
+
+TEST(YamlTree, RefusesBytesThatAreNotText) {
+  EXPECT_NE(problem_with("a: 1\nb: \xff\n").find("m.yaml:2:4: manifest: this byte is not UTF-8"),
+            std::string::npos);
+  EXPECT_NE(problem_with(std::string("a: 1\0b", 6)).find("m.yaml:1:5"), std::string::npos);
+  EXPECT_NE(problem_with("a: \xc3").find("m.yaml:1:4"), std::string::npos);
+  EXPECT_EQ(problem_with("a: λ # θ\r\nb: ω\r\n"), "");
+}
+
+TEST(YamlTree, AnEmptyTextIsNoDocument) {
+  Problems problems;
+  EXPECT_EQ(parse("", problems), nullptr);
+  EXPECT_EQ(parse("# nothing\n", problems), nullptr);
+  EXPECT_TRUE(problems.empty());
+}
+
+// Whatever the text: a tree, or a problem with a place; never a crash or an exception of the YAML library.
+TEST(YamlTree, MutilatedTextsNeverEscape) {
+  const std::string text =
+      "a: &x {b: [1, 'two', \"th\\tree\"], c: *x2}\n? d\n: - e\n  - |\n    f\n%g\n--- # h\n";
+  std::uint64_t state = 1;
+  for (int i = 0; i < 20000; ++i) {
+    std::string mutilated = text;
+    for (int change = 0; change < 3; ++change) {
+      state = state * 6364136223846793005u + 1442695040888963407u;
+      const std::size_t at = (state >> 33) % mutilated.size();
+      const char with = "[]{}:,&*!|>-?%@'\"# \n\tx1"[(state >> 20) % 23];
+      if (state >> 63) {
+        mutilated.erase(at, 1);
+      } else {
+        mutilated[at] = with;
+      }
+    }
+    Problems problems;
+    YamlPointer tree;
+    ASSERT_NO_THROW(tree = parse(mutilated, problems)) << mutilated;
+    ASSERT_TRUE(tree || !problems.empty()) << mutilated;
+  }
+}
+
+}  // namespace
+}  // namespace zerocount

@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "results/layout/walk.hpp"
+#include "tests/results/samples.hpp"
+
+namespace zerocount::test {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" `");
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" `") - first + 1);
+}
+
+/// The cells of the table in README.md whose head begins with `head`.
+Rows documented(const std::string& head) {
+  std::istringstream text(read_bytes(ZEROCOUNT_FORMAT_DOCUMENTATION));
+  Rows rows;
+  bool inside = false;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with(fmt::format("| {} |", head))) {
+      inside = true;
+    } else if (inside && !line.starts_with("|")) {
+      break;
+    } else if (inside && !line.starts_with("| ---")) {
+      std::vector<std::string> cells;
+      std::istringstream cell_text(line.substr(1));
+      for (std::string cell; std::getline(cell_text, cell, '|');) cells.push_back(trimmed(cell));
+      rows.push_back(cells);
+    }
+  }
+  return rows;
+}
+
+/// True where `path` is `described`, in which the step `<word>` stands for any name.
+bool fits(const std::string& path, const std::string& described) {
+  std::istringstream path_steps(path);
+  std::istringstream described_steps(described);
+  std::string step;
+  std::string expected;
+  while (std::getline(described_steps, expected, '/')) {
+    if (!std::getline(path_steps, step, '/')) return false;
+    if (!expected.starts_with('<') && step != expected) return false;
+  }
+  return !std::getline(path_steps, step, '/');
+}
+
+std::string type_name(Element element) {
+  const std::map<Element, std::string> names{{Element::float64, "float64"}, {Element::int64, "int64"},
+                                             {Element::int32, "int32"},     {Element::int8, "int8"},
+                                             {Element::flag, "uint8"},      {Element::text, "string"}};
+  return names.at(element);
+}
+
+/// The row for a dataset: the one with its path, or else the first whose pattern fits its path and role.
+std::optional<std::size_t> find_row(const Rows& rows, const hdf5::Dataset& dataset) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i][0] == dataset.path()) return i;
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!fits(dataset.path(), rows[i][0])) continue;
+    if (dataset.has_attribute("role") &&
+        rows[i][0].find(fmt::format("<{}>", dataset.text("role"))) == std::string::npos) {
+      continue;
+    }
+    return i;
+  }
+  return std::nullopt;
+}
+
+TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
+  const TemporaryDirectory directory;
+  const hdf5::File file = open_results(write_sample_file(directory.path(), sample_study()));
+  const Rows rows = documented("path");
+  ASSERT_GT(rows.size(), 40U);
+  std::set<std::size_t> used;
+  for_each_dataset(file, [&](const hdf5::Dataset& dataset) {
+    const std::optional<std::size_t> found = find_row(rows, dataset);
+    ASSERT_TRUE(found) << dataset.path() << " is not described";
+    used.insert(*found);
+    const std::vector<std::string>& row = rows[*found];
+    EXPECT_NE(row[1].find(type_name(dataset.element())), std::string::npos) << dataset.path();
+    const auto dimensions = row[2].empty() ? 0 : 1 + std::count(row[2].begin(), row[2].end(), ',');
+    EXPECT_EQ(std::ssize(dataset.extent()), dimensions) << dataset.path();
+    EXPECT_TRUE(row[3] == "own" || row[3] == dataset.text("units")) << dataset.path();
+    if (row[0].find('<') == std::string::npos) {
+      EXPECT_TRUE(row[4].starts_with(dataset.text("long_name")))
+          << dataset.path() << ": " << dataset.text("long_name");
+    }
+    if (dataset.has_attribute("flag_values") && dataset.element() == Element::int8) {
+      std::istringstream words(dataset.text("flag_meanings"));
+      for (std::string word; words >> word;)
+        EXPECT_NE(row[4].find(word), std::string::npos) << dataset.path();
+    }
+  });
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    EXPECT_TRUE(used.contains(i)) << rows[i][0] << " is in no file";
+}
+
+TEST(Documentation, DescribesEveryAttributeOfTheRootAndNoOther) {
+  const TemporaryDirectory directory;
+  const hdf5::File file = open_results(write_sample_file(directory.path(), sample_study()));
+  std::set<std::string> described;
+  for (const std::vector<std::string>& row : documented("attribute")) described.insert(row[0]);
+  const std::vector<std::string> present = file.attribute_names();
+  EXPECT_EQ(described, std::set<std::string>(present.begin(), present.end()));
+}
+
+}  // namespace
+}  // namespace zerocount::test

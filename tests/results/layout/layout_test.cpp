@@ -1,0 +1,104 @@
+#include "results/layout/layout.hpp"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tests/results/equality.hpp"
+#include "tests/results/samples.hpp"
+
+namespace zerocount::test {
+namespace {
+
+std::vector<std::string> names(const std::vector<Column>& columns) {
+  std::vector<std::string> result;
+  for (const Column& column : columns) result.push_back(column.name);
+  return result;
+}
+
+std::vector<Table> all_tables() {
+  const Study study = sample_study();
+  return {point_table(study.axes, {{"trials", "1", "trials", {}}}),
+          trial_table(study.input_columns),
+          outcome_table(),
+          jerk_table(),
+          trace_table(),
+          profile_table("friction.k1", "N m/rad")};
+}
+
+TEST(Layout, HasOneColumnPerMeasureOfAMove) {
+  EXPECT_EQ(
+      names(outcome_table().columns),
+      (std::vector<std::string>{"outcome", "arrived", "arrival", "settling_time", "stable", "broke_away",
+                                "saturated", "overshoot", "holding_torque", "peak_torque", "creep",
+                                "final_position", "reversal_depth", "jerk_count", "jerk_agreement"}));
+}
+
+TEST(Layout, TracesHaveTheColumnsOfTheTraceCommandAfterTheTrial) {
+  EXPECT_EQ(names(trace_table().columns),
+            (std::vector<std::string>{"trial", "k", "t", "target", "count", "coarse_count", "error", "code",
+                                      "torque", "theta", "omega", "xp", "xh", "depth", "mode"}));
+}
+
+TEST(Layout, JerksHaveTheColumnsOfTheFormat) {
+  EXPECT_EQ(names(jerk_table().columns),
+            (std::vector<std::string>{"trial", "move", "onset", "duration", "magnitude", "direction"}));
+}
+
+TEST(Layout, EveryColumnHasAUnitAndAMeaning) {
+  for (const Table& table : all_tables()) {
+    for (const Column& column : table.columns) {
+      EXPECT_FALSE(column.unit.empty()) << table.group << "/" << column.name;
+      EXPECT_FALSE(column.long_name.empty()) << table.group << "/" << column.name;
+    }
+  }
+}
+
+TEST(Layout, NamesAreUniqueWithinATable) {
+  for (const Table& table : all_tables()) {
+    std::set<std::string> seen{table.rows.name};
+    if (table.second) seen.insert(table.second->name);
+    for (const Column& column : table.columns) {
+      if (table.group == "trial" && column.name == "trial") continue;
+      if (table.group == "jerk" && column.name == "move") continue;
+      EXPECT_TRUE(seen.insert(column.name).second) << table.group << "/" << column.name;
+    }
+  }
+}
+
+TEST(Layout, EnumerationsNameEveryValueAndFlagsAreNoOrYes) {
+  for (const Table& table : all_tables()) {
+    for (const Column& column : table.columns) {
+      EXPECT_EQ(!column.flags.empty(), column.element == Element::int8 || column.element == Element::flag)
+          << column.name;
+      for (std::size_t value = 0; value < column.flags.size(); ++value) {
+        EXPECT_EQ(column.flags[value].value, static_cast<std::int64_t>(value));
+      }
+    }
+  }
+  EXPECT_EQ(outcome_fields()[0].column.flags.size(), 4U);
+  EXPECT_EQ(outcome_fields()[0].column.flags[2].word, "oscillating");
+}
+
+TEST(Fields, ScatterIsTheReverseOfGather) {
+  const Study study = sample_study();
+  std::vector<MoveOutcome> moves;
+  std::vector<TraceRecord> records;
+  for (const TrialResult& result : sample_results(study, all_rows(study))) {
+    moves.insert(moves.end(), result.outcome.moves.begin(), result.outcome.moves.end());
+    for (const SampleRecord& record : result.trace) records.push_back({record, result.row});
+  }
+  std::vector<MoveOutcome> moves_back(moves.size());
+  for (const Field<MoveOutcome>& field : outcome_fields()) {
+    scatter(field, gather(field, std::span<const MoveOutcome>(moves)), std::span(moves_back));
+  }
+  expect_equal_records(outcome_fields(), moves, moves_back);
+  std::vector<TraceRecord> records_back(records.size());
+  for (const Field<TraceRecord>& field : trace_fields()) {
+    scatter(field, gather(field, std::span<const TraceRecord>(records)), std::span(records_back));
+  }
+  expect_equal_records(trace_fields(), records, records_back);
+}
+
+}  // namespace
+}  // namespace zerocount::test

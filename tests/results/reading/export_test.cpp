@@ -1,0 +1,130 @@
+#include "results/reading/export.hpp"
+
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "results/layout/header.hpp"
+#include "results/reading/csv.hpp"
+#include "tests/results/failures.hpp"
+#include "tests/results/samples.hpp"
+
+namespace zerocount::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A table without quoted line feeds, [row][column].
+std::vector<std::vector<std::string>> read_table(const fs::path& path) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream text(read_bytes(path));
+  for (std::string line; std::getline(text, line);) {
+    std::vector<std::string> cells{""};
+    bool quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+        cells.back() += line[++i];
+      } else if (line[i] == '"') {
+        quoted = !quoted;
+      } else if (line[i] == ',' && !quoted) {
+        cells.emplace_back();
+      } else {
+        cells.back() += line[i];
+      }
+    }
+    rows.push_back(cells);
+  }
+  return rows;
+}
+
+class Export : public testing::Test {
+ protected:
+  TemporaryDirectory directory;
+  Study study = sample_study();
+  StudyFile file{write_sample_file(directory.path(), study)};
+  fs::path out = directory / "csv";
+  std::vector<fs::path> written = export_csv(file, out);
+};
+
+TEST_F(Export, WritesEveryTable) {
+  std::vector<std::string> names;
+  for (const fs::path& path : written) names.push_back(path.filename());
+  EXPECT_EQ(names, (std::vector<std::string>{"points.csv", "trials.csv", "outcomes.csv", "jerks.csv",
+                                             "profiles.csv", "trace.csv"}));
+  for (const fs::path& path : written) EXPECT_TRUE(fs::exists(path));
+}
+
+TEST_F(Export, PointsHaveTheirAxesAndStatistics) {
+  const auto rows = read_table(out / "points.csv");
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"point", "label", "controller.ki", "case", "trials",
+                                               "settling_time_mean"}));
+  EXPECT_EQ(rows[1][2], "nan");
+  EXPECT_EQ(rows[3][0], "2");
+  EXPECT_EQ(rows[3][1], study.point_labels[2]);
+  EXPECT_EQ(std::stod(rows[3][2]), study.axes[0].numbers[2]);
+  EXPECT_EQ(rows[3][3], study.axes[1].texts[2]);
+}
+
+TEST_F(Export, TrialsHaveTheirInputs) {
+  const auto rows = read_table(out / "trials.csv");
+  ASSERT_EQ(rows.size(), 121U);
+  EXPECT_EQ(rows[0],
+            (std::vector<std::string>{"trial", "point", "index", "friction.k1", "command.targets.0"}));
+  for (std::int64_t row = 0; row < 120; ++row) {
+    const std::vector<double> inputs = sample_result(study, row).inputs;
+    EXPECT_EQ(
+        rows[static_cast<std::size_t>(row) + 1],
+        (std::vector<std::string>{std::to_string(row), std::to_string(row / 40), std::to_string(row % 40),
+                                  number_text(inputs[0]), number_text(inputs[1])}));
+  }
+}
+
+TEST_F(Export, OutcomesHaveOneRowPerMoveAndWordsForVerdicts) {
+  const auto rows = read_table(out / "outcomes.csv");
+  ASSERT_EQ(rows.size(), 241U);
+  const std::vector<MoveOutcome> outcomes = file.outcomes(file.rows());
+  const std::vector<std::string> words{"zero_count", "one_count", "oscillating", "nonfinite"};
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    EXPECT_EQ(rows[i + 1][0], std::to_string(i / 2));
+    EXPECT_EQ(rows[i + 1][1], std::to_string(i % 2));
+    EXPECT_EQ(rows[i + 1][2], words[static_cast<std::size_t>(outcomes[i].outcome)]);
+    EXPECT_EQ(rows[i + 1][3], outcomes[i].arrived ? "1" : "0");
+    EXPECT_EQ(rows[i + 1][5], number_text(outcomes[i].settling_time));
+  }
+}
+
+TEST_F(Export, JerksProfilesAndTraceAreWhole) {
+  const auto jerks = read_table(out / "jerks.csv");
+  EXPECT_EQ(std::ssize(jerks), file.jerk_count() + 1);
+  EXPECT_EQ(jerks[0],
+            (std::vector<std::string>{"trial", "move", "onset", "duration", "magnitude", "direction"}));
+  const auto profiles = read_table(out / "profiles.csv");
+  EXPECT_EQ(std::ssize(profiles), profile_angles + 1);
+  EXPECT_EQ(profiles[1][0], "friction.k1");
+  const auto trace = read_table(out / "trace.csv");
+  ASSERT_EQ(std::ssize(trace), file.trace_count() + 1);
+  EXPECT_EQ(trace[0].back(), "mode");
+  EXPECT_EQ(trace[6].back(), "stick");
+  EXPECT_EQ(trace[7].back(), "slide");
+}
+
+TEST_F(Export, NeverOverwrites) {
+  expect_failure(ExitCode::bad_input, "points.csv: exists already", [&] { export_csv(file, out); });
+}
+
+TEST(ExportOfAPart, HasItsOwnTrialsOnly) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  const RowRange rows{30, 25};
+  const auto shards = write_sample_shards(directory / "shards", study, rows, 10);
+  merge_shards(shards, study, directory / "part.h5", rows, {});
+  export_csv(StudyFile(directory / "part.h5", Require::any_part), directory / "csv");
+  const auto trials = read_table(directory.path() / "csv" / "trials.csv");
+  ASSERT_EQ(trials.size(), 26U);
+  EXPECT_EQ(trials[1][0], "30");
+  EXPECT_EQ(trials[25][0], "54");
+}
+
+}  // namespace
+}  // namespace zerocount::test

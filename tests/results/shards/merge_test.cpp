@@ -1,0 +1,266 @@
+#include "results/shards/merge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "results/layout/table_io.hpp"
+#include "results/storage/durable_file.hpp"
+#include "tests/results/equality.hpp"
+#include "tests/results/failures.hpp"
+#include "tests/results/raw_hdf5.hpp"
+#include "tests/results/samples.hpp"
+
+namespace zerocount::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Shards of `rows` cut at random places.
+std::vector<ShardInfo> random_shards(const fs::path& directory, const Study& study, RowRange rows,
+                                     std::mt19937& random) {
+  fs::create_directories(directory);
+  std::vector<ShardInfo> shards;
+  while (rows.count > 0) {
+    const std::int64_t count =
+        std::min<std::int64_t>(rows.count, 1 + static_cast<std::int64_t>(random()) % 60);
+    shards.push_back(write_sample_shard(directory, study, {rows.first, count}));
+    rows = {rows.first + count, rows.count - count};
+  }
+  std::shuffle(shards.begin(), shards.end(), random);
+  return shards;
+}
+
+fs::path merged(const fs::path& path, const Study& study, std::span<const ShardInfo> shards) {
+  merge_shards(shards, study, path, all_rows(study), sample_statistics, sample_provenance());
+  return path;
+}
+
+TEST(Merge, KeepsEverythingOfEveryTrial) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study(4, 50, 3);
+  const StudyFile file(write_sample_file(directory.path(), study));
+  file.verify();
+  EXPECT_TRUE(file.header().complete);
+  EXPECT_EQ(file.header().seed, study.seed);
+  EXPECT_EQ(file.moves(), 3);
+  std::int64_t jerk = 0;
+  std::int64_t record = 0;
+  for (std::int64_t row = 0; row < trial_count(study); ++row) {
+    const TrialResult expected = sample_result(study, row);
+    EXPECT_EQ(file.inputs_of(row), expected.inputs);
+    expect_equal_records(outcome_fields(), file.outcomes({row, 1}), expected.outcome.moves);
+    std::vector<JerkRecord> jerks;
+    for (const Jerk& each : expected.jerks) jerks.push_back({each, row});
+    expect_equal_records(jerk_fields(), file.jerks({row, 1}), jerks);
+    expect_equal_records(jerk_fields(), file.jerks_at(jerk, std::ssize(jerks)), jerks);
+    jerk += std::ssize(jerks);
+    std::vector<TraceRecord> trace;
+    for (const SampleRecord& each : expected.trace) trace.push_back({each, row});
+    expect_equal_records(trace_fields(), file.trace_at(record, std::ssize(trace)), trace);
+    record += std::ssize(trace);
+  }
+  EXPECT_EQ(jerk, file.jerk_count());
+  EXPECT_EQ(record, file.trace_count());
+}
+
+TEST(Merge, KeepsWhatIsKnownOfThePoints) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  const StudyFile file(write_sample_file(directory.path(), study));
+  EXPECT_EQ(file.point_labels(), study.point_labels);
+  const std::vector<SweepAxis> axes = file.axes();
+  ASSERT_EQ(axes.size(), 2U);
+  EXPECT_EQ(axes[0].name, "controller.ki");
+  EXPECT_EQ(axes[0].unit, "N m/count");
+  EXPECT_TRUE(std::isnan(axes[0].numbers[0]));
+  EXPECT_EQ(axes[0].numbers[2], study.axes[0].numbers[2]);
+  EXPECT_EQ(axes[1].kind, SweepAxis::Kind::text);
+  EXPECT_EQ(axes[1].texts, study.axes[1].texts);
+  ASSERT_EQ(file.statistics().size(), 2U);
+  EXPECT_EQ(file.statistics()[0].values, std::vector<double>(3, 40.0));
+  EXPECT_EQ(file.statistics()[1].values, sample_statistics(file)[1].values);
+  ASSERT_EQ(file.input_columns().size(), 2U);
+  EXPECT_EQ(file.input_columns()[0].unit, "N m/rad");
+}
+
+TEST(Merge, TabulatesTheProfiles) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  const StudyFile file(write_sample_file(directory.path(), study));
+  ASSERT_EQ(file.profiles().size(), 1U);
+  const StoredProfile profile = file.profiles()[0];
+  EXPECT_EQ(profile.name, "friction.k1");
+  ASSERT_EQ(profile.theta.size(), static_cast<std::size_t>(profile_angles));
+  for (std::size_t i = 0; i < profile.theta.size(); i += 97) {
+    EXPECT_EQ(profile.value[i], value_at(*study.profiles[0].profile, profile.theta[i]));
+  }
+}
+
+TEST(Merge, ReadsOneMeasureAsNumbers) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  const StudyFile file(write_sample_file(directory.path(), study));
+  const std::vector<MoveOutcome> outcomes = file.outcomes({10, 30});
+  const std::vector<double> verdicts = file.measure("outcome", {10, 30});
+  const std::vector<double> arrived = file.measure("arrived", {10, 30});
+  ASSERT_EQ(verdicts.size(), outcomes.size());
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    EXPECT_EQ(verdicts[i], static_cast<double>(outcomes[i].outcome));
+    EXPECT_EQ(arrived[i], outcomes[i].arrived ? 1.0 : 0.0);
+  }
+  EXPECT_THROW(file.measure("no_such_measure", {0, 1}), std::invalid_argument);
+}
+
+TEST(Merge, GivesTheSameBytesForAnyDivisionIntoShards) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study(3, 70, 2);
+  std::mt19937 random(11);
+  const std::vector<ShardInfo> one = write_sample_shards(directory / "one", study, all_rows(study), 1000);
+  const fs::path reference = merged(directory / "reference.h5", study, one);
+  const std::map<std::string, std::string> expected = stored_datasets(reference);
+  ASSERT_GT(expected.size(), 40U);
+  for (int repetition = 0; repetition < 8; ++repetition) {
+    const std::string name = "cut" + std::to_string(repetition);
+    const fs::path path = merged(directory / (name + ".h5"), study,
+                                 random_shards(directory / name, study, all_rows(study), random));
+    EXPECT_EQ(stored_datasets(path), expected);
+    EXPECT_TRUE(read_bytes(path) == read_bytes(reference)) << "the datasets agree, but not the files";
+  }
+}
+
+TEST(Merge, GivesTheSameBytesAcrossManyChunks) {
+  const TemporaryDirectory directory;
+  Study study = sample_study(2, chunk_elements + 700, 1);
+  study.retained_trials.clear();
+  const fs::path coarse = merged(directory / "coarse.h5", study,
+                                 write_sample_shards(directory / "coarse", study, all_rows(study), 30000));
+  const fs::path fine = merged(directory / "fine.h5", study,
+                               write_sample_shards(directory / "fine", study, all_rows(study), 5555));
+  EXPECT_EQ(stored_datasets(coarse), stored_datasets(fine));
+  EXPECT_EQ(StudyFile(fine).trace_count(), 0);
+  StudyFile(fine).verify();
+}
+
+TEST(Merge, JoinsPartsAsItJoinsShards) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study(3, 50, 2);
+  const std::vector<ShardInfo> shards = write_sample_shards(directory / "shards", study, all_rows(study), 13);
+  const fs::path whole = merged(directory / "whole.h5", study, shards);
+  std::vector<fs::path> parts;
+  for (const RowRange rows : {RowRange{0, 61}, RowRange{61, 89}}) {
+    parts.push_back(directory / ("part" + std::to_string(rows.first) + ".h5"));
+    const auto pieces =
+        write_sample_shards(directory / ("shards" + std::to_string(rows.first)), study, rows, 20);
+    merge_shards(pieces, study, parts.back(), rows, sample_statistics, sample_provenance());
+    const StudyFile part(parts.back(), Require::any_part);
+    EXPECT_FALSE(part.header().complete);
+    EXPECT_TRUE(part.statistics().empty());
+    part.verify();
+    expect_failure(ExitCode::bad_data, "incomplete: it holds trials", [&] { StudyFile{parts.back()}; });
+  }
+  EXPECT_EQ(stored_datasets(merged(directory / "joined.h5", study, merge_inputs(parts, study))),
+            stored_datasets(whole));
+}
+
+TEST(Merge, TakesDirectoriesOfShardsAndFindsTheStudyInThem) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  write_sample_shards(directory / "shards", study, all_rows(study), 25);
+  const std::vector<fs::path> inputs{directory / "shards"};
+  const FileHeader header = first_header(inputs);
+  EXPECT_EQ(header.manifest, study.manifest_text);
+  EXPECT_EQ(header.overrides, study.overrides);
+  StudyFile(merged(directory / "all.h5", study, merge_inputs(inputs, study))).verify();
+}
+
+TEST(Merge, OfAStudyWithoutAxesInputsProfilesJerksOrOverrides) {
+  const TemporaryDirectory directory;
+  Study study = sample_study(1, 5, 1);
+  study.axes.clear();
+  study.input_columns.clear();
+  study.profiles.clear();
+  study.overrides.clear();
+  std::vector<TrialResult> results(5);
+  for (std::int64_t row = 0; row < 5; ++row) {
+    results[static_cast<std::size_t>(row)].row = row;
+    results[static_cast<std::size_t>(row)].outcome.moves.resize(1);
+  }
+  write_shard(directory / "shard.h5", study, 0, results);
+  const std::vector<ShardInfo> shards{{directory / "shard.h5", {0, 5}}};
+  merge_shards(shards, study, directory / "all.h5", {0, 5}, {});
+  const StudyFile file(directory / "all.h5");
+  file.verify();
+  EXPECT_EQ(file.jerk_count(), 0);
+  EXPECT_TRUE(file.jerks({0, 5}).empty());
+  EXPECT_TRUE(file.has_trace());
+  EXPECT_EQ(file.trace_count(), 0);
+  EXPECT_TRUE(file.profiles().empty() && file.axes().empty() && file.statistics().empty());
+  EXPECT_TRUE(file.header().overrides.empty());
+}
+
+TEST(Merge, RefusesGapsOverlapsAndShardsOutside) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  std::vector<ShardInfo> shards = write_sample_shards(directory / "shards", study, all_rows(study), 40);
+  const fs::path output = directory / "all.h5";
+  const auto merge = [&](const std::vector<ShardInfo>& given, RowRange rows) {
+    return [&, given, rows] { merge_shards(given, study, output, rows, {}); };
+  };
+  expect_failure(ExitCode::bad_data, "trials 40 to 79 are in none", merge({shards[0], shards[2]}, {0, 120}));
+  expect_failure(ExitCode::bad_data, "trials 80 to 119 are in none", merge({shards[0], shards[1]}, {0, 120}));
+  expect_failure(ExitCode::bad_data, "trials 0 to 39 are in none", merge({shards[1], shards[2]}, {0, 120}));
+  expect_failure(ExitCode::bad_data, "trials 0 to 119 are in none", merge({}, {0, 120}));
+  expect_failure(ExitCode::bad_data, "outside the 0 to 79", merge(shards, {0, 80}));
+  const ShardInfo twice = write_sample_shard(directory.path(), study, {30, 20});
+  shards.push_back(twice);
+  expect_failure(ExitCode::bad_data, "overlap", merge(shards, {0, 120}));
+  EXPECT_FALSE(fs::exists(output));
+  EXPECT_FALSE(fs::exists(part_of(output)));
+}
+
+TEST(Merge, RefusesShardsOfAnotherStudyOrFormat) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  Study other = study;
+  other.study_sha256 = "another";
+  const std::vector<fs::path> inputs{write_sample_shard(directory.path(), study, {0, 120}).path};
+  expect_failure(ExitCode::bad_data, "of another study", [&] { merge_inputs(inputs, other); });
+  replace_attribute(inputs[0], "format_version", 2);
+  expect_failure(ExitCode::bad_data, "newer than the 1", [&] { merge_inputs(inputs, study); });
+  const std::vector<fs::path> nothing{directory / "nothing.h5"};
+  expect_failure(ExitCode::bad_input, "nothing.h5: no such file", [&] { merge_inputs(nothing, study); });
+  fs::create_directory(directory / "empty");
+  const std::vector<fs::path> empty{directory / "empty"};
+  expect_failure(ExitCode::bad_input, "no shards", [&] { merge_inputs(empty, study); });
+}
+
+TEST(Merge, NeverOverwrites) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  const fs::path path = write_sample_file(directory.path(), study);
+  const std::string before = read_bytes(path);
+  const std::vector<fs::path> inputs{shards_directory(path)};
+  expect_failure(ExitCode::bad_input, "exists already",
+                 [&] { merge_shards(merge_inputs(inputs, study), study, path, all_rows(study), {}); });
+  EXPECT_TRUE(read_bytes(path) == before);
+}
+
+TEST(Merge, LeavesNothingWhereTheStatisticsFail) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 40);
+  const fs::path output = directory / "all.h5";
+  const PointStatistics failing = [](const StudyFile&) -> std::vector<PointColumn> {
+    throw std::runtime_error("no");
+  };
+  EXPECT_THROW(merge_shards(shards, study, output, all_rows(study), failing), std::runtime_error);
+  EXPECT_FALSE(fs::exists(output));
+  EXPECT_FALSE(fs::exists(part_of(output)));
+}
+
+}  // namespace
+}  // namespace zerocount::test

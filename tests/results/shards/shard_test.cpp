@@ -1,0 +1,127 @@
+#include "results/shards/shard.hpp"
+
+#include <fstream>
+#include <random>
+#include <set>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "results/shards/merge.hpp"
+#include "results/storage/durable_file.hpp"
+#include "tests/results/equality.hpp"
+#include "tests/results/failures.hpp"
+#include "tests/results/raw_hdf5.hpp"
+#include "tests/results/samples.hpp"
+
+namespace zerocount::test {
+namespace {
+
+TEST(Shard, ReadsBackWhatWasWritten) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  const RowRange rows{35, 50};
+  const ShardInfo shard = write_sample_shard(directory.path(), study, rows);
+  const StudyFile file(shard.path, Require::any_part);
+  EXPECT_EQ(file.rows(), rows);
+  EXPECT_EQ(file.header().manifest, study.manifest_text);
+  EXPECT_EQ(file.header().overrides, study.overrides);
+  EXPECT_EQ(file.header().study_sha256, study.study_sha256);
+  for (std::int64_t row = rows.first; row < rows.end(); ++row) {
+    const TrialResult expected = sample_result(study, row);
+    EXPECT_EQ(file.inputs_of(row), expected.inputs);
+    expect_equal_records(outcome_fields(), file.outcomes({row, 1}), expected.outcome.moves);
+    std::vector<JerkRecord> jerks;
+    for (const Jerk& jerk : expected.jerks) jerks.push_back({jerk, row});
+    expect_equal_records(jerk_fields(), file.jerks({row, 1}), jerks);
+  }
+}
+
+TEST(Shard, HasItsNameOnlyWhenItIsWhole) {
+  const TemporaryDirectory directory;
+  const ShardInfo shard = write_sample_shard(directory.path(), sample_study(), {0, 5});
+  EXPECT_TRUE(std::filesystem::exists(shard.path));
+  EXPECT_FALSE(std::filesystem::exists(part_of(shard.path)));
+}
+
+TEST(Shard, RefusesResultsThatAreNotItsRows) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  std::vector<TrialResult> results = sample_results(study, {0, 5});
+  EXPECT_THROW(write_shard(directory / "a.h5", study, 1, results), std::invalid_argument);
+  results[3].inputs.pop_back();
+  EXPECT_THROW(write_shard(directory / "a.h5", study, 0, results), std::invalid_argument);
+  EXPECT_THROW(write_shard(directory / "a.h5", study, 0, {}), std::invalid_argument);
+}
+
+TEST(ShardSurvey, OfNoDirectoryIsEmpty) {
+  const ShardSurvey survey = list_shards("/nowhere/at/all.shards", sample_study());
+  EXPECT_TRUE(survey.shards.empty() && survey.problems.empty() && survey.unfinished.empty());
+}
+
+TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  const std::vector<ShardInfo> good = write_sample_shards(directory.path(), study, {0, 30}, 10);
+  Study other = sample_study(3, 40);
+  other.study_sha256 = "0";
+  write_bytes(directory / "foreign.h5", "no HDF5 at all");
+  write_shard(directory / "other.h5", other, 40, sample_results(other, {40, 5}));
+  write_shard(directory / "newer.h5", study, 50, sample_results(study, {50, 5}));
+  replace_attribute(directory / "newer.h5", "format_version", 99);
+  write_shard(directory / "unmarked.h5", study, 60, sample_results(study, {60, 5}));
+  remove_attribute(directory / "unmarked.h5", "finished");
+  Provenance earlier = current_provenance();
+  earlier.zerocount_version = "0.0.9";
+  write_shard(directory / "earlier.h5", study, 70, sample_results(study, {70, 5}), earlier);
+  const std::string whole = read_bytes(good[0].path);
+  write_bytes(directory / "short.h5", whole.substr(0, whole.size() / 2));
+  write_bytes(directory / "trials-000000000077-000000000078.h5.part", whole.substr(0, 1000));
+
+  const ShardSurvey survey = list_shards(directory.path(), study);
+  ASSERT_EQ(survey.shards.size(), good.size());
+  for (std::size_t i = 0; i < good.size(); ++i) EXPECT_EQ(survey.shards[i].rows, good[i].rows);
+  const std::vector<std::pair<std::string, std::string>> expected{
+      {"earlier.h5", "written by zerocount 0.0.9"},    {"foreign.h5", "not in the HDF5 format"},
+      {"newer.h5", "its format version is 99, newer"}, {"other.h5", "of another study"},
+      {"short.h5", "seal at its end is missing"},      {"unmarked.h5", "never finished"}};
+  ASSERT_EQ(survey.problems.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(survey.problems[i].path.filename(), expected[i].first);
+    EXPECT_NE(survey.problems[i].problem.find(expected[i].second), std::string::npos)
+        << survey.problems[i].problem;
+    EXPECT_NE(survey.problems[i].problem.find(expected[i].first), std::string::npos)
+        << survey.problems[i].problem;
+  }
+  ASSERT_EQ(survey.unfinished.size(), 1U);
+  remove_unfinished(survey);
+  EXPECT_FALSE(std::filesystem::exists(survey.unfinished[0]));
+}
+
+TEST(MissingRanges, AreTheRowsInNoShard) {
+  std::mt19937 random(7);
+  for (int repetition = 0; repetition < 2000; ++repetition) {
+    std::vector<ShardInfo> shards(random() % 6);
+    std::set<std::int64_t> covered;
+    for (ShardInfo& shard : shards) {
+      shard.rows = {static_cast<std::int64_t>(random() % 30), 1 + static_cast<std::int64_t>(random() % 8)};
+      for (std::int64_t row = shard.rows.first; row < shard.rows.end(); ++row) covered.insert(row);
+    }
+    const RowRange wanted{static_cast<std::int64_t>(random() % 10), static_cast<std::int64_t>(random() % 25)};
+    std::set<std::int64_t> missing;
+    std::int64_t last_end = -1;
+    for (const RowRange& range : missing_ranges(shards, wanted)) {
+      EXPECT_GT(range.count, 0);
+      EXPECT_GT(range.first, last_end) << "ranges that touch should be one";
+      last_end = range.end();
+      for (std::int64_t row = range.first; row < range.end(); ++row) missing.insert(row);
+    }
+    for (std::int64_t row = 0; row < 60; ++row) {
+      const bool expected = row >= wanted.first && row < wanted.end() && !covered.contains(row);
+      EXPECT_EQ(missing.contains(row), expected) << row;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::test

@@ -1,0 +1,143 @@
+#include <functional>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/failure.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/export.hpp"
+#include "results/shards/merge.hpp"
+#include "results/storage/durable_file.hpp"
+#include "tests/results/failures.hpp"
+#include "tests/results/samples.hpp"
+
+/// Read by the leak sanitizer, where there is one: the HDF5 library does not free everything of a file that
+/// it could not close.
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libhdf5";
+}
+extern "C" const char* __lsan_default_options() {
+  return "print_suppressions=0";
+}
+
+namespace zerocount::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Ending {
+  int status{0};
+  std::string message;  ///< of the failure, then everything written to stderr until the process has ended
+};
+
+/// Runs `action` in a process whose files cannot grow beyond `bytes`, as on a full disk.
+Ending with_file_limit(rlim_t bytes, const std::function<void()>& action) {
+  int pipe_ends[2] = {-1, -1};
+  if (::pipe(pipe_ends) != 0) throw std::runtime_error("no pipe");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const struct rlimit limit { bytes, bytes };
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    ::dup2(pipe_ends[1], STDERR_FILENO);
+    int code = 0;
+    try {
+      action();
+    } catch (const Failure& failure) {
+      code = static_cast<int>(failure.code());
+      const std::string text = failure.what();
+      if (::write(pipe_ends[1], text.data(), text.size()) < 0) code = 99;
+    }
+    ::exit(code);  // not _exit: what the library does at exit belongs to the test
+  }
+  ::close(pipe_ends[1]);
+  Ending ending;
+  char buffer[4096];
+  for (ssize_t size = 0; (size = ::read(pipe_ends[0], buffer, sizeof buffer)) > 0;) {
+    ending.message.append(buffer, static_cast<std::size_t>(size));
+  }
+  ::close(pipe_ends[0]);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ending.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  return ending;
+}
+
+void expect_full(const Ending& ending, const fs::path& path) {
+  EXPECT_EQ(ending.status, 5) << ending.message;
+  EXPECT_NE(ending.message.find(path.string()), std::string::npos) << ending.message;
+  EXPECT_NE(ending.message.find("File too large"), std::string::npos) << ending.message;
+  EXPECT_EQ(ending.message.find("HDF5"), std::string::npos) << ending.message;
+  EXPECT_EQ(ending.message.find('\n'), std::string::npos) << ending.message;
+}
+
+TEST(FullOutput, FailsAShardWithItsPathAndTheReason) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  for (const rlim_t limit : {0U, 100U, 2000U, 20000U, 60000U}) {
+    const fs::path path = directory / "shard.h5";
+    expect_full(with_file_limit(limit,
+                                [&] {
+                                  write_shard(path, study, 0, sample_results(study, {0, 120}));
+                                }),
+                path);
+    EXPECT_FALSE(fs::exists(path));
+    EXPECT_FALSE(fs::exists(part_of(path)));
+  }
+}
+
+TEST(FullOutput, FailsAMergeAndKeepsTheShards) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 40);
+  const fs::path path = directory / "all.h5";
+  for (const rlim_t limit : {0U, 2000U, 50000U, 100000U}) {
+    expect_full(with_file_limit(
+                    limit, [&] { merge_shards(shards, study, path, all_rows(study), sample_statistics); }),
+                path);
+    EXPECT_FALSE(fs::exists(path));
+    EXPECT_FALSE(fs::exists(part_of(path)));
+  }
+  EXPECT_EQ(list_shards(directory / "shards", study).shards.size(), shards.size());
+  merge_shards(shards, study, path, all_rows(study), sample_statistics);
+}
+
+TEST(FullOutput, FailsAnExport) {
+  const TemporaryDirectory directory;
+  const fs::path path = write_sample_file(directory.path(), sample_study());
+  expect_full(with_file_limit(1000, [&] { export_csv(StudyFile(path), directory / "csv"); }),
+              directory / "csv");
+  EXPECT_TRUE(fs::is_empty(directory / "csv") || fs::exists(directory.path() / "csv" / "points.csv"));
+}
+
+TEST(UnwritableOutput, IsSaidWithTheReason) {
+  const TemporaryDirectory directory;
+  const Study study = sample_study();
+  write_bytes(directory / "file", "not a directory");
+  const std::vector<TrialResult> results = sample_results(study, {0, 120});
+  expect_failure(ExitCode::machine_failed, "Not a directory",
+                 [&] { write_shard(directory.path() / "file" / "shard.h5", study, 0, results); });
+  expect_failure(ExitCode::machine_failed, "No such file or directory",
+                 [&] { write_shard(directory.path() / "nowhere" / "shard.h5", study, 0, results); });
+  expect_failure(ExitCode::machine_failed, "Not a directory",
+                 [&] { make_directory(directory.path() / "file" / "below"); });
+  expect_failure(ExitCode::machine_failed, "File exists", [&] { make_directory(directory / "file"); });
+  const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 40);
+  expect_failure(ExitCode::machine_failed, "No such file or directory", [&] {
+    merge_shards(shards, study, directory.path() / "nowhere" / "all.h5", all_rows(study), {});
+  });
+}
+
+TEST(MakeDirectory, MakesThoseAboveItToo) {
+  const TemporaryDirectory directory;
+  make_directory(directory.path() / "a" / "b" / "c");
+  make_directory(directory.path() / "a" / "b" / "c");
+  EXPECT_TRUE(fs::is_directory(directory.path() / "a" / "b" / "c"));
+}
+
+}  // namespace
+}  // namespace zerocount::test

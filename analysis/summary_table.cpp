@@ -30,7 +30,9 @@ constexpr std::string_view legend =
     "jerks/trial: mean over all trials\n";
 
 constexpr std::string_view prediction_legend =
-    "(6)/(7) predict: by the friction where each trial starts, (6) ensures stability and (7) excludes it\n";
+    "(6), (7): share of trials in which the paper's criterion (6) holds, which ensures stability, and in "
+    "which\n"
+    "its criterion (7) is exceeded, which excludes it; by the friction where the trial starts\n";
 
 }  // namespace
 
@@ -41,8 +43,14 @@ std::string summary_table(const StudySummary& summary) {
   std::vector<std::string> header{"point",      "trials",  "stable",  "zero-count", "95 % bounds",
                                   "median (s)", "p95 (s)", "arrived", "jerks/trial"};
   std::vector<bool> numeric{false, true, true, true, true, true, true, true, true};
-  if (with_observed) header.push_back("observed"), numeric.push_back(false);
-  if (with_predictions) header.push_back("(6)/(7) predict"), numeric.push_back(false);
+  if (with_predictions) {
+    header.insert(header.end(), {"(6) holds", "(7) exceeded"});
+    numeric.insert(numeric.end(), {true, true});
+  }
+  if (with_observed) {
+    header.push_back("observed");
+    numeric.push_back(false);
+  }
 
   std::vector<std::vector<std::string>> cells{header};
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
@@ -56,8 +64,12 @@ std::string summary_table(const StudySummary& summary) {
                                  short_number(point.settling_time.p95.value),
                                  percentage(point.settling_time.n, point.moves),
                                  short_number(point.jerk_count.mean)};
+    if (with_predictions) {
+      const TheoryPrediction& prediction = summary.predictions[i];
+      row.push_back(percentage(prediction.stable, prediction.trials));
+      row.push_back(percentage(prediction.unstable, prediction.trials));
+    }
     if (with_observed) row.push_back(printable(observed_at(summary, static_cast<std::int64_t>(i))));
-    if (with_predictions) row.push_back(verdict(summary.predictions[i]));
     cells.push_back(std::move(row));
   }
   return printable(summary.name) + "\n\n" + aligned_table(cells, numeric) + "\n" + std::string(legend) +

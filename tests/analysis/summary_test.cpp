@@ -161,8 +161,7 @@ TEST(SummaryTable, HasARowPerPointWithItsRateItsBoundsAndWhatIsKnownOfIt) {
   for (const char* part : {"low gain", "40", "100 %", "[91.2, 100.0]", "stable in all tests"}) {
     EXPECT_NE(lines[4].find(part), std::string::npos) << part << " in: " << lines[4];
   }
-  for (const char* part :
-       {"high, gain", "7", "0 %", "[0.0, 41.0]", "–", "(6) holds in 14.3 %, (7) exceeded in 28.6 %"}) {
+  for (const char* part : {"high, gain", "7", "0 %", "[0.0, 41.0]", "–", "14.3 %", "28.6 %"}) {
     EXPECT_NE(lines[5].find(part), std::string::npos) << part << " in: " << lines[5];
   }
 }
@@ -173,7 +172,7 @@ TEST(SummaryTable, LeavesOutWhatNoPointHas) {
   summary.predictions.clear();
   const std::string table = summary_table(summary);
   EXPECT_EQ(table.find("observed"), std::string::npos);
-  EXPECT_EQ(table.find("(6)/(7)"), std::string::npos);
+  EXPECT_EQ(table.find("(6) holds"), std::string::npos);
 }
 
 TEST(Summary, PartsOfDifferentLengthAreRefused) {

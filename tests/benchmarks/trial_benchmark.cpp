@@ -1,6 +1,6 @@
 // What a trial-sample costs: the trial itself, its peer with Boost.odeint, and what a run adds around it.
 //
-// The figure is the counter ns_per_sample: nanoseconds of one core per sample of a trial. Compare rows of one
+// The figure is the counter per_sample: time of one core per sample of a trial. Compare rows of one
 // run only.
 #include <filesystem>
 #include <string>
@@ -28,8 +28,8 @@ StudyTrial nth_trial(const Study& study, std::int64_t n) {
 }
 
 void count_samples(benchmark::State& state, double samples) {
-  state.counters["ns_per_sample"] =
-      benchmark::Counter(samples * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["per_sample"] =
+      benchmark::Counter(samples, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 double samples_of(const TrialParameters& parameters) {

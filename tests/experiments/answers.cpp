@@ -1,6 +1,7 @@
 // Prints, as JSON, what the judges in Python compare with their own computation.
 
 #include <iostream>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -46,7 +47,7 @@ Json distributions() {
 // number.
 Json draws() {
   Json all = Json::array();
-  for (const char* design : {"monte_carlo", "sobol"}) {
+  for (const char* design : {"monte_carlo", "latin_hypercube", "sobol"}) {
     for (const char* independent : {"false", "true"}) {
       const Study study = study_of(
           minimal_manifest("friction: {k1: {uniform: [1, 2]}}\ninitial: {position: {uniform: [1, 2]}}\n"),
@@ -58,6 +59,7 @@ Json draws() {
           all.push_back({{"design", design},
                          {"independent", study.independent_points},
                          {"seed", study.seed},
+                         {"trials", study.trials},
                          {"point", point},
                          {"trial", trial},
                          {"friction.k1", inputs[column_of(study, "friction.k1")] - 1},
@@ -69,17 +71,30 @@ Json draws() {
   return all;
 }
 
+// {column: [value of trial 0, 1, …]} at the first point of the manifest on the standard input.
+Json inputs() {
+  const Study study = study_of({std::istreambuf_iterator<char>(std::cin), {}});
+  Json all = Json::object();
+  for (std::int64_t trial = 0; trial < study.trials; ++trial) {
+    const std::vector<double> values = study_trial(study, 0, trial).inputs;
+    for (std::size_t i = 0; i < values.size(); ++i) all[study.input_columns[i].name].push_back(values[i]);
+  }
+  return all;
+}
+
 int answer(const std::string& question) {
   if (question == "distributions") {
     std::cout << distributions().dump() << '\n';
   } else if (question == "draws") {
     std::cout << draws().dump() << '\n';
+  } else if (question == "inputs") {
+    std::cout << inputs().dump() << '\n';
   } else if (question == "schema") {
     std::cout << json_schema().dump() << '\n';
   } else if (question == "full_manifest") {
     std::cout << full_manifest();
   } else {
-    std::cerr << "expected distributions, draws, schema or full_manifest\n";
+    std::cerr << "expected distributions, draws, inputs, schema or full_manifest\n";
     return 2;
   }
   return 0;

@@ -31,6 +31,7 @@ struct Family {
   std::uint64_t trials;
 };
 
+// The name of the family names the test.
 void PrintTo(const Family& family, std::ostream* out) {
   *out << family.name;
 }
@@ -69,8 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Seeded, RandomTrialAgreement,
                          ::testing::Values(Family{"calm", TrialKind::calm, 200},
                                            Family{"ringing", TrialKind::ringing, 200},
                                            Family{"breaking_away", TrialKind::breaking_away, 200},
-                                           Family{"unlike_the_paper", TrialKind::unlike_the_paper, 200}),
-                         [](const auto& family) { return std::string(family.param.name); });
+                                           Family{"unlike_the_paper", TrialKind::unlike_the_paper, 200}));
 
 void expect_agreement(const TrialParameters& parameters, const std::string& name) {
   const Agreement agreement =

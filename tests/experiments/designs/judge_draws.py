@@ -43,7 +43,7 @@ def main():
         for name in ("friction.k1", "initial.position"):
             if a["design"] == "monte_carlo":
                 w = bits(a["seed"], name, a["trial"], 0, stream)
-            elif name == "friction.k1":
+            elif a["design"] == "sobol" and name == "friction.k1":
                 w = sobol_first_dimension(a["trial"]) ^ bits(a["seed"], name, 0, 1, stream)
             else:
                 continue

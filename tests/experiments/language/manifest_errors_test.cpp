@@ -305,12 +305,10 @@ TEST(ManifestErrors, EveryRequiredKeyIsMissed) {
 }
 
 TEST(ManifestErrors, AMergeKeyIsAKeyLikeAnyOther) {
-  EXPECT_EQ(
-      failure_of(minimal_manifest("<<: {name: x}")),
-      "m.yaml:6:1: <<: unknown key, nearest known: dac; expected one of zerocount, name, description, seed, "
-      "trials, design, independent_points, retain, observed, sweep, plant, friction, encoder, dac, "
-      "controller, "
-      "command, initial, verdict");
+  EXPECT_EQ(failure_of(minimal_manifest("<<: {name: x}")),
+            "m.yaml:6:1: <<: unknown key, nearest known: dac; expected one of zerocount, name, description, "
+            "seed, trials, design, independent_points, retain, observed, sweep, plant, friction, encoder, "
+            "dac, controller, command, initial, verdict");
 }
 
 TEST(ManifestErrors, ANewerManifestSaysSo) {

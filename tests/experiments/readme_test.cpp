@@ -1,0 +1,132 @@
+// experiments/README.md describes the language as it is.
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/failure.hpp"
+#include "experiments/parameters/parameter_listing.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount {
+namespace {
+
+struct Block {
+  std::string language;
+  std::string text;
+};
+
+std::string readme() {
+  std::ifstream file(ZEROCOUNT_EXPERIMENTS_README);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// What stands between fences, with the word behind the opening fence.
+std::vector<Block> fenced_blocks() {
+  std::vector<Block> blocks;
+  std::istringstream text(readme());
+  bool inside = false;
+  for (std::string line; std::getline(text, line);) {
+    if (line.rfind("```", 0) != 0) {
+      if (inside) blocks.back().text += line + "\n";
+      continue;
+    }
+    if (!inside) blocks.push_back({line.substr(3), ""});
+    inside = !inside;
+  }
+  return blocks;
+}
+
+bool starts_with(const std::string& text, std::string_view start) {
+  return text.rfind(start, 0) == 0;
+}
+
+/// A manifest with the required keys that `part` lacks.
+std::string completed(const std::string& part) {
+  std::string manifest;
+  std::istringstream required(minimal_manifest());
+  for (std::string line; std::getline(required, line);) {
+    const std::string key = line.substr(0, line.find(':') + 1);
+    if (("\n" + part).find("\n" + key) == std::string::npos) manifest += line + "\n";
+  }
+  return manifest + part;
+}
+
+std::size_t index_of_block(const std::vector<Block>& blocks, std::string_view start) {
+  const auto found =
+      std::find_if(blocks.begin(), blocks.end(), [&](const Block& b) { return starts_with(b.text, start); });
+  return static_cast<std::size_t>(found - blocks.begin());
+}
+
+TEST(ExperimentsReadme, HasTheTablesAsTheProgramPrintsThem) {
+  EXPECT_NE(readme().find(parameters_as_markdown()), std::string::npos)
+      << "expected the output of 'zerocount parameters --format markdown':\n"
+      << parameters_as_markdown();
+}
+
+TEST(ExperimentsReadme, ItsManifestsAreUnderstoodWithoutWarnings) {
+  int whole = 0;
+  int parts = 0;
+  for (const Block& block : fenced_blocks()) {
+    if (block.language != "yaml" || starts_with(block.text, "# bad.yaml")) continue;
+    const bool is_whole = starts_with(block.text, "zerocount:");
+    ++(is_whole ? whole : parts);
+    EXPECT_NO_THROW(EXPECT_TRUE(study_of(is_whole ? block.text : completed(block.text)).warnings.empty()))
+        << block.text;
+  }
+  EXPECT_EQ(whole, 1);
+  EXPECT_EQ(parts, 2);
+}
+
+TEST(ExperimentsReadme, TheFirstManifestUsesEverySection) {
+  const Study study = study_of(fenced_blocks().front().text);
+  EXPECT_EQ(point_count(study), 6);
+  EXPECT_EQ(study.moves, 2);
+  EXPECT_EQ(study.profiles.size(), 1u);
+  EXPECT_EQ(study.retained_trials.size(), 2u);
+  EXPECT_EQ(study.observed.size(), 3u);
+}
+
+TEST(ExperimentsReadme, ListsThePointsOfItsSweepInOrder) {
+  const std::vector<Block> blocks = fenced_blocks();
+  const std::size_t sweep = index_of_block(blocks, "sweep:");
+  ASSERT_LT(sweep + 1, blocks.size());
+  std::string listed;
+  for (const std::string& label : study_of(completed(blocks[sweep].text)).point_labels)
+    listed += label + "\n";
+  EXPECT_EQ(blocks[sweep + 1].text, listed);
+}
+
+TEST(ExperimentsReadme, ShowsTheErrorsOfItsBadManifest) {
+  const std::vector<Block> blocks = fenced_blocks();
+  const std::size_t bad = index_of_block(blocks, "# bad.yaml");
+  ASSERT_LT(bad + 1, blocks.size());
+  std::string message;
+  try {
+    parse_study(blocks[bad].text, "bad.yaml");
+  } catch (const Failure& failure) {
+    message = failure.what();
+  }
+  EXPECT_EQ(blocks[bad + 1].text, message + "\n");
+}
+
+TEST(ExperimentsReadme, NamesTheSobolDimensionsInOrder) {
+  std::vector<std::string> names(first_sobol_dimension_of_moves);
+  for (const Parameter& parameter : parameter_table()) {
+    if (!parameter.per_move) names[parameter.sobol_dimension] = fmt::format("`{}`", parameter.name);
+  }
+  std::string listed;
+  for (std::size_t i = 0; !names[i].empty(); ++i) listed += (i == 0 ? "" : ", ") + names[i];
+  std::string text = readme();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  EXPECT_NE(text.find(listed + "."), std::string::npos) << listed;
+}
+
+}  // namespace
+}  // namespace zerocount

@@ -1,19 +1,36 @@
 #pragma once
 
+#include <array>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace zerocount {
 
 /// What the process tells its caller: the one list of exit codes.
 enum class ExitCode : int {
-  success = 0,         ///< done, or the gate passed
-  regression = 1,      ///< a statistical regression was found
-  bad_input = 2,       ///< bad usage or a bad manifest
-  inconclusive = 3,    ///< too little data to decide
-  bad_data = 4,        ///< a results file is incomplete, corrupt or incompatible
-  machine_failed = 5,  ///< I/O or memory
-  interrupted = 130    ///< SIGINT or SIGTERM; what is finished is kept
+  success = 0,
+  regression = 1,
+  bad_input = 2,
+  inconclusive = 3,
+  bad_data = 4,
+  machine_failed = 5,
+  interrupted = 130
+};
+
+struct ExitCodeMeaning {
+  ExitCode code;
+  std::string_view meaning;
+};
+
+inline constexpr std::array exit_code_meanings{
+    ExitCodeMeaning{ExitCode::success, "success, or the gate passed"},
+    ExitCodeMeaning{ExitCode::regression, "a statistical regression was found"},
+    ExitCodeMeaning{ExitCode::bad_input, "bad usage or a bad manifest"},
+    ExitCodeMeaning{ExitCode::inconclusive, "too little data to decide"},
+    ExitCodeMeaning{ExitCode::bad_data, "results incomplete, damaged or incompatible"},
+    ExitCodeMeaning{ExitCode::machine_failed, "the machine failed: files or memory"},
+    ExitCodeMeaning{ExitCode::interrupted, "interrupted; everything finished is kept"},
 };
 
 /// Something that ends the command: a message for the user, complete in itself, and the exit code that goes

@@ -20,6 +20,13 @@ std::string long_name(const OptionSpec& option) {
   return option.name.substr(0, option.name.find(','));
 }
 
+/// Whether `given`, as the user wrote it ("--quiet"), is a flag.
+bool is_flag(const CommandSpec& spec, const std::string& given) {
+  return std::any_of(spec.options.begin(), spec.options.end(), [&](const OptionSpec& option) {
+    return option.value.empty() && given == "--" + long_name(option);
+  });
+}
+
 po::options_description describe(const CommandSpec& spec) {
   po::options_description description;
   for (const OptionSpec& option : spec.options) {
@@ -61,7 +68,8 @@ Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& wo
   } catch (const po::unknown_option& error) {
     refuse(fmt::format("unknown option '{}'", error.get_option_name()));
   } catch (const po::error_with_option_name& error) {
-    refuse(fmt::format("option '{}' is not complete: it needs one value", error.get_option_name()));
+    refuse(fmt::format("option '{}' {}", error.get_option_name(),
+                       is_flag(spec, error.get_option_name()) ? "takes no value" : "needs a value"));
   } catch (const po::error&) {
     refuse("the words of the command cannot be understood");
   }
@@ -91,6 +99,7 @@ std::optional<std::string> Arguments::value(std::string_view option) const {
 
 std::string Arguments::required(std::string_view option) const {
   if (!has(option)) refuse(fmt::format("option '--{}' is missing", option));
+  if (values(option).front().empty()) refuse(fmt::format("option '--{}' is empty", option));
   return values(option).front();
 }
 

@@ -10,9 +10,13 @@
 namespace zerocount {
 namespace {
 
-constexpr const char* exit_codes_help =
-    "Exit codes: 0 success; 2 bad usage or manifest; 4 results incomplete, damaged or incompatible;\n"
-    "5 the machine failed (files, memory); 130 interrupted, with all finished trials kept.\n";
+std::string exit_codes_help() {
+  std::string text = "Exit codes:\n";
+  for (const auto& [code, meaning] : exit_code_meanings) {
+    text += fmt::format("  {:>3}  {}\n", static_cast<int>(code), meaning);
+  }
+  return text;
+}
 
 std::string overview() {
   std::string text =
@@ -24,13 +28,13 @@ std::string overview() {
   text +=
       "\n'zerocount COMMAND --help' explains a command; 'zerocount --version' says which program this "
       "is.\n\n";
-  return text + exit_codes_help;
+  return text + exit_codes_help();
 }
 
 std::string help_of(const Command& command) {
   return fmt::format("usage: zerocount {} {} [options]\n\n{}\n\n{}\nOptions:\n{}\n{}", command.spec.name,
                      command.spec.operands, command.summary, command.help, options_help(command.spec),
-                     exit_codes_help);
+                     exit_codes_help());
 }
 
 ExitCode print(const std::string& text) {

@@ -1,5 +1,6 @@
 #include "runners/cost.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include <oneapi/tbb/info.h>

@@ -10,11 +10,15 @@
 namespace zerocount {
 namespace {
 
+/// SIGINT and SIGTERM, but for one that whoever started the process has told it to ignore.
 sigset_t watched_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction present {};
+    sigaction(signal, nullptr, &present);
+    if (present.sa_handler != SIG_IGN) sigaddset(&signals, signal);
+  }
   return signals;
 }
 

@@ -18,7 +18,6 @@ class InterruptionWatch {
   ~InterruptionWatch();
 
   std::stop_token token() const { return interrupted_.get_token(); }
-  bool interrupted() const { return interrupted_.stop_requested(); }
 
  private:
   std::stop_source interrupted_;

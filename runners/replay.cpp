@@ -26,7 +26,7 @@ std::vector<std::string> differences(const std::vector<MoveOutcome>& recorded,
   }
   std::vector<std::string> lines;
   for (std::size_t move = 0; move < recorded.size(); ++move) {
-    for (const Field<MoveOutcome>& field : outcome_fields()) {
+    for (const RecordField<MoveOutcome>& field : outcome_fields()) {
       const auto compare = [&](auto member) {
         const auto before = static_cast<double>(recorded[move].*member);
         const auto now = static_cast<double>(replayed[move].*member);

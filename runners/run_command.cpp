@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <limits>
+#include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -12,6 +12,7 @@
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/shards/shard.hpp"
+#include "results/storage/durable_file.hpp"
 #include "results/storage/output_lock.hpp"
 #include "runners/assemble.hpp"
 #include "runners/commands.hpp"
@@ -97,18 +98,37 @@ bool of_another_study(const fs::path& path, const Study& study) {
 /// Ending of the name of a damaged shard that was set aside.
 constexpr const char* set_aside = ".damaged";
 
-/// The shards of earlier runs that this run can build on. Damaged ones are set aside, and run again.
-std::vector<ShardInfo> usable_shards(const fs::path& directory, const Study& study, RowRange wanted) {
+/// What earlier runs left in the folder of shards.
+struct EarlierShards {
+  std::vector<ShardInfo> usable;           ///< in order of rows, none overlapping another
+  std::vector<std::filesystem::path> all;  ///< every sound shard of the study
+};
+
+/// Shards of a run of other parts may reach beyond this one's, or overlap: what is left out is run again.
+EarlierShards choose_shards(const std::vector<ShardInfo>& sound, RowRange wanted) {
+  EarlierShards shards;
+  std::int64_t covered = wanted.first;
+  for (const ShardInfo& shard : sound) {
+    shards.all.push_back(shard.path);
+    if (shard.rows.first < covered || shard.rows.end() > wanted.end()) continue;
+    covered = shard.rows.end();
+    shards.usable.push_back(shard);
+  }
+  return shards;
+}
+
+/// The shards of earlier runs. Damaged ones are set aside, and run again.
+EarlierShards earlier_shards(const fs::path& directory, const Study& study, RowRange wanted) {
   ShardSurvey survey = list_shards(directory, study);
   for (const ShardProblem& bad : survey.problems) {
     if (bad.path.extension() == set_aside) continue;
     if (of_another_study(bad.path, study)) {
       throw Failure(
           ExitCode::bad_input,
-          fmt::format(
-              "{}: holds the unfinished run of another manifest (or of other --set values); finish that "
-              "run with its own manifest, give another name with -o, or remove the folder",
-              directory.string()));
+          fmt::format("{}: holds the unfinished run of another manifest (or of other --set values); "
+                      "finish that run with its own manifest, give another name with -o, or remove "
+                      "the folder",
+                      directory.string()));
     }
     fs::path aside = bad.path;
     aside += set_aside;
@@ -118,10 +138,7 @@ std::vector<ShardInfo> usable_shards(const fs::path& directory, const Study& stu
                error ? "" : fmt::format(", and the file is kept as {}", aside.filename().string()));
   }
   remove_unfinished(survey);
-  std::erase_if(survey.shards, [&](const ShardInfo& shard) {
-    return shard.rows.first < wanted.first || shard.rows.end() > wanted.end();
-  });
-  return survey.shards;
+  return choose_shards(survey.shards, wanted);
 }
 
 std::int64_t rows_in(const std::vector<RowRange>& ranges) {
@@ -130,19 +147,11 @@ std::int64_t rows_in(const std::vector<RowRange>& ranges) {
   return rows;
 }
 
-void make_directory(const fs::path& directory) {
+/// Removes the shards, whose trials the finished file holds or another run can make again, and their folder
+/// if nothing else is in it.
+void remove_shards(const fs::path& directory, const std::vector<fs::path>& shards) {
   std::error_code error;
-  fs::create_directories(directory, error);
-  if (error) {
-    throw Failure(ExitCode::machine_failed,
-                  fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
-  }
-}
-
-/// Removes the shards that the finished file has replaced; files set aside as damaged stay.
-void remove_shards(const fs::path& directory, const std::vector<ShardInfo>& shards) {
-  std::error_code error;
-  for (const ShardInfo& shard : shards) fs::remove(shard.path, error);
+  for (const fs::path& shard : shards) fs::remove(shard, error);
   fs::remove(directory, error);
 }
 
@@ -157,14 +166,16 @@ ExitCode run(const Arguments& arguments) {
 
   const InterruptionWatch interruption;
   const OutputLock lock(output);
+  const fs::path directory = shards_directory(output);
   if (already_there(output, study, wanted)) {
+    remove_shards(directory,
+                  earlier_shards(directory, study, wanted).all);  // left by a run that died at its end
     if (!quiet) fmt::print(stderr, "{}: complete already, nothing to run\n", output.string());
     return ExitCode::success;
   }
-  const fs::path directory = shards_directory(output);
   make_directory(directory);
-  std::vector<ShardInfo> shards = usable_shards(directory, study, wanted);
-  const std::vector<RowRange> missing = missing_ranges(shards, wanted);
+  EarlierShards earlier = earlier_shards(directory, study, wanted);
+  const std::vector<RowRange> missing = missing_ranges(earlier.usable, wanted);
   const std::int64_t kept = wanted.count - rows_in(missing);
 
   Progress progress(wanted.count, kept, samples_per_trial(study), quiet);
@@ -182,11 +193,13 @@ ExitCode run(const Arguments& arguments) {
         fmt::format("interrupted: {} of {} trials are kept in {}; give the same command again to go on", done,
                     wanted.count, directory.string()));
   }
+  std::vector<ShardInfo> shards = std::move(earlier.usable);
   shards.insert(shards.end(), written.begin(), written.end());
   std::sort(shards.begin(), shards.end(),
             [](const ShardInfo& a, const ShardInfo& b) { return a.rows.first < b.rows.first; });
   assemble(shards, study, output, wanted);
-  remove_shards(directory, shards);
+  for (const ShardInfo& shard : written) earlier.all.push_back(shard.path);
+  remove_shards(directory, earlier.all);
   if (!quiet) fmt::print(stderr, "wrote {}\n", output.string());
   return ExitCode::success;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -30,8 +29,7 @@ constexpr std::size_t most_bytes_per_shard = std::size_t{64} << 20;
 constexpr std::chrono::seconds oldest_shard{20};
 
 bool retained(const Study& study, std::int64_t index) {
-  const auto& trials = study.retained_trials;
-  return std::find(trials.begin(), trials.end(), index) != trials.end();
+  return std::binary_search(study.retained_trials.begin(), study.retained_trials.end(), index);
 }
 
 std::size_t bytes_of(const TrialResult& result) {

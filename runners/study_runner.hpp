@@ -16,7 +16,7 @@ namespace zerocount {
 /// Runs one trial of the study by its global row, and keeps what the results file keeps of it.
 TrialResult run_study_trial(const Study& study, std::int64_t row);
 
-/// Number of samples of the trial that is first at its point: what trials cost.
+/// Number of samples of a trial: the mean over the first trials of up to 64 points.
 double samples_per_trial(const Study& study);
 
 struct RunSettings {

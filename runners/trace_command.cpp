@@ -1,7 +1,7 @@
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
-#include <memory>
 #include <optional>
 #include <system_error>
 
@@ -10,6 +10,7 @@
 #include "core/trial/trial.hpp"
 #include "experiments/study.hpp"
 #include "results/reading/study_file.hpp"
+#include "results/storage/durable_file.hpp"
 #include "runners/commands.hpp"
 #include "runners/replay.hpp"
 #include "runners/trace_writer.hpp"
@@ -29,12 +30,13 @@ constexpr const char* help =
     "those decided there.\n\n"
     "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
 
-/// Whether the file starts with the signature of HDF5.
+/// Whether `path` is a results file, by its signature, or by its name where the signature may be damaged.
 bool is_results_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   char signature[8] = {};
   file.read(signature, sizeof signature);
-  return file.gcount() == 8 && std::string_view(signature, 8) == std::string_view("\x89HDF\r\n\x1a\n", 8);
+  const bool signed_as_hdf5 = std::string_view(signature, 8) == std::string_view("\x89HDF\r\n\x1a\n", 8);
+  return signed_as_hdf5 || (file.gcount() > 0 && std::filesystem::path(path).extension() == ".h5");
 }
 
 std::int64_t index_option(const Arguments& arguments, const char* name, std::int64_t size,
@@ -47,18 +49,6 @@ std::int64_t index_option(const Arguments& arguments, const char* name, std::int
   return value;
 }
 
-using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-File open_output(const std::string& path) {
-  File file(std::fopen(path.c_str(), "wx"), std::fclose);
-  if (!file) {
-    const int error = errno;
-    throw Failure(error == EEXIST ? ExitCode::bad_input : ExitCode::machine_failed,
-                  fmt::format("{}: cannot be written: {}", path, std::system_category().message(error)));
-  }
-  return file;
-}
-
 TrialOutcome write_trace(const TraceSubject& subject, std::FILE* file, bool json) {
   TraceWriter writer(file, json);
   writer.begin(subject);
@@ -69,14 +59,23 @@ TrialOutcome write_trace(const TraceSubject& subject, std::FILE* file, bool json
   return outcome;
 }
 
-TrialOutcome write_trace_to(const TraceSubject& subject, const std::optional<std::string>& path, bool json) {
-  if (!path) return write_trace(subject, stdout, json);
-  const File file = open_output(*path);
-  TrialOutcome outcome = write_trace(subject, file.get(), json);
-  if (std::fflush(file.get()) != 0 || std::ferror(file.get()) != 0) {
-    const std::string reason = std::system_category().message(errno);
-    throw Failure(ExitCode::machine_failed, fmt::format("{}: cannot be written: {}", *path, reason));
+/// Writes the trace to a file that has its name only when it is whole.
+TrialOutcome write_trace_file(const TraceSubject& subject, const std::filesystem::path& path, bool json) {
+  if (std::filesystem::exists(path)) {
+    throw Failure(ExitCode::bad_input, fmt::format("{}: exists; give another name with -o", path.string()));
   }
+  const UnfinishedFile unfinished(path);
+  std::FILE* const file = std::fopen(unfinished.path().c_str(), "w");
+  if (file == nullptr) fail_with(path, "write", errno);
+  TrialOutcome outcome;
+  try {
+    outcome = write_trace(subject, file, json);
+  } catch (const std::system_error& error) {
+    std::fclose(file);
+    fail_with(path, "write", error.code().value());
+  }
+  if (std::fclose(file) != 0) fail_with(path, "write", errno);
+  publish(path);
   return outcome;
 }
 
@@ -98,7 +97,10 @@ ExitCode trace(const Arguments& arguments) {
     arguments.refuse(fmt::format("{} is a part of the study and does not hold that trial", input));
   }
   const StudyTrial trial = study_trial(study, point, index);
-  const TrialOutcome outcome = write_trace_to({study, point, index, trial}, arguments.value("output"), json);
+  const TraceSubject subject{study, point, index, trial};
+  const TrialOutcome outcome = arguments.has("output")
+                                   ? write_trace_file(subject, arguments.required("output"), json)
+                                   : write_trace(subject, stdout, json);
   if (!file) return ExitCode::success;
 
   const std::vector<std::string> different = differences(file->outcomes(row), outcome.moves);

@@ -12,7 +12,7 @@ namespace zerocount {
 namespace {
 
 /// The columns of a trace: those of the results file's /trace but for the trial, and in their order.
-bool is_column(const Field<TraceRecord>& field) {
+bool is_column(const RecordField<TraceRecord>& field) {
   return field.column.name != "trial";
 }
 
@@ -21,7 +21,7 @@ std::string number_text(double value, bool json) {
   return fmt::format("{}", value);  // the shortest text that reads back to the same double
 }
 
-std::string value_text(const Field<TraceRecord>& field, const TraceRecord& record, bool json) {
+std::string value_text(const RecordField<TraceRecord>& field, const TraceRecord& record, bool json) {
   const auto text = [&](auto member) -> std::string {
     const auto value = record.*member;
     if constexpr (std::is_same_v<std::remove_const_t<decltype(value)>, double>) {
@@ -39,7 +39,7 @@ std::string value_text(const Field<TraceRecord>& field, const TraceRecord& recor
 
 nlohmann::ordered_json outcome_json(const MoveOutcome& outcome) {
   nlohmann::ordered_json object;
-  for (const Field<MoveOutcome>& field : outcome_fields()) {
+  for (const RecordField<MoveOutcome>& field : outcome_fields()) {
     const auto put = [&](auto member) {
       const auto value = outcome.*member;
       using Value = std::remove_const_t<decltype(value)>;
@@ -74,7 +74,7 @@ void TraceWriter::begin(const TraceSubject& subject) {
     return;
   }
   std::string header;
-  for (const Field<TraceRecord>& field : trace_fields()) {
+  for (const RecordField<TraceRecord>& field : trace_fields()) {
     if (is_column(field)) header += (header.empty() ? "" : ",") + field.column.name;
   }
   fmt::print(file_, "{}\n", header);
@@ -83,7 +83,7 @@ void TraceWriter::begin(const TraceSubject& subject) {
 void TraceWriter::write(const SampleRecord& sample) {
   const TraceRecord record{sample, 0};
   std::string line;
-  for (const Field<TraceRecord>& field : trace_fields()) {
+  for (const RecordField<TraceRecord>& field : trace_fields()) {
     if (!is_column(field)) continue;
     if (!line.empty()) line += json_ ? ", " : ",";
     if (json_) line += fmt::format("\"{}\": ", field.column.name);

@@ -5,6 +5,7 @@
 #include "core/friction/creep.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/friction/spring.hpp"
+#include "core/plant/events.hpp"
 #include "core/plant/parameters.hpp"
 
 namespace zerocount {
@@ -36,25 +37,36 @@ class Plant {
   /// Holds `torque` (N m) for `duration` (s).
   void advance(double torque, double duration);
 
-  double theta() const {
-    return sliding_ ? slide_theta_ : hook_ + spring_.elongation() + creep_.extension;
-  }                                        ///< rad
-  double omega() const { return omega_; }  ///< rad/s
-  const CreepState& creep() const {
-    return creep_;
-  }  ///< of the present contact, or the last one while sliding
+  /// θ, rad.
+  double theta() const { return sliding_ ? slide_theta_ : hook_ + spring_.elongation() + creep_.extension; }
+  /// ω, rad/s.
+  double omega() const { return omega_; }
+  /// Of the present contact, or of the last one while sliding.
+  const CreepState& creep() const { return creep_; }
   const HystereticSpring& spring() const { return spring_; }
   const FrictionParameters& contact() const { return contact_; }
   bool sliding() const { return sliding_; }
 
-  std::int64_t breakaways() const { return breakaways_; }  ///< since the start
-  std::int64_t deepest() const { return deepest_; }  ///< largest stack depth since the last forget_deepest()
+  /// Since the start.
+  std::int64_t breakaways() const { return breakaways_; }
+  /// Largest stack depth since the last forget_deepest().
+  std::int64_t deepest() const { return deepest_; }
   void forget_deepest() { deepest_ = static_cast<std::int64_t>(spring_.depth()); }
 
   /// False once the motion could not be followed any more (non-finite, or steps without end); it stays false.
   bool finite() const { return finite_; }
 
  private:
+  /// Of the spring: dxs/dt (rad/s), and d²xs/dt² (rad/s²; exact where dxs/dt is zero).
+  struct Elongation {
+    double rate;
+    double acceleration;
+  };
+
+  Elongation elongation_under(double torque) const;
+  bool at_rest(const Elongation& elongation) const;
+  int slides_towards(double torque) const;
+  void pass(Event event);
   double stick(double torque, double duration);  // both return the time used, at most duration
   double slide(double torque, double duration);
   void hold_at_rest(double duration);

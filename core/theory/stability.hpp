@@ -30,8 +30,7 @@ IntegralGainBounds integral_gain_bounds(const PlantParameters& plant, const Fric
                                         const ControllerParameters& controller);
 
 /// Lowest k1 (N m/rad) over a whole revolution: the one the paper says to use in (6) for a robust design
-/// (issue 1 of its section 3). A profile is searched at 16 points per shortest wavelength and the lowest of
-/// them refined, to 1e-6 relative.
+/// (issue 1 of its section 3).
 double lowest_k1(const FrictionAlongRotor& friction);
 
 /// Torque step Δu (N m) that the DAC must stay below for a zero-count error to be possible: k1·Δx (issue 4 of

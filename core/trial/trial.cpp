@@ -1,5 +1,6 @@
 #include "core/trial/trial.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -16,6 +17,9 @@ namespace {
 /// Fraction of a fine count that the plant's motion may leave out per step: four digits below the accuracy
 /// asked for.
 constexpr double motion_tolerance_in_counts = 1e-11;
+
+/// Farther than this, counts are no longer whole numbers of a double.
+constexpr double most_counts = 0x1p52;
 
 /// Torques on their way from decision to motor: zero until the first has come through.
 class DelayLine {
@@ -73,6 +77,12 @@ class Loop {
   /// Holds the torque that has come through the delay until t_{k+1}.
   void hold(double decided_torque) { plant_.advance(delay_.pass(decided_torque), sample_time_); }
 
+  /// Whether the motion is still finite, and within what the counters can count.
+  bool readable() const {
+    return plant_.finite() &&
+           std::abs(plant_.theta()) < most_counts * std::min(fine_.resolution, coarse_.resolution);
+  }
+
   bool clipped() const { return clipped_; }
   Plant& plant() { return plant_; }
 
@@ -94,7 +104,7 @@ MoveOutcome run_move(Loop& loop, const MoveTiming& timing, std::int64_t move, st
   plant.forget_deepest();
   const std::int64_t breakaways_before = plant.breakaways();
   const bool sliding_before = plant.sliding();
-  for (std::int64_t i = 0; i < timing.samples && plant.finite(); ++i) {
+  for (std::int64_t i = 0; i < timing.samples && loop.readable(); ++i) {
     const SampleRecord record = loop.decide(move * timing.samples + i, target);
     if (observers.sample) observers.sample(record);
     const bool jerk_ended =
@@ -103,7 +113,7 @@ MoveOutcome run_move(Loop& loop, const MoveTiming& timing, std::int64_t move, st
     loop.hold(record.torque);
   }
   const bool slid = sliding_before || plant.breakaways() > breakaways_before;
-  const bool jerk_cut = measures.finish(slid, plant.deepest(), plant.finite());
+  const bool jerk_cut = measures.finish(slid, plant.deepest(), loop.readable());
   if (jerk_cut && observers.jerk) observers.jerk(measures.last_jerk());
   return measures.outcome();
 }

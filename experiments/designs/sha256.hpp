@@ -1,18 +1,40 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+
+struct evp_md_ctx_st;
 
 namespace zerocount {
 
 using Sha256 = std::array<std::uint8_t, 32>;
 
-/// SHA-256 (FIPS 180-4) of the bytes of `text`.
+/// SHA-256 (FIPS 180-4) of bytes that come piece by piece.
+/// @throws Failure (machine_failed), from every function, where the cryptography library has none.
+class Sha256Hash {
+ public:
+  Sha256Hash();
+
+  void add(std::span<const std::byte> bytes);
+  /// Of everything added; nothing can be added after it.
+  Sha256 digest();
+
+ private:
+  std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> context_;
+};
+
+/// SHA-256 of the bytes of `text`.
 Sha256 sha256(std::string_view text);
 
-/// The same as 64 lower-case hexadecimal digits.
+/// 64 lower-case hexadecimal digits.
+std::string hexadecimal(const Sha256& digest);
+
+/// hexadecimal(sha256(text)).
 std::string sha256_hex(std::string_view text);
 
 }  // namespace zerocount

@@ -56,10 +56,6 @@ Profile realise_profile(const ProfileDescription& description, std::uint64_t see
   return profile;
 }
 
-Interval support(const ProfileDescription& description) {
-  return description.marginal == Marginal::lognormal ? above(0.0) : all_numbers();
-}
-
 Interval limits(const Profile& profile) {
   double largest = 0.0;
   for (std::size_t m = 0; m < profile.cosine.size(); ++m) {

@@ -38,9 +38,6 @@ std::vector<double> field_spectrum(double correlation_length);
 /// lognormal marginal has the given mean and cv: s² = ln(1 + cv²), μ = ln(mean) − s²/2.
 Profile realise_profile(const ProfileDescription& description, std::uint64_t seed, std::string_view name);
 
-/// The values that the marginal allows.
-Interval support(const ProfileDescription& description);
-
 /// Limits that the realised profile cannot leave: |g| ≤ Σ √(a_m² + b_m²).
 Interval limits(const Profile& profile);
 

@@ -256,6 +256,7 @@ Study read_manifest(const YamlNode& root, Problems& problems) {
   read_retained(m);
   read_observed(m);
   realise_profiles(m.reading.profiles, m.study.seed, *plan);
+  check_profiles(m.reading);
   check_points(*plan, m.places, problems);
   if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, m.study);
   m.study.warnings = std::move(m.reading.warnings);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/friction/profile_range.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
@@ -96,15 +97,13 @@ Value read_profile_value(const Field& field, std::size_t row, Reading& reading) 
     return unreadable_value();
   }
   const auto description = read_profile(field, reading.problems);
-  if (!description || !check_support(field, parameter, support(*description), reading.problems)) {
-    return unreadable_value();
-  }
+  if (!description) return unreadable_value();
   if (reading.profiles.size() == most_profiles) {
     reading.problems.add(field.node->place, field.path, "there are too many profiles",
                          fmt::format("at most {} in a study", most_profiles));
     return unreadable_value();
   }
-  reading.profiles.push_back({row, *description});
+  reading.profiles.push_back({row, *description, field.node->place, field.path});
   return {.kind = Value::Kind::profile, .index = static_cast<std::uint32_t>(reading.profiles.size() - 1)};
 }
 
@@ -131,6 +130,23 @@ Value read_map(const Field& field, std::size_t row, Reading& reading) {
 }
 
 }  // namespace
+
+void check_profiles(const Reading& reading) {
+  for (std::size_t i = 0; i < reading.profiles.size(); ++i) {
+    const ProfileRequest& request = reading.profiles[i];
+    const Parameter& parameter = parameter_table()[request.row];
+    const Profile& profile = *reading.plan.profiles[i];
+    if (contains(parameter.range, limits(profile))) continue;  // the quick answer
+    const ValueRange values = range_over_revolution(profile);
+    if (contains(parameter.range, closed(values.low, values.high))) continue;
+    reading.problems.add(
+        request.place, request.path,
+        fmt::format("its values along the rotor, {:.6g} to {:.6g} with this seed, leave the range "
+                    "allowed {}",
+                    values.low, values.high, notation(parameter.range)),
+        expected_of(parameter));
+  }
+}
 
 Value unreadable_value() {
   return number_value(std::numeric_limits<double>::quiet_NaN());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "experiments/distributions/random_field.hpp"
@@ -14,6 +14,8 @@ namespace zerocount {
 struct ProfileRequest {
   std::size_t row{0};  ///< of the table of parameters
   ProfileDescription description;
+  Place place;  ///< where it stands, and its path, for messages
+  std::string path;
 };
 
 /// What reading a manifest builds up.
@@ -23,6 +25,9 @@ struct Reading {
   std::vector<ProfileRequest> profiles{};  ///< [index of a value of kind profile]
   std::vector<std::string> warnings{};     ///< what is allowed but may surprise
 };
+
+/// Reports the realised profiles whose values leave the range of their parameter anywhere on the rotor.
+void check_profiles(const Reading& reading);
 
 /// A value that could not be read: NaN, so that no later check fires on it.
 Value unreadable_value();

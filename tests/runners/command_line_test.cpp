@@ -14,7 +14,7 @@ class CommandLine : public ::testing::Test {
   ProgramResult run(const std::vector<std::string>& words) {
     return zerocount_program(words, folder_.path());
   }
-  WorkFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(CommandLine, HelpGoesToStandardOutput) {
@@ -39,6 +39,7 @@ TEST_F(CommandLine, BadUsageExitsWithTwoAndOneMessage) {
       {"run", "study.yaml"},
       {"run", "study.yaml", "-o"},
       {"run", "study.yaml", "-o", "a.h5", "-o", "b.h5"},
+      {"run", "study.yaml", "-o", ""},
       {"run", "study.yaml", "-o", "a.h5", "--thread", "2"},
       {"run", "study.yaml", "-o", "a.h5", "--threads", "0"},
       {"run", "study.yaml", "-o", "a.h5", "--threads", "two"},
@@ -68,6 +69,14 @@ TEST_F(CommandLine, BadUsageExitsWithTwoAndOneMessage) {
     EXPECT_EQ(result.err.find("exception"), std::string::npos) << result.err;
   }
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "a.h5"));
+}
+
+TEST_F(CommandLine, SaysWhatIsWrongWithAnOption) {
+  EXPECT_NE(run({"run", "s.yaml", "-o", "a.h5", "--quiet=1"}).err.find("'--quiet' takes no value"),
+            std::string::npos);
+  EXPECT_NE(run({"run", "s.yaml", "-o"}).err.find("needs a value"), std::string::npos);
+  EXPECT_NE(run({"run", "s.yaml", "--outptu", "a.h5"}).err.find("unknown option '--outptu'"),
+            std::string::npos);
 }
 
 TEST_F(CommandLine, DataThatCannotBeUsedExitsWithFour) {

@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "experiments/study.hpp"
@@ -29,13 +30,14 @@ std::string manifest(double ki) {
   return "zerocount: 1\nname: rates\nseed: 77\ntrials: " + std::to_string(study_trials) +
          "\nfriction: {k1: {uniform: [80, 140]}, k2: {uniform: [600, 900]}, alpha: {log_uniform: [0.2, 2]}}\n"
          "controller: {ki: " +
-         std::to_string(ki) +
+         fmt::format("{}", ki) +
          "}\ncommand: {targets: [{integers: [1, 20]}], hold: 0.12}\n"
          "initial: {encoder_phase: {uniform: [0, 1]}}\nverdict: {dwell: 0.02, window: 0.02}\n";
 }
 
 Tally tally_of_study(double ki) {
   const Study study = parse_study(manifest(ki), "rates.yaml");
+  EXPECT_EQ(study_trial(study, 0, 0).parameters.controller.ki, ki);
   Tally tally;
   for (std::int64_t row = 0; row < study.trials; ++row) {
     const MoveOutcome move = run_study_trial(study, row).outcome.moves[0];
@@ -97,7 +99,9 @@ double kolmogorov_smirnov(std::vector<double> a, std::vector<double> b) {
   std::sort(a.begin(), a.end());
   std::sort(b.begin(), b.end());
   double largest = 0.0;
-  for (const double x : b) {
+  std::vector<double> places = a;
+  places.insert(places.end(), b.begin(), b.end());
+  for (const double x : places) {
     const auto below = [x](const std::vector<double>& v) {
       return static_cast<double>(std::upper_bound(v.begin(), v.end(), x) - v.begin()) /
              static_cast<double>(v.size());

@@ -2,9 +2,6 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -39,21 +36,14 @@ int wait_for(pid_t process) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 }  // namespace
 
 ProgramResult zerocount_program(const std::vector<std::string>& words, const fs::path& directory) {
-  const WorkFolder outputs;
+  const TemporaryFolder outputs;
   const fs::path out = outputs.path() / "out";
   const fs::path err = outputs.path() / "err";
   const int code = wait_for(start(words, directory, out, err));
-  return {code, contents(out), contents(err)};
+  return {code, read_bytes(out), read_bytes(err)};
 }
 
 RunningProgram::RunningProgram(const std::vector<std::string>& words, const fs::path& directory)
@@ -65,26 +55,6 @@ void RunningProgram::send(int signal) const {
 
 int RunningProgram::wait() {
   return wait_for(process_);
-}
-
-WorkFolder::WorkFolder() {
-  std::string name = (fs::temp_directory_path() / "zerocount-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-WorkFolder::~WorkFolder() {
-  std::error_code error;
-  fs::remove_all(path_, error);
-}
-
-fs::path WorkFolder::write(const std::string& name, const std::string& text) const {
-  std::ofstream(path_ / name, std::ios::binary) << text;
-  return path_ / name;
-}
-
-std::string WorkFolder::read(const std::string& name) const {
-  return contents(path_ / name);
 }
 
 std::string small_manifest(int trials, const std::string& more) {

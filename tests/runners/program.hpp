@@ -6,6 +6,8 @@
 
 #include <sys/types.h>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace zerocount::testing {
 
 /// What a finished program said.
@@ -28,22 +30,6 @@ class RunningProgram {
 
  private:
   pid_t process_;
-};
-
-/// A fresh folder, removed at the end of the test.
-class WorkFolder {
- public:
-  WorkFolder();
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  ~WorkFolder();
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path write(const std::string& name, const std::string& text) const;
-  std::string read(const std::string& name) const;
-
- private:
-  std::filesystem::path path_;
 };
 
 /// A small study with random friction, two cases and jerks: 2 × `trials` trials of 300 samples.

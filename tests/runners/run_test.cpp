@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "results/reading/study_file.hpp"
-#include "tests/results/raw_hdf5.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/raw_hdf5.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -31,14 +31,25 @@ class Run : public ::testing::Test {
     EXPECT_FALSE(fs::exists(at(output + ".shards")));
   }
 
+  /// Starts a run that takes minutes, and waits until it is at work on its output.
+  RunningProgram start_long_run(const std::string& output, std::vector<std::string> more = {}) {
+    folder_.write("long.yaml", small_manifest(200000));
+    std::vector<std::string> words{"run", "long.yaml", "-o", output, "--threads", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    RunningProgram program(words, folder_.path());
+    while (!fs::exists(at(output + ".shards"))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    return program;
+  }
+
   void expect_same_datasets(const std::string& one, const std::string& other) const {
-    const auto left = test::stored_datasets(at(one));
-    const auto right = test::stored_datasets(at(other));
+    const auto left = stored_datasets(at(one));
+    const auto right = stored_datasets(at(other));
     ASSERT_EQ(left.size(), right.size());
     for (const auto& [path, bytes] : left) EXPECT_TRUE(right.at(path) == bytes) << path;
   }
 
-  WorkFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(Run, GivesTheSameDatasetsForAnyNumberOfThreads) {
@@ -89,9 +100,7 @@ TEST_F(Run, SurvivesBeingKilledAtRandomMoments) {
 }
 
 TEST_F(Run, KeepsWhatIsFinishedWhenInterruptedAndGoesOn) {
-  folder_.write("study.yaml", small_manifest(20000));
-  RunningProgram program({"run", "study.yaml", "-o", "long.h5"}, folder_.path());
-  std::this_thread::sleep_for(std::chrono::milliseconds(800));
+  RunningProgram program = start_long_run("long.h5");
   program.send(SIGINT);
   EXPECT_EQ(program.wait(), 130);
   EXPECT_FALSE(fs::exists(at("long.h5")));
@@ -100,10 +109,39 @@ TEST_F(Run, KeepsWhatIsFinishedWhenInterruptedAndGoesOn) {
   const ProgramResult other = run({"run", "other.yaml", "-o", "long.h5"});
   EXPECT_EQ(other.code, 2) << other.err;
   EXPECT_NE(other.err.find("another manifest"), std::string::npos) << other.err;
-  RunningProgram again({"run", "study.yaml", "-o", "long.h5"}, folder_.path());
-  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  RunningProgram again = start_long_run("long.h5");
   again.send(SIGTERM);
   EXPECT_EQ(again.wait(), 130);
+}
+
+TEST_F(Run, LeavesAnIgnoredSignalIgnored) {
+  folder_.write("study.yaml", small_manifest(1000));
+  const std::string command = "cd " + folder_.path().string() +
+                              " && bash -c \"trap '' INT; " ZEROCOUNT_PROGRAM
+                              " run study.yaml -o out.h5 -q & sleep 0.2; kill -INT \\$!; wait \\$!\"";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
+  EXPECT_TRUE(fs::exists(at("out.h5")));
+}
+
+TEST_F(Run, UsesWhatItCanOfOverlappingShards) {
+  folder_.write("study.yaml", small_manifest(60));
+  complete("study.yaml", "whole.h5");
+  complete("study.yaml", "middle.h5", {"--shard", "2/3"});
+  complete("study.yaml", "half.h5", {"--shard", "1/2"});
+  fs::create_directory(at("out.h5.shards"));
+  fs::copy(at("middle.h5"), at("out.h5.shards/middle.h5"));
+  fs::copy(at("half.h5"), at("out.h5.shards/half.h5"));
+  complete("study.yaml", "out.h5");
+  expect_same_datasets("whole.h5", "out.h5");
+}
+
+TEST_F(Run, TidiesUpAfterARunThatDiedAtItsEnd) {
+  folder_.write("study.yaml", small_manifest(10));
+  complete("study.yaml", "part.h5", {"--shard", "1/2"});
+  complete("study.yaml", "out.h5");
+  fs::create_directory(at("out.h5.shards"));
+  fs::copy(at("part.h5"), at("out.h5.shards/part.h5"));
+  complete("study.yaml", "out.h5");  // expects the folder gone
 }
 
 TEST_F(Run, RunsAgainWhatADamagedShardHeld) {
@@ -138,17 +176,13 @@ TEST_F(Run, NeverOverwrites) {
 }
 
 TEST_F(Run, RefusesASecondRunOnTheSameOutput) {
-  folder_.write("study.yaml", small_manifest(20000));
-  RunningProgram first({"run", "study.yaml", "-o", "out.h5"}, folder_.path());
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  const ProgramResult second = run({"run", "study.yaml", "-o", "out.h5"});
+  RunningProgram first = start_long_run("out.h5");
+  const ProgramResult second = run({"run", "long.yaml", "-o", "out.h5"});
   EXPECT_EQ(second.code, 5) << second.err;
   EXPECT_NE(second.err.find("out.h5"), std::string::npos) << second.err;
   first.send(SIGKILL);
   first.wait();
-  RunningProgram third({"run", "study.yaml", "-o", "out.h5"},
-                       folder_.path());  // the lock died with its holder
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  RunningProgram third = start_long_run("out.h5");  // the lock died with its holder
   third.send(SIGINT);
   EXPECT_EQ(third.wait(), 130);
 }

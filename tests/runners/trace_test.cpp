@@ -31,7 +31,7 @@ class Trace : public ::testing::Test {
     return all;
   }
 
-  WorkFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(Trace, CsvHasTheColumnsAndReadsBackToTheSameNumbers) {
@@ -97,6 +97,16 @@ TEST_F(Trace, ReplaysFromTheFileAloneAndEqualsTheRetainedRecord) {
   ASSERT_EQ(kept.size(), 600u);  // trial 2 of both points
   EXPECT_EQ(kept[300].trial, 7);
   EXPECT_EQ(kept[300].k, 0);
+}
+
+TEST_F(Trace, LeavesNoHalfFile) {
+  const std::string command = "cd " + folder_.path().string() +
+                              " && bash -c \"trap '' XFSZ; ulimit -f 8; " ZEROCOUNT_PROGRAM
+                              " trace study.yaml -o trial.csv 2> err\"";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 5);
+  EXPECT_NE(folder_.read("err").find("trial.csv"), std::string::npos) << folder_.read("err");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "trial.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "trial.csv.part"));
 }
 
 TEST_F(Trace, OfAPartHoldsOnlyItsTrials) {

@@ -115,34 +115,40 @@ INSTANTIATE_TEST_SUITE_P(
              "expected true or "
              "false"},
         Case{"controller: {kp: no}",
-             "m.yaml:6:18: controller.kp: 'no' is a truth value; expected a number at least 0"},
+             "m.yaml:6:18: controller.kp: 'no' is a truth value; expected a number at least 0 and at most "
+             "1000000"},
         Case{"controller: {kp: 010}",
              "m.yaml:6:18: controller.kp: '010' starts with a zero, which some read as octal; expected a "
              "number at least "
-             "0"},
+             "0 and at most 1000000"},
         Case{"dac: {bits: 010}",
              "m.yaml:6:13: dac.bits: '010' starts with a zero, which some read as octal; expected a whole "
              "number from 1 "
              "to 32"},
         Case{"controller: {kp: 0x10}",
-             "m.yaml:6:18: controller.kp: '0x10' is not decimal; expected a number at least 0"},
+             "m.yaml:6:18: controller.kp: '0x10' is not decimal; expected a number at least 0 and at most "
+             "1000000"},
         Case{"controller: {kp: 1_000}",
-             "m.yaml:6:18: controller.kp: '1_000' has underscores in it; expected a number at least 0"},
+             "m.yaml:6:18: controller.kp: '1_000' has underscores in it; expected a number at least 0 and at "
+             "most 1000000"},
         Case{"controller: {kp: 1:30}",
              "m.yaml:6:18: controller.kp: '1:30' has a colon in it, which some read to base 60; expected a "
              "number at "
-             "least 0"},
+             "least 0 and at most 1000000"},
         Case{"controller: {kp: +1}",
-             "m.yaml:6:18: controller.kp: '+1' starts with a plus sign; expected a number at least 0"},
+             "m.yaml:6:18: controller.kp: '+1' starts with a plus sign; expected a number at least 0 and at "
+             "most 1000000"},
         Case{"controller: {kp: .inf}",
-             "m.yaml:6:18: controller.kp: '.inf' is not finite; expected a number at least 0"},
+             "m.yaml:6:18: controller.kp: '.inf' is not finite; expected a number at least 0 and at most "
+             "1000000"},
         Case{"controller: {kp: nan}",
-             "m.yaml:6:18: controller.kp: 'nan' is not finite; expected a number at least 0"},
+             "m.yaml:6:18: controller.kp: 'nan' is not finite; expected a number at least 0 and at most "
+             "1000000"},
         Case{"initial: {position: -.INF}",
              "m.yaml:6:21: initial.position: '-.INF' is not finite; expected any finite number"},
         Case{"controller: {kp: 1e999}",
              "m.yaml:6:18: controller.kp: '1e999' is too large or too small for a double; expected a number "
-             "at least 0"},
+             "at least 0 and at most 1000000"},
         Case{"dac: {bits: 99999999999999999999}",
              "m.yaml:6:13: dac.bits: '99999999999999999999' is out of range; expected a whole number from 1 "
              "to 32"}));
@@ -165,9 +171,8 @@ INSTANTIATE_TEST_SUITE_P(
              "than 1"},
         Case{"dac: {bits: 33}",
              "m.yaml:6:13: dac.bits: '33' is out of range; expected a whole number from 1 to 32"},
-        Case{
-            "controller: {delay: -1}",
-            "m.yaml:6:21: controller.delay: '-1' is out of range; expected a whole number from 0 to 1000000"},
+        Case{"controller: {delay: -1}",
+             "m.yaml:6:21: controller.delay: '-1' is out of range; expected a whole number from 0 to 100"},
         Case{"encoder: {fine: 0}",
              "m.yaml:6:17: encoder.fine: '0' is out of range; expected a whole number from 1 to "
              "1000000000000"},
@@ -191,10 +196,10 @@ INSTANTIATE_TEST_SUITE_P(
              "m.yaml:6:39: friction.coulomb_ratio.lognormal: its values (0, inf) leave the range allowed (0, "
              "1]; expected "
              "numbers greater than 0 and at most 1 only"},
-        Case{"friction: {k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.2, marginal: normal}}}",
-             "m.yaml:6:26: friction.k1.profile: its values (-inf, inf) leave the range allowed (0, inf); "
-             "expected "
-             "numbers greater than 0 only"},
+        Case{"friction: {k1: {profile: {mean: 110, cv: 0.6, correlation_length: 0.2, marginal: normal}}}",
+             "m.yaml:6:26: friction.k1.profile: its values along the rotor, -36.5976 to 299.45 with this "
+             "seed, leave "
+             "the range allowed (0, inf); expected numbers greater than 0 only"},
         Case{"friction: {k1: {profile: {mean: 110, cv: 0.1, correlation_length: 7}}}",
              "m.yaml:6:67: friction.k1.profile.correlation_length: '7' is out of range; expected a number at "
              "least 0.001 "
@@ -355,7 +360,8 @@ TEST(ManifestErrors, AllErrorsAreToldInTheOrderOfTheFile) {
       "trials, design, independent_points, retain, observed, sweep, plant, friction, encoder, dac, "
       "controller, "
       "command, initial, verdict\n"
-      "m.yaml:10:32: sweep.grid.controller.ki.0: '-1' is out of range; expected a number at least 0");
+      "m.yaml:10:32: sweep.grid.controller.ki.0: '-1' is out of range; expected a number at least 0 and at "
+      "most 1000000");
 }
 
 TEST(ManifestErrors, AManifestIsAMap) {

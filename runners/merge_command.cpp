@@ -9,6 +9,7 @@
 #include "results/storage/output_lock.hpp"
 #include "runners/assemble.hpp"
 #include "runners/commands.hpp"
+#include "runners/output_place.hpp"
 
 namespace zerocount {
 namespace {
@@ -36,7 +37,7 @@ void require_everything(const std::vector<ShardInfo>& parts, const Study& study)
 }
 
 ExitCode merge(const Arguments& arguments) {
-  const fs::path output = arguments.required("output");
+  const fs::path output = output_place(arguments);
   const std::vector<fs::path> inputs(arguments.operands().begin(), arguments.operands().end());
   const FileHeader header = first_header(inputs);
   const Study study = parse_study(header.manifest, inputs.front().string() + ":/manifest", header.overrides);

@@ -17,6 +17,7 @@
 #include "runners/assemble.hpp"
 #include "runners/commands.hpp"
 #include "runners/interruption.hpp"
+#include "runners/output_place.hpp"
 #include "runners/progress.hpp"
 #include "runners/study_runner.hpp"
 #include "runners/warnings.hpp"
@@ -156,7 +157,7 @@ void remove_shards(const fs::path& directory, const std::vector<fs::path>& shard
 }
 
 ExitCode run(const Arguments& arguments) {
-  const fs::path output = arguments.required("output");
+  const fs::path output = output_place(arguments);
   const Study study = load_study(arguments.operands()[0], arguments.values("set"));
   warn(study);
   const std::optional<std::string> part = arguments.value("shard");

@@ -26,7 +26,10 @@ constexpr std::int64_t most_trials_per_block = 256;
 
 constexpr std::size_t most_trials_per_shard = 1 << 16;
 constexpr std::size_t most_bytes_per_shard = std::size_t{64} << 20;
-constexpr std::chrono::seconds oldest_shard{20};
+/// A shard waits for a tenth of the time that the run has taken, within these bounds: a crash loses little,
+/// and a long run does not end in thousands of files.
+constexpr std::chrono::duration<double> shortest_wait{0.5};
+constexpr std::chrono::duration<double> longest_wait{20.0};
 
 bool retained(const Study& study, std::int64_t index) {
   return std::binary_search(study.retained_trials.begin(), study.retained_trials.end(), index);
@@ -65,20 +68,20 @@ class BlockSource {
 /// Gathers finished trials in order of rows and writes them as shards.
 class ShardWriter {
  public:
+  using Clock = std::chrono::steady_clock;
+
   ShardWriter(const Study& study, std::filesystem::path directory)
       : study_(study), directory_(std::move(directory)), provenance_(current_provenance()) {}
 
   void take(std::vector<TrialResult>&& block) {
     if (block.empty()) return;
     if (!waiting_.empty() && block.front().row != waiting_.back().row + 1) flush();
-    if (waiting_.empty()) begun_ = std::chrono::steady_clock::now();
+    if (waiting_.empty()) begun_ = Clock::now();
     for (const TrialResult& result : block) bytes_ += bytes_of(result);
     waiting_.insert(waiting_.end(), std::make_move_iterator(block.begin()),
                     std::make_move_iterator(block.end()));
-    if (waiting_.size() >= most_trials_per_shard || bytes_ >= most_bytes_per_shard ||
-        std::chrono::steady_clock::now() - begun_ >= oldest_shard) {
+    if (waiting_.size() >= most_trials_per_shard || bytes_ >= most_bytes_per_shard || waited_enough())
       flush();
-    }
   }
 
   void flush() {
@@ -96,10 +99,17 @@ class ShardWriter {
   const Study& study_;
   std::filesystem::path directory_;
   Provenance provenance_;
+  bool waited_enough() const {
+    const Clock::time_point now = Clock::now();
+    const std::chrono::duration<double> share = 0.1 * (now - run_begun_);
+    return now - begun_ >= std::clamp(share, shortest_wait, longest_wait);
+  }
+
   std::vector<TrialResult> waiting_;
   std::vector<ShardInfo> written_;
   std::size_t bytes_{0};
-  std::chrono::steady_clock::time_point begun_;
+  Clock::time_point begun_;
+  Clock::time_point run_begun_{Clock::now()};
 };
 
 }  // namespace

@@ -1,12 +1,16 @@
 #include "runners/trace_writer.hpp"
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
 #include <variant>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "results/layout/layout.hpp"
+#include "results/reading/csv.hpp"
 
 namespace zerocount {
 namespace {
@@ -16,22 +20,17 @@ bool is_column(const RecordField<TraceRecord>& field) {
   return field.column.name != "trial";
 }
 
-std::string number_text(double value, bool json) {
-  if (json && !std::isfinite(value)) return "null";
-  return fmt::format("{}", value);  // the shortest text that reads back to the same double
-}
-
 std::string value_text(const RecordField<TraceRecord>& field, const TraceRecord& record, bool json) {
   const auto text = [&](auto member) -> std::string {
     const auto value = record.*member;
-    if constexpr (std::is_same_v<std::remove_const_t<decltype(value)>, double>) {
-      return number_text(value, json);
+    using Value = std::remove_const_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, double>) {
+      return json && !std::isfinite(value) ? "null" : number_text(value);
+    } else if constexpr (std::is_enum_v<Value>) {
+      const std::string word = word_of(field.column, static_cast<std::int64_t>(value));
+      return json ? '"' + word + '"' : word;
     } else {
-      const auto number = static_cast<std::int64_t>(value);
-      for (const FlagMeaning& flag : field.column.flags) {
-        if (flag.value == number) return json ? '"' + flag.word + '"' : flag.word;
-      }
-      return fmt::format("{}", number);
+      return std::to_string(value);
     }
   };
   return std::visit(text, field.member);
@@ -46,14 +45,10 @@ nlohmann::ordered_json outcome_json(const MoveOutcome& outcome) {
       if constexpr (std::is_same_v<Value, double>) {
         object[field.column.name] =
             std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
-      } else if constexpr (std::is_same_v<Value, bool>) {
-        object[field.column.name] = value;
+      } else if constexpr (std::is_enum_v<Value>) {
+        object[field.column.name] = word_of(field.column, static_cast<std::int64_t>(value));
       } else {
-        const auto number = static_cast<std::int64_t>(value);
-        object[field.column.name] = number;
-        for (const FlagMeaning& flag : field.column.flags) {
-          if (flag.value == number) object[field.column.name] = flag.word;
-        }
+        object[field.column.name] = value;
       }
     };
     std::visit(put, field.member);

@@ -48,12 +48,14 @@ std::optional<Field> find_required(Manifest& m, std::string_view key, std::strin
 void read_version(Manifest& m) {
   const auto field = find_required(m, "zerocount", fmt::format("zerocount: {}", manifest_version));
   if (!field) return;
-  const auto version = read_whole(*field, 1, std::numeric_limits<std::int64_t>::max(), m.problems());
-  if (version && *version > manifest_version) {
-    m.problems().add(field->node->place, field->path,
-                     fmt::format("the manifest is of version {}, newer than this program", *version),
-                     fmt::format("version {}, or a newer program", manifest_version));
-  }
+  const auto version = read_whole(*field, std::numeric_limits<std::int64_t>::min(),
+                                  std::numeric_limits<std::int64_t>::max(), m.problems());
+  if (!version || *version == manifest_version) return;
+  const bool newer = *version > manifest_version;
+  m.problems().add(field->node->place, field->path,
+                   newer ? fmt::format("the manifest is of version {}, newer than this program", *version)
+                         : fmt::format("there is no version {} of manifests", *version),
+                   fmt::format("version {}{}", manifest_version, newer ? ", or a newer program" : ""));
 }
 
 void read_texts(Manifest& m) {

@@ -111,7 +111,10 @@ void read_listed(const Field& field, const SlotRange& slots, SweptAxis& axis, Sw
   std::set<std::string> seen;
   for (std::size_t i = 0; i < field.node->items.size(); ++i) {
     const Field item = item_of(field, i);
+    const std::size_t problems_before = state.reading.problems.size();
     read_assignments(item, slots, axis, state);
+    if (state.reading.problems.size() > problems_before)
+      continue;  // a value that cannot be read is like no other
     std::string label = fmt::format("{}={}", axis.name, value_label(axis, slots, *item.node));
     if (!seen.insert(label).second) {
       state.reading.problems.add(item.node->place, item.path,

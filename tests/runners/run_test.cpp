@@ -114,6 +114,18 @@ TEST_F(Run, KeepsWhatIsFinishedWhenInterruptedAndGoesOn) {
   EXPECT_EQ(again.wait(), 130);
 }
 
+TEST_F(Run, LosesLittleWhenItIsKilled) {
+  RunningProgram program = start_long_run("killed.h5");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  program.send(SIGKILL);
+  program.wait();
+  std::int64_t kept = 0;
+  for (const auto& entry : fs::directory_iterator(at("killed.h5.shards"))) {
+    if (entry.path().extension() == ".h5") kept += StudyFile(entry.path(), Require::any_part).rows().count;
+  }
+  EXPECT_GT(kept, 0);
+}
+
 TEST_F(Run, LeavesAnIgnoredSignalIgnored) {
   folder_.write("study.yaml", small_manifest(1000));
   const std::string command = "cd " + folder_.path().string() +
@@ -192,7 +204,9 @@ TEST_F(Run, SaysWhyAnOutputCannotBeWritten) {
   const ProgramResult result = run({"run", "study.yaml", "-o", "nowhere/out.h5"});
   EXPECT_EQ(result.code, 5);
   EXPECT_NE(result.err.find("nowhere"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("No such file or directory"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("no folder"), std::string::npos) << result.err;
+  EXPECT_EQ(run({"run", "study.yaml", "-o", "new/"}).code, 2);
+  EXPECT_EQ(run({"run", "study.yaml", "-o", "."}).code, 2);
 }
 
 TEST_F(Run, AFullDiskLosesNothingThatWasFinished) {

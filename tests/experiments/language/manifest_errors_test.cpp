@@ -323,14 +323,22 @@ TEST(ManifestErrors, ANewerManifestSaysSo) {
             "program");
 }
 
+TEST(ManifestErrors, ValuesThatCannotBeReadAreLikeNoOther) {
+  const std::string message = failure_of(
+      "zerocount: 1\nname: m\nseed: 1\ntrials: 1\ncommand: {targets: [1]}\n"
+      "sweep: {grid: {friction.k1: [-1, -2, 5]}}\n");
+  EXPECT_NE(message.find("sweep.grid.friction.k1.0"), std::string::npos) << message;
+  EXPECT_NE(message.find("sweep.grid.friction.k1.1"), std::string::npos) << message;
+  EXPECT_EQ(message.find("twice"), std::string::npos) << message;
+}
+
 TEST(ManifestErrors, NumbersOfTheStudyAreChecked) {
-  EXPECT_EQ(
-      failure_of("zerocount: 0\nname: ''\nseed: -1\ntrials: 0\ncommand: {targets: []}\n"),
-      "m.yaml:1:12: zerocount: '0' is out of range; expected a whole number from 1 to 9223372036854775807\n"
-      "m.yaml:2:7: name: the name is empty; expected a name for the study\n"
-      "m.yaml:3:7: seed: '-1' is out of range; expected a whole number from 0 to 18446744073709551615\n"
-      "m.yaml:4:9: trials: '0' is out of range; expected a whole number from 1 to 9007199254740992\n"
-      "m.yaml:5:20: command.targets: a list of 0 stands here; expected a list of 1 to 3000 targets");
+  EXPECT_EQ(failure_of("zerocount: 0\nname: ''\nseed: -1\ntrials: 0\ncommand: {targets: []}\n"),
+            "m.yaml:1:12: zerocount: there is no version 0 of manifests; expected version 1\n"
+            "m.yaml:2:7: name: the name is empty; expected a name for the study\n"
+            "m.yaml:3:7: seed: '-1' is out of range; expected a whole number from 0 to 18446744073709551615\n"
+            "m.yaml:4:9: trials: '0' is out of range; expected a whole number from 1 to 9007199254740992\n"
+            "m.yaml:5:20: command.targets: a list of 0 stands here; expected a list of 1 to 3000 targets");
 }
 
 TEST(ManifestErrors, TargetsAreWholeNumbers) {

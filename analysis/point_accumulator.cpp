@@ -11,25 +11,6 @@
 namespace zerocount {
 namespace {
 
-void count_outcome(OutcomeCounts& counts, Outcome outcome) {
-  switch (outcome) {
-    case Outcome::zero_count:
-      ++counts.zero_count;
-      return;
-    case Outcome::one_count:
-      ++counts.one_count;
-      return;
-    case Outcome::oscillating:
-      ++counts.oscillating;
-      return;
-    case Outcome::nonfinite:
-      ++counts.nonfinite;
-      return;
-  }
-  throw Failure(ExitCode::bad_data,
-                fmt::format("a move with outcome {}; expected 0 to 3", static_cast<int>(outcome)));
-}
-
 /// Onsets are whole multiples of the sample time. Their differences carry rounding errors that would make
 /// equal intervals differ, in a tally and in a comparison: to the picosecond they do not.
 double rounded_interval(double seconds) {
@@ -78,7 +59,7 @@ void PointAccumulator::add_moves(const TrialOutcome& trial) {
   for (std::size_t i = 0; i < trial.moves.size(); ++i) {
     const MoveOutcome& move = trial.moves[i];
     MoveCounts& counts = counted_.by_move[i];
-    count_outcome(counts.outcomes, move.outcome);
+    ++(counts.outcomes.*counter_of(move.outcome));
     counts.stable += move.stable;
     counts.arrived += move.arrived;
     counts.broke_away += move.broke_away;
@@ -97,7 +78,7 @@ void PointAccumulator::add_moves(const TrialOutcome& trial) {
   }
   ++counted_.trials;
   counted_.moves += static_cast<std::int64_t>(trial.moves.size());
-  count_outcome(counted_.outcomes, worst);
+  ++(counted_.outcomes.*counter_of(worst));
   counted_.stable += stable;
   counted_.arrived += arrived;
   counted_.broke_away += broke_away;

@@ -18,8 +18,7 @@ class PointAccumulator {
  public:
   /// Adds a trial with its jerks in order of move and onset.
   /// @throws Failure (bad_data) where the trial has no move or another number of moves than those before it,
-  /// or its jerks
-  ///         are out of order or not those that its outcome counts.
+  /// or its jerks are out of order or not those that its outcome counts.
   void add(const TrialOutcome& trial, std::span<const Jerk> jerks);
 
   /// The statistics of the trials added so far.

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "analysis/point_statistics.hpp"
@@ -13,7 +16,24 @@ namespace zerocount {
 /// by flat_name.
 std::vector<PointColumn> point_columns(std::span<const PointSummary> points);
 
-/// The shares of trials for which (6) holds and (7) is exceeded, as columns of /point.
+/// A share of trials that the criteria foretell, as it is reported. The list of them is the one source of the
+/// names in the CSV summary and in the results file.
+struct PredictionField {
+  std::string_view name;
+  std::string_view long_name;              ///< what it is, with its denominator
+  std::int64_t TheoryPrediction::*trials;  ///< the trials whose share it is
+};
+
+/// Where (6) holds, and where (7) is exceeded.
+std::span<const PredictionField> prediction_fields();
+
+/// The shares of prediction_fields() as columns of /point.
 std::vector<PointColumn> prediction_columns(std::span<const TheoryPrediction> predictions);
+
+/// The reverse of prediction_columns, [point]: the predictions behind the columns of those names, for points
+/// with `trials` trials each.
+/// @throws Failure (bad_data), with `file` in the message, where a column is missing or holds no shares.
+std::vector<TheoryPrediction> predictions_of(std::span<const PointColumn> columns, std::int64_t trials,
+                                             const std::filesystem::path& file);
 
 }  // namespace zerocount

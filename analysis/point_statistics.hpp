@@ -5,20 +5,14 @@
 #include <vector>
 
 #include "analysis/moments.hpp"
+#include "analysis/outcome_counts.hpp"
+#include "analysis/proportion.hpp"
 #include "analysis/quantile.hpp"
 #include "analysis/trend.hpp"
 
 /// What is reported of a design point. Every share and mean names what it is a share or mean of: "of trials"
 /// is of all trials of the point, "of moves" of all moves of all its trials. No trial is left out of either.
 namespace zerocount {
-
-/// How many trials (or moves) had each outcome.
-struct OutcomeCounts {
-  std::int64_t zero_count{0};
-  std::int64_t one_count{0};
-  std::int64_t oscillating{0};
-  std::int64_t nonfinite{0};
-};
 
 /// The trials by one of their moves: all trials of the point have it.
 struct MoveCounts {
@@ -32,8 +26,8 @@ struct MoveCounts {
 /// Share of trials with 95 % bounds.
 struct RateWithBounds {
   double value{std::numeric_limits<double>::quiet_NaN()};
-  Interval clopper_pearson{0.0, 1.0};
-  Interval wilson{0.0, 1.0};
+  ConfidenceInterval clopper_pearson{0.0, 1.0};
+  ConfidenceInterval wilson{0.0, 1.0};
 };
 
 /// Settling time of the moves that arrived, s.

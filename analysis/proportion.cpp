@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -32,7 +31,7 @@ double rate(std::int64_t successes, std::int64_t trials) {
   return static_cast<double>(successes) / static_cast<double>(trials);
 }
 
-Interval clopper_pearson(std::int64_t successes, std::int64_t trials, double confidence) {
+ConfidenceInterval clopper_pearson(std::int64_t successes, std::int64_t trials, double confidence) {
   require_proportion(successes, trials, confidence);
   using Binomial = boost::math::binomial_distribution<double>;
   const double n = static_cast<double>(trials);
@@ -42,7 +41,7 @@ Interval clopper_pearson(std::int64_t successes, std::int64_t trials, double con
           successes == trials ? 1.0 : Binomial::find_upper_bound_on_p(n, k, tail)};
 }
 
-Interval wilson(std::int64_t successes, std::int64_t trials, double confidence) {
+ConfidenceInterval wilson(std::int64_t successes, std::int64_t trials, double confidence) {
   require_proportion(successes, trials, confidence);
   if (trials == 0) return {0.0, 1.0};
   const double n = static_cast<double>(trials);

@@ -5,7 +5,7 @@
 namespace zerocount {
 
 /// A closed interval.
-struct Interval {
+struct ConfidenceInterval {
   double low{0.0};
   double high{0.0};
 };
@@ -22,7 +22,8 @@ double rate(std::int64_t successes, std::int64_t trials);
 /// Covers the true proportion with at least the stated probability, whatever it is. low is 0 where successes
 /// = 0, high is 1 where successes = trials, and the interval is [0, 1] where trials = 0. Source: Clopper and
 /// Pearson (1934).
-Interval clopper_pearson(std::int64_t successes, std::int64_t trials, double confidence = summary_confidence);
+ConfidenceInterval clopper_pearson(std::int64_t successes, std::int64_t trials,
+                                   double confidence = summary_confidence);
 
 /// Wilson score interval of a proportion: with z the normal quantile of (1 + confidence)/2 and p = k/n,
 ///
@@ -30,6 +31,7 @@ Interval clopper_pearson(std::int64_t successes, std::int64_t trials, double con
 ///
 /// Shorter than Clopper–Pearson, and covers with the stated probability on average only. The same edge cases:
 /// exactly 0, 1 and [0, 1]. Source: Wilson (1927).
-Interval wilson(std::int64_t successes, std::int64_t trials, double confidence = summary_confidence);
+ConfidenceInterval wilson(std::int64_t successes, std::int64_t trials,
+                          double confidence = summary_confidence);
 
 }  // namespace zerocount

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "analysis/point_accumulator.hpp"
+#include "analysis/point_columns.hpp"
 #include "core/failure.hpp"
 
 namespace zerocount {
@@ -118,8 +119,9 @@ std::vector<TheoryPrediction> study_predictions(const Study& study) {
 StudySummary summarise(const StudyFile& file) {
   const FileHeader& header = file.header();
   const Study study = parse_study(header.manifest, file.path().string() + ":/manifest", header.overrides);
-  return {header.name,    file.point_labels(),    file.axes(),
-          study.observed, study_statistics(file), study_predictions(study)};
+  return {
+      header.name,    file.point_labels(),    file.axes(),
+      study.observed, study_statistics(file), predictions_of(file.statistics(), header.trials, file.path())};
 }
 
 }  // namespace zerocount

@@ -22,8 +22,8 @@ std::vector<PointSummary> study_statistics(const StudyFile& file);
 /// trial.
 std::vector<TheoryPrediction> study_predictions(const Study& study);
 
-/// The summary of a complete results file; what was observed and the parameters of the trials come from its
-/// manifest.
+/// The summary of a complete results file. What was observed comes from its manifest, what the criteria say
+/// from the columns of its /point: the trials are not drawn again.
 StudySummary summarise(const StudyFile& file);
 
 }  // namespace zerocount

@@ -24,8 +24,7 @@ struct StudySummary {
 };
 
 /// @throws Failure (bad_data) where labels, axes, statistics and predictions are not of the same points. The
-/// functions below
-///         call it.
+/// functions below call it.
 void require_consistent(const StudySummary& summary);
 
 /// What was observed on the real rig at `point`; empty where nothing was.

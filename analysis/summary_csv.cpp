@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "analysis/point_columns.hpp"
+#include "analysis/proportion.hpp"
 #include "analysis/statistic_fields.hpp"
 #include "analysis/summary.hpp"
-#include "analysis/text.hpp"
+#include "results/reading/csv.hpp"
 
 namespace zerocount {
 namespace {
@@ -16,26 +16,25 @@ std::vector<std::string> csv_header(const StudySummary& summary) {
   std::vector<std::string> header{"point", "label"};
   for (const SweepAxis& axis : summary.axes) header.push_back(axis.name);
   for (const StatisticField& field : statistic_fields()) header.push_back(flat_name(field));
-  header.insert(header.end(),
-                {"predicted_stable_share", "predicted_unstable_share", "predicted", "observed"});
+  for (const PredictionField& field : prediction_fields()) header.emplace_back(field.name);
+  header.insert(header.end(), {"predicted", "observed"});
   return header;
 }
 
 std::vector<std::string> csv_row(const StudySummary& summary, std::size_t point) {
   std::vector<std::string> row{std::to_string(point), summary.labels[point]};
   for (const SweepAxis& axis : summary.axes) {
-    row.push_back(axis.kind == SweepAxis::Kind::text ? axis.texts[point]
-                                                     : fmt::format("{}", axis.numbers[point]));
+    row.push_back(axis.kind == SweepAxis::Kind::text ? axis.texts[point] : number_text(axis.numbers[point]));
   }
   for (const StatisticField& field : statistic_fields()) {
     const double value = field.value(summary.points[point]);
-    row.push_back(field.whole ? fmt::format("{}", static_cast<std::int64_t>(value))
-                              : fmt::format("{}", value));
+    row.push_back(field.whole ? std::to_string(static_cast<std::int64_t>(value)) : number_text(value));
   }
   const TheoryPrediction prediction =
       summary.predictions.empty() ? TheoryPrediction{} : summary.predictions[point];
-  row.push_back(fmt::format("{}", rate(prediction.stable, prediction.trials)));
-  row.push_back(fmt::format("{}", rate(prediction.unstable, prediction.trials)));
+  for (const PredictionField& field : prediction_fields()) {
+    row.push_back(number_text(rate(prediction.*field.trials, prediction.trials)));
+  }
   row.push_back(verdict(prediction));
   row.push_back(observed_at(summary, static_cast<std::int64_t>(point)));
   return row;

@@ -3,8 +3,11 @@
 #include <string>
 #include <utility>
 
+#include "analysis/outcome_counts.hpp"
+#include "analysis/proportion.hpp"
 #include "analysis/statistic_fields.hpp"
 #include "analysis/summary.hpp"
+#include "results/layout/layout.hpp"
 
 namespace zerocount {
 namespace {
@@ -36,14 +39,15 @@ void add_fields(nlohmann::ordered_json& json, const PointSummary& statistics) {
 nlohmann::ordered_json moves_json(const PointSummary& statistics) {
   nlohmann::ordered_json moves = nlohmann::ordered_json::array();
   for (const MoveCounts& move : statistics.by_move) {
-    moves.push_back({{"zero_count", move.outcomes.zero_count},
-                     {"one_count", move.outcomes.one_count},
-                     {"oscillating", move.outcomes.oscillating},
-                     {"nonfinite", move.outcomes.nonfinite},
-                     {"stable", move.stable},
-                     {"arrived", move.arrived},
-                     {"broke_away", move.broke_away},
-                     {"saturated", move.saturated}});
+    nlohmann::ordered_json counts;
+    for (const FlagMeaning& outcome : outcome_words()) {
+      counts[outcome.word] = move.outcomes.*counter_of(static_cast<Outcome>(outcome.value));
+    }
+    counts["stable"] = move.stable;
+    counts["arrived"] = move.arrived;
+    counts["broke_away"] = move.broke_away;
+    counts["saturated"] = move.saturated;
+    moves.push_back(std::move(counts));
   }
   return moves;
 }

@@ -11,7 +11,7 @@
 namespace zerocount {
 namespace {
 
-std::string interval_in_percent(const Interval& interval) {
+std::string interval_in_percent(const ConfidenceInterval& interval) {
   return fmt::format("[{:.1f}, {:.1f}]", 100.0 * interval.low, 100.0 * interval.high);
 }
 
@@ -30,9 +30,9 @@ constexpr std::string_view legend =
     "jerks/trial: mean over all trials\n";
 
 constexpr std::string_view prediction_legend =
-    "(6), (7): share of trials in which the paper's criterion (6) holds, which ensures stability, and in "
-    "which\n"
-    "its criterion (7) is exceeded, which excludes it; by the friction where the trial starts\n";
+    "(6), (7): share of trials in which the paper's criterion (6) holds, which promises stability before "
+    "sliding, and\n"
+    "in which its criterion (7) is exceeded, which rules it out; by the friction where the trial starts\n";
 
 }  // namespace
 

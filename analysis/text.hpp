@@ -27,7 +27,4 @@ std::string printable(std::string_view text);
 std::string aligned_table(const std::vector<std::vector<std::string>>& cells,
                           const std::vector<bool>& numeric);
 
-/// A CSV field (RFC 4180): quoted where it holds a comma, a quote or a line break.
-std::string csv_field(std::string_view text);
-
 }  // namespace zerocount

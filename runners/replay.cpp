@@ -17,27 +17,47 @@ bool same(double a, double b) {
   return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
 }
 
-}  // namespace
-
-std::vector<std::string> differences(const std::vector<MoveOutcome>& recorded,
-                                     const std::vector<MoveOutcome>& replayed) {
+/// Compares two lists of records field by field; `what` is what one record is called.
+template <class Record>
+void compare(const std::vector<RecordField<Record>>& fields, const std::vector<Record>& recorded,
+             const std::vector<Record>& replayed, std::string_view what, std::vector<std::string>& lines) {
   if (recorded.size() != replayed.size()) {
-    return {fmt::format("{} moves recorded, {} replayed", recorded.size(), replayed.size())};
+    lines.push_back(fmt::format("{}s: recorded {}, replayed {}", what, recorded.size(), replayed.size()));
+    return;
   }
-  std::vector<std::string> lines;
-  for (std::size_t move = 0; move < recorded.size(); ++move) {
-    for (const RecordField<MoveOutcome>& field : outcome_fields()) {
-      const auto compare = [&](auto member) {
-        const auto before = static_cast<double>(recorded[move].*member);
-        const auto now = static_cast<double>(replayed[move].*member);
-        const bool real = std::is_same_v<decltype(member), double MoveOutcome::*>;
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    for (const RecordField<Record>& field : fields) {
+      const auto compare_member = [&](auto member) {
+        const auto before = static_cast<double>(recorded[i].*member);
+        const auto now = static_cast<double>(replayed[i].*member);
+        const bool real = std::is_same_v<decltype(member), double Record::*>;
         if (real ? same(before, now) : before == now) return;
         lines.push_back(
-            fmt::format("move {}: {}: recorded {}, replayed {}", move, field.column.name, before, now));
+            fmt::format("{} {}: {}: recorded {}, replayed {}", what, i, field.column.name, before, now));
       };
-      std::visit(compare, field.member);
+      std::visit(compare_member, field.member);
     }
   }
+}
+
+std::vector<JerkRecord> jerk_records(const TrialResult& result) {
+  std::vector<JerkRecord> records;
+  for (const Jerk& jerk : result.jerks) records.push_back({jerk, result.row});
+  return records;
+}
+
+}  // namespace
+
+std::vector<std::string> differences(const std::vector<InputColumn>& inputs, const TrialResult& recorded,
+                                     const TrialResult& replayed) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (same(recorded.inputs.at(i), replayed.inputs.at(i))) continue;
+    lines.push_back(fmt::format("input {}: recorded {}, replayed {}", inputs[i].name, recorded.inputs[i],
+                                replayed.inputs[i]));
+  }
+  compare(outcome_fields(), recorded.outcome.moves, replayed.outcome.moves, "move", lines);
+  compare(jerk_fields(), jerk_records(recorded), jerk_records(replayed), "jerk", lines);
   return lines;
 }
 

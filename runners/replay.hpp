@@ -3,16 +3,18 @@
 #include <string>
 #include <vector>
 
-#include "core/trial/outcome.hpp"
+#include "experiments/study.hpp"
+#include "results/shards/shard.hpp"
 
 namespace zerocount {
 
-/// What of a replayed trial is not as it was recorded: one line per measure, "move M: NAME: recorded A,
-/// replayed B".
+/// What of a replayed trial is not as it was recorded, one line each: its inputs, every measure of every
+/// move, its jerks.
 ///
 /// Whole numbers must be equal. Real ones may differ by 1e-9 of their size, because another machine's
 /// exponential may round its last digit differently.
-std::vector<std::string> differences(const std::vector<MoveOutcome>& recorded,
-                                     const std::vector<MoveOutcome>& replayed);
+/// @param inputs the study's input columns.
+std::vector<std::string> differences(const std::vector<InputColumn>& inputs, const TrialResult& recorded,
+                                     const TrialResult& replayed);
 
 }  // namespace zerocount

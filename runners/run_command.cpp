@@ -87,15 +87,6 @@ bool already_there(const fs::path& output, const Study& study, RowRange wanted) 
   return true;
 }
 
-/// Whether a file in the folder of shards is a sound one of another study.
-bool of_another_study(const fs::path& path, const Study& study) {
-  try {
-    return StudyFile(path, Require::any_part).header().study_sha256 != study.study_sha256;
-  } catch (const Failure&) {
-    return false;
-  }
-}
-
 /// Ending of the name of a damaged shard that was set aside.
 constexpr const char* set_aside = ".damaged";
 
@@ -122,14 +113,12 @@ EarlierShards choose_shards(const std::vector<ShardInfo>& sound, RowRange wanted
 EarlierShards earlier_shards(const fs::path& directory, const Study& study, RowRange wanted) {
   ShardSurvey survey = list_shards(directory, study);
   for (const ShardProblem& bad : survey.problems) {
-    if (bad.path.extension() == set_aside) continue;
-    if (of_another_study(bad.path, study)) {
+    if (bad.kind == ShardProblem::Kind::foreign) {
       throw Failure(
           ExitCode::bad_input,
-          fmt::format("{}: holds the unfinished run of another manifest (or of other --set values); "
-                      "finish that run with its own manifest, give another name with -o, or remove "
-                      "the folder",
-                      directory.string()));
+          fmt::format("{}: holds another unfinished run, which this one must not touch ({}); finish that run "
+                      "first, give another name with -o, or remove the folder",
+                      directory.string(), bad.problem));
     }
     fs::path aside = bad.path;
     aside += set_aside;

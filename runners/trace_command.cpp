@@ -49,34 +49,48 @@ std::int64_t index_option(const Arguments& arguments, const char* name, std::int
   return value;
 }
 
-TrialOutcome write_trace(const TraceSubject& subject, std::FILE* file, bool json) {
+/// Runs the trial and writes its samples; what else is kept of it is returned.
+TrialResult write_trace(const TraceSubject& subject, std::FILE* file, bool json) {
   TraceWriter writer(file, json);
   writer.begin(subject);
   TrialObservers observers;
   observers.sample = [&](const SampleRecord& record) { writer.write(record); };
-  TrialOutcome outcome = run_trial(subject.trial.parameters, observers);
-  writer.end(outcome);
-  return outcome;
+  TrialResult result;
+  observers.jerk = [&](const Jerk& jerk) { result.jerks.push_back(jerk); };
+  result.row = subject.point * subject.study.trials + subject.index;
+  result.inputs = subject.trial.inputs;
+  result.outcome = run_trial(subject.trial.parameters, observers);
+  writer.end(result.outcome);
+  return result;
 }
 
 /// Writes the trace to a file that has its name only when it is whole.
-TrialOutcome write_trace_file(const TraceSubject& subject, const std::filesystem::path& path, bool json) {
+TrialResult write_trace_file(const TraceSubject& subject, const std::filesystem::path& path, bool json) {
   if (std::filesystem::exists(path)) {
     throw Failure(ExitCode::bad_input, fmt::format("{}: exists; give another name with -o", path.string()));
   }
   const UnfinishedFile unfinished(path);
   std::FILE* const file = std::fopen(unfinished.path().c_str(), "w");
   if (file == nullptr) fail_with(path, "write", errno);
-  TrialOutcome outcome;
+  TrialResult result;
   try {
-    outcome = write_trace(subject, file, json);
+    result = write_trace(subject, file, json);
   } catch (const std::system_error& error) {
     std::fclose(file);
     fail_with(path, "write", error.code().value());
   }
   if (std::fclose(file) != 0) fail_with(path, "write", errno);
   publish(path);
-  return outcome;
+  return result;
+}
+
+TrialResult recorded_trial(const StudyFile& file, RowRange row) {
+  TrialResult result;
+  result.row = row.first;
+  result.inputs = file.inputs_of(row.first);
+  result.outcome.moves = file.outcomes(row);
+  for (const JerkRecord& jerk : file.jerks(row)) result.jerks.push_back(jerk);
+  return result;
 }
 
 ExitCode trace(const Arguments& arguments) {
@@ -98,12 +112,13 @@ ExitCode trace(const Arguments& arguments) {
   }
   const StudyTrial trial = study_trial(study, point, index);
   const TraceSubject subject{study, point, index, trial};
-  const TrialOutcome outcome = arguments.has("output")
+  const TrialResult replayed = arguments.has("output")
                                    ? write_trace_file(subject, arguments.required("output"), json)
                                    : write_trace(subject, stdout, json);
   if (!file) return ExitCode::success;
 
-  const std::vector<std::string> different = differences(file->outcomes(row), outcome.moves);
+  const std::vector<std::string> different =
+      differences(study.input_columns, recorded_trial(*file, row), replayed);
   if (different.empty()) return ExitCode::success;
   std::string message =
       fmt::format("{}: point {}, trial {}: the replay is not the recorded trial", input, point, index);

@@ -18,7 +18,7 @@ struct MoveOutcome {
   bool saturated{false};     ///< the DAC clipped
   std::int64_t arrival{-1};  ///< first sample of the arrival dwell, from the move's start; −1 if never
   double settling_time{std::numeric_limits<double>::quiet_NaN()};  ///< arrival·T, s; NaN if never
-  std::int64_t overshoot{0};       ///< counts beyond the target in the direction of the move, at least 0
+  std::int64_t overshoot{0};       ///< largest excursion beyond the target, seen from the first count, counts
   double holding_torque{0.0};      ///< torque decided at the last sample, N m
   double peak_torque{0.0};         ///< largest |torque| decided, N m
   double creep{0.0};               ///< xp at the last sample, rad

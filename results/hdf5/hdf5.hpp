@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,8 +52,8 @@ struct Origin {
 class Object {
  public:
   const std::string& path() const { return path_; }
+  const std::string& file_name() const { return origin_->file; }  ///< of the file it belongs to
   bool has_attribute(const std::string& name) const;
-  std::vector<std::string> attribute_names() const;  ///< in order of creation
 
   void set_text(const std::string& name, const std::string& value);
   void set_integer(const std::string& name, std::int64_t value);
@@ -133,7 +132,6 @@ class Group : public Object {
   Dataset create_dataset(const std::string& name, const Storage& storage);
   Dataset open_dataset(const std::string& name) const;
   bool contains(const std::string& name) const;
-  bool is_group(const std::string& name) const;
   std::vector<std::string> children() const;  ///< names, in order of creation
 
  protected:
@@ -142,7 +140,8 @@ class Group : public Object {
   std::string path_to(const std::string& name) const;
 };
 
-/// True where the file exists and begins as the HDF5 format does.
+/// True where the file begins as the HDF5 format does.
+/// @throws Failure (machine_failed) with the path and the reason where it cannot be read.
 bool is_hdf5(const std::filesystem::path& path);
 
 /// An open file, which is its root group.

@@ -84,13 +84,6 @@ bool Group::contains(const std::string& name) const {
   return H5Lexists(id(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
-bool Group::is_group(const std::string& name) const {
-  H5O_info_t info{};
-  require(H5Oget_info_by_name2(id(), name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT),
-          fmt::format("its member '{}' cannot be read", name));
-  return info.type == H5O_TYPE_GROUP;
-}
-
 std::vector<std::string> Group::children() const {
   std::vector<std::string> names;
   const auto visit = [](hid_t, const char* name, const H5L_info_t*, void* found) -> herr_t {
@@ -104,7 +97,9 @@ std::vector<std::string> Group::children() const {
 
 bool is_hdf5(const std::filesystem::path& path) {
   quieten();
-  return H5Fis_hdf5(path.c_str()) > 0;
+  const htri_t answer = H5Fis_hdf5(path.c_str());
+  if (answer < 0) fail_on({path.string(), false}, "/", "its beginning cannot be read");
+  return answer > 0;
 }
 
 File File::wrap(hid_t file, std::shared_ptr<const Origin> origin) {

@@ -110,18 +110,6 @@ bool Object::has_attribute(const std::string& name) const {
   return H5Aexists(id(), name.c_str()) > 0;
 }
 
-std::vector<std::string> Object::attribute_names() const {
-  std::vector<std::string> names;
-  const auto visit = [](hid_t, const char* name, const H5A_info_t*, void* found) -> herr_t {
-    static_cast<std::vector<std::string>*>(found)->emplace_back(name);
-    return 0;
-  };
-  hsize_t position = 0;
-  require(H5Aiterate2(id(), H5_INDEX_CRT_ORDER, H5_ITER_INC, &position, visit, &names),
-          "its list of attributes");
-  return names;
-}
-
 void Object::write_attribute(const std::string& name, hid_t type, hid_t from, hid_t space, const void* data) {
   const std::string problem = fmt::format("attribute '{}'", name);
   const Handle attribute =

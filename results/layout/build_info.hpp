@@ -16,4 +16,11 @@ struct Provenance {
 /// This program on this machine, now.
 Provenance current_provenance();
 
+/// Whether two programs are the same for the trials they run: of one version and one commit. Changes that
+/// were not committed ("-dirty") cannot be told apart, and do not count.
+bool same_build(const Provenance& one, const Provenance& other);
+
+/// Whether the sources had changes that were not committed.
+bool is_dirty(const Provenance& provenance);
+
 }  // namespace zerocount

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <span>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "results/layout/layout.hpp"
@@ -18,7 +19,7 @@ using Stored = std::conditional_t<std::is_same_v<Value, bool>, std::uint8_t,
 
 /// One column of `records` as the bytes of its elements.
 template <class Record>
-std::vector<std::byte> gather(const Field<Record>& field, std::span<const Record> records) {
+std::vector<std::byte> gather(const RecordField<Record>& field, std::span<const Record> records) {
   std::vector<std::byte> bytes(records.size() * size_of(field.column.element));
   std::visit(
       [&]<class Value>(Value Record::*member) {
@@ -35,7 +36,7 @@ std::vector<std::byte> gather(const Field<Record>& field, std::span<const Record
 
 /// The reverse of gather.
 template <class Record>
-void scatter(const Field<Record>& field, std::span<const std::byte> bytes, std::span<Record> records) {
+void scatter(const RecordField<Record>& field, std::span<const std::byte> bytes, std::span<Record> records) {
   std::visit(
       [&]<class Value>(Value Record::*member) {
         const std::byte* from = bytes.data();

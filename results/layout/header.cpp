@@ -1,8 +1,9 @@
 #include "results/layout/header.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -18,10 +19,6 @@ namespace {
 
 constexpr std::string_view study_format = "zerocount-study";
 constexpr std::string_view shard_format = "zerocount-shard";
-
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& problem) {
-  throw Failure(ExitCode::bad_data, fmt::format("{}: {}", path.string(), problem));
-}
 
 /// A text with a zero byte would be cut there without a word.
 const std::string& storable(const hdf5::File& file, const std::string& text) {
@@ -50,17 +47,19 @@ void write_manifest(hdf5::File& file, const std::string& text) {
 
 FileKind read_kind(const hdf5::File& file) {
   if (!file.has_attribute("format"))
-    file.fail("it is no results file of zerocount: the attribute 'format' is missing");
+    throw ForeignFile(file.file_name(), "not a results file of zerocount: the attribute 'format' is missing");
   const std::string format = file.text("format");
   if (format == study_format) return FileKind::study;
   if (format == shard_format) return FileKind::shard;
-  file.fail(fmt::format("its format is '{}'; expected '{}' or '{}'", format, study_format, shard_format));
+  throw ForeignFile(file.file_name(), fmt::format("its format is '{}'; expected '{}' or '{}'", format,
+                                                  study_format, shard_format));
 }
 
 void check_version(const hdf5::File& file) {
   const std::int64_t version = file.integer("format_version");
   if (version > format_version) {
-    file.fail(
+    throw ForeignFile(
+        file.file_name(),
         fmt::format("its format version is {}, newer than the {} that this program knows; read it with the "
                     "zerocount that wrote it or a later one",
                     version, format_version));
@@ -83,6 +82,9 @@ void check_numbers(const hdf5::File& file, const FileHeader& header) {
 }
 
 }  // namespace
+
+ForeignFile::ForeignFile(const std::filesystem::path& path, const std::string& what_it_is)
+    : Failure(ExitCode::bad_data, fmt::format("{}: {}", path.string(), what_it_is)) {}
 
 RowRange all_rows(const Study& study) {
   return {0, trial_count(study)};
@@ -156,17 +158,21 @@ FileHeader read_header(const hdf5::File& file) {
 
 void require_same_study(const std::filesystem::path& path, const FileHeader& header, const Study& study) {
   if (header.study_sha256 != study.study_sha256) {
-    fail(path, fmt::format("of another study: '{}' with other contents or overrides, not '{}'", header.name,
-                           study.name));
+    throw ForeignFile(path, fmt::format("of another study: '{}' with other contents or overrides, not '{}'",
+                                        header.name, study.name));
   }
   if (header.trials != study.trials || header.points != point_count(study)) {
-    fail(path, fmt::format("has {} design points with {} trials each; the study has {} with {}",
-                           header.points, header.trials, point_count(study), study.trials));
+    throw ForeignFile(path, fmt::format("has {} design points with {} trials each; the study has {} with {}",
+                                        header.points, header.trials, point_count(study), study.trials));
   }
-  const std::string version = current_provenance().zerocount_version;
-  if (header.provenance.zerocount_version != version) {
-    fail(path, fmt::format("written by zerocount {}, this is {}: trials of both must not be mixed",
-                           header.provenance.zerocount_version, version));
+  const Provenance here = current_provenance();
+  if (!same_build(header.provenance, here)) {
+    throw ForeignFile(
+        path,
+        fmt::format("its trials were run by zerocount {} (commit {}), and this is {} (commit {}): trials "
+                    "of different builds are not mixed; finish with the same build, or start a new output",
+                    header.provenance.zerocount_version, header.provenance.git_commit, here.zerocount_version,
+                    here.git_commit));
   }
 }
 
@@ -180,7 +186,11 @@ hdf5::File open_results(const std::filesystem::path& path, Seal seal) {
                   fmt::format("{}: a directory; a results file was expected", path.string()));
   }
   if (!FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)).valid()) fail_with(path, "read", errno);
-  if (!hdf5::is_hdf5(path)) fail(path, "not a results file of zerocount: it is not in the HDF5 format");
+  if (!hdf5::is_hdf5(path)) {
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: not a results file of zerocount: it is not in the HDF5 format", path.string()));
+  }
   if (seal == Seal::required) require_seal(path);
   return hdf5::File::open_to_read(path);
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/failure.hpp"
 #include "experiments/study.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/build_info.hpp"
@@ -31,6 +32,14 @@ struct FileHeader {
   std::string study_sha256;
 };
 
+/// A file that is sound as far as it was read, but is not for this use: another format or a newer version of
+/// it, or trials of another study or by another build of the program. Its exit code is bad_data.
+class ForeignFile : public Failure {
+ public:
+  /// The message is "PATH: what it is".
+  ForeignFile(const std::filesystem::path& path, const std::string& what_it_is);
+};
+
 /// All rows of a study.
 RowRange all_rows(const Study& study);
 
@@ -41,19 +50,19 @@ void write_header(hdf5::File& file, const FileHeader& header);
 void mark_finished(hdf5::File& file);
 
 /// Reads the header, and checks the format, its version and the checksum of the manifest.
-/// @throws Failure (bad_data)
+/// @throws ForeignFile for another format or a newer version, Failure (bad_data) for damage.
 FileHeader read_header(const hdf5::File& file);
 
-/// @throws Failure (bad_data) unless `header`, of the file `path`, is of this study and by this version of
-/// the program.
+/// @throws ForeignFile unless `header`, of the file `path`, is of this study and by this build of the program
+/// (see same_build).
 void require_same_study(const std::filesystem::path& path, const FileHeader& header, const Study& study);
 
 /// Whether a file must have its seal (see seal.hpp) to be opened.
 enum class Seal { required, not_yet };
 
 /// Opens a file of this program's format.
-/// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read, bad_data
-/// where it is damaged or something else.
+/// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read,
+/// bad_data where it is damaged or something else.
 hdf5::File open_results(const std::filesystem::path& path, Seal seal = Seal::required);
 
 }  // namespace zerocount

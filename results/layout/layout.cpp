@@ -1,6 +1,7 @@
 #include "results/layout/layout.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <type_traits>
 
 namespace zerocount {
@@ -16,18 +17,11 @@ constexpr Element element_of() {
 }
 
 template <class Record, class Owner, class Value>
-Field<Record> field(const char* name, const char* unit, const char* long_name, Value Owner::*member,
-                    std::vector<FlagMeaning> flags = {}) {
+RecordField<Record> field(const char* name, const char* unit, const char* long_name, Value Owner::*member,
+                          std::vector<FlagMeaning> flags = {}) {
   if constexpr (std::is_same_v<Value, bool>) flags = {{0, "no"}, {1, "yes"}};
   return {Column{name, unit, long_name, element_of<Value>(), std::move(flags), {}},
           static_cast<Value Record::*>(member)};
-}
-
-std::vector<FlagMeaning> outcome_words() {
-  return {{static_cast<int>(Outcome::zero_count), "zero_count"},
-          {static_cast<int>(Outcome::one_count), "one_count"},
-          {static_cast<int>(Outcome::oscillating), "oscillating"},
-          {static_cast<int>(Outcome::nonfinite), "nonfinite"}};
 }
 
 std::vector<FlagMeaning> mode_words() {
@@ -39,18 +33,31 @@ Column whole_numbers(const char* name, const char* long_name) {
 }
 
 template <class Record>
-std::vector<Column> columns_of(const std::vector<Field<Record>>& fields) {
+std::vector<Column> columns_of(const std::vector<RecordField<Record>>& fields) {
   std::vector<Column> columns;
   std::transform(fields.begin(), fields.end(), std::back_inserter(columns),
-                 [](const Field<Record>& entry) { return entry.column; });
+                 [](const RecordField<Record>& entry) { return entry.column; });
   return columns;
 }
 
 }  // namespace
 
-const std::vector<Field<MoveOutcome>>& outcome_fields() {
+std::vector<FlagMeaning> outcome_words() {
+  return {{static_cast<int>(Outcome::zero_count), "zero_count"},
+          {static_cast<int>(Outcome::one_count), "one_count"},
+          {static_cast<int>(Outcome::oscillating), "oscillating"},
+          {static_cast<int>(Outcome::nonfinite), "nonfinite"}};
+}
+
+std::string word_of(const Column& column, std::int64_t value) {
+  const auto flag = std::find_if(column.flags.begin(), column.flags.end(),
+                                 [value](const FlagMeaning& meaning) { return meaning.value == value; });
+  return flag == column.flags.end() ? std::to_string(value) : flag->word;
+}
+
+const std::vector<RecordField<MoveOutcome>>& outcome_fields() {
   using M = MoveOutcome;
-  static const std::vector<Field<M>> fields{
+  static const std::vector<RecordField<M>> fields{
       field<M>("outcome", "1", "verdict on the last window of the move", &M::outcome, outcome_words()),
       field<M>("arrived", "1", "the error was 0 for a whole dwell", &M::arrived),
       field<M>("arrival", "1", "first sample of the arrival dwell from the start of the move, -1 if never",
@@ -60,8 +67,8 @@ const std::vector<Field<MoveOutcome>>& outcome_fields() {
       field<M>("stable", "1", "arrived, and the error within one count from then to the end", &M::stable),
       field<M>("broke_away", "1", "the hook slid during the move", &M::broke_away),
       field<M>("saturated", "1", "the DAC clipped", &M::saturated),
-      field<M>("overshoot", "count", "largest excursion beyond the target in the direction of the move",
-               &M::overshoot),
+      field<M>("overshoot", "count",
+               "largest excursion beyond the target, seen from the first count of the move", &M::overshoot),
       field<M>("holding_torque", "N m", "torque decided at the last sample", &M::holding_torque),
       field<M>("peak_torque", "N m", "largest absolute torque decided", &M::peak_torque),
       field<M>("creep", "rad", "plastic extension xp at the last sample", &M::creep),
@@ -73,9 +80,9 @@ const std::vector<Field<MoveOutcome>>& outcome_fields() {
   return fields;
 }
 
-const std::vector<Field<JerkRecord>>& jerk_fields() {
+const std::vector<RecordField<JerkRecord>>& jerk_fields() {
   using J = JerkRecord;
-  static const std::vector<Field<J>> fields{
+  static const std::vector<RecordField<J>> fields{
       field<J>("trial", "1", "global row of the trial", &J::trial),
       field<J>("move", "1", "index of the move", &J::move),
       field<J>("onset", "s", "first sample with an error, from the start of the move", &J::onset),
@@ -85,9 +92,9 @@ const std::vector<Field<JerkRecord>>& jerk_fields() {
   return fields;
 }
 
-const std::vector<Field<TraceRecord>>& trace_fields() {
+const std::vector<RecordField<TraceRecord>>& trace_fields() {
   using T = TraceRecord;
-  static const std::vector<Field<T>> fields{
+  static const std::vector<RecordField<T>> fields{
       field<T>("trial", "1", "global row of the trial", &T::trial),
       field<T>("k", "1", "sample number from the start of the trial", &T::k),
       field<T>("t", "s", "time of the sampling instant from the start of the trial", &T::t),

@@ -24,6 +24,9 @@ struct FlagMeaning {
   std::string word;
 };
 
+/// The outcomes of a move.
+std::vector<FlagMeaning> outcome_words();
+
 /// One dataset of a table.
 struct Column {
   std::string name;       ///< path below the table's group
@@ -33,6 +36,9 @@ struct Column {
   std::vector<FlagMeaning> flags;  ///< of an enumeration, otherwise empty
   std::string role;                ///< in /point only: "axis" or "statistic"
 };
+
+/// The word of `value` in an enumeration; the number itself where it has none.
+std::string word_of(const Column& column, std::int64_t value);
 
 /// A group of columns that share their first dimension, and the dimension scales that stand in it.
 struct Table {
@@ -48,7 +54,7 @@ using Member = std::variant<double Record::*, std::int64_t Record::*, int Record
                             Outcome Record::*, HookMode Record::*>;
 
 template <class Record>
-struct Field {
+struct RecordField {
   Column column;
   Member<Record> member;
 };
@@ -63,9 +69,9 @@ struct TraceRecord : SampleRecord {
   std::int64_t trial{0};  ///< global row
 };
 
-const std::vector<Field<MoveOutcome>>& outcome_fields();
-const std::vector<Field<JerkRecord>>& jerk_fields();
-const std::vector<Field<TraceRecord>>& trace_fields();
+const std::vector<RecordField<MoveOutcome>>& outcome_fields();
+const std::vector<RecordField<JerkRecord>>& jerk_fields();
+const std::vector<RecordField<TraceRecord>>& trace_fields();
 
 /// One number per design point, made when a study is complete.
 struct PointColumn {

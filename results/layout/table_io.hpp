@@ -58,7 +58,7 @@ class TableIo {
 
 /// Writes records to the rows from `first` on; a row of a table of width w takes w records.
 template <class Record>
-void write_records(TableIo& io, const std::vector<Field<Record>>& fields, std::int64_t first,
+void write_records(TableIo& io, const std::vector<RecordField<Record>>& fields, std::int64_t first,
                    std::span<const Record> records) {
   const std::int64_t rows = static_cast<std::int64_t>(records.size()) / io.width();
   for (std::size_t index = 0; index < fields.size(); ++index) {
@@ -67,7 +67,7 @@ void write_records(TableIo& io, const std::vector<Field<Record>>& fields, std::i
 }
 
 template <class Record>
-std::vector<Record> read_records(const TableIo& io, const std::vector<Field<Record>>& fields,
+std::vector<Record> read_records(const TableIo& io, const std::vector<RecordField<Record>>& fields,
                                  std::int64_t first, std::int64_t rows) {
   std::vector<Record> records(static_cast<std::size_t>(rows * io.width()));
   for (std::size_t index = 0; index < fields.size(); ++index) {

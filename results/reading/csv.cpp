@@ -1,10 +1,10 @@
 #include "results/reading/csv.hpp"
 
-#include <array>
 #include <cerrno>
-#include <charconv>
+#include <cmath>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 
 namespace zerocount {
 namespace {
@@ -14,9 +14,17 @@ constexpr std::size_t buffer_size = std::size_t{1} << 16;
 }  // namespace
 
 std::string number_text(double value) {
-  std::array<char, 32> text{};  // the longest double takes 24
-  const std::to_chars_result end = std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), end.ptr};
+  return std::isnan(value) ? "nan" : fmt::format("{}", value);  // a NaN's sign means nothing
+}
+
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char character : text) {
+    if (character == '"') quoted += '"';
+    quoted += character;
+  }
+  return quoted + '"';
 }
 
 CsvFile::CsvFile(const std::filesystem::path& path)
@@ -43,16 +51,7 @@ void CsvFile::add(std::int64_t value) {
 
 void CsvFile::add(std::string_view text) {
   separate();
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
-    buffer_ += text;
-    return;
-  }
-  buffer_ += '"';
-  for (const char character : text) {
-    if (character == '"') buffer_ += '"';
-    buffer_ += character;
-  }
-  buffer_ += '"';
+  buffer_ += csv_field(text);
 }
 
 void CsvFile::end_row() {
@@ -68,7 +67,11 @@ void CsvFile::flush() {
 
 void CsvFile::finish() {
   flush();
-  publish(path_);
+  if (::fsync(file_.get()) != 0) fail_with(path_, "write", errno);
+}
+
+void CsvFile::publish() {
+  zerocount::publish(path_);
 }
 
 }  // namespace zerocount

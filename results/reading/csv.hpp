@@ -13,8 +13,11 @@ namespace zerocount {
 /// The shortest decimal text that reads back to the same double; "nan", "inf" and "-inf" for the others.
 std::string number_text(double value);
 
+/// A field of CSV (RFC 4180): quoted where it holds a comma, a quote or a line break.
+std::string csv_field(std::string_view text);
+
 /// A table in the form of RFC 4180, but with lines that end in a single line feed. It stands at PATH.part
-/// until finish().
+/// until publish(), and is removed if that never comes.
 /// @throws Failure (machine_failed) with the path and the reason, from every function.
 class CsvFile {
  public:
@@ -24,7 +27,8 @@ class CsvFile {
   void add(std::int64_t value);
   void add(std::string_view text);  ///< quoted where it must be
   void end_row();
-  void finish();
+  void finish();   ///< brings the rest to the disk; nothing can be added after it
+  void publish();  ///< gives the finished file its name
 
  private:
   void separate();

@@ -1,8 +1,11 @@
 #include "results/reading/export.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <functional>
 #include <string>
+#include <type_traits>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -23,28 +26,18 @@ void for_each_block(std::int64_t first, std::int64_t end, std::int64_t size,
 }
 
 template <class Record>
-void add_names(CsvFile& csv, const std::vector<Field<Record>>& fields) {
-  for (const Field<Record>& field : fields) csv.add(field.column.name);
-}
-
-void add_word(CsvFile& csv, const Column& column, std::int64_t value) {
-  const auto flag = std::find_if(column.flags.begin(), column.flags.end(),
-                                 [value](const FlagMeaning& meaning) { return meaning.value == value; });
-  if (flag == column.flags.end()) {
-    csv.add(value);
-  } else {
-    csv.add(flag->word);
-  }
+void add_names(CsvFile& csv, const std::vector<RecordField<Record>>& fields) {
+  for (const RecordField<Record>& field : fields) csv.add(field.column.name);
 }
 
 template <class Record>
-void add_values(CsvFile& csv, const std::vector<Field<Record>>& fields, const Record& record) {
-  for (const Field<Record>& field : fields) {
+void add_values(CsvFile& csv, const std::vector<RecordField<Record>>& fields, const Record& record) {
+  for (const RecordField<Record>& field : fields) {
     std::visit(
         [&]<class Value>(Value Record::*member) {
           const Value value = record.*member;
           if constexpr (std::is_enum_v<Value>) {
-            add_word(csv, field.column, static_cast<std::int64_t>(value));
+            csv.add(word_of(field.column, static_cast<std::int64_t>(value)));
           } else if constexpr (std::is_same_v<Value, double>) {
             csv.add(value);
           } else {
@@ -182,13 +175,17 @@ std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& director
           fmt::format("{}: exists already; remove it or name another directory", table.path.string()));
     }
   }
-  std::vector<fs::path> paths;
+  // None has its name before all are whole: a failure leaves nothing that would stop the next attempt.
+  std::deque<CsvFile> written;
   for (const ExportedTable& table : tables) {
-    CsvFile csv(table.path);
+    CsvFile& csv = written.emplace_back(table.path);
     table.write(file, csv);
     csv.finish();
-    paths.push_back(table.path);
   }
+  for (CsvFile& csv : written) csv.publish();
+  std::vector<fs::path> paths(tables.size());
+  std::transform(tables.begin(), tables.end(), paths.begin(),
+                 [](const ExportedTable& table) { return table.path; });
   return paths;
 }
 

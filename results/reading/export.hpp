@@ -10,11 +10,10 @@ namespace zerocount {
 /// Writes the tables of a results file as CSV into `directory`, which is made if need be: points.csv,
 /// trials.csv, outcomes.csv (one row per move), jerks.csv, profiles.csv where there are profiles, trace.csv
 /// where trials are retained. Columns have the names of the datasets (inputs without "input/"); enumerations
-/// are written as their words. Memory is bounded.
+/// are written as their words. Memory is bounded. The files get their names when all of them are whole.
 /// @return the files, in that order
 /// @throws Failure: bad_input where one of the files exists, bad_data where the results are damaged,
-/// machine_failed where
-///         a file cannot be written.
+/// machine_failed where a file cannot be written.
 std::vector<std::filesystem::path> export_csv(const StudyFile& file, const std::filesystem::path& directory);
 
 }  // namespace zerocount

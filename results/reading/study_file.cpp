@@ -1,8 +1,10 @@
 #include "results/reading/study_file.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -52,7 +54,7 @@ std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
 }
 
 template <class Record>
-std::vector<double> as_doubles(const Field<Record>& field, const std::vector<Record>& records) {
+std::vector<double> as_doubles(const RecordField<Record>& field, const std::vector<Record>& records) {
   std::vector<double> values(records.size());
   std::visit(
       [&](auto member) {
@@ -145,10 +147,10 @@ std::vector<MoveOutcome> StudyFile::outcomes(RowRange range) const {
 }
 
 std::vector<double> StudyFile::measure(std::string_view name, RowRange range) const {
-  const std::vector<Field<MoveOutcome>>& fields = outcome_fields();
-  const auto found = std::find_if(fields.begin(), fields.end(), [name](const Field<MoveOutcome>& field) {
-    return field.column.name == name;
-  });
+  const std::vector<RecordField<MoveOutcome>>& fields = outcome_fields();
+  const auto found =
+      std::find_if(fields.begin(), fields.end(),
+                   [name](const RecordField<MoveOutcome>& field) { return field.column.name == name; });
   if (found == fields.end()) throw std::invalid_argument(fmt::format("'{}' is no measure of a move", name));
   std::vector<MoveOutcome> moves(static_cast<std::size_t>(range.count * outcomes_.width()));
   std::vector<std::byte> bytes(moves.size() * size_of(found->column.element));

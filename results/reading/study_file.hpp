@@ -37,8 +37,8 @@ class StudyFile {
  public:
   /// Checks seal, format, version, completion mark, and completeness as required. Reads the file once from
   /// beginning to end.
-  /// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read,
-  /// otherwise bad_data.
+  /// @throws ForeignFile for another format or a newer version; Failure: bad_input where there is no such
+  /// file, machine_failed where it cannot be read, otherwise bad_data.
   explicit StudyFile(const std::filesystem::path& path, Require require = Require::complete);
 
   const std::filesystem::path& path() const { return path_; }
@@ -61,9 +61,9 @@ class StudyFile {
   std::vector<double> measure(std::string_view name, RowRange rows) const;
 
   std::int64_t jerk_count() const { return jerks_.rows(); }
-  std::vector<JerkRecord> jerks_at(std::int64_t first,
-                                   std::int64_t count) const;  ///< by position in the table
-  std::vector<JerkRecord> jerks(RowRange rows) const;          ///< of these trials
+  /// By position in the table.
+  std::vector<JerkRecord> jerks_at(std::int64_t first, std::int64_t count) const;
+  std::vector<JerkRecord> jerks(RowRange rows) const;  ///< of these trials
 
   bool has_trace() const { return trace_.has_value(); }
   std::int64_t trace_count() const { return trace_ ? trace_->rows() : 0; }
@@ -72,14 +72,9 @@ class StudyFile {
   bool has_profiles() const { return file_.contains("profile"); }
   std::vector<StoredProfile> profiles() const;
 
-  /// Reads everything; compares the checksums of HDF5 and every numbering. (The whole file was compared with
-  /// its seal when it was opened.)
-  void verify() const;
-
  private:
   std::int64_t local(RowRange rows) const;
   std::int64_t first_jerk_from(std::int64_t row) const;
-  void verify_numbering() const;
 
   std::filesystem::path path_;
   hdf5::File file_;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "results/layout/row_range.hpp"
 #include "results/layout/table_io.hpp"

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/layout.hpp"

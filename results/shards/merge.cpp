@@ -31,13 +31,9 @@ std::vector<fs::path> expand(std::span<const fs::path> inputs) {
       files.push_back(input);
       continue;
     }
-    const std::size_t before = files.size();
-    for (fs::directory_iterator entry(input, error), end; !error && entry != end; entry.increment(error)) {
-      if (entry->path().extension() == ".h5") files.push_back(entry->path());
-    }
-    if (error) fail_with(input, "read the directory", error.value());
-    if (files.size() == before) fail(ExitCode::bad_input, input, "no shards (*.h5) in this directory");
-    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+    const std::vector<fs::path> found = shard_files(input);
+    if (found.empty()) fail(ExitCode::bad_input, input, "no shards (*.h5) in this directory");
+    files.insert(files.end(), found.begin(), found.end());
   }
   if (files.empty())
     throw Failure(ExitCode::bad_input, "nothing to merge: name shards, parts or directories of shards");
@@ -72,6 +68,17 @@ void require_cover(std::span<const ShardInfo> shards, RowRange rows, const fs::p
     fail(ExitCode::bad_data, output,
          fmt::format("cannot merge: trials {} to {} are in none of the shards", next, rows.end() - 1));
   }
+}
+
+/// `provenance`, with the commit of a shard that was made from changed sources: what is joined is no cleaner
+/// than its parts.
+Provenance of_all(std::span<const ShardInfo> shards, Provenance provenance) {
+  for (const ShardInfo& shard : shards) {
+    if (is_dirty(provenance)) break;
+    const FileHeader header = read_header(hdf5::File::open_to_read(shard.path));
+    if (is_dirty(header.provenance)) provenance.git_commit = header.provenance.git_commit;
+  }
+  return provenance;
 }
 
 void write_points(hdf5::File& file, const Study& study) {
@@ -148,7 +155,7 @@ FileHeader first_header(std::span<const fs::path> inputs) {
 }
 
 void merge_shards(std::span<const ShardInfo> shards, const Study& study, const fs::path& output,
-                  RowRange rows, const PointStatistics& statistics, const Provenance& provenance) {
+                  RowRange rows, const StatisticsOfPoints& statistics, const Provenance& provenance) {
   std::vector<ShardInfo> ordered(shards.begin(), shards.end());
   std::sort(ordered.begin(), ordered.end(),
             [](const ShardInfo& left, const ShardInfo& right) { return left.rows.first < right.rows.first; });
@@ -157,7 +164,7 @@ void merge_shards(std::span<const ShardInfo> shards, const Study& study, const f
   if (fs::exists(output, error))
     fail(ExitCode::bad_input, output, "exists already; remove it or name another output");
   const UnfinishedFile part(output);
-  write_trials_of(ordered, study, part.path(), rows, provenance);
+  write_trials_of(ordered, study, part.path(), rows, of_all(ordered, provenance));
   std::vector<PointColumn> columns;
   if (statistics && rows == all_rows(study))
     columns = statistics(StudyFile(part.path(), Require::unfinished));

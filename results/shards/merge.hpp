@@ -16,13 +16,12 @@ namespace zerocount {
 
 /// Computes the statistics of the design points from a file that holds all its trials but is not finished.
 /// One number per design point in each column.
-using PointStatistics = std::function<std::vector<PointColumn>(const StudyFile&)>;
+using StatisticsOfPoints = std::function<std::vector<PointColumn>(const StudyFile&)>;
 
-/// The files that `inputs` name: files stand for themselves, directories for every *.h5 in them, in order of
-/// rows. Each is opened, and must be a finished shard or part of `study`; its values are read only by
-/// merge_shards.
-/// @throws Failure (bad_data) for the first that is not; bad_input where an input does not exist or holds
-/// nothing.
+/// The files that `inputs` name: files stand for themselves, directories for their shard_files. In order of
+/// rows. Each is read whole, for its seal, and must be a finished shard or part of `study`.
+/// @throws Failure (bad_data) for the first that is not; bad_input where an input does not exist, or is a
+/// directory without shards.
 std::vector<ShardInfo> merge_inputs(std::span<const std::filesystem::path> inputs, const Study& study);
 
 /// The header of the first file that `inputs` name: its manifest and overrides give the study to merge.
@@ -31,14 +30,14 @@ FileHeader first_header(std::span<const std::filesystem::path> inputs);
 /// Joins shards into the results file `output`, which holds the trials `rows` of the study: the whole study,
 /// or a part.
 ///
-/// The shards, found undamaged by list_shards or merge_inputs, must cover `rows` exactly. Memory is bounded
+/// The shards, found sound by list_shards or merge_inputs, must cover `rows` exactly. Memory is bounded
 /// whatever their number; the bytes of every dataset depend on the study and `rows` alone. `statistics` is
 /// called once, where the file is the whole study. The file gets its name only when it is whole on the disk.
+/// Its git_commit is that of `provenance`, or of a shard whose build had changes that were not committed.
 /// @throws Failure: bad_data for gaps, overlaps and damaged shards; bad_input where `output` exists;
-/// machine_failed with
-///         the path and the reason where it cannot be written.
+/// machine_failed with the path and the reason where it cannot be written.
 void merge_shards(std::span<const ShardInfo> shards, const Study& study, const std::filesystem::path& output,
-                  RowRange rows, const PointStatistics& statistics,
+                  RowRange rows, const StatisticsOfPoints& statistics,
                   const Provenance& provenance = current_provenance());
 
 }  // namespace zerocount

@@ -80,6 +80,21 @@ void write_trace(hdf5::File& file, std::span<const TrialResult> results) {
   write_records(io, trace_fields(), 0, std::span<const TraceRecord>(records));
 }
 
+/// The regular files in `directory` whose names end in `extension`, in order of names.
+std::vector<fs::path> files_in(const fs::path& directory, const char* extension) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code unknown;  // of an entry that is gone, or of a link to nothing: no regular file
+    if (entry->path().extension() == extension && entry->is_regular_file(unknown)) {
+      files.push_back(entry->path());
+    }
+  }
+  if (error) fail_with(directory, "read the directory", error.value());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 bool by_rows(const ShardInfo& left, const ShardInfo& right) {
   return left.rows.first != right.rows.first ? left.rows.first < right.rows.first : left.path < right.path;
 }
@@ -112,6 +127,10 @@ void write_shard(const fs::path& path, const Study& study, std::int64_t first_ro
   publish(path);
 }
 
+std::vector<fs::path> shard_files(const fs::path& directory) {
+  return files_in(directory, ".h5");
+}
+
 ShardInfo inspect_shard(const fs::path& path, const Study& study) {
   const StudyFile file(path, Require::any_part);
   require_same_study(path, file.header(), study);
@@ -121,23 +140,21 @@ ShardInfo inspect_shard(const fs::path& path, const Study& study) {
 ShardSurvey list_shards(const fs::path& directory, const Study& study) {
   ShardSurvey survey;
   std::error_code error;
-  if (!fs::exists(directory, error)) return survey;
-  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
-    const fs::path& path = entry->path();
-    if (path.extension() == ".part") {
-      survey.unfinished.push_back(path);
-      continue;
-    }
+  const bool exists = fs::exists(directory, error);
+  if (error) fail_with(directory, "read the directory", error.value());
+  if (!exists) return survey;
+  survey.unfinished = files_in(directory, ".part");
+  for (const fs::path& path : shard_files(directory)) {
     try {
       survey.shards.push_back(inspect_shard(path, study));
+    } catch (const ForeignFile& foreign) {
+      survey.problems.push_back({path, foreign.what(), ShardProblem::Kind::foreign});
     } catch (const Failure& failure) {
-      survey.problems.push_back({path, failure.what()});
+      if (failure.code() != ExitCode::bad_data) throw;
+      survey.problems.push_back({path, failure.what(), ShardProblem::Kind::damaged});
     }
   }
-  if (error) fail_with(directory, "read the directory", error.value());
   std::sort(survey.shards.begin(), survey.shards.end(), by_rows);
-  std::sort(survey.problems.begin(), survey.problems.end(),
-            [](const ShardProblem& left, const ShardProblem& right) { return left.path < right.path; });
   return survey;
 }
 

@@ -1,19 +1,19 @@
 #include "results/storage/seal.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <openssl/evp.h>
 #include <sys/stat.h>
 
 #include "core/failure.hpp"
+#include "experiments/designs/sha256.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_descriptor.hpp"
 
@@ -21,6 +21,8 @@ namespace zerocount {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view seal_start = "zerocount-seal sha256 ";
 
 /// Reads up to `bytes.size()` bytes at the file's position; fewer at its end only.
 std::size_t read_some(const fs::path& path, const FileDescriptor& file, std::span<std::byte> bytes) {
@@ -35,27 +37,17 @@ std::size_t read_some(const fs::path& path, const FileDescriptor& file, std::spa
   return total;
 }
 
-void require_sha256(bool success) {
-  if (!success)
-    throw Failure(ExitCode::machine_failed, "the cryptography library of this machine has no SHA-256");
-}
-
 /// The seal of the first `length` bytes of the file. Leaves the file's position behind them.
 std::string seal_of(const fs::path& path, const FileDescriptor& file, std::size_t length) {
-  const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
-  require_sha256(context != nullptr && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1);
+  Sha256Hash hash;
   std::vector<std::byte> block(std::size_t{1} << 18);
   while (length > 0) {
     const std::size_t size = read_some(path, file, std::span(block).first(std::min(block.size(), length)));
     if (size == 0) fail_with(path, "read", EIO);
-    require_sha256(EVP_DigestUpdate(context.get(), block.data(), size) == 1);
+    hash.add(std::span(block).first(size));
     length -= size;
   }
-  std::array<unsigned char, 32> digest{};
-  require_sha256(EVP_DigestFinal_ex(context.get(), digest.data(), nullptr) == 1);
-  std::string text = "zerocount-seal sha256 ";
-  for (const unsigned char byte : digest) text += fmt::format("{:02x}", byte);
-  return text + "\n";
+  return fmt::format("{}{}\n", seal_start, hexadecimal(hash.digest()));
 }
 
 std::size_t size_of_file(const fs::path& path, const FileDescriptor& file) {
@@ -83,16 +75,19 @@ void require_seal(const fs::path& path) {
     expected = seal_of(path, file, size - seal_length);
     read_some(path, file, std::as_writable_bytes(std::span(found)));
   }
-  if (!found.starts_with("zerocount-seal sha256 ")) {
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: the seal at its end is missing: it was cut short, changed or "
-                              "never finished, or is no results file of zerocount",
-                              path.string()));
+  if (!found.starts_with(seal_start)) {
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: the seal at its end is missing: it was changed since it was written, or damaged, "
+                    "or is no results file of zerocount",
+                    path.string()));
   }
   if (found != expected) {
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: damaged or changed: the checksum at its end is not that of its contents",
-                              path.string()));
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: changed since it was written, or damaged: the checksum at its end is not that "
+                    "of its contents",
+                    path.string()));
   }
 }
 

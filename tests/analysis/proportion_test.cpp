@@ -58,10 +58,11 @@ double binomial(std::int64_t k, std::int64_t n, double p) {
 }
 
 /// Probability that the interval encloses p, by summing over all outcomes.
-double coverage(Interval (*interval)(std::int64_t, std::int64_t, double), std::int64_t n, double p) {
+double coverage(ConfidenceInterval (*interval)(std::int64_t, std::int64_t, double), std::int64_t n,
+                double p) {
   double sum = 0.0;
   for (std::int64_t k = 0; k <= n; ++k) {
-    const Interval bounds = interval(k, n, 0.95);
+    const ConfidenceInterval bounds = interval(k, n, 0.95);
     if (bounds.low <= p && p <= bounds.high) sum += binomial(k, n, p);
   }
   return sum;
@@ -69,8 +70,8 @@ double coverage(Interval (*interval)(std::int64_t, std::int64_t, double), std::i
 
 TEST(Proportion, BoundsEqualSciPys) {
   for (const Reference& reference : scipy) {
-    const Interval exact = clopper_pearson(reference.k, reference.n, reference.confidence);
-    const Interval score = wilson(reference.k, reference.n, reference.confidence);
+    const ConfidenceInterval exact = clopper_pearson(reference.k, reference.n, reference.confidence);
+    const ConfidenceInterval score = wilson(reference.k, reference.n, reference.confidence);
     EXPECT_NEAR(exact.low, reference.exact_low, 1e-11) << reference.k << " of " << reference.n;
     EXPECT_NEAR(exact.high, reference.exact_high, 1e-11) << reference.k << " of " << reference.n;
     EXPECT_NEAR(score.low, reference.wilson_low, 1e-13) << reference.k << " of " << reference.n;
@@ -92,7 +93,7 @@ TEST(Proportion, NoneAndAllHaveTheirClosedForms) {
 
 TEST(Proportion, NothingIsKnownWithoutTrials) {
   EXPECT_TRUE(std::isnan(rate(0, 0)));
-  for (const Interval bounds : {clopper_pearson(0, 0), wilson(0, 0)}) {
+  for (const ConfidenceInterval bounds : {clopper_pearson(0, 0), wilson(0, 0)}) {
     EXPECT_EQ(bounds.low, 0.0);
     EXPECT_EQ(bounds.high, 1.0);
   }
@@ -119,7 +120,7 @@ TEST(Proportion, WilsonCoversWithItsConfidenceOnAverageAndIsShorter) {
   for (int i = 1; i < 200; ++i) sum += coverage(wilson, 50, i / 200.0);
   EXPECT_NEAR(sum / 199.0, 0.95, 0.01);
   for (std::int64_t k = 5; k <= 45; ++k) {
-    const Interval exact = clopper_pearson(k, 50), score = wilson(k, 50);
+    const ConfidenceInterval exact = clopper_pearson(k, 50), score = wilson(k, 50);
     EXPECT_LT(score.high - score.low, exact.high - exact.low);
   }
 }

@@ -1,17 +1,13 @@
 #include "tests/analysis/study_files.hpp"
 
 #include <random>
-#include <stdexcept>
 #include <string>
-#include <system_error>
-
-#include <stdlib.h>
 
 #include "experiments/designs/sha256.hpp"
 #include "results/shards/merge.hpp"
 #include "results/shards/shard.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 
 Study plain_study(std::int64_t points, std::int64_t trials, std::int64_t moves) {
   Study study;
@@ -65,7 +61,7 @@ TrialRecord random_trial(std::int64_t row, std::int64_t moves) {
 }
 
 void write_study_file(const std::filesystem::path& path, const Study& study,
-                      const std::vector<TrialRecord>& trials) {
+                      const std::vector<TrialRecord>& trials, const std::vector<PointColumn>& statistics) {
   std::vector<TrialResult> results(trials.size());
   for (std::size_t row = 0; row < trials.size(); ++row) {
     results[row].row = static_cast<std::int64_t>(row);
@@ -77,18 +73,7 @@ void write_study_file(const std::filesystem::path& path, const Study& study,
   const std::filesystem::path shard = path.string() + ".shard.h5";
   write_shard(shard, study, 0, results);
   const std::vector<ShardInfo> shards{{shard, rows}};
-  merge_shards(shards, study, path, rows, {});
+  merge_shards(shards, study, path, rows, [&](const StudyFile&) { return statistics; });
 }
 
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "zerocount-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

@@ -6,8 +6,9 @@
 
 #include "core/trial/outcome.hpp"
 #include "experiments/study.hpp"
+#include "results/layout/layout.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 
 /// What a test says of one trial.
 struct TrialRecord {
@@ -23,20 +24,7 @@ TrialRecord random_trial(std::int64_t row, std::int64_t moves);
 
 /// Writes the results file of `study` with these trials, [row], by way of one shard in the folder of `path`.
 void write_study_file(const std::filesystem::path& path, const Study& study,
-                      const std::vector<TrialRecord>& trials);
+                      const std::vector<TrialRecord>& trials,
+                      const std::vector<PointColumn>& statistics = {});
 
-/// A folder that is removed with all it holds.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder();
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

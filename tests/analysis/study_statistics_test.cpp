@@ -7,18 +7,20 @@
 #include <gtest/gtest.h>
 
 #include "analysis/point_accumulator.hpp"
+#include "analysis/point_columns.hpp"
 #include "analysis/summary.hpp"
 #include "core/failure.hpp"
 #include "results/reading/study_file.hpp"
 #include "tests/analysis/study_files.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace zerocount {
 namespace {
 
-std::vector<test::TrialRecord> random_trials(const Study& study) {
-  std::vector<test::TrialRecord> trials;
+std::vector<testing::TrialRecord> random_trials(const Study& study) {
+  std::vector<testing::TrialRecord> trials;
   for (std::int64_t row = 0; row < trial_count(study); ++row)
-    trials.push_back(test::random_trial(row, study.moves));
+    trials.push_back(testing::random_trial(row, study.moves));
   return trials;
 }
 
@@ -27,11 +29,11 @@ std::string text_of(const Study& study, const std::vector<PointSummary>& points)
   return summary_json_text({study.name, study.point_labels, study.axes, {}, points, {}});
 }
 
-void expect_refused(const Study& study, const std::vector<test::TrialRecord>& trials,
+void expect_refused(const Study& study, const std::vector<testing::TrialRecord>& trials,
                     const std::string& place) {
-  const test::TemporaryFolder folder;
-  test::write_study_file(folder.path() / "study.h5", study, trials);
-  const StudyFile file(folder.path() / "study.h5");
+  const testing::TemporaryFolder folder;
+  testing::write_study_file(folder / "study.h5", study, trials);
+  const StudyFile file(folder / "study.h5");
   try {
     study_statistics(file);
     FAIL() << "expected a failure that names " << place;
@@ -44,14 +46,14 @@ void expect_refused(const Study& study, const std::vector<test::TrialRecord>& tr
 
 TEST(StudyStatistics, OfAFileAreThoseOfItsTrials) {
   // More trials and more jerks than are read at once, and points that do not end where a block does.
-  const Study study = test::plain_study(5, 1700, 2);
-  const std::vector<test::TrialRecord> trials = random_trials(study);
+  const Study study = testing::plain_study(5, 1700, 2);
+  const std::vector<testing::TrialRecord> trials = random_trials(study);
   std::vector<PointSummary> expected;
   std::size_t jerks = 0;
   for (std::int64_t point = 0; point < point_count(study); ++point) {
     PointAccumulator accumulator;
     for (std::int64_t index = 0; index < study.trials; ++index) {
-      const test::TrialRecord& trial = trials[static_cast<std::size_t>(point * study.trials + index)];
+      const testing::TrialRecord& trial = trials[static_cast<std::size_t>(point * study.trials + index)];
       accumulator.add(trial.outcome, trial.jerks);
       jerks += trial.jerks.size();
     }
@@ -59,23 +61,22 @@ TEST(StudyStatistics, OfAFileAreThoseOfItsTrials) {
   }
   ASSERT_GT(jerks, 65536U);
 
-  const test::TemporaryFolder folder;
-  test::write_study_file(folder.path() / "study.h5", study, trials);
-  EXPECT_EQ(text_of(study, study_statistics(StudyFile(folder.path() / "study.h5"))),
-            text_of(study, expected));
+  const testing::TemporaryFolder folder;
+  testing::write_study_file(folder / "study.h5", study, trials);
+  EXPECT_EQ(text_of(study, study_statistics(StudyFile(folder / "study.h5"))), text_of(study, expected));
 }
 
 TEST(StudyStatistics, EachPointHasAllOfItsTrialsAndNoOther) {
-  const Study study = test::plain_study(7, 3, 1);
-  std::vector<test::TrialRecord> trials(21);
+  const Study study = testing::plain_study(7, 3, 1);
+  std::vector<testing::TrialRecord> trials(21);
   for (std::int64_t row = 0; row < 21; ++row) {
     MoveOutcome move;
     move.outcome = row / 3 == 4 ? Outcome::zero_count : Outcome::oscillating;
     trials[static_cast<std::size_t>(row)].outcome.moves = {move};
   }
-  const test::TemporaryFolder folder;
-  test::write_study_file(folder.path() / "study.h5", study, trials);
-  const std::vector<PointSummary> points = study_statistics(StudyFile(folder.path() / "study.h5"));
+  const testing::TemporaryFolder folder;
+  testing::write_study_file(folder / "study.h5", study, trials);
+  const std::vector<PointSummary> points = study_statistics(StudyFile(folder / "study.h5"));
   ASSERT_EQ(points.size(), 7U);
   for (std::size_t point = 0; point < 7; ++point) {
     EXPECT_EQ(points[point].trials, 3);
@@ -84,34 +85,34 @@ TEST(StudyStatistics, EachPointHasAllOfItsTrialsAndNoOther) {
 }
 
 TEST(StudyStatistics, AFileThatContradictsItselfIsRefusedWithTheTrial) {
-  const Study study = test::plain_study(2, 10, 1);
-  std::vector<test::TrialRecord> trials = random_trials(study);
-  for (test::TrialRecord& trial : trials) {
+  const Study study = testing::plain_study(2, 10, 1);
+  std::vector<testing::TrialRecord> trials = random_trials(study);
+  for (testing::TrialRecord& trial : trials) {
     trial.jerks.clear();
     trial.outcome.moves[0].jerk_count = 0;
   }
   const Jerk jerk{0, 0.5, 0.01, 1, 1};
 
-  std::vector<test::TrialRecord> missing = trials;
+  std::vector<testing::TrialRecord> missing = trials;
   missing[13].outcome.moves[0].jerk_count = 1;
   expect_refused(study, missing, "trial 13");
 
-  std::vector<test::TrialRecord> shifted = missing;
+  std::vector<testing::TrialRecord> shifted = missing;
   shifted[14].jerks = {jerk};
   expect_refused(study, shifted, "trial 13");
 
-  std::vector<test::TrialRecord> left_over = trials;
+  std::vector<testing::TrialRecord> left_over = trials;
   left_over[19].jerks = {jerk};
   expect_refused(study, left_over, "beyond those");
 
-  std::vector<test::TrialRecord> unordered = trials;
+  std::vector<testing::TrialRecord> unordered = trials;
   unordered[5].outcome.moves[0].jerk_count = 2;
   unordered[5].jerks = {jerk, jerk};
   expect_refused(study, unordered, "trial 5");
 }
 
-TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
-  const Study study = parse_study(
+Study two_gains() {
+  return parse_study(
       "zerocount: 1\n"
       "name: two gains\n"
       "seed: 5\n"
@@ -121,10 +122,14 @@ TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
       "sweep: {cases: {low: {controller.ki: 3.85e-5}, high: {controller.ki: 4.0e-4}}}\n"
       "observed: {low: stable in all tests}\n",
       "test");
-  const std::vector<test::TrialRecord> trials = random_trials(study);
-  const test::TemporaryFolder folder;
-  test::write_study_file(folder.path() / "study.h5", study, trials);
-  const StudyFile file(folder.path() / "study.h5");
+}
+
+TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
+  const Study study = two_gains();
+  const std::vector<testing::TrialRecord> trials = random_trials(study);
+  const testing::TemporaryFolder folder;
+  testing::write_study_file(folder / "study.h5", study, trials, prediction_columns(study_predictions(study)));
+  const StudyFile file(folder / "study.h5");
   const StudySummary summary = summarise(file);
 
   EXPECT_EQ(summary.name, "two gains");
@@ -148,6 +153,57 @@ TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
 
   const nlohmann::ordered_json json = summary_json(summary);
   EXPECT_EQ(json["points"][0]["axes"]["case"], "low");
+}
+
+TEST(Summarise, TakesWhatTheCriteriaSayFromTheFile) {
+  const Study study = two_gains();
+  const testing::TemporaryFolder folder;
+  const std::vector<PointColumn> stored =
+      prediction_columns(std::vector<TheoryPrediction>{{30, 7, 2}, {30, 0, 30}});
+  testing::write_study_file(folder / "stored.h5", study, random_trials(study), stored);
+  const StudySummary summary = summarise(StudyFile(folder / "stored.h5"));
+  EXPECT_EQ(summary.predictions[0].stable, 7);
+  EXPECT_EQ(summary.predictions[0].unstable, 2);
+  EXPECT_EQ(summary.predictions[1].unstable, 30);
+}
+
+TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
+  const Study study = two_gains();
+  const testing::TemporaryFolder folder;
+  const auto expect_bad = [&](const std::vector<PointColumn>& columns, const std::string& words) {
+    std::filesystem::remove(folder / "bad.h5");
+    testing::write_study_file(folder / "bad.h5", study, random_trials(study), columns);
+    try {
+      summarise(StudyFile(folder / "bad.h5"));
+      ADD_FAILURE() << "expected a failure: " << words;
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), ExitCode::bad_data);
+      EXPECT_NE(std::string(failure.what()).find(words), std::string::npos) << failure.what();
+    }
+  };
+  std::vector<PointColumn> columns = prediction_columns(study_predictions(study));
+  columns[0].values[1] = 1.5;
+  expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: 1.5 is no share");
+  columns.erase(columns.begin());
+  expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: the dataset is missing");
+}
+
+TEST(Predictions, ComeBackFromTheirColumnsExactly) {
+  for (const std::int64_t trials : {1LL, 3LL, 7LL, 1000LL, 999983LL, 4000000007LL}) {
+    std::vector<TheoryPrediction> predictions;
+    for (std::int64_t k = 0; k < 200; ++k) {
+      const std::int64_t stable = k * 7919 * 104729 % (trials + 1);
+      predictions.push_back({trials, stable, trials - stable});
+    }
+    const std::vector<TheoryPrediction> back =
+        predictions_of(prediction_columns(predictions), trials, "file");
+    ASSERT_EQ(back.size(), predictions.size());
+    for (std::size_t i = 0; i < back.size(); ++i) {
+      EXPECT_EQ(back[i].trials, trials);
+      EXPECT_EQ(back[i].stable, predictions[i].stable);
+      EXPECT_EQ(back[i].unstable, predictions[i].unstable);
+    }
+  }
 }
 
 }  // namespace

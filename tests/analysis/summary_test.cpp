@@ -97,6 +97,16 @@ TEST(SummaryJson, HasTheKeysOfTheContract) {
   EXPECT_EQ(point["prediction"]["verdict"], "stable");
 }
 
+TEST(SummaryJson, CountsOfAMoveHaveTheNamesOfThoseOfTheTrials) {
+  const nlohmann::ordered_json json = summary_json(two_cases());
+  for (const auto& point : json["points"]) {
+    const auto& move = point["moves"][0];
+    EXPECT_EQ(move.size(), 8U);
+    for (const auto& [name, count] : move.items())
+      EXPECT_EQ(count, point[name]) << name;  // trials of one move
+  }
+}
+
 TEST(SummaryJson, WhatIsNotDefinedIsNull) {
   const auto json = nlohmann::json::parse(summary_json_text(two_cases()));
   const auto& lost = json["points"][1];

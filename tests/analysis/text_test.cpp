@@ -51,12 +51,5 @@ TEST(Text, ColumnsOfATableAlignWhateverTheScript) {
             "β     12\n");
 }
 
-TEST(Text, CsvFieldsAreQuotedWhereTheyMustBe) {
-  EXPECT_EQ(csv_field("plain text"), "plain text");
-  EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
-  EXPECT_EQ(csv_field("say \"no\""), "\"say \"\"no\"\"\"");
-  EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
-}
-
 }  // namespace
 }  // namespace zerocount

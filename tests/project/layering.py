@@ -1,5 +1,6 @@
-"""Each top-level folder includes only itself and the folders below it."""
+"""Each top-level folder includes only itself and those below it, and no type is defined in two headers."""
 
+import collections
 import pathlib
 import re
 import sys
@@ -12,8 +13,37 @@ FORBIDDEN_IN_CORE = re.compile(
     re.MULTILINE,
 )
 
+NAMESPACE = re.compile(r"^(?:inline )?namespace (\S+) \{")
+# A definition stands at the margin: what is indented is a member of something else.
+TYPE = re.compile(r"^(?:struct|class|enum(?: class| struct)?) (?:alignas\(.*?\) )?(\w+)[^;(]*(?:\{|$)|^using (\w+) =")
+
+
+def types_of(path):
+    """The names, with their namespace, of the types that a header defines."""
+    namespace = ""
+    for line in path.read_text(encoding="utf-8").splitlines():
+        opened = NAMESPACE.match(line)
+        if opened:
+            namespace = opened.group(1)
+        defined = TYPE.match(line)
+        if defined:
+            yield f"{namespace}::{defined.group(1) or defined.group(2)}"
+
+
+def types_defined_twice(root):
+    """Two types of one name break the one-definition rule, which no compiler or linker need notice."""
+    headers = collections.defaultdict(set)
+    for folder in [*LAYERS, "tests"]:
+        for path in sorted((root / folder).rglob("*.hpp")):
+            for name in types_of(path):
+                headers[name].add(path.relative_to(root))
+    for name, paths in headers.items():
+        if len(paths) > 1:
+            yield f"{name} is defined in {' and in '.join(map(str, sorted(paths)))}"
+
 
 def problems(root):
+    yield from types_defined_twice(root)
     for level, layer in enumerate(LAYERS):
         for path in sorted((root / layer).rglob("*.[ch]pp")):
             text = path.read_text(encoding="utf-8")

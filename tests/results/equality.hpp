@@ -7,17 +7,17 @@
 #include "results/layout/fields.hpp"
 #include "results/layout/layout.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 
 /// Equal in every bit of every field, NaN included.
 template <class Record>
-void expect_equal_records(const std::vector<Field<Record>>& fields, const std::vector<Record>& left,
+void expect_equal_records(const std::vector<RecordField<Record>>& fields, const std::vector<Record>& left,
                           const std::vector<Record>& right) {
   ASSERT_EQ(left.size(), right.size());
-  for (const Field<Record>& field : fields) {
+  for (const RecordField<Record>& field : fields) {
     EXPECT_EQ(gather(field, std::span<const Record>(left)), gather(field, std::span<const Record>(right)))
         << field.column.name;
   }
 }
 
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

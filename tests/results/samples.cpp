@@ -1,18 +1,14 @@
 #include "tests/results/samples.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <random>
 
-#include <stdlib.h>
-
 #include "experiments/designs/sha256.hpp"
 #include "results/layout/header.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -173,24 +169,4 @@ std::filesystem::path write_sample_file(const std::filesystem::path& directory, 
   return path;
 }
 
-TemporaryDirectory::TemporaryDirectory() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "zerocount-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary directory");
-  path_ = pattern;
-}
-
-TemporaryDirectory::~TemporaryDirectory() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::string read_bytes(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
-}
-
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

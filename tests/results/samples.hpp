@@ -2,14 +2,14 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "experiments/study.hpp"
 #include "results/shards/merge.hpp"
 #include "results/shards/shard.hpp"
+#include "tests/support/temporary_folder.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 
 /// A study with two sweep axes (numbers and a case), two inputs, one profile and one retained trial. Nothing
 /// reads its manifest, which is any text.
@@ -36,22 +36,4 @@ std::vector<PointColumn> sample_statistics(const StudyFile& file);
 std::filesystem::path write_sample_file(const std::filesystem::path& directory, const Study& study,
                                         std::int64_t size = 17);
 
-/// A directory that is removed with all it holds.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory();
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  ~TemporaryDirectory();
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string read_bytes(const std::filesystem::path& path);
-void write_bytes(const std::filesystem::path& path, const std::string& bytes);
-
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

@@ -1,44 +1,67 @@
-// A replayed trial is held against the recorded one, measure by measure.
+// A replayed trial is held against the recorded one: inputs, measures, jerks.
 #include "runners/replay.hpp"
+
+#include <limits>
 
 #include <gtest/gtest.h>
 
 namespace zerocount {
 namespace {
 
-MoveOutcome settled() {
+const std::vector<InputColumn> columns{{"friction.k1", "N m/rad", "stiffness"}};
+
+TrialResult settled() {
   MoveOutcome move;
   move.outcome = Outcome::zero_count;
   move.arrived = move.stable = true;
   move.settling_time = 0.1;
   move.holding_torque = 0.0123456789;
-  return move;
+  TrialResult result;
+  result.inputs = {110.0};
+  result.outcome.moves = {move, MoveOutcome{}};
+  result.jerks = {{0, 0.2, 0.001, 1, 1}};
+  return result;
 }
 
 TEST(Replay, OfTheSameTrialHasNoDifferences) {
-  EXPECT_TRUE(differences({settled(), MoveOutcome{}}, {settled(), MoveOutcome{}}).empty());
+  EXPECT_TRUE(differences(columns, settled(), settled()).empty());
 }
 
 TEST(Replay, ForgivesTheLastDigitOfAnotherMachine) {
-  MoveOutcome other = settled();
-  other.holding_torque *= 1.0 + 1e-12;
-  EXPECT_TRUE(differences({settled()}, {other}).empty());
+  TrialResult other = settled();
+  other.outcome.moves[0].holding_torque *= 1.0 + 1e-12;
+  other.inputs[0] *= 1.0 - 1e-13;
+  EXPECT_TRUE(differences(columns, settled(), other).empty());
 }
 
 TEST(Replay, NamesEveryMeasureThatDiffers) {
-  MoveOutcome other = settled();
-  other.outcome = Outcome::one_count;
-  other.jerk_count = 3;
-  other.holding_torque = 0.0124;
-  const std::vector<std::string> lines = differences({settled(), settled()}, {settled(), other});
+  TrialResult other = settled();
+  other.outcome.moves[1].outcome = Outcome::one_count;
+  other.outcome.moves[1].jerk_count = 3;
+  other.outcome.moves[0].holding_torque = 0.0124;
+  const std::vector<std::string> lines = differences(columns, settled(), other);
   ASSERT_EQ(lines.size(), 3u);
-  EXPECT_EQ(lines[0].rfind("move 1: outcome: recorded 0, replayed 1", 0), 0u) << lines[0];
+  EXPECT_EQ(lines[0].rfind("move 0: holding_torque: recorded 0.0123456789, replayed 0.0124", 0), 0u)
+      << lines[0];
+  EXPECT_EQ(lines[1].rfind("move 1: outcome: recorded 3, replayed 1", 0), 0u) << lines[1];
 }
 
 TEST(Replay, TellsNeverFromAValue) {
-  MoveOutcome other = settled();
-  other.settling_time = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(differences({settled()}, {other}).size(), 1u);
+  TrialResult other = settled();
+  other.outcome.moves[0].settling_time = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(differences(columns, settled(), other).size(), 1u);
+}
+
+TEST(Replay, LooksAtInputsAndJerksToo) {
+  TrialResult other = settled();
+  other.inputs[0] = 111.0;
+  other.jerks[0].onset = 0.3;
+  const std::vector<std::string> lines = differences(columns, settled(), other);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0], "input friction.k1: recorded 110, replayed 111");
+  EXPECT_EQ(lines[1].rfind("jerk 0: onset", 0), 0u) << lines[1];
+  other.jerks.clear();
+  EXPECT_EQ(differences(columns, settled(), other)[1], "jerks: recorded 1, replayed 0");
 }
 
 }  // namespace

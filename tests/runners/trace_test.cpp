@@ -6,7 +6,11 @@
 
 #include "core/trial/trial.hpp"
 #include "experiments/study.hpp"
+#include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
+#include "results/shards/shard.hpp"
+#include "runners/assemble.hpp"
+#include "runners/study_runner.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {
@@ -97,6 +101,23 @@ TEST_F(Trace, ReplaysFromTheFileAloneAndEqualsTheRetainedRecord) {
   ASSERT_EQ(kept.size(), 600u);  // trial 2 of both points
   EXPECT_EQ(kept[300].trial, 7);
   EXPECT_EQ(kept[300].k, 0);
+}
+
+TEST_F(Trace, ReportsAReplayThatIsNotTheRecordedTrial) {
+  const Study study = load_study(folder_.path() / "study.yaml");
+  std::vector<TrialResult> results;
+  for (std::int64_t row = 0; row < trial_count(study); ++row) results.push_back(run_study_trial(study, row));
+  results[3].outcome.moves[0].holding_torque += 2.4e-4;
+  const std::filesystem::path shard = folder_.path() / "shard.h5";
+  write_shard(shard, study, 0, results);
+  assemble(std::vector<ShardInfo>{{shard, all_rows(study)}}, study, folder_.path() / "altered.h5",
+           all_rows(study));
+
+  EXPECT_EQ(run({"trace", "altered.h5", "--trial", "2"}).code, 0);
+  const ProgramResult altered = run({"trace", "altered.h5", "--trial", "3"});
+  EXPECT_EQ(altered.code, 4);
+  EXPECT_NE(altered.err.find("move 0: holding_torque: recorded"), std::string::npos) << altered.err;
+  EXPECT_EQ(altered.err.find("creep"), std::string::npos) << altered.err;
 }
 
 TEST_F(Trace, LeavesNoHalfFile) {

@@ -8,7 +8,7 @@ namespace zerocount {
 namespace {
 
 bool matches(const std::string& text, const std::string& expression) {
-  return testing::Matcher<std::string>(testing::MatchesRegex(expression)).Matches(text);
+  return ::testing::Matcher<std::string>(::testing::MatchesRegex(expression)).Matches(text);
 }
 
 TEST(Provenance, NamesVersionCommitCompilerProcessorAndTime) {
@@ -20,6 +20,22 @@ TEST(Provenance, NamesVersionCommitCompilerProcessorAndTime) {
   EXPECT_FALSE(provenance.cpu.empty());
   EXPECT_TRUE(matches(provenance.created, "[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z"))
       << provenance.created;
+}
+
+TEST(Provenance, IsOfTheSameBuildByVersionAndCommit) {
+  const auto build = [](const char* version, const char* commit) {
+    return Provenance{version, commit, "GNU 12.2.0", "some processor", "2002-07-21T12:00:00Z"};
+  };
+  EXPECT_TRUE(same_build(build("0.1.0", "a1b2"), build("0.1.0", "a1b2")));
+  EXPECT_TRUE(same_build(build("0.1.0", "unknown"), build("0.1.0", "unknown")));
+  EXPECT_TRUE(same_build(build("0.1.0", "a1b2-dirty"), build("0.1.0", "a1b2")));
+  EXPECT_TRUE(same_build(build("0.1.0", "a1b2"), build("0.1.0", "a1b2-dirty")));
+  EXPECT_FALSE(same_build(build("0.1.0", "a1b2"), build("0.1.0", "c3d4")));
+  EXPECT_FALSE(same_build(build("0.1.0", "a1b2-dirty"), build("0.1.0", "c3d4-dirty")));
+  EXPECT_FALSE(same_build(build("0.1.0", "a1b2"), build("0.1.0", "unknown")));
+  EXPECT_FALSE(same_build(build("0.1.0", "a1b2"), build("0.2.0", "a1b2")));
+  EXPECT_TRUE(is_dirty(build("0.1.0", "a1b2-dirty")));
+  EXPECT_FALSE(is_dirty(build("0.1.0", "a1b2")));
 }
 
 }  // namespace

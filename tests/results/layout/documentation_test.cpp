@@ -7,10 +7,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "results/layout/walk.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/results/walk.hpp"
+#include "tests/support/raw_hdf5.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
@@ -77,8 +78,8 @@ std::optional<std::size_t> find_row(const Rows& rows, const hdf5::Dataset& datas
 }
 
 TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
-  const TemporaryDirectory directory;
-  const hdf5::File file = open_results(write_sample_file(directory.path(), sample_study()));
+  const TemporaryFolder directory;
+  const std::filesystem::path file = write_sample_file(directory.path(), sample_study());
   const Rows rows = documented("path");
   ASSERT_GT(rows.size(), 40U);
   std::set<std::size_t> used;
@@ -106,13 +107,12 @@ TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
 }
 
 TEST(Documentation, DescribesEveryAttributeOfTheRootAndNoOther) {
-  const TemporaryDirectory directory;
-  const hdf5::File file = open_results(write_sample_file(directory.path(), sample_study()));
+  const TemporaryFolder directory;
+  const std::filesystem::path file = write_sample_file(directory.path(), sample_study());
   std::set<std::string> described;
   for (const std::vector<std::string>& row : documented("attribute")) described.insert(row[0]);
-  const std::vector<std::string> present = file.attribute_names();
-  EXPECT_EQ(described, std::set<std::string>(present.begin(), present.end()));
+  EXPECT_EQ(described, attribute_names(file));
 }
 
 }  // namespace
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

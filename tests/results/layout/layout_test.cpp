@@ -7,7 +7,7 @@
 #include "tests/results/equality.hpp"
 #include "tests/results/samples.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 namespace {
 
 std::vector<std::string> names(const std::vector<Column>& columns) {
@@ -89,16 +89,16 @@ TEST(Fields, ScatterIsTheReverseOfGather) {
     for (const SampleRecord& record : result.trace) records.push_back({record, result.row});
   }
   std::vector<MoveOutcome> moves_back(moves.size());
-  for (const Field<MoveOutcome>& field : outcome_fields()) {
+  for (const RecordField<MoveOutcome>& field : outcome_fields()) {
     scatter(field, gather(field, std::span<const MoveOutcome>(moves)), std::span(moves_back));
   }
   expect_equal_records(outcome_fields(), moves, moves_back);
   std::vector<TraceRecord> records_back(records.size());
-  for (const Field<TraceRecord>& field : trace_fields()) {
+  for (const RecordField<TraceRecord>& field : trace_fields()) {
     scatter(field, gather(field, std::span<const TraceRecord>(records)), std::span(records_back));
   }
   expect_equal_records(trace_fields(), records, records_back);
 }
 
 }  // namespace
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

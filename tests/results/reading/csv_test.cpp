@@ -10,7 +10,7 @@
 
 #include "tests/results/samples.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 namespace {
 
 TEST(NumberText, ReadsBackToTheSameDouble) {
@@ -26,12 +26,21 @@ TEST(NumberText, IsShortAndNamesWhatIsNotANumber) {
   EXPECT_EQ(number_text(0.1), "0.1");
   EXPECT_EQ(number_text(-0.0), "-0");
   EXPECT_EQ(number_text(3.85e-5), "3.85e-05");
+  EXPECT_EQ(number_text(0.0005), "0.0005");
   EXPECT_EQ(number_text(std::numeric_limits<double>::quiet_NaN()), "nan");
+  EXPECT_EQ(number_text(-std::numeric_limits<double>::quiet_NaN()), "nan");
   EXPECT_EQ(number_text(-std::numeric_limits<double>::infinity()), "-inf");
 }
 
+TEST(CsvField, IsQuotedWhereItMustBe) {
+  EXPECT_EQ(csv_field("plain text"), "plain text");
+  EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
+  EXPECT_EQ(csv_field("say \"no\""), "\"say \"\"no\"\"\"");
+  EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
+}
+
 TEST(CsvFile, QuotesWhatNeedsQuotes) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   CsvFile csv(directory / "a.csv");
   csv.add("plain text");
   csv.add("a,b");
@@ -42,11 +51,12 @@ TEST(CsvFile, QuotesWhatNeedsQuotes) {
   csv.add(0.5);
   csv.add(std::int64_t{-7});
   csv.end_row();
-  EXPECT_FALSE(std::filesystem::exists(directory / "a.csv")) << "it should have its name only when finished";
   csv.finish();
+  EXPECT_FALSE(std::filesystem::exists(directory / "a.csv")) << "it should have its name only when published";
+  csv.publish();
   EXPECT_EQ(read_bytes(directory / "a.csv"),
             "plain text,\"a,b\",\"say \"\"no\"\"\",\"two\nlines\",\n0.5,-7\n");
 }
 
 }  // namespace
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

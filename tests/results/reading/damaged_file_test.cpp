@@ -6,29 +6,28 @@
 #include "results/reading/study_file.hpp"
 #include "results/storage/seal.hpp"
 #include "tests/results/failures.hpp"
-#include "tests/results/raw_hdf5.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/results/walk.hpp"
+#include "tests/support/raw_hdf5.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 namespace {
 
 namespace fs = std::filesystem;
 
-class DamagedFile : public testing::Test {
+class DamagedFile : public ::testing::Test {
  protected:
   fs::path copy(const std::string& name) const {
     fs::copy_file(original, directory / name);
     return directory / name;
   }
 
-  static void read_all(const fs::path& path) { StudyFile(path).verify(); }
-
   void expect_bad(const fs::path& path, const std::string& words, ExitCode code = ExitCode::bad_data) const {
-    expect_failure(code, words, [&] { read_all(path); });
-    expect_failure(code, path.filename(), [&] { read_all(path); });
+    expect_failure(code, words, [&] { read_everything(path); });
+    expect_failure(code, path.filename(), [&] { read_everything(path); });
   }
 
-  TemporaryDirectory directory;
+  TemporaryFolder directory;
   Study study = sample_study(2, 30, 2);
   fs::path original = write_sample_file(directory.path(), study);
 };
@@ -46,14 +45,14 @@ TEST_F(DamagedFile, OfAnotherFormatIsSaidToBe) {
   write_empty_hdf5(directory / "foreign.h5");
   expect_bad(directory / "foreign.h5", "the seal at its end is missing");
   seal(directory / "foreign.h5");
-  expect_bad(directory / "foreign.h5", "no results file of zerocount");
+  expect_bad(directory / "foreign.h5", "foreign.h5: not a results file of zerocount");
   replace_attribute(copy("format.h5"), "format", std::string("else"));
-  expect_bad(directory / "format.h5", "its format is 'else'; expected 'zerocount-study'");
+  expect_bad(directory / "format.h5", "format.h5: its format is 'else'; expected 'zerocount-study'");
 }
 
 TEST_F(DamagedFile, OfANewerVersionIsSaidToBe) {
   replace_attribute(copy("newer.h5"), "format_version", 2);
-  expect_bad(directory / "newer.h5", "its format version is 2, newer than the 1");
+  expect_bad(directory / "newer.h5", "newer.h5: its format version is 2, newer than the 1");
   replace_attribute(copy("older.h5"), "format_version", 0);
   expect_bad(directory / "older.h5", "its format version is 0; expected 1 to 1");
 }
@@ -65,7 +64,7 @@ TEST_F(DamagedFile, ThatWasNeverFinishedIsSaidToBe) {
 
 TEST_F(DamagedFile, ThatIsAShardIsIncomplete) {
   const ShardInfo shard = write_sample_shard(directory.path(), study, all_rows(study));
-  expect_bad(shard.path, "incomplete");
+  expect_failure(ExitCode::bad_data, "incomplete", [&] { StudyFile{shard.path}; });
 }
 
 TEST_F(DamagedFile, WhoseAttributesContradictTheContentsIsFound) {
@@ -82,11 +81,11 @@ TEST_F(DamagedFile, WhoseAttributesContradictTheContentsIsFound) {
 TEST_F(DamagedFile, ThatAnotherProgramChangedIsRefused) {
   const fs::path path = copy("changed.h5");
   replace_attribute(path, "name", std::string("changed"));
-  read_all(path);  // sealed anew
+  read_everything(path);  // sealed anew
   std::string bytes = read_bytes(path);
   bytes[bytes.size() - 5] ^= 1;
   write_bytes(path, bytes);
-  expect_bad(path, "damaged or changed");
+  expect_bad(path, "changed since it was written, or damaged");
 }
 
 TEST_F(DamagedFile, WithOneFlippedBitOfAColumnFailsItsChecksums) {
@@ -97,7 +96,7 @@ TEST_F(DamagedFile, WithOneFlippedBitOfAColumnFailsItsChecksums) {
     std::string damaged = bytes;
     damaged[chunk_address(original, column) + 5] ^= 4;
     write_bytes(path, damaged);
-    expect_bad(path, "damaged or changed");
+    expect_bad(path, "changed since it was written, or damaged");
     unseal(path);
     seal(path);
     expect_bad(path, column);
@@ -109,7 +108,7 @@ TEST_F(DamagedFile, WithOneChangedLetterOfALabelIsFound) {
   std::string bytes = read_bytes(original);
   bytes[bytes.find("point 1")] = 'P';
   write_bytes(directory / "label.h5", bytes);
-  expect_bad(directory / "label.h5", "damaged or changed");
+  expect_bad(directory / "label.h5", "changed since it was written, or damaged");
 }
 
 TEST_F(DamagedFile, CutAnywhereIsBadData) {
@@ -137,4 +136,4 @@ TEST_F(DamagedFile, WithRandomBytesAnywhereIsBadData) {
 }
 
 }  // namespace
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

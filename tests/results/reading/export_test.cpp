@@ -9,7 +9,7 @@
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,9 +37,9 @@ std::vector<std::vector<std::string>> read_table(const fs::path& path) {
   return rows;
 }
 
-class Export : public testing::Test {
+class Export : public ::testing::Test {
  protected:
-  TemporaryDirectory directory;
+  TemporaryFolder directory;
   Study study = sample_study();
   StudyFile file{write_sample_file(directory.path(), study)};
   fs::path out = directory / "csv";
@@ -114,7 +114,7 @@ TEST_F(Export, NeverOverwrites) {
 }
 
 TEST(ExportOfAPart, HasItsOwnTrialsOnly) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study();
   const RowRange rows{30, 25};
   const auto shards = write_sample_shards(directory / "shards", study, rows, 10);
@@ -127,4 +127,4 @@ TEST(ExportOfAPart, HasItsOwnTrialsOnly) {
 }
 
 }  // namespace
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

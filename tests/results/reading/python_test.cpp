@@ -5,7 +5,7 @@
 
 #include "tests/results/samples.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 namespace {
 
 /// Opens the file with the libraries that its users have; their absence is a failure too.
@@ -19,12 +19,12 @@ void expect_python_opens(const std::filesystem::path& path, const std::filesyste
 }
 
 TEST(Python, OpensAFileWithH5pyXarrayAndNetcdf) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   expect_python_opens(write_sample_file(directory.path(), sample_study()), directory / "output");
 }
 
 TEST(Python, OpensAFileWhoseTablesAreEmpty) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   Study study = sample_study(1, 4, 1);
   study.overrides.clear();
   study.profiles.clear();
@@ -42,4 +42,4 @@ TEST(Python, OpensAFileWhoseTablesAreEmpty) {
 }
 
 }  // namespace
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

@@ -10,10 +10,10 @@
 
 #include "results/layout/header.hpp"
 #include "results/shards/merge.hpp"
-#include "tests/results/raw_hdf5.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/raw_hdf5.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 namespace {
 
 /// What a run does: looks at what is there, and writes the rest as shards.
@@ -59,7 +59,7 @@ int kill_until_finished(const std::filesystem::path& directory, const Study& stu
 }
 
 TEST(KilledWriter, LeavesOnlyWholeShardsAndTheRestResumes) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study(3, 40, 2);
   const std::filesystem::path reference = write_sample_file(directory.path(), study, 50);
   std::mt19937 random(13);
@@ -77,7 +77,7 @@ TEST(KilledWriter, LeavesOnlyWholeShardsAndTheRestResumes) {
 }
 
 TEST(KilledWriter, OfAMergeLeavesNoOutputOrAWholeOne) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study(3, 40, 2);
   const std::filesystem::path reference = write_sample_file(directory.path(), study, 50);
   const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 20);
@@ -95,4 +95,4 @@ TEST(KilledWriter, OfAMergeLeavesNoOutputOrAWholeOne) {
 }
 
 }  // namespace
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

@@ -11,10 +11,11 @@
 #include "results/storage/durable_file.hpp"
 #include "tests/results/equality.hpp"
 #include "tests/results/failures.hpp"
-#include "tests/results/raw_hdf5.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/results/walk.hpp"
+#include "tests/support/raw_hdf5.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,10 +41,10 @@ fs::path merged(const fs::path& path, const Study& study, std::span<const ShardI
 }
 
 TEST(Merge, KeepsEverythingOfEveryTrial) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study(4, 50, 3);
   const StudyFile file(write_sample_file(directory.path(), study));
-  file.verify();
+  expect_sound(file.path());
   EXPECT_TRUE(file.header().complete);
   EXPECT_EQ(file.header().seed, study.seed);
   EXPECT_EQ(file.moves(), 3);
@@ -68,7 +69,7 @@ TEST(Merge, KeepsEverythingOfEveryTrial) {
 }
 
 TEST(Merge, KeepsWhatIsKnownOfThePoints) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study();
   const StudyFile file(write_sample_file(directory.path(), study));
   EXPECT_EQ(file.point_labels(), study.point_labels);
@@ -88,7 +89,7 @@ TEST(Merge, KeepsWhatIsKnownOfThePoints) {
 }
 
 TEST(Merge, TabulatesTheProfiles) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study();
   const StudyFile file(write_sample_file(directory.path(), study));
   ASSERT_EQ(file.profiles().size(), 1U);
@@ -101,7 +102,7 @@ TEST(Merge, TabulatesTheProfiles) {
 }
 
 TEST(Merge, ReadsOneMeasureAsNumbers) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study();
   const StudyFile file(write_sample_file(directory.path(), study));
   const std::vector<MoveOutcome> outcomes = file.outcomes({10, 30});
@@ -116,7 +117,7 @@ TEST(Merge, ReadsOneMeasureAsNumbers) {
 }
 
 TEST(Merge, GivesTheSameBytesForAnyDivisionIntoShards) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study(3, 70, 2);
   std::mt19937 random(11);
   const std::vector<ShardInfo> one = write_sample_shards(directory / "one", study, all_rows(study), 1000);
@@ -133,7 +134,7 @@ TEST(Merge, GivesTheSameBytesForAnyDivisionIntoShards) {
 }
 
 TEST(Merge, GivesTheSameBytesAcrossManyChunks) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   Study study = sample_study(2, chunk_elements + 700, 1);
   study.retained_trials.clear();
   const fs::path coarse = merged(directory / "coarse.h5", study,
@@ -142,11 +143,11 @@ TEST(Merge, GivesTheSameBytesAcrossManyChunks) {
                                write_sample_shards(directory / "fine", study, all_rows(study), 5555));
   EXPECT_EQ(stored_datasets(coarse), stored_datasets(fine));
   EXPECT_EQ(StudyFile(fine).trace_count(), 0);
-  StudyFile(fine).verify();
+  expect_sound(fine);
 }
 
 TEST(Merge, JoinsPartsAsItJoinsShards) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study(3, 50, 2);
   const std::vector<ShardInfo> shards = write_sample_shards(directory / "shards", study, all_rows(study), 13);
   const fs::path whole = merged(directory / "whole.h5", study, shards);
@@ -159,7 +160,7 @@ TEST(Merge, JoinsPartsAsItJoinsShards) {
     const StudyFile part(parts.back(), Require::any_part);
     EXPECT_FALSE(part.header().complete);
     EXPECT_TRUE(part.statistics().empty());
-    part.verify();
+    expect_sound(parts.back());
     expect_failure(ExitCode::bad_data, "incomplete: it holds trials", [&] { StudyFile{parts.back()}; });
   }
   EXPECT_EQ(stored_datasets(merged(directory / "joined.h5", study, merge_inputs(parts, study))),
@@ -167,18 +168,18 @@ TEST(Merge, JoinsPartsAsItJoinsShards) {
 }
 
 TEST(Merge, TakesDirectoriesOfShardsAndFindsTheStudyInThem) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study();
   write_sample_shards(directory / "shards", study, all_rows(study), 25);
   const std::vector<fs::path> inputs{directory / "shards"};
   const FileHeader header = first_header(inputs);
   EXPECT_EQ(header.manifest, study.manifest_text);
   EXPECT_EQ(header.overrides, study.overrides);
-  StudyFile(merged(directory / "all.h5", study, merge_inputs(inputs, study))).verify();
+  expect_sound(merged(directory / "all.h5", study, merge_inputs(inputs, study)));
 }
 
 TEST(Merge, OfAStudyWithoutAxesInputsProfilesJerksOrOverrides) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   Study study = sample_study(1, 5, 1);
   study.axes.clear();
   study.input_columns.clear();
@@ -193,7 +194,7 @@ TEST(Merge, OfAStudyWithoutAxesInputsProfilesJerksOrOverrides) {
   const std::vector<ShardInfo> shards{{directory / "shard.h5", {0, 5}}};
   merge_shards(shards, study, directory / "all.h5", {0, 5}, {});
   const StudyFile file(directory / "all.h5");
-  file.verify();
+  expect_sound(file.path());
   EXPECT_EQ(file.jerk_count(), 0);
   EXPECT_TRUE(file.jerks({0, 5}).empty());
   EXPECT_TRUE(file.has_trace());
@@ -203,7 +204,7 @@ TEST(Merge, OfAStudyWithoutAxesInputsProfilesJerksOrOverrides) {
 }
 
 TEST(Merge, RefusesGapsOverlapsAndShardsOutside) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study();
   std::vector<ShardInfo> shards = write_sample_shards(directory / "shards", study, all_rows(study), 40);
   const fs::path output = directory / "all.h5";
@@ -223,7 +224,7 @@ TEST(Merge, RefusesGapsOverlapsAndShardsOutside) {
 }
 
 TEST(Merge, RefusesShardsOfAnotherStudyOrFormat) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study();
   Study other = study;
   other.study_sha256 = "another";
@@ -238,8 +239,32 @@ TEST(Merge, RefusesShardsOfAnotherStudyOrFormat) {
   expect_failure(ExitCode::bad_input, "no shards", [&] { merge_inputs(empty, study); });
 }
 
+TEST(Merge, RefusesTrialsOfAnotherBuild) {
+  const TemporaryFolder directory;
+  const Study study = sample_study();
+  Provenance another = sample_provenance();
+  another.git_commit = std::string(40, '0');
+  const std::vector<fs::path> inputs{directory / "shard.h5"};
+  write_shard(inputs[0], study, 0, sample_results(study, all_rows(study)), another);
+  expect_failure(ExitCode::bad_data, "finish with the same build", [&] { merge_inputs(inputs, study); });
+}
+
+TEST(Merge, RecordsThatAShardWasMadeFromChangedSources) {
+  const TemporaryFolder directory;
+  const Study study = sample_study();
+  Provenance clean = sample_provenance();
+  clean.git_commit = "a1b2";
+  Provenance changed = clean;
+  changed.git_commit = "a1b2-dirty";
+  const std::vector<ShardInfo> shards{{directory / "a.h5", {0, 50}}, {directory / "b.h5", {50, 70}}};
+  write_shard(shards[0].path, study, 0, sample_results(study, shards[0].rows), clean);
+  write_shard(shards[1].path, study, 50, sample_results(study, shards[1].rows), changed);
+  merge_shards(shards, study, directory / "all.h5", all_rows(study), {}, clean);
+  EXPECT_EQ(StudyFile(directory / "all.h5").header().provenance.git_commit, "a1b2-dirty");
+}
+
 TEST(Merge, NeverOverwrites) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study();
   const fs::path path = write_sample_file(directory.path(), study);
   const std::string before = read_bytes(path);
@@ -250,11 +275,11 @@ TEST(Merge, NeverOverwrites) {
 }
 
 TEST(Merge, LeavesNothingWhereTheStatisticsFail) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study();
   const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 40);
   const fs::path output = directory / "all.h5";
-  const PointStatistics failing = [](const StudyFile&) -> std::vector<PointColumn> {
+  const StatisticsOfPoints failing = [](const StudyFile&) -> std::vector<PointColumn> {
     throw std::runtime_error("no");
   };
   EXPECT_THROW(merge_shards(shards, study, output, all_rows(study), failing), std::runtime_error);
@@ -263,4 +288,4 @@ TEST(Merge, LeavesNothingWhereTheStatisticsFail) {
 }
 
 }  // namespace
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

@@ -11,14 +11,14 @@
 #include "results/storage/durable_file.hpp"
 #include "tests/results/equality.hpp"
 #include "tests/results/failures.hpp"
-#include "tests/results/raw_hdf5.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/raw_hdf5.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 namespace {
 
 TEST(Shard, ReadsBackWhatWasWritten) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study();
   const RowRange rows{35, 50};
   const ShardInfo shard = write_sample_shard(directory.path(), study, rows);
@@ -38,14 +38,14 @@ TEST(Shard, ReadsBackWhatWasWritten) {
 }
 
 TEST(Shard, HasItsNameOnlyWhenItIsWhole) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const ShardInfo shard = write_sample_shard(directory.path(), sample_study(), {0, 5});
   EXPECT_TRUE(std::filesystem::exists(shard.path));
   EXPECT_FALSE(std::filesystem::exists(part_of(shard.path)));
 }
 
 TEST(Shard, RefusesResultsThatAreNotItsRows) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study();
   std::vector<TrialResult> results = sample_results(study, {0, 5});
   EXPECT_THROW(write_shard(directory / "a.h5", study, 1, results), std::invalid_argument);
@@ -60,20 +60,23 @@ TEST(ShardSurvey, OfNoDirectoryIsEmpty) {
 }
 
 TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Study study = sample_study();
   const std::vector<ShardInfo> good = write_sample_shards(directory.path(), study, {0, 30}, 10);
   Study other = sample_study(3, 40);
   other.study_sha256 = "0";
-  write_bytes(directory / "foreign.h5", "no HDF5 at all");
+  write_bytes(directory / "text.h5", "no HDF5 at all");
   write_shard(directory / "other.h5", other, 40, sample_results(other, {40, 5}));
   write_shard(directory / "newer.h5", study, 50, sample_results(study, {50, 5}));
   replace_attribute(directory / "newer.h5", "format_version", 99);
   write_shard(directory / "unmarked.h5", study, 60, sample_results(study, {60, 5}));
   remove_attribute(directory / "unmarked.h5", "finished");
-  Provenance earlier = current_provenance();
-  earlier.zerocount_version = "0.0.9";
-  write_shard(directory / "earlier.h5", study, 70, sample_results(study, {70, 5}), earlier);
+  Provenance another = current_provenance();
+  another.zerocount_version = "0.0.9";
+  write_shard(directory / "earlier.h5", study, 70, sample_results(study, {70, 5}), another);
+  another = current_provenance();
+  another.git_commit = std::string(40, '0');
+  write_shard(directory / "commit.h5", study, 75, sample_results(study, {75, 5}), another);
   const std::string whole = read_bytes(good[0].path);
   write_bytes(directory / "short.h5", whole.substr(0, whole.size() / 2));
   write_bytes(directory / "trials-000000000077-000000000078.h5.part", whole.substr(0, 1000));
@@ -81,21 +84,54 @@ TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
   const ShardSurvey survey = list_shards(directory.path(), study);
   ASSERT_EQ(survey.shards.size(), good.size());
   for (std::size_t i = 0; i < good.size(); ++i) EXPECT_EQ(survey.shards[i].rows, good[i].rows);
-  const std::vector<std::pair<std::string, std::string>> expected{
-      {"earlier.h5", "written by zerocount 0.0.9"},    {"foreign.h5", "not in the HDF5 format"},
-      {"newer.h5", "its format version is 99, newer"}, {"other.h5", "of another study"},
-      {"short.h5", "seal at its end is missing"},      {"unmarked.h5", "never finished"}};
+  using Kind = ShardProblem::Kind;
+  struct Expected {
+    std::string file;
+    std::string words;
+    Kind kind;
+  };
+  const std::vector<Expected> expected{
+      {"commit.h5", "(commit 0000000000000000000000000000000000000000), and this is", Kind::foreign},
+      {"earlier.h5", "run by zerocount 0.0.9", Kind::foreign},
+      {"newer.h5", "newer.h5: its format version is 99, newer", Kind::foreign},
+      {"other.h5", "of another study", Kind::foreign},
+      {"short.h5", "seal at its end is missing", Kind::damaged},
+      {"text.h5", "not in the HDF5 format", Kind::damaged},
+      {"unmarked.h5", "never finished", Kind::damaged}};
   ASSERT_EQ(survey.problems.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_EQ(survey.problems[i].path.filename(), expected[i].first);
-    EXPECT_NE(survey.problems[i].problem.find(expected[i].second), std::string::npos)
-        << survey.problems[i].problem;
-    EXPECT_NE(survey.problems[i].problem.find(expected[i].first), std::string::npos)
-        << survey.problems[i].problem;
+    const ShardProblem& found = survey.problems[i];
+    EXPECT_EQ(found.path.filename(), expected[i].file);
+    EXPECT_NE(found.problem.find(expected[i].words), std::string::npos) << found.problem;
+    EXPECT_NE(found.problem.find(expected[i].file), std::string::npos) << found.problem;
+    EXPECT_EQ(found.kind, expected[i].kind) << found.problem;
   }
   ASSERT_EQ(survey.unfinished.size(), 1U);
   remove_unfinished(survey);
   EXPECT_FALSE(std::filesystem::exists(survey.unfinished[0]));
+}
+
+TEST(ShardSurvey, LeavesAloneWhatIsNoShardByItsName) {
+  const TemporaryFolder directory;
+  const Study study = sample_study();
+  const ShardInfo shard = write_sample_shard(directory.path(), study, {0, 5});
+  std::filesystem::copy_file(shard.path, directory / "trials.h5.damaged");
+  directory.write("notes.txt", "mine");
+  std::filesystem::create_directory(directory / "folder.h5");
+  std::filesystem::create_directory(directory / "folder.part");
+  const ShardSurvey survey = list_shards(directory.path(), study);
+  EXPECT_EQ(survey.shards.size(), 1U);
+  EXPECT_TRUE(survey.problems.empty() && survey.unfinished.empty());
+  EXPECT_EQ(shard_files(directory.path()), std::vector<std::filesystem::path>{shard.path});
+}
+
+TEST(ShardSurvey, DoesNotTakeAFailureToReadForDamage) {
+  const TemporaryFolder directory;
+  const Study study = sample_study();
+  // To read the memory of a process at address 0 is an I/O error, for root too.
+  std::filesystem::create_symlink("/proc/self/mem", directory / "unreadable.h5");
+  expect_failure(ExitCode::machine_failed, "unreadable.h5: cannot read: Input/output error",
+                 [&] { list_shards(directory.path(), study); });
 }
 
 TEST(MissingRanges, AreTheRowsInNoShard) {
@@ -124,4 +160,4 @@ TEST(MissingRanges, AreTheRowsInNoShard) {
 }
 
 }  // namespace
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

@@ -13,11 +13,11 @@
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 namespace {
 
 TEST(OutputLock, IsHeldByOneAtATime) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const std::filesystem::path output = directory / "all.h5";
   {
     const OutputLock lock(output);
@@ -29,13 +29,13 @@ TEST(OutputLock, IsHeldByOneAtATime) {
 }
 
 TEST(OutputLock, LeavesNoFile) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   { const OutputLock lock(directory / "all.h5"); }
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
 }
 
 TEST(OutputLock, HoldsAgainstOtherProcessesUntilItsOwnDies) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const std::filesystem::path output = directory / "all.h5";
   int ready[2] = {-1, -1};
   ASSERT_EQ(::pipe(ready), 0);
@@ -54,7 +54,7 @@ TEST(OutputLock, HoldsAgainstOtherProcessesUntilItsOwnDies) {
 }
 
 TEST(OutputLock, IsNeverHeldTwiceWhileManyTry) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const std::filesystem::path output = directory / "all.h5";
   std::atomic<int> holders{0};
   std::atomic<int> taken{0};
@@ -83,4 +83,4 @@ TEST(OutputLock, SaysWhereItCannotBeMade) {
 }
 
 }  // namespace
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

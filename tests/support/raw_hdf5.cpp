@@ -1,4 +1,4 @@
-#include "tests/results/raw_hdf5.hpp"
+#include "tests/support/raw_hdf5.hpp"
 
 #include <stdexcept>
 #include <vector>
@@ -7,7 +7,7 @@
 
 #include "results/storage/seal.hpp"
 
-namespace zerocount::test {
+namespace zerocount::testing {
 namespace {
 
 hid_t checked(hid_t id) {
@@ -17,7 +17,8 @@ hid_t checked(hid_t id) {
 
 hid_t open_file(const std::filesystem::path& path, unsigned flags) {
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);  // this and the next as in files that a test has open
+  H5Pset_file_locking(access, false, true);
   const hid_t file = H5Fopen(path.c_str(), flags, access);
   H5Pclose(access);
   return checked(file);
@@ -99,6 +100,18 @@ std::map<std::string, std::string> stored_datasets(const std::filesystem::path& 
   return datasets;
 }
 
+std::set<std::string> attribute_names(const std::filesystem::path& path) {
+  const hid_t file = open_file(path, H5F_ACC_RDONLY);
+  std::set<std::string> names;
+  const auto visit_name = [](hid_t, const char* name, const H5A_info_t*, void* found) -> herr_t {
+    static_cast<std::set<std::string>*>(found)->insert(name);
+    return 0;
+  };
+  H5Aiterate2(file, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit_name, &names);
+  H5Fclose(file);
+  return names;
+}
+
 void replace_attribute(const std::filesystem::path& path, const std::string& name, std::int64_t value) {
   replace(path, name, H5T_NATIVE_INT64, &value);
 }
@@ -141,4 +154,4 @@ std::uint64_t chunk_address(const std::filesystem::path& path, const std::string
   return address;
 }
 
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

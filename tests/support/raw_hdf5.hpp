@@ -3,14 +3,18 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 
-namespace zerocount::test {
+namespace zerocount::testing {
 
 /// What is stored of every dataset of a file, by path: extent, type, filters, and the bytes of every chunk as
 /// they stand on the disk (for texts, which the library keeps elsewhere, the texts). Read with the library
 /// alone.
 std::map<std::string, std::string> stored_datasets(const std::filesystem::path& path);
+
+/// Names of the attributes of the root group.
+std::set<std::string> attribute_names(const std::filesystem::path& path);
 
 /// Changes an attribute of the root group, and seals the file anew.
 void replace_attribute(const std::filesystem::path& path, const std::string& name, std::int64_t value);
@@ -26,4 +30,4 @@ void unseal(const std::filesystem::path& path);
 /// Where in the file the first chunk of a dataset is stored.
 std::uint64_t chunk_address(const std::filesystem::path& path, const std::string& dataset);
 
-}  // namespace zerocount::test
+}  // namespace zerocount::testing

@@ -1,0 +1,24 @@
+#include "analysis/outcome_counts.hpp"
+
+#include <fmt/format.h>
+
+#include "core/failure.hpp"
+
+namespace zerocount {
+
+std::int64_t OutcomeCounts::*counter_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::zero_count:
+      return &OutcomeCounts::zero_count;
+    case Outcome::one_count:
+      return &OutcomeCounts::one_count;
+    case Outcome::oscillating:
+      return &OutcomeCounts::oscillating;
+    case Outcome::nonfinite:
+      return &OutcomeCounts::nonfinite;
+  }
+  throw Failure(ExitCode::bad_data,
+                fmt::format("a move with outcome {}; expected 0 to 3", static_cast<int>(outcome)));
+}
+
+}  // namespace zerocount

@@ -1,0 +1,43 @@
+#include "results/storage/seal.hpp"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "experiments/designs/sha256.hpp"
+#include "tests/results/failures.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+TEST(Seal, IsTheChecksumOfEverythingBeforeIt) {
+  const TemporaryFolder folder;
+  std::mt19937 random(19);
+  for (const std::size_t size : {0U, 1U, 100U, (1U << 18) - 1, 1U << 18, (1U << 19) + 5}) {
+    std::string bytes(size, '\0');
+    for (char& byte : bytes) byte = static_cast<char>(random());
+    const std::filesystem::path path = folder.write("file", bytes);
+    seal(path);
+    const std::string text = "zerocount-seal sha256 " + sha256_hex(bytes) + "\n";
+    EXPECT_EQ(text.size(), seal_length);
+    EXPECT_TRUE(folder.read("file") == bytes + text) << size;
+    if (size > 0) require_seal(path);
+  }
+}
+
+TEST(Seal, ThatIsMissingOrWrongMeansChangedOrDamaged) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path =
+      folder.write("file", "some contents, longer than a seal" + std::string(200, '.'));
+  const std::string words = "changed since it was written, or damaged";
+  expect_failure(ExitCode::bad_data, words, [&] { require_seal(path); });
+  seal(path);
+  std::string bytes = folder.read("file");
+  bytes[3] = 'E';
+  folder.write("file", bytes);
+  expect_failure(ExitCode::bad_data, words, [&] { require_seal(path); });
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "results/hdf5/hdf5.hpp"
+
+namespace zerocount::testing {
+
+/// Calls `visit` for every dataset of a results file, in order of paths.
+void for_each_dataset(const std::filesystem::path& path,
+                      const std::function<void(const hdf5::Dataset&)>& visit);
+
+/// Opens a results file (a part or a shard too) and reads every dataset, so that HDF5's checksums are
+/// compared.
+/// @throws Failure (bad_data) for the first that does not read.
+void read_everything(const std::filesystem::path& path);
+
+/// Expects that all of a results file reads, and that every numbering of its trials counts as it should.
+void expect_sound(const std::filesystem::path& path);
+
+}  // namespace zerocount::testing

@@ -34,6 +34,20 @@ constexpr std::string_view prediction_legend =
     "sliding, and\n"
     "in which its criterion (7) is exceeded, which rules it out; by the friction where the trial starts\n";
 
+/// A line for every point with trials whose motion was lost: they count as failures, and the reader must
+/// know.
+std::string nonfinite_notes(const StudySummary& summary) {
+  std::string notes;
+  for (std::size_t i = 0; i < summary.points.size(); ++i) {
+    const std::int64_t lost = summary.points[i].outcomes.nonfinite;
+    if (lost == 0) continue;
+    notes += fmt::format(
+        "{}: {} of {} trials nonfinite: the motion left the finite numbers or could not be followed\n",
+        printable(summary.labels[i]), lost, summary.points[i].trials);
+  }
+  return notes;
+}
+
 }  // namespace
 
 std::string summary_table(const StudySummary& summary) {
@@ -72,8 +86,8 @@ std::string summary_table(const StudySummary& summary) {
     if (with_observed) row.push_back(printable(observed_at(summary, static_cast<std::int64_t>(i))));
     cells.push_back(std::move(row));
   }
-  return printable(summary.name) + "\n\n" + aligned_table(cells, numeric) + "\n" + std::string(legend) +
-         std::string(with_predictions ? prediction_legend : "");
+  return printable(summary.name) + "\n\n" + aligned_table(cells, numeric) + nonfinite_notes(summary) + "\n" +
+         std::string(legend) + std::string(with_predictions ? prediction_legend : "");
 }
 
 }  // namespace zerocount

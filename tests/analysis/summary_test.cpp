@@ -176,6 +176,13 @@ TEST(SummaryTable, HasARowPerPointWithItsRateItsBoundsAndWhatIsKnownOfIt) {
   }
 }
 
+TEST(SummaryTable, NamesThePointsThatLostTrials) {
+  StudySummary summary = two_cases();
+  EXPECT_EQ(summary_table(summary).find("nonfinite"), std::string::npos);
+  summary.points[1].outcomes.nonfinite = 3;
+  EXPECT_NE(summary_table(summary).find("high, gain: 3 of 7 trials nonfinite"), std::string::npos);
+}
+
 TEST(SummaryTable, LeavesOutWhatNoPointHas) {
   StudySummary summary = two_cases();
   summary.observed.clear();

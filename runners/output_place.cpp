@@ -9,7 +9,7 @@
 namespace zerocount {
 
 std::filesystem::path output_place(const Arguments& arguments) {
-  const std::filesystem::path output = arguments.required("output");
+  std::filesystem::path output = arguments.required("output");
   if (!output.has_filename() || std::filesystem::is_directory(output)) {
     arguments.refuse(fmt::format("option '--output': '{}' is a folder; name a file in it", output.string()));
   }

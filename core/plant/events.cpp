@@ -22,14 +22,6 @@ Series scaled_difference(double constant, double factor, Series series) {
   return series;
 }
 
-/// dxs/dt, whose k-th coefficient is (k+1)·xs[k+1].
-std::array<double, series_order> elongation_rate(const PreslidingSeries& series) {
-  std::array<double, series_order> rate{};
-  for (std::size_t k = 0; k < series_order; ++k)
-    rate[k] = static_cast<double>(k + 1) * series.elongation[k + 1];
-  return rate;
-}
-
 /// First time in (0, end] at which `series` changes sign, where a start at exactly zero does not count.
 std::optional<double> next_sign_change(std::span<const double> series, double end) {
   if (series[0] == 0.0) series = series.subspan(1);
@@ -87,7 +79,7 @@ void NextEvent::offer(std::optional<double> candidate, Event what) {
 NextEvent next_presliding_event(const PreslidingSeries& series, const StickingContact& contact, double step) {
   NextEvent next{step};
   // The reversal first: up to it the elongation, and with it σ, is monotonic, which the others rely on.
-  next.offer(next_sign_change(elongation_rate(series), next.time), Event::reversal);
+  next.offer(next_sign_change(series.elongation_rate, next.time), Event::reversal);
   find_closure(contact.spring, series, next);
   find_creep_change(series, contact.creeping, contact.creep_onset_torque, next);
   find_breakaway(contact.plant, contact.friction, series, next);

@@ -18,7 +18,7 @@ double exponent_coefficient(const SpringBranch& branch, double elongation_coeffi
 /// Coefficient k ≥ 1 of |σ|ⁿ. The whole exponents 1 and 2 need no division by σ, which may be tiny.
 double torque_power_coefficient(const Series& magnitude, const Series& power, double n, std::size_t k) {
   if (n == 1.0) return magnitude[k];
-  if (n == 2.0) return product_coefficient(magnitude, magnitude, k);
+  if (n == 2.0) return square_coefficient(magnitude, k);
   return power_coefficient(magnitude, power, n, k);
 }
 
@@ -30,6 +30,7 @@ PreslidingSeries presliding_series(const PlantParameters& plant, const FrictionP
   const SpringBranch& branch = spring.branch();
   PreslidingSeries s{};
   Series& exponent = s.exponent;
+  Series slope{};      // −dy/dt
   Series softness{};   // exp(−y)
   Series magnitude{};  // |σ|
   Series power{};      // |σ|ⁿ
@@ -41,6 +42,8 @@ PreslidingSeries presliding_series(const PlantParameters& plant, const FrictionP
   exponent[0] = exponent_coefficient(branch, spring.elongation() - branch.elongation);
   softness[0] = std::exp(exponent[0]);
   s.spring_torque[0] = spring.torque();
+  const double per_inertia = 1.0 / plant.inertia;
+  const double per_lambda = 1.0 / contact.lambda;
   const double torque_sign = s.spring_torque[0] < 0.0 ? -1.0 : 1.0;  // creep never lasts until σ = 0
   magnitude[0] = std::abs(s.spring_torque[0]);
   if (creeping) power[0] = std::pow(magnitude[0], contact.n);
@@ -48,23 +51,27 @@ PreslidingSeries presliding_series(const PlantParameters& plant, const FrictionP
   for (std::size_t k = 0; k <= series_order; ++k) {
     if (k > 0) {
       exponent[k] = exponent_coefficient(branch, s.elongation[k]);
-      softness[k] = exponential_coefficient(exponent, softness, k);
+      softness[k] = exponential_coefficient(slope, softness, k);
       s.spring_torque[k] = branch.k1 * s.elongation[k] - branch.sign * branch.softening_torque * softness[k];
     }
     if (creeping) {
       magnitude[k] = torque_sign * s.spring_torque[k];
       if (k > 0) power[k] = torque_power_coefficient(magnitude, power, contact.n, k);
-      s.creep_rate[k] = contact.alpha * (power[k] / contact.lambda - s.hardening[k]);
+      // At k = 0 to the last bit as hardening_limit() has it, so that a reversal is at rest exactly.
+      const double limit = k == 0 ? power[0] / contact.lambda : power[k] * per_lambda;
+      s.creep_rate[k] = contact.alpha * (limit - s.hardening[k]);
     }
     if (k == series_order) break;
-    const double next = static_cast<double>(k + 1);
     const double extension_rate = torque_sign * s.creep_rate[k];
-    s.hardening[k + 1] = s.creep_rate[k] / next;
-    s.extension[k + 1] = extension_rate / next;
-    s.elongation[k + 1] = (s.omega[k] - extension_rate) / next;
+    s.elongation_rate[k] = s.omega[k] - extension_rate;
+    slope[k] = exponent_coefficient(branch, s.elongation_rate[k]);
     const double applied = k == 0 ? torque : 0.0;
-    s.omega[k + 1] =
-        (applied - plant.presliding_damping * s.omega[k] - s.spring_torque[k]) / (plant.inertia * next);
+    const double acceleration =
+        (applied - plant.presliding_damping * s.omega[k] - s.spring_torque[k]) * per_inertia;
+    s.hardening[k + 1] = s.creep_rate[k] * reciprocal[k + 1];
+    s.extension[k + 1] = extension_rate * reciprocal[k + 1];
+    s.elongation[k + 1] = s.elongation_rate[k] * reciprocal[k + 1];
+    s.omega[k + 1] = acceleration * reciprocal[k + 1];
   }
   return s;
 }
@@ -74,19 +81,26 @@ SlidingSeries sliding_series(const PlantParameters& plant, const FrictionParamet
   const double coulomb = contact.coulomb_ratio * contact.breakaway;
   const double stribeck = contact.breakaway - coulomb;
   const double per_velocity_squared = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
+  const double per_inertia = 1.0 / plant.inertia;
   SlidingSeries s{};
   Series& exponent = s.exponent;
+  Series slope{};      // of the exponent in time
   Series lightness{};  // exp(−(ω/ωs)²)
   s.theta[0] = theta;
   s.omega[0] = omega;
   for (std::size_t k = 0; k < series_order; ++k) {
-    exponent[k] = -per_velocity_squared * product_coefficient(s.omega, s.omega, k);
-    lightness[k] = k == 0 ? std::exp(exponent[0]) : exponential_coefficient(exponent, lightness, k);
-    const double next = static_cast<double>(k + 1);
+    exponent[k] = -per_velocity_squared * square_coefficient(s.omega, k);
+    if (k > 0) {
+      slope[k - 1] = static_cast<double>(k) * exponent[k];
+      lightness[k] = exponential_coefficient(slope, lightness, k);
+    } else {
+      lightness[0] = std::exp(exponent[0]);
+    }
     const double constant = k == 0 ? torque - direction * coulomb : 0.0;
-    s.theta[k + 1] = s.omega[k] / next;
-    s.omega[k + 1] = (constant - plant.sliding_damping * s.omega[k] - direction * stribeck * lightness[k]) /
-                     (plant.inertia * next);
+    const double acceleration =
+        (constant - plant.sliding_damping * s.omega[k] - direction * stribeck * lightness[k]) * per_inertia;
+    s.theta[k + 1] = s.omega[k] * reciprocal[k + 1];
+    s.omega[k + 1] = acceleration * reciprocal[k + 1];
   }
   return s;
 }

@@ -11,11 +11,12 @@ namespace zerocount {
 /// Taylor series in time of the pre-sliding motion from the present state, on one branch and under constant
 /// torque.
 struct PreslidingSeries {
-  Series elongation;     ///< xs, rad
-  Series omega;          ///< ω, rad/s
-  Series extension;      ///< xp, rad
-  Series hardening;      ///< xh, rad
-  Series spring_torque;  ///< σ, N m
+  Series elongation;       ///< xs, rad
+  Series elongation_rate;  ///< dxs/dt, rad/s
+  Series omega;            ///< ω, rad/s
+  Series extension;        ///< xp, rad
+  Series hardening;        ///< xh, rad
+  Series spring_torque;    ///< σ, N m
   Series creep_rate;  ///< α·(|σ|ⁿ/λ − xh), the rate of xh while creep is on, rad/s; zero while it is off
   Series exponent;  ///< −y, the exponent of the branch law, dimensionless
 };

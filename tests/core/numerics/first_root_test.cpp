@@ -91,10 +91,12 @@ TEST(PowerSeries, ExponentialAndPowerAgreeWithTheFunctions) {
     Series exponential{std::exp(a[0])};
     Series power{std::pow(a[0], n)};
     Series square{a[0] * a[0]};
+    Series derivative{};
+    for (std::size_t k = 0; k < series_order; ++k) derivative[k] = static_cast<double>(k + 1) * a[k + 1];
     for (std::size_t k = 1; k <= series_order; ++k) {
-      exponential[k] = exponential_coefficient(a, exponential, k);
+      exponential[k] = exponential_coefficient(derivative, exponential, k);
       power[k] = power_coefficient(a, power, n, k);
-      square[k] = product_coefficient(a, a, k);
+      square[k] = square_coefficient(a, k);
     }
     const double t = 0.02;
     const double value = value_at(a, t);

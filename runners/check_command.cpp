@@ -16,11 +16,11 @@ namespace zerocount {
 namespace {
 
 constexpr const char* help =
-    "Reports every error of the manifest, each with its place. If there is none, prints the plan (design "
-    "points, trials, cost)\n"
-    "and what the theory says of each design point: the bounds of the paper's criteria (6) and (7) on ki, "
-    "the bound\n"
-    "of the sampled loop about the lowest stiffness k1, and the rules for the DAC and the sample rate.\n\n"
+    "Reports every error of the manifest, each with its place. If there is none, prints the\n"
+    "plan (design points, trials, cost) and what the theory says of each design point: the\n"
+    "bounds of the paper's criteria (6) and (7) on ki, the bound of the sampled loop about\n"
+    "the lowest stiffness k1, and the rules for the DAC and the sample rate.\n"
+    "\n"
     "Example: zerocount check experiments/manifests/paper-gains.yaml\n";
 
 constexpr std::int64_t most_trials_examined = 200;

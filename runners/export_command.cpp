@@ -8,9 +8,10 @@ namespace zerocount {
 namespace {
 
 constexpr const char* help =
-    "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv, jerks.csv, "
-    "profiles.csv, and trace.csv\n"
-    "where the study retained trials. Numbers read back to the same double.\n\n"
+    "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv,\n"
+    "jerks.csv, profiles.csv where there are profiles, and trace.csv where the study retains\n"
+    "trials. Numbers read back to the same double.\n"
+    "\n"
     "Example: zerocount export gains.h5 -o gains-csv\n";
 
 ExitCode export_file(const Arguments& arguments) {

@@ -17,9 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* help =
-    "Joins the parts of one study into its results file. An input is a part file made with 'run --shard', a "
-    "shard,\n"
-    "or a folder of shards. Together they must hold every trial of the study once.\n\n"
+    "Joins the parts of one study into its results file. An input is a part file made with\n"
+    "'run --shard', a shard, or a folder of shards. Together they must hold every trial of\n"
+    "the study once.\n"
+    "\n"
     "Example: zerocount merge a.h5 b.h5 -o all.h5\n";
 
 void require_everything(const std::vector<ShardInfo>& parts, const Study& study) {

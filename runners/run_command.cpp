@@ -28,13 +28,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* help =
-    "Runs the trials of the manifest on all cores, and writes them to the results file. Finished trials go "
-    "to\n"
-    "shards in FILE.shards/ while the run goes on; at the end they become FILE. A run that was interrupted "
-    "or\n"
-    "killed goes on where it stopped when the same command is given again. The data do not depend on the "
-    "number\n"
-    "of threads, on --shard, or on interruptions.\n\n"
+    "Runs the trials of the manifest on all cores, and writes them to the results file.\n"
+    "Finished trials go to shards in FILE.shards/ while the run goes on; at the end they\n"
+    "become FILE. A run that was interrupted or killed goes on where it stopped when the\n"
+    "same command is given again. The data do not depend on the number of threads, on\n"
+    "--shard, or on interruptions.\n"
+    "\n"
     "Examples:\n"
     "  zerocount run experiments/manifests/paper-gains.yaml -o gains.h5\n"
     "  zerocount run study.yaml --set trials=100000 --set controller.ki=9.45e-5 -o out.h5\n"
@@ -158,8 +157,8 @@ ExitCode run(const Arguments& arguments) {
   const OutputLock lock(output);
   const fs::path directory = shards_directory(output);
   if (already_there(output, study, wanted)) {
-    remove_shards(directory,
-                  earlier_shards(directory, study, wanted).all);  // left by a run that died at its end
+    // Left by a run that died at its very end; what is not of this study stays.
+    remove_shards(directory, choose_shards(list_shards(directory, study).shards, wanted).all);
     if (!quiet) fmt::print(stderr, "{}: complete already, nothing to run\n", output.string());
     return ExitCode::success;
   }

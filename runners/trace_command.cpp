@@ -19,15 +19,14 @@ namespace zerocount {
 namespace {
 
 constexpr const char* help =
-    "Runs one trial again and writes it sample by sample. From a results file the trial is rebuilt from the "
-    "manifest that the\n"
-    "file holds; where its outcome is not the recorded one, the differences are listed and the exit code is "
-    "4.\n\n"
-    "Columns: k, t (s), target, count, coarse_count, error (counts), code, torque (N m), theta (rad), omega "
-    "(rad/s),\n"
-    "xp, xh (rad), depth (reversal points), mode (stick or slide); values at the sampling instant, code and "
-    "torque\n"
-    "those decided there.\n\n"
+    "Runs one trial again and writes it sample by sample. From a results file the trial is\n"
+    "rebuilt from the manifest that the file holds; where its inputs, outcome or jerks are\n"
+    "not the recorded ones, the differences are listed and the exit code is 4.\n"
+    "\n"
+    "Columns: k, t (s), target, count, coarse_count, error (counts), code, torque (N m),\n"
+    "theta (rad), omega (rad/s), xp, xh (rad), depth (reversal points), mode (stick or\n"
+    "slide); values at the sampling instant, code and torque those decided there.\n"
+    "\n"
     "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
 
 /// Whether `path` is a results file, by its signature, or by its name where the signature may be damaged.

@@ -7,6 +7,7 @@
 namespace zerocount {
 
 /// Verdict on a move by its last samples, best first. The numbers are those stored in results files.
+/// nonfinite: the motion left the finite numbers, or could not be followed (see Plant::finite).
 enum class Outcome : std::int8_t { zero_count = 0, one_count = 1, oscillating = 2, nonfinite = 3 };
 
 /// What is measured of one move.

@@ -14,8 +14,8 @@
 namespace zerocount {
 namespace {
 
-/// Fraction of a fine count that the plant's motion may leave out per step: four digits below the accuracy
-/// asked for.
+/// Fraction of a fine count that the motion may leave out per torque step. Far below the accuracy asked for,
+/// because a trial that breaks away in every cycle of its ringing multiplies an error from cycle to cycle.
 constexpr double motion_tolerance_in_counts = 1e-11;
 
 /// Farther than this, counts are no longer whole numbers of a double.

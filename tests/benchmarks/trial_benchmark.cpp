@@ -17,8 +17,8 @@
 namespace zerocount {
 namespace {
 
-Study shipped_study(const std::string& name) {
-  return load_study(std::filesystem::path(ZEROCOUNT_MANIFESTS) / (name + ".yaml"));
+Study shipped_study(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  return load_study(std::filesystem::path(ZEROCOUNT_MANIFESTS) / (name + ".yaml"), overrides);
 }
 
 /// The n-th trial of the study, wandering over its points.
@@ -37,28 +37,26 @@ double samples_of(const TrialParameters& parameters) {
          static_cast<double>(parameters.command.targets.size());
 }
 
-void trial(benchmark::State& state, const std::string& name) {
+/// Trials of a shipped study, one after the other, by `simulate`.
+template <class Simulate>
+void simulate_trials(benchmark::State& state, const std::string& name, Simulate simulate) {
   const Study study = shipped_study(name);
   double samples = 0.0;
   std::int64_t n = 0;
   for (auto _ : state) {
     const StudyTrial next = nth_trial(study, n++);
-    benchmark::DoNotOptimize(run_trial(next.parameters));
+    benchmark::DoNotOptimize(simulate(next.parameters));
     samples += samples_of(next.parameters);
   }
   count_samples(state, samples);
 }
 
+void trial(benchmark::State& state, const std::string& name) {
+  simulate_trials(state, name, [](const TrialParameters& parameters) { return run_trial(parameters); });
+}
+
 void odeint(benchmark::State& state, const std::string& name) {
-  const Study study = shipped_study(name);
-  double samples = 0.0;
-  std::int64_t n = 0;
-  for (auto _ : state) {
-    const StudyTrial next = nth_trial(study, n++);
-    benchmark::DoNotOptimize(testing::odeint_trial(next.parameters));
-    samples += samples_of(next.parameters);
-  }
-  count_samples(state, samples);
+  simulate_trials(state, name, [](const TrialParameters& p) { return testing::odeint_trial(p); });
 }
 
 /// Drawing the parameters of a trial.
@@ -70,12 +68,12 @@ void draw(benchmark::State& state, const std::string& name) {
   count_samples(state, samples * static_cast<double>(n));
 }
 
-/// Everything of a run on one thread but its last step, joining the shards: drawing, the trials with their
-/// measures, writing.
+/// A run of all design points on one thread but for its last step, joining the shards: drawing, the trials
+/// with their measures, writing.
 void run(benchmark::State& state, const std::string& name) {
-  const Study study = shipped_study(name);
+  const Study study = shipped_study(name, {"trials=200"});
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "zerocount-benchmark";
-  const std::int64_t trials = std::min<std::int64_t>(trial_count(study), 1000);
+  const std::int64_t trials = trial_count(study);
   double samples = 0.0;
   for (auto _ : state) {
     std::filesystem::create_directories(folder);
@@ -89,8 +87,8 @@ void run(benchmark::State& state, const std::string& name) {
 
 /// The same trials as `run`, without anything around them.
 void run_bare(benchmark::State& state, const std::string& name) {
-  const Study study = shipped_study(name);
-  const std::int64_t trials = std::min<std::int64_t>(trial_count(study), 1000);
+  const Study study = shipped_study(name, {"trials=200"});
+  const std::int64_t trials = trial_count(study);
   std::vector<TrialParameters> parameters;
   for (std::int64_t row = 0; row < trials; ++row) {
     parameters.push_back(study_trial(study, row / study.trials, row % study.trials).parameters);

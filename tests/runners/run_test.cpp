@@ -154,6 +154,13 @@ TEST_F(Run, TidiesUpAfterARunThatDiedAtItsEnd) {
   fs::create_directory(at("out.h5.shards"));
   fs::copy(at("part.h5"), at("out.h5.shards/part.h5"));
   complete("study.yaml", "out.h5");  // expects the folder gone
+
+  complete("study.yaml", "other.h5", {"--set", "seed=43"});
+  fs::create_directory(at("out.h5.shards"));
+  fs::copy(at("other.h5"), at("out.h5.shards/other.h5"));
+  EXPECT_EQ(run({"run", "study.yaml", "-o", "out.h5"}).code,
+            0);  // nothing to run, so nothing stands in the way
+  EXPECT_TRUE(fs::exists(at("out.h5.shards/other.h5")));
 }
 
 TEST_F(Run, RunsAgainWhatADamagedShardHeld) {

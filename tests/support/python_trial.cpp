@@ -6,39 +6,13 @@
 #include <stdexcept>
 #include <string>
 
-#include <unistd.h>
-
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/trial_json.hpp"
 
 namespace zerocount::testing {
 
-namespace {
-
-/// A folder of its own that goes when it is left.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "zerocount-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr)
-      throw std::runtime_error("cannot make a temporary folder: " + pattern);
-    path_ = pattern;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-}  // namespace
-
 std::vector<SampleRecord> python_trial(const TrialParameters& parameters) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::filesystem::path input = folder.path() / "parameters.json";
   const std::filesystem::path output = folder.path() / "trace.csv";
   std::ofstream(input) << to_json(parameters);

@@ -53,8 +53,7 @@ double Plant::creep_rate() const {
   return std::copysign(contact_.alpha * (hardening_limit(contact_, torque) - creep_.hardening), torque);
 }
 
-Plant::Elongation Plant::elongation_under(double torque) const {
-  const double creep_rate_now = creep_rate();
+Plant::Elongation Plant::elongation_under(double torque, double creep_rate_now) const {
   const double unbalanced = torque - plant_.presliding_damping * omega_ - spring_.torque();
   return {omega_ - creep_rate_now, unbalanced / plant_.inertia + contact_.alpha * creep_rate_now};
 }
@@ -75,7 +74,13 @@ int Plant::slides_towards(double torque) const {
 
 double Plant::stick(double torque, double duration) {
   if (!creeping_ && std::abs(spring_.torque()) >= creep_onset_torque_) creeping_ = true;
-  const Elongation elongation = elongation_under(torque);
+  double creep_rate_now = creep_rate();
+  // The end of creep can lie closer to σ = 0 than the series of |σ|ⁿ sees, if n is no whole number.
+  if (creeping_ && !(creep_rate_now * spring_.torque() > 0.0)) {
+    end_creep();
+    creep_rate_now = 0.0;
+  }
+  const Elongation elongation = elongation_under(torque, creep_rate_now);
   if (at_rest(elongation)) {
     hold_at_rest(duration);
     return duration;

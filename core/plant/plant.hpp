@@ -63,7 +63,7 @@ class Plant {
     double acceleration;
   };
 
-  Elongation elongation_under(double torque) const;
+  Elongation elongation_under(double torque, double creep_rate_now) const;
   bool at_rest(const Elongation& elongation) const;
   int slides_towards(double torque) const;
   void pass(Event event);

@@ -7,14 +7,15 @@
 
 namespace zerocount {
 
-/// Mean and extremes of the finite values of a sample, in the values' unit; NaN where there are none.
-/// Constant memory.
+/// Mean, spread and extremes of the finite values of a sample, in the values' unit; NaN where there are none.
+/// Constant memory (Welford 1962).
 struct Moments {
   std::int64_t n{0};          ///< finite values
   std::int64_t nonfinite{0};  ///< values left out because they are not finite
   double mean{std::numeric_limits<double>::quiet_NaN()};
   double min{std::numeric_limits<double>::quiet_NaN()};
   double max{std::numeric_limits<double>::quiet_NaN()};
+  double squares{0.0};  ///< sum of the squared deviations from the mean, in the square of the unit
 
   void add(double value) {
     if (!std::isfinite(value)) {
@@ -22,9 +23,16 @@ struct Moments {
       return;
     }
     ++n;
-    mean = n == 1 ? value : mean + (value - mean) / static_cast<double>(n);
+    const double deviation = n == 1 ? 0.0 : value - mean;
+    mean = n == 1 ? value : mean + deviation / static_cast<double>(n);
+    squares += deviation * (value - mean);
     min = n == 1 ? value : std::min(min, value);
     max = n == 1 ? value : std::max(max, value);
+  }
+
+  /// Standard deviation with divisor n − 1; NaN of fewer than two values.
+  double sd() const {
+    return n < 2 ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(squares / static_cast<double>(n - 1));
   }
 };
 

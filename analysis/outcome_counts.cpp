@@ -16,9 +16,11 @@ std::int64_t OutcomeCounts::*counter_of(Outcome outcome) {
       return &OutcomeCounts::oscillating;
     case Outcome::nonfinite:
       return &OutcomeCounts::nonfinite;
+    case Outcome::open_loop:
+      return &OutcomeCounts::open_loop;
   }
   throw Failure(ExitCode::bad_data,
-                fmt::format("a move with outcome {}; expected 0 to 3", static_cast<int>(outcome)));
+                fmt::format("a move with outcome {}; expected 0 to 4", static_cast<int>(outcome)));
 }
 
 }  // namespace zerocount

@@ -12,6 +12,7 @@ struct OutcomeCounts {
   std::int64_t one_count{0};
   std::int64_t oscillating{0};
   std::int64_t nonfinite{0};
+  std::int64_t open_loop{0};  ///< not judged
 };
 
 /// Where an outcome is counted.

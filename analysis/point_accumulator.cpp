@@ -22,6 +22,7 @@ int sign(double value) {
 }
 
 RateWithBounds rate_with_bounds(std::int64_t successes, std::int64_t trials) {
+  if (trials == 0) return {};
   return {rate(successes, trials), clopper_pearson(successes, trials), wilson(successes, trials)};
 }
 
@@ -30,6 +31,37 @@ void require_move_count(std::size_t moves, std::int64_t trials, std::size_t expe
   throw Failure(ExitCode::bad_data,
                 fmt::format("a trial with {} moves; expected {}", moves,
                             trials == 0 ? "at least one" : fmt::format("{} as before", expected)));
+}
+
+/// @throws Failure (bad_data) where a judged move stands in an open-loop study, or the reverse.
+void require_kind(const MoveOutcome& move, bool open_loop) {
+  if (move.outcome == Outcome::nonfinite || (move.outcome == Outcome::open_loop) == open_loop) return;
+  throw Failure(ExitCode::bad_data, open_loop ? "a move that was judged; expected a torque level"
+                                              : "a move with a torque level; expected one with a target");
+}
+
+/// The moves of a trial with torque levels are open_loop, or nonfinite and then that is the worst.
+Outcome worst_outcome(const std::vector<MoveOutcome>& moves) {
+  Outcome worst = moves.front().outcome;
+  for (const MoveOutcome& move : moves) {
+    if (move.outcome == Outcome::nonfinite) return Outcome::nonfinite;
+    worst = std::max(worst, move.outcome);
+  }
+  return worst;
+}
+
+void count_move(const MoveOutcome& move, MoveCounts& counts) {
+  ++(counts.outcomes.*counter_of(move.outcome));
+  counts.stable += move.stable;
+  counts.arrived += move.arrived;
+  counts.broke_away += move.broke_away;
+  counts.saturated += move.saturated;
+}
+
+std::int64_t sum_of(const std::vector<MoveOutcome>& moves, std::int64_t MoveOutcome::*measure) {
+  std::int64_t sum = 0;
+  for (const MoveOutcome& move : moves) sum += move.*measure;
+  return sum;
 }
 
 }  // namespace
@@ -53,36 +85,38 @@ void PointAccumulator::add(const TrialOutcome& trial, std::span<const Jerk> jerk
 }
 
 void PointAccumulator::add_moves(const TrialOutcome& trial) {
-  counted_.by_move.resize(trial.moves.size());
-  Outcome worst = Outcome::zero_count;
-  bool stable = true, arrived = true, broke_away = false, saturated = false;
-  for (std::size_t i = 0; i < trial.moves.size(); ++i) {
-    const MoveOutcome& move = trial.moves[i];
-    MoveCounts& counts = counted_.by_move[i];
-    ++(counts.outcomes.*counter_of(move.outcome));
-    counts.stable += move.stable;
-    counts.arrived += move.arrived;
-    counts.broke_away += move.broke_away;
-    counts.saturated += move.saturated;
-    worst = std::max(worst, move.outcome);
-    stable = stable && move.stable;
-    arrived = arrived && move.arrived;
-    broke_away = broke_away || move.broke_away;
-    saturated = saturated || move.saturated;
-    if (move.arrived) settling_times_.add(move.settling_time);
-    counted_.overshoot.add(static_cast<double>(move.overshoot));
-    counted_.holding_torque.add(move.holding_torque);
-    counted_.creep.add(move.creep);
-    counted_.peak_torque.add(move.peak_torque);
-    counted_.reversal_depth = std::max(counted_.reversal_depth, move.reversal_depth);
+  const std::vector<MoveOutcome>& moves = trial.moves;
+  counted_.by_move.resize(moves.size());
+  if (kind_.open_loop) counted_.levels.resize(moves.size());
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    require_kind(moves[i], kind_.open_loop);
+    count_move(moves[i], counted_.by_move[i]);
+    add_measures(moves[i]);
+    if (kind_.open_loop) counted_.levels[i].add(moves[i]);
   }
   ++counted_.trials;
-  counted_.moves += static_cast<std::int64_t>(trial.moves.size());
-  ++(counted_.outcomes.*counter_of(worst));
-  counted_.stable += stable;
-  counted_.arrived += arrived;
-  counted_.broke_away += broke_away;
-  counted_.saturated += saturated;
+  counted_.moves += static_cast<std::int64_t>(moves.size());
+  ++(counted_.outcomes.*counter_of(worst_outcome(moves)));
+  counted_.stable += std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.stable; });
+  counted_.arrived += std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.arrived; });
+  counted_.broke_away +=
+      std::any_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.broke_away; });
+  counted_.saturated +=
+      std::any_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.saturated; });
+  counted_.phase_changes.add(sum_of(moves, &MoveOutcome::phase_changes));
+  counted_.encoder_disagreement.add(sum_of(moves, &MoveOutcome::encoder_disagreement));
+}
+
+void PointAccumulator::add_measures(const MoveOutcome& move) {
+  if (move.arrived) settling_times_.add(move.settling_time);
+  const bool has_error = !kind_.open_loop && kind_.final_error_known && move.outcome != Outcome::nonfinite;
+  if (has_error) final_errors_.add(std::abs(move.final_error));
+  if (!kind_.open_loop) counted_.overshoot.add(static_cast<double>(move.overshoot));
+  counted_.holding_torque.add(move.holding_torque);
+  counted_.creep.add(move.creep);
+  counted_.peak_torque.add(move.peak_torque);
+  counted_.travel_time.add(move.travel_time);
+  counted_.reversal_depth = std::max(counted_.reversal_depth, move.reversal_depth);
 }
 
 void PointAccumulator::add_jerks(const MoveOutcome& move, std::span<const Jerk> jerks) {
@@ -114,13 +148,18 @@ void PointAccumulator::add_jerks(const MoveOutcome& move, std::span<const Jerk> 
 
 PointSummary PointAccumulator::statistics() const {
   PointSummary result = counted_;
-  result.success_rate = rate_with_bounds(result.outcomes.zero_count, result.trials);
-  result.stable_rate = rate_with_bounds(result.stable, result.trials);
+  result.judged = kind_.open_loop ? 0 : result.trials;
+  result.success_rate = rate_with_bounds(result.outcomes.zero_count, result.judged);
+  result.stable_rate = rate_with_bounds(result.stable, result.judged);
 
   const Tally<double>& times = settling_times_;
   result.settling_time = {times.size,           mean(times),           smallest(times),
                           largest(times),       quantile(times, 0.05), quantile(times, 0.25),
                           quantile(times, 0.5), quantile(times, 0.75), quantile(times, 0.95)};
+
+  const Tally<std::int64_t>& errors = final_errors_;
+  result.final_error = {errors.size, mean(errors), largest(errors), quantile(errors, 0.5),
+                        quantile(errors, 0.95)};
 
   const Tally<std::int64_t>& jerks = jerk_counts_;
   const std::int64_t jerk_total = total(jerks);

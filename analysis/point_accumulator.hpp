@@ -10,15 +10,24 @@
 
 namespace zerocount {
 
+/// What is known of the moves before they are looked at.
+struct MoveKind {
+  bool open_loop{false};         ///< they have torque levels, and no target
+  bool final_error_known{true};  ///< false in results that do not hold it
+};
+
 /// Takes the trials of one design point, one after the other, and gives its statistics.
 ///
-/// Its memory grows with the number of distinct settling times, jerk counts and jerk intervals, not with the
-/// number of trials: for one sample rate, at most with the samples of a move.
+/// Its memory grows with the number of distinct settling times, jerk counts, jerk intervals and final errors,
+/// not with the number of trials: for one sample rate, at most with the samples of a move and the counts that
+/// the rotor strays.
 class PointAccumulator {
  public:
+  explicit PointAccumulator(MoveKind kind = {}) : kind_(kind) {}
+
   /// Adds a trial with its jerks in order of move and onset.
   /// @throws Failure (bad_data) where the trial has no move or another number of moves than those before it,
-  /// or its jerks are out of order or not those that its outcome counts.
+  /// its jerks are out of order or not those that its outcome counts, or its moves are not of the kind.
   void add(const TrialOutcome& trial, std::span<const Jerk> jerks);
 
   /// The statistics of the trials added so far.
@@ -26,10 +35,13 @@ class PointAccumulator {
 
  private:
   void add_moves(const TrialOutcome& trial);
+  void add_measures(const MoveOutcome& move);
   void add_jerks(const MoveOutcome& move, std::span<const Jerk> jerks);
 
+  MoveKind kind_;
   PointSummary counted_;  ///< the fields that are plain counts and moments
   Tally<double> settling_times_;
+  Tally<std::int64_t> final_errors_;
   Tally<std::int64_t> jerk_counts_;
   Tally<double> jerk_intervals_;
   RankTrend interval_trend_;

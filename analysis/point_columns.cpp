@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/level_statistics.hpp"
 #include "analysis/proportion.hpp"
 #include "analysis/statistic_fields.hpp"
 #include "core/failure.hpp"
@@ -47,6 +48,18 @@ std::vector<PointColumn> point_columns(std::span<const PointSummary> points) {
   return columns;
 }
 
+StatisticTable level_table(std::span<const PointSummary> points) {
+  StatisticTable table{&level_group(), points.empty() ? 1 : std::ssize(points.front().levels), {}};
+  for (const LevelField& field : level_fields()) {
+    PointColumn column{flat_name(field), std::string(field.unit), std::string(field.long_name), {}};
+    for (const PointSummary& point : points) {
+      for (const LevelStatistics& level : point.levels) column.values.push_back(field.value(level));
+    }
+    table.columns.push_back(std::move(column));
+  }
+  return table;
+}
+
 std::span<const PredictionField> prediction_fields() {
   static constexpr std::array<PredictionField, 2> fields{
       {{"predicted_stable_share", "trials in which criterion (6) holds, as a share of trials",
@@ -61,7 +74,7 @@ std::vector<PointColumn> prediction_columns(std::span<const TheoryPrediction> pr
   for (const PredictionField& field : prediction_fields()) {
     PointColumn column{std::string(field.name), "1", std::string(field.long_name), {}};
     for (const TheoryPrediction& prediction : predictions) {
-      column.values.push_back(rate(prediction.*field.trials, prediction.trials));
+      column.values.push_back(rate(prediction.*field.trials, predicted_trials(prediction)));
     }
     columns.push_back(std::move(column));
   }
@@ -73,9 +86,13 @@ std::vector<TheoryPrediction> predictions_of(std::span<const PointColumn> column
   std::vector<TheoryPrediction> predictions;
   for (const PredictionField& field : prediction_fields()) {
     const std::vector<double>& shares = find_column(columns, field.name, file).values;
-    predictions.resize(shares.size(), {trials, 0, 0});
+    predictions.resize(shares.size(), {trials, 0, 0, 0});
     for (std::size_t point = 0; point < shares.size(); ++point) {
-      predictions[point].*field.trials = trials_of_share(shares[point], trials, field.name, file);
+      if (std::isnan(shares[point])) {
+        predictions[point].outside = trials;
+      } else {
+        predictions[point].*field.trials = trials_of_share(shares[point], trials, field.name, file);
+      }
     }
   }
   return predictions;

@@ -16,6 +16,10 @@ namespace zerocount {
 /// by flat_name.
 std::vector<PointColumn> point_columns(std::span<const PointSummary> points);
 
+/// The levels of an open-loop study, of all its points, as the group /level of the results file: a column for
+/// each of level_fields(), by flat_name.
+StatisticTable level_table(std::span<const PointSummary> points);
+
 /// A share of trials that the criteria foretell, as it is reported. The list of them is the one source of the
 /// names in the CSV summary and in the results file.
 struct PredictionField {
@@ -27,7 +31,7 @@ struct PredictionField {
 /// Where (6) holds, and where (7) is exceeded.
 std::span<const PredictionField> prediction_fields();
 
-/// The shares of prediction_fields() as columns of /point.
+/// The shares of prediction_fields() as columns of /point, NaN where the criteria are about no trial.
 std::vector<PointColumn> prediction_columns(std::span<const TheoryPrediction> predictions);
 
 /// The reverse of prediction_columns, [point]: the predictions behind the columns of those names, for points

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "analysis/level_statistics.hpp"
 #include "analysis/moments.hpp"
 #include "analysis/outcome_counts.hpp"
 #include "analysis/proportion.hpp"
@@ -23,11 +25,12 @@ struct MoveCounts {
   std::int64_t saturated{0};
 };
 
-/// Share of trials with 95 % bounds.
+/// Share of trials with 95 % bounds; NaN where there are none that could be a part of it.
 struct RateWithBounds {
-  double value{std::numeric_limits<double>::quiet_NaN()};
-  ConfidenceInterval clopper_pearson{0.0, 1.0};
-  ConfidenceInterval wilson{0.0, 1.0};
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double value{unknown};
+  ConfidenceInterval clopper_pearson{unknown, unknown};
+  ConfidenceInterval wilson{unknown, unknown};
 };
 
 /// Settling time of the moves that arrived, s.
@@ -37,6 +40,27 @@ struct SettlingStatistics {
   double min{std::numeric_limits<double>::quiet_NaN()};
   double max{std::numeric_limits<double>::quiet_NaN()};
   Quantile p05, p25, median, p75, p95;  ///< with 95 % order-statistic bounds
+};
+
+/// Distance from the target at the last sample of a move, |target − count|, counts.
+struct FinalErrorStatistics {
+  std::int64_t n{0};  ///< moves whose distance is known and whose motion was not lost
+  double mean{std::numeric_limits<double>::quiet_NaN()};
+  double max{std::numeric_limits<double>::quiet_NaN()};
+  Quantile median, p95;  ///< with 95 % order-statistic bounds
+};
+
+/// Something that happens a number of times in a trial, over all its moves.
+struct TimesPerTrial {
+  std::int64_t trials{0};  ///< trials in which it happened
+  std::int64_t total{0};   ///< times in all trials
+  std::int64_t max{0};     ///< times in one trial
+
+  void add(std::int64_t times) {
+    trials += times > 0;
+    total += times;
+    max = std::max(max, times);
+  }
 };
 
 /// Jerks of a trial, over all its moves; of trials, those without jerks or arrival (0 jerks) included.
@@ -76,14 +100,15 @@ struct PointSummary {
   std::int64_t trials{0};
   std::int64_t moves{0};  ///< moves of all trials
 
+  std::int64_t judged{0};           ///< trials with targets: all, or none in an open-loop study
   OutcomeCounts outcomes;           ///< trials by the worst of their moves
   std::vector<MoveCounts> by_move;  ///< [move]
   std::int64_t stable{0};           ///< trials all of whose moves were stable
   std::int64_t arrived{0};          ///< trials all of whose moves arrived
   std::int64_t broke_away{0};       ///< trials in which the hook slid during any move
   std::int64_t saturated{0};        ///< trials in which the DAC clipped during any move
-  RateWithBounds success_rate;      ///< zero_count / trials
-  RateWithBounds stable_rate;       ///< stable / trials
+  RateWithBounds success_rate;      ///< zero_count / judged
+  RateWithBounds stable_rate;       ///< stable / judged
 
   SettlingStatistics settling_time;
   JerkCountStatistics jerk_count;
@@ -93,7 +118,13 @@ struct PointSummary {
   double jerk_agreement{std::numeric_limits<double>::quiet_NaN()};        ///< jerks_agreeing / jerks
   double jerk_one_count_share{std::numeric_limits<double>::quiet_NaN()};  ///< jerks of magnitude 1 / jerks
 
-  Moments overshoot;               ///< of moves, counts
+  FinalErrorStatistics final_error;
+  Moments travel_time;  ///< of moves, s
+  TimesPerTrial phase_changes;
+  TimesPerTrial encoder_disagreement;   ///< samples
+  std::vector<LevelStatistics> levels;  ///< [move] in an open-loop study, otherwise empty
+
+  Moments overshoot;               ///< of moves with a target, counts
   Moments holding_torque;          ///< of moves, N m, signed
   Moments creep;                   ///< of moves, rad, signed
   Moments peak_torque;             ///< of moves, N m

@@ -12,8 +12,8 @@ double number(std::int64_t count) {
   return static_cast<double>(count);
 }
 
-const std::vector<StatisticField>& fields() {
-  static const std::vector<StatisticField> list{
+std::vector<StatisticField> outcome_and_jerk_fields() {
+  return {
       {"", "trials", "1", "trials of the point", true, [](S s) { return number(s.trials); }},
       {"", "zero_count", "1", "trials whose worst move ended at zero error", true,
        [](S s) { return number(s.outcomes.zero_count); }},
@@ -23,6 +23,8 @@ const std::vector<StatisticField>& fields() {
        [](S s) { return number(s.outcomes.oscillating); }},
       {"", "nonfinite", "1", "trials with a move that left the finite numbers", true,
        [](S s) { return number(s.outcomes.nonfinite); }},
+      {"", "open_loop", "1", "trials with torque levels in place of targets, which are not judged", true,
+       [](S s) { return number(s.outcomes.open_loop); }},
       {"", "stable", "1", "trials all of whose moves arrived and stayed within one count", true,
        [](S s) { return number(s.stable); }},
       {"", "arrived", "1", "trials all of whose moves arrived", true, [](S s) { return number(s.arrived); }},
@@ -30,7 +32,7 @@ const std::vector<StatisticField>& fields() {
        [](S s) { return number(s.broke_away); }},
       {"", "saturated", "1", "trials in which the DAC clipped during any move", true,
        [](S s) { return number(s.saturated); }},
-      {"", "success_rate", "1", "zero_count as a share of trials", false,
+      {"", "success_rate", "1", "zero_count as a share of trials, NaN of an open-loop study", false,
        [](S s) { return s.success_rate.value; }},
       {"", "success_rate_low", "1", "lower 95 % Clopper-Pearson bound of success_rate", false,
        [](S s) { return s.success_rate.clopper_pearson.low; }},
@@ -40,7 +42,8 @@ const std::vector<StatisticField>& fields() {
        [](S s) { return s.success_rate.wilson.low; }},
       {"", "success_rate_wilson_high", "1", "upper 95 % Wilson bound of success_rate", false,
        [](S s) { return s.success_rate.wilson.high; }},
-      {"", "stable_rate", "1", "stable as a share of trials", false, [](S s) { return s.stable_rate.value; }},
+      {"", "stable_rate", "1", "stable as a share of trials, NaN of an open-loop study", false,
+       [](S s) { return s.stable_rate.value; }},
       {"", "stable_rate_low", "1", "lower 95 % Clopper-Pearson bound of stable_rate", false,
        [](S s) { return s.stable_rate.clopper_pearson.low; }},
       {"", "stable_rate_high", "1", "upper 95 % Clopper-Pearson bound of stable_rate", false,
@@ -113,46 +116,19 @@ const std::vector<StatisticField>& fields() {
        false, [](S s) { return s.jerk_agreement; }},
       {"", "jerk_one_count_share", "1", "jerks of one count as a share of all jerks", false,
        [](S s) { return s.jerk_one_count_share; }},
-      {"overshoot", "n", "1", "moves with a finite overshoot, of which these are", true,
-       [](S s) { return number(s.overshoot.n); }},
-      {"overshoot", "mean", "count", "mean overshoot of the moves", false,
-       [](S s) { return s.overshoot.mean; }},
-      {"overshoot", "max", "count", "largest overshoot of the moves", false,
-       [](S s) { return s.overshoot.max; }},
-      {"holding_torque", "n", "1", "moves with a finite holding torque, of which these are", true,
-       [](S s) { return number(s.holding_torque.n); }},
-      {"holding_torque", "mean", "N m", "mean holding torque of the moves", false,
-       [](S s) { return s.holding_torque.mean; }},
-      {"holding_torque", "min", "N m", "smallest holding torque of the moves", false,
-       [](S s) { return s.holding_torque.min; }},
-      {"holding_torque", "max", "N m", "largest holding torque of the moves", false,
-       [](S s) { return s.holding_torque.max; }},
-      {"peak_torque", "n", "1", "moves with a finite peak torque, of which these are", true,
-       [](S s) { return number(s.peak_torque.n); }},
-      {"peak_torque", "mean", "N m", "mean peak torque of the moves", false,
-       [](S s) { return s.peak_torque.mean; }},
-      {"peak_torque", "max", "N m", "largest peak torque of the moves", false,
-       [](S s) { return s.peak_torque.max; }},
-      {"creep", "n", "1", "moves with a finite creep, of which these are", true,
-       [](S s) { return number(s.creep.n); }},
-      {"creep", "mean", "rad", "mean creep of the moves", false, [](S s) { return s.creep.mean; }},
-      {"creep", "min", "rad", "smallest creep of the moves", false, [](S s) { return s.creep.min; }},
-      {"creep", "max", "rad", "largest creep of the moves", false, [](S s) { return s.creep.max; }},
-      {"", "reversal_depth_max", "1", "largest number of reversal points on the stack", true,
-       [](S s) { return number(s.reversal_depth); }},
   };
-  return list;
 }
 
 }  // namespace
 
 std::span<const StatisticField> statistic_fields() {
-  return fields();
-}
-
-std::string flat_name(const StatisticField& field) {
-  if (field.group.empty()) return std::string(field.name);
-  return std::string(field.group) + "_" + std::string(field.name);
+  static const std::vector<StatisticField> fields = [] {
+    std::vector<StatisticField> all = outcome_and_jerk_fields();
+    const std::span<const StatisticField> measures = measure_statistic_fields();
+    all.insert(all.end(), measures.begin(), measures.end());
+    return all;
+  }();
+  return fields;
 }
 
 }  // namespace zerocount

@@ -9,8 +9,12 @@
 
 #include <fmt/format.h>
 
+#include "analysis/level_statistics.hpp"
 #include "analysis/point_accumulator.hpp"
 #include "analysis/point_columns.hpp"
+#include "analysis/repeatability_file.hpp"
+#include "analysis/repeatability_summary.hpp"
+#include "analysis/study_features.hpp"
 #include "core/failure.hpp"
 
 namespace zerocount {
@@ -84,12 +88,13 @@ void require_all_trials(const StudyFile& file) {
 
 }  // namespace
 
-std::vector<PointSummary> study_statistics(const StudyFile& file) {
+std::vector<PointSummary> study_statistics(const StudyFile& file, const Study& study) {
   require_all_trials(file);
   const std::int64_t trials = file.header().trials;
   const std::int64_t moves = file.moves();
   std::vector<PointSummary> points;
-  PointAccumulator point;
+  const MoveKind kind{study.open_loop, file.final_error_known()};
+  PointAccumulator point(kind);
   JerkStream jerks(file);
   TrialOutcome trial;
   for (std::int64_t first = 0; first < file.rows().end(); first += trials_at_once) {
@@ -99,7 +104,8 @@ std::vector<PointSummary> study_statistics(const StudyFile& file) {
       const auto begin = outcomes.begin() + (row - block.first) * moves;
       trial.moves.assign(begin, begin + moves);
       add_trial(point, file, row, trial, jerks);
-      if ((row + 1) % trials == 0) points.push_back(std::exchange(point, {}).statistics());
+      if ((row + 1) % trials == 0)
+        points.push_back(std::exchange(point, PointAccumulator(kind)).statistics());
     }
   }
   if (!jerks.at_end()) fail(file, "jerks are recorded beyond those that the trials counted");
@@ -116,12 +122,36 @@ std::vector<TheoryPrediction> study_predictions(const Study& study) {
   return predictions;
 }
 
+StoredStatistics stored_statistics(const StudyFile& file, const Study& study) {
+  const std::vector<PointSummary> points = study_statistics(file, study);
+  StoredStatistics stored;
+  stored.points = point_columns(points);
+  const std::vector<PointColumn> predictions = prediction_columns(study_predictions(study));
+  stored.points.insert(stored.points.end(), predictions.begin(), predictions.end());
+  if (study.open_loop) {
+    stored.tables.push_back(level_table(points));
+  }
+  if (!study.sequence.empty()) {
+    stored.groups = [&study](hdf5::File& part) { write_repeatability(part, study); };
+  }
+  return stored;
+}
+
 StudySummary summarise(const StudyFile& file) {
   const FileHeader& header = file.header();
   const Study study = parse_study(header.manifest, file.path().string() + ":/manifest", header.overrides);
-  return {
-      header.name,    file.point_labels(),    file.axes(),
-      study.observed, study_statistics(file), predictions_of(file.statistics(), header.trials, file.path())};
+  StudySummary summary;
+  summary.name = header.name;
+  summary.labels = file.point_labels();
+  summary.axes = file.axes();
+  summary.observed = study.observed;
+  summary.points = study_statistics(file, study);
+  summary.predictions = predictions_of(file.statistics(), header.trials, file.path());
+  summary.features = study_features(study);
+  if (!study.sequence.empty()) {
+    summary.sections.push_back(repeatability_section(study_repeatability(file, study), summary.labels));
+  }
+  return summary;
 }
 
 }  // namespace zerocount

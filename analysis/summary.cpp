@@ -17,9 +17,14 @@ void require_consistent(const StudySummary& summary) {
     const bool text = axis.kind == SweepAxis::Kind::text;
     consistent = consistent && (text ? axis.texts.size() : axis.numbers.size()) == points;
   }
+  for (const SummarySection& section : summary.sections) {
+    consistent = consistent && section.json.size() == points;
+    for (const PointColumn& column : section.columns)
+      consistent = consistent && column.values.size() == points;
+  }
   if (!consistent) {
     throw Failure(ExitCode::bad_data,
-                  fmt::format("study {}: labels, axes and statistics are not of the same {} points",
+                  fmt::format("study {}: labels, axes, statistics and sections are not of the same {} points",
                               printable(summary.name), points));
   }
 }

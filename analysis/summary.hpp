@@ -8,10 +8,20 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/point_statistics.hpp"
+#include "analysis/study_features.hpp"
 #include "analysis/theory_prediction.hpp"
 #include "experiments/study.hpp"
+#include "results/layout/layout.hpp"
 
 namespace zerocount {
+
+/// A part of a summary that only some studies have, made apart from the rest.
+struct SummarySection {
+  std::string key;                           ///< its name in the JSON of each point
+  std::vector<nlohmann::ordered_json> json;  ///< [point]
+  std::vector<PointColumn> columns;          ///< of the CSV: a value per point
+  std::string text;                          ///< below the table, whole lines
+};
 
 /// What a summary says of a study. Vectors by point have the length of `points`.
 struct StudySummary {
@@ -20,7 +30,9 @@ struct StudySummary {
   std::vector<SweepAxis> axes;                  ///< each with a value per point
   std::map<std::string, std::string> observed;  ///< point label → what was observed on the real rig
   std::vector<PointSummary> points;             ///< [point]
-  std::vector<TheoryPrediction> predictions;    ///< [point], or empty where not computed
+  std::vector<TheoryPrediction> predictions{};  ///< [point], or empty where not computed
+  StudyFeatures features{};                     ///< what the table has columns for
+  std::vector<SummarySection> sections{};
 };
 
 /// @throws Failure (bad_data) where labels, axes, statistics and predictions are not of the same points. The
@@ -30,18 +42,22 @@ void require_consistent(const StudySummary& summary);
 /// What was observed on the real rig at `point`; empty where nothing was.
 std::string observed_at(const StudySummary& summary, std::int64_t point);
 
-/// The table for people: a row per point in aligned columns, a legend below. UTF-8, one line per row.
+/// The table for people: a row per point in aligned columns, of an open-loop study a row per point and level,
+/// a legend below, then the sections. UTF-8, one line per row.
 std::string summary_table(const StudySummary& summary);
 
-/// {"name", "points": [{"point", "label", "axes": {…}, …}]} with the names of statistic_fields(), by group.
-/// Whole numbers are integers, NaN is null, every other number reads back to the same double.
+/// {"name", "points": [{"point", "label", "axes": {…}, …}]} with the names of statistic_fields(), by group;
+/// points of an open-loop study have "levels": […] with the names of level_fields(); each section has its
+/// key. Whole numbers are integers, NaN is null, every other number reads back to the same double.
 nlohmann::ordered_json summary_json(const StudySummary& summary);
 
 /// summary_json as text, indented, ending with a line break.
 std::string summary_json_text(const StudySummary& summary);
 
 /// A line per point: point, label, axes, then statistic_fields() by flat_name, then the criteria's shares of
-/// trials and the observation. RFC 4180 with \n; NaN is `nan`; numbers read back to the same double.
+/// trials, the observation and the columns of the sections. Of an open-loop study, a line per point and
+/// level: point, label, axes, level, then level_fields() by flat_name, and the observation. RFC 4180 with \n;
+/// NaN is `nan`; numbers read back to the same double.
 std::string summary_csv(const StudySummary& summary);
 
 }  // namespace zerocount

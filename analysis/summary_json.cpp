@@ -5,8 +5,9 @@
 
 #include "analysis/outcome_counts.hpp"
 #include "analysis/proportion.hpp"
+#include "analysis/report_json.hpp"
 #include "analysis/statistic_fields.hpp"
-#include "analysis/summary.hpp"
+#include "analysis/summary_parts.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount {
@@ -22,18 +23,6 @@ nlohmann::ordered_json axes_json(const StudySummary& summary, std::size_t point)
     }
   }
   return axes;
-}
-
-void add_fields(nlohmann::ordered_json& json, const PointSummary& statistics) {
-  for (const StatisticField& field : statistic_fields()) {
-    nlohmann::ordered_json& place = field.group.empty() ? json : json[std::string(field.group)];
-    const double value = field.value(statistics);
-    if (field.whole) {
-      place[std::string(field.name)] = static_cast<std::int64_t>(value);
-    } else {
-      place[std::string(field.name)] = value;  // NaN is written as null
-    }
-  }
 }
 
 nlohmann::ordered_json moves_json(const PointSummary& statistics) {
@@ -56,8 +45,8 @@ nlohmann::ordered_json prediction_json(const TheoryPrediction& prediction) {
   return {{"trials", prediction.trials},
           {"stable", prediction.stable},
           {"unstable", prediction.unstable},
-          {"stable_share", rate(prediction.stable, prediction.trials)},
-          {"unstable_share", rate(prediction.unstable, prediction.trials)},
+          {"stable_share", rate(prediction.stable, predicted_trials(prediction))},
+          {"unstable_share", rate(prediction.unstable, predicted_trials(prediction))},
           {"verdict", verdict(prediction)}};
 }
 
@@ -68,12 +57,14 @@ nlohmann::ordered_json summary_json(const StudySummary& summary) {
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     nlohmann::ordered_json point{{"point", i}, {"label", summary.labels[i]}, {"axes", axes_json(summary, i)}};
-    add_fields(point, summary.points[i]);
+    add_fields(point, statistic_fields(), summary.points[i]);
     point["moves"] = moves_json(summary.points[i]);
+    if (summary.features.open_loop) point["levels"] = levels_json(summary.points[i]);
     if (!summary.predictions.empty()) point["prediction"] = prediction_json(summary.predictions[i]);
     if (const std::string seen = observed_at(summary, static_cast<std::int64_t>(i)); !seen.empty()) {
       point["observed"] = seen;
     }
+    for (const SummarySection& section : summary.sections) point[section.key] = section.json[i];
     points.push_back(std::move(point));
   }
   return {{"name", summary.name}, {"points", std::move(points)}};

@@ -119,6 +119,18 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string aligned_table(const std::vector<TextColumn>& columns) {
+  const std::size_t rows = columns.empty() ? 0 : columns.front().cells.size();
+  std::vector<std::vector<std::string>> cells(rows + 1);
+  std::vector<bool> numeric;
+  for (const TextColumn& column : columns) {
+    numeric.push_back(column.numeric);
+    cells[0].push_back(column.head);
+    for (std::size_t row = 0; row < rows; ++row) cells[row + 1].push_back(column.cells[row]);
+  }
+  return aligned_table(cells, numeric);
+}
+
 std::string aligned_table(const std::vector<std::vector<std::string>>& cells,
                           const std::vector<bool>& numeric) {
   std::vector<std::size_t> widths(numeric.size(), 0);

@@ -22,6 +22,16 @@ std::size_t display_width(std::string_view text);
 /// `text` on one line: each control character, and each byte that is not UTF-8, replaced by U+FFFD.
 std::string printable(std::string_view text);
 
+/// A column of a table.
+struct TextColumn {
+  std::string head;
+  bool numeric{false};             ///< aligned to the right
+  std::vector<std::string> cells;  ///< [row], without the head
+};
+
+/// A table as text: columns of equal length two spaces apart, the heads underlined.
+std::string aligned_table(const std::vector<TextColumn>& columns);
+
 /// A table as text: cells[row][column] in aligned columns two spaces apart, the first row underlined;
 /// `numeric` columns are aligned to the right. All rows must have the length of `numeric`.
 std::string aligned_table(const std::vector<std::vector<std::string>>& cells,

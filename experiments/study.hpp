@@ -40,6 +40,20 @@ struct RealisedProfile {
   std::shared_ptr<const Profile> profile;
 };
 
+/// One move of a sequence (`command.sequence`): which of the listed targets it goes to, and from where.
+struct SequenceMove {
+  std::int64_t target{-1};  ///< index in the list; −1: beyond an end of it, only to approach from there
+  int direction{1};         ///< of the approach: 1 from below, −1 from above
+  std::int64_t cycle{0};    ///< from 0
+};
+
+/// What the sample records of a study hold beyond the columns that all have.
+struct TraceExtras {
+  bool reference{false};     ///< at some point, the reference is not a step
+  bool phase{false};         ///< at some point, the control has two phases
+  bool drive_torque{false};  ///< at some point, the motor's torque is not the code times the resolution
+};
+
 struct StudyPlan;  // compiled form of the manifest, private to this folder
 
 /// One manifest, understood: everything that determines its trials.
@@ -64,6 +78,9 @@ struct Study {
       observed;  ///< point label → what was observed on the real rig (a case's text at all its points)
   std::vector<std::int64_t> retained_trials;  ///< trial indices whose sample records are kept, at every point
   std::int64_t moves{1};                      ///< per trial
+  std::vector<SequenceMove> sequence;         ///< [move]; empty where there is none
+  bool open_loop{false};                      ///< the moves are torque levels, without targets
+  TraceExtras trace_extras;
   std::vector<std::string> warnings;  ///< what is allowed but may surprise, a line each, with its place
 
   std::shared_ptr<const StudyPlan> plan;

@@ -24,8 +24,7 @@ StudyCost measure_cost(const Study& study) {
     const std::int64_t row = i * stride % rows;
     const StudyTrial trial = study_trial(study, row / study.trials, row % study.trials);
     run_trial(trial.parameters);
-    samples += static_cast<double>(samples_per_move(trial.parameters)) *
-               static_cast<double>(trial.parameters.command.targets.size());
+    samples += static_cast<double>(samples_of_trial(trial.parameters));
     elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   cost.seconds_per_sample = elapsed / samples;

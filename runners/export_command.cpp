@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "analysis/repeatability_export.hpp"
 #include "results/reading/export.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/commands.hpp"
@@ -9,14 +10,16 @@ namespace {
 
 constexpr const char* help =
     "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv,\n"
-    "jerks.csv, profiles.csv where there are profiles, and trace.csv where the study retains\n"
-    "trials. Numbers read back to the same double.\n"
+    "jerks.csv, profiles.csv where there are profiles, trace.csv where the study retains trials,\n"
+    "levels.csv of an open-loop study, and four tables repeatability_….csv of one with a\n"
+    "sequence of moves. Numbers read back to the same double.\n"
     "\n"
     "Example: zerocount export gains.h5 -o gains-csv\n";
 
 ExitCode export_file(const Arguments& arguments) {
   const std::string directory = arguments.required("output");
-  export_csv(StudyFile(arguments.operands()[0]), directory);
+  const StudyFile file(arguments.operands()[0]);
+  export_csv(file, directory, repeatability_exports(file));
   fmt::print(stderr, "wrote the tables to {}\n", directory);
   return ExitCode::success;
 }

@@ -49,14 +49,15 @@ std::vector<JerkRecord> jerk_records(const TrialResult& result) {
 }  // namespace
 
 std::vector<std::string> differences(const std::vector<InputColumn>& inputs, const TrialResult& recorded,
-                                     const TrialResult& replayed) {
+                                     const TrialResult& replayed,
+                                     const std::vector<RecordField<MoveOutcome>>& measures) {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (same(recorded.inputs.at(i), replayed.inputs.at(i))) continue;
     lines.push_back(fmt::format("input {}: recorded {}, replayed {}", inputs[i].name, recorded.inputs[i],
                                 replayed.inputs[i]));
   }
-  compare(outcome_fields(), recorded.outcome.moves, replayed.outcome.moves, "move", lines);
+  compare(measures, recorded.outcome.moves, replayed.outcome.moves, "move", lines);
   compare(jerk_fields(), jerk_records(recorded), jerk_records(replayed), "jerk", lines);
   return lines;
 }

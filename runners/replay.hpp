@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "experiments/study.hpp"
+#include "results/layout/layout.hpp"
 #include "results/shards/shard.hpp"
 
 namespace zerocount {
@@ -14,7 +15,9 @@ namespace zerocount {
 /// Whole numbers must be equal. Real ones may differ by 1e-9 of their size, because another machine's
 /// exponential may round its last digit differently.
 /// @param inputs the study's input columns.
-std::vector<std::string> differences(const std::vector<InputColumn>& inputs, const TrialResult& recorded,
-                                     const TrialResult& replayed);
+/// @param measures those that were recorded of the moves.
+std::vector<std::string> differences(
+    const std::vector<InputColumn>& inputs, const TrialResult& recorded, const TrialResult& replayed,
+    const std::vector<RecordField<MoveOutcome>>& measures = outcome_fields());
 
 }  // namespace zerocount

@@ -134,8 +134,7 @@ double samples_per_trial(const Study& study) {
   const std::int64_t asked = std::min<std::int64_t>(point_count(study), 64);
   for (std::int64_t i = 0; i < asked; ++i) {
     const TrialParameters parameters = study_trial(study, i * point_count(study) / asked, 0).parameters;
-    total += static_cast<double>(samples_per_move(parameters)) *
-             static_cast<double>(parameters.command.targets.size());
+    total += static_cast<double>(samples_of_trial(parameters));
   }
   return total / static_cast<double>(asked);
 }

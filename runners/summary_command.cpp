@@ -12,7 +12,8 @@ constexpr const char* help =
     "Prints a row per design point: how many trials were stable and ended at zero counts of\n"
     "error (with 95 % bounds), how long they took to settle, how often they jerked, what the\n"
     "criteria (6) and (7) of the paper predict, and what was seen on the real rig where the\n"
-    "manifest says so. json and csv hold more than the table.\n"
+    "manifest says so; of an open-loop study, a row per design point and torque level. json\n"
+    "and csv hold more than the table.\n"
     "\n"
     "Example: zerocount summary gains.h5 --format json\n";
 

@@ -25,7 +25,9 @@ constexpr const char* help =
     "\n"
     "Columns: k, t (s), target, count, coarse_count, error (counts), code, torque (N m),\n"
     "theta (rad), omega (rad/s), xp, xh (rad), depth (reversal points), mode (stick or\n"
-    "slide); values at the sampling instant, code and torque those decided there.\n"
+    "slide); values at the sampling instant, code and torque those decided there. Only where\n"
+    "the study uses them: reference (counts, that the control follows), phase (fine or\n"
+    "coarse), drive_torque (N m, of the motor).\n"
     "\n"
     "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
 
@@ -117,7 +119,7 @@ ExitCode trace(const Arguments& arguments) {
   if (!file) return ExitCode::success;
 
   const std::vector<std::string> different =
-      differences(study.input_columns, recorded_trial(*file, row), replayed);
+      differences(study.input_columns, recorded_trial(*file, row), replayed, file->measures());
   if (different.empty()) return ExitCode::success;
   std::string message =
       fmt::format("{}: point {}, trial {}: the replay is not the recorded trial", input, point, index);

@@ -15,9 +15,10 @@
 namespace zerocount {
 namespace {
 
-/// The columns of a trace: those of the results file's /trace but for the trial, and in their order.
-bool is_column(const RecordField<TraceRecord>& field) {
-  return field.column.name != "trial";
+std::vector<RecordField<TraceRecord>> columns_of(const TraceExtras& extras) {
+  std::vector<RecordField<TraceRecord>> columns = trace_fields(extras);
+  std::erase_if(columns, [](const RecordField<TraceRecord>& field) { return field.column.name == "trial"; });
+  return columns;
 }
 
 std::string value_text(const RecordField<TraceRecord>& field, const TraceRecord& record, bool json) {
@@ -59,6 +60,7 @@ nlohmann::ordered_json outcome_json(const MoveOutcome& outcome) {
 }  // namespace
 
 void TraceWriter::begin(const TraceSubject& subject) {
+  columns_ = columns_of(subject.study.trace_extras);
   if (json_) {
     nlohmann::ordered_json inputs = nlohmann::ordered_json::object();
     for (std::size_t i = 0; i < subject.trial.inputs.size(); ++i) {
@@ -69,8 +71,8 @@ void TraceWriter::begin(const TraceSubject& subject) {
     return;
   }
   std::string header;
-  for (const RecordField<TraceRecord>& field : trace_fields()) {
-    if (is_column(field)) header += (header.empty() ? "" : ",") + field.column.name;
+  for (const RecordField<TraceRecord>& field : columns_) {
+    header += (header.empty() ? "" : ",") + field.column.name;
   }
   fmt::print(file_, "{}\n", header);
 }
@@ -78,8 +80,7 @@ void TraceWriter::begin(const TraceSubject& subject) {
 void TraceWriter::write(const SampleRecord& sample) {
   const TraceRecord record{sample, 0};
   std::string line;
-  for (const RecordField<TraceRecord>& field : trace_fields()) {
-    if (!is_column(field)) continue;
+  for (const RecordField<TraceRecord>& field : columns_) {
     if (!line.empty()) line += json_ ? ", " : ",";
     if (json_) line += fmt::format("\"{}\": ", field.column.name);
     line += value_text(field, record, json_);

@@ -2,10 +2,12 @@
 
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "core/trial/outcome.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study.hpp"
+#include "results/layout/layout.hpp"
 
 namespace zerocount {
 
@@ -17,8 +19,9 @@ struct TraceSubject {
   const StudyTrial& trial;
 };
 
-/// Writes the sample records of one trial, one by one. Numbers read back to the same double; in JSON what is
-/// not finite is null.
+/// Writes the sample records of one trial, one by one: the columns of the results file's /trace but for the
+/// trial, and in their order, those that only some studies have last (Study::trace_extras). Numbers read back
+/// to the same double; in JSON what is not finite is null.
 class TraceWriter {
  public:
   /// @param json JSON: an object with the trial's inputs, its samples and its outcome; otherwise CSV: one
@@ -32,6 +35,7 @@ class TraceWriter {
  private:
   std::FILE* file_;
   bool json_;
+  std::vector<RecordField<TraceRecord>> columns_;  ///< since begin()
   bool first_{true};
 };
 

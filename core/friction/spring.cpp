@@ -1,6 +1,7 @@
 #include "core/friction/spring.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace zerocount {
 namespace {
@@ -102,6 +103,25 @@ void HystereticSpring::move_to(double x) {
     move_on_branch(*end);
   }
   move_on_branch(x);
+}
+
+void HystereticSpring::move_to_torque(double torque) {
+  const double now = this->torque();
+  if (torque == now) return;
+  set_direction(torque > now ? 1 : -1);
+  const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * std::abs(torque);
+  for (std::optional<double> end = branch_end();
+       end && direction_ * (torque - branch_end_torque()) >= -rounding; end = branch_end()) {
+    move_on_branch(*end);
+  }
+  const double travel = travel_at(branch_, branch_.sign * (torque - branch_.torque));
+  move_on_branch(branch_.elongation + branch_.sign * travel);
+}
+
+/// σ at branch_end(), N m.
+double HystereticSpring::branch_end_torque() const {
+  if (stack_.size() >= 2) return stack_[stack_.size() - 2].torque;
+  return stack_.empty() ? 0.0 : -stack_.front().torque;
 }
 
 void HystereticSpring::close_loops() {

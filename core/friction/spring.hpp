@@ -78,7 +78,12 @@ class HystereticSpring {
   /// Moves to x (rad) through however many branches lie between: the spring by itself, rate independent.
   void move_to(double x);
 
+  /// Moves to the nearest elongation that carries `torque` (N m) to rounding: loaded or unloaded slowly, by
+  /// whatever branches lie between. The torque of a reversal point closes its loop.
+  void move_to_torque(double torque);
+
  private:
+  double branch_end_torque() const;
   void select_branch();
   void close_loops();
 

@@ -12,12 +12,31 @@ std::int64_t highest_code(const DacParameters& dac) {
   return (std::int64_t{1} << (dac.bits - 1)) - 1;
 }
 
+double lowest_torque(const DacParameters& dac) {
+  return static_cast<double>(lowest_code(dac)) * dac.resolution;
+}
+double highest_torque(const DacParameters& dac) {
+  return static_cast<double>(highest_code(dac)) * dac.resolution;
+}
+
 DacOutput convert(const DacParameters& dac, double torque) {
   const double wanted = std::nearbyint(torque / dac.resolution);  // half to even in the default rounding mode
   const double lowest = static_cast<double>(lowest_code(dac));
   const double highest = static_cast<double>(highest_code(dac));
   const double code = std::clamp(wanted, lowest, highest);
   return {static_cast<std::int64_t>(code), code * dac.resolution, code != wanted};
+}
+
+bool has_errors(const DacParameters& dac) {
+  return dac.offset != 0.0 || dac.gain_error != 0.0 || dac.nonlinearity != 0.0 || dac.noise != 0.0;
+}
+
+double torque_with_errors(const DacParameters& dac, std::int64_t code) {
+  const double above = static_cast<double>(code - lowest_code(dac));
+  const double below = static_cast<double>(highest_code(dac) - code);
+  const double range = above + below;
+  const double bow = dac.nonlinearity * 4.0 * above * below / (range * range);
+  return dac.resolution * (1.0 + dac.gain_error) * (static_cast<double>(code) + bow) + dac.offset;
 }
 
 }  // namespace zerocount

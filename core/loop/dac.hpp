@@ -9,6 +9,9 @@ namespace zerocount {
 std::int64_t lowest_code(const DacParameters& dac);   ///< −2^(bits−1)
 std::int64_t highest_code(const DacParameters& dac);  ///< 2^(bits−1) − 1
 
+double lowest_torque(const DacParameters& dac);   ///< of the lowest code, lowest_code·Δu, N m
+double highest_torque(const DacParameters& dac);  ///< of the highest code, highest_code·Δu, N m
+
 /// What the converter makes of a wanted torque.
 struct DacOutput {
   std::int64_t code{0};
@@ -19,5 +22,16 @@ struct DacOutput {
 /// code = round-half-even(torque/Δu), clipped to the converter's range.
 /// @param torque wanted, N m.
 DacOutput convert(const DacParameters& dac, double torque);
+
+/// Whether the converter gives anything else than code·Δu.
+bool has_errors(const DacParameters& dac);
+
+/// What the converter really gives for `code`, without its noise, N m:
+///
+///   Δu·(1 + gain_error)·(code + INL(code)) + offset,
+///   INL(code) = nonlinearity·4·(code − lowest)·(highest − code)/(highest − lowest)²   codes,
+///
+/// a parabola that is 0 at both ends of the range and `nonlinearity` in the middle, at code −½.
+double torque_with_errors(const DacParameters& dac, std::int64_t code);
 
 }  // namespace zerocount

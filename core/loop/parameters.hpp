@@ -4,21 +4,63 @@
 
 namespace zerocount {
 
+/// What is wrong with an encoder. All zero: an ideal one.
+struct EncoderErrors {
+  double eccentricity{0.0};        ///< amplitude of the reading's error once per revolution, rad
+  double eccentricity_angle{0.0};  ///< angle on the rotor at which that error rises through zero, rad
+  double interpolation{0.0};       ///< amplitude of the error once per signal period, counts of this encoder
+  double interpolation_period{4.0};  ///< signal period, counts of this encoder
+  double noise{
+      0.0};  ///< standard deviation of the reading before it is rounded to a count, counts of this encoder
+  double missed{0.0};  ///< probability that a count that is passed is not counted, in [0, 1]
+};
+
 /// The two encoders on the shaft. Defaults: the paper's rig.
 struct EncoderParameters {
   double fine{1620000.0};  ///< counts per revolution of the encoder that closes the loop, a whole number
   double coarse{86400.0};  ///< counts per revolution of the encoder read beside it, a whole number
+  EncoderErrors fine_errors{};
+  EncoderErrors coarse_errors{};
 };
 
 /// The digital-to-analogue converter. Defaults: the paper's rig.
 struct DacParameters {
   int bits{12};               ///< word length, codes −2^(bits−1) … 2^(bits−1) − 1
   double resolution{2.4e-4};  ///< Δu, torque of one code, N m
+  double offset{0.0};         ///< added to the torque of every code, N m
+  double gain_error{0.0};     ///< relative error of Δu, dimensionless
+  double nonlinearity{
+      0.0};  ///< integral non-linearity: largest deviation from the straight line between the ends, codes
+  double noise{0.0};  ///< standard deviation of the torque, drawn anew at each sample, N m
+};
+
+/// The amplifier between converter and motor.
+struct AmplifierParameters {
+  double bandwidth{0.0};  ///< of its first-order response (−3 dB), Hz; 0: it follows at once
 };
 
 enum class AntiWindup { clamp, none };
 
-/// PID control of the fine count.
+enum class EncoderChoice { fine, coarse };
+
+/// Phase of a two-phase control. A control without a coarse phase is always in the fine one.
+enum class ControlPhase { fine, coarse };
+
+/// Two-phase (dual mode) control (paper, end of section 2): the gains of the coarse phase, and when it is
+/// left and entered. All counts are fine ones; a phase that is fed back from the coarse encoder has that
+/// one's count times fine/coarse.
+struct CoarsePhaseParameters {
+  double kp{5.0e-4};                           ///< N m/count
+  double ki{2.0e-6};                           ///< of the trapezoidal rule, N m/count
+  double kd{6.0e-3};                           ///< on the difference of successive counts, N m/count
+  EncoderChoice encoder{EncoderChoice::fine};  ///< that closes the loop in the coarse phase
+  double fine_within{100.0};   ///< largest |error| with which the fine phase is entered, counts
+  double fine_rate{1.0};       ///< largest change of the count per sample with which it is entered, counts
+  double fine_dwell{0.01};     ///< time for which both must have held, s
+  double coarse_beyond{1e12};  ///< |error| beyond which the coarse phase is entered, counts; 1e12: never
+};
+
+/// PID control of the count.
 struct ControllerParameters {
   double sample_rate{2000.0};  ///< 1/T, Hz
   double kp{0.0};              ///< N m/count
@@ -26,6 +68,22 @@ struct ControllerParameters {
   double kd{0.0};              ///< on the difference of successive counts, N m/count
   int delay{0};                ///< samples between deciding a torque and applying it
   AntiWindup anti_windup{AntiWindup::clamp};
+  EncoderChoice encoder{EncoderChoice::fine};  ///< that closes the loop in the fine phase
+  CoarsePhaseParameters coarse{};
+};
+
+enum class ReferenceShape {
+  step,         ///< the reference is the target from the first sample of the move
+  trapezoidal,  ///< velocity rises and falls linearly
+  s_curve       ///< so does the acceleration
+};
+
+/// How the reference goes from one target to the next.
+struct ReferenceProfile {
+  ReferenceShape shape{ReferenceShape::step};
+  double velocity_limit{2.0};        ///< rad/s
+  double acceleration_limit{100.0};  ///< rad/s²
+  double jerk_limit{1.0e4};          ///< of an s_curve: limit of the rate of the acceleration, rad/s³
 };
 
 }  // namespace zerocount

@@ -24,8 +24,8 @@ Series scaled_difference(double constant, double factor, Series series) {
 
 /// First time in (0, end] at which `series` changes sign, where a start at exactly zero does not count.
 std::optional<double> next_sign_change(std::span<const double> series, double end) {
-  if (series[0] == 0.0) series = series.subspan(1);
-  if (series[0] == 0.0) return std::nullopt;
+  while (!series.empty() && series.front() == 0.0) series = series.subspan(1);
+  if (series.empty()) return std::nullopt;
   return first_sign_change(series, end);
 }
 

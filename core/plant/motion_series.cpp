@@ -26,8 +26,9 @@ double torque_power_coefficient(const Series& magnitude, const Series& power, do
 
 PreslidingSeries presliding_series(const PlantParameters& plant, const FrictionParameters& contact,
                                    const HystereticSpring& spring, const CreepState& creep, double omega,
-                                   double torque, bool creeping) {
+                                   const TorqueCourse& torque, bool creeping) {
   const SpringBranch& branch = spring.branch();
+  const Series applied = torque_series(torque);
   PreslidingSeries s{};
   Series& exponent = s.exponent;
   Series slope{};      // −dy/dt
@@ -65,9 +66,8 @@ PreslidingSeries presliding_series(const PlantParameters& plant, const FrictionP
     const double extension_rate = torque_sign * s.creep_rate[k];
     s.elongation_rate[k] = s.omega[k] - extension_rate;
     slope[k] = exponent_coefficient(branch, s.elongation_rate[k]);
-    const double applied = k == 0 ? torque : 0.0;
     const double acceleration =
-        (applied - plant.presliding_damping * s.omega[k] - s.spring_torque[k]) * per_inertia;
+        (applied[k] - plant.presliding_damping * s.omega[k] - s.spring_torque[k]) * per_inertia;
     s.hardening[k + 1] = s.creep_rate[k] * reciprocal[k + 1];
     s.extension[k + 1] = extension_rate * reciprocal[k + 1];
     s.elongation[k + 1] = s.elongation_rate[k] * reciprocal[k + 1];
@@ -77,7 +77,8 @@ PreslidingSeries presliding_series(const PlantParameters& plant, const FrictionP
 }
 
 SlidingSeries sliding_series(const PlantParameters& plant, const FrictionParameters& contact, double theta,
-                             double omega, double direction, double torque) {
+                             double omega, double direction, const TorqueCourse& torque) {
+  const Series applied = torque_series(torque);
   const double coulomb = contact.coulomb_ratio * contact.breakaway;
   const double stribeck = contact.breakaway - coulomb;
   const double per_velocity_squared = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
@@ -96,9 +97,9 @@ SlidingSeries sliding_series(const PlantParameters& plant, const FrictionParamet
     } else {
       lightness[0] = std::exp(exponent[0]);
     }
-    const double constant = k == 0 ? torque - direction * coulomb : 0.0;
+    const double driving = k == 0 ? applied[0] - direction * coulomb : applied[k];
     const double acceleration =
-        (constant - plant.sliding_damping * s.omega[k] - direction * stribeck * lightness[k]) * per_inertia;
+        (driving - plant.sliding_damping * s.omega[k] - direction * stribeck * lightness[k]) * per_inertia;
     s.theta[k + 1] = s.omega[k] * reciprocal[k + 1];
     s.omega[k + 1] = acceleration * reciprocal[k + 1];
   }

@@ -5,11 +5,11 @@
 #include "core/friction/spring.hpp"
 #include "core/numerics/power_series.hpp"
 #include "core/plant/parameters.hpp"
+#include "core/plant/torque_course.hpp"
 
 namespace zerocount {
 
-/// Taylor series in time of the pre-sliding motion from the present state, on one branch and under constant
-/// torque.
+/// Taylor series in time of the pre-sliding motion from the present state, on one branch.
 struct PreslidingSeries {
   Series elongation;       ///< xs, rad
   Series elongation_rate;  ///< dxs/dt, rad/s
@@ -26,12 +26,12 @@ struct PreslidingSeries {
 /// (paper, eqs. 1, 2 and 4, with creep kept) as power series, order by order. With y = softening_rate·|xs −
 /// xr| the branch is σ = σr + s·[k1·|xs − xr| + softening_torque·(1 − exp(−y))], so that the only exponential
 /// is that of y at the start.
-/// @param torque u, N m. @param creeping whether the creep law is on.
+/// @param torque u(t), N m. @param creeping whether the creep law is on.
 PreslidingSeries presliding_series(const PlantParameters& plant, const FrictionParameters& contact,
                                    const HystereticSpring& spring, const CreepState& creep, double omega,
-                                   double torque, bool creeping);
+                                   const TorqueCourse& torque, bool creeping);
 
-/// Taylor series in time of the sliding motion under constant torque.
+/// Taylor series in time of the sliding motion.
 struct SlidingSeries {
   Series theta;     ///< θ, rad
   Series omega;     ///< ω, rad/s
@@ -40,9 +40,9 @@ struct SlidingSeries {
 
 /// The solution of J·dω/dt = u − cs·ω − d·(Fc + (Fs − Fc)·exp(−(ω/ωs)²)), dθ/dt = ω (paper, eq. 3, with
 /// Stribeck friction).
-/// @param direction d, −1 or 1. @param torque u, N m.
+/// @param direction d, −1 or 1. @param torque u(t), N m.
 SlidingSeries sliding_series(const PlantParameters& plant, const FrictionParameters& contact, double theta,
-                             double omega, double direction, double torque);
+                             double omega, double direction, const TorqueCourse& torque);
 
 /// The longest step t ≤ `longest` (s) over which both hold:
 /// - the last two terms of the series of a position, and those of its velocity times t, stay below
@@ -52,6 +52,8 @@ SlidingSeries sliding_series(const PlantParameters& plant, const FrictionParamet
 /// - the exponent of the motion's one exponential grows by at most 6, or stays below −40. The terms zᵏ/k! of
 /// exp(z) rise up to
 ///   k = z: beyond that growth the last terms kept may be small before the largest have come.
+/// The exponential of a torque that moves needs no such bound: its exponent is linear, so that what is left
+/// out of it is never more than a few of the last terms.
 double step_within(const Series& position, const Series& velocity, const Series& exponent, double tolerance,
                    double longest);
 

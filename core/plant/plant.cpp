@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/plant/events.hpp"
@@ -15,156 +14,84 @@ namespace {
 /// the paper's rig takes about three.
 constexpr int most_steps = 200000;
 
+/// A torque has settled when this many time constants have passed: exp(−37) is below the rounding of 1.
+constexpr double time_constants_to_settle = 37.0;
+
+/// Below this share of the breakaway torque the sign of σ is a matter of rounding. Which side of the virgin
+/// curve a new contact starts on must not be: it decides whether a turn of the motion there is remembered.
+constexpr double torque_without_sign = 1e-14;
+
 int sign_of(double value) {
   return (value > 0.0) - (value < 0.0);
 }
 
+/// The sign with which a slide leaves ω = 0, or 0 where it does not.
+int departure(const SlidingSeries& series) {
+  for (const double coefficient : series.omega) {
+    if (coefficient != 0.0) return sign_of(coefficient);
+  }
+  return 0;
+}
+
 }  // namespace
 
-Plant::Plant(const PlantParameters& plant, FrictionAlongRotor friction, double position, double hardening,
-             double preload, MotionTolerance tolerance)
+Plant::Plant(const PlantParameters& plant, FrictionAlongRotor friction, const PlantStart& start,
+             MotionTolerance tolerance)
     : plant_(plant),
       friction_(std::move(friction)),
-      position_(position),
+      position_(start.position),
       tolerance_(tolerance),
-      contact_(friction_at(friction_, position)),
+      contact_(friction_at(friction_, position_)),
       spring_(contact_),
-      creep_{0.0, hardening},
-      creep_onset_torque_(creep_onset_torque(contact_, hardening + tolerance.elongation)) {
-  spring_.start_preloaded(preload);
+      omega_(start.velocity) {
+  const bool coulomb = friction_.model == FrictionModel::coulomb;
+  sliding_ = start.velocity != 0.0 && (start.sliding || coulomb);
+  if (sliding_) {
+    slide_direction_ = sign_of(start.velocity);
+    breakaway_spring_torque_ = coulomb ? 0.0 : slide_direction_ * contact_.breakaway;
+  }
+  spring_.start_preloaded(0.0);
+  if (!sliding_ && !coulomb) {
+    creep_.hardening = start.hardening;
+    spring_.start_preloaded(start.preload);
+    for (const double torque : start.history) spring_.move_to_torque(torque);
+    if (!start.history.empty()) spring_.move_to_torque(0.0);
+  }
+  creep_onset_torque_ = creep_onset_torque(contact_, creep_.hardening + tolerance.elongation);
   hook_ = -spring_.elongation();
   forget_deepest();
 }
 
-void Plant::advance(double torque, double duration) {
+void Plant::advance(const TorqueCourse& torque, double duration) {
+  TorqueCourse ahead = torque;
+  bool moves = !is_constant(ahead);
   double remaining = duration;
   for (int step = 0; remaining > 0.0 && finite_; ++step) {
     if (step == most_steps) finite_ = false;
-    const double used = sliding_ ? slide(torque, remaining) : stick(torque, remaining);
+    const double used = sliding_ ? slide(ahead, remaining) : stick(ahead, remaining);
     remaining = used < remaining ? remaining - used : 0.0;
+    if (moves) {
+      moves = duration - remaining < time_constants_to_settle / ahead.rate;
+      ahead = moves ? course_after(ahead, used) : constant_torque(ahead.settled);
+    }
     finite_ = finite_ && std::isfinite(theta()) && std::isfinite(omega_);
   }
-}
-
-/// dxp/dt, rad/s.
-double Plant::creep_rate() const {
-  if (!creeping_) return 0.0;
-  const double torque = spring_.torque();
-  return std::copysign(contact_.alpha * (hardening_limit(contact_, torque) - creep_.hardening), torque);
-}
-
-Plant::Elongation Plant::elongation_under(double torque, double creep_rate_now) const {
-  const double unbalanced = torque - plant_.presliding_damping * omega_ - spring_.torque();
-  return {omega_ - creep_rate_now, unbalanced / plant_.inertia + contact_.alpha * creep_rate_now};
-}
-
-bool Plant::at_rest(const Elongation& elongation) const {
-  const double stiffness_per_inertia = (contact_.k1 + contact_.k2) / plant_.inertia;
-  return std::abs(elongation.rate) < tolerance_.elongation * std::sqrt(stiffness_per_inertia) &&
-         std::abs(elongation.acceleration) < tolerance_.elongation * stiffness_per_inertia;
-}
-
-/// The direction in which the hook slides from now on, or 0 where it holds.
-int Plant::slides_towards(double torque) const {
-  const double hook_torque = spring_.torque() + plant_.presliding_damping * omega_;
-  const double motion = omega_ != 0.0 ? omega_ : torque - spring_.torque();
-  const bool slides = std::abs(hook_torque) >= contact_.breakaway && hook_torque * motion > 0.0;
-  return slides ? sign_of(motion) : 0;
-}
-
-double Plant::stick(double torque, double duration) {
-  if (!creeping_ && std::abs(spring_.torque()) >= creep_onset_torque_) creeping_ = true;
-  double creep_rate_now = creep_rate();
-  // The end of creep can lie closer to σ = 0 than the series of |σ|ⁿ sees, if n is no whole number.
-  if (creeping_ && !(creep_rate_now * spring_.torque() > 0.0)) {
-    end_creep();
-    creep_rate_now = 0.0;
-  }
-  const Elongation elongation = elongation_under(torque, creep_rate_now);
-  if (at_rest(elongation)) {
-    hold_at_rest(duration);
-    return duration;
-  }
-  if (const int direction = slides_towards(torque); direction != 0) {
-    break_away(direction);
-    return 0.0;
-  }
-  spring_.set_direction(sign_of(elongation.rate != 0.0 ? elongation.rate : elongation.acceleration));
-  deepest_ = std::max(deepest_, static_cast<std::int64_t>(spring_.depth()));
-
-  const PreslidingSeries series =
-      presliding_series(plant_, contact_, spring_, creep_, omega_, torque, creeping_);
-  const double step =
-      step_within(series.elongation, series.omega, series.exponent, tolerance_.elongation, duration);
-  const NextEvent next =
-      next_presliding_event(series, {plant_, contact_, spring_, creeping_, creep_onset_torque_}, step);
-
-  omega_ = value_at(series.omega, next.time);
-  creep_.extension = value_at(series.extension, next.time);
-  creep_.hardening = value_at(series.hardening, next.time);
-  spring_.move_on_branch(next.event == Event::closure ? *spring_.branch_end()
-                                                      : value_at(series.elongation, next.time));
-  pass(next.event);
-  return next.time;
-}
-
-void Plant::pass(Event event) {
-  switch (event) {
-    case Event::reversal:
-      omega_ = creep_rate();  // dxs/dt is zero here, exactly
-      break;
-    case Event::creep_on:
-      creeping_ = true;
-      break;
-    case Event::creep_off:
-      end_creep();
-      break;
-    case Event::breakaway:
-      break_away(sign_of(omega_));
-      break;
-    case Event::velocity_zero:
-      omega_ = 0.0;
-      break;
-    case Event::closure:  // the spring has closed it
-    case Event::none:
-      break;
-  }
-}
-
-void Plant::end_creep() {
-  creeping_ = false;
-  // The onset lies beyond the rounding of σ, or creep would set in again at once where σ moves by less than
-  // that per step.
-  const double torque = std::abs(spring_.torque());
-  const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *
-                          (torque + (contact_.k1 + contact_.k2) * std::abs(spring_.elongation()));
-  creep_onset_torque_ =
-      std::max(creep_onset_torque(contact_, creep_.hardening + tolerance_.elongation), torque + rounding);
-}
-
-void Plant::hold_at_rest(double duration) {
-  if (creeping_) {
-    const double torque = spring_.torque();
-    creep_ = creep_at_constant_torque(contact_, creep_, torque, duration);
-    if (hardening_limit(contact_, torque) - creep_.hardening < 0.5 * tolerance_.elongation) {
-      end_creep();
-    }
-  }
-  omega_ = creep_rate();
 }
 
 void Plant::break_away(double direction) {
   slide_theta_ = theta();
   slide_direction_ = direction;
-  breakaway_spring_torque_ = spring_.torque();
+  const double spring_torque = spring_.torque();
+  breakaway_spring_torque_ =
+      std::abs(spring_torque) < torque_without_sign * contact_.breakaway ? 0.0 : spring_torque;
   sliding_ = true;
   ++breakaways_;
 }
 
-double Plant::slide(double torque, double duration) {
+double Plant::slide(const TorqueCourse& torque, double duration) {
   const SlidingSeries series =
       sliding_series(plant_, contact_, slide_theta_, omega_, slide_direction_, torque);
-  if (omega_ == 0.0 && !(slide_direction_ * series.omega[1] > 0.0)) {
+  if (omega_ == 0.0 && departure(series) != slide_direction_) {
     re_stick();
     return 0.0;
   }
@@ -187,6 +114,29 @@ void Plant::re_stick() {
   creep_onset_torque_ = creep_onset_torque(contact_, tolerance_.elongation);
   omega_ = 0.0;
   sliding_ = false;
+}
+
+/// Whether a slide in `direction` can leave ω = 0 under the torque.
+bool Plant::torque_drives(double direction, const TorqueCourse& torque) const {
+  return departure(sliding_series(plant_, contact_, 0.0, 0.0, direction, torque)) == direction;
+}
+
+/// A Coulomb contact. |u| can pass the breakaway torque at most once, and only towards where it settles,
+/// because u is monotonic. What moves nothing in the arithmetic counts as within the level: the rotor would
+/// slide and stick without end.
+double Plant::stand(const TorqueCourse& torque, double duration) {
+  if (std::abs(torque.now) > contact_.breakaway && torque_drives(sign_of(torque.now), torque)) {
+    break_away(sign_of(torque.now));
+    return 0.0;
+  }
+  if (is_constant(torque) || std::abs(torque.settled) <= contact_.breakaway) return duration;
+  const double direction = sign_of(torque.settled);
+  // From the level itself, where rounding has no say in whether it is passed.
+  const TorqueCourse release{direction * contact_.breakaway, torque.settled, torque.rate};
+  const double waiting = time_until(torque, release.now);
+  if (!(waiting < duration) || !torque_drives(direction, release)) return duration;
+  break_away(direction);
+  return waiting + slide(release, duration - waiting);
 }
 
 }  // namespace zerocount

@@ -7,6 +7,8 @@
 #include "core/friction/spring.hpp"
 #include "core/plant/events.hpp"
 #include "core/plant/parameters.hpp"
+#include "core/plant/plant_start.hpp"
+#include "core/plant/torque_course.hpp"
 
 namespace zerocount {
 
@@ -25,17 +27,20 @@ struct MotionTolerance {
 ///
 /// Rest rule: where |dxs/dt| < ε·ωn and |d²xs/dt²| < ε·ωn², with ε = MotionTolerance::elongation and ωn² =
 /// (k1 + k2)/J, the elongation is held for the rest of the torque step and creep, if any, follows its exact
-/// solution at constant torque. The elongation is then never further than ε·(k1 + k2)/k1 from the one that
-/// balances the torque. Without this rule rounding would make the elongation rate flip sign for ever.
+/// solution at constant torque. Where the torque moves, the rest begins at half of that acceleration and
+/// lasts until the torque has brought it to the whole. The elongation is then never further than ε·(k1 +
+/// k2)/k1 from the one that balances the torque. Without this rule rounding would make the elongation rate
+/// flip sign for ever.
+///
+/// FrictionModel::coulomb has no elongation and no creep: the rotor stands while |u| ≤ breakaway, and slides
+/// towards sgn(u) from the instant at which |u| passes it.
 class Plant {
  public:
-  /// @param position rotor angle (rad) of θ = 0 on the friction profiles.
-  /// @param preload torque (N m) of a slow load-and-unload before the start.
-  Plant(const PlantParameters& plant, FrictionAlongRotor friction, double position, double hardening,
-        double preload, MotionTolerance tolerance);
+  Plant(const PlantParameters& plant, FrictionAlongRotor friction, const PlantStart& start,
+        MotionTolerance tolerance);
 
-  /// Holds `torque` (N m) for `duration` (s).
-  void advance(double torque, double duration);
+  /// Applies the torque for `duration` (s).
+  void advance(const TorqueCourse& torque, double duration);
 
   /// θ, rad.
   double theta() const { return sliding_ ? slide_theta_ : hook_ + spring_.elongation() + creep_.extension; }
@@ -63,17 +68,23 @@ class Plant {
     double acceleration;
   };
 
+  // Each returns the time used, at most `duration`.
+  double stick(const TorqueCourse& torque, double duration);
+  double stand(const TorqueCourse& torque, double duration);  // stick of FrictionModel::coulomb
+  double slide(const TorqueCourse& torque, double duration);
+
   Elongation elongation_under(double torque, double creep_rate_now) const;
   bool at_rest(const Elongation& elongation) const;
+  double time_at_rest(const Elongation& elongation, const TorqueCourse& torque, double duration) const;
   int slides_towards(double torque) const;
   void pass(Event event);
-  double stick(double torque, double duration);  // both return the time used, at most duration
-  double slide(double torque, double duration);
   void hold_at_rest(double duration);
   void end_creep();
+  double creep_rate() const;
+
+  bool torque_drives(double direction, const TorqueCourse& torque) const;
   void break_away(double direction);
   void re_stick();
-  double creep_rate() const;
 
   PlantParameters plant_;
   FrictionAlongRotor friction_;
@@ -81,7 +92,7 @@ class Plant {
   MotionTolerance tolerance_;
 
   FrictionParameters contact_;
-  HystereticSpring spring_;
+  HystereticSpring spring_;  // stays without elongation in FrictionModel::coulomb
   CreepState creep_;
   bool creeping_{false};
   double creep_onset_torque_{0.0};  // |σ| at which creep starts, while it is off

@@ -11,22 +11,36 @@ int sign_of(std::int64_t value) {
   return (value > 0) - (value < 0);
 }
 
-Outcome verdict(std::int64_t largest_error, bool finite) {
+Outcome verdict(std::int64_t largest_error, bool finite, bool judged) {
   if (!finite) return Outcome::nonfinite;
+  if (!judged) return Outcome::open_loop;
   if (largest_error == 0) return Outcome::zero_count;
   return largest_error == 1 ? Outcome::one_count : Outcome::oscillating;
 }
 
 }  // namespace
 
-MoveTiming move_timing(const TrialParameters& parameters) {
+MoveTiming move_timing(const TrialParameters& parameters, std::size_t move) {
   const double rate = parameters.controller.sample_rate;
-  return {1.0 / rate, samples_per_move(parameters), samples_in(parameters.verdict.dwell, rate),
-          samples_in(parameters.verdict.window, rate)};
+  return {1.0 / rate, samples_of_move(parameters, move), samples_in(parameters.verdict.dwell, rate),
+          samples_in(parameters.verdict.window, rate), parameters.command.torque.levels.empty()};
 }
 
 bool MoveMeasures::add(const MoveSample& sample) {
   const std::int64_t error = sample.target - sample.count;
+  outcome_.final_error = error;
+  outcome_.holding_torque = sample.torque;
+  outcome_.peak_torque = std::max(outcome_.peak_torque, std::abs(sample.torque));
+  outcome_.saturated = outcome_.saturated || sample.clipped;
+  outcome_.creep = sample.creep;
+  outcome_.final_position = sample.theta;
+  const bool jerk_ended = timing_.judged && judge(error);
+  ++k_;
+  return jerk_ended;
+}
+
+/// What the error says of the move so far. Returns whether a jerk ended before this sample.
+bool MoveMeasures::judge(std::int64_t error) {
   if (k_ == 0) direction_ = sign_of(error);
 
   const bool dwelt = outcome_.arrived;  // the dwell ended before this sample
@@ -41,15 +55,7 @@ bool MoveMeasures::add(const MoveSample& sample) {
     largest_in_window_ = std::max(largest_in_window_, std::abs(error));
 
   outcome_.overshoot = std::max(outcome_.overshoot, -direction_ * error);
-  outcome_.holding_torque = sample.torque;
-  outcome_.peak_torque = std::max(outcome_.peak_torque, std::abs(sample.torque));
-  outcome_.saturated = outcome_.saturated || sample.clipped;
-  outcome_.creep = sample.creep;
-  outcome_.final_position = sample.theta;
-
-  const bool jerk_ended = dwelt && track_jerk(error);
-  ++k_;
-  return jerk_ended;
+  return dwelt && track_jerk(error);
 }
 
 bool MoveMeasures::track_jerk(std::int64_t error) {
@@ -79,7 +85,7 @@ bool MoveMeasures::finish(bool broke_away, std::int64_t reversal_depth, bool fin
   if (jerk_cut) end_jerk();
   outcome_.broke_away = broke_away;
   outcome_.reversal_depth = reversal_depth;
-  outcome_.outcome = verdict(largest_in_window_, finite);
+  outcome_.outcome = verdict(largest_in_window_, finite, timing_.judged);
   outcome_.stable = finite && outcome_.arrived && largest_since_arrival_ <= 1;
   if (outcome_.jerk_count > 0) {
     const std::int64_t agreeing =

@@ -13,13 +13,14 @@ struct MoveTiming {
   std::int64_t samples{2000};  ///< N, of the move
   std::int64_t dwell{100};     ///< D, samples at zero error that make an arrival
   std::int64_t window{100};    ///< W, last samples that decide the outcome
+  bool judged{true};           ///< false where the move has no target, but a torque level
 };
 
-MoveTiming move_timing(const TrialParameters& parameters);
+MoveTiming move_timing(const TrialParameters& parameters, std::size_t move);
 
 /// What one sample contributes to the measures of its move.
 struct MoveSample {
-  std::int64_t target{0};  ///< counts
+  std::int64_t target{0};  ///< counts; 0 where there is none
   std::int64_t count{0};   ///< counts
   double torque{0.0};      ///< decided at this sample, N m
   bool clipped{false};     ///< the DAC was out of range
@@ -45,6 +46,7 @@ class MoveMeasures {
   const MoveOutcome& outcome() const { return outcome_; }
 
  private:
+  bool judge(std::int64_t error);
   bool track_jerk(std::int64_t error);
   void end_jerk();
 

@@ -7,8 +7,15 @@
 namespace zerocount {
 
 /// Verdict on a move by its last samples, best first. The numbers are those stored in results files.
-/// nonfinite: the motion left the finite numbers, or could not be followed (see Plant::finite).
-enum class Outcome : std::int8_t { zero_count = 0, one_count = 1, oscillating = 2, nonfinite = 3 };
+/// nonfinite: the motion left the finite numbers, or could not be followed (see Plant::finite). open_loop:
+/// the move had a torque level and no target, so there was nothing to judge.
+enum class Outcome : std::int8_t {
+  zero_count = 0,
+  one_count = 1,
+  oscillating = 2,
+  nonfinite = 3,
+  open_loop = 4
+};
 
 /// What is measured of one move.
 struct MoveOutcome {
@@ -19,13 +26,17 @@ struct MoveOutcome {
   bool saturated{false};     ///< the DAC clipped
   std::int64_t arrival{-1};  ///< first sample of the arrival dwell, from the move's start; −1 if never
   double settling_time{std::numeric_limits<double>::quiet_NaN()};  ///< arrival·T, s; NaN if never
+  double travel_time{0.0};         ///< until the reference, or the torque, is where it is held, s
   std::int64_t overshoot{0};       ///< largest excursion beyond the target, seen from the first count, counts
+  std::int64_t final_error{0};     ///< e at the last sample, counts; −count where there is no target
+  double final_position{0.0};      ///< θ at the last sample, rad
   double holding_torque{0.0};      ///< torque decided at the last sample, N m
   double peak_torque{0.0};         ///< largest |torque| decided, N m
   double creep{0.0};               ///< xp at the last sample, rad
-  double final_position{0.0};      ///< θ at the last sample, rad
   std::int64_t reversal_depth{0};  ///< largest number of reversal points on the stack
-  std::int64_t jerk_count{0};      ///< excursions of the error after arrival
+  std::int64_t phase_changes{0};   ///< of the control, from coarse to fine or back
+  std::int64_t encoder_disagreement{0};  ///< samples at which the fine count made the coarse one impossible
+  std::int64_t jerk_count{0};            ///< excursions of the error after arrival
   double jerk_agreement{
       std::numeric_limits<double>::quiet_NaN()};  ///< share of jerks towards sgn(holding_torque); NaN if none
 };

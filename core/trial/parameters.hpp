@@ -1,18 +1,47 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "core/friction/parameters.hpp"
 #include "core/loop/parameters.hpp"
 #include "core/plant/parameters.hpp"
+#include "core/random/trial_randomness.hpp"
 
 namespace zerocount {
 
-/// The moves of a trial: each target is held for the same time.
+enum class TorquePath {
+  dac,   ///< rounded to codes, with the converter's errors
+  exact  ///< as commanded at the sampling instants
+};
+
+/// Torque levels in place of targets: the rotor is loaded open loop. Level i is a move of its own: the torque
+/// goes to it at the constant rate, from the level before (from 0 at the start), and is held there.
+struct TorqueCommand {
+  std::vector<double> levels;  ///< N m; empty where the trial has targets
+  double rate{0.1};            ///< N m/s
+  TorquePath through{TorquePath::dac};
+};
+
+/// The moves of a trial.
 struct CommandParameters {
   std::vector<std::int64_t> targets;  ///< counts from the start of the trial, one per move
-  double hold{1.0};                   ///< s per move
+  double hold{1.0};  ///< s: of each target, from the move's start; of each torque level, once it is reached
+  ReferenceProfile profile{};
+  TorqueCommand torque{};
+};
+
+/// How the trial begins. `slide` is arrival from sliding: the hook slides at t = 0, and the spring had the
+/// breakaway torque when it began to.
+enum class InitialMode { stick, slide };
+
+/// Random loading before t = 0 and after the preload, slow and without creep: the torque goes to `reversals`
+/// levels one after the other, each drawn evenly between the last one and ±`torque`, up and down by turns,
+/// and then back to 0; θ = 0 there.
+struct RandomHistory {
+  int reversals{0};
+  double torque{0.0};  ///< largest magnitude of a level, N m
 };
 
 /// What the trial finds at t = 0.
@@ -21,6 +50,10 @@ struct InitialConditions {
   double position{0.0};       ///< where on the rotor the contact is, rad; selects from the profiles
   double hardening{0.0};      ///< xh, rad
   double preload{0.0};  ///< torque of a slow load-and-unload from virgin before t = 0, without creep, N m
+  RandomHistory history{};
+  double velocity{0.0};  ///< ω, rad/s
+  double integral{0.0};  ///< I of the controller before the first sample, N m
+  InitialMode mode{InitialMode::stick};
 };
 
 /// How a move is judged.
@@ -35,16 +68,25 @@ struct TrialParameters {
   FrictionAlongRotor friction;
   EncoderParameters encoder;
   DacParameters dac;
+  AmplifierParameters amplifier{};
   ControllerParameters controller;
   CommandParameters command;
   InitialConditions initial;
   VerdictParameters verdict;
+  TrialRandomness randomness{};
 };
 
 /// Number of whole samples in `duration` (s) at `sample_rate` (Hz): round(duration·sample_rate).
 std::int64_t samples_in(double duration, double sample_rate);
 
-/// Number of samples of one move.
-std::int64_t samples_per_move(const TrialParameters& parameters);
+/// Number of moves: targets, or torque levels.
+std::size_t move_count(const TrialParameters& parameters);
+
+/// Number of samples of move `move`: round(hold·sample_rate), and for a torque level those on the way to it
+/// before.
+std::int64_t samples_of_move(const TrialParameters& parameters, std::size_t move);
+
+/// Number of samples of all moves.
+std::int64_t samples_of_trial(const TrialParameters& parameters);
 
 }  // namespace zerocount

@@ -1,143 +1,108 @@
 #include "core/trial/trial.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-#include <vector>
-
-#include "core/loop/dac.hpp"
-#include "core/loop/encoder.hpp"
-#include "core/loop/pid.hpp"
-#include "core/plant/plant.hpp"
+#include "core/loop/controller.hpp"
+#include "core/loop/reference.hpp"
 #include "core/trial/move_measures.hpp"
+#include "core/trial/rig.hpp"
+#include "core/trial/torque_ramp.hpp"
 
 namespace zerocount {
 namespace {
 
-/// Fraction of a fine count that the motion may leave out per torque step. Far below the accuracy asked for,
-/// because a trial that breaks away in every cycle of its ringing multiplies an error from cycle to cycle.
-constexpr double motion_tolerance_in_counts = 1e-11;
-
-/// Farther than this, counts are no longer whole numbers of a double.
-constexpr double most_counts = 0x1p52;
-
-/// Torques on their way from decision to motor: zero until the first has come through.
-class DelayLine {
- public:
-  explicit DelayLine(int samples) : waiting_(static_cast<std::size_t>(samples), 0.0) {}
-
-  double pass(double torque) {
-    if (waiting_.empty()) return torque;
-    std::swap(torque, waiting_[oldest_]);
-    oldest_ = (oldest_ + 1) % waiting_.size();
-    return torque;
-  }
-
- private:
-  std::vector<double> waiting_;
-  std::size_t oldest_{0};
-};
-
-/// The loop of one trial. One sample is: read, decide, hold.
-class Loop {
- public:
-  explicit Loop(const TrialParameters& p)
-      : fine_(make_encoder(p.encoder.fine, p.initial.encoder_phase)),
-        coarse_(make_encoder(p.encoder.coarse, p.initial.encoder_phase)),
-        dac_(p.dac),
-        controller_(p.controller, static_cast<double>(lowest_code(p.dac)) * p.dac.resolution,
-                    static_cast<double>(highest_code(p.dac)) * p.dac.resolution),
-        delay_(p.controller.delay),
-        sample_time_(1.0 / p.controller.sample_rate),
-        plant_(p.plant, p.friction, p.initial.position, p.initial.hardening, p.initial.preload,
-               MotionTolerance{motion_tolerance_in_counts * fine_.resolution}) {}
-
-  /// Reads the encoders at t_k and decides the torque.
-  SampleRecord decide(std::int64_t k, std::int64_t target) {
-    SampleRecord record;
-    record.k = k;
-    record.t = static_cast<double>(k) * sample_time_;
-    record.target = target;
-    record.theta = plant_.theta();
-    record.omega = plant_.omega();
-    record.count = read_count(fine_, record.theta);
-    record.coarse_count = read_count(coarse_, record.theta);
-    record.error = target - record.count;
-    const DacOutput output = convert(dac_, controller_.update(target, record.count));
-    record.code = output.code;
-    record.torque = output.torque;
-    record.xp = plant_.creep().extension;
-    record.xh = plant_.creep().hardening;
-    record.depth = static_cast<std::int64_t>(plant_.spring().depth());
-    record.mode = plant_.sliding() ? HookMode::slide : HookMode::stick;
-    clipped_ = output.clipped;
-    return record;
-  }
-
-  /// Holds the torque that has come through the delay until t_{k+1}.
-  void hold(double decided_torque) { plant_.advance(delay_.pass(decided_torque), sample_time_); }
-
-  /// Whether the motion is still finite, and within what the counters can count.
-  bool readable() const {
-    return plant_.finite() &&
-           std::abs(plant_.theta()) < most_counts * std::min(fine_.resolution, coarse_.resolution);
-  }
-
-  bool clipped() const { return clipped_; }
-  Plant& plant() { return plant_; }
-
- private:
-  Encoder fine_;
-  Encoder coarse_;
-  DacParameters dac_;
-  PidController controller_;
-  DelayLine delay_;
-  double sample_time_;
-  Plant plant_;
-  bool clipped_{false};
-};
-
-MoveOutcome run_move(Loop& loop, const MoveTiming& timing, std::int64_t move, std::int64_t target,
-                     const TrialObservers& observers) {
+/// Runs the samples of one move, from number `first` on. `decide(i, record)` completes the record of its
+/// sample i: what is commanded, and the torque.
+template <class Decide>
+MoveOutcome run_move(Rig& rig, const MoveTiming& timing, std::int64_t move, std::int64_t first,
+                     const TrialObservers& observers, Decide decide) {
   MoveMeasures measures(timing, move);
-  Plant& plant = loop.plant();
+  Plant& plant = rig.plant();
   plant.forget_deepest();
   const std::int64_t breakaways_before = plant.breakaways();
+  const std::int64_t disagreements_before = rig.measurement().disagreements();
   const bool sliding_before = plant.sliding();
-  for (std::int64_t i = 0; i < timing.samples && loop.readable(); ++i) {
-    const SampleRecord record = loop.decide(move * timing.samples + i, target);
+  for (std::int64_t i = 0; i < timing.samples && rig.readable(); ++i) {
+    SampleRecord record = rig.read(first + i);
+    decide(i, record);
     if (observers.sample) observers.sample(record);
     const bool jerk_ended =
-        measures.add({target, record.count, record.torque, loop.clipped(), record.theta, record.xp});
+        measures.add({record.target, record.count, record.torque, rig.clipped(), record.theta, record.xp});
     if (jerk_ended && observers.jerk) observers.jerk(measures.last_jerk());
-    loop.hold(record.torque);
+    rig.hold();
   }
   const bool slid = sliding_before || plant.breakaways() > breakaways_before;
-  const bool jerk_cut = measures.finish(slid, plant.deepest(), loop.readable());
+  const bool jerk_cut = measures.finish(slid, plant.deepest(), rig.readable());
   if (jerk_cut && observers.jerk) observers.jerk(measures.last_jerk());
-  return measures.outcome();
+  MoveOutcome outcome = measures.outcome();
+  outcome.encoder_disagreement = rig.measurement().disagreements() - disagreements_before;
+  return outcome;
+}
+
+/// Closed loop: the controller follows a reference to each target.
+TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& observers) {
+  Rig rig(p);
+  Controller controller(p.controller, rig.measurement().fine_per_coarse(), p.initial.integral,
+                        lowest_torque(p.dac), highest_torque(p.dac));
+  TrialOutcome outcome;
+  std::int64_t first = 0;
+  std::int64_t from = 0;
+  double torque_in_force = 0.0;
+  for (std::size_t m = 0; m < p.command.targets.size(); ++m) {
+    const std::int64_t target = p.command.targets[m];
+    const Reference reference(p.command.profile, from, target, rig.measurement().fine_resolution());
+    const MoveTiming timing = move_timing(p, m);
+    const std::int64_t changes_before = controller.phase_changes();
+    const auto decide = [&](std::int64_t i, SampleRecord& record) {
+      record.target = target;
+      record.error = target - record.count;
+      record.reference = reference.at(static_cast<double>(i) * timing.sample_time);
+      const EncoderReading reading{record.count, record.coarse_count};
+      rig.drive(controller.update(record.reference, reading, torque_in_force), record);
+      record.phase = controller.phase();
+      torque_in_force = record.torque;
+    };
+    MoveOutcome move = run_move(rig, timing, static_cast<std::int64_t>(m), first, observers, decide);
+    move.phase_changes = controller.phase_changes() - changes_before;
+    move.travel_time = reference.duration();
+    outcome.moves.push_back(move);
+    first += timing.samples;
+    from = target;
+  }
+  return outcome;
+}
+
+/// Open loop: the torque goes from level to level.
+TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& observers) {
+  Rig rig(p);
+  const TorqueCommand& command = p.command.torque;
+  TrialOutcome outcome;
+  std::int64_t first = 0;
+  double from = 0.0;
+  for (std::size_t m = 0; m < command.levels.size(); ++m) {
+    const TorqueRamp ramp = make_torque_ramp(from, command.levels[m], command.rate, p.controller.sample_rate);
+    const MoveTiming timing = move_timing(p, m);
+    const auto decide = [&](std::int64_t i, SampleRecord& record) {
+      record.error = -record.count;
+      const double torque = torque_at(ramp, i);
+      if (command.through == TorquePath::exact) {
+        rig.drive_exactly(torque, record);
+      } else {
+        rig.drive(torque, record);
+      }
+    };
+    MoveOutcome move = run_move(rig, timing, static_cast<std::int64_t>(m), first, observers, decide);
+    move.travel_time = static_cast<double>(ramp.samples) * timing.sample_time;
+    outcome.moves.push_back(move);
+    first += timing.samples;
+    from = command.levels[m];
+  }
+  return outcome;
 }
 
 }  // namespace
 
-std::int64_t samples_in(double duration, double sample_rate) {
-  return std::llround(duration * sample_rate);
-}
-
-std::int64_t samples_per_move(const TrialParameters& parameters) {
-  return samples_in(parameters.command.hold, parameters.controller.sample_rate);
-}
-
 TrialOutcome run_trial(const TrialParameters& parameters, const TrialObservers& observers) {
-  Loop loop(parameters);
-  const MoveTiming timing = move_timing(parameters);
-  TrialOutcome outcome;
-  outcome.moves.reserve(parameters.command.targets.size());
-  for (std::size_t m = 0; m < parameters.command.targets.size(); ++m) {
-    outcome.moves.push_back(
-        run_move(loop, timing, static_cast<std::int64_t>(m), parameters.command.targets[m], observers));
-  }
-  return outcome;
+  return parameters.command.torque.levels.empty() ? follow_targets(parameters, observers)
+                                                  : apply_torques(parameters, observers);
 }
 
 }  // namespace zerocount

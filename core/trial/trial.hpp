@@ -26,6 +26,9 @@ struct SampleRecord {
   double xh{0.0};                ///< hardening, rad
   std::int64_t depth{0};         ///< reversal points on the stack
   HookMode mode{HookMode::stick};
+  std::int64_t reference{0};  ///< that the controller follows, counts: the target once arrived there
+  ControlPhase phase{ControlPhase::fine};  ///< that decided the torque
+  double drive_torque{0.0};  ///< of the motor at this instant, after converter and amplifier, N m
 };
 
 /// Who is told of a trial while it runs; an empty function is not called.

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "experiments/designs/random.hpp"
+#include "core/random/random_numbers.hpp"
 
 namespace zerocount {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "experiments/designs/random.hpp"
+#include "core/random/random_numbers.hpp"
 
 namespace zerocount {
 

@@ -7,7 +7,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/special_functions/erf.hpp>
 
-#include "experiments/designs/random.hpp"
+#include "experiments/designs/random_key.hpp"
 
 namespace zerocount {
 namespace {

@@ -1,143 +1,148 @@
 #include "experiments/language/checks.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include <fmt/format.h>
-
-#include "experiments/distributions/random_field.hpp"
+#include "experiments/language/effect_rules.hpp"
+#include "experiments/language/manifest_keys.hpp"
 #include "experiments/language/slots.hpp"
-#include "experiments/parameters/parameter_table.hpp"
+#include "experiments/language/value_rules.hpp"
 
 namespace zerocount {
 namespace {
 
-constexpr double most_samples = 1e12;  // a year of computing; a slip of the keyboard
 constexpr std::size_t most_reported = 20;
 
-enum Involved : std::size_t { breakaway, preload, hold, dwell, window, sample_rate, involved_count };
+struct Checking {
+  const PlanPlaces& places;
+  Reading& reading;
 
-using Slots = std::array<std::size_t, involved_count>;
+  const StudyPlan& plan() const { return reading.plan; }
+};
 
-Slots involved_slots() {
-  constexpr std::array<std::string_view, involved_count> names{
-      "friction.breakaway", "initial.preload", "command.hold",
-      "verdict.dwell",      "verdict.window",  "controller.sample_rate"};
-  Slots slots{};
-  for (std::size_t i = 0; i < names.size(); ++i) slots[i] = find_parameter(names[i]).value();
+void tell(Checking& c, const Place& place, std::size_t slot, const std::string& what,
+          std::string_view expected, bool warn_only) {
+  const std::string path = slot_name(slot, c.plan().list);
+  if (warn_only) {
+    c.reading.warnings.push_back(at_place(place, path, what));
+  } else {
+    c.reading.problems.add(place, path, what, expected);
+  }
+}
+
+// Where an axis gives the slot its value at this point.
+std::optional<Place> swept_place(const Checking& c, std::size_t slot, std::size_t point) {
+  for (std::size_t a = c.plan().axes.size(); a-- > 0;) {
+    const PlanAxis& axis = c.plan().axes[a];
+    const std::size_t option = option_at(c.plan(), a, point);
+    for (std::size_t i = axis.first[option]; i < axis.first[option + 1]; ++i) {
+      if (axis.assignments[i].slot == slot) return c.places.axes[a][i];
+    }
+  }
+  return std::nullopt;
+}
+
+// Of the values that a fault is between: that of the sweep, else one that is written in the manifest, else
+// the first.
+Place place_of_fault(const Checking& c, const std::vector<std::size_t>& slots, std::size_t point) {
+  for (const std::size_t slot : slots) {
+    if (const auto place = swept_place(c, slot, point)) return *place;
+  }
+  for (const std::size_t slot : slots) {
+    if (c.places.written[slot]) return c.places.base[slot];
+  }
+  return c.places.base[slots.front()];
+}
+
+// The values that a fault is between: those of the list that it names, the parameters of the rule, and what
+// else of the list it may come from.
+std::vector<std::size_t> slots_of(const ValueFault& fault, const std::vector<std::size_t>& involved) {
+  std::vector<std::size_t> slots;
+  for (const std::size_t i : fault.listed) slots.push_back(listed_slot(i));
+  slots.insert(slots.end(), involved.begin(), involved.end());
   return slots;
 }
 
-struct Limits {
-  double low;
-  double high;
-};
-
-// A value that could not be read is NaN, and fails no comparison below.
-Limits limits_of(const StudyPlan& plan, const Value& value) {
-  if (value.kind == Value::Kind::number) return {value.number, value.number};
-  const Interval values = value.kind == Value::Kind::distribution ? support(plan.distributions[value.index])
-                                                                  : limits(*plan.profiles[value.index]);
-  return {values.low, values.high};
-}
-
-struct Fault {
-  std::array<Involved, 2> between;  // the first gives the path
-  std::string what;
-  std::string expected;
-};
-
-using PointLimits = std::array<Limits, involved_count>;
-
-void find_duration_faults(const PointLimits& p, Involved duration, std::vector<Fault>& faults) {
-  if (std::round(p[duration].low * p[sample_rate].low) < 1.0) {
-    faults.push_back(
-        {{duration, sample_rate},
-         fmt::format("{} s can be less than one sample at {} Hz", p[duration].low, p[sample_rate].low),
-         "at least one sample"});
-  }
-  if (p[duration].high > p[hold].low) {
-    faults.push_back({{duration, hold},
-                      fmt::format("{} s can be longer than the hold of {} s", p[duration].high, p[hold].low),
-                      "at most command.hold"});
+void check_values(Checking& c) {
+  using Told = std::set<std::pair<std::size_t, std::string>>;  // the same fault at many points is one
+  Told problems;
+  Told warnings;
+  for (const ValueRule& rule : value_rules(c.plan())) {
+    Told& reported = rule.warn_only ? warnings : problems;
+    const std::vector<std::size_t> named = slots_named(rule.between);
+    const std::vector<std::size_t> listed =
+        rule.whole_list ? listed_slots(c.plan().list) : std::vector<std::size_t>{};
+    std::vector<std::size_t> involved = named;
+    involved.insert(involved.end(), listed.begin(), listed.end());
+    visit_points(c.plan(), involved, [&](std::size_t point) {
+      const std::vector<ValueLimits> limits = limits_at(c.plan(), involved, point);
+      const std::span<const ValueLimits> all(limits);
+      if (!are_readable(all)) return true;  // told already
+      for (const ValueFault& fault : rule.find_faults(all.first(named.size()), all.subspan(named.size()))) {
+        const std::vector<std::size_t> slots = slots_of(fault, involved);
+        if (reported.size() < most_reported && reported.insert({slots.front(), fault.what}).second) {
+          tell(c, place_of_fault(c, slots, point), slots.front(), fault.what, fault.expected, rule.warn_only);
+        }
+      }
+      return reported.size() < most_reported;
+    });
   }
 }
 
-std::vector<Fault> find_faults(const PointLimits& p, std::size_t moves) {
-  std::vector<Fault> faults;
-  find_duration_faults(p, dwell, faults);
-  find_duration_faults(p, window, faults);
-  if (p[hold].high * p[sample_rate].high * static_cast<double>(moves) > most_samples) {
-    faults.push_back({{hold, sample_rate},
-                      fmt::format("{} moves of {} s at {} Hz can be more than {} samples", moves,
-                                  p[hold].high, p[sample_rate].high, most_samples),
-                      fmt::format("at most {} samples in a trial", most_samples)});
+// Where the manifest gives the parameter a value: outside the sweep, or first in it.
+std::optional<Place> given_place(const Checking& c, std::size_t row) {
+  if (c.places.written[row]) return c.places.base[row];
+  for (std::size_t a = 0; a < c.plan().axes.size(); ++a) {
+    const std::vector<Assignment>& assignments = c.plan().axes[a].assignments;
+    const auto found = std::find_if(assignments.begin(), assignments.end(),
+                                    [&](const Assignment& assignment) { return assignment.slot == row; });
+    if (found != assignments.end())
+      return c.places.axes[a][static_cast<std::size_t>(found - assignments.begin())];
   }
-  const double torque = std::max(std::abs(p[preload].low), std::abs(p[preload].high));
-  if (torque >= p[breakaway].low && torque > 0.0) {
-    faults.push_back(
-        {{preload, breakaway},
-         fmt::format("a preload of {} N m can reach the breakaway of {} N m", torque, p[breakaway].low),
-         "|initial.preload| below friction.breakaway"});
-  }
-  return faults;
+  return std::nullopt;
 }
 
-// The place of the slot's value at this point, and whether the sweep gives it.
-std::pair<Place, bool> place_of(const StudyPlan& plan, const PlanPlaces& places, std::size_t slot,
-                                std::size_t point) {
-  for (std::size_t a = plan.axes.size(); a-- > 0;) {
-    const PlanAxis& axis = plan.axes[a];
-    const std::size_t option = option_at(plan, a, point);
-    for (std::size_t i = axis.first[option]; i < axis.first[option + 1]; ++i) {
-      if (axis.assignments[i].slot == slot) return {places.axes[a][i], true};
+bool asks_for_nothing(const Checking& c, std::size_t row) {
+  const std::string_view name = parameter_table()[row].name;
+  return !holds_somewhere(c.plan(), {&name, 1}, [](std::span<const ValueLimits> limits) {
+    return limits[0].low != 0.0 || limits[0].high != 0.0;
+  });
+}
+
+// Where something could not be read, the benefit of the doubt.
+bool can_have_effect(const StudyPlan& plan, const EffectRule& rule) {
+  return holds_somewhere(plan, rule.depends_on, [&](std::span<const ValueLimits> limits) {
+    return !are_readable(limits) || rule.has_effect(limits);
+  });
+}
+
+void check_effects(Checking& c) {
+  const auto table = parameter_table();
+  std::set<std::size_t> told;
+  for (const EffectRule& rule : effect_rules(c.plan())) {
+    std::optional<bool> has_effect;
+    for (std::size_t row = 0; row < table.size(); ++row) {
+      const bool covered = std::any_of(rule.keys.begin(), rule.keys.end(),
+                                       [&](std::string_view key) { return is_within(table[row].name, key); });
+      const auto place = covered ? given_place(c, row) : std::nullopt;
+      if (!place || told.count(row) > 0 || (rule.off_at_zero && asks_for_nothing(c, row))) continue;
+      if (!has_effect) has_effect = can_have_effect(c.plan(), rule);
+      if (*has_effect) continue;
+      told.insert(row);
+      tell(c, *place, row, std::string(rule.what), rule.expected, rule.warn_only);
     }
   }
-  return {places.base[slot], false};
-}
-
-void report(const StudyPlan& plan, const PlanPlaces& places, const Slots& slots, const Fault& fault,
-            std::size_t point, Problems& problems) {
-  const auto [first, first_swept] = place_of(plan, places, slots[fault.between[0]], point);
-  const auto [second, second_swept] = place_of(plan, places, slots[fault.between[1]], point);
-  const bool first_written = first_swept || places.written[slots[fault.between[0]]];
-  const bool at_second =
-      (second_swept && !first_swept) || (!first_written && places.written[slots[fault.between[1]]]);
-  problems.add(at_second ? second : first, slot_name(slots[fault.between[0]]), fault.what, fault.expected);
-}
-
-bool any_swept(const StudyPlan& plan, const Slots& slots) {
-  for (const PlanAxis& axis : plan.axes) {
-    for (const Assignment& assignment : axis.assignments) {
-      if (std::find(slots.begin(), slots.end(), assignment.slot) != slots.end()) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace
 
-void check_points(const StudyPlan& plan, const PlanPlaces& places, Problems& problems) {
-  const Slots slots = involved_slots();
-  std::size_t points = 1;
-  if (any_swept(plan, slots)) {
-    for (const PlanAxis& axis : plan.axes) points *= option_count(axis);
-  }
-  std::set<std::pair<Involved, std::string>> reported;  // the same fault at many points is one
-  for (std::size_t point = 0; point < points && reported.size() < most_reported; ++point) {
-    const std::vector<const Value*> values = values_at(plan, point);
-    PointLimits limits{};
-    for (std::size_t i = 0; i < slots.size(); ++i) limits[i] = limits_of(plan, *values[slots[i]]);
-    for (const Fault& fault : find_faults(limits, plan.moves)) {
-      if (reported.insert({fault.between[0], fault.what}).second)
-        report(plan, places, slots, fault, point, problems);
-    }
-  }
+void check_points(const PlanPlaces& places, Reading& reading) {
+  Checking checking{places, reading};
+  check_values(checking);
+  check_effects(checking);
 }
 
 }  // namespace zerocount

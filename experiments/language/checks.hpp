@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "experiments/language/values.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/yaml/problems.hpp"
 
@@ -14,10 +15,10 @@ struct PlanPlaces {
   std::vector<std::vector<Place>> axes;  ///< [axis][assignment]
 };
 
-/// Checks what no parameter can tell alone, at every design point, for all values that the distributions can
-/// draw (their supports; a realised profile's limits): dwell and window at least one sample and at most the
-/// hold; at most 10¹² samples a trial; |preload| below breakaway. A problem is reported at the value that the
-/// sweep gives, where one of those involved is swept.
-void check_points(const StudyPlan& plan, const PlanPlaces& places, Problems& problems);
+/// Checks what no parameter can tell alone: at every design point, for all values that can be drawn, that
+/// values fit one another (value_rules.hpp); and that no key is given that has no effect at any point
+/// (effect_rules.hpp). A problem is told at the value that the sweep gives, where one of those involved is
+/// swept.
+void check_points(const PlanPlaces& places, Reading& reading);
 
 }  // namespace zerocount

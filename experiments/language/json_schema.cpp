@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/language/manifest.hpp"
 #include "experiments/language/manifest_keys.hpp"
 #include "experiments/language/sweep.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/plan/sequence.hpp"
 
 namespace zerocount {
 namespace {
@@ -98,29 +101,17 @@ Json value_schema(const Parameter& parameter) {
 }
 
 Json key_schema(const Parameter& parameter) {
-  Json schema = parameter.per_move ? list_of(value_schema(parameter), 1) : value_schema(parameter);
+  Json schema = parameter.listed ? list_of(value_schema(parameter), 1) : value_schema(parameter);
+  if (parameter.listed) schema["maxItems"] = most_listed_values;
   schema["description"] = parameter.unit == "1"
                               ? std::string(parameter.meaning)
                               : std::string(parameter.meaning) + ", " + std::string(parameter.unit);
   if (parameter.kind == ParameterKind::enumeration) {
     schema["default"] = default_text(parameter);
-  } else if (!parameter.per_move) {
+  } else if (has_default(parameter)) {
     schema["default"] = default_value(parameter);
   }
   return schema;
-}
-
-Json section_schema(const std::string& section) {
-  Json properties = Json::object();
-  Json required = Json::array();
-  for (const Parameter& parameter : parameter_table()) {
-    const std::size_t dot = parameter.name.find('.');
-    if (parameter.name.substr(0, dot) != section) continue;
-    const std::string key(parameter.name.substr(dot + 1));
-    properties[key] = key_schema(parameter);
-    if (parameter.per_move) required.push_back(key);
-  }
-  return object_of(std::move(properties), std::move(required));
 }
 
 Json spacing_schema() {
@@ -147,10 +138,10 @@ Json sweep_schema() {
     const Json value = value_schema(parameter);
     const Json spaced = {{"anyOf", {list_of(value, 1), spacing_schema()}}};
     const bool numeric = parameter.kind != ParameterKind::enumeration;
-    const Json whole_value = parameter.per_move ? list_of(value, 1) : value;
+    const Json whole_value = parameter.listed ? list_of(value, 1) : value;
     assignments[pattern_of(parameter, false)] = whole_value;
-    grid[pattern_of(parameter, false)] = numeric && !parameter.per_move ? spaced : list_of(whole_value, 1);
-    if (parameter.per_move) {
+    grid[pattern_of(parameter, false)] = numeric && !parameter.listed ? spaced : list_of(whole_value, 1);
+    if (parameter.listed) {
       assignments[pattern_of(parameter, true)] = value;
       grid[pattern_of(parameter, true)] = spaced;
     }
@@ -164,7 +155,7 @@ Json sweep_schema() {
        {"cases", {{"type", "object"}, {"additionalProperties", by_pattern(std::move(assignments))}}}});
 }
 
-// The schema of each key that is no section, without its description.
+// The schema of each general key, without its description.
 Json general_schemas() {
   const Json text{{"type", "string"}};
   return {
@@ -180,21 +171,60 @@ Json general_schemas() {
            {{"trials",
              {{"type", "array"}, {"items", {{"type", "integer"}, {"minimum", 0}}}, {"uniqueItems", true}}}})},
       {"observed", {{"type", "object"}, {"additionalProperties", text}}},
-      {"sweep", sweep_schema()}};
+      {"sweep", sweep_schema()},
+      {"command.sequence.cycles",
+       {{"type", "integer"},
+        {"minimum", 1},
+        {"maximum", most_sequence_moves},
+        {"default", SequenceCycle{}.cycles}}},
+      {"command.sequence.approach", {{"enum", approach_words()}, {"default", approach_words().front()}}}};
+}
+
+Json general_schema(const GeneralKey& key) {
+  static const Json schemas = general_schemas();
+  Json schema = schemas.at(std::string(key.name));
+  schema["description"] = key.meaning;
+  return schema;
+}
+
+// Exactly one of these keys.
+Json one_of_keys(std::span<const std::string_view> keys) {
+  Json forms = Json::array();
+  for (const std::string_view key : keys) forms.push_back({{"required", {key}}});
+  return forms;
+}
+
+// The map of the keys below this dotted path.
+Json section_schema(const std::string& path) {
+  Json properties = Json::object();
+  Json required = Json::array();
+  for (const std::string& key : keys_below(path)) {
+    const std::string name = fmt::format("{}.{}", path, key);
+    if (const auto row = find_parameter(name)) {
+      const Parameter& parameter = parameter_table()[*row];
+      properties[key] = key_schema(parameter);
+      if (!has_default(parameter) && path != required_section) required.push_back(key);
+    } else if (const GeneralKey* general = find_general_key(name)) {
+      properties[key] = general_schema(*general);
+    } else {
+      properties[key] = section_schema(name);
+    }
+  }
+  Json schema = object_of(std::move(properties), std::move(required));
+  if (path == required_section) schema["oneOf"] = one_of_keys(command_forms());
+  return schema;
 }
 
 }  // namespace
 
 nlohmann::ordered_json json_schema() {
-  const Json general = general_schemas();
   Json properties = Json::object();
   Json required = Json::array();
-  for (const GeneralKey& key : general_keys()) {
-    properties[std::string(key.name)] = general.at(std::string(key.name));
-    properties[std::string(key.name)]["description"] = key.meaning;
-    if (key.required) required.push_back(key.name);
+  for (const std::string& key : keys_below("")) {
+    const GeneralKey* general = find_general_key(key);
+    properties[key] = general != nullptr ? general_schema(*general) : section_schema(key);
+    if (general != nullptr && general->required) required.push_back(key);
   }
-  for (const std::string& section : section_names()) properties[section] = section_schema(section);
   required.push_back(required_section);
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "zerocount manifest"}};
   schema.update(object_of(std::move(properties), std::move(required)));

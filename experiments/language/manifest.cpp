@@ -9,7 +9,7 @@
 
 #include "experiments/language/checks.hpp"
 #include "experiments/language/manifest_keys.hpp"
-#include "experiments/language/slots.hpp"
+#include "experiments/language/sections.hpp"
 #include "experiments/language/sweep.hpp"
 #include "experiments/language/values.hpp"
 #include "experiments/plan/study_assembly.hpp"
@@ -97,63 +97,8 @@ void read_numbers(Manifest& m) {
   }
 }
 
-void read_targets(Manifest& m, const Field& field) {
-  constexpr std::size_t most_moves = 3000;
-  const std::string expected = fmt::format("a list of 1 to {} targets", most_moves);
-  if (!check_list(field, expected, m.problems())) return;
-  const std::size_t moves = field.node->items.size();
-  if (moves < 1 || moves > most_moves) {
-    m.problems().add(field.node->place, field.path, fmt::format("a list of {} stands here", moves), expected);
-    return;
-  }
-  m.plan().moves = moves;
-  m.plan().base.resize(slot_count(moves));
-  m.places.base.resize(slot_count(moves));
-  m.places.written.resize(slot_count(moves), true);
-  for (std::size_t move = 0; move < moves; ++move) {
-    const Field item = item_of(field, move);
-    m.plan().base[target_slot(move)] = read_value(item, targets_row(), m.reading);
-    m.places.base[target_slot(move)] = item.node->place;
-  }
-}
-
-void read_section(Manifest& m, const std::string& section) {
-  const auto field = find_field(m, section);
-  if (!field || !check_map(*field, "a map", m.problems())) return;
-  const std::vector<std::string> known = section_keys(section);
-  for (const YamlEntry& entry : field->node->entries) {
-    const Field value = entry_of(*field, entry);
-    const auto row = find_parameter(value.path);
-    if (!row) {
-      add_unknown_key(*field, entry, known, m.problems());
-    } else if (*row == targets_row()) {
-      read_targets(m, value);
-    } else {
-      m.plan().base[*row] = read_value(value, *row, m.reading);
-      m.places.base[*row] = value.node->place;
-      m.places.written[*row] = true;
-    }
-  }
-}
-
-void read_parameters(Manifest& m) {
-  m.plan().base.resize(slot_count(1));
-  m.places.base.resize(slot_count(1), m.root.node->place);
-  m.places.written.resize(slot_count(1), false);
-  const auto table = parameter_table();
-  for (std::size_t row = 0; row < table.size(); ++row) {
-    if (!table[row].per_move) m.plan().base[row].number = default_value(table[row]);
-  }
-  for (const std::string& section : section_names()) read_section(m, section);
-  const std::string targets(table[targets_row()].name);
-  const auto command = find_required(m, "command", "command: {targets: [..]}");
-  if (command && command->node->kind == YamlNode::Kind::map && !find_entry(*command->node, "targets")) {
-    m.problems().add(command->node->place, targets, "the key is missing", "a list of targets");
-  }
-}
-
 void read_axes(Manifest& m) {
-  if (const auto field = find_field(m, "sweep")) m.axes = read_sweep(*field, m.plan().moves, m.reading);
+  if (const auto field = find_field(m, "sweep")) m.axes = read_sweep(*field, m.reading);
   for (const SweptAxis& axis : m.axes) {
     if (axis.labels.empty()) continue;  // could not be read
     m.plan().axes.push_back(axis.axis);
@@ -229,7 +174,7 @@ void read_observed(Manifest& m) {
 }
 
 void report_unknown_keys(Manifest& m) {
-  const std::vector<std::string> known = top_level_keys();
+  const std::vector<std::string> known = keys_below("");
   for (const YamlEntry& entry : m.root.node->entries) {
     if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
       add_unknown_key(m.root, entry, known, m.problems());
@@ -252,14 +197,14 @@ Study read_manifest(const YamlNode& root, Problems& problems) {
   read_texts(m);
   read_numbers(m);
   read_design(m);
-  read_parameters(m);
+  read_sections(m.root, m.reading, m.places);
   read_axes(m);
   check_trial_count(m);
   read_retained(m);
   read_observed(m);
   realise_profiles(m.reading.profiles, m.study.seed, *plan);
   check_profiles(m.reading);
-  check_points(*plan, m.places, problems);
+  check_points(m.places, m.reading);
   if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, m.study);
   m.study.warnings = std::move(m.reading.warnings);
   m.study.plan = std::move(plan);

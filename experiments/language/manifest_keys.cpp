@@ -6,9 +6,34 @@
 #include "experiments/parameters/parameter_table.hpp"
 
 namespace zerocount {
+namespace {
+
+bool is_below(std::string_view name, std::string_view path) {
+  return path.empty() ||
+         (name.size() > path.size() && name.substr(0, path.size()) == path && name[path.size()] == '.');
+}
+
+void add_once(std::vector<std::string>& names, std::string_view name) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
+}
+
+// All that can be given a value.
+std::vector<std::string_view> value_paths() {
+  std::vector<std::string_view> paths;
+  for (const GeneralKey& key : general_keys()) {
+    if (key.name.find('.') == std::string_view::npos) paths.push_back(key.name);
+  }
+  for (const Parameter& parameter : parameter_table()) paths.push_back(parameter.name);
+  for (const GeneralKey& key : general_keys()) {
+    if (key.name.find('.') != std::string_view::npos) paths.push_back(key.name);
+  }
+  return paths;
+}
+
+}  // namespace
 
 std::span<const GeneralKey> general_keys() {
-  static constexpr std::array<GeneralKey, 10> keys{{
+  static constexpr std::array<GeneralKey, 12> keys{{
       {"zerocount", "version of the manifest's format: 1", true},
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
@@ -21,37 +46,53 @@ std::span<const GeneralKey> general_keys() {
       {"retain", "trials whose sample-by-sample records are kept: {trials: [0, 1]}", false},
       {"observed", "what was observed on the real rig, by case or point label", false},
       {"sweep", "design points: grid (product of lists), cases (named), or both (product)", false},
+      {"command.sequence.cycles", "how often a sequence goes to its targets (default 5)", false},
+      {"command.sequence.approach",
+       "from where a sequence goes to its targets: bidirectional (default: from both sides), positive (from "
+       "below) or negative (from above)",
+       false},
   }};
   return keys;
 }
 
-std::vector<std::string> section_names() {
-  std::vector<std::string> sections;
-  for (const Parameter& parameter : parameter_table()) {
-    const std::string section(parameter.name.substr(0, parameter.name.find('.')));
-    if (sections.empty() || sections.back() != section) sections.push_back(section);
-  }
-  return sections;
+const GeneralKey* find_general_key(std::string_view path) {
+  const auto keys = general_keys();
+  const auto found =
+      std::find_if(keys.begin(), keys.end(), [&](const GeneralKey& key) { return key.name == path; });
+  return found == keys.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> section_keys(std::string_view section) {
+std::span<const std::string_view> command_forms() {
+  static constexpr std::array<std::string_view, 3> forms{"targets", "torque", "sequence"};
+  return forms;
+}
+
+std::vector<std::string> keys_below(std::string_view path) {
+  const std::size_t start = path.empty() ? 0 : path.size() + 1;
   std::vector<std::string> keys;
-  for (const Parameter& parameter : parameter_table()) {
-    const std::size_t dot = parameter.name.find('.');
-    if (parameter.name.substr(0, dot) == section) keys.emplace_back(parameter.name.substr(dot + 1));
+  for (const std::string_view name : value_paths()) {
+    if (is_below(name, path)) add_once(keys, name.substr(start, name.find('.', start) - start));
   }
   return keys;
 }
 
-std::vector<std::string> top_level_keys() {
-  std::vector<std::string> keys;
-  for (const GeneralKey& key : general_keys()) keys.emplace_back(key.name);
-  for (std::string& section : section_names()) keys.push_back(std::move(section));
-  return keys;
+bool is_within(std::string_view path, std::string_view section) {
+  return path == section || (!section.empty() && is_below(path, section));
+}
+
+bool is_section(std::string_view path) {
+  const auto paths = value_paths();
+  return !path.empty() &&
+         std::any_of(paths.begin(), paths.end(), [&](std::string_view name) { return is_below(name, path); });
 }
 
 std::span<const std::string_view> design_words() {
   static constexpr std::array<std::string_view, 3> words{"monte_carlo", "latin_hypercube", "sobol"};
+  return words;
+}
+
+std::span<const std::string_view> approach_words() {
+  static constexpr std::array<std::string_view, 3> words{"bidirectional", "positive", "negative"};
   return words;
 }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "experiments/language/manifest_keys.hpp"
 #include "experiments/language/slots.hpp"
 #include "experiments/language/spacing.hpp"
 #include "experiments/yaml/unknown_key.hpp"
@@ -16,18 +17,19 @@ namespace {
 // Reads the axes one after the other; knows which slots are taken and how many points there are so far.
 struct SweepReading {
   Reading& reading;
-  std::size_t moves;
   std::size_t points{1};
   bool too_many{false};
   std::set<std::size_t> in_grid{};   // slots that the grid's axes so far take
   std::set<std::size_t> in_cases{};  // slots that the cases take
+
+  const ListedValues& list() const { return reading.plan.list; }
 };
 
-std::vector<std::string> swept_names(std::size_t moves) {
+std::vector<std::string> swept_names(const ListedValues& list) {
   std::vector<std::string> names;
   for (const Parameter& parameter : parameter_table()) names.emplace_back(parameter.name);
-  for (std::size_t move = 0; move < std::min<std::size_t>(moves, 100); ++move)
-    names.push_back(slot_name(target_slot(move)));
+  for (std::size_t i = 0; i < std::min<std::size_t>(list.count, 100); ++i)
+    names.push_back(slot_name(listed_slot(i), list));
   return names;
 }
 
@@ -44,19 +46,29 @@ bool check_point_count(const Field& sweep, std::size_t options, SweepReading& st
   return fits;
 }
 
+std::string_view singular(std::string_view noun) {
+  return noun.substr(0, noun.size() - 1);
+}
+
 std::optional<SlotRange> find_swept(const Field& map, const YamlEntry& entry, SweepReading& state) {
-  const auto slots = find_slots(entry.key, state.moves);
+  const ListedValues& list = state.list();
+  if (auto slots = find_slots(entry.key, list)) return slots;
   Problems& problems = state.reading.problems;
-  if (!slots) {
-    if (entry.key.rfind("command.targets.", 0) == 0) {
-      problems.add(entry.place, entry_of(map, entry).path, "there is no such target",
-                   fmt::format("an index from 0 to {}", state.moves - 1));
-    } else {
-      add_unknown_key(map, entry, swept_names(state.moves), problems);
-    }
-    return std::nullopt;
+  const std::string path = entry_of(map, entry).path;
+  const std::string_view used = parameter_table()[list.row].name;
+  if (const auto row = find_listed_row(entry.key); row && *row != list.row) {
+    problems.add(entry.place, path, fmt::format("the study has no {}", parameter_table()[*row].name),
+                 fmt::format("{}, which it has", used));
+  } else if (row) {
+    problems.add(entry.place, path, fmt::format("there is no such {}", singular(listed_noun(list))),
+                 fmt::format("an index from 0 to {}", list.count - 1));
+  } else if (find_general_key(entry.key) != nullptr) {
+    problems.add(entry.place, path, "this key is the same at all points",
+                 "a dotted path of the table of parameters, such as controller.ki");
+  } else {
+    add_unknown_key(map, entry, swept_names(list), problems);
   }
-  return slots;
+  return std::nullopt;
 }
 
 void assign(SweptAxis& axis, std::size_t slot, const Value& value, const Place& place) {
@@ -72,20 +84,22 @@ void finish_option(SweptAxis& axis, std::string label) {
 // Adds what `field` gives to `slots` to the option that is being read.
 void read_assignments(const Field& field, const SlotRange& slots, SweptAxis& axis, SweepReading& state) {
   if (!slots.list) {
-    assign(axis, slots.first, read_value(field, row_of_slot(slots.first), state.reading), field.node->place);
+    assign(axis, slots.first, read_value(field, row_of_slot(slots.first, state.list()), state.reading),
+           field.node->place);
     return;
   }
-  const std::string expected = fmt::format("a list of {} targets, as at every point", slots.count);
+  const std::string_view noun = listed_noun(state.list());
+  const std::string expected = fmt::format("a list of {} {}, as at every point", slots.count, noun);
   if (!check_list(field, expected, state.reading.problems)) return;
   const std::size_t count = field.node->items.size();
   if (count != slots.count) {
     state.reading.problems.add(field.node->place, field.path,
-                               fmt::format("a list of {} targets stands here", count), expected);
+                               fmt::format("a list of {} {} stands here", count, noun), expected);
     return;
   }
-  for (std::size_t move = 0; move < count; ++move) {
-    const Field item = item_of(field, move);
-    assign(axis, slots.first + move, read_value(item, row_of_slot(slots.first), state.reading),
+  for (std::size_t i = 0; i < count; ++i) {
+    const Field item = item_of(field, i);
+    assign(axis, slots.first + i, read_value(item, row_of_slot(slots.first, state.list()), state.reading),
            item.node->place);
   }
 }
@@ -98,8 +112,9 @@ void note_slots(SweptAxis& axis, const SlotRange& slots) {
 
 // The value that an option's label shows: a number in its shortest form, anything else as it stands in the
 // manifest.
-std::string value_label(const SweptAxis& axis, const SlotRange& slots, const YamlNode& node) {
-  const std::size_t row = row_of_slot(slots.first);
+std::string value_label(const SweptAxis& axis, const SlotRange& slots, const YamlNode& node,
+                        const ListedValues& list) {
+  const std::size_t row = row_of_slot(slots.first, list);
   if (slots.list || parameter_table()[row].kind == ParameterKind::enumeration ||
       axis.axis.assignments.empty() || axis.axis.assignments.back().value.kind != Value::Kind::number) {
     return flow_text(node);
@@ -115,7 +130,7 @@ void read_listed(const Field& field, const SlotRange& slots, SweptAxis& axis, Sw
     read_assignments(item, slots, axis, state);
     if (state.reading.problems.size() > problems_before)
       continue;  // a value that cannot be read is like no other
-    std::string label = fmt::format("{}={}", axis.name, value_label(axis, slots, *item.node));
+    std::string label = fmt::format("{}={}", axis.name, value_label(axis, slots, *item.node, state.list()));
     if (!seen.insert(label).second) {
       state.reading.problems.add(item.node->place, item.path,
                                  fmt::format("{} stands twice in the list", in_quotes(flow_text(*item.node))),
@@ -133,7 +148,7 @@ void read_spaced(const Field& sweep, const Field& field, const SlotRange& slots,
     add_wrong_type(
         field,
         slots.list
-            ? "a list of lists of targets"
+            ? fmt::format("a list of lists of {}", listed_noun(state.list()))
             : "a list of values, {linspace: [first, last, number]} or {logspace: [first, last, number]}",
         state.reading.problems);
     return;
@@ -144,7 +159,8 @@ void read_spaced(const Field& sweep, const Field& field, const SlotRange& slots,
   const std::vector<double> values = spaced_values(*spacing);
   std::vector<std::string> labels = spaced_labels(axis.name, values);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const Value value = checked_number(inner, row_of_slot(slots.first), values[i], state.reading);
+    const Value value =
+        checked_number(inner, row_of_slot(slots.first, state.list()), values[i], state.reading);
     assign(axis, slots.first, value, inner.node->place);
     finish_option(axis, std::move(labels[i]));
     if (std::isnan(value.number)) return;  // one report is enough
@@ -157,14 +173,16 @@ bool take_for_grid(const Field& grid, const YamlEntry& entry, const SweptAxis& a
   const std::string path = entry_of(grid, entry).path;
   for (const std::size_t slot : axis.slots) {
     if (!state.in_grid.insert(slot).second) {
-      state.reading.problems.add(entry.place, path, fmt::format("{} is swept twice", slot_name(slot)),
+      state.reading.problems.add(entry.place, path,
+                                 fmt::format("{} is swept twice", slot_name(slot, state.list())),
                                  "each parameter in one axis of the grid");
       return false;
     }
     if (state.in_cases.count(slot) > 0) {
-      state.reading.warnings.push_back(at_place(
-          entry.place, path,
-          fmt::format("the grid's values replace those that the cases give to {}", slot_name(slot))));
+      state.reading.warnings.push_back(
+          at_place(entry.place, path,
+                   fmt::format("the grid's values replace those that the cases give to {}",
+                               slot_name(slot, state.list()))));
     }
   }
   return true;
@@ -207,7 +225,8 @@ void read_case(const Field& cases, const YamlEntry& entry, SweptAxis& axis, Swee
     for (std::size_t slot = slots->first; slot < slots->first + slots->count; ++slot) {
       if (in_this_case.insert(slot).second) continue;
       state.reading.problems.add(assignment.place, entry_of(field, assignment).path,
-                                 fmt::format("{} is given twice in this case", slot_name(slot)), "one value");
+                                 fmt::format("{} is given twice in this case", slot_name(slot, state.list())),
+                                 "one value");
       break;
     }
     read_assignments(entry_of(field, assignment), *slots, axis, state);
@@ -227,7 +246,7 @@ void read_cases(const Field& sweep, const Field& cases, std::vector<SweptAxis>& 
 
 }  // namespace
 
-std::vector<SweptAxis> read_sweep(const Field& sweep, std::size_t moves, Reading& reading) {
+std::vector<SweptAxis> read_sweep(const Field& sweep, Reading& reading) {
   std::vector<SweptAxis> axes;
   if (!check_map(sweep, "a map with grid, cases or both", reading.problems)) return axes;
   const std::vector<std::string> known{"grid", "cases"};
@@ -236,7 +255,7 @@ std::vector<SweptAxis> read_sweep(const Field& sweep, std::size_t moves, Reading
       add_unknown_key(sweep, entry, known, reading.problems);
     }
   }
-  SweepReading state{.reading = reading, .moves = moves};
+  SweepReading state{.reading = reading};
   if (const YamlEntry* cases = find_entry(*sweep.node, "cases"))
     read_cases(sweep, entry_of(sweep, *cases), axes, state);
   if (const YamlEntry* grid = find_entry(*sweep.node, "grid"))

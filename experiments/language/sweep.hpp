@@ -27,7 +27,7 @@ struct SweptAxis {
 /// numbers at equal distances from a to b, both included; `logspace: [a, b, n]` is n numbers at equal ratios
 /// from a to b, which are the end values themselves and not exponents. The values between are rounded to 15
 /// significant digits.
-std::vector<SweptAxis> read_sweep(const Field& sweep, std::size_t moves, Reading& reading);
+std::vector<SweptAxis> read_sweep(const Field& sweep, Reading& reading);
 
 /// One label per point, "a, controller.kp=0"; {"all"} where there are no axes.
 std::vector<std::string> label_points(const std::vector<SweptAxis>& axes);

@@ -36,7 +36,7 @@ Listing parameter_listing() {
   for (const Parameter& p : parameter_table()) {
     const std::string meaning = std::string(p.meaning) + (p.profiled != nullptr ? " [profile allowed]" : "");
     listing.rows.push_back({std::string(p.name), std::string(p.unit), default_text(p), allowed(p),
-                            p.per_move ? "-" : std::string(p.source), meaning});
+                            has_default(p) ? std::string(p.source) : "-", meaning});
   }
   return listing;
 }

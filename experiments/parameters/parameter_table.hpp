@@ -16,7 +16,7 @@ enum class ParameterKind { real, whole_number, enumeration };
 
 /// One row of the table of parameters: all that the project knows of one of a trial's parameters.
 struct Parameter {
-  std::string_view name;  ///< dotted path in the manifest: "section.key"
+  std::string_view name;  ///< dotted path in the manifest: "plant.inertia", "controller.coarse.kp"
   std::string_view unit;  ///< "1" where dimensionless
   std::string_view meaning;
   std::string_view source;  ///< of the default: a place in the paper, or "assumed"
@@ -25,25 +25,36 @@ struct Parameter {
   std::vector<std::string_view> words;  ///< of an enumeration, in the order of its numbers
   std::size_t sobol_dimension{0};       ///< fixed for ever, so that a new row changes no other's draws
   double FrictionParameters::*profiled{nullptr};  ///< where a profile goes; null where none is allowed
-  bool per_move{false};  ///< a list with one value per move: the targets, which have no default
-  double (*get)(const TrialParameters&){nullptr};        ///< null where per_move
-  void (*set)(TrialParameters&, double value){nullptr};  ///< null where per_move
+  bool listed{false};  ///< a list of values: one way to say what the moves go to; a study uses one of them
+  double (*get)(const TrialParameters&){nullptr};        ///< null where the trial has no field for it alone
+  void (*set)(TrialParameters&, double value){nullptr};  ///< likewise
 };
 
 /// The one table of parameters, in the order of columns and listings. It drives parsing, validation, the JSON
 /// Schema, the columns of results files and `zerocount parameters`.
 std::span<const Parameter> parameter_table();
 
-/// Sobol dimension of move i's value of a per_move parameter: this number + i. Below it are the rows' own.
+/// Most values of a listed parameter.
+constexpr std::size_t most_listed_values = 3000;
+
+/// Sobol dimension of value i of a listed parameter: this number + i. The rows' own are those below it and
+/// those from first_sobol_dimension_beyond_moves on.
 constexpr std::size_t first_sobol_dimension_of_moves = 64;
+constexpr std::size_t first_sobol_dimension_beyond_moves =
+    first_sobol_dimension_of_moves + most_listed_values;
 
 /// Row of the parameter with this dotted path.
 std::optional<std::size_t> find_parameter(std::string_view name);
 
+/// Whether the parameter may be left out wherever it has a meaning.
+inline bool has_default(const Parameter& parameter) {
+  return parameter.get != nullptr;
+}
+
 /// Default value, from the core's own structs; an enumeration's is the number of its word.
 double default_value(const Parameter& parameter);
 
-/// The default as it would be written in a manifest; "required" where there is none.
+/// The default as it would be written in a manifest; "none" where there is none.
 std::string default_text(const Parameter& parameter);
 
 }  // namespace zerocount

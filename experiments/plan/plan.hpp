@@ -2,18 +2,27 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/friction/profile.hpp"
-#include "experiments/designs/random.hpp"
+#include "core/random/random_numbers.hpp"
+#include "core/trial/parameters.hpp"
 #include "experiments/designs/sobol.hpp"
 #include "experiments/distributions/distribution.hpp"
+#include "experiments/plan/sequence.hpp"
 
 namespace zerocount {
 
 // The compiled form of a manifest. A slot is a place for one value of a trial: slot s below the number of
-// rows is row s of the table of parameters (that of a per_move row is unused), and slot rows + i is the
-// target of move i.
+// rows is row s of the table of parameters (that of a listed row is unused), and slot rows + i is value i of
+// the one listed parameter that the study uses.
+
+/// The listed parameter of a study: targets, torque levels, or the targets of a sequence.
+struct ListedValues {
+  std::size_t row{0};    ///< of the table of parameters
+  std::size_t count{1};  ///< how many stand in the list
+};
 
 /// What a manifest says of one slot.
 struct Value {
@@ -47,14 +56,22 @@ struct SlotRandomness {
 };
 
 struct StudyPlan {
-  std::size_t moves{1};
-  std::vector<Value> base;     ///< [slot], where no axis says otherwise
+  ListedValues list;
+  bool open_loop{false};                  ///< the list is one of torque levels
+  std::optional<SequenceCycle> sequence;  ///< where the list is that of a sequence
+  std::vector<Value> base;                ///< [slot], where no axis says otherwise
   std::vector<PlanAxis> axes;  ///< the last changes fastest from point to point, and wins over the others
   std::vector<Distribution> distributions;
   std::vector<std::shared_ptr<const Profile>> profiles;
   std::vector<SlotRandomness> randomness;  ///< [slot]
-  std::vector<std::uint32_t> input_slots;  ///< [input column]
+  std::vector<std::uint32_t> input_slots;  ///< [input column]: those that are not the same in all trials
+  TrialParameters common;                  ///< a trial's, all but the input slots in their places
+  std::vector<double> numbers;             ///< [slot] the numbers of the base; of an input slot, any
 };
+
+/// Puts the number of a slot where a trial has it. The targets of a sequence and its overrun have no place of
+/// their own: they go into the targets of the moves.
+void set_number(const StudyPlan& plan, std::size_t slot, double number, TrialParameters& to);
 
 /// Which option of `axis` the design point takes.
 std::size_t option_at(const StudyPlan& plan, std::size_t axis, std::size_t point);

@@ -1,30 +1,60 @@
 #include "experiments/plan/study_assembly.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "experiments/designs/random_key.hpp"
 #include "experiments/language/slots.hpp"
+#include "experiments/language/trace_extras.hpp"
 
 namespace zerocount {
 namespace {
 
-bool is_swept(const StudyPlan& plan, std::size_t slot) {
-  return std::any_of(plan.axes.begin(), plan.axes.end(), [&](const PlanAxis& axis) {
-    return std::any_of(axis.assignments.begin(), axis.assignments.end(),
-                       [&](const Assignment& assignment) { return assignment.slot == slot; });
-  });
+// Which slots some axis assigns.
+std::vector<bool> swept_slots(const StudyPlan& plan) {
+  std::vector<bool> swept(plan.base.size(), false);
+  for (const PlanAxis& axis : plan.axes) {
+    for (const Assignment& assignment : axis.assignments) swept[assignment.slot] = true;
+  }
+  return swept;
 }
 
+// Of the input slots: nothing is drawn for the others.
 void derive_randomness(const Study& study, StudyPlan& plan) {
   std::vector<std::size_t> dimensions;
-  for (std::size_t slot = 0; slot < plan.base.size(); ++slot)
-    dimensions.push_back(slot_sobol_dimension(slot));
+  for (const std::uint32_t slot : plan.input_slots) dimensions.push_back(slot_sobol_dimension(slot));
   const auto directions = study.design == Design::sobol ? sobol_directions(dimensions)
                                                         : std::vector<SobolDirections>(dimensions.size());
-  for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
-    plan.randomness.push_back({random_key(study.seed, slot_name(slot)), directions[slot]});
+  plan.randomness.resize(plan.base.size());
+  for (std::size_t i = 0; i < plan.input_slots.size(); ++i) {
+    const std::uint32_t slot = plan.input_slots[i];
+    plan.randomness[slot] = {random_key(study.seed, slot_name(slot, plan.list)), directions[i]};
+  }
+}
+
+// The keys of what a trial draws while it runs. No parameter has a name with a slash in it.
+TrialRandomness trial_randomness(std::uint64_t seed) {
+  return {.history = random_key(seed, "initial.history/levels"),
+          .fine_noise = random_key(seed, "encoder.fine_errors.noise/samples"),
+          .fine_missed = random_key(seed, "encoder.fine_errors.missed/samples"),
+          .coarse_noise = random_key(seed, "encoder.coarse_errors.noise/samples"),
+          .coarse_missed = random_key(seed, "encoder.coarse_errors.missed/samples"),
+          .dac_noise = random_key(seed, "dac.noise/samples")};
+}
+
+// What is the same in all trials.
+void set_common_parameters(const Study& study, StudyPlan& plan) {
+  plan.common.randomness = trial_randomness(study.seed);
+  plan.common.command.targets.resize(plan.open_loop ? 0 : static_cast<std::size_t>(study.moves));
+  plan.common.command.torque.levels.resize(plan.open_loop ? plan.list.count : 0);
+  for (const Value& value : plan.base) plan.numbers.push_back(value.number);
+  const std::set<std::size_t> inputs(plan.input_slots.begin(), plan.input_slots.end());
+  for (const std::size_t slot : slots_in_table_order(plan.list)) {
+    if (inputs.count(slot) == 0) set_number(plan, slot, plan.numbers[slot], plan.common);
   }
 }
 
@@ -36,34 +66,35 @@ std::string column_meaning(const Parameter& parameter) {
   return parameter.words.empty() ? meaning : meaning + ")";
 }
 
-void list_input_columns(StudyPlan& plan, Study& study) {
-  for (const std::size_t slot : slots_in_table_order(plan.moves)) {
-    if (plan.base[slot].kind == Value::Kind::number && !is_swept(plan, slot)) continue;
-    const Parameter& parameter = parameter_table()[row_of_slot(slot)];
-    study.input_columns.push_back({slot_name(slot), std::string(parameter.unit), column_meaning(parameter)});
+void list_input_columns(const std::vector<bool>& swept, StudyPlan& plan, Study& study) {
+  for (const std::size_t slot : slots_in_table_order(plan.list)) {
+    if (plan.base[slot].kind == Value::Kind::number && !swept[slot]) continue;
+    const Parameter& parameter = parameter_table()[row_of_slot(slot, plan.list)];
+    study.input_columns.push_back(
+        {slot_name(slot, plan.list), std::string(parameter.unit), column_meaning(parameter)});
     plan.input_slots.push_back(static_cast<std::uint32_t>(slot));
   }
 }
 
-// The profiles of one row that some point uses, each with the first point that does.
+// The profiles of one row that some of the points uses, each with the first point that does.
 std::map<std::uint32_t, std::size_t> profiles_in_use(const StudyPlan& plan, std::size_t row,
                                                      std::size_t points) {
   std::map<std::uint32_t, std::size_t> first_point;
-  const std::size_t distinct_points = is_swept(plan, row) ? points : 1;
-  for (std::size_t point = 0; point < distinct_points; ++point) {
+  for (std::size_t point = 0; point < points; ++point) {
     const Value& value = *value_at_point(plan, row, point);
     if (value.kind == Value::Kind::profile) first_point.emplace(value.index, point);
   }
   return first_point;
 }
 
-void list_profiles(const std::vector<ProfileRequest>& requests, const StudyPlan& plan, Study& study) {
+void list_profiles(const std::vector<ProfileRequest>& requests, const std::vector<bool>& swept,
+                   const StudyPlan& plan, Study& study) {
   const auto table = parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
     const bool asked =
         std::any_of(requests.begin(), requests.end(), [&](const auto& r) { return r.row == row; });
     if (!asked) continue;
-    const auto used = profiles_in_use(plan, row, study.point_labels.size());
+    const auto used = profiles_in_use(plan, row, swept[row] ? study.point_labels.size() : 1);
     for (const auto& [index, point] : used) {
       const std::string suffix = used.size() > 1 ? fmt::format("@{}", point) : "";
       study.profiles.push_back(
@@ -83,12 +114,18 @@ void realise_profiles(const std::vector<ProfileRequest>& requests, std::uint64_t
 
 void assemble_study(const std::vector<ProfileRequest>& requests, const std::vector<SweptAxis>& axes,
                     StudyPlan& plan, Study& study) {
-  study.moves = static_cast<std::int64_t>(plan.moves);
+  const auto listed = static_cast<std::int64_t>(plan.list.count);
+  if (plan.sequence) study.sequence = sequence_moves(*plan.sequence, listed);
+  study.moves = plan.sequence ? std::ssize(study.sequence) : listed;
+  study.open_loop = plan.open_loop;
   study.point_labels = label_points(axes);
   study.axes = describe_axes(axes, plan);
+  study.trace_extras = find_trace_extras(plan);
+  const std::vector<bool> swept = swept_slots(plan);
+  list_input_columns(swept, plan, study);
   derive_randomness(study, plan);
-  list_input_columns(plan, study);
-  list_profiles(requests, plan, study);
+  set_common_parameters(study, plan);
+  list_profiles(requests, swept, plan, study);
 }
 
 }  // namespace zerocount

@@ -1,3 +1,5 @@
+#include <span>
+
 #include <fmt/format.h>
 
 #include "core/failure.hpp"
@@ -9,10 +11,9 @@
 namespace zerocount {
 namespace {
 
-double design_uniform(const Study& study, const SlotRandomness& randomness, std::size_t point,
+double design_uniform(const Study& study, const SlotRandomness& randomness, std::uint32_t stream_word,
                       std::uint64_t index) {
-  const RandomStream stream{.key = randomness.key,
-                            .stream = study.independent_points ? static_cast<std::uint32_t>(point) + 1 : 0};
+  const RandomStream stream{.key = randomness.key, .stream = stream_word};
   switch (study.design) {
     case Design::monte_carlo:
       break;
@@ -22,6 +23,15 @@ double design_uniform(const Study& study, const SlotRandomness& randomness, std:
       return sobol_uniform(index, randomness.directions, stream);
   }
   return open_uniform(random_bits(stream, index, Draw::trial));
+}
+
+void set_sequence_targets(const Study& study, const std::vector<double>& numbers, StudyTrial& trial) {
+  static const std::size_t overrun = find_parameter("command.sequence.overrun").value();
+  const std::span<const double> targets = std::span(numbers).subspan(parameter_table().size());
+  for (std::size_t move = 0; move < study.sequence.size(); ++move) {
+    trial.parameters.command.targets[move] =
+        static_cast<std::int64_t>(sequence_position(study.sequence[move], targets, numbers[overrun]));
+  }
 }
 
 void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
@@ -40,39 +50,36 @@ void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
 StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index) {
   check_exists(study, point, index);
   const StudyPlan& plan = *study.plan;
-  const auto table = parameter_table();
+  const std::uint32_t stream = study.independent_points ? static_cast<std::uint32_t>(point) + 1 : 0;
   const std::vector<const Value*> values = values_at(plan, static_cast<std::size_t>(point));
-  std::vector<double> numbers(values.size());
+  std::vector<double> numbers = plan.numbers;
 
-  StudyTrial trial;
-  trial.parameters.command.targets.resize(plan.moves);
+  StudyTrial trial{.parameters = plan.common, .inputs = {}};
+  trial.parameters.randomness.trial = static_cast<std::uint64_t>(index);
+  trial.parameters.randomness.stream = stream;
   const auto set = [&](std::size_t slot, double number) {
     numbers[slot] = number;
-    if (slot >= table.size()) {
-      const std::size_t move = slot - table.size();
-      trial.parameters.command.targets[move] = static_cast<std::int64_t>(number);
-    } else if (!table[slot].per_move) {
-      table[slot].set(trial.parameters, number);
-    }
+    set_number(plan, slot, number, trial.parameters);
   };
-  for (std::size_t slot = 0; slot < values.size(); ++slot) {
+  for (const std::uint32_t slot : plan.input_slots) {
     const Value& value = *values[slot];
     if (value.kind == Value::Kind::number) {
       set(slot, value.number);
     } else if (value.kind == Value::Kind::distribution) {
-      const double u = design_uniform(study, plan.randomness[slot], static_cast<std::size_t>(point),
-                                      static_cast<std::uint64_t>(index));
+      const double u =
+          design_uniform(study, plan.randomness[slot], stream, static_cast<std::uint64_t>(index));
       set(slot, quantile(plan.distributions[value.index], u));
     }
   }
   // The profiles last: where the trial starts on them is itself a parameter.
-  for (std::size_t slot = 0; slot < table.size(); ++slot) {
+  for (const std::uint32_t slot : plan.input_slots) {
     const Value& value = *values[slot];
     if (value.kind != Value::Kind::profile) continue;
     const std::shared_ptr<const Profile>& profile = plan.profiles[value.index];
     set(slot, value_at(*profile, trial.parameters.initial.position));
-    trial.parameters.friction.profiled.push_back({table[slot].profiled, profile});
+    trial.parameters.friction.profiled.push_back({parameter_table()[slot].profiled, profile});
   }
+  if (plan.sequence) set_sequence_targets(study, numbers, trial);
   trial.inputs.reserve(plan.input_slots.size());
   for (const std::uint32_t slot : plan.input_slots) trial.inputs.push_back(numbers[slot]);
   return trial;

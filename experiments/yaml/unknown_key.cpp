@@ -9,10 +9,19 @@
 namespace zerocount {
 namespace {
 
-// The parameter whose last name is `key`, or nothing.
+// The last name of a dotted path.
+std::string_view last_name(std::string_view path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
+// The parameter, or the map of parameters, whose last name is `key`; or nothing.
 std::string_view same_name_elsewhere(std::string_view key) {
   for (const Parameter& parameter : parameter_table()) {
-    if (parameter.name.substr(parameter.name.rfind('.') + 1) == key) return parameter.name;
+    if (last_name(parameter.name) == key) return parameter.name;
+  }
+  for (const Parameter& parameter : parameter_table()) {
+    const std::string_view map = parameter.name.substr(0, parameter.name.rfind('.'));
+    if (last_name(map) == key) return map;
   }
   return {};
 }
@@ -22,6 +31,13 @@ std::string_view same_name_elsewhere(std::string_view key) {
 void add_unknown_key(const Field& map, const YamlEntry& entry, std::span<const std::string> known,
                      Problems& problems) {
   const std::string path = entry_of(map, entry).path;
+  if (entry.key.find('.') != std::string::npos && find_parameter(path)) {
+    problems.add(
+        entry.place, path, "a dotted path stands in place of a key",
+        fmt::format("maps inside one another, as in {}: {{{}: ...}}",
+                    entry.key.substr(0, entry.key.find('.')), entry.key.substr(entry.key.find('.') + 1)));
+    return;
+  }
   const std::string_view elsewhere = same_name_elsewhere(entry.key);
   const std::string_view nearest = elsewhere.empty() ? nearest_name(entry.key, known) : elsewhere;
   const std::string what =

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "experiments/designs/sha256.hpp"
-#include "results/layout/layout.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_descriptor.hpp"
 #include "results/storage/seal.hpp"
@@ -55,7 +54,7 @@ FileKind read_kind(const hdf5::File& file) {
                                                   study_format, shard_format));
 }
 
-void check_version(const hdf5::File& file) {
+std::int64_t read_version(const hdf5::File& file) {
   const std::int64_t version = file.integer("format_version");
   if (version > format_version) {
     throw ForeignFile(
@@ -66,6 +65,7 @@ void check_version(const hdf5::File& file) {
   }
   if (version < 1)
     file.fail(fmt::format("its format version is {}; expected 1 to {}", version, format_version));
+  return version;
 }
 
 void check_numbers(const hdf5::File& file, const FileHeader& header) {
@@ -92,6 +92,7 @@ RowRange all_rows(const Study& study) {
 
 FileHeader make_header(const Study& study, FileKind kind, RowRange rows, Provenance provenance) {
   return {kind,
+          format_version,
           study.name,
           std::move(provenance),
           study.seed,
@@ -134,7 +135,7 @@ void mark_finished(hdf5::File& file) {
 FileHeader read_header(const hdf5::File& file) {
   FileHeader header;
   header.kind = read_kind(file);
-  check_version(file);
+  header.version = read_version(file);
   header.name = file.text("name");
   header.provenance = {file.text("zerocount_version"), file.text("git_commit"), file.text("compiler"),
                        file.text("cpu"), file.text("created")};
@@ -173,6 +174,11 @@ void require_same_study(const std::filesystem::path& path, const FileHeader& hea
                     "of different builds are not mixed; finish with the same build, or start a new output",
                     header.provenance.zerocount_version, header.provenance.git_commit, here.zerocount_version,
                     here.git_commit));
+  }
+  if (header.version != format_version) {
+    throw ForeignFile(path, fmt::format("its format version is {}: such files are read, but not joined with "
+                                        "those of version {}",
+                                        header.version, format_version));
   }
 }
 

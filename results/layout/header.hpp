@@ -9,6 +9,7 @@
 #include "experiments/study.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/build_info.hpp"
+#include "results/layout/layout.hpp"
 #include "results/layout/row_range.hpp"
 
 namespace zerocount {
@@ -18,6 +19,7 @@ enum class FileKind { study, shard };
 /// What a results file says of itself: the attributes of its root, and the manifest.
 struct FileHeader {
   FileKind kind{FileKind::study};
+  std::int64_t version{format_version};  ///< of the layout
   std::string name;
   Provenance provenance;
   std::uint64_t seed{0};
@@ -53,8 +55,8 @@ void mark_finished(hdf5::File& file);
 /// @throws ForeignFile for another format or a newer version, Failure (bad_data) for damage.
 FileHeader read_header(const hdf5::File& file);
 
-/// @throws ForeignFile unless `header`, of the file `path`, is of this study and by this build of the program
-/// (see same_build).
+/// @throws ForeignFile unless `header`, of the file `path`, is of this study, by this build of the program
+/// (see same_build) and of the current version of the layout.
 void require_same_study(const std::filesystem::path& path, const FileHeader& header, const Study& study);
 
 /// Whether a file must have its seal (see seal.hpp) to be opened.

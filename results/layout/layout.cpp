@@ -1,8 +1,9 @@
 #include "results/layout/layout.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace zerocount {
 namespace {
@@ -24,40 +25,27 @@ RecordField<Record> field(const char* name, const char* unit, const char* long_n
           static_cast<Value Record::*>(member)};
 }
 
+/// A column that the layout has since `version`; `before` is its value in files that lack it.
+template <class Record>
+RecordField<Record> since(std::int64_t version, double before, RecordField<Record> added) {
+  added.since = version;
+  added.before = before;
+  return added;
+}
+
 std::vector<FlagMeaning> mode_words() {
   return {{static_cast<int>(HookMode::stick), "stick"}, {static_cast<int>(HookMode::slide), "slide"}};
 }
 
-Column whole_numbers(const char* name, const char* long_name) {
-  return {name, "1", long_name, Element::int64, {}, {}};
+std::vector<FlagMeaning> phase_words() {
+  return {{static_cast<int>(ControlPhase::fine), "fine"}, {static_cast<int>(ControlPhase::coarse), "coarse"}};
 }
 
-template <class Record>
-std::vector<Column> columns_of(const std::vector<RecordField<Record>>& fields) {
-  std::vector<Column> columns;
-  std::transform(fields.begin(), fields.end(), std::back_inserter(columns),
-                 [](const RecordField<Record>& entry) { return entry.column; });
-  return columns;
-}
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-}  // namespace
-
-std::vector<FlagMeaning> outcome_words() {
-  return {{static_cast<int>(Outcome::zero_count), "zero_count"},
-          {static_cast<int>(Outcome::one_count), "one_count"},
-          {static_cast<int>(Outcome::oscillating), "oscillating"},
-          {static_cast<int>(Outcome::nonfinite), "nonfinite"}};
-}
-
-std::string word_of(const Column& column, std::int64_t value) {
-  const auto flag = std::find_if(column.flags.begin(), column.flags.end(),
-                                 [value](const FlagMeaning& meaning) { return meaning.value == value; });
-  return flag == column.flags.end() ? std::to_string(value) : flag->word;
-}
-
-const std::vector<RecordField<MoveOutcome>>& outcome_fields() {
+std::vector<RecordField<MoveOutcome>> all_outcome_fields() {
   using M = MoveOutcome;
-  static const std::vector<RecordField<M>> fields{
+  return {
       field<M>("outcome", "1", "verdict on the last window of the move", &M::outcome, outcome_words()),
       field<M>("arrived", "1", "the error was 0 for a whole dwell", &M::arrived),
       field<M>("arrival", "1", "first sample of the arrival dwell from the start of the move, -1 if never",
@@ -73,11 +61,50 @@ const std::vector<RecordField<MoveOutcome>>& outcome_fields() {
       field<M>("peak_torque", "N m", "largest absolute torque decided", &M::peak_torque),
       field<M>("creep", "rad", "plastic extension xp at the last sample", &M::creep),
       field<M>("final_position", "rad", "rotor angle at the last sample", &M::final_position),
+      since(2, unknown,
+            field<M>("final_error", "count", "target minus count at the last sample", &M::final_error)),
+      since(2, 0.0,
+            field<M>("travel_time", "s", "time until the reference or the torque is where it is held",
+                     &M::travel_time)),
+      since(2, 0.0,
+            field<M>("phase_changes", "1", "changes of the control from coarse to fine or back",
+                     &M::phase_changes)),
+      since(2, 0.0,
+            field<M>("encoder_disagreement", "1",
+                     "samples at which the fine count made the coarse one impossible",
+                     &M::encoder_disagreement)),
       field<M>("reversal_depth", "1", "largest number of reversal points on the stack", &M::reversal_depth),
       field<M>("jerk_count", "1", "excursions of the error from zero after arrival", &M::jerk_count),
       field<M>("jerk_agreement", "1",
                "share of the jerks in the direction of the holding torque, NaN if none", &M::jerk_agreement)};
+}
+
+std::vector<RecordField<MoveOutcome>> outcome_fields_of(std::int64_t version) {
+  std::vector<RecordField<MoveOutcome>> fields = all_outcome_fields();
+  std::erase_if(fields, [version](const auto& entry) { return entry.since > version; });
   return fields;
+}
+
+}  // namespace
+
+std::vector<FlagMeaning> outcome_words() {
+  return {{static_cast<int>(Outcome::zero_count), "zero_count"},
+          {static_cast<int>(Outcome::one_count), "one_count"},
+          {static_cast<int>(Outcome::oscillating), "oscillating"},
+          {static_cast<int>(Outcome::nonfinite), "nonfinite"},
+          {static_cast<int>(Outcome::open_loop), "open_loop"}};
+}
+
+std::string word_of(const Column& column, std::int64_t value) {
+  const auto flag = std::find_if(column.flags.begin(), column.flags.end(),
+                                 [value](const FlagMeaning& meaning) { return meaning.value == value; });
+  return flag == column.flags.end() ? std::to_string(value) : flag->word;
+}
+
+const std::vector<RecordField<MoveOutcome>>& outcome_fields(std::int64_t version) {
+  static const std::vector<RecordField<MoveOutcome>> current = outcome_fields_of(format_version);
+  static const std::vector<RecordField<MoveOutcome>> first = outcome_fields_of(1);
+  return version == 1 ? first : current;
 }
 
 const std::vector<RecordField<JerkRecord>>& jerk_fields() {
@@ -92,9 +119,9 @@ const std::vector<RecordField<JerkRecord>>& jerk_fields() {
   return fields;
 }
 
-const std::vector<RecordField<TraceRecord>>& trace_fields() {
+std::vector<RecordField<TraceRecord>> trace_fields(const TraceExtras& extras) {
   using T = TraceRecord;
-  static const std::vector<RecordField<T>> fields{
+  std::vector<RecordField<T>> fields{
       field<T>("trial", "1", "global row of the trial", &T::trial),
       field<T>("k", "1", "sample number from the start of the trial", &T::k),
       field<T>("t", "s", "time of the sampling instant from the start of the trial", &T::t),
@@ -110,68 +137,17 @@ const std::vector<RecordField<TraceRecord>>& trace_fields() {
       field<T>("xh", "rad", "hardening", &T::xh),
       field<T>("depth", "1", "reversal points on the stack", &T::depth),
       field<T>("mode", "1", "whether the hook sticks or slides", &T::mode, mode_words())};
+  if (extras.reference)
+    fields.push_back(field<T>("reference", "count", "position that the control follows", &T::reference));
+  if (extras.phase) {
+    fields.push_back(
+        field<T>("phase", "1", "phase of the control at this instant", &T::phase, phase_words()));
+  }
+  if (extras.drive_torque) {
+    fields.push_back(
+        field<T>("drive_torque", "N m", "torque of the motor at this instant", &T::drive_torque));
+  }
   return fields;
-}
-
-Table point_table(const std::vector<SweepAxis>& axes, const std::vector<PointColumn>& statistics) {
-  Table table{"point", whole_numbers("point", "index of the design point"), {}, {}};
-  table.columns.push_back({"label", "1", "name of the design point", Element::text, {}, {}});
-  for (const SweepAxis& axis : axes) {
-    const bool text = axis.kind == SweepAxis::Kind::text;
-    table.columns.push_back({axis.name,
-                             text || axis.unit.empty() ? "1" : axis.unit,
-                             axis.meaning,
-                             text ? Element::text : Element::float64,
-                             {},
-                             "axis"});
-  }
-  for (const PointColumn& statistic : statistics) {
-    table.columns.push_back(
-        {statistic.name, statistic.unit, statistic.long_name, Element::float64, {}, "statistic"});
-  }
-  return table;
-}
-
-std::string input_column_name(const std::string& parameter) {
-  return "input/" + parameter;
-}
-
-Table trial_table(const std::vector<InputColumn>& inputs) {
-  Table table{
-      "trial", whole_numbers("trial", "global row of the trial, point times trials plus index"), {}, {}};
-  table.columns.push_back(whole_numbers("point", "index of the design point"));
-  table.columns.push_back(whole_numbers("index", "index of the trial within its design point"));
-  for (const InputColumn& input : inputs) {
-    table.columns.push_back(
-        {input_column_name(input.name), input.unit, input.meaning, Element::float64, {}, {}});
-  }
-  return table;
-}
-
-Table outcome_table() {
-  return {"outcome", whole_numbers("trial", "global row of the trial"),
-          whole_numbers("move", "index of the move"), columns_of(outcome_fields())};
-}
-
-Table jerk_table() {
-  return {"jerk",
-          whole_numbers("jerk", "index of the jerk, by trial, move and onset"),
-          {},
-          columns_of(jerk_fields())};
-}
-
-Table trace_table() {
-  return {"trace",
-          whole_numbers("record", "index of the record, by trial and sample"),
-          {},
-          columns_of(trace_fields())};
-}
-
-Table profile_table(const std::string& name, const std::string& unit) {
-  return {"profile/" + name,
-          {"theta", "rad", "rotor angle from the origin of the profile", Element::float64, {}, {}},
-          {},
-          {{"value", unit, "realised value of " + name, Element::float64, {}, {}}}};
 }
 
 }  // namespace zerocount

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -10,13 +13,15 @@
 #include "core/trial/trial.hpp"
 #include "experiments/study.hpp"
 #include "results/hdf5/element.hpp"
+#include "results/hdf5/hdf5.hpp"
 
 /// The layout of results files: the one description from which the writer, the reader, the CSV export and the
 /// test of the format's documentation (README.md of this folder) all derive.
 namespace zerocount {
 
-/// Version of the layout. A file with a higher number was written by a later program, and is refused.
-inline constexpr std::int64_t format_version = 1;
+/// Version of the layout that is written. A file with a higher number was written by a later program, and is
+/// refused; what those with a lower one lack is told by RecordField::since.
+inline constexpr std::int64_t format_version = 2;
 
 /// One value of an enumeration, and its word in `flag_meanings` and in CSV.
 struct FlagMeaning {
@@ -51,12 +56,14 @@ struct Table {
 /// Where a column's value stands in a record.
 template <class Record>
 using Member = std::variant<double Record::*, std::int64_t Record::*, int Record::*, bool Record::*,
-                            Outcome Record::*, HookMode Record::*>;
+                            Outcome Record::*, HookMode Record::*, ControlPhase Record::*>;
 
 template <class Record>
 struct RecordField {
   Column column;
   Member<Record> member;
+  std::int64_t since{1};  ///< first version of the layout that has the column
+  double before{0.0};     ///< value in files of earlier versions; NaN where it is not known
 };
 
 /// A jerk, and the trial it belongs to.
@@ -69,9 +76,11 @@ struct TraceRecord : SampleRecord {
   std::int64_t trial{0};  ///< global row
 };
 
-const std::vector<RecordField<MoveOutcome>>& outcome_fields();
+/// The measures of a move that a file of `version` has.
+const std::vector<RecordField<MoveOutcome>>& outcome_fields(std::int64_t version = format_version);
 const std::vector<RecordField<JerkRecord>>& jerk_fields();
-const std::vector<RecordField<TraceRecord>>& trace_fields();
+/// The columns of a sample record; those of `extras` come last.
+std::vector<RecordField<TraceRecord>> trace_fields(const TraceExtras& extras);
 
 /// One number per design point, made when a study is complete.
 struct PointColumn {
@@ -81,14 +90,42 @@ struct PointColumn {
   std::vector<double> values;  ///< [point]; NaN where there is none
 };
 
+/// A group of statistics that have a second dimension beside the design point.
+struct StatisticGroup {
+  std::string_view name;       ///< of the group in the root
+  std::string_view dimension;  ///< name of the second dimension, and of its scale
+  std::string_view meaning;    ///< one line: what an index of the second dimension is
+  std::string_view csv;        ///< file that the group is exported to
+};
+
+/// All such groups that a file may have.
+std::span<const StatisticGroup> statistic_groups();
+/// The statistics of the torque levels of an open-loop study.
+const StatisticGroup& level_group();
+
+/// The statistics of one group.
+struct StatisticTable {
+  const StatisticGroup* group{nullptr};  ///< of statistic_groups()
+  std::int64_t width{1};                 ///< size of the second dimension
+  std::vector<PointColumn> columns;      ///< values[point·width + index]
+};
+
+/// Everything that is stored of the statistics of a study.
+struct StoredStatistics {
+  std::vector<PointColumn> points;
+  std::vector<StatisticTable> tables;       ///< none twice
+  std::function<void(hdf5::File&)> groups;  ///< writes further groups; may be empty
+};
+
 /// Number of angles at which a profile is tabulated, over one revolution.
 inline constexpr std::int64_t profile_angles = 4096;
 
 Table point_table(const std::vector<SweepAxis>& axes, const std::vector<PointColumn>& statistics);
 Table trial_table(const std::vector<InputColumn>& inputs);
-Table outcome_table();
+Table outcome_table(std::int64_t version = format_version);
 Table jerk_table();
-Table trace_table();
+Table trace_table(const TraceExtras& extras);
+Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn>& columns);
 Table profile_table(const std::string& name, const std::string& unit);
 
 /// Name in /trial of the column of an input parameter.

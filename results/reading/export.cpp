@@ -1,6 +1,7 @@
 #include "results/reading/export.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <string>
@@ -96,7 +97,7 @@ void export_trials(const StudyFile& file, CsvFile& csv) {
 void export_outcomes(const StudyFile& file, CsvFile& csv) {
   csv.add("trial");
   csv.add("move");
-  add_names(csv, outcome_fields());
+  add_names(csv, file.measures());
   csv.end_row();
   const std::int64_t moves = file.moves();
   for_each_block(file.rows().first, file.rows().end(), chunk_rows(moves),
@@ -105,7 +106,7 @@ void export_outcomes(const StudyFile& file, CsvFile& csv) {
                    for (const MoveOutcome& outcome : file.outcomes({first, count})) {
                      csv.add(first + position / moves);
                      csv.add(position % moves);
-                     add_values(csv, outcome_fields(), outcome);
+                     add_values(csv, file.measures(), outcome);
                      csv.end_row();
                      ++position;
                    }
@@ -137,55 +138,71 @@ void export_profiles(const StudyFile& file, CsvFile& csv) {
 }
 
 void export_trace(const StudyFile& file, CsvFile& csv) {
-  add_names(csv, trace_fields());
+  const std::vector<RecordField<TraceRecord>> fields = trace_fields(file.trace_extras());
+  add_names(csv, fields);
   csv.end_row();
   for_each_block(0, file.trace_count(), chunk_elements, [&](std::int64_t first, std::int64_t count) {
     for (const TraceRecord& record : file.trace_at(first, count)) {
-      add_values(csv, trace_fields(), record);
+      add_values(csv, fields, record);
       csv.end_row();
     }
   });
 }
 
-struct ExportedTable {
-  fs::path path;
-  void (*write)(const StudyFile&, CsvFile&);
-};
+/// One row per design point and index of the second dimension.
+void export_statistics(const StatisticTable& table, CsvFile& csv) {
+  csv.add("point");
+  csv.add(table.group->dimension);
+  for (const PointColumn& column : table.columns) csv.add(column.name);
+  csv.end_row();
+  const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    csv.add(static_cast<std::int64_t>(row) / table.width);
+    csv.add(static_cast<std::int64_t>(row) % table.width);
+    for (const PointColumn& column : table.columns) csv.add(column.values[row]);
+    csv.end_row();
+  }
+}
 
-std::vector<ExportedTable> tables_of(const StudyFile& file, const fs::path& directory) {
-  std::vector<ExportedTable> tables{{directory / "points.csv", export_points},
-                                    {directory / "trials.csv", export_trials},
-                                    {directory / "outcomes.csv", export_outcomes},
-                                    {directory / "jerks.csv", export_jerks}};
-  if (file.has_profiles()) tables.push_back({directory / "profiles.csv", export_profiles});
-  if (file.has_trace()) tables.push_back({directory / "trace.csv", export_trace});
+std::vector<ExportedTable> tables_of(const StudyFile& file) {
+  std::vector<ExportedTable> tables{{"points.csv", export_points},
+                                    {"trials.csv", export_trials},
+                                    {"outcomes.csv", export_outcomes},
+                                    {"jerks.csv", export_jerks}};
+  if (file.has_profiles()) tables.push_back({"profiles.csv", export_profiles});
+  if (file.has_trace()) tables.push_back({"trace.csv", export_trace});
+  for (const StatisticTable& table : file.statistic_tables()) {
+    tables.push_back({std::string(table.group->csv),
+                      [table](const StudyFile&, CsvFile& csv) { export_statistics(table, csv); }});
+  }
   return tables;
 }
 
 }  // namespace
 
-std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& directory) {
-  const std::vector<ExportedTable> tables = tables_of(file, directory);
+std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& directory,
+                                 const std::vector<ExportedTable>& further) {
+  std::vector<ExportedTable> tables = tables_of(file);
+  tables.insert(tables.end(), further.begin(), further.end());
+  std::vector<fs::path> paths(tables.size());
+  std::transform(tables.begin(), tables.end(), paths.begin(),
+                 [&directory](const ExportedTable& table) { return directory / table.name; });
   make_directory(directory);
-  for (const ExportedTable& table : tables) {
+  for (const fs::path& path : paths) {
     std::error_code ignored;
-    if (fs::exists(table.path, ignored)) {
-      throw Failure(
-          ExitCode::bad_input,
-          fmt::format("{}: exists already; remove it or name another directory", table.path.string()));
+    if (fs::exists(path, ignored)) {
+      throw Failure(ExitCode::bad_input,
+                    fmt::format("{}: exists already; remove it or name another directory", path.string()));
     }
   }
   // None has its name before all are whole: a failure leaves nothing that would stop the next attempt.
   std::deque<CsvFile> written;
-  for (const ExportedTable& table : tables) {
-    CsvFile& csv = written.emplace_back(table.path);
-    table.write(file, csv);
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    CsvFile& csv = written.emplace_back(paths[i]);
+    tables[i].write(file, csv);
     csv.finish();
   }
   for (CsvFile& csv : written) csv.publish();
-  std::vector<fs::path> paths(tables.size());
-  std::transform(tables.begin(), tables.end(), paths.begin(),
-                 [](const ExportedTable& table) { return table.path; });
   return paths;
 }
 

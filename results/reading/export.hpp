@@ -1,19 +1,30 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <vector>
 
+#include "results/reading/csv.hpp"
 #include "results/reading/study_file.hpp"
 
 namespace zerocount {
 
+/// A table as a CSV file.
+struct ExportedTable {
+  std::string name;                                       ///< of the file
+  std::function<void(const StudyFile&, CsvFile&)> write;  ///< all its rows
+};
+
 /// Writes the tables of a results file as CSV into `directory`, which is made if need be: points.csv,
 /// trials.csv, outcomes.csv (one row per move), jerks.csv, profiles.csv where there are profiles, trace.csv
-/// where trials are retained. Columns have the names of the datasets (inputs without "input/"); enumerations
-/// are written as their words. Memory is bounded. The files get their names when all of them are whole.
+/// where trials are retained, and the CSV files of those statistic_groups() that there are; then `further`
+/// ones. Columns have the names of the datasets (inputs without "input/"); enumerations are written as their
+/// words. Memory is bounded. The files get their names when all of them are whole.
 /// @return the files, in that order
 /// @throws Failure: bad_input where one of the files exists, bad_data where the results are damaged,
 /// machine_failed where a file cannot be written.
-std::vector<std::filesystem::path> export_csv(const StudyFile& file, const std::filesystem::path& directory);
+std::vector<std::filesystem::path> export_csv(const StudyFile& file, const std::filesystem::path& directory,
+                                              const std::vector<ExportedTable>& further = {});
 
 }  // namespace zerocount

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/failure.hpp"
+#include "results/layout/statistic_io.hpp"
 
 namespace zerocount {
 namespace {
@@ -40,9 +41,15 @@ std::vector<InputColumn> read_input_columns(const hdf5::File& file) {
   return inputs;
 }
 
-std::optional<TableIo> open_trace(const hdf5::File& file) {
+TraceExtras read_trace_extras(const hdf5::File& file) {
+  if (!file.contains("trace")) return {};
+  const hdf5::Group trace = file.open_group("trace");
+  return {trace.contains("reference"), trace.contains("phase"), trace.contains("drive_torque")};
+}
+
+std::optional<TableIo> open_trace(const hdf5::File& file, const TraceExtras& extras) {
   if (!file.contains("trace")) return std::nullopt;
-  return TableIo::open(file, trace_table());
+  return TableIo::open(file, trace_table(extras));
 }
 
 std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
@@ -73,9 +80,10 @@ StudyFile::StudyFile(const std::filesystem::path& path, Require require)
       header_(read_required(file_, path, require)),
       inputs_(read_input_columns(file_)),
       trials_(TableIo::open(file_, trial_table(inputs_))),
-      outcomes_(TableIo::open(file_, outcome_table())),
+      outcomes_(TableIo::open(file_, outcome_table(header_.version))),
       jerks_(TableIo::open(file_, jerk_table())),
-      trace_(open_trace(file_)) {
+      trace_extras_(read_trace_extras(file_)),
+      trace_(open_trace(file_, trace_extras_)) {
   if (trials_.rows() != rows().count)
     trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
   if (outcomes_.rows() != rows().count)
@@ -143,21 +151,25 @@ std::vector<double> StudyFile::inputs_of(std::int64_t row) const {
 }
 
 std::vector<MoveOutcome> StudyFile::outcomes(RowRange range) const {
-  return read_records(outcomes_, outcome_fields(), local(range), range.count);
+  return read_records(outcomes_, outcome_fields(header_.version), local(range), range.count);
 }
 
 std::vector<double> StudyFile::measure(std::string_view name, RowRange range) const {
-  const std::vector<RecordField<MoveOutcome>>& fields = outcome_fields();
-  const auto found =
-      std::find_if(fields.begin(), fields.end(),
-                   [name](const RecordField<MoveOutcome>& field) { return field.column.name == name; });
-  if (found == fields.end()) throw std::invalid_argument(fmt::format("'{}' is no measure of a move", name));
-  std::vector<MoveOutcome> moves(static_cast<std::size_t>(range.count * outcomes_.width()));
-  std::vector<std::byte> bytes(moves.size() * size_of(found->column.element));
-  outcomes_.column(static_cast<std::size_t>(found - fields.begin()))
-      .read(local(range), range.count, bytes.data());
-  scatter(*found, bytes, std::span(moves));
-  return as_doubles(*found, moves);
+  const auto has_name = [name](const RecordField<MoveOutcome>& field) { return field.column.name == name; };
+  const std::vector<RecordField<MoveOutcome>>& known = outcome_fields();
+  const auto field = std::find_if(known.begin(), known.end(), has_name);
+  if (field == known.end()) throw std::invalid_argument(fmt::format("'{}' is no measure of a move", name));
+
+  const std::int64_t first = local(range);
+  const auto size = static_cast<std::size_t>(range.count * outcomes_.width());
+  const std::vector<RecordField<MoveOutcome>>& stored = outcome_fields(header_.version);
+  const auto column = std::find_if(stored.begin(), stored.end(), has_name);
+  if (column == stored.end()) return std::vector<double>(size, field->before);
+  std::vector<MoveOutcome> moves(size);
+  std::vector<std::byte> bytes(size * size_of(field->column.element));
+  outcomes_.column(static_cast<std::size_t>(column - stored.begin())).read(first, range.count, bytes.data());
+  scatter(*field, bytes, std::span(moves));
+  return as_doubles(*field, moves);
 }
 
 std::vector<JerkRecord> StudyFile::jerks_at(std::int64_t first, std::int64_t count) const {
@@ -190,7 +202,16 @@ std::vector<JerkRecord> StudyFile::jerks(RowRange range) const {
 
 std::vector<TraceRecord> StudyFile::trace_at(std::int64_t first, std::int64_t count) const {
   if (!trace_) return {};
-  return read_records(*trace_, trace_fields(), first, count);
+  std::vector<TraceRecord> records = read_records(*trace_, trace_fields(trace_extras_), first, count);
+  for (TraceRecord& record : records) {
+    if (!trace_extras_.reference) record.reference = record.target;
+    if (!trace_extras_.drive_torque) record.drive_torque = record.torque;
+  }
+  return records;
+}
+
+std::vector<StatisticTable> StudyFile::statistic_tables() const {
+  return read_statistic_tables(file_);
 }
 
 std::vector<StoredProfile> StudyFile::profiles() const {

@@ -43,21 +43,29 @@ class StudyFile {
 
   const std::filesystem::path& path() const { return path_; }
   const FileHeader& header() const { return header_; }
+  const hdf5::Group& root() const { return file_; }  ///< for groups that this class does not know
   RowRange rows() const { return header_.rows; }
   std::int64_t moves() const { return outcomes_.width(); }
 
-  /// Empty in a shard, like axes and statistics.
+  /// Empty in a shard, like axes, statistics and their tables.
   std::vector<std::string> point_labels() const;
   std::vector<SweepAxis> axes() const;
   std::vector<PointColumn> statistics() const;
+  std::vector<StatisticTable> statistic_tables() const;
 
   const std::vector<InputColumn>& input_columns() const { return inputs_; }
   std::vector<double> input(std::size_t column, RowRange rows) const;  ///< [row]
   std::vector<double> inputs_of(std::int64_t row) const;               ///< [input column]
 
-  /// All measures of the moves of these trials: [row][move], flattened.
+  /// The measures that the file has; one of an earlier version of the layout lacks some.
+  const std::vector<RecordField<MoveOutcome>>& measures() const { return outcome_fields(header_.version); }
+  /// Whether the final errors of the moves are in the file.
+  bool final_error_known() const { return header_.version >= 2; }
+  /// All measures of the moves of these trials: [row][move], flattened. Those that the file lacks are 0,
+  /// which is their true value in such files for all but final_error.
   std::vector<MoveOutcome> outcomes(RowRange rows) const;
-  /// One measure of section 4 by its name, [row][move], flattened, whatever its type in the file, as doubles.
+  /// One measure of a move by its name, [row][move], flattened, whatever its type in the file, as doubles.
+  /// NaN where it is not known.
   std::vector<double> measure(std::string_view name, RowRange rows) const;
 
   std::int64_t jerk_count() const { return jerks_.rows(); }
@@ -67,6 +75,9 @@ class StudyFile {
 
   bool has_trace() const { return trace_.has_value(); }
   std::int64_t trace_count() const { return trace_ ? trace_->rows() : 0; }
+  const TraceExtras& trace_extras() const { return trace_extras_; }  ///< the further columns it has
+  /// By position in the table. Without its column, `reference` is the target, `phase` fine, and
+  /// `drive_torque` the torque decided, which is the motor's where the control has no delay.
   std::vector<TraceRecord> trace_at(std::int64_t first, std::int64_t count) const;
 
   bool has_profiles() const { return file_.contains("profile"); }
@@ -83,6 +94,7 @@ class StudyFile {
   TableIo trials_;  ///< point, index, then one column per input
   TableIo outcomes_;
   TableIo jerks_;
+  TraceExtras trace_extras_;
   std::optional<TableIo> trace_;
 };
 

@@ -9,6 +9,7 @@
 #include "core/failure.hpp"
 #include "core/friction/profile.hpp"
 #include "results/layout/header.hpp"
+#include "results/layout/statistic_io.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/shards/concatenate.hpp"
 #include "results/storage/durable_file.hpp"
@@ -120,22 +121,24 @@ void write_trials_of(std::span<const ShardInfo> shards, const Study& study, cons
   concatenate(file, outcome_table(), shards, study.moves, rows.first);
   concatenate(file, jerk_table(), shards, 1, 0);
   write_profiles(file, study);
-  if (!study.retained_trials.empty()) concatenate(file, trace_table(), shards, 1, 0);
+  if (!study.retained_trials.empty()) concatenate(file, trace_table(study.trace_extras), shards, 1, 0);
   file.close();
 }
 
-void write_statistics(const fs::path& part, const Study& study, const std::vector<PointColumn>& statistics) {
+void write_statistics(const fs::path& part, const Study& study, const StoredStatistics& statistics) {
   hdf5::File file = hdf5::File::open_to_change(part);
   TableIo io = TableIo::open(file, point_table(study.axes, {}));
-  const Table described = point_table({}, statistics);
-  for (std::size_t index = 0; index < statistics.size(); ++index) {
-    const PointColumn& statistic = statistics[index];
+  const Table described = point_table({}, statistics.points);
+  for (std::size_t index = 0; index < statistics.points.size(); ++index) {
+    const PointColumn& statistic = statistics.points[index];
     if (std::ssize(statistic.values) != io.rows()) {
       throw std::invalid_argument(
           fmt::format("the statistic '{}' needs one value per design point", statistic.name));
     }
     io.add(described.columns[1 + index]).write(0, io.rows(), statistic.values.data());
   }
+  for (const StatisticTable& table : statistics.tables) write_statistic_table(file, table, io.rows());
+  if (statistics.groups) statistics.groups(file);
   mark_finished(file);
   file.close();
 }
@@ -165,10 +168,9 @@ void merge_shards(std::span<const ShardInfo> shards, const Study& study, const f
     fail(ExitCode::bad_input, output, "exists already; remove it or name another output");
   const UnfinishedFile part(output);
   write_trials_of(ordered, study, part.path(), rows, of_all(ordered, provenance));
-  std::vector<PointColumn> columns;
-  if (statistics && rows == all_rows(study))
-    columns = statistics(StudyFile(part.path(), Require::unfinished));
-  write_statistics(part.path(), study, columns);
+  StoredStatistics stored;
+  if (statistics && rows == all_rows(study)) stored = statistics(StudyFile(part.path(), Require::unfinished));
+  write_statistics(part.path(), study, stored);
   seal(part.path());
   publish(output);
 }

@@ -15,8 +15,7 @@
 namespace zerocount {
 
 /// Computes the statistics of the design points from a file that holds all its trials but is not finished.
-/// One number per design point in each column.
-using StatisticsOfPoints = std::function<std::vector<PointColumn>(const StudyFile&)>;
+using StatisticsOfPoints = std::function<StoredStatistics(const StudyFile&)>;
 
 /// The files that `inputs` name: files stand for themselves, directories for their shard_files. In order of
 /// rows. Each is read whole, for its seal, and must be a finished shard or part of `study`.

@@ -70,14 +70,14 @@ void write_jerks(hdf5::File& file, std::span<const TrialResult> results) {
   write_records(io, jerk_fields(), 0, std::span<const JerkRecord>(jerks));
 }
 
-void write_trace(hdf5::File& file, std::span<const TrialResult> results) {
+void write_trace(hdf5::File& file, const TraceExtras& extras, std::span<const TrialResult> results) {
   std::vector<TraceRecord> records;
   for (const TrialResult& result : results) {
     for (const SampleRecord& record : result.trace) records.push_back({record, result.row});
   }
-  TableIo io = TableIo::create(file, trace_table(), std::ssize(records), 1);
+  TableIo io = TableIo::create(file, trace_table(extras), std::ssize(records), 1);
   io.number_rows(0);
-  write_records(io, trace_fields(), 0, std::span<const TraceRecord>(records));
+  write_records(io, trace_fields(extras), 0, std::span<const TraceRecord>(records));
 }
 
 /// The regular files in `directory` whose names end in `extension`, in order of names.
@@ -120,7 +120,7 @@ void write_shard(const fs::path& path, const Study& study, std::int64_t first_ro
   write_trials(file, study, results);
   write_outcomes(file, study, results);
   write_jerks(file, results);
-  if (!study.retained_trials.empty()) write_trace(file, results);
+  if (!study.retained_trials.empty()) write_trace(file, study.trace_extras, results);
   mark_finished(file);
   file.close();
   seal(part.path());

@@ -38,8 +38,9 @@ TEST(PointStatistics, WithoutTrialsNothingIsKnown) {
   const PointSummary none = PointAccumulator().statistics();
   EXPECT_EQ(none.trials, 0);
   EXPECT_TRUE(std::isnan(none.success_rate.value));
-  EXPECT_EQ(none.success_rate.clopper_pearson.low, 0.0);
-  EXPECT_EQ(none.success_rate.clopper_pearson.high, 1.0);
+  EXPECT_TRUE(std::isnan(none.success_rate.clopper_pearson.low));
+  EXPECT_TRUE(std::isnan(none.success_rate.clopper_pearson.high));
+  EXPECT_TRUE(std::isnan(none.final_error.mean));
   EXPECT_TRUE(std::isnan(none.settling_time.median.value));
   EXPECT_TRUE(std::isnan(none.jerk_count.mean));
   EXPECT_TRUE(std::isnan(none.jerk_agreement));
@@ -203,6 +204,53 @@ TEST(PointStatistics, MeansNameTheFiniteValuesTheyAreOf) {
   EXPECT_EQ(statistics.overshoot.max, 2.0);
   EXPECT_EQ(statistics.peak_torque.max, 0.05);
   EXPECT_EQ(statistics.reversal_depth, 7);
+}
+
+TEST(PointStatistics, FinalErrorsAreDistancesOfTheMovesThatWereFollowed) {
+  PointAccumulator point;
+  for (const std::int64_t error : {-7, 2, 0, 1, -1}) {
+    MoveOutcome move = move_that(Outcome::oscillating, never);
+    move.final_error = error;
+    point.add({{move}}, {});
+  }
+  MoveOutcome lost = move_that(Outcome::nonfinite, never);
+  lost.final_error = 1000;
+  point.add({{lost}}, {});
+  const FinalErrorStatistics errors = point.statistics().final_error;
+  EXPECT_EQ(errors.n, 5);
+  EXPECT_EQ(errors.mean, 11.0 / 5.0);
+  EXPECT_EQ(errors.median.value, 1.0);
+  EXPECT_EQ(errors.p95.value, 7.0);
+  EXPECT_EQ(errors.max, 7.0);
+}
+
+TEST(PointStatistics, FinalErrorsThatAreNotInTheResultsAreNotTakenForZero) {
+  PointAccumulator point({.final_error_known = false});
+  point.add({{move_that(Outcome::zero_count, 0.1)}}, {});
+  const FinalErrorStatistics errors = point.statistics().final_error;
+  EXPECT_EQ(errors.n, 0);
+  EXPECT_TRUE(std::isnan(errors.mean) && std::isnan(errors.median.value) && std::isnan(errors.max));
+  EXPECT_EQ(point.statistics().success_rate.value, 1.0);
+}
+
+TEST(PointStatistics, PhaseChangesAndDisagreementsAreCountedPerTrial) {
+  MoveOutcome none = move_that(Outcome::zero_count, 0.1), some = none;
+  some.phase_changes = 3;
+  some.encoder_disagreement = 10;
+  some.travel_time = 0.5;
+  PointAccumulator point;
+  point.add({{none, none}}, {});
+  point.add({{some, some}}, {});
+  point.add({{none, some}}, {});
+  const PointSummary statistics = point.statistics();
+  EXPECT_EQ(statistics.phase_changes.trials, 2);
+  EXPECT_EQ(statistics.phase_changes.total, 9);
+  EXPECT_EQ(statistics.phase_changes.max, 6);
+  EXPECT_EQ(statistics.encoder_disagreement.trials, 2);
+  EXPECT_EQ(statistics.encoder_disagreement.total, 30);
+  EXPECT_EQ(statistics.encoder_disagreement.max, 20);
+  EXPECT_EQ(statistics.travel_time.mean, 0.25);
+  EXPECT_EQ(statistics.travel_time.max, 0.5);
 }
 
 TEST(PointStatistics, TrialsThatContradictThemselvesAreRefused) {

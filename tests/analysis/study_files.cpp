@@ -1,5 +1,6 @@
 #include "tests/analysis/study_files.hpp"
 
+#include <cmath>
 #include <random>
 #include <string>
 
@@ -48,6 +49,10 @@ TrialRecord random_trial(std::int64_t row, std::int64_t moves) {
     move.peak_torque = 0.05;
     move.creep = 1e-7 * normal(random);
     move.reversal_depth = static_cast<std::int64_t>(random() % 12);
+    move.final_error = static_cast<std::int64_t>(std::lround(3.0 * std::exp(2.0 * normal(random)))) - 3;
+    move.travel_time = 0.01 * static_cast<double>(random() % 7);
+    move.phase_changes = static_cast<std::int64_t>(random() % 3);
+    move.encoder_disagreement = random() % 3 == 0 ? static_cast<std::int64_t>(random() % 100) : 0;
     std::int64_t sample = move.arrival + 100;
     for (std::int64_t count = 0; count < move.jerk_count; ++count) {
       sample += 1 + static_cast<std::int64_t>(random() % 200);
@@ -60,8 +65,39 @@ TrialRecord random_trial(std::int64_t row, std::int64_t moves) {
   return trial;
 }
 
+TrialRecord random_open_loop_trial(std::int64_t row, std::int64_t moves) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(row) + 1);
+  std::normal_distribution<double> normal;
+  TrialRecord trial;
+  bool lost = false;
+  for (std::int64_t index = 0; index < moves; ++index) {
+    MoveOutcome move;
+    if (!lost) {
+      lost = random() % 40 == 0;
+      move.outcome = lost ? Outcome::nonfinite : Outcome::open_loop;
+      move.holding_torque = 0.01 * static_cast<double>(index % 4) + 1e-6 * normal(random);
+      move.peak_torque = 0.03;
+      move.travel_time = 0.1;
+      move.final_position = 1e-4 * static_cast<double>(index % 4) + 1e-8 * normal(random);
+      move.final_error = static_cast<std::int64_t>(random() % 60) - 30;
+      move.creep = 1e-7 * std::exp(normal(random));
+      move.broke_away = random() % 5 == 0;
+      move.reversal_depth = static_cast<std::int64_t>(random() % 12);
+    }
+    trial.outcome.moves.push_back(move);
+  }
+  return trial;
+}
+
 void write_study_file(const std::filesystem::path& path, const Study& study,
                       const std::vector<TrialRecord>& trials, const std::vector<PointColumn>& statistics) {
+  write_study_file(path, study, trials, [&](const StudyFile&) {
+    return StoredStatistics{statistics, {}, {}};
+  });
+}
+
+void write_study_file(const std::filesystem::path& path, const Study& study,
+                      const std::vector<TrialRecord>& trials, const StatisticsOfPoints& statistics) {
   std::vector<TrialResult> results(trials.size());
   for (std::size_t row = 0; row < trials.size(); ++row) {
     results[row].row = static_cast<std::int64_t>(row);
@@ -73,7 +109,7 @@ void write_study_file(const std::filesystem::path& path, const Study& study,
   const std::filesystem::path shard = path.string() + ".shard.h5";
   write_shard(shard, study, 0, results);
   const std::vector<ShardInfo> shards{{shard, rows}};
-  merge_shards(shards, study, path, rows, [&](const StudyFile&) { return statistics; });
+  merge_shards(shards, study, path, rows, statistics);
 }
 
 }  // namespace zerocount::testing

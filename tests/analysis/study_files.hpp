@@ -7,6 +7,7 @@
 #include "core/trial/outcome.hpp"
 #include "experiments/study.hpp"
 #include "results/layout/layout.hpp"
+#include "results/shards/merge.hpp"
 
 namespace zerocount::testing {
 
@@ -22,9 +23,15 @@ Study plain_study(std::int64_t points, std::int64_t trials, std::int64_t moves);
 /// Some trial with `moves` moves: random, a function of the row alone. Some have no jerks, some dozens.
 TrialRecord random_trial(std::int64_t row, std::int64_t moves);
 
+/// Some trial with `moves` torque levels: random, a function of the row alone. In some the motion is lost in
+/// a level; nothing is then measured of those after it.
+TrialRecord random_open_loop_trial(std::int64_t row, std::int64_t moves);
+
 /// Writes the results file of `study` with these trials, [row], by way of one shard in the folder of `path`.
 void write_study_file(const std::filesystem::path& path, const Study& study,
                       const std::vector<TrialRecord>& trials,
                       const std::vector<PointColumn>& statistics = {});
+void write_study_file(const std::filesystem::path& path, const Study& study,
+                      const std::vector<TrialRecord>& trials, const StatisticsOfPoints& statistics);
 
 }  // namespace zerocount::testing

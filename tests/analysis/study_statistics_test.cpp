@@ -1,9 +1,12 @@
 #include "analysis/study_statistics.hpp"
 
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "analysis/point_accumulator.hpp"
@@ -13,6 +16,7 @@
 #include "results/reading/study_file.hpp"
 #include "tests/analysis/study_files.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/version_1_file.hpp"
 
 namespace zerocount {
 namespace {
@@ -26,7 +30,12 @@ std::vector<testing::TrialRecord> random_trials(const Study& study) {
 
 /// Every number of the statistics as text: equal text is equal statistics.
 std::string text_of(const Study& study, const std::vector<PointSummary>& points) {
-  return summary_json_text({study.name, study.point_labels, study.axes, {}, points, {}});
+  StudySummary summary;
+  summary.name = study.name;
+  summary.labels = study.point_labels;
+  summary.axes = study.axes;
+  summary.points = points;
+  return summary_json_text(summary);
 }
 
 void expect_refused(const Study& study, const std::vector<testing::TrialRecord>& trials,
@@ -35,7 +44,7 @@ void expect_refused(const Study& study, const std::vector<testing::TrialRecord>&
   testing::write_study_file(folder / "study.h5", study, trials);
   const StudyFile file(folder / "study.h5");
   try {
-    study_statistics(file);
+    study_statistics(file, study);
     FAIL() << "expected a failure that names " << place;
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::bad_data);
@@ -63,7 +72,21 @@ TEST(StudyStatistics, OfAFileAreThoseOfItsTrials) {
 
   const testing::TemporaryFolder folder;
   testing::write_study_file(folder / "study.h5", study, trials);
-  EXPECT_EQ(text_of(study, study_statistics(StudyFile(folder / "study.h5"))), text_of(study, expected));
+  EXPECT_EQ(text_of(study, study_statistics(StudyFile(folder / "study.h5"), study)),
+            text_of(study, expected));
+}
+
+TEST(StudyStatistics, OfAFileAreThoseOfItsOutcomesByNumPyAndSciPy) {
+  const Study study = testing::plain_study(3, 400, 2);
+  const testing::TemporaryFolder folder;
+  testing::write_study_file(folder / "study.h5", study, random_trials(study), [&](const StudyFile& file) {
+    return StoredStatistics{point_columns(study_statistics(file, study)), {}, {}};
+  });
+  const std::string command =
+      fmt::format("{} {} loop {} > {} 2>&1", ZEROCOUNT_PYTHON, ZEROCOUNT_STATISTICS_JUDGE,
+                  (folder / "study.h5").string(), (folder / "out").string());
+  EXPECT_EQ(std::system(command.c_str()), 0) << folder.read("out");
+  EXPECT_EQ(folder.read("out"), "3 points\n");
 }
 
 TEST(StudyStatistics, EachPointHasAllOfItsTrialsAndNoOther) {
@@ -76,7 +99,7 @@ TEST(StudyStatistics, EachPointHasAllOfItsTrialsAndNoOther) {
   }
   const testing::TemporaryFolder folder;
   testing::write_study_file(folder / "study.h5", study, trials);
-  const std::vector<PointSummary> points = study_statistics(StudyFile(folder / "study.h5"));
+  const std::vector<PointSummary> points = study_statistics(StudyFile(folder / "study.h5"), study);
   ASSERT_EQ(points.size(), 7U);
   for (std::size_t point = 0; point < 7; ++point) {
     EXPECT_EQ(points[point].trials, 3);
@@ -134,7 +157,7 @@ TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
 
   EXPECT_EQ(summary.name, "two gains");
   EXPECT_EQ(summary.labels, study.point_labels);
-  EXPECT_EQ(text_of(study, summary.points), text_of(study, study_statistics(file)));
+  EXPECT_EQ(text_of(study, summary.points), text_of(study, study_statistics(file, study)));
   EXPECT_EQ(observed_at(summary, 0), "stable in all tests");
   EXPECT_EQ(observed_at(summary, 1), "");
 
@@ -167,6 +190,22 @@ TEST(Summarise, TakesWhatTheCriteriaSayFromTheFile) {
   EXPECT_EQ(summary.predictions[1].unstable, 30);
 }
 
+TEST(Summarise, ReadsAFileOfFormatVersion1) {
+  const testing::TemporaryFolder folder;
+  const StudySummary summary = summarise(StudyFile(testing::version_1_file(folder.path())));
+  EXPECT_EQ(summary.labels, (std::vector<std::string>{"low", "high"}));
+  EXPECT_EQ(summary.points[0].success_rate.value, 1.0);
+  EXPECT_EQ(summary.points[1].success_rate.value, 0.0);
+  for (const PointSummary& point : summary.points) {
+    EXPECT_EQ(point.judged, 3);
+    EXPECT_EQ(point.final_error.n, 0);
+    EXPECT_TRUE(std::isnan(point.final_error.mean));
+    EXPECT_EQ(point.travel_time.mean, 0.0);
+  }
+  const nlohmann::ordered_json json = nlohmann::ordered_json::parse(summary_json_text(summary));
+  EXPECT_TRUE(json["points"][0]["final_error"]["median"].is_null());
+}
+
 TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
   const Study study = two_gains();
   const testing::TemporaryFolder folder;
@@ -186,6 +225,17 @@ TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
   expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: 1.5 is no share");
   columns.erase(columns.begin());
   expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: the dataset is missing");
+}
+
+TEST(Predictions, OfPointsThatTheCriteriaAreNotAboutComeBackAsSuch) {
+  const std::vector<TheoryPrediction> predictions{{30, 0, 0, 30}, {30, 12, 3, 0}};
+  const std::vector<PointColumn> columns = prediction_columns(predictions);
+  EXPECT_TRUE(std::isnan(columns[0].values[0]) && std::isnan(columns[1].values[0]));
+  const std::vector<TheoryPrediction> back = predictions_of(columns, 30, "file");
+  EXPECT_EQ(back[0].outside, 30);
+  EXPECT_EQ(verdict(back[0]), "not applicable");
+  EXPECT_EQ(back[1].outside, 0);
+  EXPECT_EQ(back[1].stable, 12);
 }
 
 TEST(Predictions, ComeBackFromTheirColumnsExactly) {

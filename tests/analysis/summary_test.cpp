@@ -101,7 +101,7 @@ TEST(SummaryJson, CountsOfAMoveHaveTheNamesOfThoseOfTheTrials) {
   const nlohmann::ordered_json json = summary_json(two_cases());
   for (const auto& point : json["points"]) {
     const auto& move = point["moves"][0];
-    EXPECT_EQ(move.size(), 8U);
+    EXPECT_EQ(move.size(), 9U);
     for (const auto& [name, count] : move.items())
       EXPECT_EQ(count, point[name]) << name;  // trials of one move
   }
@@ -190,6 +190,121 @@ TEST(SummaryTable, LeavesOutWhatNoPointHas) {
   const std::string table = summary_table(summary);
   EXPECT_EQ(table.find("observed"), std::string::npos);
   EXPECT_EQ(table.find("(6) holds"), std::string::npos);
+}
+
+TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {
+  StudySummary summary = two_cases();
+  const std::string plain = summary_table(summary);
+  for (const char* head : {"travel", "|e|", "phase changes", "disagreeing"}) {
+    EXPECT_EQ(plain.find(head), std::string::npos) << head;
+  }
+  summary.features = {.travel = true, .phases = true, .encoder_errors = true, .final_error = true};
+  summary.points[0].travel_time.mean = 0.25;
+  summary.points[0].phase_changes.total = 3 * 40;
+  summary.points[0].final_error.median.value = 17.0;
+  summary.points[0].final_error.p95.value = 29.0;
+  summary.points[0].encoder_disagreement.trials = 10;
+  const std::vector<std::string> lines = lines_of(summary_table(summary));
+  for (const char* head : {"travel (s)", "|e| median", "|e| p95", "phase changes", "disagreeing"}) {
+    EXPECT_NE(lines[2].find(head), std::string::npos) << head;
+  }
+  for (const char* part : {" 0.25 ", " 17 ", " 29 ", " 3 ", " 25.0 % "}) {
+    EXPECT_NE(lines[4].find(part), std::string::npos) << part << " in: " << lines[4];
+  }
+}
+
+TEST(SummaryTable, HasADashWhereTheCriteriaAreNotAboutAPoint) {
+  StudySummary summary = two_cases();
+  summary.predictions[1] = {7, 0, 0, 7};
+  const std::vector<std::string> lines = lines_of(summary_table(summary));
+  EXPECT_TRUE(lines[5].ends_with("–             –")) << lines[5];
+}
+
+/// Two points of three torque levels; the second lost its one trial in the second level.
+StudySummary load_and_unload() {
+  PointAccumulator sound({.open_loop = true}), lost({.open_loop = true});
+  for (int i = 0; i < 4; ++i) {
+    TrialOutcome trial;
+    for (const double torque : {0.1, 0.2, 0.0}) {
+      MoveOutcome move;
+      move.outcome = Outcome::open_loop;
+      move.holding_torque = torque;
+      move.final_position = 1e-3 * torque + 1e-6 * i;
+      move.creep = 1e-7;
+      move.reversal_depth = 2;
+      move.broke_away = torque == 0.2 && i == 0;
+      trial.moves.push_back(move);
+    }
+    sound.add(trial, {});
+    if (i == 0) {
+      trial.moves[1] = trial.moves[2] = MoveOutcome{};
+      lost.add(trial, {});
+    }
+  }
+  StudySummary summary;
+  summary.name = "loads";
+  summary.labels = {"sound", "lost"};
+  summary.points = {sound.statistics(), lost.statistics()};
+  summary.features.open_loop = true;
+  return summary;
+}
+
+TEST(SummaryOfLevels, TableHasARowPerPointAndLevel) {
+  const std::vector<std::string> lines = lines_of(summary_table(load_and_unload()));
+  ASSERT_GE(lines.size(), 10U);
+  EXPECT_EQ(lines[2].find("zero-count"), std::string::npos) << lines[2];
+  // By SciPy: mean 101.5, sd 1.291, t interval [99.446, 103.554] of 100 … 103.
+  EXPECT_EQ(
+      lines[4],
+      "sound      0           0.1       4            101.5   [99.4, 103.6]      1.291           0.1      "
+      "2         0 %");
+  EXPECT_NE(lines[5].find("25.0 %"), std::string::npos) << lines[5];
+  EXPECT_NE(lines[6].find("[-0.6, 3.6]"), std::string::npos) << lines[6];
+  EXPECT_NE(lines[7].find("100               –          –"), std::string::npos) << lines[7];
+  EXPECT_TRUE(lines[8].ends_with("–           –")) << lines[8];
+  EXPECT_EQ(lines[10],
+            "lost: 1 of 1 trials nonfinite: the motion left the finite numbers or could not be followed");
+}
+
+TEST(SummaryOfLevels, JsonHasThemInThePoint) {
+  const auto json = nlohmann::json::parse(summary_json_text(load_and_unload()));
+  const auto& point = json["points"][0];
+  EXPECT_TRUE(point["success_rate"].is_null());
+  EXPECT_TRUE(point["success_rate_low"].is_null() && point["success_rate_high"].is_null());
+  EXPECT_EQ(point["open_loop"], 4);
+  EXPECT_EQ(point["zero_count"], 0);
+  ASSERT_EQ(point["levels"].size(), 3U);
+  EXPECT_EQ(point["levels"][1]["level"], 1);
+  EXPECT_EQ(point["levels"][1]["n"], 4);
+  EXPECT_EQ(point["levels"][1]["broke_away"], 1);
+  EXPECT_EQ(point["levels"][1]["reversal_depth_max"], 2);
+  EXPECT_NEAR(point["levels"][1]["position"]["mean"].get<double>(), 201.5e-6, 1e-18);
+  EXPECT_NEAR(point["levels"][1]["position"]["low"].get<double>(), 199.4457397432391e-6, 1e-15);
+  EXPECT_TRUE(json["points"][1]["levels"][2]["position"]["mean"].is_null());
+  EXPECT_FALSE(nlohmann::json::parse(summary_json_text(two_cases()))["points"][0].contains("levels"));
+}
+
+TEST(SummaryOfLevels, CsvHasALinePerPointAndLevel) {
+  const std::vector<std::string> lines = lines_of(summary_csv(load_and_unload()));
+  ASSERT_EQ(lines.size(), 7U);
+  EXPECT_EQ(lines[0].rfind("point,label,level,n,nonfinite,torque,position_mean,position_low,", 0), 0U)
+      << lines[0];
+  EXPECT_EQ(lines[2].rfind("0,sound,1,4,0,0.2,", 0), 0U) << lines[2];
+  EXPECT_EQ(lines[6].rfind("1,lost,2,0,1,nan,nan,nan,nan,", 0), 0U) << lines[6];
+}
+
+TEST(SummarySections, FollowThePointsInEveryForm) {
+  StudySummary summary = two_cases();
+  summary.sections.push_back(
+      {"more", {{{"a", 1}}, {{"a", 2}}}, {{"more_a", "1", "a", {1.0, 2.0}}}, "more\n1 2\n"});
+  const auto json = nlohmann::json::parse(summary_json_text(summary));
+  EXPECT_EQ(json["points"][1]["more"]["a"], 2);
+  EXPECT_TRUE(summary_table(summary).ends_with("\n\nmore\n1 2\n"));
+  const std::vector<std::string> lines = lines_of(summary_csv(summary));
+  EXPECT_TRUE(lines[0].ends_with(",observed,more_a")) << lines[0];
+  EXPECT_TRUE(lines[2].ends_with(",2")) << lines[2];
+  summary.sections[0].columns[0].values.pop_back();
+  EXPECT_THROW(summary_csv(summary), Failure);
 }
 
 TEST(Summary, PartsOfDifferentLengthAreRefused) {

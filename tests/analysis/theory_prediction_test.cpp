@@ -54,6 +54,25 @@ TEST(TheoryPrediction, ATrialIsGovernedByTheStiffnessWhereItStarts) {
   EXPECT_NEAR(soft.bounds.stable_below / stiff.bounds.stable_below, 60.0 / 160.0, 1e-12);
 }
 
+TEST(TheoryPrediction, TheCriteriaAreNotAboutOpenLoopsAndFrictionWithoutASpring) {
+  TrialParameters coulomb = paper_rig(3e-5), open_loop = coulomb, spring = coulomb;
+  coulomb.friction.model = FrictionModel::coulomb;
+  open_loop.command.torque.levels = {0.1};
+  spring.friction.model = FrictionModel::spring;
+  EXPECT_TRUE(predict(spring).applies);
+  EXPECT_TRUE(predict(spring).stable);
+  TheoryPrediction point;
+  for (const TrialParameters& parameters : {coulomb, open_loop}) {
+    const TrialPrediction prediction = predict(parameters);
+    EXPECT_FALSE(prediction.applies || prediction.stable || prediction.unstable);
+    point.add(prediction);
+  }
+  EXPECT_EQ(predicted_trials(point), 0);
+  EXPECT_EQ(verdict(point), "not applicable");
+  point.add(predict(spring));
+  EXPECT_EQ(predicted_trials(point), 3) << "a share is of all trials";
+}
+
 TEST(TheoryPrediction, VerdictIsThatOfAllTrialsOrUndecidedWithItsShares) {
   TheoryPrediction stable, unstable, mixed, rare;
   for (int i = 0; i < 10; ++i) {

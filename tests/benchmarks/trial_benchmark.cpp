@@ -33,8 +33,7 @@ void count_samples(benchmark::State& state, double samples) {
 }
 
 double samples_of(const TrialParameters& parameters) {
-  return static_cast<double>(samples_per_move(parameters)) *
-         static_cast<double>(parameters.command.targets.size());
+  return static_cast<double>(samples_of_trial(parameters));
 }
 
 /// Trials of a shipped study, one after the other, by `simulate`.

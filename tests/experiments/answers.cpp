@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/trial/random_history.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/language/json_schema.hpp"
 #include "tests/experiments/manifest_texts.hpp"
@@ -43,6 +44,22 @@ Json distributions() {
   return all;
 }
 
+Json key_json(const RandomKey& key) {
+  return {key[0], key[1]};
+}
+
+// Where a trial's own random numbers come from.
+Json randomness_json(const TrialRandomness& r) {
+  return {{"trial", r.trial},
+          {"stream", r.stream},
+          {"initial.history/levels", key_json(r.history)},
+          {"encoder.fine_errors.noise/samples", key_json(r.fine_noise)},
+          {"encoder.fine_errors.missed/samples", key_json(r.fine_missed)},
+          {"encoder.coarse_errors.noise/samples", key_json(r.coarse_noise)},
+          {"encoder.coarse_errors.missed/samples", key_json(r.coarse_missed)},
+          {"dac.noise/samples", key_json(r.dac_noise)}};
+}
+
 // Draws of a study with two parameters that are uniform on [1, 2), for each design: value − 1 is the uniform
 // number.
 Json draws() {
@@ -55,8 +72,10 @@ Json draws() {
            std::string("independent_points=") + independent, "sweep={grid: {controller.ki: [0, 1, 2]}}"});
       for (const std::int64_t trial : {0L, 1L, 2L, 999L, 4'999'999'999L}) {
         for (const std::int64_t point : {0L, 2L}) {
-          const std::vector<double> inputs = study_trial(study, point, trial).inputs;
+          const StudyTrial drawn = study_trial(study, point, trial);
+          const std::vector<double>& inputs = drawn.inputs;
           all.push_back({{"design", design},
+                         {"randomness", randomness_json(drawn.parameters.randomness)},
                          {"independent", study.independent_points},
                          {"seed", study.seed},
                          {"trials", study.trials},
@@ -66,6 +85,28 @@ Json draws() {
                          {"initial.position", inputs[column_of(study, "initial.position")] - 1}});
         }
       }
+    }
+  }
+  return all;
+}
+
+// Random histories as trials draw them: [{seed, trial, stream, reversals, torque, levels}, …]
+Json histories() {
+  Json all = Json::array();
+  for (const char* independent : {"false", "true"}) {
+    const Study study =
+        study_of(minimal_manifest(
+                     "initial: {history: {reversals: {integers: [1, 9]}, torque: {uniform: [0.1, 0.2]}}}\n"),
+                 {"seed=20020721", "trials=5000000000", std::string("independent_points=") + independent,
+                  "sweep={grid: {controller.ki: [0, 1]}}"});
+    for (const std::int64_t trial : {0L, 1L, 17L, 4'999'999'999L}) {
+      const TrialParameters p = study_trial(study, 1, trial).parameters;
+      all.push_back({{"seed", study.seed},
+                     {"trial", trial},
+                     {"stream", study.independent_points ? 2 : 0},
+                     {"reversals", p.initial.history.reversals},
+                     {"torque", p.initial.history.torque},
+                     {"levels", draw_history(p.initial.history, p.randomness)}});
     }
   }
   return all;
@@ -89,12 +130,19 @@ int answer(const std::string& question) {
     std::cout << draws().dump() << '\n';
   } else if (question == "inputs") {
     std::cout << inputs().dump() << '\n';
+  } else if (question == "histories") {
+    std::cout << histories().dump() << '\n';
   } else if (question == "schema") {
     std::cout << json_schema().dump() << '\n';
   } else if (question == "full_manifest") {
     std::cout << full_manifest();
+  } else if (question == "extended_manifest") {
+    std::cout << extended_manifest();
+  } else if (question == "refusal") {
+    std::cout << refusal_of({std::istreambuf_iterator<char>(std::cin), {}}) << '\n';
   } else {
-    std::cerr << "expected distributions, draws, inputs, schema or full_manifest\n";
+    std::cerr << "expected distributions, draws, inputs, histories, schema, full_manifest, extended_manifest "
+                 "or refusal\n";
     return 2;
   }
   return 0;

@@ -43,5 +43,14 @@ def main():
         sys.exit(f"only {compared} draws were compared")
     print(f"{compared} draws agree")
 
+    histories = json.loads(subprocess.check_output([answers, "histories"]))
+    for a in histories:
+        levels = shown["history"](a["seed"], a["trial"], a["reversals"], a["torque"], a["stream"])
+        if levels != a["levels"] or len(levels) != a["reversals"]:
+            sys.exit(f"{a}: the levels should be {levels}")
+    if len(histories) < 8:
+        sys.exit(f"only {len(histories)} histories were compared")
+    print(f"{len(histories)} histories agree")
+
 
 main()

@@ -2,15 +2,21 @@
 
 #include <stdexcept>
 
+#include "core/failure.hpp"
+
 namespace zerocount {
 
 std::string minimal_manifest(const std::string& more) {
+  return manifest_commanding("{targets: [5]}", more);
+}
+
+std::string manifest_commanding(const std::string& command, const std::string& more) {
   return "zerocount: 1\n"
          "name: test\n"
          "seed: 1\n"
          "trials: 10\n"
-         "command: {targets: [5]}\n" +
-         more;
+         "command: " +
+         command + "\n" + more;
 }
 
 std::string full_manifest() {
@@ -51,6 +57,46 @@ sweep:
   cases: {a: {controller.ki: 3.85e-5}, b: {controller.ki: 9.45e-5, controller.anti_windup: none}}
   grid: {controller.kp: [0, 3.0e-4], plant.inertia: {linspace: [5.0e-4, 6.0e-4, 3]}}
 )";
+}
+
+std::string extended_manifest() {
+  return R"(zerocount: 1
+name: extended
+seed: 3
+trials: 100
+friction: {model: spring, breakaway: {uniform: [0.3, 0.4]}}
+encoder:
+  fine_errors: {eccentricity: 1.0e-5, eccentricity_angle: {uniform: [0, 6.28]}, noise: 0.1}
+  coarse_errors: {interpolation: 0.05, interpolation_period: 2, missed: {uniform: [0, 1.0e-6]}}
+dac: {offset: {normal: {mean: 0, sd: 1.0e-4}}, gain_error: 0.01, nonlinearity: 0.5, noise: 1.0e-5}
+amplifier: {bandwidth: {lognormal: {median: 500, cv: 0.1}}}
+controller:
+  encoder: fine
+  coarse: {kp: 1.0e-4, ki: 0, kd: 1.0e-3, encoder: coarse, fine_within: {integers: [10, 40]}, coarse_beyond: 500}
+command:
+  sequence: {targets: [-4000, {integers: [-10, 10]}, 5000], overrun: 300, cycles: 2, approach: bidirectional}
+  hold: 1.5
+  profile: {shape: s_curve, velocity_limit: 0.5, acceleration_limit: 20, jerk_limit: {uniform: [1000, 2000]}}
+initial:
+  velocity: {choice: [-0.01, 0.01]}
+  integral: {uniform: [-0.1, 0.1]}
+  history: {reversals: {integers: [0, 9]}, torque: 0.2}
+sweep:
+  cases:
+    no-history: {initial.history.reversals: 0}
+    sliding: {initial.mode: slide}
+  grid: {controller.coarse.kd: [0, 1.0e-3], friction.model: [presliding, spring], command.profile.shape: [step, s_curve]}
+)";
+}
+
+std::string refusal_of(const std::string& text, const std::vector<std::string>& overrides) {
+  try {
+    study_of(text, overrides);
+  } catch (const Failure& failure) {
+    if (failure.code() != ExitCode::bad_input) throw;
+    return failure.what();
+  }
+  return "";
 }
 
 Study study_of(const std::string& text, const std::vector<std::string>& overrides) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "experiments/study.hpp"
 
@@ -9,8 +10,17 @@ namespace zerocount {
 /// The five keys that a manifest must have, on five lines, and `more` after them.
 std::string minimal_manifest(const std::string& more = "");
 
-/// A manifest that uses every section, distributions, a profile and a sweep.
+/// The same with this value of the key `command`, on the fifth line.
+std::string manifest_commanding(const std::string& command, const std::string& more = "");
+
+/// A manifest that uses the sections of the paper's experiments, distributions, a profile and a sweep.
 std::string full_manifest();
+
+/// A manifest that uses whatever can be switched on beside that in a closed loop.
+std::string extended_manifest();
+
+/// The message with which the text is refused; empty where it is understood. The text is named "m.yaml".
+std::string refusal_of(const std::string& text, const std::vector<std::string>& overrides = {});
 
 /// parse_study of the text under the name "m.yaml".
 Study study_of(const std::string& text, const std::vector<std::string>& overrides = {});

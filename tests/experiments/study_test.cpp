@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -98,6 +99,61 @@ TEST(Study, ProfilesThatDifferBetweenPointsAreNamedByTheFirst) {
   EXPECT_EQ(study.profiles[1].name, "friction.k1@4");
   EXPECT_TRUE(study_trial(study, 0, 0).parameters.friction.profiled.empty());
   EXPECT_EQ(study_trial(study, 5, 0).parameters.friction.profiled[0].profile, study.profiles[1].profile);
+}
+
+TEST(Study, UnderstandsWhatCanBeSwitchedOn) {
+  const Study study = study_of(extended_manifest());
+  EXPECT_FALSE(study.open_loop);
+  EXPECT_EQ(study.moves, 16);
+  EXPECT_EQ(std::ssize(study.sequence), study.moves);
+  EXPECT_TRUE(study.warnings.empty());
+  EXPECT_EQ(column_names(study),
+            (Names{"friction.model", "friction.breakaway", "encoder.fine_errors.eccentricity_angle",
+                   "encoder.coarse_errors.missed", "dac.offset", "amplifier.bandwidth",
+                   "controller.coarse.kd", "controller.coarse.fine_within", "command.sequence.targets.1",
+                   "command.profile.shape", "command.profile.jerk_limit", "initial.history.reversals",
+                   "initial.velocity", "initial.integral", "initial.mode"}));
+}
+
+TEST(Study, EnumerationsAmongTheInputsAreTheNumbersOfTheirWords) {
+  const Study study = study_of(extended_manifest());
+  const std::size_t shape = column_of(study, "command.profile.shape");
+  EXPECT_EQ(study.input_columns[shape].meaning,
+            "how the reference goes to the next target (0 step, 1 trapezoidal, 2 s_curve)");
+  EXPECT_EQ(study_trial(study, 0, 0).inputs[shape], 0);
+  EXPECT_EQ(study_trial(study, 1, 0).inputs[shape], 2);
+}
+
+TraceExtras extras(const std::string& more, const std::string& command = "{targets: [5]}") {
+  return study_of(manifest_commanding(command, more)).trace_extras;
+}
+
+TEST(Study, RecordsAPhaseWhereThereCanBeTwo) {
+  EXPECT_FALSE(extras("").phase);
+  EXPECT_FALSE(extras("controller: {coarse: {coarse_beyond: 1.0e12}}").phase);
+  EXPECT_TRUE(extras("controller: {coarse: {coarse_beyond: 1000}}").phase);
+  EXPECT_TRUE(extras("controller: {coarse: {coarse_beyond: {uniform: [1000, 1.0e12]}}}").phase);
+  EXPECT_TRUE(extras("sweep: {cases: {one: {}, two: {controller.coarse.coarse_beyond: 200}}}").phase);
+}
+
+TEST(Study, RecordsAReferenceWhereItIsNotTheTarget) {
+  EXPECT_FALSE(extras("").reference);
+  EXPECT_TRUE(extras("", "{targets: [5], profile: {shape: s_curve}}").reference);
+  EXPECT_TRUE(extras("sweep: {grid: {command.profile.shape: [step, trapezoidal]}}").reference);
+}
+
+TEST(Study, RecordsTheTorqueOfTheMotorWhereItIsNotThatOfTheCode) {
+  EXPECT_FALSE(extras("").drive_torque);
+  EXPECT_FALSE(extras("controller: {delay: 2}").drive_torque);
+  EXPECT_FALSE(extras("dac: {noise: 0, offset: 0}\namplifier: {bandwidth: 0}").drive_torque);
+  EXPECT_FALSE(extras("", "{torque: {levels: [0.1]}}").drive_torque);
+  EXPECT_TRUE(extras("", "{torque: {levels: [0.1], through: exact}}").drive_torque);
+  EXPECT_TRUE(extras("amplifier: {bandwidth: 100}").drive_torque);
+  for (const std::string error : {"offset", "gain_error", "nonlinearity", "noise"}) {
+    EXPECT_TRUE(extras("dac: {" + error + ": 1.0e-6}").drive_torque) << error;
+    EXPECT_TRUE(extras("sweep: {grid: {dac." + error + ": [0, 1.0e-6]}}").drive_torque) << error;
+  }
+  EXPECT_TRUE(extras("dac: {offset: {uniform: [-1, 0]}}").drive_torque);
 }
 
 TEST(Study, SeedsOfAll64BitsAreKept) {

@@ -1,5 +1,6 @@
 #include "tests/results/samples.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -32,7 +33,7 @@ MoveOutcome sample_move(std::mt19937_64& random, std::int64_t move, std::vector<
   std::normal_distribution<double> normal;
   std::uniform_int_distribution<int> small(0, 9);
   MoveOutcome outcome;
-  outcome.outcome = static_cast<Outcome>(small(random) % 4);
+  outcome.outcome = static_cast<Outcome>(small(random) % 5);
   outcome.arrived = small(random) < 8;
   if (outcome.arrived) {
     outcome.arrival = small(random) * 10;
@@ -46,6 +47,10 @@ MoveOutcome sample_move(std::mt19937_64& random, std::int64_t move, std::vector<
   outcome.peak_torque = std::abs(outcome.holding_torque) + 0.01;
   outcome.creep = 1e-7 * normal(random);
   outcome.final_position = 1e-4 * normal(random);
+  outcome.final_error = 5 - small(random);
+  outcome.travel_time = 0.01 * small(random);
+  outcome.phase_changes = small(random) / 3;
+  outcome.encoder_disagreement = 7 * small(random);
   outcome.reversal_depth = small(random);
   outcome.jerk_count = outcome.arrived && small(random) < 6 ? small(random) / 2 : 0;
   for (std::int64_t count = 0; count < outcome.jerk_count; ++count) {
@@ -65,7 +70,9 @@ SampleRecord sample_record(std::int64_t k) {
           k % 5,       2.4e-4 * static_cast<double>(k % 5),
           1e-6 * time, 1e-3,
           1e-9 * time, 2e-9 * time,
-          k % 4,       k % 7 == 6 ? HookMode::slide : HookMode::stick};
+          k % 4,       k % 7 == 6 ? HookMode::slide : HookMode::stick,
+          k / 2,       k % 3 == 0 ? ControlPhase::coarse : ControlPhase::fine,
+          1e-5 * time};
 }
 
 }  // namespace
@@ -93,6 +100,7 @@ Study sample_study(std::int64_t points, std::int64_t trials, std::int64_t moves)
   profile->sine = {0.0, 0.25};
   study.profiles = {{"friction.k1", "N m/rad", profile}};
   study.retained_trials = {0};
+  study.trace_extras = {true, true, true};
   return study;
 }
 
@@ -141,7 +149,7 @@ std::vector<ShardInfo> write_sample_shards(const std::filesystem::path& director
   return shards;
 }
 
-std::vector<PointColumn> sample_statistics(const StudyFile& file) {
+StoredStatistics sample_statistics(const StudyFile& file) {
   const std::int64_t trials = file.header().trials;
   PointColumn count{"trials", "1", "trials of the design point", {}};
   PointColumn settling{"settling_time_mean", "s", "mean settling time of the first move", {}};
@@ -157,7 +165,23 @@ std::vector<PointColumn> sample_statistics(const StudyFile& file) {
     count.values.push_back(static_cast<double>(trials));
     settling.values.push_back(sum / arrived);
   }
-  return {count, settling};
+  return {{count, settling}, {sample_table(file)}, {}};
+}
+
+/// The largest holding torque of every move at every design point.
+StatisticTable sample_table(const StudyFile& file) {
+  const std::int64_t trials = file.header().trials;
+  const auto moves = static_cast<std::size_t>(file.moves());
+  PointColumn largest{"torque_max", "N m", "largest holding torque", {}};
+  for (std::int64_t point = 0; point < file.header().points; ++point) {
+    const std::vector<double> torques = file.measure("holding_torque", {point * trials, trials});
+    for (std::size_t move = 0; move < moves; ++move) {
+      double value = torques[move];
+      for (std::size_t i = move; i < torques.size(); i += moves) value = std::max(value, torques[i]);
+      largest.values.push_back(value);
+    }
+  }
+  return {&level_group(), file.moves(), {largest}};
 }
 
 std::filesystem::path write_sample_file(const std::filesystem::path& directory, const Study& study,

@@ -11,8 +11,8 @@
 
 namespace zerocount::testing {
 
-/// A study with two sweep axes (numbers and a case), two inputs, one profile and one retained trial. Nothing
-/// reads its manifest, which is any text.
+/// A study with two sweep axes (numbers and a case), two inputs, one profile and one retained trial whose
+/// record has all columns that there are. Nothing reads its manifest, which is any text.
 Study sample_study(std::int64_t points = 3, std::int64_t trials = 40, std::int64_t moves = 2);
 
 /// Some result of a row: random, a function of the row alone. Some trials have no jerks, some many.
@@ -29,8 +29,10 @@ ShardInfo write_sample_shard(const std::filesystem::path& directory, const Study
 std::vector<ShardInfo> write_sample_shards(const std::filesystem::path& directory, const Study& study,
                                            RowRange rows, std::int64_t size);
 
-/// Two statistics, computed from the file: trials per point, and the mean settling time of the first move.
-std::vector<PointColumn> sample_statistics(const StudyFile& file);
+/// Two statistics, computed from the file: trials per point, and the mean settling time of the first move;
+/// and sample_table.
+StoredStatistics sample_statistics(const StudyFile& file);
+StatisticTable sample_table(const StudyFile& file);
 
 /// A whole results file of the study, by way of shards of `size` rows.
 std::filesystem::path write_sample_file(const std::filesystem::path& directory, const Study& study,

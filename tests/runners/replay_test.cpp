@@ -52,6 +52,14 @@ TEST(Replay, TellsNeverFromAValue) {
   EXPECT_EQ(differences(columns, settled(), other).size(), 1u);
 }
 
+TEST(Replay, ComparesTheMeasuresThatWereRecorded) {
+  TrialResult other = settled();
+  other.outcome.moves[0].final_error = 3;
+  other.outcome.moves[0].travel_time = 0.5;
+  EXPECT_EQ(differences(columns, settled(), other).size(), 2u);
+  EXPECT_TRUE(differences(columns, settled(), other, outcome_fields(1)).empty());
+}
+
 TEST(Replay, LooksAtInputsAndJerksToo) {
   TrialResult other = settled();
   other.inputs[0] = 111.0;

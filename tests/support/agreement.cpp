@@ -72,6 +72,11 @@ Agreement compare(const TrialParameters& parameters, const std::vector<SampleRec
                       a.mode == HookMode::slide, b.mode == HookMode::slide));
       return agreement;
     }
+    if (std::abs(a.drive_torque - b.drive_torque) > 1e-13) {  // which is false where the judge does not say
+      agreement.failures.push_back(fmt::format("{}: sample {}: motor torque {:.17g} against {:.17g}", name, i,
+                                               a.drive_torque, b.drive_torque));
+      return agreement;
+    }
     const double creep_difference = std::max(std::abs(a.xp - b.xp), std::abs(a.xh - b.xh));
     if (creep_difference > allowed) {
       agreement.failures.push_back(

@@ -18,6 +18,8 @@ class Friction:
             values[profile["parameter"]] = profile_value(profile, angle)
         for name in self.names:
             setattr(self, "lam" if name == "lambda" else name, number.real(values[name]))
+        if along_rotor.get("model") == "spring":
+            self.alpha = number.real(0)
 
     def branch(self, number, u):
         """f(u) = k1·u + (k2/β)(1 − exp(−βu)), N m."""

@@ -34,12 +34,12 @@ def clip(value, low, high):
 class Controller:
     """The sampled loop: error, trapezoidal integral, PID and DAC, in double precision and in the stated order."""
 
-    def __init__(self, controller, dac):
+    def __init__(self, controller, dac, integral):
         self.kp, self.ki, self.kd = controller["kp"], controller["ki"], controller["kd"]
         self.clamp = controller["anti_windup"] == "clamp"
         self.resolution = dac["resolution"]
         self.low, self.high = -2 ** (dac["bits"] - 1), 2 ** (dac["bits"] - 1) - 1
-        self.integral, self.last_error, self.last_count = 0.0, 0, None
+        self.integral, self.last_error, self.last_count = integral, 0, None
 
     def decide(self, target, count):
         """The DAC code for this sample."""
@@ -57,12 +57,14 @@ def run(parameters, number, order, events=None):
     """Yields one record (dict by column) per sample."""
     contact = Contact(number, GaussRule(order, number), parameters["plant"], parameters["friction"],
                       parameters["initial"])
-    controller = Controller(parameters["controller"], parameters["dac"])
+    controller = Controller(parameters["controller"], parameters["dac"], parameters["initial"].get("integral", 0.0))
+    amplifier = number.real(2 * math.pi * parameters.get("amplifier", {}).get("bandwidth", 0.0))
     rate, delay = parameters["controller"]["sample_rate"], parameters["controller"]["delay"]
     period = number.real(1) / number.real(rate)
     samples = int(math.floor(parameters["command"]["hold"] * rate + 0.5))
     phase = parameters["initial"]["encoder_phase"]
     waiting = [0.0] * delay
+    drive = number.real(0)
     targets = [target for target in parameters["command"]["targets"] for _ in range(samples)]
     for k, target in enumerate(targets):
         theta = contact.theta()
@@ -78,7 +80,11 @@ def run(parameters, number, order, events=None):
             "depth": len(contact.stack), "mode": "slide" if contact.sliding else "stick",
         }
         waiting.append(torque)
-        contact.advance(number.real(waiting.pop(0)), period)
+        settled = number.real(waiting.pop(0))
+        if amplifier == 0:
+            drive = settled
+        contact.advance(drive, settled, amplifier, period)
+        drive = settled + (drive - settled) * number.exp(-amplifier * period)
     if events is not None:
         events.update(contact.events)
 

@@ -32,7 +32,7 @@ bool OdeintMotion::closure_ahead(Real& target) const {
     target = stack_[stack_.size() - 2].first;
     return true;
   }
-  if (stack_.empty() || sign(stack_.front().first) != -direction_) return false;
+  if (stack_.empty() || sign(stack_.front().first) == direction_) return false;
   target = -stack_.front().first;
   return true;
 }
@@ -66,8 +66,8 @@ OdeintMotion::Guards OdeintMotion::guards(const State& y) const {
 OdeintMotion::Crossing OdeintMotion::first_crossing(const State& end, Real length) const {
   // Guards at the ends and at three points of the cubic through the ends; what they show is then located
   // exactly.
-  const State from = slopes(state_);
-  const State to = slopes(end);
+  const State from = slopes(state_, 0);
+  const State to = slopes(end, length);
   constexpr int parts = 6;
   constexpr std::array<Real, parts + 1> points{0, 0.04L, 0.25L, 0.5L, 0.75L, 0.96L, 1};
   std::array<Guards, parts + 1> g;
@@ -161,20 +161,33 @@ void OdeintMotion::happen(Event event) {
   }
 }
 
+/// How long a Coulomb contact stands from now on, at most `longest` (s).
+Real OdeintMotion::standing_time(Real longest) const {
+  const auto excess = [this](Real time) { return std::abs(torque_at(time)) - contact_.breakaway; };
+  if (excess(0) > 0) return 0;
+  if (!(excess(longest) > 0)) return longest;
+  std::uintmax_t iterations = 200;
+  return boost::math::tools::toms748_solve(excess, Real{0}, longest,
+                                           boost::math::tools::eps_tolerance<Real>(62), iterations)
+      .second;
+}
+
 void OdeintMotion::settle() {
-  frozen_ = false;
-  if (sliding_) return;
+  frozen_ = resting_ = false;
+  if (sliding_ || coulomb_) return;
   const Real sigma = spring_torque(state_);
   const Real rate = state_[1] - sign(sigma) * hardening_rate(state_, sigma);
   const Real acceleration = elongation_acceleration(state_);
   const bool slow = std::abs(rate) <= still * frequency_;
-  resting_ = slow && std::abs(acceleration) <= still * frequency_ * frequency_;
+  const Real change = torque_.rate * (torque_.settled - torque_at(0));  // du/dt, N m/s
+  resting_ = change == 0 && slow && std::abs(acceleration) <= still * frequency_ * frequency_;
   const Real calm = still * frequency_ / 1000;
-  frozen_ = std::abs(rate) <= calm && std::abs(acceleration) <= calm * frequency_ &&
+  frozen_ = change == 0 && std::abs(rate) <= calm && std::abs(acceleration) <= calm * frequency_ &&
             std::abs(state_[1]) <= calm && hardening_rate(state_, sigma) <= calm;
-  const int moving = slow ? sign(acceleration) : sign(rate);
+  int moving = slow ? sign(acceleration) : sign(rate);
+  if (moving == 0) moving = sign(change);
   for (const int s : {1, -1}) {
-    const Real velocity = state_[1] != 0 ? s * state_[1] : s * (torque_ - sigma);
+    const Real velocity = state_[1] != 0 ? s * state_[1] : s * (torque_at(0) - sigma);
     const Real force = s * (sigma + plant_.presliding_damping * state_[1]);
     if (force > contact_.breakaway && velocity > 0) return break_away(s);
   }
@@ -198,13 +211,14 @@ void OdeintMotion::close_loops() {
   Real target = 0;
   while (closure_ahead(target) && direction_ * (x - target) >= -still / 1000) {
     stack_.resize(stack_.size() < 2 ? 0 : stack_.size() - 2);
-    virgin_sign_ = direction_;
+    virgin_sign_ = x != 0 ? sign(x) : direction_;
     ++events_.closures;
   }
 }
 
 void OdeintMotion::break_away(int sign_of_motion) {
   held_torque_ = spring_torque(state_);
+  if (std::abs(held_torque_) < 1e-14L * contact_.breakaway) held_torque_ = 0;  // of no sign but by rounding
   sliding_ = true;
   frozen_ = false;
   direction_ = sign_of_motion;

@@ -28,19 +28,51 @@ Real profile_value(const Profile& profile, Real angle) {
 
 }  // namespace
 
-OdeintMotion::OdeintMotion(const TrialParameters& parameters)
+OdeintMotion::OdeintMotion(const TrialParameters& parameters, const std::vector<double>& history)
     : plant_(parameters.plant), friction_(parameters.friction), position_(parameters.initial.position) {
   contact_ = contact_at(0);
   frequency_ = std::sqrt((contact_.k1 + contact_.k2) / plant_.inertia);
-  state_[3] = parameters.initial.hardening;
-  const Real preload = parameters.initial.preload;
-  if (preload != 0) {
-    const int side = sign(preload);
-    const Real turn = side * inverse_branch(2 * std::abs(preload)) / 2;
-    stack_.emplace_back(turn, preload);
-    offset_ = turn - side * inverse_branch(std::abs(preload));
-    direction_ = -side;
+  coulomb_ = friction_.model == FrictionModel::coulomb;
+  state_[1] = parameters.initial.velocity;
+  const bool slides = parameters.initial.mode == InitialMode::slide || coulomb_;
+  if (slides && state_[1] != 0) {
+    sliding_ = true;
+    direction_ = sign(state_[1]);
+    if (!coulomb_) held_torque_ = direction_ * contact_.breakaway;
+  } else if (!coulomb_) {
+    state_[3] = parameters.initial.hardening;
+    std::vector<double> torques{parameters.initial.preload, 0.0};
+    torques.insert(torques.end(), history.begin(), history.end());
+    torques.push_back(0.0);
+    stretch(torques);
   }
+}
+
+/// The contact after its spring was taken from virgin to these torques in turn. Wiping-out as a rule for
+/// sequences, with no spring moved: what is remembered are the last of the largest magnitude, and after it by
+/// turns the last of the lowest and the last of the highest (Mayergoyz, "Mathematical Models of Hysteresis",
+/// section I.2: the alternating series of dominant extrema).
+void OdeintMotion::stretch(const std::vector<double>& torques) {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < torques.size(); ++i) {
+    if (std::abs(torques[i]) >= std::abs(torques[at])) at = i;
+  }
+  if (torques[at] == 0.0) return;
+  const int side = sign(torques[at]);
+  Real x = side * inverse_branch(2 * std::abs(static_cast<Real>(torques[at]))) / 2;
+  int towards = -side;
+  while (at + 1 < torques.size()) {
+    std::size_t extreme = at + 1;
+    for (std::size_t i = extreme; i < torques.size(); ++i) {
+      if (towards * torques[i] >= towards * torques[extreme]) extreme = i;
+    }
+    stack_.emplace_back(x, torques[at]);
+    x += towards * inverse_branch(std::abs(static_cast<Real>(torques[extreme]) - torques[at]));
+    direction_ = towards;
+    towards = -towards;
+    at = extreme;
+  }
+  offset_ = x;
 }
 
 OdeintMotion::Contact OdeintMotion::contact_at(Real theta) const {
@@ -48,6 +80,7 @@ OdeintMotion::Contact OdeintMotion::contact_at(Real theta) const {
   for (const ProfiledParameter& entry : friction_.profiled) {
     p.*entry.parameter = static_cast<double>(profile_value(*entry.profile, position_ + theta));
   }
+  if (friction_.model == FrictionModel::spring) p.alpha = 0.0;
   return {p.k1, p.k2, p.beta, p.alpha, p.lambda, p.n, p.breakaway, p.coulomb_ratio, p.stribeck_velocity};
 }
 
@@ -92,22 +125,28 @@ Real OdeintMotion::hardening_rate(const State& y, Real sigma) const {
   return creeping_ ? contact_.alpha * (driving(sigma) - y[3]) : 0;
 }
 
-OdeintMotion::State OdeintMotion::slopes(const State& y) const {
+Real OdeintMotion::torque_at(Real time) const {
+  if (torque_.rate == 0 || torque_.now == torque_.settled) return torque_.now;
+  return torque_.settled + (torque_.now - torque_.settled) * std::exp(-torque_.rate * (clock_ + time));
+}
+
+OdeintMotion::State OdeintMotion::slopes(const State& y, Real time) const {
+  const Real torque = torque_at(time);
   if (sliding_) {
     const Real coulomb = contact_.coulomb_ratio * contact_.breakaway;
     const Real w = y[1] / contact_.stribeck_velocity;
     const Real level = coulomb + (contact_.breakaway - coulomb) * std::exp(-w * w);
-    return {y[1], (torque_ - plant_.sliding_damping * y[1] - direction_ * level) / plant_.inertia, 0, 0};
+    return {y[1], (torque - plant_.sliding_damping * y[1] - direction_ * level) / plant_.inertia, 0, 0};
   }
   const Real sigma = spring_torque(y);
   const Real hardening = hardening_rate(y, sigma);
-  return {y[1], (torque_ - plant_.presliding_damping * y[1] - sigma) / plant_.inertia,
-          sign(sigma) * hardening, hardening};
+  return {y[1], (torque - plant_.presliding_damping * y[1] - sigma) / plant_.inertia, sign(sigma) * hardening,
+          hardening};
 }
 
 Real OdeintMotion::elongation_acceleration(const State& y) const {
   const Real sigma = spring_torque(y);
-  const Real acceleration = (torque_ - plant_.presliding_damping * y[1] - sigma) / plant_.inertia;
+  const Real acceleration = (torque_at(0) - plant_.presliding_damping * y[1] - sigma) / plant_.inertia;
   if (!creeping_ || sigma == 0) return acceleration;
   const Real hardening = hardening_rate(y, sigma);
   const Real rate = y[1] - sign(sigma) * hardening;
@@ -118,27 +157,43 @@ Real OdeintMotion::elongation_acceleration(const State& y) const {
 OdeintMotion::State OdeintMotion::state_after(Real time) const {
   boost::numeric::odeint::runge_kutta_fehlberg78<State, Real, State, Real> stepper;
   State end{};
-  stepper.do_step([this](const State& y, State& dydt, Real) { dydt = slopes(y); }, state_, Real{0}, end,
+  stepper.do_step([this](const State& y, State& dydt, Real t) { dydt = slopes(y, t); }, state_, Real{0}, end,
                   time);
   return end;
 }
 
 Real OdeintMotion::longest_step() const {
+  const Real longest = longest_step_at_constant_torque();
+  // Fehlberg's error estimate does not see what depends on time alone.
+  const bool moving = std::abs(torque_at(0) - torque_.settled) > 1e-20L;
+  return moving ? std::min(longest, 0.25L / torque_.rate) : longest;
+}
+
+Real OdeintMotion::longest_step_at_constant_torque() const {
   if (!sliding_) return 0.25L / frequency_;
   const Real speed = std::abs(state_[1]);
-  const Real steepest =
-      (std::abs(torque_) + contact_.breakaway + plant_.sliding_damping * speed) / plant_.inertia;
+  const Real steepest = (std::max(std::abs(torque_.now), std::abs(torque_.settled)) + contact_.breakaway +
+                         plant_.sliding_damping * speed) /
+                        plant_.inertia;
   // Beyond seven Stribeck velocities the peak, exp(−49), is out of sight.
   return std::max(speed - 7 * contact_.stribeck_velocity, contact_.stribeck_velocity / 8) / steepest;
 }
 
-void OdeintMotion::advance(Real torque, Real duration) {
+void OdeintMotion::advance(const Torque& torque, Real duration) {
   torque_ = torque;
+  clock_ = 0;
   settle();
   boost::numeric::odeint::runge_kutta_fehlberg78<State, Real, State, Real> stepper;
-  const auto system = [this](const State& y, State& dydt, Real) { dydt = slopes(y); };
-  Real remaining = duration;
-  while (remaining > 0 && !frozen_) {
+  const auto system = [this](const State& y, State& dydt, Real t) { dydt = slopes(y, t); };
+  while (clock_ < duration && !frozen_) {
+    const Real remaining = duration - clock_;
+    if (coulomb_ && !sliding_) {
+      const Real standing = standing_time(remaining);
+      if (standing >= remaining) return;
+      clock_ += standing;
+      break_away(sign(torque_at(0)));
+      continue;
+    }
     const Real longest = longest_step();
     Real length = std::min(step_ > 0 ? step_ : longest, longest);
     if (length >= remaining * 0.999L) length = remaining;
@@ -161,11 +216,11 @@ void OdeintMotion::advance(Real torque, Real duration) {
     const Crossing crossing = first_crossing(end, length);
     if (crossing.event == event_count) {
       state_ = end;
-      remaining -= length;
+      clock_ = length == remaining ? duration : clock_ + length;
       continue;
     }
     state_ = state_after(crossing.time);
-    remaining -= crossing.time;
+    clock_ += crossing.time;
     happen(crossing.event);
   }
 }

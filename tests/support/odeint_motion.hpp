@@ -24,7 +24,7 @@ struct EventCounts {
 
 /// The rotor on its friction contact, integrated by Boost.odeint's Fehlberg 7(8) in 64-bit-mantissa
 /// arithmetic, with every kink located in time. Written from the equations alone, to judge another
-/// integrator; slow, and not for studies.
+/// integrator; slow, and not for studies. Knows all three friction models, and starts of every kind.
 ///
 /// Rest rule: where, at the start of an interval of constant torque, the speed of the elongation is below
 /// δ·ω₀ and its acceleration below δ·ω₀² (δ = 1e-17 rad, ω₀ = √((k1 + k2)/J)), reversals are not looked for
@@ -35,10 +35,21 @@ class OdeintMotion {
   using State =
       std::array<Real, 4>;  ///< travel since the contact formed (rad), ω (rad/s), xp (rad), xh (rad)
 
-  explicit OdeintMotion(const TrialParameters& parameters);
+  /// u(t) = settled + (now − settled)·exp(−rate·t), N m.
+  struct Torque {
+    Real now{0};
+    Real settled{0};
+    Real rate{0};  ///< 1/s
+  };
 
-  /// Moves the rotor under the constant torque `torque` (N m) for `duration` (s).
-  void advance(Real torque, Real duration);
+  /// @param history torques (N m) that the spring went to before t = 0, after the preload; at the end it went
+  /// back to 0.
+  explicit OdeintMotion(const TrialParameters& parameters, const std::vector<double>& history = {});
+
+  /// Moves the rotor under `torque` for `duration` (s).
+  void advance(const Torque& torque, Real duration);
+  /// The same under a constant torque (N m).
+  void advance(Real torque, Real duration) { advance({torque, torque, 0}, duration); }
 
   Real theta() const { return origin_ + state_[0]; }  ///< rad
   const State& state() const { return state_; }
@@ -79,17 +90,21 @@ class OdeintMotion {
   Real stiffness(const State& y) const;
   Real driving(Real sigma) const;
   Real hardening_rate(const State& y, Real sigma) const;
-  State slopes(const State& y) const;
+  Real torque_at(Real time) const;  // time from the present instant on, here and in slopes
+  State slopes(const State& y, Real time) const;
   Real elongation_acceleration(const State& y) const;
 
   bool closure_ahead(Real& target) const;
   Guards guards(const State& y) const;
   State state_after(Real time) const;
   Real longest_step() const;  ///< s; short enough that no Stribeck peak and no oscillation is jumped over
+  Real longest_step_at_constant_torque() const;
   Crossing first_crossing(const State& end, Real length) const;
   Real locate(Event event, Real low, Real low_value, Real high) const;
   void happen(Event event);
 
+  void stretch(const std::vector<double>& torques);
+  Real standing_time(Real longest) const;
   void settle();
   void reverse();
   void close_loops();
@@ -101,13 +116,15 @@ class OdeintMotion {
   Real position_;
   Contact contact_{};
   Real frequency_{0};  ///< ω₀, rad/s
-  Real torque_{0};     ///< applied, N m
+  Torque torque_;      ///< applied since the start of the interval, N m
+  Real clock_{0};      ///< since then, s
   Real origin_{0};     ///< θ where the contact formed, rad
   Real offset_{0};     ///< elongation there, rad
   State state_{};
   std::vector<std::pair<Real, Real>> stack_;  ///< (elongation, torque) of the surviving reversal points
   int direction_{0};    ///< of the elongation, or of the slide; 0 before the first motion
   int virgin_sign_{1};  ///< side of the virgin curve
+  bool coulomb_{false};
   bool sliding_{false};
   bool resting_{false};
   bool frozen_{false};

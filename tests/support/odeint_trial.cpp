@@ -5,6 +5,8 @@
 #include <deque>
 #include <numbers>
 
+#include "core/trial/random_history.hpp"
+
 namespace zerocount::testing {
 
 namespace {
@@ -22,7 +24,8 @@ class SampledLoop {
       : gains_(p.controller),
         resolution_(p.dac.resolution),
         lowest_(-std::ldexp(1.0, p.dac.bits - 1)),
-        highest_(std::ldexp(1.0, p.dac.bits - 1) - 1.0) {}
+        highest_(std::ldexp(1.0, p.dac.bits - 1) - 1.0),
+        integral_(p.initial.integral) {}
 
   std::int64_t decide(std::int64_t target, std::int64_t count) {
     const std::int64_t error = target - count;
@@ -43,7 +46,7 @@ class SampledLoop {
   double resolution_;
   double lowest_;
   double highest_;
-  double integral_{0.0};
+  double integral_;
   std::int64_t last_error_{0};
   std::int64_t last_count_{0};
   bool first_{true};
@@ -52,11 +55,13 @@ class SampledLoop {
 }  // namespace
 
 std::vector<SampleRecord> odeint_trial(const TrialParameters& parameters, EventCounts* events) {
-  OdeintMotion motion(parameters);
+  OdeintMotion motion(parameters, draw_history(parameters.initial.history, parameters.randomness));
   SampledLoop loop(parameters);
   const double rate = parameters.controller.sample_rate;
   const long double period = 1.0L / rate;
   const auto samples = static_cast<std::int64_t>(std::llround(parameters.command.hold * rate));
+  const long double amplifier = 2 * std::numbers::pi_v<long double> * parameters.amplifier.bandwidth;
+  OdeintMotion::Torque drive{0, 0, amplifier};
   std::deque<double> waiting(static_cast<std::size_t>(parameters.controller.delay), 0.0);
   std::vector<SampleRecord> records;
   for (const std::int64_t target : parameters.command.targets) {
@@ -77,9 +82,13 @@ std::vector<SampleRecord> odeint_trial(const TrialParameters& parameters, EventC
       record.xh = static_cast<double>(motion.state()[3]);
       record.depth = motion.depth();
       record.mode = motion.sliding() ? HookMode::slide : HookMode::stick;
-      records.push_back(record);
       waiting.push_back(record.torque);
-      motion.advance(waiting.front(), period);
+      drive.settled = waiting.front();
+      if (amplifier == 0) drive.now = drive.settled;
+      record.drive_torque = static_cast<double>(drive.now);
+      records.push_back(record);
+      motion.advance(drive, period);
+      drive.now = drive.settled + (drive.now - drive.settled) * std::exp(-amplifier * period);
       waiting.pop_front();
     }
   }

@@ -95,7 +95,7 @@ void choose_loop(Draws& draws, TrialKind kind, TrialParameters& p) {
       p.command.hold = draws.uniform(0.05, 0.15);
       for (std::int64_t& target : p.command.targets) target = draws.sign() * draws.integer(100, 8000);
       return;
-    case TrialKind::unlike_the_paper:
+    default:
       return;  // chosen elsewhere
   }
 }
@@ -141,11 +141,7 @@ TrialParameters unlike_the_paper(Draws& draws) {
   return p;
 }
 
-}  // namespace
-
-TrialParameters random_trial(TrialKind kind, std::uint64_t index) {
-  Draws draws(20020721 + 1'000'003 * static_cast<std::uint64_t>(kind) + 7919 * index);
-  if (kind == TrialKind::unlike_the_paper) return unlike_the_paper(draws);
+TrialParameters like_the_paper(Draws& draws, TrialKind kind) {
   TrialParameters p;
   p.plant.inertia = draws.uniform(4e-4, 8e-4);
   p.plant.presliding_damping = draws.uniform(0.1, 0.4);
@@ -157,6 +153,81 @@ TrialParameters random_trial(TrialKind kind, std::uint64_t index) {
   p.initial.hardening = draws.chance(0.6) ? 0.0 : draws.log_uniform(1e-7, 1e-4);
   p.initial.preload = draws.chance(0.5) ? 0.0 : draws.sign() * draws.log_uniform(1e-3, 0.12);
   return p;
+}
+
+TrialParameters any_like_the_paper(Draws& draws) {
+  return like_the_paper(draws, static_cast<TrialKind>(draws.integer(0, 2)));
+}
+
+TrialParameters any_rig(Draws& draws) {
+  return draws.chance(0.25) ? unlike_the_paper(draws) : any_like_the_paper(draws);
+}
+
+/// Gains with which the torque passes the breakaway within the trial, again and again.
+TrialParameters hunting(Draws& draws) {
+  TrialParameters p = any_like_the_paper(draws);
+  p.friction.model = FrictionModel::coulomb;
+  p.controller.ki = draws.log_uniform(1e-4, 2e-3);
+  p.command.hold = draws.uniform(0.1, 0.3);
+  p.initial.integral = draws.chance(0.5) ? 0.0 : draws.uniform(-0.3, 0.3);
+  return p;
+}
+
+TrialParameters amplified(Draws& draws) {
+  TrialParameters p = draws.chance(0.3) ? hunting(draws) : any_rig(draws);
+  if (p.friction.model == FrictionModel::presliding && draws.chance(0.2)) {
+    p.friction.model = FrictionModel::spring;
+  }
+  p.amplifier.bandwidth = p.controller.sample_rate * draws.log_uniform(0.01, 10.0);
+  return p;
+}
+
+TrialParameters arriving(Draws& draws) {
+  TrialParameters p = any_rig(draws);
+  p.friction.model = static_cast<FrictionModel>(draws.chance(0.6) ? 0 : draws.integer(1, 2));
+  p.initial.mode = draws.chance(0.5) ? InitialMode::slide : InitialMode::stick;
+  const double breakaway = p.friction.uniform.breakaway;
+  p.initial.velocity = draws.sign() * draws.log_uniform(0.01, 3.0) * breakaway / p.plant.presliding_damping;
+  p.initial.integral = draws.chance(0.5) ? 0.0 : draws.uniform(-0.8, 0.8) * breakaway;
+  return p;
+}
+
+TrialParameters remembering(Draws& draws) {
+  TrialParameters p = any_rig(draws);
+  const double breakaway = friction_at(p.friction, p.initial.position).breakaway;
+  p.initial.history.reversals = static_cast<int>(draws.integer(1, draws.chance(0.8) ? 12 : 300));
+  p.initial.history.torque = breakaway * draws.uniform(0.02, 0.95);
+  p.randomness.trial = static_cast<std::uint64_t>(draws.integer(0, 1'000'000));
+  p.randomness.history = {static_cast<std::uint32_t>(draws.integer(0, 0xffffffff)), 17};
+  return p;
+}
+
+}  // namespace
+
+TrialParameters random_trial(TrialKind kind, std::uint64_t index) {
+  Draws draws(20020721 + 1'000'003 * static_cast<std::uint64_t>(kind) + 7919 * index);
+  switch (kind) {
+    case TrialKind::calm:
+    case TrialKind::ringing:
+    case TrialKind::breaking_away:
+      return like_the_paper(draws, kind);
+    case TrialKind::unlike_the_paper:
+      return unlike_the_paper(draws);
+    case TrialKind::spring_alone: {
+      TrialParameters p = any_like_the_paper(draws);
+      p.friction.model = FrictionModel::spring;
+      return p;
+    }
+    case TrialKind::coulomb:
+      return hunting(draws);
+    case TrialKind::amplified:
+      return amplified(draws);
+    case TrialKind::arriving:
+      return arriving(draws);
+    case TrialKind::remembering:
+      return remembering(draws);
+  }
+  return {};
 }
 
 }  // namespace zerocount::testing

@@ -8,10 +8,15 @@ namespace zerocount::testing {
 
 /// Kinds of random trials, by what the loop does with them.
 enum class TrialKind {
-  calm,             ///< a few counts at low gain: settles, creeps, jerks; the hook holds
-  ringing,          ///< gains around and above the stability bounds
-  breaking_away,    ///< thousands of counts or large gains: breakaway, slides, re-sticks
-  unlike_the_paper  ///< other rigs: every parameter over orders of magnitude
+  calm,              ///< a few counts at low gain: settles, creeps, jerks; the hook holds
+  ringing,           ///< gains around and above the stability bounds
+  breaking_away,     ///< thousands of counts or large gains: breakaway, slides, re-sticks
+  unlike_the_paper,  ///< other rigs: every parameter over orders of magnitude
+  spring_alone,      ///< one of the first three with creep off by the friction model
+  coulomb,           ///< Amonton–Coulomb friction, which hunts under integral control
+  amplified,         ///< an amplifier of finite bandwidth, with each of the friction models
+  arriving,          ///< a rotor that moves at the start, with the hook sticking or sliding
+  remembering        ///< a random history of the spring before the start
 };
 
 /// The parameters of random trial `index` of a kind: always the same for the same arguments. All parameters

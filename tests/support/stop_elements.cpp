@@ -35,6 +35,13 @@ void StopElements::move_to(double x) {
   x_ = x;
 }
 
+double StopElements::energy() const {
+  double sum = 0.5 * k1_ * x_ * x_;
+  for (const Element& element : elements_)
+    sum += 0.5 * element.stiffness * element.elongation * element.elongation;
+  return sum;
+}
+
 double StopElements::torque() const {
   double sum = k1_ * x_;
   for (const Element& element : elements_) sum += element.stiffness * element.elongation;

@@ -27,6 +27,7 @@ class StopElements {
   void move_to(double x);
 
   double torque() const;  ///< σ, N m
+  double energy() const;  ///< stored: ½k1·x² + Σ ½wᵢ·eᵢ², J
 
   /// Bound on the error of the torque (N m) after a history of which `depth` reversal points survive: ε on
   /// the virgin curve, and 2ε for every branch f(u) = 2·½f(2·u/2) since.

@@ -1,11 +1,14 @@
 #include "tests/support/trial_json.hpp"
 
 #include <array>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include <nlohmann/json.hpp>
+
+#include "core/trial/random_history.hpp"
 
 namespace zerocount::testing {
 
@@ -25,9 +28,17 @@ constexpr std::array<std::pair<const char*, double FrictionParameters::*>, 9> fr
     {"stribeck_velocity", &FrictionParameters::stribeck_velocity},
 }};
 
+constexpr std::array<std::pair<const char*, FrictionModel>, 3> model_names{
+    {{"presliding", FrictionModel::presliding},
+     {"spring", FrictionModel::spring},
+     {"coulomb", FrictionModel::coulomb}}};
+
 json friction_json(const FrictionAlongRotor& friction) {
   json out;
   for (const auto& [name, member] : friction_names) out[name] = friction.uniform.*member;
+  for (const auto& [name, model] : model_names) {
+    if (model == friction.model) out["model"] = name;
+  }
   out["profiled"] = json::array();
   for (const ProfiledParameter& entry : friction.profiled) {
     for (const auto& [name, member] : friction_names) {
@@ -47,6 +58,9 @@ json friction_json(const FrictionAlongRotor& friction) {
 FrictionAlongRotor friction_from(const json& in) {
   FrictionAlongRotor friction;
   for (const auto& [name, member] : friction_names) friction.uniform.*member = in.at(name);
+  for (const auto& [name, model] : model_names) {
+    if (in.at("model") == name) friction.model = model;
+  }
   for (const json& entry : in.value("profiled", json::array())) {
     Profile p;
     p.marginal = entry.at("marginal") == "lognormal" ? Marginal::lognormal : Marginal::normal;
@@ -74,6 +88,7 @@ std::string to_json(const TrialParameters& p) {
       {"friction", friction_json(p.friction)},
       {"encoder", {{"fine", p.encoder.fine}, {"coarse", p.encoder.coarse}}},
       {"dac", {{"bits", p.dac.bits}, {"resolution", p.dac.resolution}}},
+      {"amplifier", {{"bandwidth", p.amplifier.bandwidth}}},
       {"controller",
        {{"sample_rate", c.sample_rate},
         {"kp", c.kp},
@@ -86,7 +101,14 @@ std::string to_json(const TrialParameters& p) {
        {{"encoder_phase", p.initial.encoder_phase},
         {"position", p.initial.position},
         {"hardening", p.initial.hardening},
-        {"preload", p.initial.preload}}},
+        {"preload", p.initial.preload},
+        {"history", {{"reversals", p.initial.history.reversals}, {"torque", p.initial.history.torque}}},
+        {"history_levels", draw_history(p.initial.history, p.randomness)},
+        {"velocity", p.initial.velocity},
+        {"integral", p.initial.integral},
+        {"mode", p.initial.mode == InitialMode::slide ? "slide" : "stick"}}},
+      {"randomness",
+       {{"trial", p.randomness.trial}, {"stream", p.randomness.stream}, {"history", p.randomness.history}}},
       {"verdict", {{"dwell", p.verdict.dwell}, {"window", p.verdict.window}}},
   };
   return out.dump(1);
@@ -107,6 +129,15 @@ TrialParameters trial_from_json(std::istream& in) {
   p.command.hold = j["command"].at("hold");
   const json& i = j.at("initial");
   p.initial = {i.at("encoder_phase"), i.at("position"), i.at("hardening"), i.at("preload")};
+  p.initial.history = {i["history"].at("reversals"), i["history"].at("torque")};
+  p.initial.velocity = i.at("velocity");
+  p.initial.integral = i.at("integral");
+  p.initial.mode = i.at("mode") == "slide" ? InitialMode::slide : InitialMode::stick;
+  p.amplifier.bandwidth = j["amplifier"].at("bandwidth");
+  const json& r = j.at("randomness");
+  p.randomness.trial = r.at("trial");
+  p.randomness.stream = r.at("stream");
+  p.randomness.history = r.at("history").get<RandomKey>();
   p.verdict = {j["verdict"].at("dwell"), j["verdict"].at("window")};
   return p;
 }
@@ -128,6 +159,7 @@ std::vector<SampleRecord> read_trace_csv(std::istream& in) {
     records.push_back({integer(0), number(1), integer(2), integer(3), integer(4), integer(5), integer(6),
                        number(7), number(8), number(9), number(10), number(11), integer(12),
                        cells[13] == "slide" ? HookMode::slide : HookMode::stick});
+    records.back().drive_torque = std::numeric_limits<double>::quiet_NaN();
   }
   return records;
 }

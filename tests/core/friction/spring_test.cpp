@@ -210,5 +210,59 @@ TEST_P(SpringProperties, PreloadLeavesOneReversalPointAndNoTorque) {
   }
 }
 
+/// Torques of a random walk up to three times k2/β.
+std::vector<double> random_torques(std::mt19937& random, double scale, int count) {
+  std::uniform_real_distribution<double> uniform(-3.0 * scale, 3.0 * scale);
+  std::vector<double> torques(static_cast<std::size_t>(count));
+  for (double& torque : torques) torque = uniform(random);
+  return torques;
+}
+
+TEST_P(SpringProperties, ReachesTheTorqueItIsTakenTo) {
+  HystereticSpring spring(friction_);
+  for (const double torque : random_torques(random_, torque_scale_, 300)) {
+    spring.move_to_torque(torque);
+    // To the rounding of the elongation.
+    const double rounding = 4e-16 * (friction_.k1 + friction_.k2) * std::abs(spring.elongation());
+    EXPECT_NEAR(spring.torque(), torque, rounding + 4e-15 * torque_scale_);
+  }
+}
+
+TEST_P(SpringProperties, TakenToATorqueIsTheSpringTakenToItsElongation) {
+  HystereticSpring by_torque(friction_);
+  HystereticSpring by_elongation(friction_);
+  for (const double torque : random_torques(random_, torque_scale_, 300)) {
+    by_torque.move_to_torque(torque);
+    by_elongation.move_to(by_torque.elongation());
+    EXPECT_EQ(by_torque.depth(), by_elongation.depth());
+    EXPECT_EQ(by_torque.direction(), by_elongation.direction());
+    EXPECT_NEAR(by_torque.torque(), by_elongation.torque(), 1e-14 * torque_scale_);
+  }
+}
+
+TEST_P(SpringProperties, TorqueOfAReversalPointClosesItsLoop) {
+  HystereticSpring spring(friction_);
+  const double s = torque_scale_;
+  for (const double torque : {2.0 * s, -1.0 * s, 1.0 * s, 0.5 * s}) spring.move_to_torque(torque);
+  EXPECT_EQ(spring.depth(), 3u);
+  spring.move_to_torque(1.0 * s);
+  EXPECT_EQ(spring.depth(), 2u);  // back on the branch from −1
+  spring.move_to_torque(2.0 * s);
+  EXPECT_EQ(spring.depth(), 0u);
+  spring.move_to_torque(-2.0 * s);
+  EXPECT_EQ(spring.depth(), 0u);  // the mirror image of the only reversal point
+  EXPECT_NEAR(spring.elongation(), virgin_elongation(friction_, -2.0 * s), 1e-14 * length_);
+}
+
+TEST_P(SpringProperties, TorqueTakesAStretchedVirginSpringThroughItsOrigin) {
+  HystereticSpring spring(friction_);
+  spring.start_virgin(virgin_elongation(friction_, torque_scale_), -1);  // as after a slide backwards
+  spring.move_to_torque(0.4 * torque_scale_);
+  EXPECT_NEAR(spring.elongation(), virgin_elongation(friction_, 0.4 * torque_scale_), 1e-14 * length_);
+  spring.move_to_torque(-0.7 * torque_scale_);
+  EXPECT_NEAR(spring.elongation(), virgin_elongation(friction_, -0.7 * torque_scale_), 1e-14 * length_);
+  EXPECT_EQ(spring.depth(), 0u);
+}
+
 }  // namespace
 }  // namespace zerocount

@@ -69,5 +69,41 @@ TEST(StopElements, SumConvergesToTheSpringQuadratically) {
   }
 }
 
+/// The elongation at which the stop elements carry `torque`, coming from where they are.
+double elongation_at(const StopElements& stops, double from, double torque) {
+  const double side = torque > stops.torque() ? 1.0 : -1.0;
+  const auto reached = [&](double x) {
+    StopElements moved = stops;
+    moved.move_to(x);
+    return side * (moved.torque() - torque) >= 0.0;
+  };
+  double step = 1e-6;
+  while (!reached(from + side * step)) step *= 2.0;
+  double low = 0.0;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (low + step);
+    (reached(from + side * middle) ? step : low) = middle;
+  }
+  return from + side * step;
+}
+
+// Loaded by torque, the spring goes where the elements go: no branch law is inverted there.
+TEST(StopElements, ReachTheTorquesOfAHistoryWhereTheSpringDoes) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const FrictionParameters friction = random_friction(seed);
+    std::mt19937_64 engine(seed + 500);
+    HystereticSpring spring(friction);
+    StopElements stops(friction, 1000);
+    double x = 0.0;
+    for (int level = 0; level < 40; ++level) {
+      const double torque = friction.k2 / friction.beta * uniform(engine, -2.0, 2.0);
+      spring.move_to_torque(torque);
+      x = elongation_at(stops, x, torque);
+      stops.move_to(x);
+      EXPECT_NEAR(spring.elongation(), x, stops.error_bound(spring.depth()) / friction.k1) << level;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace zerocount::testing

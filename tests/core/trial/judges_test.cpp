@@ -19,10 +19,12 @@ namespace {
 
 TEST(Judges, AgreeWithEachOther) {
   Agreement total;
-  for (const TrialKind kind : {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away}) {
-    for (std::uint64_t index = 1000; index < 1003; ++index) {
+  for (const TrialKind kind :
+       {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away, TrialKind::spring_alone,
+        TrialKind::coulomb, TrialKind::amplified, TrialKind::arriving, TrialKind::remembering}) {
+    for (std::uint64_t index = 1000; index < 1002; ++index) {
       TrialParameters parameters = random_trial(kind, index);
-      parameters.command.hold = 0.06;
+      parameters.command.hold = 120.0 / parameters.controller.sample_rate;
       const std::string name =
           "kind " + std::to_string(static_cast<int>(kind)) + " trial " + std::to_string(index);
       total.add(compare(parameters, odeint_trial(parameters), python_trial(parameters), name));
@@ -36,10 +38,13 @@ TEST(Judges, AgreeWithEachOther) {
 }
 
 TEST(Judges, ReadBackTheParametersTheyWrite) {
-  for (std::uint64_t index = 0; index < 20; ++index) {
-    const std::string text = to_json(random_trial(TrialKind::breaking_away, index));
-    std::istringstream in(text);
-    EXPECT_EQ(to_json(trial_from_json(in)), text);
+  for (const TrialKind kind : {TrialKind::breaking_away, TrialKind::amplified, TrialKind::arriving,
+                               TrialKind::coulomb, TrialKind::remembering}) {
+    for (std::uint64_t index = 0; index < 20; ++index) {
+      const std::string text = to_json(random_trial(kind, index));
+      std::istringstream in(text);
+      EXPECT_EQ(to_json(trial_from_json(in)), text);
+    }
   }
 }
 

@@ -124,11 +124,46 @@ TEST(Torques, ArePeakAndLast) {
   EXPECT_EQ(outcome.creep, 0.7);
 }
 
+TEST(FinalError, IsThatOfTheLastSample) {
+  EXPECT_EQ(measure({9, 5, 1, 0, -3}).outcome.final_error, -3);
+  EXPECT_EQ(measure({9, 5, 1, 0, 0}).outcome.final_error, 0);
+}
+
+// Without a target there is nothing to arrive at, and no verdict; what the rotor did is measured all the
+// same.
+TEST(OpenLoop, IsMeasuredButNotJudged) {
+  MoveMeasures measures({.sample_time = sample_time, .samples = 6, .dwell = 2, .window = 2, .judged = false},
+                        0);
+  for (const std::int64_t count : {0, 0, 0, 1, 0, 7}) {
+    EXPECT_FALSE(measures.add({0, count, -0.01 * static_cast<double>(count), false, 0.5, 0.25}));
+  }
+  EXPECT_FALSE(measures.finish(false, 3, true));
+  const MoveOutcome& outcome = measures.outcome();
+  EXPECT_EQ(outcome.outcome, Outcome::open_loop);
+  EXPECT_FALSE(outcome.arrived);
+  EXPECT_FALSE(outcome.stable);
+  EXPECT_EQ(outcome.jerk_count, 0);
+  EXPECT_EQ(outcome.overshoot, 0);
+  EXPECT_EQ(outcome.final_error, -7);
+  EXPECT_EQ(outcome.holding_torque, -0.07);
+  EXPECT_EQ(outcome.peak_torque, 0.07);
+  EXPECT_EQ(outcome.final_position, 0.5);
+  EXPECT_EQ(outcome.creep, 0.25);
+  EXPECT_EQ(outcome.reversal_depth, 3);
+}
+
+TEST(OpenLoop, IsNonfiniteWhereTheMotionWasLost) {
+  MoveMeasures measures({.sample_time = sample_time, .samples = 6, .judged = false}, 0);
+  measures.add({0, 0, 0.0, false, 0.0, 0.0});
+  measures.finish(false, 0, false);
+  EXPECT_EQ(measures.outcome().outcome, Outcome::nonfinite);
+}
+
 TEST(Timing, RoundsToWholeSamples) {
   TrialParameters parameters;
   parameters.command = {{1}, 0.15};
   parameters.verdict = {0.05, 0.0501};
-  const MoveTiming timing = move_timing(parameters);
+  const MoveTiming timing = move_timing(parameters, 0);
   EXPECT_EQ(timing.samples, 300);
   EXPECT_EQ(timing.dwell, 100);
   EXPECT_EQ(timing.window, 100);

@@ -17,7 +17,7 @@
 namespace zerocount::testing {
 namespace {
 
-std::vector<SampleRecord> samples_of_trial(const TrialParameters& parameters) {
+std::vector<SampleRecord> records_of_trial(const TrialParameters& parameters) {
   std::vector<SampleRecord> records;
   TrialObservers observers;
   observers.sample = [&records](const SampleRecord& record) { records.push_back(record); };
@@ -43,7 +43,7 @@ TEST_P(RandomTrialAgreement, EqualsBoostOdeintSampleBySample) {
   for (std::uint64_t index = 0; index < GetParam().trials; ++index) {
     const TrialParameters parameters = random_trial(GetParam().kind, index);
     const std::string name = std::string(GetParam().name) + " trial " + std::to_string(index);
-    total.add(compare(parameters, samples_of_trial(parameters), odeint_trial(parameters), name));
+    total.add(compare(parameters, records_of_trial(parameters), odeint_trial(parameters), name));
   }
   std::cout << GetParam().name << ": " << total.figures() << "\n";
   for (const std::string& failure : total.failures) ADD_FAILURE() << failure;
@@ -59,7 +59,7 @@ TEST_P(RandomTrialAgreement, EqualsHighPrecisionCollocation) {
     TrialParameters parameters = random_trial(GetParam().kind, index);
     parameters.command.hold = std::min(parameters.command.hold, 0.1);
     const std::string name = std::string(GetParam().name) + " trial " + std::to_string(index);
-    total.add(compare(parameters, samples_of_trial(parameters), python_trial(parameters), name));
+    total.add(compare(parameters, records_of_trial(parameters), python_trial(parameters), name));
   }
   std::cout << GetParam().name << ": " << total.figures() << "\n";
   for (const std::string& failure : total.failures) ADD_FAILURE() << failure;
@@ -70,11 +70,16 @@ INSTANTIATE_TEST_SUITE_P(Seeded, RandomTrialAgreement,
                          ::testing::Values(Family{"calm", TrialKind::calm, 200},
                                            Family{"ringing", TrialKind::ringing, 200},
                                            Family{"breaking_away", TrialKind::breaking_away, 200},
-                                           Family{"unlike_the_paper", TrialKind::unlike_the_paper, 200}));
+                                           Family{"unlike_the_paper", TrialKind::unlike_the_paper, 200},
+                                           Family{"spring_alone", TrialKind::spring_alone, 60},
+                                           Family{"coulomb", TrialKind::coulomb, 60},
+                                           Family{"amplified", TrialKind::amplified, 60},
+                                           Family{"arriving", TrialKind::arriving, 60},
+                                           Family{"remembering", TrialKind::remembering, 60}));
 
 void expect_agreement(const TrialParameters& parameters, const std::string& name) {
   const Agreement agreement =
-      compare(parameters, samples_of_trial(parameters), odeint_trial(parameters), name);
+      compare(parameters, records_of_trial(parameters), odeint_trial(parameters), name);
   std::cout << name << ": " << agreement.figures() << "\n";
   for (const std::string& failure : agreement.failures) ADD_FAILURE() << failure;
   EXPECT_EQ(agreement.edge_trials, 0);
@@ -106,7 +111,7 @@ TEST(TrialAgreement, StandsStillOnAnEdgeUntilTheFirstTorque) {
   parameters.controller.delay = 3;
   for (int i = -40; i <= 40; ++i) {
     parameters.initial.preload = 0.0031 * i;
-    const std::vector<SampleRecord> records = samples_of_trial(parameters);
+    const std::vector<SampleRecord> records = records_of_trial(parameters);
     for (std::size_t k = 0; k <= 3; ++k) EXPECT_EQ(records.at(k).count, 0) << parameters.initial.preload;
   }
 }

@@ -18,8 +18,12 @@ def philox4x32_10(counter, key):
     return c
 
 
+def key_of(seed, name):
+    return struct.unpack("<II", hashlib.sha256(f"{seed}:{name}".encode()).digest()[:8])
+
+
 def bits(seed, name, index, draw, stream):
-    key = struct.unpack("<II", hashlib.sha256(f"{seed}:{name}".encode()).digest()[:8])
+    key = key_of(seed, name)
     words = philox4x32_10([index & MASK, index >> 32, draw, stream], key)
     return words[0] | words[1] << 32
 
@@ -54,6 +58,25 @@ def main():
     if compared < 60:
         sys.exit(f"only {compared} draws were compared")
     print(f"{compared} draws agree")
+
+    # What the trial itself will draw from.
+    names = [
+        "initial.history/levels",
+        "encoder.fine_errors.noise/samples",
+        "encoder.fine_errors.missed/samples",
+        "encoder.coarse_errors.noise/samples",
+        "encoder.coarse_errors.missed/samples",
+        "dac.noise/samples",
+    ]
+    for a in answers:
+        randomness = a["randomness"]
+        wanted = {"trial": a["trial"], "stream": a["point"] + 1 if a["independent"] else 0}
+        wanted |= {name: list(key_of(a["seed"], name)) for name in names}
+        if randomness != wanted:
+            sys.exit(f"{randomness} should be {wanted}")
+    # A fixed answer, so that the definition cannot drift in both places at once.
+    assert key_of(20020721, "initial.history/levels") == (0xD21635AD, 0x895827FC)
+    print(f"the keys of {len(answers)} trials agree")
 
 
 main()

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "experiments/designs/random_key.hpp"
+
 namespace zerocount {
 namespace {
 

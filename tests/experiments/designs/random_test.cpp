@@ -1,7 +1,6 @@
-#include "experiments/designs/random.hpp"
-
 #include <gtest/gtest.h>
 
+#include "experiments/designs/random_key.hpp"
 #include "experiments/designs/sha256.hpp"
 
 namespace zerocount {

@@ -1,12 +1,14 @@
 #include "experiments/designs/sobol.hpp"
 
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 
 #include <boost/random/sobol.hpp>
 #include <gtest/gtest.h>
 
+#include "experiments/designs/random_key.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 
 namespace zerocount {
@@ -81,13 +83,103 @@ TEST(Sobol, TheShiftDependsOnSeedNameAndStream) {
   EXPECT_NE(u, sobol_uniform(5, directions[0], {random_key(1, "a"), 1}));
 }
 
-TEST(Sobol, EveryParameterHasItsOwnDimension) {
+TEST(Sobol, EveryParameterHasItsOwnDimensionAndTheListsShareTheirs) {
   std::set<std::size_t> dimensions;
   for (const Parameter& parameter : parameter_table()) {
+    if (parameter.listed) {
+      EXPECT_EQ(parameter.sobol_dimension, first_sobol_dimension_of_moves) << parameter.name;
+      continue;
+    }
     EXPECT_TRUE(dimensions.insert(parameter.sobol_dimension).second) << parameter.name;
-    EXPECT_LE(parameter.sobol_dimension, first_sobol_dimension_of_moves);
-    EXPECT_EQ(parameter.per_move, parameter.sobol_dimension == first_sobol_dimension_of_moves);
+    EXPECT_TRUE(parameter.sobol_dimension < first_sobol_dimension_of_moves ||
+                parameter.sobol_dimension >= first_sobol_dimension_beyond_moves)
+        << parameter.name;
+    EXPECT_LT(parameter.sobol_dimension, sobol_dimension_limit()) << parameter.name;
   }
+  EXPECT_EQ(first_sobol_dimension_beyond_moves, 3064u);
+}
+
+// That a study drawn with them once gets the same trials for ever.
+TEST(Sobol, TheDimensionsAreFixed) {
+  const std::map<std::string_view, std::size_t> fixed{
+      {"friction.k1", 0},
+      {"friction.k2", 1},
+      {"initial.encoder_phase", 2},
+      {"friction.beta", 3},
+      {"friction.alpha", 4},
+      {"friction.lambda", 5},
+      {"friction.breakaway", 6},
+      {"friction.coulomb_ratio", 7},
+      {"friction.stribeck_velocity", 8},
+      {"initial.position", 9},
+      {"initial.hardening", 10},
+      {"initial.preload", 11},
+      {"plant.inertia", 12},
+      {"plant.presliding_damping", 13},
+      {"plant.sliding_damping", 14},
+      {"friction.n", 15},
+      {"encoder.fine", 16},
+      {"encoder.coarse", 17},
+      {"dac.bits", 18},
+      {"dac.resolution", 19},
+      {"controller.sample_rate", 20},
+      {"controller.kp", 21},
+      {"controller.ki", 22},
+      {"controller.kd", 23},
+      {"controller.delay", 24},
+      {"controller.anti_windup", 25},
+      {"command.hold", 26},
+      {"verdict.dwell", 27},
+      {"verdict.window", 28},
+      {"encoder.fine_errors.eccentricity", 29},
+      {"encoder.fine_errors.eccentricity_angle", 30},
+      {"encoder.fine_errors.interpolation", 31},
+      {"encoder.fine_errors.interpolation_period", 32},
+      {"encoder.fine_errors.noise", 33},
+      {"encoder.fine_errors.missed", 34},
+      {"encoder.coarse_errors.eccentricity", 35},
+      {"encoder.coarse_errors.eccentricity_angle", 36},
+      {"encoder.coarse_errors.interpolation", 37},
+      {"encoder.coarse_errors.interpolation_period", 38},
+      {"encoder.coarse_errors.noise", 39},
+      {"encoder.coarse_errors.missed", 40},
+      {"dac.offset", 41},
+      {"dac.gain_error", 42},
+      {"dac.nonlinearity", 43},
+      {"dac.noise", 44},
+      {"amplifier.bandwidth", 45},
+      {"controller.coarse.kp", 46},
+      {"controller.coarse.ki", 47},
+      {"controller.coarse.kd", 48},
+      {"controller.coarse.fine_within", 49},
+      {"controller.coarse.fine_rate", 50},
+      {"controller.coarse.fine_dwell", 51},
+      {"controller.coarse.coarse_beyond", 52},
+      {"command.profile.velocity_limit", 53},
+      {"command.profile.acceleration_limit", 54},
+      {"command.profile.jerk_limit", 55},
+      {"command.torque.rate", 56},
+      {"command.sequence.overrun", 57},
+      {"initial.velocity", 58},
+      {"initial.integral", 59},
+      {"initial.history.reversals", 60},
+      {"initial.history.torque", 61},
+      {"friction.model", 3064},
+      {"controller.encoder", 3065},
+      {"controller.coarse.encoder", 3066},
+      {"command.torque.through", 3067},
+      {"command.profile.shape", 3068},
+      {"initial.mode", 3069},
+  };
+  std::size_t checked = 0;
+  for (const Parameter& parameter : parameter_table()) {
+    if (parameter.listed) continue;
+    const auto known = fixed.find(parameter.name);
+    ASSERT_NE(known, fixed.end()) << parameter.name << " is new: add it here";
+    EXPECT_EQ(parameter.sobol_dimension, known->second) << parameter.name;
+    ++checked;
+  }
+  EXPECT_EQ(checked, fixed.size());
 }
 
 }  // namespace

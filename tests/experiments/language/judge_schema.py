@@ -1,4 +1,4 @@
-"""The JSON Schema: valid itself, accepts all good manifests, rejects bad ones."""
+"""The JSON Schema: valid itself, accepts all good manifests, rejects bad ones; and the program judges likewise."""
 
 import copy
 import json
@@ -27,6 +27,95 @@ def changed(manifest, path, value):
         node = node.setdefault(key, {}) if isinstance(node, dict) else node[key]
     node[path[-1]] = value
     return result
+
+
+def program_refuses(manifest):
+    """What the program says of it; empty where it understands. JSON is YAML."""
+    answer = subprocess.run(
+        [sys.argv[1], "refusal"], input=json.dumps(manifest), stdout=subprocess.PIPE, text=True, check=True
+    )
+    return answer.stdout.strip()
+
+
+def judge_extended(validator, extended):
+    """The sections inside sections, and the three ways to command."""
+    sequence = {"targets": [-5, 5], "overrun": 2}
+    targets = {"targets": [5]}
+    bad = [
+        (["encoder", "fine_errors"], 1),
+        (["encoder", "fine_errors", "noise"], -1),
+        (["encoder", "fine_errors", "niose"], 1),
+        (["encoder", "coarse_errors", "missed"], 1.1),
+        (["encoder", "coarse_errors", "interpolation_period"], 0),
+        (["dac", "gain_error"], -1),
+        (["amplifier", "bandwidth"], -1),
+        (["controller", "coarse", "encoder"], "middle"),
+        (["controller", "coarse", "coarse_beyond"], 1e13),
+        (["controller", "coarse", "delay"], 1),
+        (["controller", "coarse.kp"], 1),
+        (["friction", "model"], "stribeck"),
+        (["friction", "model"], {"choice": [0, 1]}),
+        (["initial", "history"], 3),
+        (["initial", "history", "reversals"], 1001),
+        (["initial", "history", "reversals"], 2.5),
+        (["initial", "history", "torque"], -0.1),
+        (["initial", "mode"], "slip"),
+        (["command"], {}),
+        (["command"], {"hold": 1}),
+        (["command"], targets | {"torque": {"levels": [0.1]}}),
+        (["command"], targets | {"sequence": sequence}),
+        (["command"], {"sequence": sequence, "torque": {"levels": [0.1]}}),
+        (["command"], {"torque": {"rate": 1}}),
+        (["command"], {"torque": {"levels": []}}),
+        (["command"], {"torque": {"levels": 0.1}}),
+        (["command"], {"torque": {"levels": [0.1], "rate": 0}}),
+        (["command"], {"torque": {"levels": [0.1], "through": "wire"}}),
+        (["command"], {"sequence": {"targets": [1, 2]}}),
+        (["command"], {"sequence": {"overrun": 2}}),
+        (["command"], {"sequence": sequence | {"overrun": 0}}),
+        (["command"], {"sequence": sequence | {"targets": [1.5]}}),
+        (["command"], {"sequence": sequence | {"cycles": 0}}),
+        (["command"], {"sequence": sequence | {"cycles": {"integers": [1, 2]}}}),
+        (["command"], {"sequence": sequence | {"approach": "both"}}),
+        (["command"], {"sequence": sequence | {"direction": 1}}),
+        (["command"], targets | {"profile": {"shape": "round"}}),
+        (["command"], targets | {"profile": {"shape": "s_curve", "jerk_limit": 0}}),
+        (["sweep", "grid", "controller.coarse"], [{"kp": 1}]),
+        (["sweep", "grid", "command.sequence.cycles"], [1, 2]),
+        (["sweep", "grid", "controller.coarse.encoder"], {"linspace": [0, 1, 2]}),
+        (["sweep", "cases", "a"], {"initial": {"mode": "slide"}}),
+    ]
+    for path, value in bad:
+        manifest = changed(extended, path, value)
+        if validator.is_valid(manifest):
+            sys.exit(f"{'.'.join(path)}: {value} is accepted by the schema")
+        if not program_refuses(manifest):
+            sys.exit(f"{'.'.join(path)}: {value} is accepted by the program")
+    good = [
+        (["command"], {"sequence": sequence}),
+        (["command"], {"sequence": sequence | {"cycles": 3, "approach": "negative", "overrun": {"integers": [1, 9]}}}),
+        (["command"], targets),
+        (["sweep", "grid", "encoder.fine_errors.noise"], {"linspace": [0, 1, 3]}),
+        (["sweep", "grid", "command.sequence.targets.0"], [-4000, {"integers": [-3900, -3800]}]),
+        (["sweep", "cases", "b"], {"controller.coarse.encoder": "fine", "initial.history.torque": 0.1}),
+        (["initial", "history", "reversals"], {"integers": [1, 1000]}),
+        (["controller", "coarse", "coarse_beyond"], {"integers": [100, 200]}),
+    ]
+    for path, value in good:
+        manifest = changed(extended, path, value)
+        errors = [e.message for e in validator.iter_errors(manifest)]
+        if errors:
+            sys.exit(f"{'.'.join(path)}: {value} is refused by the schema: {errors}")
+        if program_refuses(manifest):
+            sys.exit(f"{'.'.join(path)}: {value} is refused by the program: {program_refuses(manifest)}")
+    torque = {k: v for k, v in extended.items() if k in ("zerocount", "name", "seed", "trials", "friction", "amplifier")}
+    torque["command"] = {"torque": {"levels": [0.1, {"uniform": [-0.2, -0.1]}], "rate": 0.2, "through": "exact"}, "hold": 0.5}
+    torque["sweep"] = {"grid": {"command.torque.levels.0": {"linspace": [0.1, 0.2, 3]}, "command.torque.through": ["exact", "dac"]}}
+    for manifest in (extended, torque):
+        errors = [e.message for e in validator.iter_errors(manifest)]
+        if errors or program_refuses(manifest):
+            sys.exit(f"a good manifest is refused: {errors} {program_refuses(manifest)}")
+    return len(bad)
 
 
 def main():
@@ -86,6 +175,8 @@ def main():
     for path, value in bad:
         if validator.is_valid(changed(good, path, value)):
             sys.exit(f"{'.'.join(path)}: {value} is accepted")
+        if not program_refuses(changed(good, path, value)):
+            sys.exit(f"{'.'.join(path)}: {value} is accepted by the program")
     for key in ("zerocount", "name", "seed", "trials", "command"):
         short = copy.deepcopy(good)
         del short[key]
@@ -102,7 +193,9 @@ def main():
         errors = [e.message for e in validator.iter_errors(changed(good, path, value))]
         if errors:
             sys.exit(f"{'.'.join(path)}: {value} is refused: {errors}")
-    print(f"{len(texts)} manifests accepted, {len(bad) + 5} refused")
+    extended = yaml.load(subprocess.check_output([sys.argv[1], "extended_manifest"], text=True), Loader)
+    refused = len(bad) + 5 + judge_extended(validator, extended)
+    print(f"{len(texts) + 2} manifests accepted, {refused} refused")
 
 
 main()

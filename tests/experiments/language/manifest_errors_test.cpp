@@ -44,14 +44,15 @@ INSTANTIATE_TEST_SUITE_P(
              "m.yaml:6:9: plant.inertai: unknown key, nearest known: inertia; expected one of inertia, "
              "presliding_damping, sliding_damping"},
         Case{"friction: {kp: 1}",
-             "m.yaml:6:12: friction.kp: unknown key, nearest known: controller.kp; expected one of k1, k2, "
+             "m.yaml:6:12: friction.kp: unknown key, nearest known: controller.kp; expected one of model, "
+             "k1, k2, "
              "beta, "
              "alpha, lambda, n, breakaway, coulomb_ratio, stribeck_velocity"},
         Case{"frictoin: {k1: 1}",
              "m.yaml:6:1: frictoin: unknown key, nearest known: friction; expected one of zerocount, name, "
              "description, seed, trials, design, independent_points, retain, observed, sweep, plant, "
              "friction, "
-             "encoder, dac, controller, command, initial, verdict"},
+             "encoder, dac, amplifier, controller, command, initial, verdict"},
         Case{"friction: {k1: {unifrom: [1, 2]}}",
              "m.yaml:6:17: friction.k1.unifrom: unknown distribution, nearest known: uniform; expected a map "
              "with one "
@@ -305,15 +306,17 @@ TEST(ManifestErrors, EveryRequiredKeyIsMissed) {
             "m.yaml:1:1: seed: the key is missing; expected a whole number\n"
             "m.yaml:1:1: trials: the key is missing; expected the number of trials at each design point\n"
             "m.yaml:1:1: command: the key is missing; expected command: {targets: [..]}");
-  EXPECT_EQ(failure_of("zerocount: 1\nname: x\nseed: 1\ntrials: 1\ncommand: {hold: 1}\n"),
-            "m.yaml:5:10: command.targets: the key is missing; expected a list of targets");
+  EXPECT_EQ(
+      failure_of("zerocount: 1\nname: x\nseed: 1\ntrials: 1\ncommand: {hold: 1}\n"),
+      "m.yaml:5:10: command: it does not say what the moves go to; expected exactly one of targets, torque, "
+      "sequence");
 }
 
 TEST(ManifestErrors, AMergeKeyIsAKeyLikeAnyOther) {
   EXPECT_EQ(failure_of(minimal_manifest("<<: {name: x}")),
             "m.yaml:6:1: <<: unknown key, nearest known: dac; expected one of zerocount, name, description, "
             "seed, trials, design, independent_points, retain, observed, sweep, plant, friction, encoder, "
-            "dac, controller, command, initial, verdict");
+            "dac, amplifier, controller, command, initial, verdict");
 }
 
 TEST(ManifestErrors, ANewerManifestSaysSo) {
@@ -366,7 +369,7 @@ TEST(ManifestErrors, AllErrorsAreToldInTheOrderOfTheFile) {
       "m.yaml:9:1: sead: unknown key, nearest known: seed; expected one of zerocount, name, description, "
       "seed, "
       "trials, design, independent_points, retain, observed, sweep, plant, friction, encoder, dac, "
-      "controller, "
+      "amplifier, controller, "
       "command, initial, verdict\n"
       "m.yaml:10:32: sweep.grid.controller.ki.0: '-1' is out of range; expected a number at least 0 and at "
       "most 1000000");

@@ -22,7 +22,8 @@ std::vector<Table> all_tables() {
           trial_table(study.input_columns),
           outcome_table(),
           jerk_table(),
-          trace_table(),
+          trace_table({true, true, true}),
+          statistic_table(level_group(), {{"torque", "N m", "torque", {}}}),
           profile_table("friction.k1", "N m/rad")};
 }
 
@@ -31,13 +32,31 @@ TEST(Layout, HasOneColumnPerMeasureOfAMove) {
       names(outcome_table().columns),
       (std::vector<std::string>{"outcome", "arrived", "arrival", "settling_time", "stable", "broke_away",
                                 "saturated", "overshoot", "holding_torque", "peak_torque", "creep",
+                                "final_position", "final_error", "travel_time", "phase_changes",
+                                "encoder_disagreement", "reversal_depth", "jerk_count", "jerk_agreement"}));
+}
+
+TEST(Layout, OfVersion1HasTheFirstMeasures) {
+  EXPECT_EQ(
+      names(outcome_table(1).columns),
+      (std::vector<std::string>{"outcome", "arrived", "arrival", "settling_time", "stable", "broke_away",
+                                "saturated", "overshoot", "holding_torque", "peak_torque", "creep",
                                 "final_position", "reversal_depth", "jerk_count", "jerk_agreement"}));
 }
 
 TEST(Layout, TracesHaveTheColumnsOfTheTraceCommandAfterTheTrial) {
-  EXPECT_EQ(names(trace_table().columns),
-            (std::vector<std::string>{"trial", "k", "t", "target", "count", "coarse_count", "error", "code",
-                                      "torque", "theta", "omega", "xp", "xh", "depth", "mode"}));
+  const std::vector<std::string> always{"trial",        "k",     "t",    "target", "count",
+                                        "coarse_count", "error", "code", "torque", "theta",
+                                        "omega",        "xp",    "xh",   "depth",  "mode"};
+  EXPECT_EQ(names(trace_table({}).columns), always);
+  for (unsigned which = 0; which < 8; ++which) {
+    const TraceExtras extras{(which & 1U) != 0, (which & 2U) != 0, (which & 4U) != 0};
+    std::vector<std::string> expected = always;
+    if (extras.reference) expected.emplace_back("reference");
+    if (extras.phase) expected.emplace_back("phase");
+    if (extras.drive_torque) expected.emplace_back("drive_torque");
+    EXPECT_EQ(names(trace_table(extras).columns), expected);
+  }
 }
 
 TEST(Layout, JerksHaveTheColumnsOfTheFormat) {
@@ -76,7 +95,7 @@ TEST(Layout, EnumerationsNameEveryValueAndFlagsAreNoOrYes) {
       }
     }
   }
-  EXPECT_EQ(outcome_fields()[0].column.flags.size(), 4U);
+  EXPECT_EQ(outcome_fields()[0].column.flags.size(), 5U);
   EXPECT_EQ(outcome_fields()[0].column.flags[2].word, "oscillating");
 }
 
@@ -94,10 +113,10 @@ TEST(Fields, ScatterIsTheReverseOfGather) {
   }
   expect_equal_records(outcome_fields(), moves, moves_back);
   std::vector<TraceRecord> records_back(records.size());
-  for (const RecordField<TraceRecord>& field : trace_fields()) {
+  for (const RecordField<TraceRecord>& field : trace_fields(study.trace_extras)) {
     scatter(field, gather(field, std::span<const TraceRecord>(records)), std::span(records_back));
   }
-  expect_equal_records(trace_fields(), records, records_back);
+  expect_equal_records(trace_fields(study.trace_extras), records, records_back);
 }
 
 }  // namespace

@@ -51,10 +51,10 @@ TEST_F(DamagedFile, OfAnotherFormatIsSaidToBe) {
 }
 
 TEST_F(DamagedFile, OfANewerVersionIsSaidToBe) {
-  replace_attribute(copy("newer.h5"), "format_version", 2);
-  expect_bad(directory / "newer.h5", "newer.h5: its format version is 2, newer than the 1");
+  replace_attribute(copy("newer.h5"), "format_version", 3);
+  expect_bad(directory / "newer.h5", "newer.h5: its format version is 3, newer than the 2");
   replace_attribute(copy("older.h5"), "format_version", 0);
-  expect_bad(directory / "older.h5", "its format version is 0; expected 1 to 1");
+  expect_bad(directory / "older.h5", "its format version is 0; expected 1 to 2");
 }
 
 TEST_F(DamagedFile, ThatWasNeverFinishedIsSaidToBe) {
@@ -90,8 +90,9 @@ TEST_F(DamagedFile, ThatAnotherProgramChangedIsRefused) {
 
 TEST_F(DamagedFile, WithOneFlippedBitOfAColumnFailsItsChecksums) {
   const std::string bytes = read_bytes(original);
-  for (const char* column : {"/outcome/settling_time", "/trial/input/friction.k1", "/jerk/onset",
-                             "/point/controller.ki", "/profile/friction.k1/value", "/trace/theta"}) {
+  for (const char* column :
+       {"/outcome/settling_time", "/trial/input/friction.k1", "/jerk/onset", "/point/controller.ki",
+        "/level/torque_max", "/profile/friction.k1/value", "/trace/theta"}) {
     const fs::path path = directory / "flipped.h5";
     std::string damaged = bytes;
     damaged[chunk_address(original, column) + 5] ^= 4;

@@ -50,7 +50,7 @@ TEST_F(Export, WritesEveryTable) {
   std::vector<std::string> names;
   for (const fs::path& path : written) names.push_back(path.filename());
   EXPECT_EQ(names, (std::vector<std::string>{"points.csv", "trials.csv", "outcomes.csv", "jerks.csv",
-                                             "profiles.csv", "trace.csv"}));
+                                             "profiles.csv", "trace.csv", "levels.csv"}));
   for (const fs::path& path : written) EXPECT_TRUE(fs::exists(path));
 }
 
@@ -84,7 +84,7 @@ TEST_F(Export, OutcomesHaveOneRowPerMoveAndWordsForVerdicts) {
   const auto rows = read_table(out / "outcomes.csv");
   ASSERT_EQ(rows.size(), 241U);
   const std::vector<MoveOutcome> outcomes = file.outcomes(file.rows());
-  const std::vector<std::string> words{"zero_count", "one_count", "oscillating", "nonfinite"};
+  const std::vector<std::string> words{"zero_count", "one_count", "oscillating", "nonfinite", "open_loop"};
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     EXPECT_EQ(rows[i + 1][0], std::to_string(i / 2));
     EXPECT_EQ(rows[i + 1][1], std::to_string(i % 2));
@@ -104,9 +104,23 @@ TEST_F(Export, JerksProfilesAndTraceAreWhole) {
   EXPECT_EQ(profiles[1][0], "friction.k1");
   const auto trace = read_table(out / "trace.csv");
   ASSERT_EQ(std::ssize(trace), file.trace_count() + 1);
-  EXPECT_EQ(trace[0].back(), "mode");
-  EXPECT_EQ(trace[6].back(), "stick");
-  EXPECT_EQ(trace[7].back(), "slide");
+  const std::vector<std::string> last{"mode", "reference", "phase", "drive_torque"};
+  EXPECT_EQ((std::vector<std::string>(trace[0].end() - 4, trace[0].end())), last);
+  EXPECT_EQ(trace[6][14], "stick");
+  EXPECT_EQ(trace[7][14], "slide");
+  EXPECT_EQ(trace[7][16], "coarse");
+  EXPECT_EQ(trace[8][16], "fine");
+}
+
+TEST_F(Export, TablesOfStatisticsHaveOneRowPerPointAndIndex) {
+  const auto levels = read_table(out / "levels.csv");
+  ASSERT_EQ(levels.size(), 7U);
+  EXPECT_EQ(levels[0], (std::vector<std::string>{"point", "move", "torque_max"}));
+  const std::vector<double> expected = sample_table(file).columns[0].values;
+  for (std::size_t row = 0; row < 6; ++row) {
+    EXPECT_EQ(levels[row + 1], (std::vector<std::string>{std::to_string(row / 2), std::to_string(row % 2),
+                                                         number_text(expected[row])}));
+  }
 }
 
 TEST_F(Export, NeverOverwrites) {

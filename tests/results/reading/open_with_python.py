@@ -16,6 +16,7 @@ trials, moves, jerks, records = map(int, sys.argv[2:6])
 
 sizes = {
     "/point": {"point": None},
+    "/level": {"point": None, "move": moves},
     "/trial": {"trial": trials},
     "/trial/input": {"trial": trials},
     "/outcome": {"trial": trials, "move": moves},

@@ -61,7 +61,7 @@ TEST(Merge, KeepsEverythingOfEveryTrial) {
     jerk += std::ssize(jerks);
     std::vector<TraceRecord> trace;
     for (const SampleRecord& each : expected.trace) trace.push_back({each, row});
-    expect_equal_records(trace_fields(), file.trace_at(record, std::ssize(trace)), trace);
+    expect_equal_records(trace_fields(study.trace_extras), file.trace_at(record, std::ssize(trace)), trace);
     record += std::ssize(trace);
   }
   EXPECT_EQ(jerk, file.jerk_count());
@@ -83,9 +83,65 @@ TEST(Merge, KeepsWhatIsKnownOfThePoints) {
   EXPECT_EQ(axes[1].texts, study.axes[1].texts);
   ASSERT_EQ(file.statistics().size(), 2U);
   EXPECT_EQ(file.statistics()[0].values, std::vector<double>(3, 40.0));
-  EXPECT_EQ(file.statistics()[1].values, sample_statistics(file)[1].values);
+  EXPECT_EQ(file.statistics()[1].values, sample_statistics(file).points[1].values);
   ASSERT_EQ(file.input_columns().size(), 2U);
   EXPECT_EQ(file.input_columns()[0].unit, "N m/rad");
+}
+
+TEST(Merge, KeepsTablesOfStatisticsAndFurtherGroups) {
+  const TemporaryFolder directory;
+  const Study study = sample_study(3, 40, 2);
+  const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 50);
+  const StatisticsOfPoints statistics = [](const StudyFile& file) {
+    StoredStatistics stored = sample_statistics(file);
+    stored.groups = [](hdf5::File& output) { output.create_group("further").set_integer("answer", 42); };
+    return stored;
+  };
+  merge_shards(shards, study, directory / "all.h5", all_rows(study), statistics);
+  const StudyFile file(directory / "all.h5");
+  const std::vector<StatisticTable> tables = file.statistic_tables();
+  ASSERT_EQ(tables.size(), 1U);
+  EXPECT_EQ(tables[0].group, &level_group());
+  EXPECT_EQ(tables[0].width, 2);
+  ASSERT_EQ(tables[0].columns.size(), 1U);
+  const PointColumn expected = sample_table(file).columns[0];
+  EXPECT_EQ(tables[0].columns[0].name, expected.name);
+  EXPECT_EQ(tables[0].columns[0].unit, expected.unit);
+  EXPECT_EQ(tables[0].columns[0].values, expected.values);
+  EXPECT_EQ(file.root().open_group("further").integer("answer"), 42);
+}
+
+TEST(Merge, RefusesATableOfStatisticsThatIsNotOfItsPoints) {
+  const TemporaryFolder directory;
+  const Study study = sample_study(3, 40, 2);
+  const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 50);
+  const StatisticsOfPoints statistics = [](const StudyFile& file) {
+    StoredStatistics stored = sample_statistics(file);
+    stored.tables[0].columns[0].values.pop_back();
+    return stored;
+  };
+  EXPECT_THROW(merge_shards(shards, study, directory / "all.h5", all_rows(study), statistics),
+               std::invalid_argument);
+}
+
+TEST(Merge, KeepsOnlyTheColumnsOfSampleRecordsThatTheStudyHas) {
+  const TemporaryFolder directory;
+  Study study = sample_study(1, 5, 1);
+  study.trace_extras = {false, true, false};
+  const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 2);
+  const StudyFile file(merged(directory / "all.h5", study, shards));
+  EXPECT_FALSE(file.trace_extras().reference);
+  EXPECT_TRUE(file.trace_extras().phase);
+  EXPECT_FALSE(file.trace_extras().drive_torque);
+  const std::vector<SampleRecord> written = sample_result(study, 0).trace;
+  const std::vector<TraceRecord> read = file.trace_at(0, file.trace_count());
+  ASSERT_EQ(read.size(), written.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    EXPECT_EQ(read[i].theta, written[i].theta);
+    EXPECT_EQ(read[i].phase, written[i].phase);
+    EXPECT_EQ(read[i].reference, written[i].target);
+    EXPECT_EQ(read[i].drive_torque, written[i].torque);
+  }
 }
 
 TEST(Merge, TabulatesTheProfiles) {
@@ -230,13 +286,22 @@ TEST(Merge, RefusesShardsOfAnotherStudyOrFormat) {
   other.study_sha256 = "another";
   const std::vector<fs::path> inputs{write_sample_shard(directory.path(), study, {0, 120}).path};
   expect_failure(ExitCode::bad_data, "of another study", [&] { merge_inputs(inputs, other); });
-  replace_attribute(inputs[0], "format_version", 2);
-  expect_failure(ExitCode::bad_data, "newer than the 1", [&] { merge_inputs(inputs, study); });
+  replace_attribute(inputs[0], "format_version", 3);
+  expect_failure(ExitCode::bad_data, "newer than the 2", [&] { merge_inputs(inputs, study); });
   const std::vector<fs::path> nothing{directory / "nothing.h5"};
   expect_failure(ExitCode::bad_input, "nothing.h5: no such file", [&] { merge_inputs(nothing, study); });
   fs::create_directory(directory / "empty");
   const std::vector<fs::path> empty{directory / "empty"};
   expect_failure(ExitCode::bad_input, "no shards", [&] { merge_inputs(empty, study); });
+}
+
+TEST(Merge, RefusesShardsOfAnEarlierFormat) {
+  const TemporaryFolder directory;
+  const Study study = sample_study();
+  const std::vector<fs::path> inputs{write_sample_shard(directory.path(), study, {0, 120}).path};
+  replace_attribute(inputs[0], "format_version", 1);
+  expect_failure(ExitCode::bad_data, "its format version is 1: such files are read, but not joined",
+                 [&] { merge_inputs(inputs, study); });
 }
 
 TEST(Merge, RefusesTrialsOfAnotherBuild) {
@@ -279,7 +344,7 @@ TEST(Merge, LeavesNothingWhereTheStatisticsFail) {
   const Study study = sample_study();
   const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 40);
   const fs::path output = directory / "all.h5";
-  const StatisticsOfPoints failing = [](const StudyFile&) -> std::vector<PointColumn> {
+  const StatisticsOfPoints failing = [](const StudyFile&) -> StoredStatistics {
     throw std::runtime_error("no");
   };
   EXPECT_THROW(merge_shards(shards, study, output, all_rows(study), failing), std::runtime_error);

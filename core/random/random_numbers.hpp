@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string_view>
 
 namespace zerocount {
 
@@ -10,12 +9,10 @@ namespace zerocount {
 /// easy as 1, 2, 3", SC11), so that every number of a study is a function of its own coordinates and of
 /// nothing else.
 ///
-/// Key. The first 8 bytes of SHA-256 of the text "<seed>:<name>" (the seed in decimal, the name the
-/// parameter's dotted path, e.g. "20020721:friction.k1"), read as two little-endian 32-bit words: bytes 0–3
-/// are key word 0, bytes 4–7 key word 1. Counter. Four 32-bit words: {index mod 2³², index div 2³², draw,
-/// stream}. The index is the trial's; `draw` is a number of Draw below; the stream is 0 where all points
-/// share their draws, and point + 1 where they are independent. Result. The first two output words, w = word
-/// 0 + 2³²·word 1.
+/// Key. Two 32-bit words, made from the study's seed and the name of what is drawn. Counter. Four 32-bit
+/// words: {index mod 2³², index div 2³², draw, stream}. The index is the trial's; `draw` is a number of Draw
+/// below; the stream is 0 where all points share their draws, and point + 1 where they are independent.
+/// Result. The first two output words, w = word 0 + 2³²·word 1.
 using RandomKey = std::array<std::uint32_t, 2>;
 
 /// What a number is drawn for: the third counter word.
@@ -34,11 +31,17 @@ struct RandomStream {
   std::uint32_t stream{0};
 };
 
-RandomKey random_key(std::uint64_t seed, std::string_view name);
-
 /// 64 random bits w.
 std::uint64_t random_bits(const RandomStream& stream, std::uint64_t index, std::uint32_t draw);
 std::uint64_t random_bits(const RandomStream& stream, std::uint64_t index, Draw draw);
+
+/// 64 random bits w of a number that is drawn while trial number `trial` runs: number `k`, mostly that of the
+/// sample. The key belongs to these numbers alone, so that the counter needs no Draw:
+///
+///   counter words {trial mod 2³², trial div 2³² + 2²⁴·(k div 2³²), k mod 2³², stream}.
+///
+/// @param trial less than 2⁵⁶, @param k less than 2⁴⁰: then no two numbers of a key share a counter.
+std::uint64_t random_bits_at(const RandomStream& stream, std::uint64_t trial, std::uint64_t k);
 
 /// The bits as a uniform number in the open interval (0, 1): (⌊w/2¹²⌋ + ½)·2⁻⁵². Exact, so never 0 or 1, and
 /// symmetric about ½.

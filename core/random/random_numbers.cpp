@@ -1,22 +1,8 @@
-#include "experiments/designs/random.hpp"
+#include "core/random/random_numbers.hpp"
 
 #include <Random123/philox.h>
-#include <fmt/format.h>
-
-#include "experiments/designs/sha256.hpp"
 
 namespace zerocount {
-
-RandomKey random_key(std::uint64_t seed, std::string_view name) {
-  const Sha256 digest = sha256(fmt::format("{}:{}", seed, name));
-  RandomKey key{};
-  for (std::size_t word = 0; word < key.size(); ++word) {
-    for (std::size_t byte = 0; byte < 4; ++byte) {
-      key[word] |= static_cast<std::uint32_t>(digest[4 * word + byte]) << (8 * byte);
-    }
-  }
-  return key;
-}
 
 std::uint64_t random_bits(const RandomStream& stream, std::uint64_t index, std::uint32_t draw) {
   const r123::Philox4x32::key_type key{{stream.key[0], stream.key[1]}};
@@ -28,6 +14,10 @@ std::uint64_t random_bits(const RandomStream& stream, std::uint64_t index, std::
 
 std::uint64_t random_bits(const RandomStream& stream, std::uint64_t index, Draw draw) {
   return random_bits(stream, index, static_cast<std::uint32_t>(draw));
+}
+
+std::uint64_t random_bits_at(const RandomStream& stream, std::uint64_t trial, std::uint64_t k) {
+  return random_bits(stream, trial + ((k >> 32) << 56), static_cast<std::uint32_t>(k));
 }
 
 double open_uniform(std::uint64_t bits) {

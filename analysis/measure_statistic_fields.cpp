@@ -1,0 +1,95 @@
+#include <cstdint>
+#include <vector>
+
+#include "analysis/proportion.hpp"
+#include "analysis/statistic_fields.hpp"
+
+namespace zerocount {
+namespace {
+
+using S = const PointSummary&;
+
+double number(std::int64_t count) {
+  return static_cast<double>(count);
+}
+
+const std::vector<StatisticField>& fields() {
+  static const std::vector<StatisticField> list{
+      {"overshoot", "n", "1", "moves with a target, of which the overshoots are", true,
+       [](S s) { return number(s.overshoot.n); }},
+      {"overshoot", "mean", "count", "mean overshoot of the moves", false,
+       [](S s) { return s.overshoot.mean; }},
+      {"overshoot", "max", "count", "largest overshoot of the moves", false,
+       [](S s) { return s.overshoot.max; }},
+      {"holding_torque", "n", "1", "moves with a finite holding torque, of which these are", true,
+       [](S s) { return number(s.holding_torque.n); }},
+      {"holding_torque", "mean", "N m", "mean holding torque of the moves", false,
+       [](S s) { return s.holding_torque.mean; }},
+      {"holding_torque", "min", "N m", "smallest holding torque of the moves", false,
+       [](S s) { return s.holding_torque.min; }},
+      {"holding_torque", "max", "N m", "largest holding torque of the moves", false,
+       [](S s) { return s.holding_torque.max; }},
+      {"peak_torque", "n", "1", "moves with a finite peak torque, of which these are", true,
+       [](S s) { return number(s.peak_torque.n); }},
+      {"peak_torque", "mean", "N m", "mean peak torque of the moves", false,
+       [](S s) { return s.peak_torque.mean; }},
+      {"peak_torque", "max", "N m", "largest peak torque of the moves", false,
+       [](S s) { return s.peak_torque.max; }},
+      {"creep", "n", "1", "moves with a finite creep, of which these are", true,
+       [](S s) { return number(s.creep.n); }},
+      {"creep", "mean", "rad", "mean creep of the moves", false, [](S s) { return s.creep.mean; }},
+      {"creep", "min", "rad", "smallest creep of the moves", false, [](S s) { return s.creep.min; }},
+      {"creep", "max", "rad", "largest creep of the moves", false, [](S s) { return s.creep.max; }},
+      {"", "reversal_depth_max", "1", "largest number of reversal points on the stack", true,
+       [](S s) { return number(s.reversal_depth); }},
+      {"final_error", "n", "1", "moves whose motion was not lost, of which the final errors are", true,
+       [](S s) { return number(s.final_error.n); }},
+      {"final_error", "mean", "count", "mean absolute error at the last sample of the moves", false,
+       [](S s) { return s.final_error.mean; }},
+      {"final_error", "median", "count", "median of the absolute error at the last sample", false,
+       [](S s) { return s.final_error.median.value; }},
+      {"final_error", "median_low", "count",
+       "lower 95 % order-statistic bound of the median of the final error", false,
+       [](S s) { return s.final_error.median.low; }},
+      {"final_error", "median_high", "count",
+       "upper 95 % order-statistic bound of the median of the final error", false,
+       [](S s) { return s.final_error.median.high; }},
+      {"final_error", "p95", "count", "95 % quantile of the absolute error at the last sample", false,
+       [](S s) { return s.final_error.p95.value; }},
+      {"final_error", "p95_low", "count",
+       "lower 95 % order-statistic bound of the 95 % quantile of the final error", false,
+       [](S s) { return s.final_error.p95.low; }},
+      {"final_error", "p95_high", "count",
+       "upper 95 % order-statistic bound of the 95 % quantile of the final error", false,
+       [](S s) { return s.final_error.p95.high; }},
+      {"final_error", "max", "count", "largest absolute error at the last sample", false,
+       [](S s) { return s.final_error.max; }},
+      {"travel_time", "mean", "s",
+       "mean time until the reference or the torque is where it is held, of the moves", false,
+       [](S s) { return s.travel_time.mean; }},
+      {"travel_time", "max", "s", "longest time until the reference or the torque is where it is held", false,
+       [](S s) { return s.travel_time.max; }},
+      {"phase_changes", "trials", "1", "trials in which the control changed its phase", true,
+       [](S s) { return number(s.phase_changes.trials); }},
+      {"phase_changes", "mean", "1", "mean number of phase changes per trial", false,
+       [](S s) { return rate(s.phase_changes.total, s.trials); }},
+      {"phase_changes", "max", "1", "largest number of phase changes of a trial", true,
+       [](S s) { return number(s.phase_changes.max); }},
+      {"encoder_disagreement", "trials", "1",
+       "trials with samples at which the fine count made the coarse one impossible", true,
+       [](S s) { return number(s.encoder_disagreement.trials); }},
+      {"encoder_disagreement", "mean", "1", "mean number of such samples per trial", false,
+       [](S s) { return rate(s.encoder_disagreement.total, s.trials); }},
+      {"encoder_disagreement", "max", "1", "largest number of such samples of a trial", true,
+       [](S s) { return number(s.encoder_disagreement.max); }},
+  };
+  return list;
+}
+
+}  // namespace
+
+std::span<const StatisticField> measure_statistic_fields() {
+  return fields();
+}
+
+}  // namespace zerocount

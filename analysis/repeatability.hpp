@@ -1,0 +1,81 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+/// Accuracy and repeatability of positioning after ISO 230-2:2014, "Test code for machine tools – Part 2:
+/// Determination of accuracy and repeatability of positioning of numerically controlled axes".
+///
+/// Each of m target positions i is approached n times from either side: in positive direction (↑) and in
+/// negative direction (↓). The deviation x_ij is the position reached in cycle j less the target position.
+/// With the clauses of the standard (2.10 to 2.24 in the edition of 2006, in the same order):
+///
+///     3.13  x̄i↑ = (1/n)·Σj x_ij↑                              mean unidirectional deviation at a position
+///     3.14  x̄i  = (x̄i↑ + x̄i↓)/2                               mean bidirectional deviation at a position
+///     3.15  Bi  = x̄i↑ − x̄i↓                                   reversal value at a position
+///     3.16  B   = max|Bi|                                     reversal value of the axis
+///     3.17  B̄   = (1/m)·Σi Bi                                 mean reversal value of the axis
+///     3.18  si↑ = √(Σj (x_ij↑ − x̄i↑)²/(n − 1))                estimator of the standard uncertainty
+///     3.19  Ri↑ = 4·si↑                                       unidirectional repeatability at a position
+///     3.20  Ri  = max(2·si↑ + 2·si↓ + |Bi|, Ri↑, Ri↓)         bidirectional repeatability at a position
+///     3.21  R↑  = max Ri↑                                     unidirectional repeatability of the axis
+///     3.22  R   = max Ri                                      bidirectional repeatability of the axis
+///     3.23  E↑  = max x̄i↑ − min x̄i↑                           unidirectional systematic deviation
+///     3.24  E   = max(x̄i↑, x̄i↓) − min(x̄i↑, x̄i↓)               bidirectional systematic deviation
+///     3.25  M   = max x̄i − min x̄i                             mean bidirectional deviation of the axis
+///     3.26  A↑  = max(x̄i↑ + 2·si↑) − min(x̄i↑ − 2·si↑)         unidirectional accuracy
+///     3.27  A   = max(x̄i↑ + 2·si↑, x̄i↓ + 2·si↓) − min(x̄i↑ − 2·si↑, x̄i↓ − 2·si↓)  bidirectional accuracy
+///
+/// max and min are over all targets; what has ↑ is defined alike with ↓. Numbers 3.13 to 3.17 and 3.23 to
+/// 3.25 are by their order between the others, which clause 6.2 cites. The standard's test has n = 5. With n
+/// = 1 (clause 6.2, for long axes) the values that need an si do not exist, the others do; if there are
+/// approaches from one side only, the unidirectional values of that side are all there is.
+namespace zerocount {
+
+/// The deviations at one target, any unit.
+struct TargetDeviations {
+  std::vector<double> positive;  ///< [cycle], x_ij↑; empty where it is not approached so
+  std::vector<double> negative;  ///< [cycle], x_ij↓
+};
+
+/// What the standard says of one target, in the unit of the deviations; NaN where it is not defined.
+struct TargetRepeatability {
+  double mean_positive{std::numeric_limits<double>::quiet_NaN()};           ///< x̄i↑
+  double mean_negative{std::numeric_limits<double>::quiet_NaN()};           ///< x̄i↓
+  double mean{std::numeric_limits<double>::quiet_NaN()};                    ///< x̄i
+  double reversal{std::numeric_limits<double>::quiet_NaN()};                ///< Bi
+  double uncertainty_positive{std::numeric_limits<double>::quiet_NaN()};    ///< si↑
+  double uncertainty_negative{std::numeric_limits<double>::quiet_NaN()};    ///< si↓
+  double repeatability_positive{std::numeric_limits<double>::quiet_NaN()};  ///< Ri↑
+  double repeatability_negative{std::numeric_limits<double>::quiet_NaN()};  ///< Ri↓
+  double repeatability{std::numeric_limits<double>::quiet_NaN()};           ///< Ri
+};
+
+/// What the standard says of the axis, in the unit of the deviations; NaN where it is not defined, which is
+/// so where it is not for one of the targets.
+struct AxisRepeatability {
+  double reversal{std::numeric_limits<double>::quiet_NaN()};                ///< B
+  double mean_reversal{std::numeric_limits<double>::quiet_NaN()};           ///< B̄, signed
+  double repeatability_positive{std::numeric_limits<double>::quiet_NaN()};  ///< R↑
+  double repeatability_negative{std::numeric_limits<double>::quiet_NaN()};  ///< R↓
+  double repeatability{std::numeric_limits<double>::quiet_NaN()};           ///< R
+  double systematic_positive{std::numeric_limits<double>::quiet_NaN()};     ///< E↑
+  double systematic_negative{std::numeric_limits<double>::quiet_NaN()};     ///< E↓
+  double systematic{std::numeric_limits<double>::quiet_NaN()};              ///< E
+  double mean_bidirectional{std::numeric_limits<double>::quiet_NaN()};      ///< M
+  double accuracy_positive{std::numeric_limits<double>::quiet_NaN()};       ///< A↑
+  double accuracy_negative{std::numeric_limits<double>::quiet_NaN()};       ///< A↓
+  double accuracy{std::numeric_limits<double>::quiet_NaN()};                ///< A
+};
+
+struct Repeatability {
+  AxisRepeatability axis;
+  std::vector<TargetRepeatability> targets;  ///< [target]
+};
+
+/// The values of one run of the test, by the formulas above. Equal deviations at a target that are whole
+/// numbers, such as counts, give an si of exactly 0.
+Repeatability repeatability_of(std::span<const TargetDeviations> targets);
+
+}  // namespace zerocount

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace zerocount {
+
+/// One number of a summary as it is reported. Lists of them are the one source of the names in the JSON and
+/// CSV summary and in the results file.
+template <class Subject>
+struct ReportField {
+  std::string_view group;           ///< JSON object that holds it, such as "settling_time"; empty at the top
+  std::string_view name;            ///< within its group
+  std::string_view unit;            ///< "1" where dimensionless
+  std::string_view long_name;       ///< what it is, with the denominator of a share or mean
+  bool whole{false};                ///< a whole number
+  double (*value)(const Subject&);  ///< in `unit`; NaN where not defined
+};
+
+/// "group_name", or "name" at the top: the field's name where there are no groups.
+template <class Subject>
+std::string flat_name(const ReportField<Subject>& field) {
+  if (field.group.empty()) return std::string(field.name);
+  return std::string(field.group) + "_" + std::string(field.name);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include "analysis/summary_parts.hpp"
+
+namespace zerocount {
+namespace {
+
+std::string interval_in_percent(const ConfidenceInterval& interval) {
+  return fmt::format("[{:.1f}, {:.1f}]", 100.0 * interval.low, 100.0 * interval.high);
+}
+
+/// A column with a cell for each point.
+template <typename Cell>
+TextColumn by_point(const StudySummary& summary, std::string head, Cell cell) {
+  TextColumn column{std::move(head), true, {}};
+  for (const PointSummary& point : summary.points) column.cells.push_back(cell(point));
+  return column;
+}
+
+void add_outcomes(std::vector<TextColumn>& columns, const StudySummary& summary) {
+  using Point = const PointSummary&;
+  columns.push_back(by_point(summary, "trials", [](Point p) { return fmt::format("{}", p.trials); }));
+  columns.push_back(by_point(summary, "stable", [](Point p) { return percentage(p.stable, p.judged); }));
+  columns.push_back(
+      by_point(summary, "zero-count", [](Point p) { return percentage(p.outcomes.zero_count, p.judged); }));
+  columns.push_back(by_point(summary, "95 % bounds",
+                             [](Point p) { return interval_in_percent(p.success_rate.clopper_pearson); }));
+  columns.push_back(
+      by_point(summary, "median (s)", [](Point p) { return short_number(p.settling_time.median.value); }));
+  columns.push_back(
+      by_point(summary, "p95 (s)", [](Point p) { return short_number(p.settling_time.p95.value); }));
+  columns.push_back(
+      by_point(summary, "arrived", [](Point p) { return percentage(p.settling_time.n, p.moves); }));
+  columns.push_back(
+      by_point(summary, "jerks/trial", [](Point p) { return short_number(p.jerk_count.mean); }));
+}
+
+/// What only some studies use.
+void add_features(std::vector<TextColumn>& columns, const StudySummary& summary) {
+  using Point = const PointSummary&;
+  const StudyFeatures& features = summary.features;
+  if (features.travel) {
+    columns.push_back(
+        by_point(summary, "travel (s)", [](Point p) { return short_number(p.travel_time.mean); }));
+  }
+  if (features.final_error) {
+    columns.push_back(
+        by_point(summary, "|e| median", [](Point p) { return short_number(p.final_error.median.value); }));
+    columns.push_back(
+        by_point(summary, "|e| p95", [](Point p) { return short_number(p.final_error.p95.value); }));
+  }
+  if (features.phases) {
+    columns.push_back(by_point(summary, "phase changes",
+                               [](Point p) { return short_number(rate(p.phase_changes.total, p.trials)); }));
+  }
+  if (features.encoder_errors) {
+    columns.push_back(by_point(summary, "disagreeing",
+                               [](Point p) { return percentage(p.encoder_disagreement.trials, p.trials); }));
+  }
+}
+
+void add_predictions(std::vector<TextColumn>& columns, const StudySummary& summary) {
+  TextColumn holds{"(6) holds", true, {}}, exceeded{"(7) exceeded", true, {}};
+  for (const TheoryPrediction& prediction : summary.predictions) {
+    holds.cells.push_back(percentage(prediction.stable, predicted_trials(prediction)));
+    exceeded.cells.push_back(percentage(prediction.unstable, predicted_trials(prediction)));
+  }
+  columns.push_back(std::move(holds));
+  columns.push_back(std::move(exceeded));
+}
+
+}  // namespace
+
+std::vector<TextColumn> loop_columns(const StudySummary& summary) {
+  TextColumn labels{"point", false, {}};
+  for (const std::string& label : summary.labels) labels.cells.push_back(printable(label));
+  std::vector<TextColumn> columns{std::move(labels)};
+  add_outcomes(columns, summary);
+  add_features(columns, summary);
+  if (!summary.predictions.empty()) add_predictions(columns, summary);
+  if (const std::vector<std::string> observed = observations(summary); !observed.empty()) {
+    TextColumn column{"observed", false, {}};
+    for (const std::string& text : observed) column.cells.push_back(printable(text));
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+std::string loop_legend(const StudySummary& summary) {
+  const StudyFeatures& features = summary.features;
+  std::string legend =
+      "stable: share of trials whose moves all arrived and stayed within one count\n"
+      "zero-count: share of trials whose moves all ended at zero error; bounds of it after Clopper and "
+      "Pearson, in %\n"
+      "median, p95: settling time of the moves that arrived; arrived: their share of all moves\n"
+      "jerks/trial: mean over all trials\n";
+  if (features.travel) legend += "travel: mean time that the reference takes to its target\n";
+  if (features.final_error) legend += "|e|: error at the last sample of the moves, in counts\n";
+  if (features.phases) legend += "phase changes: from coarse to fine control or back, mean over all trials\n";
+  if (features.encoder_errors) {
+    legend +=
+        "disagreeing: share of trials in which the coarse count was ever impossible given the fine one\n";
+  }
+  if (!summary.predictions.empty()) {
+    legend +=
+        "(6), (7): share of trials in which the paper's criterion (6) holds, which promises stability before "
+        "sliding, and\n"
+        "in which its criterion (7) is exceeded, which rules it out; by the friction where the trial "
+        "starts\n";
+  }
+  return legend;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "analysis/summary.hpp"
+#include "analysis/text.hpp"
+
+/// Parts of the summary of a study, which summary_table, summary_json and summary_csv put together.
+namespace zerocount {
+
+/// The table of a study with targets, and what its columns mean.
+std::vector<TextColumn> loop_columns(const StudySummary& summary);
+std::string loop_legend(const StudySummary& summary);
+
+/// The table of an open-loop study, a row per point and level, and what its columns mean.
+std::vector<TextColumn> level_columns(const StudySummary& summary);
+std::string level_legend();
+
+/// What was observed on the real rig, [point]; empty where nothing was at any point.
+std::vector<std::string> observations(const StudySummary& summary);
+
+/// The levels of a point: an array of objects with the names of level_fields(), by group.
+nlohmann::ordered_json levels_json(const PointSummary& point);
+
+}  // namespace zerocount

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/loop/encoder.hpp"
+#include "core/loop/parameters.hpp"
+#include "core/loop/phase_switch.hpp"
+#include "core/loop/pid.hpp"
+
+namespace zerocount {
+
+/// Whether the control has two phases: coarse_beyond is below 1e12 counts, which stands for never.
+bool has_coarse_phase(const ControllerParameters& parameters);
+
+/// The control of the count: one PID law, or one for each of two phases (PhaseSwitch), each fed back from its
+/// own encoder. Errors and counts are fine ones; a coarse encoder's count is taken times fine/coarse.
+///
+/// A law that comes into force at sample k goes on from sample k−1 as if it had been in force there with an
+/// integral equal to the torque that was: I := torque in force, and then the sample is one like any other,
+/// with e_{k−1} and count_{k−1} of the law's own encoder. So no part of its torque is left from the time
+/// before but the torque itself, and what it adds to it is ki·(e_k + e_{k−1}) + kp·e_k −
+/// kd·(count_k − count_{k−1}).
+///
+/// The fine phase of a two-phase control has no derivative part (paper, practical issue 5): its kd is taken
+/// as 0.
+class Controller {
+ public:
+  /// @param fine_per_coarse counts of the fine encoder in one of the coarse encoder.
+  /// @param integral I before the first sample, N m, in whichever phase that is.
+  /// @param lowest, highest the DAC's range (N m), to which anti-windup clamps the integral.
+  Controller(const ControllerParameters& parameters, double fine_per_coarse, double integral, double lowest,
+             double highest);
+
+  /// The wanted torque (N m) at this sample.
+  /// @param reference counts of the fine encoder.
+  /// @param torque_in_force the torque decided at the last sample, N m; 0 before the first. A torque of the
+  /// DAC, hence within its range.
+  double update(std::int64_t reference, const EncoderReading& reading, double torque_in_force);
+
+  ControlPhase phase() const { return switch_.phase(); }            ///< of the last sample
+  std::int64_t phase_changes() const { return switch_.changes(); }  ///< so far
+  double integral() const;                                          ///< I of the phase in force, N m
+
+ private:
+  Feedback feedback(EncoderChoice encoder, std::int64_t reference, const EncoderReading& reading) const;
+
+  bool two_phases_;
+  EncoderChoice fine_encoder_;    ///< of the fine phase
+  EncoderChoice coarse_encoder_;  ///< of the coarse phase
+  double fine_per_coarse_;
+  PidController fine_;    ///< of the fine phase
+  PidController coarse_;  ///< of the coarse phase
+  PhaseSwitch switch_;
+};
+
+}  // namespace zerocount

@@ -1,0 +1,34 @@
+#include "core/loop/drive.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/random/variates.hpp"
+
+namespace zerocount {
+
+Drive::Drive(const DacParameters& dac, const AmplifierParameters& amplifier, int delay, double sample_time,
+             const TrialRandomness& randomness)
+    : dac_(dac),
+      converter_errors_(has_errors(dac)),
+      noise_{randomness.dac_noise, randomness.stream},
+      trial_(randomness.trial),
+      delay_(delay),
+      rate_(2.0 * std::numbers::pi * amplifier.bandwidth),
+      left_of_step_(std::exp(-rate_ * sample_time)) {}
+
+double Drive::converted(std::int64_t k, std::int64_t code) const {
+  const double torque = torque_with_errors(dac_, code);
+  if (dac_.noise == 0.0) return torque;
+  return torque + dac_.noise * standard_normal(random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
+}
+
+void Drive::follow(double input) {
+  double lag = (course_.now - course_.settled) * left_of_step_;
+  // A lag that is denormal rounds to itself for ever, and slows all arithmetic with it.
+  if (std::abs(lag) < std::numeric_limits<double>::min()) lag = 0.0;
+  course_ = {course_.settled + lag, input, rate_};
+}
+
+}  // namespace zerocount

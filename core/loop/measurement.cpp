@@ -1,0 +1,98 @@
+#include "core/loop/measurement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+
+#include "core/random/variates.hpp"
+
+namespace zerocount {
+namespace {
+
+/// Whole numbers of a double end here. Only absurd errors of an encoder come so far.
+constexpr double farthest_count = 0x1p52;
+
+bool has_errors(const EncoderErrors& errors) {
+  return errors.eccentricity != 0.0 || errors.interpolation != 0.0 || errors.noise != 0.0 ||
+         errors.missed != 0.0;
+}
+
+}  // namespace
+
+bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReading& reading) {
+  const double ratio = fine.resolution / coarse.resolution;
+  const double from = (static_cast<double>(reading.fine) - fine.phase) * ratio + coarse.phase;
+  const double count = static_cast<double>(reading.coarse);
+  const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * (1.0 + std::abs(count));
+  return count + rounding < from + ratio && from + rounding < count + 1.0;
+}
+
+ImperfectEncoder::ImperfectEncoder(const Encoder& encoder, const EncoderErrors& errors, double position,
+                                   std::uint64_t trial, const RandomStream& noise, const RandomStream& missed)
+    : encoder_(encoder),
+      errors_(errors),
+      position_(position),
+      trial_(trial),
+      noise_(noise),
+      missed_(missed),
+      start_eccentricity_(std::sin(position - errors.eccentricity_angle)),
+      start_count_(std::floor(position / encoder.resolution)) {
+  if (errors.interpolation != 0.0) start_interpolation_ = interpolation_error(encoder.phase);
+}
+
+double ImperfectEncoder::interpolation_error(double x) const {
+  // The remainder is exact, and keeps the sine's argument small.
+  const double periods =
+      std::remainder(start_count_ + x, errors_.interpolation_period) / errors_.interpolation_period;
+  return errors_.interpolation * std::sin(2.0 * std::numbers::pi * periods);
+}
+
+std::int64_t ImperfectEncoder::read(std::int64_t k, double theta) {
+  if (errors_.eccentricity != 0.0) {
+    const double sine = std::sin(position_ + theta - errors_.eccentricity_angle);
+    theta += errors_.eccentricity * (sine - start_eccentricity_);
+  }
+  double x = theta / encoder_.resolution + encoder_.phase;
+  if (errors_.interpolation != 0.0) x += interpolation_error(x) - start_interpolation_;
+  if (errors_.noise != 0.0)
+    x += errors_.noise * standard_normal(random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
+  const auto raw = static_cast<std::int64_t>(std::floor(std::clamp(x, -farthest_count, farthest_count)));
+  if (errors_.missed != 0.0) miss_counts(k, raw);
+  return raw - lost_;
+}
+
+void ImperfectEncoder::miss_counts(std::int64_t k, std::int64_t raw) {
+  const std::int64_t passed = first_ ? 0 : raw - last_raw_;
+  first_ = false;
+  last_raw_ = raw;
+  if (passed == 0) return;
+  const std::int64_t missed = binomial_number(std::abs(passed), errors_.missed,
+                                              random_bits_at(missed_, trial_, static_cast<std::uint64_t>(k)));
+  lost_ += passed > 0 ? missed : -missed;
+}
+
+Measurement::Measurement(const EncoderParameters& encoders, double phase, double position,
+                         const TrialRandomness& randomness)
+    : fine_(make_encoder(encoders.fine, phase)),
+      coarse_(make_encoder(encoders.coarse, phase)),
+      fine_per_coarse_(encoders.fine / encoders.coarse),
+      ideal_(!has_errors(encoders.fine_errors) && !has_errors(encoders.coarse_errors)),
+      imperfect_fine_(fine_, encoders.fine_errors, position, randomness.trial,
+                      {randomness.fine_noise, randomness.stream},
+                      {randomness.fine_missed, randomness.stream}),
+      imperfect_coarse_(coarse_, encoders.coarse_errors, position, randomness.trial,
+                        {randomness.coarse_noise, randomness.stream},
+                        {randomness.coarse_missed, randomness.stream}) {}
+
+EncoderReading Measurement::read_with_errors(std::int64_t k, double theta) {
+  const EncoderReading reading{imperfect_fine_.read(k, theta), imperfect_coarse_.read(k, theta)};
+  const bool possible =
+      counts_agree(fine_, coarse_, reading) ||
+      (reading.fine == read_count(fine_, theta) && reading.coarse == read_count(coarse_, theta));
+  if (!possible) ++disagreements_;
+  return reading;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/loop/encoder.hpp"
+#include "core/loop/parameters.hpp"
+#include "core/random/random_numbers.hpp"
+#include "core/random/trial_randomness.hpp"
+
+namespace zerocount {
+
+/// Whether the two counts are possible at one and the same rotor angle: whether two ideal encoders show them
+/// anywhere. In coarse counts, the fine count c stands for the range [(c − phase)·q + phase, that + q) with q
+/// the coarse counts in a fine one, and the coarse count n for [n, n + 1): they must overlap, and by more
+/// than 16·2⁻⁵²·(1 + |n|), so that edges which coincide are not told apart by rounding.
+bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReading& reading);
+
+/// An encoder with what is wrong with it. The count at sample k, where the rotor is at θ, by these steps:
+///
+///   eccentricity   θ′ = θ + a·[sin(p + θ − γ) − sin(p − γ)],   p the initial position on the rotor
+///                  x = θ′/Δx + phase
+///   interpolation  x′ = x + A·[s(x) − s(phase)],   s(x) = sin(2π·(m + x)/P),   m = ⌊p/Δx⌋
+///   noise          x″ = x′ + sd·z_k,   z_k standard normal, number k of its key
+///   rounding       r_k = ⌊x″⌋
+///   missed counts  count_k = r_k − lost_k,   lost_k = lost_{k−1} + sgn(r_k − r_{k−1})·b_k,
+///                  b_k of |r_k − r_{k−1}| counts at the probability of one, number k of its key
+///
+/// so that the systematic errors are those since the trial's start, where the count is 0, and their places
+/// are fixed on the rotor: m + x is the position in counts from the rotor's zero, but for less than a count.
+/// What is lost stays lost. Of what passes to and fro between two samples nothing is known, so nothing is
+/// missed. No counts have been passed before the first sample.
+class ImperfectEncoder {
+ public:
+  ImperfectEncoder(const Encoder& encoder, const EncoderErrors& errors, double position, std::uint64_t trial,
+                   const RandomStream& noise, const RandomStream& missed);
+
+  /// The count at sample k, the rotor being at θ (rad). Samples come in order.
+  std::int64_t read(std::int64_t k, double theta);
+
+ private:
+  double interpolation_error(double x) const;
+  void miss_counts(std::int64_t k, std::int64_t raw);
+
+  Encoder encoder_;
+  EncoderErrors errors_;
+  double position_;
+  std::uint64_t trial_;
+  RandomStream noise_;
+  RandomStream missed_;
+  double start_eccentricity_;  // sin(p − γ)
+  double start_count_;         // m
+  double start_interpolation_{0.0};
+  bool first_{true};
+  std::int64_t last_raw_{0};  // r of the sample before
+  std::int64_t lost_{0};
+};
+
+/// The two encoders of a trial. Where neither has errors, it reads as read_count does.
+class Measurement {
+ public:
+  /// @param phase where in a count, of either encoder, θ = 0 lies, in [0, 1).
+  /// @param position rotor angle (rad) of θ = 0.
+  Measurement(const EncoderParameters& encoders, double phase, double position,
+              const TrialRandomness& randomness);
+
+  /// What the encoders show at sample k, the rotor being at θ (rad). Samples come in order.
+  EncoderReading read(std::int64_t k, double theta) {
+    if (ideal_) return {read_count(fine_, theta), read_count(coarse_, theta)};
+    return read_with_errors(k, theta);
+  }
+
+  double fine_resolution() const { return fine_.resolution; }      ///< rad per count
+  double coarse_resolution() const { return coarse_.resolution; }  ///< rad per count
+  double fine_per_coarse() const { return fine_per_coarse_; }      ///< fine counts in a coarse one
+
+  /// Samples so far at which the coarse count was impossible given the fine one: not counts_agree, and not
+  /// what ideal encoders read at the very angle of the rotor, which rounding may put on either side of an
+  /// edge. Always 0 where neither encoder has errors.
+  std::int64_t disagreements() const { return disagreements_; }
+
+ private:
+  EncoderReading read_with_errors(std::int64_t k, double theta);
+
+  Encoder fine_;
+  Encoder coarse_;
+  double fine_per_coarse_;
+  bool ideal_;
+  ImperfectEncoder imperfect_fine_;
+  ImperfectEncoder imperfect_coarse_;
+  std::int64_t disagreements_{0};
+};
+
+}  // namespace zerocount

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/loop/parameters.hpp"
+#include "core/loop/pid.hpp"
+
+namespace zerocount {
+
+/// The rule by which a two-phase control changes its phase, from what the encoder of the phase in force says:
+///
+/// - fine → coarse at a sample with |e| > coarse_beyond;
+/// - coarse → fine at a sample that ends D = max(1, round(fine_dwell·sample_rate)) successive samples, all of
+///   the coarse phase, with |e| ≤ fine_within and |count_k − count_{k−1}| ≤ fine_rate.
+///
+/// The sample of a change is already one of the new phase, and there is at most one change a sample. The
+/// control comes as if from a fine phase: it begins in the coarse one where |e_0| > coarse_beyond, which is
+/// no change.
+class PhaseSwitch {
+ public:
+  /// @param sample_rate Hz.
+  PhaseSwitch(const CoarsePhaseParameters& rule, double sample_rate);
+
+  /// Settles the phase of this sample.
+  /// @param fine, coarse what the encoder of the fine and of the coarse phase says.
+  /// @return whether the phase has changed.
+  bool update(const Feedback& fine, const Feedback& coarse);
+
+  ControlPhase phase() const { return phase_; }      ///< of the last sample
+  std::int64_t changes() const { return changes_; }  ///< in both directions, so far
+
+ private:
+  ControlPhase next_phase(const Feedback& fine) const;
+
+  CoarsePhaseParameters rule_;
+  double dwell_;  ///< D, which may be more than any number of samples
+  ControlPhase phase_{ControlPhase::fine};
+  std::int64_t changes_{0};
+  std::int64_t settled_{0};                    ///< successive samples that ask for the fine phase
+  std::optional<double> last_coarse_count_{};  ///< none before the first sample
+};
+
+}  // namespace zerocount

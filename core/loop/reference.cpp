@@ -1,0 +1,73 @@
+#include "core/loop/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zerocount {
+
+Reference::Reference(const ReferenceProfile& profile, std::int64_t from, std::int64_t to, double resolution)
+    : from_(from),
+      to_(to),
+      resolution_(resolution),
+      counts_(std::abs(static_cast<double>(to) - static_cast<double>(from))),
+      travel_(counts_ * resolution) {
+  if (profile.shape == ReferenceShape::step || travel_ == 0.0) return;
+  if (profile.shape == ReferenceShape::trapezoidal) {
+    plan_trapezoidal(profile);
+  } else {
+    plan_s_curve(profile);
+  }
+  speed_up_time_ = 2.0 * jerk_time_ + acceleration_time_;
+  // The mean velocity of speeding up and of slowing down is half the largest: together they take as much
+  // longer than a cruise over the same distance as one of them lasts.
+  duration_ = speed_up_time_ + travel_ / velocity_;
+}
+
+void Reference::plan_trapezoidal(const ReferenceProfile& limits) {
+  acceleration_ = limits.acceleration_limit;
+  velocity_ = std::min(limits.velocity_limit, std::sqrt(acceleration_) * std::sqrt(travel_));
+  acceleration_time_ = velocity_ / acceleration_;
+}
+
+void Reference::plan_s_curve(const ReferenceProfile& limits) {
+  // A move without a cruise covers (largest velocity)·(time of speeding up); that time is v/a + a/j where the
+  // acceleration limit a is reached, and 2√(v/j) where it is not. Solved for v:
+  const double a = limits.acceleration_limit;
+  const double full_jerk_time = a / limits.jerk_limit;
+  const bool reaches_full_acceleration = travel_ >= 2.0 * a * full_jerk_time * full_jerk_time;
+  const double velocity_without_cruise =
+      reaches_full_acceleration
+          ? 0.5 * a * (std::sqrt(full_jerk_time * full_jerk_time + 4.0 * travel_ / a) - full_jerk_time)
+          : std::cbrt(limits.jerk_limit) * std::pow(std::cbrt(0.5 * travel_), 2);
+
+  velocity_ = std::min(limits.velocity_limit, velocity_without_cruise);
+  jerk_ = limits.jerk_limit;
+  acceleration_ = std::min(a, std::sqrt(velocity_) * std::sqrt(jerk_));
+  jerk_time_ = acceleration_ / jerk_;
+  acceleration_time_ = std::max(0.0, velocity_ / acceleration_ - jerk_time_);
+}
+
+std::int64_t Reference::at(double t) const {
+  if (t >= duration_) return to_;
+  if (t <= 0.0) return from_;
+  const bool first_half = t < 0.5 * duration_;
+  const double from_end = distance(first_half ? t : duration_ - t) / resolution_;
+  const double counts = std::ceil(std::min(from_end, 0.5 * counts_) - 0.5);
+  const auto forwards = static_cast<std::int64_t>(to_ < from_ ? -counts : counts);
+  return first_half ? from_ + forwards : to_ - forwards;
+}
+
+/// The angle (rad) covered since the start at the time t (s), in the first half.
+double Reference::distance(double t) const {
+  if (t < jerk_time_) return jerk_ * t * t * t / 6.0;
+  if (t < jerk_time_ + acceleration_time_) {
+    const double since_middle_of_rise = t - 0.5 * jerk_time_;
+    return 0.5 * acceleration_ * since_middle_of_rise * since_middle_of_rise +
+           acceleration_ * jerk_time_ * jerk_time_ / 24.0;
+  }
+  const double cruised = velocity_ * (t - 0.5 * speed_up_time_);
+  const double until_cruise = std::max(0.0, speed_up_time_ - t);
+  return cruised + jerk_ * until_cruise * until_cruise * until_cruise / 6.0;
+}
+
+}  // namespace zerocount

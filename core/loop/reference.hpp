@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/loop/parameters.hpp"
+
+namespace zerocount {
+
+/// What the count is to be at each time of a move from rest to rest between two targets, in the least time
+/// that the limits of the profile allow:
+///
+/// - step: the new target at once;
+/// - trapezoidal: acceleration at its limit, cruise at the velocity limit, deceleration; without the cruise
+///   where the velocity limit is not reached;
+/// - s_curve: the same with the jerk limited too, up to seven segments of constant jerk. The acceleration
+///   rises and falls at the jerk limit, and stays at its own limit in between where it reaches it.
+///
+/// The second half of a move is the first one backwards. Source: Biagiotti & Melchiorri, "Trajectory Planning
+/// for Automatic Machines and Robots", Springer 2008, sections 3.2 and 3.4.
+class Reference {
+ public:
+  /// @param profile limits above 0.
+  /// @param from, to counts.
+  /// @param resolution Δx, rad per count.
+  Reference(const ReferenceProfile& profile, std::int64_t from, std::int64_t to, double resolution);
+
+  /// The reference (counts) at the time t (s) from the move's start: the nearest whole count, and where two
+  /// are as near, the one towards that end of the move which is nearer in time. `from` before the start, `to`
+  /// from the end on.
+  std::int64_t at(double t) const;
+
+  double duration() const { return duration_; }  ///< s
+
+ private:
+  void plan_trapezoidal(const ReferenceProfile& limits);
+  void plan_s_curve(const ReferenceProfile& limits);
+  double distance(double t) const;
+
+  std::int64_t from_;
+  std::int64_t to_;
+  double resolution_;  ///< rad per count
+  double counts_;      ///< |to − from|
+  double travel_;      ///< the same, rad
+
+  // The first half: acceleration rising for jerk_time_, constant for acceleration_time_, falling for
+  // jerk_time_, and none until duration_/2. A trapezoidal move has no jerk_time_.
+  double jerk_{0.0};               ///< of the rising acceleration, rad/s³
+  double acceleration_{0.0};       ///< largest reached, rad/s²
+  double velocity_{0.0};           ///< largest reached, rad/s
+  double jerk_time_{0.0};          ///< s
+  double acceleration_time_{0.0};  ///< s
+  double speed_up_time_{0.0};      ///< of all three, s
+  double duration_{0.0};           ///< s
+};
+
+}  // namespace zerocount

@@ -1,0 +1,24 @@
+#include "core/plant/torque_course.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace zerocount {
+
+TorqueCourse course_after(const TorqueCourse& course, double t) {
+  if (is_constant(course)) return course;
+  // As a change of `now`, which a small one keeps its digits in.
+  const double change = (course.now - course.settled) * std::expm1(-course.rate * t);
+  return {course.now + change, course.settled, course.rate};
+}
+
+double time_until(const TorqueCourse& course, double torque) {
+  if (torque == course.now) return 0.0;
+  if (is_constant(course)) return std::numeric_limits<double>::infinity();
+  const double change = (torque - course.now) / (course.now - course.settled);  // from 0 to −1
+  if (change >= 0.0) return 0.0;
+  if (change <= -1.0) return std::numeric_limits<double>::infinity();
+  return -std::log1p(change) / course.rate;
+}
+
+}  // namespace zerocount

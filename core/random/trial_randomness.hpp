@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/random/random_numbers.hpp"
+
+namespace zerocount {
+
+/// Where a trial's own random numbers come from, those that are drawn while it runs. The trial index and the
+/// stream are the counter words of the same name (random_numbers.hpp).
+struct TrialRandomness {
+  std::uint64_t trial{0};
+  std::uint32_t stream{0};
+  RandomKey history{};
+  RandomKey fine_noise{};
+  RandomKey fine_missed{};
+  RandomKey coarse_noise{};
+  RandomKey coarse_missed{};
+  RandomKey dac_noise{};
+};
+
+}  // namespace zerocount

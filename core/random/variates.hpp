@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+
+namespace zerocount {
+
+/// A standard normal number: Φ⁻¹(u) with u = open_uniform(bits). Of magnitude below 8.21, and exactly
+/// antisymmetric: complementary bits give the negative.
+double standard_normal(std::uint64_t bits);
+
+/// A binomial number: of `n` independent things that each happen with `probability`, how many happen. By
+/// inversion: the smallest j with F(j) ≥ u, u = open_uniform(bits), F(j) = Σ_{i≤j} C(n, i)·pⁱ·(1 − p)ⁿ⁻ⁱ.
+/// @param n not negative. @param probability p, in [0, 1].
+std::int64_t binomial_number(std::int64_t n, double probability, std::uint64_t bits);
+
+}  // namespace zerocount

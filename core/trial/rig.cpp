@@ -1,0 +1,70 @@
+#include "core/trial/rig.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/trial/random_history.hpp"
+
+namespace zerocount {
+namespace {
+
+/// Fraction of a fine count that the motion may leave out per torque step. Far below the accuracy asked for,
+/// because a trial that breaks away in every cycle of its ringing multiplies an error from cycle to cycle.
+constexpr double motion_tolerance_in_counts = 1e-11;
+
+/// Farther than this, counts are no longer whole numbers of a double.
+constexpr double most_counts = 0x1p52;
+
+PlantStart plant_start(const TrialParameters& p) {
+  return {p.initial.position, p.initial.hardening,
+          p.initial.preload,  draw_history(p.initial.history, p.randomness),
+          p.initial.velocity, p.initial.mode == InitialMode::slide};
+}
+
+}  // namespace
+
+Rig::Rig(const TrialParameters& p)
+    : sample_time_(1.0 / p.controller.sample_rate),
+      measurement_(p.encoder, p.initial.encoder_phase, p.initial.position, p.randomness),
+      dac_(p.dac),
+      drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness),
+      plant_(p.plant, p.friction, plant_start(p),
+             MotionTolerance{motion_tolerance_in_counts * measurement_.fine_resolution()}) {}
+
+SampleRecord Rig::read(std::int64_t k) {
+  SampleRecord record;
+  record.k = k;
+  record.t = static_cast<double>(k) * sample_time_;
+  record.theta = plant_.theta();
+  record.omega = plant_.omega();
+  const EncoderReading reading = measurement_.read(k, record.theta);
+  record.count = reading.fine;
+  record.coarse_count = reading.coarse;
+  record.xp = plant_.creep().extension;
+  record.xh = plant_.creep().hardening;
+  record.depth = static_cast<std::int64_t>(plant_.spring().depth());
+  record.mode = plant_.sliding() ? HookMode::slide : HookMode::stick;
+  return record;
+}
+
+void Rig::drive(double torque, SampleRecord& record) {
+  const DacOutput output = convert(dac_, torque);
+  course_ = drive_.send(record.k, output);
+  clipped_ = output.clipped;
+  record.code = output.code;
+  record.torque = output.torque;
+  record.drive_torque = course_.now;
+}
+
+void Rig::drive_exactly(double torque, SampleRecord& record) {
+  course_ = drive_.send_exact(torque);
+  record.torque = torque;
+  record.drive_torque = course_.now;
+}
+
+bool Rig::readable() const {
+  const double finest = std::min(measurement_.fine_resolution(), measurement_.coarse_resolution());
+  return plant_.finite() && std::abs(plant_.theta()) < most_counts * finest;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+namespace zerocount {
+
+/// A torque that goes from one level to the next at a constant rate, sampled: each value is held until the
+/// next instant.
+struct TorqueRamp {
+  double from{0.0};         ///< N m
+  double to{0.0};           ///< N m
+  double per_sample{0.0};   ///< change from sample to sample, with its sign, N m
+  std::int64_t samples{0};  ///< on the way: the first sample that has the torque `to`
+};
+
+/// @param rate magnitude of the rate, N m/s, positive. @param sample_rate Hz.
+TorqueRamp make_torque_ramp(double from, double to, double rate, double sample_rate);
+
+/// The torque (N m) at sample i = 0, 1, … of the ramp: from + i·per_sample, then `to`.
+double torque_at(const TorqueRamp& ramp, std::int64_t i);
+
+}  // namespace zerocount

@@ -1,0 +1,134 @@
+#include "experiments/language/effect_rules.hpp"
+
+namespace zerocount {
+namespace {
+
+using Limits = std::span<const ValueLimits>;
+
+bool always(Limits) {
+  return true;
+}
+bool never(Limits) {
+  return false;
+}
+
+template <auto word>
+bool is_word(const ValueLimits& limits) {
+  return limits.low == static_cast<double>(word);
+}
+
+bool can_be_positive(const ValueLimits& limits) {
+  return limits.high > 0.0;
+}
+
+std::vector<EffectRule> rules_of_the_command(const StudyPlan& plan) {
+  const bool open_loop = plan.open_loop;
+  return {
+      {.keys = {"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
+                "controller.encoder", "controller.coarse", "initial.integral", "command.profile", "verdict"},
+       .has_effect = open_loop ? never : always,
+       .what = "it has no effect: the loop is open with command.torque",
+       .expected = "command.targets or command.sequence, or the key left out"},
+      {.keys = {"command.torque"},
+       .has_effect = open_loop ? always : never,
+       .what = "it has no effect: there are no command.torque.levels",
+       .expected = "command.torque with its levels, or the key left out"},
+      {.keys = {"command.sequence"},
+       .has_effect = plan.sequence ? always : never,
+       .what = "it has no effect: there is no command.sequence",
+       .expected = "command.sequence with its targets, or the key left out"},
+      {.keys = {"dac"},
+       .depends_on = {"command.torque.through"},
+       .has_effect = [open_loop](Limits l) { return !open_loop || is_word<TorquePath::dac>(l[0]); },
+       .what = "it has no effect: the torque does not go through the converter at any point",
+       .expected = "command.torque.through: dac, or the key left out"},
+      {.keys = {"command.profile.velocity_limit", "command.profile.acceleration_limit"},
+       .depends_on = {"command.profile.shape"},
+       .has_effect = [](Limits l) { return !is_word<ReferenceShape::step>(l[0]); },
+       .what = "it has no effect: the reference is a step at every point",
+       .expected = "command.profile.shape: trapezoidal or s_curve, or the key left out"},
+      {.keys = {"command.profile.jerk_limit"},
+       .depends_on = {"command.profile.shape"},
+       .has_effect = [](Limits l) { return is_word<ReferenceShape::s_curve>(l[0]); },
+       .what = "it has no effect: the reference is an s_curve at no point",
+       .expected = "command.profile.shape: s_curve, or the key left out"},
+  };
+}
+
+// What describes an error has an effect where that error has an amplitude.
+EffectRule rule_of_an_error(std::string_view key, std::string_view amplitude, std::string_view expected) {
+  return {.keys = {key},
+          .depends_on = {amplitude},
+          .has_effect = [](Limits l) { return can_be_positive(l[0]); },
+          .what = "it has no effect: that error is 0 at every point",
+          .expected = expected};
+}
+
+std::vector<EffectRule> rules_of_the_loop() {
+  return {
+      {.keys = {"controller.coarse.kp", "controller.coarse.ki", "controller.coarse.kd",
+                "controller.coarse.encoder", "controller.coarse.fine_within", "controller.coarse.fine_rate",
+                "controller.coarse.fine_dwell"},
+       .depends_on = {"controller.coarse.coarse_beyond"},
+       .has_effect = [](Limits l) { return can_have_coarse_phase(l[0]); },
+       .what = "it has no effect: there is no coarse phase at any point",
+       .expected = "controller.coarse.coarse_beyond below 1e12, or the key left out"},
+      rule_of_an_error("encoder.fine_errors.eccentricity_angle", "encoder.fine_errors.eccentricity",
+                       "encoder.fine_errors.eccentricity above 0, or the key left out"),
+      rule_of_an_error("encoder.fine_errors.interpolation_period", "encoder.fine_errors.interpolation",
+                       "encoder.fine_errors.interpolation above 0, or the key left out"),
+      rule_of_an_error("encoder.coarse_errors.eccentricity_angle", "encoder.coarse_errors.eccentricity",
+                       "encoder.coarse_errors.eccentricity above 0, or the key left out"),
+      rule_of_an_error("encoder.coarse_errors.interpolation_period", "encoder.coarse_errors.interpolation",
+                       "encoder.coarse_errors.interpolation above 0, or the key left out"),
+  };
+}
+
+std::vector<EffectRule> rules_of_the_contact() {
+  const auto both_positive = [](Limits l) { return can_be_positive(l[0]) && can_be_positive(l[1]); };
+  return {
+      {.keys = {"initial.hardening", "initial.preload", "initial.history"},
+       .depends_on = {"initial.mode"},
+       .has_effect = [](Limits l) { return is_word<InitialMode::stick>(l[0]); },
+       .what = "it has no effect: the hook slides at the start, at every point",
+       .expected = "initial.mode: stick, or the key left out",
+       .off_at_zero = true},
+      {.keys = {"initial.history.torque"},
+       .depends_on = {"initial.history.reversals", "initial.history.torque"},
+       .has_effect = both_positive,
+       .what = "it has no effect: there are no reversals to it at any point",
+       .expected = "initial.history.reversals at least 1, or the key left out",
+       .off_at_zero = true},
+      {.keys = {"initial.history.reversals"},
+       .depends_on = {"initial.history.reversals", "initial.history.torque"},
+       .has_effect = both_positive,
+       .what = "it has no effect: their torque is 0 at every point",
+       .expected = "initial.history.torque above 0, or the key left out",
+       .off_at_zero = true},
+      {.keys = {"plant.presliding_damping", "friction.k1", "friction.k2", "friction.beta", "friction.alpha",
+                "friction.lambda", "friction.n", "initial.hardening", "initial.preload", "initial.history"},
+       .depends_on = {"friction.model"},
+       .has_effect = [](Limits l) { return !is_word<FrictionModel::coulomb>(l[0]); },
+       .what = "it has no effect: friction.model is coulomb at every point",
+       .off_at_zero = true,
+       .warn_only = true},
+      {.keys = {"friction.alpha", "friction.lambda", "friction.n", "initial.hardening"},
+       .depends_on = {"friction.model"},
+       .has_effect = [](Limits l) { return is_word<FrictionModel::presliding>(l[0]); },
+       .what = "it has no effect: friction.model is presliding at no point",
+       .off_at_zero = true,
+       .warn_only = true},
+  };
+}
+
+}  // namespace
+
+std::vector<EffectRule> effect_rules(const StudyPlan& plan) {
+  std::vector<EffectRule> rules = rules_of_the_command(plan);
+  for (const auto& more : {rules_of_the_loop(), rules_of_the_contact()}) {
+    rules.insert(rules.end(), more.begin(), more.end());
+  }
+  return rules;
+}
+
+}  // namespace zerocount

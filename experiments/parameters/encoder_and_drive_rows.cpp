@@ -1,0 +1,106 @@
+#include "experiments/parameters/parameter_rows.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::string_view eccentricity = "amplitude of the error that comes back once per revolution";
+constexpr std::string_view eccentricity_angle = "angle on the rotor at which that error rises through zero";
+constexpr std::string_view interpolation =
+    "amplitude of the error that comes back once per signal period, in counts of this encoder";
+constexpr std::string_view interpolation_period = "signal period, in counts of this encoder";
+constexpr std::string_view noise =
+    "standard deviation of the reading before it is rounded, in counts of this encoder";
+constexpr std::string_view missed = "probability that a count that is passed is not counted";
+
+}  // namespace
+
+std::vector<Parameter> encoder_rows() {
+  return {
+      stored_at(
+          whole_row("encoder.fine", "count/rev", "counts per revolution of the fine encoder",
+                    "paper, section 2", closed(1, largest_count), 16),
+          [](auto& p) -> auto& { return p.encoder.fine; }),
+      stored_at(
+          whole_row("encoder.coarse", "count/rev", "counts per revolution of the coarse encoder",
+                    "paper, section 2", closed(1, largest_count), 17),
+          [](auto& p) -> auto& { return p.encoder.coarse; }),
+
+      stored_at(
+          real_row("encoder.fine_errors.eccentricity", "rad", eccentricity, assumed, at_least(0), 29),
+          [](auto& p) -> auto& { return p.encoder.fine_errors.eccentricity; }),
+      stored_at(
+          real_row("encoder.fine_errors.eccentricity_angle", "rad", eccentricity_angle, assumed,
+                   all_numbers(), 30),
+          [](auto& p) -> auto& { return p.encoder.fine_errors.eccentricity_angle; }),
+      stored_at(
+          real_row("encoder.fine_errors.interpolation", "count", interpolation, assumed, at_least(0), 31),
+          [](auto& p) -> auto& { return p.encoder.fine_errors.interpolation; }),
+      stored_at(
+          real_row("encoder.fine_errors.interpolation_period", "count", interpolation_period, assumed,
+                   above(0), 32),
+          [](auto& p) -> auto& { return p.encoder.fine_errors.interpolation_period; }),
+      stored_at(
+          real_row("encoder.fine_errors.noise", "count", noise, assumed, at_least(0), 33),
+          [](auto& p) -> auto& { return p.encoder.fine_errors.noise; }),
+      stored_at(
+          real_row("encoder.fine_errors.missed", "1", missed, assumed, closed(0, 1), 34),
+          [](auto& p) -> auto& { return p.encoder.fine_errors.missed; }),
+
+      stored_at(
+          real_row("encoder.coarse_errors.eccentricity", "rad", eccentricity, assumed, at_least(0), 35),
+          [](auto& p) -> auto& { return p.encoder.coarse_errors.eccentricity; }),
+      stored_at(
+          real_row("encoder.coarse_errors.eccentricity_angle", "rad", eccentricity_angle, assumed,
+                   all_numbers(), 36),
+          [](auto& p) -> auto& { return p.encoder.coarse_errors.eccentricity_angle; }),
+      stored_at(
+          real_row("encoder.coarse_errors.interpolation", "count", interpolation, assumed, at_least(0), 37),
+          [](auto& p) -> auto& { return p.encoder.coarse_errors.interpolation; }),
+      stored_at(
+          real_row("encoder.coarse_errors.interpolation_period", "count", interpolation_period, assumed,
+                   above(0), 38),
+          [](auto& p) -> auto& { return p.encoder.coarse_errors.interpolation_period; }),
+      stored_at(
+          real_row("encoder.coarse_errors.noise", "count", noise, assumed, at_least(0), 39),
+          [](auto& p) -> auto& { return p.encoder.coarse_errors.noise; }),
+      stored_at(
+          real_row("encoder.coarse_errors.missed", "1", missed, assumed, closed(0, 1), 40),
+          [](auto& p) -> auto& { return p.encoder.coarse_errors.missed; }),
+  };
+}
+
+std::vector<Parameter> drive_rows() {
+  return {
+      stored_at(
+          whole_row("dac.bits", "bit", "word length of the digital-to-analogue converter", "paper, section 2",
+                    closed(1, 32), 18),
+          [](auto& p) -> auto& { return p.dac.bits; }),
+      stored_at(
+          real_row("dac.resolution", "N m", "torque of one code of the digital-to-analogue converter",
+                   "paper, section 4", above(0), 19),
+          [](auto& p) -> auto& { return p.dac.resolution; }),
+      stored_at(
+          real_row("dac.offset", "N m", "added to the torque of every code", assumed, all_numbers(), 41),
+          [](auto& p) -> auto& { return p.dac.offset; }),
+      stored_at(
+          real_row("dac.gain_error", "1", "relative error of the resolution", assumed, above(-1), 42),
+          [](auto& p) -> auto& { return p.dac.gain_error; }),
+      stored_at(
+          real_row("dac.nonlinearity", "code",
+                   "integral non-linearity: largest deviation from the straight line between the ends",
+                   assumed, all_numbers(), 43),
+          [](auto& p) -> auto& { return p.dac.nonlinearity; }),
+      stored_at(
+          real_row("dac.noise", "N m", "standard deviation of the torque, drawn anew at each sample", assumed,
+                   at_least(0), 44),
+          [](auto& p) -> auto& { return p.dac.noise; }),
+
+      stored_at(
+          real_row("amplifier.bandwidth", "Hz",
+                   "bandwidth (-3 dB) of the amplifier's first-order response; 0: it follows at once",
+                   assumed, at_least(0), 45),
+          [](auto& p) -> auto& { return p.amplifier.bandwidth; }),
+  };
+}
+
+}  // namespace zerocount

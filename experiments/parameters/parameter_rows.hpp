@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "experiments/parameters/parameter_table.hpp"
+
+namespace zerocount {
+
+// The rows of the table of parameters, section by section. A new row of numbers takes the next free Sobol
+// dimension: 62 and 63, then those beyond the moves'. A word is never drawn: a new one takes its dimension
+// beyond the moves', the next of which is 6 more than the first.
+
+std::vector<Parameter> plant_rows();
+std::vector<Parameter> friction_rows();
+std::vector<Parameter> encoder_rows();
+std::vector<Parameter> drive_rows();  ///< of the converter and the amplifier
+std::vector<Parameter> controller_rows();
+std::vector<Parameter> command_rows();
+std::vector<Parameter> initial_rows();
+std::vector<Parameter> verdict_rows();
+
+constexpr std::string_view assumed = "assumed";
+
+/// Largest magnitude of a target and of a counts-per-revolution: far above any machine's, and exact as a
+/// double with the whole arithmetic of counts around it.
+constexpr double largest_count = 1e12;
+
+/// A row of real numbers.
+inline Parameter real_row(std::string_view name, std::string_view unit, std::string_view meaning,
+                          std::string_view source, const Interval& range, std::size_t sobol_dimension) {
+  return {name, unit, meaning, source, ParameterKind::real, range, {}, sobol_dimension};
+}
+
+/// A row of whole numbers.
+inline Parameter whole_row(std::string_view name, std::string_view unit, std::string_view meaning,
+                           std::string_view source, const Interval& range, std::size_t sobol_dimension) {
+  return {name, unit, meaning, source, ParameterKind::whole_number, range, {}, sobol_dimension};
+}
+
+/// A row of words, in the order of the enumeration's values.
+inline Parameter word_row(std::string_view name, std::string_view meaning, std::string_view source,
+                          std::vector<std::string_view> words, std::size_t sobol_dimension) {
+  const Interval range = closed(0, static_cast<double>(words.size() - 1));
+  return {name, "1", meaning, source, ParameterKind::enumeration, range, std::move(words), sobol_dimension};
+}
+
+/// Completes a row with the way to and from the trial's parameters: `At` returns a reference to the field.
+template <class At>
+Parameter stored_at(Parameter row, At) {
+  row.get = [](const TrialParameters& parameters) { return static_cast<double>(At{}(parameters)); };
+  row.set = [](TrialParameters& parameters, double value) {
+    auto& field = At{}(parameters);
+    field = static_cast<std::remove_reference_t<decltype(field)>>(value);
+  };
+  return row;
+}
+
+/// A row whose value is a list.
+inline Parameter list_of(Parameter row) {
+  row.listed = true;
+  return row;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,65 @@
+#include "experiments/parameters/parameter_rows.hpp"
+
+namespace zerocount {
+namespace {
+
+template <double FrictionParameters::*field>
+Parameter friction(Parameter row) {
+  row.profiled = field;
+  return stored_at(
+      std::move(row), [](auto& p) -> auto& { return p.friction.uniform.*field; });
+}
+
+}  // namespace
+
+std::vector<Parameter> plant_rows() {
+  return {
+      stored_at(
+          real_row("plant.inertia", "kg m^2", "moment of inertia J of the rotor", "paper, section 4",
+                   above(0), 12),
+          [](auto& p) -> auto& { return p.plant.inertia; }),
+      stored_at(
+          real_row("plant.presliding_damping", "N m s/rad",
+                   "damping c from hook to rotor while the hook sticks", "paper, section 4", at_least(0), 13),
+          [](auto& p) -> auto& { return p.plant.presliding_damping; }),
+      stored_at(
+          real_row("plant.sliding_damping", "N m s/rad", "viscous damping cs while the hook slides", assumed,
+                   at_least(0), 14),
+          [](auto& p) -> auto& { return p.plant.sliding_damping; }),
+  };
+}
+
+std::vector<Parameter> friction_rows() {
+  using P = FrictionParameters;
+  return {
+      stored_at(
+          word_row(
+              "friction.model",
+              "what friction does before it slides: spring and creep, the spring alone, or nothing at all",
+              assumed, {"presliding", "spring", "coulomb"}, first_sobol_dimension_beyond_moves),
+          [](auto& p) -> auto& { return p.friction.model; }),
+      friction<&P::k1>(real_row("friction.k1", "N m/rad", "lowest tangent stiffness of the friction spring",
+                                "paper, section 4", above(0), 0)),
+      friction<&P::k2>(real_row("friction.k2", "N m/rad",
+                                "highest tangent stiffness of the friction spring less k1",
+                                "paper, section 4 (k1 + k2 = 860)", at_least(0), 1)),
+      friction<&P::beta>(real_row("friction.beta", "1/rad",
+                                  "rate at which a branch softens from k1 + k2 to k1", assumed, above(0), 3)),
+      friction<&P::alpha>(
+          real_row("friction.alpha", "1/s", "rate of creep; 0 switches creep off", assumed, at_least(0), 4)),
+      friction<&P::lambda>(real_row("friction.lambda", "(N m)^n/rad",
+                                    "hardening modulus: creep ends at |torque|^n / lambda", assumed, above(0),
+                                    5)),
+      friction<&P::n>(
+          real_row("friction.n", "1", "exponent of the torque in the creep law", assumed, at_least(1), 15)),
+      friction<&P::breakaway>(real_row("friction.breakaway", "N m",
+                                       "torque at which the hook starts to slide", assumed, above(0), 6)),
+      friction<&P::coulomb_ratio>(real_row("friction.coulomb_ratio", "1", "Coulomb level over breakaway",
+                                           assumed, {.low = 0, .high = 1, .high_included = true}, 7)),
+      friction<&P::stribeck_velocity>(
+          real_row("friction.stribeck_velocity", "rad/s",
+                   "velocity over which sliding friction falls to the Coulomb level", assumed, above(0), 8)),
+  };
+}
+
+}  // namespace zerocount

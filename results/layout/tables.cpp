@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "results/layout/layout.hpp"
+
+namespace zerocount {
+namespace {
+
+Column whole_numbers(std::string_view name, std::string_view long_name) {
+  return {std::string(name), "1", std::string(long_name), Element::int64, {}, {}};
+}
+
+Column statistic_column(const PointColumn& statistic) {
+  return {statistic.name, statistic.unit, statistic.long_name, Element::float64, {}, "statistic"};
+}
+
+template <class Record>
+std::vector<Column> columns_of(const std::vector<RecordField<Record>>& fields) {
+  std::vector<Column> columns;
+  std::transform(fields.begin(), fields.end(), std::back_inserter(columns),
+                 [](const RecordField<Record>& entry) { return entry.column; });
+  return columns;
+}
+
+}  // namespace
+
+Table point_table(const std::vector<SweepAxis>& axes, const std::vector<PointColumn>& statistics) {
+  Table table{"point", whole_numbers("point", "index of the design point"), {}, {}};
+  table.columns.push_back({"label", "1", "name of the design point", Element::text, {}, {}});
+  for (const SweepAxis& axis : axes) {
+    const bool text = axis.kind == SweepAxis::Kind::text;
+    table.columns.push_back({axis.name,
+                             text || axis.unit.empty() ? "1" : axis.unit,
+                             axis.meaning,
+                             text ? Element::text : Element::float64,
+                             {},
+                             "axis"});
+  }
+  for (const PointColumn& statistic : statistics) table.columns.push_back(statistic_column(statistic));
+  return table;
+}
+
+std::string input_column_name(const std::string& parameter) {
+  return "input/" + parameter;
+}
+
+Table trial_table(const std::vector<InputColumn>& inputs) {
+  Table table{
+      "trial", whole_numbers("trial", "global row of the trial, point times trials plus index"), {}, {}};
+  table.columns.push_back(whole_numbers("point", "index of the design point"));
+  table.columns.push_back(whole_numbers("index", "index of the trial within its design point"));
+  for (const InputColumn& input : inputs) {
+    table.columns.push_back(
+        {input_column_name(input.name), input.unit, input.meaning, Element::float64, {}, {}});
+  }
+  return table;
+}
+
+Table outcome_table(std::int64_t version) {
+  return {"outcome", whole_numbers("trial", "global row of the trial"),
+          whole_numbers("move", "index of the move"), columns_of(outcome_fields(version))};
+}
+
+Table jerk_table() {
+  return {"jerk",
+          whole_numbers("jerk", "index of the jerk, by trial, move and onset"),
+          {},
+          columns_of(jerk_fields())};
+}
+
+Table trace_table(const TraceExtras& extras) {
+  return {"trace",
+          whole_numbers("record", "index of the record, by trial and sample"),
+          {},
+          columns_of(trace_fields(extras))};
+}
+
+std::span<const StatisticGroup> statistic_groups() {
+  static constexpr std::array<StatisticGroup, 1> groups{
+      {{"level", "move", "index of the move", "levels.csv"}}};
+  return groups;
+}
+
+const StatisticGroup& level_group() {
+  return statistic_groups()[0];
+}
+
+Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn>& columns) {
+  Table table{std::string(group.name),
+              whole_numbers("point", "index of the design point"),
+              whole_numbers(group.dimension, group.meaning),
+              {}};
+  for (const PointColumn& column : columns) table.columns.push_back(statistic_column(column));
+  return table;
+}
+
+Table profile_table(const std::string& name, const std::string& unit) {
+  return {"profile/" + name,
+          {"theta", "rad", "rotor angle from the origin of the profile", Element::float64, {}, {}},
+          {},
+          {{"value", unit, "realised value of " + name, Element::float64, {}, {}}}};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,114 @@
+"""Statistics against NumPy and SciPy, from the raw outcomes.
+
+usage: judge_statistics.py means CASES      (lines of: mean sd low high confidence  x1 x2 …)
+       judge_statistics.py loop FILE.h5     (/point against /outcome)
+       judge_statistics.py levels FILE.h5   (/level against /outcome)
+"""
+
+import sys
+
+import h5py
+import numpy
+from scipy import stats
+
+
+def close(found, expected, tolerance, place):
+    if numpy.isnan(expected):
+        assert numpy.isnan(found), f"{place}: {found}; expected none"
+    else:
+        assert abs(found - expected) <= tolerance, f"{place}: {found}; expected {expected}"
+
+
+t_accuracy = 2e-9  # of SciPy 1.10's quantile of Student's t, found with mpmath
+
+
+def mean_bounds(values, confidence=0.95):
+    if len(values) < 2:
+        return numpy.nan, numpy.nan
+    if stats.sem(values) == 0:
+        return values[0], values[0]
+    return stats.t.interval(confidence, len(values) - 1, loc=numpy.mean(values), scale=stats.sem(values))
+
+
+def judge_means(path):
+    with open(path) as cases:
+        lines = cases.readlines()
+    for line in lines:
+        mean, sd, low, high, confidence, *values = map(float, line.split())
+        rounding = 1e-13 * numpy.abs(values).max()
+        close(mean, numpy.mean(values), rounding, "mean")
+        close(sd, numpy.std(values, ddof=1), rounding, "sd")
+        expected_low, expected_high = mean_bounds(values, confidence)
+        tolerance = rounding + t_accuracy * (expected_high - expected_low)
+        close(low, expected_low, tolerance, "low")
+        close(high, expected_high, tolerance, "high")
+    print(len(lines), "samples")
+
+
+def rows_of_point(file, point):
+    return numpy.flatnonzero(file["trial/point"][:] == point)
+
+
+def judge_loop(path):
+    with h5py.File(path) as file:
+        outcome = {name: column[:] for name, column in file["outcome"].items() if column.ndim == 2}
+        found = {name: column[:] for name, column in file["point"].items() if name != "label"}
+        for point in file["point/point"]:
+            rows = rows_of_point(file, point)
+            followed = outcome["outcome"][rows] != 3
+            error = numpy.abs(outcome["final_error"][rows][followed])
+            expected = {"final_error_n": len(error), "final_error_mean": error.mean(), "final_error_max": error.max()}
+            for name, probability in (("median", 0.5), ("p95", 0.95)):
+                expected["final_error_" + name] = numpy.quantile(error, probability, method="inverted_cdf")
+                ordered = numpy.sort(error)
+                low = int(stats.binom.ppf(0.025, len(error), probability))
+                high = int(stats.binom.ppf(0.975, len(error), probability)) + 1
+                expected[f"final_error_{name}_low"] = ordered[low - 1]
+                expected[f"final_error_{name}_high"] = ordered[high - 1] if high <= len(error) else numpy.nan
+            for name in ("phase_changes", "encoder_disagreement"):
+                times = outcome[name][rows].sum(axis=1)
+                expected[name + "_trials"] = (times > 0).sum()
+                expected[name + "_mean"] = times.mean()
+                expected[name + "_max"] = times.max()
+            expected["travel_time_mean"] = outcome["travel_time"][rows].mean()
+            expected["travel_time_max"] = outcome["travel_time"][rows].max()
+            for name, value in expected.items():
+                close(found[name][point], value, 1e-13 * max(abs(value), 1), f"point {point}: {name}")
+        print(len(file["point/point"]), "points")
+
+
+def judge_levels(path):
+    with h5py.File(path) as file:
+        outcome = {name: column[:] for name, column in file["outcome"].items() if column.ndim == 2}
+        level = file["level"]
+        for point in level["point"]:
+            for move in level["move"]:
+                rows = rows_of_point(file, point)
+                rows = rows[outcome["outcome"][rows, move] == 4]
+                values = {name: column[rows, move] for name, column in outcome.items()}
+                expected = {
+                    "n": len(rows),
+                    "nonfinite": (outcome["outcome"][rows_of_point(file, point), move] == 3).sum(),
+                    "torque": values["holding_torque"].mean(),
+                    "broke_away": values["broke_away"].sum(),
+                    "reversal_depth_max": values["reversal_depth"].max(),
+                }
+                for name, values_of in (("position", values["final_position"]), ("creep", values["creep"])):
+                    low, high = mean_bounds(values_of)
+                    described = (values_of.mean(), low, high, numpy.std(values_of, ddof=1), values_of.min(), values_of.max())
+                    for statistic, value in zip(("mean", "low", "high", "sd", "min", "max"), described):
+                        expected[f"{name}_{statistic}"] = value
+                assert set(expected) == set(level) - {"point", "move"}
+                for name, value in expected.items():
+                    spread = expected[name.split("_")[0] + "_sd"] if name.endswith(("low", "high")) else 0.0
+                    tolerance = 1e-12 * abs(value) + t_accuracy * spread
+                    close(level[name][point, move], value, tolerance, f"point {point}, level {move}: {name}")
+        print(level["torque"].shape)
+        # nothing of an open-loop study pretends to be success
+        for name in ("success_rate", "success_rate_low", "success_rate_high", "stable_rate", "final_error_mean"):
+            assert numpy.isnan(file["point"][name][:]).all(), name
+        trials = file.attrs["trials"]
+        assert (file["point/open_loop"][:] + file["point/nonfinite"][:] == trials).all()
+
+
+{"means": judge_means, "loop": judge_loop, "levels": judge_levels}[sys.argv[1]](sys.argv[2])

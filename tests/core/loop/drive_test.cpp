@@ -1,0 +1,204 @@
+// From decided torque to motor: converter errors, delay, amplifier.
+#include "core/loop/drive.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/goodness_of_fit.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr double sample_time = 5e-4;
+
+TrialRandomness randomness_of(std::uint64_t trial) {
+  TrialRandomness randomness;
+  randomness.trial = trial;
+  randomness.dac_noise = {11, 12};
+  return randomness;
+}
+
+DacParameters converter_with_errors() {
+  DacParameters dac;
+  dac.offset = 1.7e-3;
+  dac.gain_error = -0.02;
+  dac.nonlinearity = 1.5;
+  return dac;
+}
+
+/// Outputs of the converter for torques drawn over its range.
+std::vector<DacOutput> random_outputs(const DacParameters& dac, unsigned seed, int number) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> torque(-0.5, 0.5);
+  std::vector<DacOutput> outputs;
+  for (int i = 0; i < number; ++i) outputs.push_back(convert(dac, torque(random)));
+  return outputs;
+}
+
+double end_of(const TorqueCourse& course, double duration) {
+  return course.settled + (course.now - course.settled) * std::exp(-course.rate * duration);
+}
+
+TEST(Drive, WithoutErrorsHoldsTheDecidedTorqueExactly) {
+  const DacParameters dac;
+  for (const int delay : {0, 1, 3}) {
+    Drive drive(dac, {}, delay, sample_time, randomness_of(1));
+    EXPECT_EQ(drive.torque(), 0.0);
+    const std::vector<DacOutput> outputs = random_outputs(dac, 21, 200);
+    for (std::size_t k = 0; k < outputs.size(); ++k) {
+      const TorqueCourse course = drive.send(static_cast<std::int64_t>(k), outputs[k]);
+      const auto late = static_cast<std::size_t>(delay);
+      const double expected = k < late ? 0.0 : outputs[k - late].torque;
+      EXPECT_EQ(course.now, expected);
+      EXPECT_EQ(course.settled, expected);
+      EXPECT_EQ(drive.torque(), expected);
+    }
+  }
+}
+
+TEST(Drive, GivesNothingUntilTheFirstTorqueHasComeThrough) {
+  DacParameters dac = converter_with_errors();
+  dac.noise = 1e-3;
+  Drive at_once(dac, {}, 0, sample_time, randomness_of(1));
+  Drive late(dac, {}, 4, sample_time, randomness_of(1));
+  std::vector<double> torques;
+  const std::vector<DacOutput> outputs = random_outputs(dac, 22, 100);
+  for (std::size_t k = 0; k < outputs.size(); ++k) {
+    const auto sample = static_cast<std::int64_t>(k);
+    torques.push_back(at_once.send(sample, outputs[k]).now);
+    EXPECT_EQ(late.send(sample, outputs[k]).now, k < 4 ? 0.0 : torques[k - 4]);
+  }
+}
+
+TEST(Drive, ConverterErrorsReachTheMotor) {
+  const DacParameters dac = converter_with_errors();
+  Drive drive(dac, {}, 0, sample_time, randomness_of(1));
+  std::int64_t k = 0;
+  for (const DacOutput& output : random_outputs(dac, 23, 200))
+    EXPECT_EQ(drive.send(k++, output).now, torque_with_errors(dac, output.code));
+}
+
+TEST(Drive, ConverterNoiseIsNormalAndNewAtEverySample) {
+  DacParameters dac;
+  dac.noise = 3e-4;
+  Drive drive(dac, {}, 0, sample_time, randomness_of(1));
+  Drive other_trial(dac, {}, 0, sample_time, randomness_of(2));
+  constexpr int samples = 50000;
+  std::vector<double> probabilities;
+  double successive = 0.0;
+  double between_trials = 0.0;
+  double last = 0.0;
+  for (int k = 0; k < samples; ++k) {
+    const DacOutput output = convert(dac, 0.1 * std::sin(0.01 * k));
+    const double z = (drive.send(k, output).now - output.torque) / dac.noise;
+    const double other = (other_trial.send(k, output).now - output.torque) / dac.noise;
+    probabilities.push_back(0.5 * std::erfc(-z / std::sqrt(2.0)));
+    successive += z * last;
+    between_trials += z * other;
+    last = z;
+  }
+  EXPECT_GT(testing::kolmogorov_probability(probabilities), 1e-3);
+  EXPECT_LT(std::abs(successive), 4.0 * std::sqrt(samples));
+  EXPECT_LT(std::abs(between_trials), 4.0 * std::sqrt(samples));
+}
+
+TEST(Drive, NoiseDependsOnTrialAndSampleAlone) {
+  DacParameters dac;
+  dac.noise = 3e-4;
+  Drive forward(dac, {}, 0, sample_time, randomness_of(9));
+  Drive backward(dac, {}, 0, sample_time, randomness_of(9));
+  std::vector<double> torques;
+  for (int k = 0; k < 50; ++k) torques.push_back(forward.send(k, {}).now);
+  for (int k = 49; k >= 0; --k) EXPECT_EQ(backward.send(k, {}).now, torques[static_cast<std::size_t>(k)]);
+}
+
+TEST(Drive, ExactTorquePassesTheConverterByButNotDelayAndAmplifier) {
+  DacParameters dac = converter_with_errors();
+  dac.noise = 1e-3;
+  Drive direct(dac, {}, 2, sample_time, randomness_of(1));
+  std::vector<double> levels;
+  for (int k = 0; k < 50; ++k) {
+    levels.push_back(std::sin(0.3 * k) / 7.0);
+    EXPECT_EQ(direct.send_exact(levels.back()).now, k < 2 ? 0.0 : levels[static_cast<std::size_t>(k - 2)]);
+  }
+  Drive slow(dac, {40.0}, 0, sample_time, randomness_of(1));
+  EXPECT_EQ(slow.send_exact(0.1).now, 0.0);
+  EXPECT_NEAR(slow.send_exact(0.1).now, 0.1 * -std::expm1(-2.0 * std::numbers::pi * 40.0 * sample_time),
+              1e-16);
+}
+
+TEST(Drive, AmplifierStepResponseIsExponential) {
+  for (const double bandwidth : {1.0, 40.0, 300.0, 5000.0}) {
+    Drive drive({}, {bandwidth}, 0, sample_time, randomness_of(1));
+    const DacOutput output = convert({}, 0.2);
+    for (int k = 0; k < 400; ++k) {
+      const TorqueCourse course = drive.send(k, output);
+      const double expected =
+          output.torque * -std::expm1(-2.0 * std::numbers::pi * bandwidth * k * sample_time);
+      ASSERT_NEAR(course.now, expected, 1e-15);
+      ASSERT_EQ(course.settled, output.torque);
+      ASSERT_EQ(drive.torque(), course.now);
+    }
+  }
+}
+
+TEST(Drive, TorqueIsContinuousFromSampleToSample) {
+  for (const double bandwidth : {5.0, 200.0, 3000.0}) {
+    Drive drive(converter_with_errors(), {bandwidth}, 1, sample_time, randomness_of(1));
+    double end = 0.0;
+    std::int64_t k = 0;
+    for (const DacOutput& output : random_outputs(converter_with_errors(), 24, 300)) {
+      const TorqueCourse course = drive.send(k++, output);
+      ASSERT_NEAR(course.now, end, 1e-15);
+      end = end_of(course, sample_time);
+    }
+  }
+}
+
+TEST(Drive, AmplifierLetsASineOfItsBandwidthThroughAtMinusThreeDecibels) {
+  // Sampled finely enough for the steps not to matter; measured over whole periods after the transient.
+  constexpr double bandwidth = 50.0;
+  constexpr int samples_per_period = 20000;
+  constexpr double step = 1.0 / (bandwidth * samples_per_period);
+  Drive drive({}, {bandwidth}, 0, step, randomness_of(1));
+  double in_phase = 0.0;
+  double quadrature = 0.0;
+  for (int k = 0; k < 6 * samples_per_period; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / samples_per_period;
+    const double torque = drive.send_exact(std::sin(angle)).now;
+    if (k < 5 * samples_per_period) continue;
+    in_phase += 2.0 * torque * std::sin(angle) / samples_per_period;
+    quadrature += 2.0 * torque * std::cos(angle) / samples_per_period;
+  }
+  EXPECT_NEAR(std::hypot(in_phase, quadrature), std::sqrt(0.5), 1e-3);
+  EXPECT_NEAR(std::atan2(quadrature, in_phase), -std::numbers::pi / 4.0, 1e-3);
+}
+
+TEST(Drive, ManyShortSamplesEqualOneLong) {
+  Drive shorter({}, {70.0}, 0, sample_time / 16.0, randomness_of(1));
+  Drive longer({}, {70.0}, 0, sample_time, randomness_of(1));
+  for (int k = 0; k < 200; ++k) {
+    const double level = std::cos(0.7 * k);
+    const double expected = longer.send_exact(level).now;
+    ASSERT_NEAR(shorter.send_exact(level).now, expected, 1e-14);
+    for (int i = 1; i < 16; ++i) shorter.send_exact(level);
+  }
+}
+
+TEST(Drive, AmplifierComesToRest) {
+  Drive drive({}, {200.0}, 0, sample_time, randomness_of(1));
+  drive.send_exact(0.3);
+  TorqueCourse course;
+  for (int k = 0; k < 2000; ++k) {
+    course = drive.send_exact(0.0);
+    ASSERT_TRUE(course.now == 0.0 || std::isnormal(course.now));
+  }
+  EXPECT_EQ(course.now, 0.0);
+}
+
+}  // namespace
+}  // namespace zerocount

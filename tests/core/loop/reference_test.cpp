@@ -1,0 +1,343 @@
+// The reference of a move: its ends, its limits, its symmetry, that it is the fastest, and every count of it
+// against the seven segments integrated one after the other.
+#include "core/loop/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace zerocount {
+namespace {
+
+constexpr double paper_resolution = 2.0 * std::numbers::pi / 1620000.0;
+
+/// A move from rest to rest, in a unit of length in which the limits are given.
+struct Move {
+  ReferenceProfile profile;
+  long double travel;
+};
+
+/// The largest velocity and acceleration of a move, and how long its jerk lasts.
+struct Segments {
+  long double jerk, jerk_time, acceleration_time, cruise_time;
+  long double duration() const { return 4 * jerk_time + 2 * acceleration_time + cruise_time; }
+};
+
+/// The fastest of the symmetric moves without a formula for the cases: of all largest velocities the highest
+/// that can be reached and left within the travel, found by bisection.
+Segments fastest_segments(const Move& move) {
+  const long double acceleration_limit = move.profile.acceleration_limit;
+  const long double jerk_limit = move.profile.jerk_limit;
+  const bool trapezoidal = move.profile.shape == ReferenceShape::trapezoidal;
+  const auto segments_with = [&](long double velocity) {
+    Segments s{jerk_limit, 0, velocity / acceleration_limit, 0};
+    if (!trapezoidal) {
+      const long double acceleration = std::min(acceleration_limit, std::sqrt(velocity * jerk_limit));
+      s.jerk_time = acceleration / jerk_limit;
+      s.acceleration_time = std::max(0.0L, velocity / acceleration - s.jerk_time);
+    }
+    s.cruise_time = move.travel / velocity - 2 * s.jerk_time - s.acceleration_time;
+    return s;
+  };
+  long double low = 0;
+  long double high = move.profile.velocity_limit;
+  if (segments_with(high).cruise_time >= 0) return segments_with(high);
+  for (int i = 0; i < 200; ++i) {
+    const long double middle = (low + high) / 2;
+    (segments_with(middle).cruise_time >= 0 ? low : high) = middle;
+  }
+  return segments_with(low);
+}
+
+/// Where the move is at the time t: segment after segment, each of constant jerk.
+long double integrated_position(const Segments& s, long double acceleration_limit, long double t) {
+  const bool trapezoidal = s.jerk_time == 0;
+  long double position = 0;
+  long double velocity = 0;
+  const auto go = [&](long double time, long double jerk, long double acceleration) {
+    time = std::clamp(t, 0.0L, time);
+    t -= time;
+    position += time * (velocity + time * (acceleration / 2 + time * jerk / 6));
+    velocity += time * (acceleration + time * jerk / 2);
+  };
+  const long double a = trapezoidal ? acceleration_limit : s.jerk * s.jerk_time;
+  go(s.jerk_time, s.jerk, 0);
+  go(s.acceleration_time, 0, a);
+  go(s.jerk_time, -s.jerk, a);
+  go(s.cruise_time, 0, 0);
+  go(s.jerk_time, -s.jerk, 0);
+  go(s.acceleration_time, 0, -a);
+  go(s.jerk_time, s.jerk, -a);
+  return position;
+}
+
+class Sampler {
+ public:
+  explicit Sampler(unsigned seed) : random_(seed) {}
+  double uniform(double a, double b) { return std::uniform_real_distribution<double>(a, b)(random_); }
+  double power_of_ten(double low, double high) { return std::pow(10.0, uniform(low, high)); }
+  std::int64_t integer(std::int64_t a, std::int64_t b) {
+    return std::uniform_int_distribution<std::int64_t>(a, b)(random_);
+  }
+
+  /// Limits over orders of magnitude: for a travel around 1 each may or may not be reached.
+  ReferenceProfile profile() {
+    ReferenceProfile p;
+    p.shape = integer(0, 3) == 0 ? ReferenceShape::trapezoidal : ReferenceShape::s_curve;
+    p.velocity_limit = power_of_ten(-2, 2);
+    p.acceleration_limit = power_of_ten(-3, 3);
+    p.jerk_limit = power_of_ten(-3, 5);
+    return p;
+  }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+/// So many counts in the travel that rounding to whole ones hardly shows.
+constexpr std::int64_t many_counts = std::int64_t{1} << 51;
+
+Reference finely_resolved(const Move& move) {
+  return {move.profile, 0, many_counts, static_cast<double>(move.travel) / static_cast<double>(many_counts)};
+}
+
+TEST(Reference, StepIsTheTargetAtOnce) {
+  const Reference step({.shape = ReferenceShape::step}, -5, 20, paper_resolution);
+  EXPECT_EQ(step.duration(), 0.0);
+  for (const double t : {0.0, 1e-9, 1.0, 1e9}) EXPECT_EQ(step.at(t), 20);
+}
+
+TEST(Reference, NoTravelTakesNoTime) {
+  for (const auto shape : {ReferenceShape::step, ReferenceShape::trapezoidal, ReferenceShape::s_curve}) {
+    const Reference still({.shape = shape}, -7, -7, paper_resolution);
+    EXPECT_EQ(still.duration(), 0.0);
+    for (const double t : {-1.0, 0.0, 1e-9, 1.0}) EXPECT_EQ(still.at(t), -7);
+  }
+}
+
+TEST(Reference, TrapezoidalMoveTakesTheTimesOfTheTextbook) {
+  // 1 rad/s at 4 rad/s² is reached after 1/4 s and 1/8 rad.
+  const ReferenceProfile profile{ReferenceShape::trapezoidal, 1.0, 4.0, 1.0};
+  EXPECT_DOUBLE_EQ(Reference(profile, 0, 1000, 1e-3).duration(), 1.25);
+  EXPECT_EQ(Reference(profile, 0, 1000, 1e-3).at(0.25), 125);
+  EXPECT_EQ(Reference(profile, 0, 1000, 1e-3).at(1.0), 875);
+  EXPECT_DOUBLE_EQ(Reference(profile, 0, 250, 1e-3).duration(), 0.5);  // just reached
+  EXPECT_DOUBLE_EQ(Reference(profile, 0, 40, 1e-3).duration(), 0.2);   // a triangle: 2√(travel/a)
+  EXPECT_EQ(Reference(profile, 0, 40, 1e-3).at(0.1), 20);
+}
+
+TEST(Reference, SCurveTakesTheTimesOfEachOfItsCases) {
+  // The limits: 2 rad/s, 4 rad/s², 16 rad/s³; full acceleration after 1/4 s, full velocity after 3/4 s.
+  const ReferenceProfile all{ReferenceShape::s_curve, 2.0, 4.0, 16.0};
+  // With all limits reached; with a largest velocity of 1.5 rad/s; with full acceleration just reached; with
+  // the jerk limit alone.
+  EXPECT_DOUBLE_EQ(Reference(all, 0, 4000, 1e-3).duration(), 4.0 / 2.0 + 0.75);
+  EXPECT_DOUBLE_EQ(Reference(all, 0, 9375, 1e-4).duration(), 2 * (1.5 / 4.0 + 0.25));
+  EXPECT_DOUBLE_EQ(Reference(all, 0, 500, 1e-3).duration(), 4 * 0.25);
+  EXPECT_DOUBLE_EQ(Reference(all, 0, 32, 1e-3).duration(), std::cbrt(32 * 0.032 / 16.0));
+  const ReferenceProfile slow{ReferenceShape::s_curve, 0.25, 4.0, 16.0};  // no full acceleration
+  EXPECT_DOUBLE_EQ(Reference(slow, 0, 1000, 1e-3).duration(), 4.0 + 0.25);
+}
+
+TEST(Reference, EveryCountIsTheNearestToTheSegmentsIntegratedOneByOne) {
+  Sampler draw(1);
+  std::int64_t compared = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Move move{draw.profile(), draw.power_of_ten(-3, 3)};
+    const std::int64_t from = draw.integer(-1000000, 1000000);
+    const auto counts = static_cast<std::int64_t>(draw.power_of_ten(0, 7));
+    const bool down = draw.integer(0, 1) == 1;
+    const double resolution = static_cast<double>(move.travel) / static_cast<double>(counts);
+    const Reference reference(move.profile, from, down ? from - counts : from + counts, resolution);
+    const Segments segments = fastest_segments(move);
+    ASSERT_NEAR(reference.duration(), static_cast<double>(segments.duration()), 1e-12 * reference.duration());
+    for (int k = 0; k < 50; ++k) {
+      const double t = reference.duration() * draw.uniform(0.0, 1.0);
+      const long double exact =
+          integrated_position(segments, move.profile.acceleration_limit, t) / resolution;
+      if (std::abs(exact - std::floor(exact) - 0.5L) < 1e-5L) continue;  // either count is as near
+      const std::int64_t forwards = std::llround(exact);
+      ASSERT_EQ(reference.at(t), down ? from - forwards : from + forwards) << "move " << i << ", t " << t;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 99000);
+}
+
+TEST(Reference, DifferencesKeepWithinEveryLimit) {
+  Sampler draw(2);
+  for (int i = 0; i < 300; ++i) {
+    const Move move{draw.profile(), draw.power_of_ten(-2, 2)};
+    const Reference reference = finely_resolved(move);
+    constexpr int steps = 500;
+    const long double step = static_cast<long double>(reference.duration()) / steps;
+    std::vector<long double> differences;
+    for (int k = 0; k <= steps; ++k)
+      differences.push_back(static_cast<long double>(reference.at(static_cast<double>(k * step))));
+    const auto differentiate = [&] {
+      for (std::size_t k = 0; k + 1 < differences.size(); ++k)
+        differences[k] = differences[k + 1] - differences[k];
+      differences.pop_back();
+    };
+    const auto largest = [&] {
+      long double most = 0;
+      for (const long double value : differences) most = std::max(most, std::abs(value));
+      return most;
+    };
+    const long double counts = static_cast<long double>(many_counts) / move.travel;
+    constexpr long double rounding = 64.0L;  // counts of 2·10¹⁵
+    constexpr long double slack = 1.0L + 1e-9L;
+    differentiate();
+    EXPECT_GE(*std::ranges::min_element(differences), 0.0L) << "it never goes back";
+    EXPECT_LE(largest(), counts * move.profile.velocity_limit * step * slack + rounding);
+    differentiate();
+    EXPECT_LE(largest(), counts * move.profile.acceleration_limit * step * step * slack + rounding);
+    differentiate();
+    if (move.profile.shape == ReferenceShape::trapezoidal) continue;
+    EXPECT_LE(largest(), counts * move.profile.jerk_limit * step * step * step * slack + rounding);
+  }
+}
+
+TEST(Reference, NoOtherSymmetricMoveWithinTheLimitsIsFaster) {
+  // With the largest velocity v and acceleration a of a symmetric move, and the jerk j, it lasts v/a + a/j +
+  // travel/v, and there is such a move where speeding up and slowing down, v·(v/a + a/j), fit into the travel
+  // and the jerk's phases into the speeding up, a² ≤ v·j.
+  Sampler draw(3);
+  std::int64_t tried = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Move move{draw.profile(), draw.power_of_ten(-2, 2)};
+    const double duration = finely_resolved(move).duration();
+    const bool trapezoidal = move.profile.shape == ReferenceShape::trapezoidal;
+    const double inverse_jerk = trapezoidal ? 0.0 : 1.0 / move.profile.jerk_limit;
+    double fastest = 1e300;
+    for (int k = 0; k < 20000; ++k) {
+      const double v = move.profile.velocity_limit * (k % 4 == 0 ? 1.0 : draw.power_of_ten(-2.5, 0));
+      const double a = move.profile.acceleration_limit * (k % 3 == 0 ? 1.0 : draw.power_of_ten(-2.5, 0));
+      const double speed_up = v / a + a * inverse_jerk;
+      if (v * speed_up > static_cast<double>(move.travel) || a * a * inverse_jerk > v) continue;
+      ++tried;
+      fastest = std::min(fastest, speed_up + static_cast<double>(move.travel) / v);
+    }
+    EXPECT_GE(fastest, duration * (1.0 - 1e-12));
+  }
+  EXPECT_GT(tried, 300000);
+}
+
+TEST(Reference, SecondHalfIsTheFirstBackwards) {
+  Sampler draw(4);
+  for (int i = 0; i < 500; ++i) {
+    const std::int64_t from = draw.integer(-1000000, 1000000);
+    const std::int64_t to = from + draw.integer(-1000000, 1000000);
+    const Reference reference(draw.profile(), from, to, draw.power_of_ten(-8, -3));
+    for (int k = 0; k < 200; ++k) {
+      const double late = reference.duration() * draw.uniform(0.5, 1.0);
+      const double early = reference.duration() - late;  // exact
+      if (early == late) continue;
+      ASSERT_EQ(reference.at(early) + reference.at(late), from + to);
+    }
+  }
+}
+
+TEST(Reference, EveryMoveEndsExactlyAndNeverTurnsBack) {
+  Sampler draw(5);
+  for (int i = 0; i < 1000; ++i) {
+    const std::int64_t from = draw.integer(-100, 100);
+    const auto counts = static_cast<std::int64_t>(draw.power_of_ten(0, 12)) * (i % 2 == 0 ? 1 : -1);
+    const std::int64_t to = from + counts;
+    const Reference reference(draw.profile(), from, to, paper_resolution * draw.power_of_ten(-2, 2));
+    const double duration = reference.duration();
+    ASSERT_TRUE(std::isfinite(duration));
+    ASSERT_GT(duration, 0.0);
+    EXPECT_EQ(reference.at(-1.0), from);
+    EXPECT_EQ(reference.at(0.0), from);
+    EXPECT_EQ(reference.at(std::nextafter(duration, 0.0)), to);
+    for (const double t : {duration, std::nextafter(duration, 2 * duration), 2 * duration, 1e300})
+      EXPECT_EQ(reference.at(t), to);
+    std::int64_t last = from;
+    for (int k = 0; k <= 1000; ++k) {
+      const std::int64_t now = reference.at(duration * k / 1000.0);
+      ASSERT_GE((now - last) * (counts > 0 ? 1 : -1), 0);
+      last = now;
+    }
+    EXPECT_EQ(last, to);
+  }
+}
+
+TEST(Reference, OneCountIsPassedInTheMiddleOfItsMove) {
+  Sampler draw(6);
+  for (int i = 0; i < 200; ++i) {
+    const bool down = i % 2 == 1;
+    const Reference reference(draw.profile(), 3, down ? 2 : 4, paper_resolution);
+    const double middle = reference.duration() / 2;
+    EXPECT_EQ(reference.at(middle * (1 - 1e-9)), 3);
+    EXPECT_EQ(reference.at(middle * (1 + 1e-9)), down ? 2 : 4);
+  }
+}
+
+TEST(Reference, MiddleOfAnOddTravelIsPassedWithoutTurningBack) {
+  Sampler draw(7);
+  for (int i = 0; i < 500; ++i) {
+    const std::int64_t to = 2 * draw.integer(0, 5) + 1;
+    const Reference reference(draw.profile(), 0, to, draw.power_of_ten(-6, 0));
+    double t = reference.duration() / 2;
+    for (int k = 0; k < 10; ++k) t = std::nextafter(t, 0.0);
+    std::int64_t last = reference.at(t);
+    for (int k = 0; k < 20; ++k) {
+      t = std::nextafter(t, 1e300);
+      ASSERT_GE(reference.at(t), last);
+      last = reference.at(t);
+    }
+    EXPECT_EQ(last, (to + 1) / 2);
+  }
+}
+
+TEST(Reference, LimitsThatAreNoneInPracticeLeaveTheOthers) {
+  constexpr double none = 1e308;
+  const auto duration = [](ReferenceShape shape, double v, double a, double j) {
+    return Reference({shape, v, a, j}, 0, 4000, 1e-3).duration();
+  };
+  EXPECT_NEAR(duration(ReferenceShape::trapezoidal, 2.0, none, 1.0), 2.0, 1e-15);
+  EXPECT_NEAR(duration(ReferenceShape::trapezoidal, none, 4.0, 1.0), 2.0, 1e-15);
+  EXPECT_NEAR(duration(ReferenceShape::s_curve, 2.0, none, none), 2.0, 1e-15);
+  EXPECT_NEAR(duration(ReferenceShape::s_curve, none, 4.0, none), 2.0, 1e-15);
+  EXPECT_NEAR(duration(ReferenceShape::s_curve, none, none, 16.0), 2.0, 1e-15);
+  EXPECT_NEAR(duration(ReferenceShape::s_curve, none, none, none), 0.0, 1e-100);
+}
+
+TEST(Reference, EveryLimitMakesAMoveBetweenItsEnds) {
+  Sampler draw(8);
+  for (int i = 0; i < 10000; ++i) {
+    const auto limit = [&draw] { return draw.power_of_ten(-307, 308); };
+    const auto shape = i % 3 == 0 ? ReferenceShape::trapezoidal : ReferenceShape::s_curve;
+    const Reference reference({shape, limit(), limit(), limit()}, 0, 1000, paper_resolution);
+    ASSERT_GT(reference.duration(), 0.0);  // and not NaN; it may be more than any number
+    std::int64_t last = 0;
+    for (int k = 0; k <= 20; ++k) {
+      const std::int64_t now = reference.at(std::min(reference.duration(), 1e300) * k / 20.0);
+      ASSERT_GE(now, last);
+      ASSERT_LE(now, 1000);
+      last = now;
+    }
+  }
+}
+
+TEST(Reference, HugeTravelIsCountedToItsEnd) {
+  constexpr std::int64_t huge = 1'000'000'000'000;
+  for (const std::int64_t to : {huge, -huge}) {
+    const Reference reference({ReferenceShape::s_curve, 2.0, 100.0, 1e4}, -to, to, paper_resolution);
+    const double travel = 2.0 * static_cast<double>(huge) * paper_resolution;
+    EXPECT_NEAR(reference.duration(), travel / 2.0 + 0.03, 1e-6);
+    EXPECT_EQ(reference.at(reference.duration()), to);
+    EXPECT_EQ(reference.at(reference.duration() / 2), 0);
+    const double v = 2.0 / paper_resolution;  // counts/s, after 0.03 s
+    EXPECT_NEAR(static_cast<double>(std::abs(reference.at(1000.0) + to)), v * (1000.0 - 0.015), 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace zerocount

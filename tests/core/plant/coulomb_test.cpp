@@ -1,0 +1,251 @@
+// Amonton–Coulomb friction: it stands exactly, and moves as the closed forms say.
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/plant/plant.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr MotionTolerance tolerance{4e-16};
+constexpr double level = 0.3;  // N m
+
+/// Without Stribeck the friction of a slide is the breakaway torque itself.
+FrictionAlongRotor coulomb(double ratio = 1.0) {
+  FrictionAlongRotor friction;
+  friction.model = FrictionModel::coulomb;
+  friction.uniform.breakaway = level;
+  friction.uniform.coulomb_ratio = ratio;
+  return friction;
+}
+
+void hold(Plant& plant, double torque, double duration) {
+  plant.advance(constant_torque(torque), duration);
+}
+
+double next_after(double value) {
+  return std::nextafter(value, std::numeric_limits<double>::infinity());
+}
+
+TEST(CoulombPlant, StandsExactlyWhileTheTorqueIsWithinTheLevel) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> torque(-level, level);
+  Plant plant({}, coulomb(0.5), {}, tolerance);
+  double now = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    const TorqueCourse course{now, torque(random), 1e4 * std::abs(torque(random))};
+    plant.advance(course, 5e-4);
+    now = course_after(course, 5e-4).now;
+    hold(plant, k % 2 == 0 ? level : -level, 5e-4);
+    ASSERT_EQ(plant.theta(), 0.0);
+    ASSERT_EQ(plant.omega(), 0.0);
+  }
+  EXPECT_EQ(plant.breakaways(), 0);
+}
+
+TEST(CoulombPlant, KnowsNoPreslidingState) {
+  PlantStart start;
+  start.hardening = 1e-5;
+  start.preload = 0.1;
+  start.history = {0.2, -0.1};
+  Plant plant({}, coulomb(), start, tolerance);
+  for (const double torque : {0.0, 0.5, -0.2, -0.6}) {
+    EXPECT_EQ(plant.creep().extension, 0.0);
+    EXPECT_EQ(plant.creep().hardening, 0.0);
+    EXPECT_EQ(plant.spring().depth(), 0u);
+    EXPECT_EQ(plant.spring().torque(), 0.0);
+    hold(plant, torque, 0.01);
+  }
+  EXPECT_NE(plant.theta(), 0.0);
+}
+
+// With friction F, damping cs and torque u the velocity relaxes to (u − F)/cs with the time constant J/cs.
+TEST(CoulombPlant, SlidesAndStopsAsTheClosedFormSays) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    PlantParameters rotor;
+    rotor.inertia = 1e-4 * std::pow(10.0, 2.0 * unit(random));
+    rotor.sliding_damping = 1e-3 * std::pow(10.0, 2.0 * unit(random));
+    const double relaxation = rotor.inertia / rotor.sliding_damping;
+    const double side = unit(random) < 0.5 ? -1.0 : 1.0;
+    Plant plant(rotor, coulomb(), {}, tolerance);
+
+    const double drive = level * (1.0 + 3.0 * unit(random));
+    const double t = 0.02 * unit(random);
+    const double limit = (drive - level) / rotor.sliding_damping;
+    const double omega = -limit * std::expm1(-t / relaxation);
+    const double theta = limit * t - relaxation * omega;
+    hold(plant, side * drive, t);
+    ASSERT_NEAR(plant.omega(), side * omega, 1e-12 * omega);
+    ASSERT_NEAR(plant.theta(), side * theta, 1e-12 * theta + 1e-15);
+
+    const double brake = level * (2.0 * unit(random) - 1.0);
+    const double braking_limit = (level - brake) / rotor.sliding_damping;  // −(velocity it would relax to)
+    const double stop = relaxation * std::log1p(omega / braking_limit);
+    const double path = relaxation * omega - braking_limit * stop;
+    hold(plant, side * brake, 0.999 * stop);
+    ASSERT_TRUE(plant.sliding());
+    hold(plant, side * brake, 0.002 * stop);
+    ASSERT_FALSE(plant.sliding());
+    ASSERT_EQ(plant.omega(), 0.0);
+    ASSERT_NEAR(plant.theta(), side * (theta + path), 1e-12 * (theta + path) + 1e-15);
+    const double rest = plant.theta();
+    hold(plant, side * level, 1.0);
+    ASSERT_EQ(plant.theta(), rest);
+  }
+}
+
+TEST(CoulombPlant, ReversesAtOnceWhereTheTorqueOvercomesTheLevel) {
+  PlantParameters rotor;
+  rotor.sliding_damping = 0.0;
+  const double omega = 1.0;
+  Plant plant(rotor, coulomb(), {.velocity = omega}, tolerance);
+  const double torque = -0.5;
+  const double braking = (0.5 + level) / rotor.inertia;
+  const double backwards = (0.5 - level) / rotor.inertia;
+  const double stop = omega / braking;
+  const double after = 1e-3;
+  hold(plant, torque, stop + after);
+  EXPECT_NEAR(plant.omega(), -backwards * after, 1e-12);
+  EXPECT_NEAR(plant.theta(), 0.5 * omega * stop - 0.5 * backwards * after * after, 1e-15);
+}
+
+TEST(CoulombPlant, SlidesOnAtOnceWhereTheNewContactIsWeaker) {
+  const auto weaker = std::make_shared<const Profile>(
+      Profile{Marginal::normal, level, 0.2, {0.0, 0.0}, {0.0, -1.0}});  // falls with the angle
+  FrictionAlongRotor friction = coulomb();
+  friction.profiled.push_back({&FrictionParameters::breakaway, weaker});
+  Plant plant({}, friction, {.velocity = 5.0}, tolerance);
+  const double torque = level - 0.03;
+  hold(plant, torque, 1.0);
+  EXPECT_TRUE(plant.sliding());
+  EXPECT_GT(plant.breakaways(), 0);
+  EXPECT_LT(plant.contact().breakaway, torque);
+  const double theta = plant.theta();
+  hold(plant, torque, 0.1);
+  EXPECT_GT(plant.theta(), theta);
+}
+
+TEST(CoulombPlant, NeedsTheStaticLevelToStartButNotToGoOn) {
+  const double between = 0.9 * level;
+  Plant standing({}, coulomb(0.8), {}, tolerance);
+  hold(standing, between, 1.0);
+  EXPECT_EQ(standing.theta(), 0.0);
+  Plant moving({}, coulomb(0.8), {.velocity = 1.0}, tolerance);
+  hold(moving, between, 1.0);
+  EXPECT_GT(moving.omega(), 1.0);
+}
+
+// u − F = (U − F)·(1 − exp(−r(t − t*))) from the instant t* at which u passes F.
+TEST(CoulombPlant, IsReleasedByAnAmplifierAtTheExactInstant) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    PlantParameters rotor;
+    rotor.sliding_damping = 0.0;
+    const double side = unit(random) < 0.5 ? -1.0 : 1.0;
+    const TorqueCourse course{side * level * (2.0 * unit(random) - 1.0), side * level * (1.0 + unit(random)),
+                              std::pow(10.0, 1.0 + 4.0 * unit(random))};
+    const double release =
+        std::log((course.now - course.settled) / (side * level - course.settled)) / course.rate;
+    const double excess = (course.settled - side * level) / rotor.inertia;
+    for (const double t : {0.1, 1.0, 3.0, 30.0}) {
+      Plant plant(rotor, coulomb(), {}, tolerance);
+      plant.advance(course, 0.9999999 * release);
+      ASSERT_EQ(plant.theta(), 0.0);
+      ASSERT_FALSE(plant.sliding());
+      const double since = t / course.rate;
+      plant.advance(course_after(course, 0.9999999 * release), 0.0000001 * release + since);
+      const double omega = excess * (since + std::expm1(-t) / course.rate);
+      const double theta =
+          excess * (0.5 * since * since - since / course.rate - std::expm1(-t) / course.rate / course.rate);
+      // The instant is known to the rounding of the torque over its rate of change.
+      const double late = 1e-15 * level / (course.rate * std::abs(course.settled - side * level)) + 1e-16;
+      const double left_out = 10.0 * tolerance.elongation;
+      ASSERT_NEAR(plant.omega(), omega, std::abs(excess) * late + 1e-14 * std::abs(omega) + left_out / since)
+          << trial;
+      ASSERT_EQ(plant.breakaways(), 1) << trial;  // no false start at the level
+      ASSERT_NEAR(plant.theta(), theta, std::abs(omega) * late + 1e-14 * std::abs(theta) + left_out) << trial;
+    }
+  }
+}
+
+// Torques that touch the level, or pass it by no more than rounding: none may hang or lose the motion.
+TEST(CoulombPlant, FollowsEveryTorqueAtTheVeryLevel) {
+  for (const double ratio : {1.0, 0.8, 0.3, 0.1}) {
+    for (const double side : {1.0, -1.0}) {
+      const double beyond = side * next_after(level);
+      const double within = side * std::nextafter(level, 0.0);
+      const TorqueCourse courses[] = {
+          constant_torque(side * level),
+          constant_torque(beyond),
+          {beyond, 0.0, 1e3},
+          {beyond, -side * level, 1e3},
+          {beyond, -2.0 * side * level, 1e3},
+          {beyond, within, 1e3},
+          {within, beyond, 1e3},
+          {side * level, beyond, 1e3},
+          {side * level, 2.0 * beyond, 1e3},
+          {side * level, 2.0 * beyond, 1e-12},
+          {side * level, 0.0, 1e3},
+          {0.0, side * level, 1e5},
+          {0.0, beyond, 1e5},
+          {side * level, 2.0 * beyond, 1e9},
+          {side * level, -side * level, 1e3},
+          {2.0 * beyond, side * level, 1e4},
+      };
+      for (const TorqueCourse& course : courses) {
+        Plant plant({}, coulomb(ratio), {}, tolerance);
+        for (int k = 0; k < 20; ++k) plant.advance(course_after(course, k * 5e-4), 5e-4);
+        ASSERT_TRUE(plant.finite()) << ratio << ' ' << course.now << ' ' << course.settled;
+        const bool moves = std::abs(course.now) > 1.5 * level || std::abs(course.settled) > 1.5 * level;
+        if (moves && course.rate > 1.0) {
+          EXPECT_GT(plant.theta() * course_after(course, 1.0).now, 0.0)
+              << course.now << ' ' << course.settled;
+        }
+        if (std::abs(course.now) <= level && std::abs(course.settled) <= level) {
+          EXPECT_EQ(plant.theta(), 0.0);
+        }
+      }
+    }
+  }
+}
+
+TEST(CoulombPlant, SlidesUnderTheSameLawAsThePreslidingOne) {
+  FrictionAlongRotor friction = coulomb(0.6);
+  Plant without({}, friction, {.velocity = 2.0, .sliding = true}, tolerance);
+  friction.model = FrictionModel::presliding;
+  Plant with({}, friction, {.velocity = 2.0, .sliding = true}, tolerance);
+  for (int k = 0; k < 5; ++k) {
+    hold(without, 0.1, 5e-4);
+    hold(with, 0.1, 5e-4);
+    EXPECT_TRUE(with.sliding());
+    EXPECT_EQ(without.theta(), with.theta());
+    EXPECT_EQ(without.omega(), with.omega());
+  }
+}
+
+TEST(CoulombPlant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> torque(0.0, 0.4);
+  Plant plant({}, coulomb(0.7), {.velocity = 0.1}, tolerance);
+  Plant mirror({}, coulomb(0.7), {.velocity = -0.1}, tolerance);
+  double now = 0.0;
+  for (int k = 0; k < 3000; ++k) {
+    const TorqueCourse course{now, torque(random), 3000.0};
+    plant.advance(course, 5e-4);
+    mirror.advance({-course.now, -course.settled, course.rate}, 5e-4);
+    now = course_after(course, 5e-4).now;
+    ASSERT_EQ(plant.theta(), -mirror.theta()) << k;
+    ASSERT_EQ(plant.omega(), -mirror.omega()) << k;
+  }
+  EXPECT_GT(plant.breakaways(), 100);
+}
+
+}  // namespace
+}  // namespace zerocount

@@ -1,0 +1,163 @@
+// Energy: what the motor puts in is in the rotor and the spring, or has been dissipated, and never comes
+// back.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/plant/plant.hpp"
+#include "tests/support/stop_elements.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+constexpr double count = 2.0 * std::numbers::pi / 1620000;  // rad
+constexpr double sample = 5e-4;                             // s
+constexpr MotionTolerance tolerance{1e-10 * count};
+
+/// Follows the plant in short steps and adds up the energy that the torque brings, and that damper and
+/// sliding friction take.
+struct EnergyLedger {
+  PlantParameters rotor;
+  FrictionParameters friction;
+  double work{0.0};        // by the torque, J
+  double dissipated{0.0};  // by the dampers and sliding friction, J
+
+  double loss_power(const Plant& plant) const {
+    const double omega = plant.omega();
+    if (!plant.sliding()) return rotor.presliding_damping * omega * omega;
+    const double coulomb = friction.coulomb_ratio * friction.breakaway;
+    const double r = omega / friction.stribeck_velocity;
+    return std::abs(omega) * (coulomb + (friction.breakaway - coulomb) * std::exp(-r * r)) +
+           rotor.sliding_damping * omega * omega;
+  }
+
+  double kinetic(const Plant& plant) const { return 0.5 * rotor.inertia * plant.omega() * plant.omega(); }
+
+  /// One short step, by Simpson's rule.
+  TorqueCourse step(Plant& plant, const TorqueCourse& course, double dt) {
+    const TorqueCourse middle = course_after(course, 0.5 * dt);
+    const TorqueCourse end = course_after(course, dt);
+    const auto sum = [&](double a, double b, double c) { return dt / 6.0 * (a + 4.0 * b + c); };
+    const double loss = loss_power(plant);
+    const double power = course.now * plant.omega();
+    const double theta = plant.theta();
+    plant.advance(course, 0.5 * dt);
+    const double middle_loss = loss_power(plant);
+    const double middle_power = middle.now * plant.omega();
+    plant.advance(middle, 0.5 * dt);
+    dissipated += sum(loss, middle_loss, loss_power(plant));
+    work += is_constant(course) ? course.now * (plant.theta() - theta)
+                                : sum(power, middle_power, end.now * plant.omega());
+    return end;
+  }
+};
+
+FrictionAlongRotor of_model(FrictionModel model, FrictionParameters friction) {
+  return {friction, {}, model};
+}
+
+/// Torques that go forth and back through the breakaway, 400 samples in all.
+double alternating(int k) {
+  return (k / 20) % 2 == 0 ? 0.15 : -0.12;
+}
+
+// With k2 → 0 the spring is elastic: stored energy σ²/2k1, the same before a slide and after it because the
+// new contact carries the torque of the old one.
+FrictionParameters elastic() {
+  FrictionParameters friction;
+  friction.k1 = 400.0;
+  friction.k2 = 1e-9;
+  friction.breakaway = 0.1;
+  return friction;
+}
+
+struct Drive {
+  double rate;  // of the amplifier, 1/s; 0: none
+  PlantStart start;
+};
+
+class EnergyBalance : public ::testing::TestWithParam<Drive> {};
+
+TEST_P(EnergyBalance, HoldsThroughBreakawayAndReStickOnAnElasticSpring) {
+  EnergyLedger ledger;
+  ledger.friction = elastic();
+  const PlantStart& start = GetParam().start;
+  Plant plant(ledger.rotor, of_model(FrictionModel::spring, ledger.friction), start, tolerance);
+  const auto stored = [&](double torque) { return 0.5 * torque * torque / ledger.friction.k1; };
+  // A slide begins with the spring at the breakaway torque.
+  const double at_start = ledger.kinetic(plant) + stored(start.sliding ? ledger.friction.breakaway : 0.0);
+  double largest = at_start;
+  TorqueCourse course{0.0, 0.0, GetParam().rate};
+  for (int k = 0; k < 400; ++k) {
+    course.settled = alternating(k);
+    if (course.rate == 0.0) course.now = course.settled;
+    for (int i = 0; i < 250; ++i) course = ledger.step(plant, course, sample / 250);
+    if (plant.sliding()) continue;  // nobody knows the spring
+    largest = std::max(largest, std::abs(ledger.work));
+    const double inside = ledger.kinetic(plant) + stored(plant.spring().torque());
+    EXPECT_NEAR(at_start + ledger.work, inside + ledger.dissipated, 2e-5 * largest) << k;
+  }
+  EXPECT_GE(plant.breakaways(), 15);
+}
+
+TEST_P(EnergyBalance, HoldsUnderCoulombFriction) {
+  EnergyLedger ledger;
+  ledger.friction = elastic();
+  Plant plant(ledger.rotor, of_model(FrictionModel::coulomb, ledger.friction), GetParam().start, tolerance);
+  const double at_start = ledger.kinetic(plant);
+  double largest = at_start;
+  TorqueCourse course{0.0, 0.0, GetParam().rate};
+  for (int k = 0; k < 400; ++k) {
+    course.settled = alternating(k);
+    if (course.rate == 0.0) course.now = course.settled;
+    for (int i = 0; i < 250; ++i) course = ledger.step(plant, course, sample / 250);
+    largest = std::max(largest, std::abs(ledger.work));
+    EXPECT_NEAR(at_start + ledger.work, ledger.kinetic(plant) + ledger.dissipated, 2e-5 * largest) << k;
+  }
+  EXPECT_GE(plant.breakaways(), 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drives, EnergyBalance,
+                         ::testing::Values(Drive{0.0, {}}, Drive{400.0, {}}, Drive{20000.0, {}},
+                                           Drive{0.0, {.velocity = 0.3}},
+                                           Drive{400.0, {.velocity = -0.5, .sliding = true}}));
+
+// The energy of the hysteretic spring is that of its stop elements. What is neither there, nor in the rotor
+// or the damper, is lost to hysteresis and creep, and that only grows.
+TEST(HystereticEnergy, IsLostAndNeverComesBack) {
+  std::mt19937 random(41);
+  std::normal_distribution<double> torque(0.0, 0.06);
+  for (const double alpha : {0.0, 20.0}) {
+    for (const double rate : {0.0, 800.0}) {
+      EnergyLedger ledger;
+      ledger.friction.alpha = alpha;
+      ledger.friction.breakaway = 10.0;
+      Plant plant(ledger.rotor, of_model(FrictionModel::presliding, ledger.friction), {}, tolerance);
+      StopElements spring(ledger.friction, 2000);
+      TorqueCourse course{0.0, 0.0, rate};
+      double lost = 0.0;
+      double largest = 0.0;
+      for (int k = 0; k < 60; ++k) {
+        course.settled = torque(random);
+        if (course.rate == 0.0) course.now = course.settled;
+        for (int i = 0; i < 200; ++i) {
+          course = ledger.step(plant, course, sample / 200);
+          spring.move_to(plant.spring().elongation());
+        }
+        largest = std::max(largest, std::abs(ledger.work));
+        const double now_lost = ledger.work - ledger.kinetic(plant) - ledger.dissipated - spring.energy();
+        EXPECT_GE(now_lost, lost - 1e-4 * largest) << k;
+        lost = now_lost;
+      }
+      EXPECT_GT(lost, 0.05 * ledger.work);
+      EXPECT_LT(lost, ledger.work);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,0 +1,173 @@
+// The plant against Boost.odeint, open loop: random torques, held or followed by a first-order amplifier, for
+// every friction model and every kind of start. What a trial adds to it is tested with the trial.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include "core/plant/plant.hpp"
+#include "core/trial/random_history.hpp"
+#include "tests/support/odeint_motion.hpp"
+#include "tests/support/random_trials.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+class Draws {
+ public:
+  explicit Draws(std::uint64_t seed) : engine_(seed) {}
+  double uniform(double low, double high) {
+    return low + (high - low) * std::ldexp(static_cast<double>(engine_() >> 11), -53);
+  }
+  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// How the torque goes on from one interval to the next.
+enum class Drive { held, amplified, amplified_with_jumps };
+
+struct Family {
+  const char* name;
+  TrialKind kind;
+  Drive drive;
+};
+
+void PrintTo(const Family& family, std::ostream* out) {
+  *out << family.name;
+}
+
+/// Random intervals of torque for one rig.
+class RandomDrive {
+ public:
+  RandomDrive(Draws& draws, const TrialParameters& rig, Drive drive)
+      : draws_(draws), drive_(drive), period_(1.0 / rig.controller.sample_rate) {
+    const double breakaway = friction_at(rig.friction, rig.initial.position).breakaway;
+    largest_ = breakaway * (draws.chance(0.3) ? draws.log_uniform(0.03, 1.0) : draws.uniform(1.0, 3.0));
+    wandering_ = draws.chance(0.5);
+    course_.rate = drive == Drive::held ? 0.0 : draws.log_uniform(0.05, 100.0) / period_;
+  }
+
+  /// The course of the next interval, and how long it lasts (s).
+  std::pair<TorqueCourse, double> next() {
+    const TorqueCourse ended = course_after(course_, duration_);
+    const double step = (wandering_ ? 0.2 : 1.0) * largest_ * draws_.uniform(-1.0, 1.0);
+    course_.settled = std::clamp(wandering_ ? course_.settled + step : step, -largest_, largest_);
+    if (draws_.chance(0.1)) course_.settled = 0.0;
+    if (draws_.chance(0.1)) course_.settled = ended.settled;
+    course_.now = drive_ == Drive::held ? course_.settled : ended.now;
+    if (drive_ == Drive::amplified_with_jumps && draws_.chance(0.3)) {
+      course_.now = largest_ * draws_.uniform(-1.0, 1.0);
+    }
+    duration_ = period_ * (draws_.chance(0.5) ? 1.0 : draws_.log_uniform(0.01, 5.0));
+    return {course_, duration_};
+  }
+
+ private:
+  Draws& draws_;
+  Drive drive_;
+  double period_;
+  double largest_;
+  bool wandering_;
+  double duration_{0.0};
+  TorqueCourse course_;
+};
+
+/// Largest differences in θ, over what is promised.
+struct Differences {
+  double before{0.0};  // until the first breakaway, counts
+  double after{0.0};   // after it, share of 1e-3 count + 1e-7 of the travel
+  std::int64_t intervals{0};
+  std::int64_t sliding{0};
+  EventCounts events{};
+};
+
+PlantStart start_of(const TrialParameters& p) {
+  return {p.initial.position, p.initial.hardening,
+          p.initial.preload,  draw_history(p.initial.history, p.randomness),
+          p.initial.velocity, p.initial.mode == InitialMode::slide};
+}
+
+void compare_motion(const Family& family, std::uint64_t index, Differences& worst) {
+  const TrialParameters rig = random_trial(family.kind, 5000 + index);
+  const std::string name = fmt::format("{} {}", family.name, index);
+  const double count = 2.0 * std::numbers::pi / rig.encoder.fine;
+  const PlantStart start = start_of(rig);
+  Plant plant(rig.plant, rig.friction, start, {1e-11 * count});
+  OdeintMotion judge(rig, start.history);
+  ASSERT_EQ(plant.theta(), 0.0) << name;
+  ASSERT_EQ(plant.sliding(), judge.sliding()) << name;
+  ASSERT_EQ(static_cast<std::int64_t>(plant.spring().depth()), judge.depth()) << name;
+  Draws draws(77 + index);
+  RandomDrive drive(draws, rig, family.drive);
+  double travel = 0.0;
+  for (int k = 0; k < 80; ++k) {
+    const auto [course, duration] = drive.next();
+    const long double before = judge.theta();
+    plant.advance(course, duration);
+    judge.advance({course.now, course.settled, course.rate}, duration);
+    travel += std::abs(static_cast<double>(judge.theta() - before));
+    const bool slid = judge.sliding() || judge.events().breakaways > 0 || judge.events().resticks > 0;
+    const double allowed = slid ? 1e-3 * count + 1e-7 * travel : 1e-6 * count;
+    const double difference = std::abs(static_cast<double>(plant.theta() - judge.theta()));
+    ASSERT_LE(difference, allowed) << fmt::format("{} interval {}: {} counts apart", name, k,
+                                                  difference / count);
+    ASSERT_EQ(plant.sliding(), judge.sliding()) << name << " interval " << k;
+    ASSERT_NEAR(plant.creep().extension, static_cast<double>(judge.state()[2]), allowed) << name;
+    if (!plant.sliding()) {
+      ASSERT_NEAR(plant.creep().hardening, static_cast<double>(judge.state()[3]), allowed) << name;
+    }
+    double& share = slid ? worst.after : worst.before;
+    share = std::max(share, difference / (slid ? allowed : count));
+    worst.intervals += 1;
+    worst.sliding += plant.sliding();
+  }
+  ASSERT_TRUE(plant.finite());
+  worst.events.breakaways += judge.events().breakaways;
+  worst.events.reversals += judge.events().reversals;
+  worst.events.closures += judge.events().closures;
+}
+
+class PlantAgreement : public ::testing::TestWithParam<Family> {};
+
+TEST_P(PlantAgreement, EqualsBoostOdeint) {
+  Differences worst;
+  for (std::uint64_t index = 0; index < 40; ++index) compare_motion(GetParam(), index, worst);
+  std::cout << fmt::format(
+      "{}: {} intervals, {} sliding, {} breakaways, {} reversals; theta within {:.1e} count before "
+      "breakaway, "
+      "{:.1e} of the bound after\n",
+      GetParam().name, worst.intervals, worst.sliding, worst.events.breakaways, worst.events.reversals,
+      worst.before, worst.after);
+  EXPECT_LT(worst.before, 1e-7);
+  EXPECT_LT(worst.after, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Random, PlantAgreement,
+    ::testing::Values(Family{"presliding", TrialKind::breaking_away, Drive::held},
+                      Family{"presliding_amplified", TrialKind::breaking_away, Drive::amplified},
+                      Family{"presliding_with_jumps", TrialKind::calm, Drive::amplified_with_jumps},
+                      Family{"other_rigs_amplified", TrialKind::unlike_the_paper, Drive::amplified},
+                      Family{"other_rigs_with_jumps", TrialKind::unlike_the_paper,
+                             Drive::amplified_with_jumps},
+                      Family{"spring", TrialKind::spring_alone, Drive::held},
+                      Family{"spring_amplified", TrialKind::spring_alone, Drive::amplified},
+                      Family{"coulomb", TrialKind::coulomb, Drive::held},
+                      Family{"coulomb_amplified", TrialKind::coulomb, Drive::amplified},
+                      Family{"coulomb_with_jumps", TrialKind::coulomb, Drive::amplified_with_jumps},
+                      Family{"arriving", TrialKind::arriving, Drive::held},
+                      Family{"arriving_amplified", TrialKind::arriving, Drive::amplified},
+                      Family{"remembering", TrialKind::remembering, Drive::held},
+                      Family{"remembering_amplified", TrialKind::remembering, Drive::amplified}),
+    [](const ::testing::TestParamInfo<Family>& family) { return std::string(family.param.name); });
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,0 +1,116 @@
+// Sections inside one another, as far as the names of parameters go.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount {
+namespace {
+
+TEST(Sections, GoAsDeepAsTheNamesOfParameters) {
+  const Study study = study_of(extended_manifest());
+  const TrialParameters p = study_trial(study, 0, 0).parameters;
+  EXPECT_EQ(p.encoder.fine_errors.eccentricity, 1e-5);
+  EXPECT_EQ(p.encoder.fine_errors.noise, 0.1);
+  EXPECT_EQ(p.encoder.coarse_errors.interpolation, 0.05);
+  EXPECT_EQ(p.encoder.coarse_errors.interpolation_period, 2);
+  EXPECT_EQ(p.dac.gain_error, 0.01);
+  EXPECT_EQ(p.dac.nonlinearity, 0.5);
+  EXPECT_EQ(p.dac.noise, 1e-5);
+  EXPECT_GT(p.amplifier.bandwidth, 200);
+  EXPECT_EQ(p.controller.coarse.kp, 1e-4);
+  EXPECT_EQ(p.controller.coarse.encoder, EncoderChoice::coarse);
+  EXPECT_GE(p.controller.coarse.fine_within, 10);
+  EXPECT_EQ(p.controller.coarse.coarse_beyond, 500);
+  EXPECT_EQ(p.controller.coarse.fine_dwell, CoarsePhaseParameters{}.fine_dwell);
+  EXPECT_EQ(p.command.profile.velocity_limit, 0.5);
+  EXPECT_GE(p.command.profile.jerk_limit, 1000);
+  EXPECT_EQ(std::abs(p.initial.velocity), 0.01);
+  EXPECT_NE(p.initial.integral, 0);
+  EXPECT_EQ(p.initial.history.torque, 0.2);
+}
+
+TEST(Sections, OfAnyDepthAreSweptByTheirDottedNames) {
+  const Study study = study_of(extended_manifest());
+  ASSERT_EQ(point_count(study), 16);
+  EXPECT_EQ(study.point_labels[11],
+            "sliding, controller.coarse.kd=0, friction.model=spring, command.profile.shape=s_curve");
+  const TrialParameters p = study_trial(study, 11, 0).parameters;
+  EXPECT_EQ(p.initial.mode, InitialMode::slide);
+  EXPECT_EQ(p.controller.coarse.kd, 0);
+  EXPECT_EQ(p.friction.model, FrictionModel::spring);
+  EXPECT_EQ(p.command.profile.shape, ReferenceShape::s_curve);
+  EXPECT_EQ(study_trial(study, 12, 0).parameters.friction.model, FrictionModel::presliding);
+  EXPECT_EQ(study_trial(study, 12, 0).parameters.command.profile.shape, ReferenceShape::step);
+  EXPECT_EQ(study.axes.back().name, "command.profile.shape");
+  EXPECT_EQ(study.axes.back().kind, SweepAxis::Kind::text);
+  EXPECT_EQ(study.axes.back().texts[11], "s_curve");
+}
+
+TEST(Sections, AreMadeByOverrides) {
+  const Study study =
+      study_of(minimal_manifest(), {"controller.coarse.coarse_beyond=1000", "controller.coarse.kd=2.0e-3",
+                                    "dac.bits=14", "encoder.fine_errors.noise={uniform: [0, 1]}",
+                                    "sweep.grid.controller.coarse.fine_within=[1, 2]"});
+  EXPECT_EQ(study_trial(study, 0, 0).parameters.controller.coarse.kd, 2e-3);
+  EXPECT_EQ(study_trial(study, 0, 0).parameters.dac.bits, 14);
+  EXPECT_EQ(study_trial(study, 1, 0).parameters.controller.coarse.fine_within, 2);
+  EXPECT_EQ(study.input_columns[0].name, "encoder.fine_errors.noise");
+}
+
+TEST(Sections, AreMapsInsideMaps) {
+  EXPECT_EQ(refusal_of(minimal_manifest("controller: {coarse: 3}")),
+            "m.yaml:6:22: controller.coarse: the single value '3' stands here; expected a map");
+  EXPECT_EQ(refusal_of(minimal_manifest("controller: {coarse: [kp, 1]}")),
+            "m.yaml:6:22: controller.coarse: a list stands here; expected a map");
+  EXPECT_EQ(refusal_of(minimal_manifest("controller: {coarse.kp: 1}")),
+            "m.yaml:6:14: controller.coarse.kp: a dotted path stands in place of a key; expected maps inside "
+            "one another, as in coarse: {kp: ...}");
+  EXPECT_EQ(refusal_of(minimal_manifest("plant.inertia: 1")),
+            "m.yaml:6:1: plant.inertia: a dotted path stands in place of a key; expected maps inside one "
+            "another, as in plant: {inertia: ...}");
+  EXPECT_EQ(refusal_of(minimal_manifest("friction: {k1: {kp: 1}}")).find("m.yaml:6:17: friction.k1.kp: "),
+            0u);
+}
+
+TEST(Sections, UnknownKeysAreToldTheNearestOfTheirMap) {
+  EXPECT_EQ(refusal_of(minimal_manifest("controller: {coarse: {fine_witin: 1}}")),
+            "m.yaml:6:23: controller.coarse.fine_witin: unknown key, nearest known: fine_within; expected "
+            "one of kp, ki, kd, encoder, fine_within, fine_rate, fine_dwell, coarse_beyond");
+  EXPECT_EQ(refusal_of(minimal_manifest("initial: {histroy: {}}")),
+            "m.yaml:6:11: initial.histroy: unknown key, nearest known: history; expected one of "
+            "encoder_phase, position, hardening, preload, history, velocity, integral, mode");
+}
+
+TEST(Sections, KeysOfAnotherMapAreToldWhereTheyBelong) {
+  EXPECT_EQ(refusal_of(minimal_manifest("friction: {velocity_limit: 1}"))
+                .find("m.yaml:6:12: friction.velocity_limit: unknown key, nearest known: "
+                      "command.profile.velocity_limit; "),
+            0u);
+  EXPECT_EQ(refusal_of(minimal_manifest("encoder: {history: {}}"))
+                .find("m.yaml:6:11: encoder.history: unknown key, nearest known: initial.history; "),
+            0u);
+}
+
+TEST(Sections, SweepsAndOverridesAreToldTheNearestDottedName) {
+  EXPECT_EQ(refusal_of(minimal_manifest("sweep: {grid: {controller.coarse.kdd: [1]}}")),
+            "m.yaml:6:16: sweep.grid.controller.coarse.kdd: unknown key, nearest known: "
+            "controller.coarse.kd; expected a dotted path of the table of parameters, such as controller.ki");
+  EXPECT_EQ(refusal_of(minimal_manifest(), {"initial.history.revesals=1"}),
+            "--set initial.history.revesals=1: initial.history.revesals: unknown key, nearest known: "
+            "reversals; expected one of reversals, torque");
+}
+
+TEST(Sections, WordsAreThoseOfTheTable) {
+  EXPECT_EQ(refusal_of(minimal_manifest("friction: {model: coulumb}")),
+            "m.yaml:6:19: friction.model: 'coulumb' is none of its words; expected one of presliding, "
+            "spring, coulomb");
+  EXPECT_EQ(refusal_of(minimal_manifest("initial: {mode: {choice: [0, 1]}}")),
+            "m.yaml:6:17: initial.mode: '{choice: [0, 1]}' is none of its words; expected one of stick, "
+            "slide");
+}
+
+}  // namespace
+}  // namespace zerocount

@@ -1,0 +1,81 @@
+// A file of format version 1 is read, and what it lacks is what was true of its trials, or not known.
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "results/reading/export.hpp"
+#include "tests/results/samples.hpp"
+#include "tests/results/walk.hpp"
+#include "tests/support/raw_hdf5.hpp"
+#include "tests/support/version_1_file.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+class Version1 : public ::testing::Test {
+ protected:
+  TemporaryFolder folder;
+  StudyFile file{version_1_file(folder.path())};
+};
+
+TEST_F(Version1, IsWholeAndKnownAsSuch) {
+  EXPECT_EQ(file.header().version, 1);
+  EXPECT_TRUE(file.header().complete);
+  EXPECT_EQ(file.header().name, "version-1");
+  EXPECT_EQ(file.rows(), (RowRange{0, 6}));
+  EXPECT_EQ(file.moves(), 2);
+  EXPECT_EQ(file.measures().size(), 15U);
+  read_everything(file.path());
+}
+
+TEST_F(Version1, HasItsMeasuresAsTheyWereWritten) {
+  // By h5dump of the file.
+  const std::vector<MoveOutcome> moves = file.outcomes(file.rows());
+  ASSERT_EQ(moves.size(), 12U);
+  const std::vector<std::int64_t> arrivals{66, 53, 33, 28, 49, 45, -1, -1, -1, -1, -1, -1};
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    EXPECT_EQ(moves[i].outcome, i < 6 ? Outcome::zero_count : Outcome::oscillating);
+    EXPECT_EQ(moves[i].arrival, arrivals[i]);
+  }
+}
+
+TEST_F(Version1, LacksMeasuresThatWereZeroOrAreNotKnown) {
+  const MoveOutcome move = file.outcomes({3, 1})[0];
+  EXPECT_EQ(move.travel_time, 0.0);
+  EXPECT_EQ(move.phase_changes, 0);
+  EXPECT_EQ(move.encoder_disagreement, 0);
+  for (const char* measure : {"travel_time", "phase_changes", "encoder_disagreement"}) {
+    EXPECT_EQ(file.measure(measure, {0, 6}), std::vector<double>(12, 0.0)) << measure;
+  }
+  EXPECT_FALSE(file.final_error_known());
+  const std::vector<double> errors = file.measure("final_error", {0, 6});
+  ASSERT_EQ(errors.size(), 12U);
+  for (const double error : errors) EXPECT_TRUE(std::isnan(error));
+}
+
+TEST_F(Version1, HasSampleRecordsWhoseReferenceIsTheTarget) {
+  const std::vector<TraceRecord> records = file.trace_at(0, file.trace_count());
+  ASSERT_EQ(records.size(), 400U);
+  for (const TraceRecord& record : records) {
+    EXPECT_EQ(record.reference, record.target);
+    EXPECT_EQ(record.error, record.target - record.count);
+    EXPECT_EQ(record.phase, ControlPhase::fine);
+    EXPECT_EQ(record.drive_torque, record.torque);
+  }
+}
+
+TEST_F(Version1, IsExportedWithTheColumnsItHas) {
+  EXPECT_TRUE(file.statistic_tables().empty());
+  export_csv(file, folder / "csv");
+  std::ifstream outcomes(folder / "csv/outcomes.csv"), trace(folder / "csv/trace.csv");
+  std::string header;
+  std::getline(outcomes, header);
+  EXPECT_EQ(header.find("final_error"), std::string::npos) << header;
+  EXPECT_NE(header.find("final_position"), std::string::npos) << header;
+  std::getline(trace, header);
+  EXPECT_TRUE(header.ends_with(",mode")) << header;
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -52,8 +52,8 @@ SlidingSeries sliding_series(const PlantParameters& plant, const FrictionParamet
 /// - the exponent of the motion's one exponential grows by at most 6, or stays below −40. The terms zᵏ/k! of
 /// exp(z) rise up to
 ///   k = z: beyond that growth the last terms kept may be small before the largest have come.
-/// The exponential of a torque that moves needs no such bound: its exponent is linear, so that what is left
-/// out of it is never more than a few of the last terms.
+/// The exp(−rt) of a torque that moves needs no such bound: where rt exceeds the order of the series, the
+/// last terms are the largest of all, and a step over which they are small is one over which all of it is.
 double step_within(const Series& position, const Series& velocity, const Series& exponent, double tolerance,
                    double longest);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/numerics/sign.hpp"
 #include "core/plant/events.hpp"
 #include "core/plant/motion_series.hpp"
 
@@ -20,10 +21,6 @@ constexpr double time_constants_to_settle = 37.0;
 /// Below this share of the breakaway torque the sign of σ is a matter of rounding. Which side of the virgin
 /// curve a new contact starts on must not be: it decides whether a turn of the motion there is remembered.
 constexpr double torque_without_sign = 1e-14;
-
-int sign_of(double value) {
-  return (value > 0.0) - (value < 0.0);
-}
 
 /// The sign with which a slide leaves ω = 0, or 0 where it does not.
 int departure(const SlidingSeries& series) {
@@ -50,7 +47,7 @@ Plant::Plant(const PlantParameters& plant, FrictionAlongRotor friction, const Pl
     slide_direction_ = sign_of(start.velocity);
     breakaway_spring_torque_ = coulomb ? 0.0 : slide_direction_ * contact_.breakaway;
   }
-  spring_.start_preloaded(0.0);
+  spring_.start_virgin(0.0, 0);
   if (!sliding_ && !coulomb) {
     creep_.hardening = start.hardening;
     spring_.start_preloaded(start.preload);

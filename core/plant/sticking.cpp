@@ -3,18 +3,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numerics/sign.hpp"
 #include "core/plant/events.hpp"
 #include "core/plant/motion_series.hpp"
 #include "core/plant/plant.hpp"
 
 namespace zerocount {
-namespace {
-
-int sign_of(double value) {
-  return (value > 0.0) - (value < 0.0);
-}
-
-}  // namespace
 
 double Plant::stick(const TorqueCourse& torque, double duration) {
   if (friction_.model == FrictionModel::coulomb) return stand(torque, duration);

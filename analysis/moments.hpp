@@ -30,6 +30,9 @@ struct Moments {
     max = n == 1 ? value : std::max(max, value);
   }
 
+  /// Root of the mean square; NaN of no values.
+  double rms() const { return std::sqrt(mean * mean + squares / static_cast<double>(n)); }
+
   /// Standard deviation with divisor n − 1; NaN of fewer than two values.
   double sd() const {
     return n < 2 ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(squares / static_cast<double>(n - 1));

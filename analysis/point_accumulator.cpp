@@ -111,6 +111,7 @@ void PointAccumulator::add_measures(const MoveOutcome& move) {
   if (move.arrived) settling_times_.add(move.settling_time);
   const bool has_error = !kind_.open_loop && kind_.final_error_known && move.outcome != Outcome::nonfinite;
   if (has_error) final_errors_.add(std::abs(move.final_error));
+  counted_.true_error.add(std::abs(move.true_error));
   if (!kind_.open_loop) counted_.overshoot.add(static_cast<double>(move.overshoot));
   counted_.holding_torque.add(move.holding_torque);
   counted_.creep.add(move.creep);

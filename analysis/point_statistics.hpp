@@ -119,6 +119,7 @@ struct PointSummary {
   double jerk_one_count_share{std::numeric_limits<double>::quiet_NaN()};  ///< jerks of magnitude 1 / jerks
 
   FinalErrorStatistics final_error;
+  Moments true_error;   ///< distance of moves with a target, |true_error|, counts
   Moments travel_time;  ///< of moves, s
   TimesPerTrial phase_changes;
   TimesPerTrial encoder_disagreement;   ///< samples

@@ -54,6 +54,10 @@ void add_features(std::vector<TextColumn>& columns, const StudySummary& summary)
                                [](Point p) { return short_number(rate(p.phase_changes.total, p.trials)); }));
   }
   if (features.encoder_errors) {
+    columns.push_back(
+        by_point(summary, "|true e| mean", [](Point p) { return short_number(p.true_error.mean); }));
+    columns.push_back(
+        by_point(summary, "|true e| max", [](Point p) { return short_number(p.true_error.max); }));
     columns.push_back(by_point(summary, "disagreeing",
                                [](Point p) { return percentage(p.encoder_disagreement.trials, p.trials); }));
   }
@@ -99,6 +103,9 @@ std::string loop_legend(const StudySummary& summary) {
   if (features.phases) legend += "phase changes: from coarse to fine control or back, mean over all trials\n";
   if (features.encoder_errors) {
     legend +=
+        "|true e|: distance from the rotor to the middle of the target's count at the last sample of the "
+        "moves,\n"
+        "whatever the encoder says, in counts\n"
         "disagreeing: share of trials in which the coarse count was ever impossible given the fine one\n";
   }
   if (!summary.predictions.empty()) {

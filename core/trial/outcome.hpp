@@ -26,15 +26,19 @@ struct MoveOutcome {
   bool saturated{false};     ///< the DAC clipped
   std::int64_t arrival{-1};  ///< first sample of the arrival dwell, from the move's start; −1 if never
   double settling_time{std::numeric_limits<double>::quiet_NaN()};  ///< arrival·T, s; NaN if never
-  double travel_time{0.0};         ///< until the reference, or the torque, is where it is held, s
-  std::int64_t overshoot{0};       ///< largest excursion beyond the target, seen from the first count, counts
-  std::int64_t final_error{0};     ///< e at the last sample, counts; −count where there is no target
-  double final_position{0.0};      ///< θ at the last sample, rad
-  double holding_torque{0.0};      ///< torque decided at the last sample, N m
-  double peak_torque{0.0};         ///< largest |torque| decided, N m
-  double creep{0.0};               ///< xp at the last sample, rad
-  std::int64_t reversal_depth{0};  ///< largest number of reversal points on the stack
-  std::int64_t phase_changes{0};   ///< of the control, from coarse to fine or back
+  double travel_time{0.0};      ///< until the reference, or the torque, is where it is held, s
+  std::int64_t overshoot{0};    ///< largest excursion beyond the target, seen from the first count, counts
+  std::int64_t final_error{0};  ///< e at the last sample, counts; −count where there is no target
+  /// Distance from the rotor to the middle of the target's count at the last sample, whatever the encoder
+  /// says: target − (θ/Δx + encoder_phase − ½) in fine counts. By an ideal encoder, final_error is 0 where
+  /// this is in (−½, ½]. NaN where there is no target, or the motion was lost.
+  double true_error{std::numeric_limits<double>::quiet_NaN()};
+  double final_position{0.0};            ///< θ at the last sample, rad
+  double holding_torque{0.0};            ///< torque decided at the last sample, N m
+  double peak_torque{0.0};               ///< largest |torque| decided, N m
+  double creep{0.0};                     ///< xp at the last sample, rad
+  std::int64_t reversal_depth{0};        ///< largest number of reversal points on the stack
+  std::int64_t phase_changes{0};         ///< of the control, from coarse to fine or back
   std::int64_t encoder_disagreement{0};  ///< samples at which the fine count made the coarse one impossible
   std::int64_t jerk_count{0};            ///< excursions of the error after arrival
   double jerk_agreement{

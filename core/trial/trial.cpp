@@ -37,9 +37,15 @@ MoveOutcome run_move(Rig& rig, const MoveTiming& timing, std::int64_t move, std:
   return outcome;
 }
 
+/// Distance from the rotor at `theta` (rad) to the middle of the target's count, counts (see MoveOutcome).
+double true_error(std::int64_t target, double theta, double resolution, double phase) {
+  return static_cast<double>(target) - (theta / resolution + phase - 0.5);
+}
+
 /// Closed loop: the controller follows a reference to each target.
 TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& observers) {
   Rig rig(p);
+  const double resolution = rig.measurement().fine_resolution();
   Controller controller(p.controller, rig.measurement().fine_per_coarse(), p.initial.integral,
                         lowest_torque(p.dac), highest_torque(p.dac));
   TrialOutcome outcome;
@@ -48,7 +54,7 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
   double torque_in_force = 0.0;
   for (std::size_t m = 0; m < p.command.targets.size(); ++m) {
     const std::int64_t target = p.command.targets[m];
-    const Reference reference(p.command.profile, from, target, rig.measurement().fine_resolution());
+    const Reference reference(p.command.profile, from, target, resolution);
     const MoveTiming timing = move_timing(p, m);
     const std::int64_t changes_before = controller.phase_changes();
     const auto decide = [&](std::int64_t i, SampleRecord& record) {
@@ -63,6 +69,9 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
     MoveOutcome move = run_move(rig, timing, static_cast<std::int64_t>(m), first, observers, decide);
     move.phase_changes = controller.phase_changes() - changes_before;
     move.travel_time = reference.duration();
+    if (move.outcome != Outcome::nonfinite) {
+      move.true_error = true_error(target, move.final_position, resolution, p.initial.encoder_phase);
+    }
     outcome.moves.push_back(move);
     first += timing.samples;
     from = target;

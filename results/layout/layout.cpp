@@ -63,6 +63,11 @@ std::vector<RecordField<MoveOutcome>> all_outcome_fields() {
       field<M>("final_position", "rad", "rotor angle at the last sample", &M::final_position),
       since(2, unknown,
             field<M>("final_error", "count", "target minus count at the last sample", &M::final_error)),
+      since(2, unknown,
+            field<M>("true_error", "count",
+                     "distance from the rotor to the middle of the target's count at the last sample, "
+                     "NaN if none",
+                     &M::true_error)),
       since(2, 0.0,
             field<M>("travel_time", "s", "time until the reference or the torque is where it is held",
                      &M::travel_time)),

@@ -62,7 +62,7 @@ class StudyFile {
   /// Whether the final errors of the moves are in the file.
   bool final_error_known() const { return header_.version >= 2; }
   /// All measures of the moves of these trials: [row][move], flattened. Those that the file lacks are 0,
-  /// which is their true value in such files for all but final_error.
+  /// which is their true value in such files but for final_error; true_error is NaN.
   std::vector<MoveOutcome> outcomes(RowRange rows) const;
   /// One measure of a move by its name, [row][move], flattened, whatever its type in the file, as doubles.
   /// NaN where it is not known.

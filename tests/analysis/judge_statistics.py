@@ -65,6 +65,11 @@ def judge_loop(path):
                 high = int(stats.binom.ppf(0.975, len(error), probability)) + 1
                 expected[f"final_error_{name}_low"] = ordered[low - 1]
                 expected[f"final_error_{name}_high"] = ordered[high - 1] if high <= len(error) else numpy.nan
+            distance = numpy.abs(outcome["true_error"][rows][followed])
+            expected["true_error_n"] = len(distance)
+            expected["true_error_mean"] = distance.mean()
+            expected["true_error_rms"] = numpy.sqrt((distance**2).mean())
+            expected["true_error_max"] = distance.max()
             for name in ("phase_changes", "encoder_disagreement"):
                 times = outcome[name][rows].sum(axis=1)
                 expected[name + "_trials"] = (times > 0).sum()
@@ -105,7 +110,7 @@ def judge_levels(path):
                     close(level[name][point, move], value, tolerance, f"point {point}, level {move}: {name}")
         print(level["torque"].shape)
         # nothing of an open-loop study pretends to be success
-        for name in ("success_rate", "success_rate_low", "success_rate_high", "stable_rate", "final_error_mean"):
+        for name in ("success_rate", "success_rate_low", "success_rate_high", "stable_rate", "final_error_mean", "true_error_mean"):
             assert numpy.isnan(file["point"][name][:]).all(), name
         trials = file.attrs["trials"]
         assert (file["point/open_loop"][:] + file["point/nonfinite"][:] == trials).all()

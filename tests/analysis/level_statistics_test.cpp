@@ -38,6 +38,7 @@ TEST(Levels, AreCountedAndNotJudged) {
     EXPECT_TRUE(std::isnan(rate.wilson.low) && std::isnan(rate.wilson.high));
   }
   EXPECT_EQ(statistics.final_error.n, 0);
+  EXPECT_EQ(statistics.true_error.n, 0);
   EXPECT_EQ(statistics.overshoot.n, 0);
   ASSERT_EQ(statistics.levels.size(), 2U);
   EXPECT_EQ(statistics.levels[0].torque.mean, 0.1);

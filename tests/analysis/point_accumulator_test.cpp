@@ -233,6 +233,21 @@ TEST(PointStatistics, FinalErrorsThatAreNotInTheResultsAreNotTakenForZero) {
   EXPECT_EQ(point.statistics().success_rate.value, 1.0);
 }
 
+TEST(PointStatistics, TrueErrorsAreDistancesOfTheMovesThatHaveOne) {
+  PointAccumulator point;
+  for (const double error : {-4.0, 0.0, 2.5, never}) {
+    MoveOutcome move = move_that(Outcome::zero_count, 0.1);
+    move.true_error = error;
+    point.add({{move}}, {});
+  }
+  const Moments errors = point.statistics().true_error;
+  EXPECT_EQ(errors.n, 3);
+  EXPECT_EQ(errors.mean, 6.5 / 3.0);
+  EXPECT_DOUBLE_EQ(errors.rms(), std::sqrt((16.0 + 6.25) / 3.0));
+  EXPECT_EQ(errors.max, 4.0);
+  EXPECT_TRUE(std::isnan(Moments{}.rms()));
+}
+
 TEST(PointStatistics, PhaseChangesAndDisagreementsAreCountedPerTrial) {
   MoveOutcome none = move_that(Outcome::zero_count, 0.1), some = none;
   some.phase_changes = 3;

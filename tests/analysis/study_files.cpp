@@ -50,6 +50,8 @@ TrialRecord random_trial(std::int64_t row, std::int64_t moves) {
     move.creep = 1e-7 * normal(random);
     move.reversal_depth = static_cast<std::int64_t>(random() % 12);
     move.final_error = static_cast<std::int64_t>(std::lround(3.0 * std::exp(2.0 * normal(random)))) - 3;
+    if (move.outcome != Outcome::nonfinite)
+      move.true_error = static_cast<double>(move.final_error) + normal(random);
     move.travel_time = 0.01 * static_cast<double>(random() % 7);
     move.phase_changes = static_cast<std::int64_t>(random() % 3);
     move.encoder_disagreement = random() % 3 == 0 ? static_cast<std::int64_t>(random() % 100) : 0;

@@ -200,10 +200,13 @@ TEST(Summarise, ReadsAFileOfFormatVersion1) {
     EXPECT_EQ(point.judged, 3);
     EXPECT_EQ(point.final_error.n, 0);
     EXPECT_TRUE(std::isnan(point.final_error.mean));
+    EXPECT_EQ(point.true_error.n, 0);
+    EXPECT_TRUE(std::isnan(point.true_error.mean) && std::isnan(point.true_error.rms()));
     EXPECT_EQ(point.travel_time.mean, 0.0);
   }
   const nlohmann::ordered_json json = nlohmann::ordered_json::parse(summary_json_text(summary));
   EXPECT_TRUE(json["points"][0]["final_error"]["median"].is_null());
+  EXPECT_TRUE(json["points"][0]["true_error"]["max"].is_null());
 }
 
 TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {

@@ -195,7 +195,7 @@ TEST(SummaryTable, LeavesOutWhatNoPointHas) {
 TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {
   StudySummary summary = two_cases();
   const std::string plain = summary_table(summary);
-  for (const char* head : {"travel", "|e|", "phase changes", "disagreeing"}) {
+  for (const char* head : {"travel", "|e|", "|true e|", "phase changes", "disagreeing"}) {
     EXPECT_EQ(plain.find(head), std::string::npos) << head;
   }
   summary.features = {.travel = true, .phases = true, .encoder_errors = true, .final_error = true};
@@ -204,11 +204,14 @@ TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {
   summary.points[0].final_error.median.value = 17.0;
   summary.points[0].final_error.p95.value = 29.0;
   summary.points[0].encoder_disagreement.trials = 10;
+  summary.points[0].true_error.add(2.5);
+  summary.points[0].true_error.add(4.0);
   const std::vector<std::string> lines = lines_of(summary_table(summary));
-  for (const char* head : {"travel (s)", "|e| median", "|e| p95", "phase changes", "disagreeing"}) {
+  for (const char* head : {"travel (s)", "|e| median", "|e| p95", "phase changes", "|true e| mean",
+                           "|true e| max", "disagreeing"}) {
     EXPECT_NE(lines[2].find(head), std::string::npos) << head;
   }
-  for (const char* part : {" 0.25 ", " 17 ", " 29 ", " 3 ", " 25.0 % "}) {
+  for (const char* part : {" 0.25 ", " 17 ", " 29 ", " 3 ", " 3.25 ", " 4 ", " 25.0 % "}) {
     EXPECT_NE(lines[4].find(part), std::string::npos) << part << " in: " << lines[4];
   }
 }

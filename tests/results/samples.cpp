@@ -48,6 +48,7 @@ MoveOutcome sample_move(std::mt19937_64& random, std::int64_t move, std::vector<
   outcome.creep = 1e-7 * normal(random);
   outcome.final_position = 1e-4 * normal(random);
   outcome.final_error = 5 - small(random);
+  outcome.true_error = outcome.outcome == Outcome::open_loop ? nan : 3.0 * normal(random);
   outcome.travel_time = 0.01 * small(random);
   outcome.phase_changes = small(random) / 3;
   outcome.encoder_disagreement = 7 * small(random);

@@ -28,12 +28,27 @@ std::vector<Table> all_tables() {
 }
 
 TEST(Layout, HasOneColumnPerMeasureOfAMove) {
-  EXPECT_EQ(
-      names(outcome_table().columns),
-      (std::vector<std::string>{"outcome", "arrived", "arrival", "settling_time", "stable", "broke_away",
-                                "saturated", "overshoot", "holding_torque", "peak_torque", "creep",
-                                "final_position", "final_error", "travel_time", "phase_changes",
-                                "encoder_disagreement", "reversal_depth", "jerk_count", "jerk_agreement"}));
+  const std::vector<std::string> expected{"outcome",
+                                          "arrived",
+                                          "arrival",
+                                          "settling_time",
+                                          "stable",
+                                          "broke_away",
+                                          "saturated",
+                                          "overshoot",
+                                          "holding_torque",
+                                          "peak_torque",
+                                          "creep",
+                                          "final_position",
+                                          "final_error",
+                                          "true_error",
+                                          "travel_time",
+                                          "phase_changes",
+                                          "encoder_disagreement",
+                                          "reversal_depth",
+                                          "jerk_count",
+                                          "jerk_agreement"};
+  EXPECT_EQ(names(outcome_table().columns), expected);
 }
 
 TEST(Layout, OfVersion1HasTheFirstMeasures) {

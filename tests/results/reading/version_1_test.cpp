@@ -49,9 +49,12 @@ TEST_F(Version1, LacksMeasuresThatWereZeroOrAreNotKnown) {
     EXPECT_EQ(file.measure(measure, {0, 6}), std::vector<double>(12, 0.0)) << measure;
   }
   EXPECT_FALSE(file.final_error_known());
-  const std::vector<double> errors = file.measure("final_error", {0, 6});
-  ASSERT_EQ(errors.size(), 12U);
-  for (const double error : errors) EXPECT_TRUE(std::isnan(error));
+  EXPECT_TRUE(std::isnan(move.true_error));
+  for (const char* measure : {"final_error", "true_error"}) {
+    const std::vector<double> errors = file.measure(measure, {0, 6});
+    ASSERT_EQ(errors.size(), 12U);
+    for (const double error : errors) EXPECT_TRUE(std::isnan(error)) << measure;
+  }
 }
 
 TEST_F(Version1, HasSampleRecordsWhoseReferenceIsTheTarget) {
@@ -72,6 +75,7 @@ TEST_F(Version1, IsExportedWithTheColumnsItHas) {
   std::string header;
   std::getline(outcomes, header);
   EXPECT_EQ(header.find("final_error"), std::string::npos) << header;
+  EXPECT_EQ(header.find("true_error"), std::string::npos) << header;
   EXPECT_NE(header.find("final_position"), std::string::npos) << header;
   std::getline(trace, header);
   EXPECT_TRUE(header.ends_with(",mode")) << header;

@@ -1,0 +1,168 @@
+// Where the rotor ended, against what the encoder says of it.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/loop/encoder.hpp"
+#include "core/trial/trial.hpp"
+#include "tests/support/random_trials.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+/// A trial, and the last sample of each of its moves.
+struct EndedTrial {
+  TrialOutcome outcome;
+  std::vector<SampleRecord> ends;
+};
+
+EndedTrial run(const TrialParameters& parameters) {
+  std::vector<std::int64_t> last;
+  std::int64_t samples = 0;
+  for (std::size_t move = 0; move < move_count(parameters); ++move) {
+    samples += samples_of_move(parameters, move);
+    last.push_back(samples - 1);
+  }
+  EndedTrial trial;
+  TrialObservers observers;
+  observers.sample = [&](const SampleRecord& record) {
+    if (record.k == last[trial.ends.size()]) trial.ends.push_back(record);
+  };
+  trial.outcome = run_trial(parameters, observers);
+  return trial;
+}
+
+std::int64_t ideal_count(const TrialParameters& p, double theta) {
+  return read_count(make_encoder(p.encoder.fine, p.initial.encoder_phase), theta);
+}
+
+/// Expects that by the true errors the rotor ended within the counts that an ideal encoder shows, and at the
+/// place in them where it was.
+void expect_places_of_rotor(const TrialParameters& p, const EndedTrial& trial) {
+  ASSERT_EQ(trial.ends.size(), trial.outcome.moves.size());
+  const double resolution = 2.0 * std::numbers::pi / p.encoder.fine;
+  for (std::size_t i = 0; i < trial.ends.size(); ++i) {
+    const SampleRecord& end = trial.ends[i];
+    const double error = trial.outcome.moves[i].true_error;
+    const double rounding = 1e-12 * (1.0 + std::abs(end.theta / resolution));
+    const auto beyond = static_cast<double>(ideal_count(p, end.theta) - end.target);
+    EXPECT_GT(error + beyond, -0.5 - rounding);
+    EXPECT_LE(error + beyond, 0.5 + rounding);
+    const double middle = (static_cast<double>(end.target) + 0.5 - p.initial.encoder_phase) * resolution;
+    EXPECT_NEAR(error, (middle - end.theta) / resolution, rounding);
+  }
+}
+
+/// Steps of 30 counts, back at last, that the loop holds at zero error; hardened, so that no creep disturbs
+/// it.
+TrialParameters small_steps(std::uint64_t trial) {
+  TrialParameters p;
+  p.command = {{30, 60, 90, 60}, 0.4};
+  p.initial.hardening = 1e-3;
+  p.initial.encoder_phase = std::fmod(0.05 + 0.31 * static_cast<double>(trial), 1.0);
+  p.initial.position = 0.7 * static_cast<double>(trial);
+  p.randomness.trial = trial;
+  p.randomness.fine_missed = {3, 4};
+  p.randomness.fine_noise = {5, 6};
+  return p;
+}
+
+TEST(TrueError, OfIdealEncodersIsWithinHalfACountOfTheFinalError) {
+  std::int64_t zero = 0;
+  std::int64_t others = 0;
+  for (const TrialKind kind : {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away,
+                               TrialKind::unlike_the_paper, TrialKind::spring_alone, TrialKind::coulomb,
+                               TrialKind::amplified, TrialKind::arriving, TrialKind::remembering}) {
+    for (std::uint64_t index = 3000; index < 3030; ++index) {
+      SCOPED_TRACE(::testing::Message() << "kind " << static_cast<int>(kind) << " trial " << index);
+      const TrialParameters p = random_trial(kind, index);
+      const EndedTrial trial = run(p);
+      expect_places_of_rotor(p, trial);
+      for (const MoveOutcome& move : trial.outcome.moves) {
+        EXPECT_NEAR(move.true_error, static_cast<double>(move.final_error), 0.5 + 1e-9);
+        EXPECT_EQ(move.final_error == 0, move.true_error > -0.5 && move.true_error <= 0.5);
+        ++(move.final_error == 0 ? zero : others);
+      }
+    }
+  }
+  EXPECT_GT(zero, 100);
+  EXPECT_GT(others, 100);
+}
+
+TEST(TrueError, IsWhatMissedCountsHide) {
+  for (std::uint64_t index = 0; index < 20; ++index) {
+    TrialParameters p = small_steps(index);
+    p.encoder.fine_errors.missed = 0.2;
+    const EndedTrial trial = run(p);
+    expect_places_of_rotor(p, trial);
+    for (std::size_t i = 0; i < trial.ends.size(); ++i) {
+      const std::int64_t lost = ideal_count(p, trial.ends[i].theta) - trial.ends[i].count;
+      const MoveOutcome& move = trial.outcome.moves[i];
+      EXPECT_EQ(move.outcome, Outcome::zero_count);
+      EXPECT_EQ(move.final_error, 0);
+      EXPECT_NEAR(move.true_error, static_cast<double>(-lost), 0.5 + 1e-9);
+    }
+    // About 18 of 90 counts are missed on the way up, and the rotor is as much too far.
+    EXPECT_LT(trial.outcome.moves[2].true_error, -4.0);
+  }
+}
+
+// Where the count is the target, the angle that the encoder believes in is within half a count of the middle.
+TEST(TrueError, IsWhatEccentricityHides) {
+  double largest = 0.0;
+  for (std::uint64_t index = 0; index < 20; ++index) {
+    TrialParameters p = small_steps(index);
+    p.encoder.fine_errors.eccentricity = 0.1;
+    p.encoder.fine_errors.eccentricity_angle = 1.0;
+    const EndedTrial trial = run(p);
+    expect_places_of_rotor(p, trial);
+    for (const MoveOutcome& move : trial.outcome.moves) {
+      EXPECT_EQ(move.final_error, 0);
+      const double start = p.initial.position - 1.0;
+      const double believed = 0.1 * (std::sin(start + move.final_position) - std::sin(start));
+      EXPECT_NEAR(move.true_error, believed * p.encoder.fine / (2.0 * std::numbers::pi), 0.5 + 1e-9);
+      largest = std::max(largest, std::abs(move.true_error));
+    }
+  }
+  EXPECT_GT(largest, 5.0);
+}
+
+TEST(TrueError, IsOfTheRotorUnderEveryErrorOfItsEncoder) {
+  for (std::uint64_t index = 0; index < 60; ++index) {
+    SCOPED_TRACE(index);
+    TrialParameters p = random_trial(static_cast<TrialKind>(index % 3), 4000 + index);
+    p.randomness = small_steps(index).randomness;
+    p.encoder.fine_errors = {.eccentricity = 1e-3 * static_cast<double>(index % 4),
+                             .interpolation = 0.3 * static_cast<double>(index % 5),
+                             .noise = 0.5 * static_cast<double>(index % 7),
+                             .missed = 0.05 * static_cast<double>(index % 6)};
+    expect_places_of_rotor(p, run(p));
+  }
+}
+
+TEST(TrueError, IsNoneWithoutATarget) {
+  TrialParameters p;
+  p.command.torque.levels = {0.05, 0.0};
+  p.command.hold = 0.1;
+  for (const MoveOutcome& move : run_trial(p).moves) {
+    EXPECT_EQ(move.outcome, Outcome::open_loop);
+    EXPECT_TRUE(std::isnan(move.true_error));
+  }
+}
+
+TEST(TrueError, IsNoneWhereTheMotionWasLost) {
+  TrialParameters p = small_steps(0);
+  p.initial.mode = InitialMode::slide;
+  p.initial.velocity = 1e18;
+  for (const MoveOutcome& move : run_trial(p).moves) {
+    EXPECT_EQ(move.outcome, Outcome::nonfinite);
+    EXPECT_TRUE(std::isnan(move.true_error));
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,0 +1,158 @@
+// paper-fig4: the hysteresis of the spring as positions at torque levels (paper, QL1 and Fig. 4): memory,
+// wiping-out, congruency, odd symmetry and the tangent of eq. (1).
+//
+// Tolerances. At the end of a ramp at the rate r the amplifier's torque lags by r/(2πB), and a hold of t
+// leaves exp(−2πB·t) of that, over the spring's lowest stiffness. The rotor's own ringing dies faster, by
+// exp(−c·t/2J). Twice that, for two positions that are compared, is a few picometres on a radius of one
+// metre: far below a count.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "results/reading/study_file.hpp"
+#include "tests/runners/program.hpp"
+#include "tests/studies/shipped_study.hpp"
+#include "tests/support/stop_elements.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+constexpr std::int64_t trials = 40;
+
+double position_tolerance(const TrialParameters& parameters) {
+  const double rate = 2.0 * std::numbers::pi * parameters.amplifier.bandwidth;
+  const double lag = parameters.command.torque.rate / rate * std::exp(-rate * parameters.command.hold);
+  return 2.0 * lag / parameters.friction.uniform.k1;
+}
+
+/// Calls `look` with the parameters and the moves of the first trials.
+template <class Look>
+void look_at_trials(const Look& look) {
+  const Study study = shipped_study("paper-fig4");
+  ASSERT_EQ(study.moves, 9);
+  for (std::int64_t index = 0; index < trials; ++index) {
+    const TrialParameters parameters = trial_of(study, "all", index);
+    look(parameters, run_trial(parameters).moves);
+  }
+}
+
+TEST(PaperFig4, ClosedLoopsLeaveNoTrace) {
+  look_at_trials([](const TrialParameters& parameters, const std::vector<MoveOutcome>& at) {
+    const double tolerance = position_tolerance(parameters);
+    ASSERT_LT(tolerance, 1e-10);
+    for (const std::size_t again : {4, 6, 8}) {
+      ASSERT_EQ(parameters.command.torque.levels[again], parameters.command.torque.levels[0]);
+      EXPECT_NEAR(at[again].final_position, at[0].final_position, tolerance) << "point 1, level " << again;
+    }
+    EXPECT_NEAR(at[3].final_position, at[1].final_position, tolerance) << "point 2";
+  });
+}
+
+TEST(PaperFig4, LoopsBetweenTheSameTorquesAreCongruent) {
+  look_at_trials([](const TrialParameters& parameters, const std::vector<MoveOutcome>& at) {
+    const std::vector<double>& levels = parameters.command.torque.levels;
+    ASSERT_NEAR(levels[2] - levels[1], levels[6] - levels[5], 1e-15) << "from 2 to 3 as from 5 to 1";
+    const double lower = at[2].final_position - at[1].final_position;
+    const double upper = at[6].final_position - at[5].final_position;
+    EXPECT_NEAR(lower, upper, 2.0 * position_tolerance(parameters));
+    EXPECT_GT(at[5].final_position, at[2].final_position + 1e-5) << "they are not the same loop";
+  });
+}
+
+TEST(PaperFig4, OppositeTorquesOfTheVirginCurveAreAtOppositePositions) {
+  look_at_trials([](const TrialParameters& parameters, const std::vector<MoveOutcome>& at) {
+    ASSERT_EQ(parameters.command.torque.levels[7], -parameters.command.torque.levels[0]);
+    EXPECT_NEAR(at[7].final_position, -at[0].final_position, position_tolerance(parameters));
+  });
+}
+
+TEST(PaperFig4, TheSpringRemembersReversalPointsUntilTheyAreWipedOut) {
+  look_at_trials([](const TrialParameters& parameters, const std::vector<MoveOutcome>& at) {
+    // The same torque at 3 and 5, but another place: friction is no function of position.
+    ASSERT_EQ(parameters.command.torque.levels[2], parameters.command.torque.levels[5]);
+    EXPECT_GT(at[5].final_position - at[2].final_position, 0.1 * at[0].final_position);
+    EXPECT_EQ(at[0].reversal_depth, 0) << "virgin, and the load does not ring";
+    EXPECT_EQ(at[1].reversal_depth, 1);
+    EXPECT_EQ(at[2].reversal_depth, 2);
+    EXPECT_EQ(at[3].reversal_depth, 3);
+    EXPECT_LE(at[8].reversal_depth, 2) << "what lay inside the largest loop is forgotten";
+    for (const MoveOutcome& move : at) {
+      EXPECT_EQ(move.outcome, Outcome::open_loop);
+      EXPECT_EQ(move.creep, 0.0);
+      EXPECT_FALSE(move.broke_away);
+    }
+  });
+}
+
+/// The elongation at which the spring carries `torque`, gone to from where it is.
+double elongation_at(const StopElements& spring, double torque) {
+  const bool rising = torque > spring.torque();
+  double low = -1e-3, high = 1e-3;
+  for (int i = 0; i < 55; ++i) {
+    const double middle = 0.5 * (low + high);
+    StopElements moved = spring;
+    moved.move_to(middle);
+    ((moved.torque() > torque) ? high : low) = middle;
+  }
+  return rising ? low : high;
+}
+
+// A parallel of stop elements (Prandtl–Ishlinskii) knows neither reversal points nor closures.
+TEST(PaperFig4, PositionsAreThoseOfStopElements) {
+  const Study study = shipped_study("paper-fig4");
+  for (std::int64_t index = 0; index < 5; ++index) {
+    const TrialParameters parameters = trial_of(study, "all", index);
+    const std::vector<MoveOutcome> moves = run_trial(parameters).moves;
+    StopElements spring(parameters.friction.uniform, 1500);
+    for (std::size_t level = 0; level < moves.size(); ++level) {
+      const double x = elongation_at(spring, parameters.command.torque.levels[level]);
+      spring.move_to(x);
+      const double tolerance = spring.error_bound(4) / parameters.friction.uniform.k1;
+      ASSERT_LT(tolerance, 1e-7);
+      EXPECT_NEAR(moves[level].final_position, x, tolerance + position_tolerance(parameters))
+          << "trial " << index << ", level " << level;
+    }
+  }
+}
+
+TEST(PaperFig4, TheRecordHasTangentsBetweenTheTwoStiffnesses) {
+  const TemporaryFolder folder;
+  const std::string manifest = std::string(ZEROCOUNT_MANIFESTS) + "/paper-fig4.yaml";
+  const ProgramResult run =
+      zerocount_program({"run", manifest, "-o", "fig4.h5", "--set", "trials=1"}, folder.path());
+  ASSERT_EQ(run.code, 0) << run.err;
+  const StudyFile file(folder / "fig4.h5");
+  const std::vector<TraceRecord> record = file.trace_at(0, file.trace_count());
+  const TrialParameters parameters = trial_of(shipped_study("paper-fig4"), "all", 0);
+  ASSERT_EQ(static_cast<std::int64_t>(record.size()), samples_of_trial(parameters));
+
+  const FrictionParameters& spring = parameters.friction.uniform;
+  const auto sigma = [&](std::size_t k) {  // J·dω/dt = u − c·ω − σ
+    const double acceleration =
+        (record[k + 1].omega - record[k - 1].omega) * 0.5 * parameters.controller.sample_rate;
+    return record[k].drive_torque - parameters.plant.presliding_damping * record[k].omega -
+           parameters.plant.inertia * acceleration;
+  };
+  double lowest = 1e9, highest = 0.0;
+  const std::size_t chord = 4;
+  const double tolerance = 0.01;  // the derivative of ω is taken from its samples
+  for (std::size_t k = 1; k + chord + 1 < record.size(); ++k) {
+    const double travel = record[k + chord].theta - record[k].theta;
+    const bool reversed = record[k].omega * record[k + chord].omega <= 0.0;
+    if (std::abs(travel) < 1e-8 || reversed || record[k].depth != record[k + chord].depth) continue;
+    const double tangent = (sigma(k + chord) - sigma(k)) / travel;
+    EXPECT_GT(tangent, spring.k1 * (1.0 - tolerance)) << k;
+    EXPECT_LT(tangent, (spring.k1 + spring.k2) * (1.0 + tolerance)) << k;
+    lowest = std::min(lowest, tangent);
+    highest = std::max(highest, tangent);
+  }
+  EXPECT_LT(lowest, spring.k1 + 0.1 * spring.k2) << "softened along a branch";
+  EXPECT_GT(highest, spring.k1 + 0.8 * spring.k2) << "stiff after a reversal";
+}
+
+}  // namespace
+}  // namespace zerocount::testing

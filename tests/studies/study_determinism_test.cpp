@@ -1,0 +1,206 @@
+// Studies in which everything is random that can be while a trial runs: the same datasets for any number of
+// threads, for parts in any order and after any interruption, and every trial again from its number alone.
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <random>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "results/reading/study_file.hpp"
+#include "tests/runners/program.hpp"
+#include "tests/support/raw_hdf5.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What both studies share: instruments with noise and losses, and a random history.
+const char* const instruments =
+    "encoder:\n"
+    "  fine_errors: {noise: {uniform: [0, 0.3]}, missed: 2.0e-3, eccentricity: 1.0e-4,\n"
+    "                eccentricity_angle: {uniform: [0, 6]}, interpolation: {uniform: [0, 0.3]}}\n"
+    "  coarse_errors: {noise: 0.1, missed: {log_uniform: [1.0e-4, 1.0e-2]}}\n"
+    "dac: {noise: {uniform: [0, 2.0e-4]}, offset: {normal: {mean: 0, sd: 1.0e-4}},\n"
+    "      gain_error: {uniform: [-0.02, 0.02]}, nonlinearity: {uniform: [0, 2]}}\n"
+    "amplifier: {bandwidth: {uniform: [300, 900]}}\n"
+    "friction:\n"
+    "  k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.2}}\n"
+    "  breakaway: {profile: {mean: 0.3, cv: 0.1, correlation_length: 0.2}}\n"
+    "  alpha: {log_uniform: [0.2, 2.0]}\n"
+    "retain: {trials: [1, 3]}\n";
+
+std::string closed_loop(int trials) {
+  return "zerocount: 1\nname: all of a closed loop\nseed: 31\nindependent_points: true\n"
+         "trials: " +
+         std::to_string(trials) + "\n" + instruments +
+         "controller: {ki: 2.0e-5, coarse: {coarse_beyond: 300, kd: {uniform: [5.0e-3, 7.0e-3]}}}\n"
+         "command:\n"
+         "  sequence: {targets: [{integers: [-900, -800]}, 1500], cycles: 1, overrun: {integers: [300, "
+         "400]}}\n"
+         "  hold: 0.15\n"
+         "  profile: {shape: s_curve, velocity_limit: {uniform: [1, 2]}}\n"
+         "initial:\n"
+         "  encoder_phase: {uniform: [0, 1]}\n"
+         "  position: {uniform: [0, 6.283185307179586]}\n"
+         "  history: {reversals: {integers: [1, 9]}, torque: {uniform: [0.02, 0.15]}}\n"
+         "  integral: {uniform: [-0.02, 0.02]}\n"
+         "verdict: {dwell: 0.02, window: 0.02}\n"
+         "sweep:\n"
+         "  cases:\n"
+         "    stuck: {}\n"
+         "    sliding: {initial.mode: slide, initial.velocity: {log_uniform: [1.0e-3, 0.1]}}\n";
+}
+
+std::string open_loop(int trials) {
+  return "zerocount: 1\nname: all of an open loop\nseed: 32\ntrials: " + std::to_string(trials) + "\n" +
+         instruments +
+         "command:\n"
+         "  torque: {levels: [{uniform: [0.05, 0.15]}, 0, {triangular: [-0.1, 0, 0.1]}], rate: {uniform: [2, "
+         "5]}}\n"
+         "  hold: 0.2\n"
+         "initial: {history: {reversals: 4, torque: {uniform: [0.05, 0.15]}}, velocity: {uniform: [-0.05, "
+         "0.05]}}\n"
+         "sweep: {cases: {creeping: {}, elastic: {friction.model: spring}}}\n";
+}
+
+struct RandomStudy {
+  const char* name;
+  std::string (*manifest)(int trials);
+  int trials;  ///< for a run of a second or so
+};
+
+void PrintTo(const RandomStudy& study, std::ostream* out) {
+  *out << study.name;
+}
+
+class StudyDeterminism : public ::testing::TestWithParam<RandomStudy> {
+ protected:
+  void write(int trials) { folder_.write("study.yaml", GetParam().manifest(trials)); }
+  ProgramResult run(const std::vector<std::string>& words) const {
+    return zerocount_program(words, folder_.path());
+  }
+  void complete(const std::string& output, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words{"run", "study.yaml", "-o", output};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = run(words);
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+  void expect_same_datasets(const std::string& one, const std::string& other) const {
+    const auto left = stored_datasets(folder_ / one);
+    const auto right = stored_datasets(folder_ / other);
+    ASSERT_EQ(left.size(), right.size());
+    for (const auto& [path, bytes] : left) EXPECT_TRUE(right.at(path) == bytes) << path;
+  }
+
+  TemporaryFolder folder_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Random, StudyDeterminism,
+                         ::testing::Values(RandomStudy{"closed loop", closed_loop, 150},
+                                           RandomStudy{"open loop", open_loop, 250}));
+
+TEST_P(StudyDeterminism, DatasetsDoNotDependOnTheNumberOfThreads) {
+  write(60);
+  complete("one.h5", {"--threads", "1"});
+  complete("three.h5", {"--threads", "3"});
+  expect_same_datasets("one.h5", "three.h5");
+}
+
+TEST_P(StudyDeterminism, DatasetsDoNotDependOnPartsOrTheirOrder) {
+  write(31);
+  complete("whole.h5");
+  for (const char* part : {"1/3", "2/3", "3/3"}) {
+    complete(std::string("part") + part[0] + ".h5", {"--shard", part});
+  }
+  ASSERT_EQ(run({"merge", "part2.h5", "part3.h5", "part1.h5", "-o", "merged.h5"}).code, 0);
+  expect_same_datasets("whole.h5", "merged.h5");
+}
+
+TEST_P(StudyDeterminism, InterruptedAndKilledRunsGoOnToTheSameDatasets) {
+  write(GetParam().trials);
+  complete("whole.h5");
+  std::mt19937 random(8);
+  std::uniform_int_distribution<int> moment(30, 300);
+  for (const int signal : {SIGINT, SIGKILL}) {
+    const std::string name = "hit" + std::to_string(signal) + ".h5";
+    for (int time = 0; time < 3; ++time) {
+      RunningProgram program({"run", "study.yaml", "-o", name, "--threads", "2"}, folder_.path());
+      std::this_thread::sleep_for(std::chrono::milliseconds(moment(random)));
+      program.send(signal);
+      const int code = program.wait();
+      EXPECT_TRUE(code == 0 || code == 130 || code == 128 + signal) << code;
+    }
+    complete(name);
+    expect_same_datasets("whole.h5", name);
+  }
+}
+
+TEST_P(StudyDeterminism, ATrialThatIsReplayedIsTheRecordedOne) {
+  write(5);
+  complete("out.h5");
+  for (const char* point : {"0", "1"}) {
+    for (const char* trial : {"0", "1", "4"}) {
+      const ProgramResult replay = run({"trace", "out.h5", "--point", point, "--trial", trial});
+      EXPECT_EQ(replay.code, 0) << replay.err;
+      EXPECT_EQ(run({"trace", "study.yaml", "--point", point, "--trial", trial}).out, replay.out);
+    }
+  }
+}
+
+TEST_P(StudyDeterminism, TheRetainedRecordIsTheReplayedOne) {
+  write(5);
+  complete("out.h5");
+  const StudyFile file(folder_ / "out.h5");
+  const std::vector<TraceRecord> kept = file.trace_at(0, file.trace_count());
+  std::size_t next = 0;
+  for (const char* point : {"0", "1"}) {
+    for (const char* trial : {"1", "3"}) {
+      std::istringstream lines(run({"trace", "out.h5", "--point", point, "--trial", trial}).out);
+      std::string line;
+      std::getline(lines, line);
+      ASSERT_EQ(line.rfind("k,t,target,count,coarse_count,error,code,torque,theta,omega", 0), 0U);
+      while (std::getline(lines, line)) {
+        std::vector<double> cells;
+        std::istringstream row(line);
+        for (std::string cell; std::getline(row, cell, ',');)
+          cells.push_back(std::strtod(cell.c_str(), nullptr));
+        ASSERT_LT(next, kept.size());
+        const TraceRecord& record = kept[next++];
+        EXPECT_EQ(cells[0], static_cast<double>(record.k));
+        EXPECT_EQ(cells[3], static_cast<double>(record.count));
+        EXPECT_EQ(cells[4], static_cast<double>(record.coarse_count));
+        EXPECT_EQ(cells[7], record.torque);
+        EXPECT_EQ(cells[8], record.theta);
+        EXPECT_EQ(cells[9], record.omega);
+      }
+    }
+  }
+  EXPECT_EQ(next, kept.size());
+}
+
+// Otherwise all of this could pass with the random numbers left out.
+TEST_P(StudyDeterminism, EachSourceOfRandomnessChangesTheData) {
+  write(6);
+  complete("all.h5");
+  const StudyFile all(folder_ / "all.h5");
+  const auto theta = all.measure("final_position", all.rows());
+  int number = 0;
+  for (const char* without : {"encoder.fine_errors.noise=0", "encoder.fine_errors.missed=0", "dac.noise=0",
+                              "initial.history={reversals: 0}", "seed=77"}) {
+    const std::string name = std::to_string(number++) + ".h5";
+    complete(name, {"--set", without});
+    const StudyFile other(folder_ / name);
+    if (other.measure("final_position", other.rows()) != theta) continue;
+    // In an open loop the encoders only watch.
+    EXPECT_NE(other.measure("final_error", other.rows()), all.measure("final_error", all.rows())) << without;
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

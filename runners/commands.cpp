@@ -56,7 +56,7 @@ Command find_command(const std::string& name) {
 std::vector<Command> commands() {
   std::vector<Command> all{check_command(),    run_command(),        summary_command(),
                            trace_command(),    merge_command(),      export_command(),
-                           parameters_command(), schema_command()};
+                           identify_command(), parameters_command(), schema_command()};
   for (Command& command : all) command.spec.options.push_back({"help,h", "", "show this text"});
   return all;
 }

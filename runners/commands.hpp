@@ -23,6 +23,7 @@ Command summary_command();
 Command trace_command();
 Command merge_command();
 Command export_command();
+Command identify_command();
 Command parameters_command();
 Command schema_command();
 

@@ -1,0 +1,183 @@
+#include "analysis/identification/contact_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+
+#include "analysis/identification/starting_point.hpp"
+
+namespace zerocount {
+namespace {
+
+/// Noise below which readings that are no counts are not believed to be: what is left then is arithmetic.
+constexpr double least_noise = 1e-6;
+
+/// Variance of a reading in the first fit: that of a count's width.
+constexpr double first_variance = 1.0 / 12.0;
+
+constexpr int most_rounds = 6;
+
+/// Change of the fit, in textbook standard deviations, below which a further round is not worth its time.
+constexpr double small_change = 0.05;
+
+Eigen::Map<const Eigen::VectorXd> readings_of(const TestRecord& record) {
+  return {record.reading.data(), static_cast<Eigen::Index>(record.reading.size())};
+}
+
+Observations all_readings(std::span<const TestRecord> records) {
+  Observations observations;
+  for (const TestRecord& record : records) {
+    const double middle = record.counted ? 0.5 : 0.0;
+    std::vector<AngleObservation>& of_record = observations.emplace_back();
+    for (std::size_t k = 0; k < record.reading.size(); ++k) {
+      of_record.push_back({k, k, record.reading[k] + middle, first_variance});
+    }
+  }
+  return observations;
+}
+
+FitSetting setting_for(std::span<const TestRecord> records, std::span<const RecordParts> parts,
+                       const std::vector<KnownParameter>& known) {
+  FitSetting setting;
+  setting.free.fill(true);
+  setting.creep_torque = creep_torque_for(records, known);
+  setting.prior = starting_point(records, parts, setting.creep_torque);
+  for (const auto& [coordinate, value] : known) {
+    setting.free[coordinate] = false;
+    const double logarithm = std::log(value);
+    setting.prior[coordinate] =
+        coordinate == creep_exponent ? value : (coordinate == log_limit ? -logarithm : logarithm);
+  }
+  return setting;
+}
+
+void update_misfit(std::span<const TestRecord> records, ContactFit& fit) {
+  fit.misfit.clear();
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const double middle = records[r].counted ? 0.5 : 0.0;
+    const Eigen::VectorXd left = readings_of(records[r]).array() + middle - fit.model.motions[r].path.array();
+    fit.misfit.push_back(std::sqrt(left.squaredNorm() / static_cast<double>(left.size())));
+  }
+}
+
+void observe_again(std::span<const TestRecord> records, ContactFit& fit) {
+  fit.noise.clear();
+  fit.observations.resize(records.size());
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const Eigen::VectorXd& path = fit.model.motions[r].path;
+    const Eigen::VectorXd readings = readings_of(records[r]);
+    fit.noise.push_back(records[r].counted ? counting_noise(path, readings)
+                                           : std::max(fit.misfit[r], least_noise));
+    observe(records[r], path, readings, fit.noise[r], fit.observations[r]);
+  }
+}
+
+/// Whether what is left of the readings is no more than their steps and noise: of counts, by how far the path
+/// is outside of them; of others, by whether neighbours repeat each other.
+bool is_explained(const TestRecord& record, const Eigen::VectorXd& path) {
+  const Eigen::VectorXd readings = readings_of(record);
+  const auto rms = [](const Eigen::ArrayXd& values) { return std::sqrt(values.square().mean()); };
+  if (record.counted) {
+    constexpr double tolerated = 0.05;  // of a count: the fit to all readings alike comes no nearer
+    const Eigen::ArrayXd outside = ((readings - path).array() + 0.5).abs() - 0.5;
+    return rms(outside.max(0.0)) < tolerated + counting_noise(path, readings);
+  }
+  const Eigen::ArrayXd left = readings - path;
+  const Eigen::Index steps = left.size() - 1;
+  const double change = rms(left.tail(steps) - left.head(steps)) / std::numbers::sqrt2;
+  constexpr double arithmetic = 1e-3;
+  return rms(left) < 1.5 * change || rms(left) < arithmetic;
+}
+
+bool are_explained(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting) {
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    Eigen::VectorXd path = angle_path(records[r], contact_at(point.contact, setting.creep_torque));
+    path.array() += point.offset[static_cast<Eigen::Index>(r)];
+    if (!is_explained(records[r], path)) return false;
+  }
+  return true;
+}
+
+/// The fit to all readings alike, from the starting point, or from others where that explains too little.
+FitPoint fit_roughly(std::span<const TestRecord> records, std::span<const RecordParts> parts,
+                     const FitSetting& setting) {
+  const Observations observations = all_readings(records);
+  FitPoint start{setting.prior, Eigen::VectorXd(records.size())};
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    start.offset[static_cast<Eigen::Index>(r)] =
+        records[r].reading.front() + (records[r].counted ? 0.5 : 0.0);
+  }
+  FitSetting rough = setting;
+  rough.tolerance = 1e-3;
+  FitResult best = fit_jointly(records, observations, start, rough);
+  if (are_explained(records, best.point, setting)) return best.point;
+
+  // A few steps from each of the other starting points, and on from those that came nearest.
+  std::vector<FitResult> tried;
+  rough.most_steps = 4;
+  for (const ContactPoint& other :
+       other_starting_points(records, parts, setting.prior, setting.creep_torque)) {
+    for (std::size_t j = 0; j < coordinate_count; ++j) {
+      if (setting.free[j]) start.contact[j] = rough.prior[j] = other[j];
+    }
+    tried.push_back(fit_jointly(records, observations, start, rough));
+  }
+  std::stable_sort(tried.begin(), tried.end(),
+                   [](const FitResult& one, const FitResult& other) { return one.squares < other.squares; });
+  constexpr std::size_t continued = 2;
+  rough.most_steps = 15;
+  for (std::size_t i = 0; i < continued && !are_explained(records, best.point, setting); ++i) {
+    rough.prior = tried[i].point.contact;
+    const FitResult found = fit_jointly(records, observations, tried[i].point, rough);
+    if (found.squares < best.squares) best = found;
+  }
+  return best.point;
+}
+
+/// The largest component of the step that the normal equations still want, in textbook standard deviations.
+double step_left(std::span<const TestRecord> records, const ContactFit& fit) {
+  NormalEquationsSum sum(records.size(), fit.setting);
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    sum.add(r, fit.observations[r], fit.model.motions[r].path, fit.model.motions[r].sensitivity);
+  }
+  const NormalEquations equations = sum.with_prior(fit.model.point.contact);
+  const Eigen::MatrixXd covariance = textbook_covariance(fit.model, fit.observations, fit.setting);
+  const Eigen::VectorXd step = covariance * equations.gradient;
+  return (step.array().abs() / covariance.diagonal().array().sqrt()).maxCoeff();
+}
+
+}  // namespace
+
+double creep_torque_for(std::span<const TestRecord> records, const std::vector<KnownParameter>& known) {
+  const bool limit_known = std::any_of(known.begin(), known.end(), [](const KnownParameter& parameter) {
+    return parameter.coordinate == log_limit;
+  });
+  if (limit_known) return 1.0;
+  double largest = 0.0;
+  for (const TestRecord& record : records) largest = std::max(largest, largest_torque(record));
+  return 0.7 * largest;
+}
+
+ContactFit fit_contact(std::span<const TestRecord> records, std::span<const RecordParts> parts,
+                       const std::vector<KnownParameter>& known) {
+  ContactFit fit;
+  fit.setting = setting_for(records, parts, known);
+  FitPoint point = fit_roughly(records, parts, fit.setting);
+  for (std::size_t j = 0; j < coordinate_count; ++j) {
+    if (fit.setting.free[j]) fit.setting.prior[j] = point.contact[j];
+  }
+  fit.model = model_at(records, point, fit.setting);
+  update_misfit(records, fit);
+  for (int round = 0; round < most_rounds; ++round) {
+    observe_again(records, fit);
+    if (step_left(records, fit) < small_change) break;
+    point = fit_jointly(records, fit.observations, fit.model.point, fit.setting).point;
+    fit.model = model_at(records, point, fit.setting);
+    update_misfit(records, fit);
+  }
+  return fit;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "analysis/identification/joint_fit.hpp"
+#include "analysis/identification/record_parts.hpp"
+
+namespace zerocount {
+
+/// A parameter that is known from elsewhere.
+struct KnownParameter {
+  Coordinate coordinate{log_k1};  ///< whose coordinate_keys entry it is
+  double value{0.0};              ///< in the parameter's own unit
+};
+
+/// A contact fitted to records.
+struct ContactFit {
+  FitSetting setting;
+  FittedModel model;
+  Observations observations;  ///< [record]
+  std::vector<double> noise;  ///< [record] of the readings, in the record's unit; 0 for counts without noise
+  /// Root mean square of what the model leaves of the readings, each record in its unit: 0.29 where it is the
+  /// width of a count alone.
+  std::vector<double> misfit;
+};
+
+/// σ0 of the coordinates for these records: 1 N m where λ is known, because the coordinate is then ln(1/λ)
+/// whatever n; otherwise 0.7 of the largest torque, N m.
+double creep_torque_for(std::span<const TestRecord> records, const std::vector<KnownParameter>& known);
+
+/// Fits the contact to all records together: from the starting point, first by all readings alike, which
+/// leads near from far away, then by the observations that the readings really are, made anew until they no
+/// longer change the fit.
+ContactFit fit_contact(std::span<const TestRecord> records, std::span<const RecordParts> parts,
+                       const std::vector<KnownParameter>& known);
+
+}  // namespace zerocount

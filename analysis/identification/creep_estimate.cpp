@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "analysis/identification/starting_point.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::array exponents{1.0, 1.5, 2.0, 2.5, 3.0, 4.0};
+constexpr int rates = 14;  // tried, by factors of 2 from the slowest
+
+/// Time (s) after the beginning of a hold before which the rotor may still swing; in a short hold, a quarter.
+constexpr double swinging_time = 0.05;
+
+/// Sums over the samples of the holds, each hold about its own mean: x of the law with a limit of 1 rad, y
+/// measured.
+struct HoldSums {
+  double xx{0.0};
+  double xy{0.0};
+  double yy{0.0};
+};
+
+void add_hold(const TorqueHold& hold, double sample_time, const Eigen::VectorXd& law,
+              const Eigen::VectorXd& angle, HoldSums& sums) {
+  const auto samples = static_cast<Eigen::Index>(hold.last - hold.first + 1);
+  const auto skipped = std::min(samples / 4, static_cast<Eigen::Index>(swinging_time / sample_time));
+  const auto x = law.segment(static_cast<Eigen::Index>(hold.first) + skipped, samples - skipped).array();
+  const auto y = angle.segment(static_cast<Eigen::Index>(hold.first) + skipped, samples - skipped).array();
+  const double x_mean = x.mean();
+  const double y_mean = y.mean();
+  sums.xx += (x - x_mean).square().sum();
+  sums.xy += ((x - x_mean) * (y - y_mean)).sum();
+  sums.yy += (y - y_mean).square().sum();
+}
+
+}  // namespace
+
+Eigen::VectorXd measured_angle(const TestRecord& record) {
+  const double middle = record.counted ? 0.5 : 0.0;
+  const Eigen::Map<const Eigen::VectorXd> readings(record.reading.data(),
+                                                   static_cast<Eigen::Index>(record.reading.size()));
+  return record.unit * (readings.array() + middle);
+}
+
+Eigen::VectorXd creep_extension(const TestRecord& record, const CreepEstimate& creep, double creep_torque) {
+  Eigen::VectorXd extension(static_cast<Eigen::Index>(sample_count(record)));
+  const double left = std::exp(-creep.alpha * record.sample_time);
+  double hardening = record.start.hardening;
+  double extended = 0.0;
+  double torque = 0.0;
+  double limit = 0.0;
+  for (std::size_t k = 0; k < sample_count(record); ++k) {
+    extension[static_cast<Eigen::Index>(k)] = extended;
+    if (record.torque[k].now != torque) {
+      torque = record.torque[k].now;
+      limit = creep.limit * std::pow(std::abs(torque) / creep_torque, creep.exponent);
+    }
+    if (limit <= hardening) continue;
+    const double growth = (limit - hardening) * (1.0 - left);
+    hardening += growth;
+    extended += std::copysign(growth, torque);
+  }
+  return extension;
+}
+
+CreepEstimate estimate_creep(std::span<const TestRecord> records, std::span<const RecordParts> parts,
+                             double creep_torque) {
+  std::vector<Eigen::VectorXd> angles;
+  double longest = 0.0;
+  for (const TestRecord& record : records) {
+    angles.push_back(measured_angle(record));
+    longest = std::max(longest, record.sample_time * static_cast<double>(sample_count(record)));
+  }
+  CreepEstimate best;
+  double explained = 0.0;
+  for (int i = 0; i < rates; ++i) {
+    for (const double exponent : exponents) {
+      CreepEstimate tried{0.2 / longest * std::pow(2.0, i), exponent, 1.0};
+      HoldSums sums;
+      for (std::size_t r = 0; r < records.size(); ++r) {
+        const Eigen::VectorXd law = creep_extension(records[r], tried, creep_torque);
+        for (const TorqueHold& hold : parts[r].holds) {
+          add_hold(hold, records[r].sample_time, law, angles[r], sums);
+        }
+      }
+      if (!(sums.xx > 0.0) || sums.xy <= 0.0 || sums.xy * sums.xy / sums.xx <= explained) continue;
+      explained = sums.xy * sums.xy / sums.xx;
+      tried.limit = sums.xy / sums.xx;
+      best = tried;
+    }
+  }
+  return best;
+}
+
+}  // namespace zerocount

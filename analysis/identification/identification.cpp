@@ -1,0 +1,235 @@
+#include "analysis/identification/identification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "analysis/identification/confidence_interval.hpp"
+#include "analysis/identification/missing_information.hpp"
+#include "analysis/identification/reading_replicates.hpp"
+#include "analysis/identification/residual_checks.hpp"
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::size_t least_reversals = 2;
+
+/// Half-widths of an interval (of a logarithm; of n) beyond which a quantity is not identifiable.
+constexpr double widest_logarithm = 0.7;  // a factor of 2 to each side
+constexpr double widest_exponent = 1.0;
+
+/// Half-width beyond which the ends are those of the profile likelihood.
+constexpr double widest_linear = 0.05;
+
+bool is_known(const IdentificationOptions& options, Coordinate coordinate) {
+  return std::any_of(options.known.begin(), options.known.end(),
+                     [&](const KnownParameter& known) { return known.coordinate == coordinate; });
+}
+
+void check_reversals(std::span<const RecordParts> parts, const IdentificationOptions& options) {
+  if (is_known(options, log_k1) && is_known(options, log_k2) && is_known(options, log_beta)) return;
+  std::size_t reversals = 0;
+  for (const RecordParts& of_record : parts) reversals += of_record.reversals();
+  if (reversals >= least_reversals) return;
+  throw Failure(ExitCode::bad_data,
+                fmt::format("too few reversals: the torque turns {} (swings below 2 % of its range do not "
+                            "count); expected {} times at least, a loading, an unloading and a reloading",
+                            reversals == 0 ? "never" : "once", least_reversals));
+}
+
+/// The largest share of a record's travel that the model may leave unexplained.
+constexpr double most_unexplained = 0.05;
+
+void check_explained(std::span<const TestRecord> records, const ContactFit& fit) {
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const auto [low, high] = std::minmax_element(records[r].reading.begin(), records[r].reading.end());
+    const double allowed = std::max(records[r].counted ? 2.0 : 0.0, most_unexplained * (*high - *low));
+    if (fit.misfit[r] <= allowed) continue;
+    const std::size_t sample = largest_misfit_growth(records[r], fit.model.motions[r].path);
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format(
+            "{}: the pre-sliding model does not explain this record: what it leaves is {:.3g} rad (root "
+            "mean square) of a travel of {:.3g} rad, and it parts from the record most at {:.4g} s. Did the "
+            "rotor slide, was the torque clipped, is the contact not as it was said to be at the start?",
+            records[r].name, fit.misfit[r] * records[r].unit, (*high - *low) * records[r].unit,
+            static_cast<double>(sample) * records[r].sample_time));
+  }
+}
+
+RecordSummary summary_of(const TestRecord& record, const RecordParts& parts, const ContactFit& fit,
+                         std::size_t number) {
+  RecordSummary summary;
+  summary.name = record.name;
+  summary.samples = sample_count(record);
+  summary.duration = static_cast<double>(summary.samples) * record.sample_time;
+  summary.counted = record.counted;
+  summary.unit = record.unit;
+  summary.branches = parts.branches.size();
+  summary.reversals = parts.reversals();
+  summary.holds = parts.holds.size();
+  const double range = torque_range(record);
+  summary.ring_downs = static_cast<std::size_t>(
+      std::count_if(parts.holds.begin(), parts.holds.end(),
+                    [&](const TorqueHold& hold) { return rings_down(hold, range); }));
+  summary.misfit = fit.misfit[number];
+  summary.noise = fit.noise[number];
+  return summary;
+}
+
+double half_width(const QuantityEstimate& estimate) {
+  return 0.5 * (estimate.high - estimate.low);
+}
+
+bool is_open(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
+  return !(half_width(estimate) <= (quantity.logarithmic ? widest_logarithm : widest_exponent));
+}
+
+/// The parameter behind a quantity, without a value.
+ParameterEstimate unestimated(const FittedQuantity& quantity) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  ParameterEstimate parameter;
+  parameter.name = quantity.name;
+  parameter.key = quantity.key;
+  parameter.unit = quantity.unit;
+  parameter.value = parameter.standard_error = parameter.low = parameter.high = none;
+  return parameter;
+}
+
+/// On the parameter's own scale.
+ParameterEstimate reported(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
+  ParameterEstimate parameter = unestimated(quantity);
+  parameter.status = EstimateStatus::estimated;
+  parameter.value = estimate.value;
+  parameter.standard_error = estimate.standard_error;
+  parameter.low = estimate.low;
+  parameter.high = estimate.high;
+  if (!quantity.logarithmic) {
+    constexpr double least_exponent = 1.0;
+    parameter.value = std::max(parameter.value, least_exponent);
+    parameter.low = std::max(parameter.low, least_exponent);
+    parameter.high = std::max(parameter.high, least_exponent);
+    return parameter;
+  }
+  parameter.value = std::exp(estimate.value);
+  parameter.standard_error *= parameter.value;
+  parameter.low = std::exp(estimate.low);
+  parameter.high = std::exp(estimate.high);
+  return parameter;
+}
+
+ParameterEstimate given(const FittedQuantity& quantity, const IdentificationOptions& options) {
+  ParameterEstimate parameter = unestimated(quantity);
+  parameter.status = EstimateStatus::known;
+  for (const KnownParameter& known : options.known) {
+    if (coordinate_keys[known.coordinate] == quantity.key) parameter.value = known.value;
+  }
+  if (quantity.key.empty()) parameter.value = std::exp(quantity.value);
+  parameter.low = parameter.high = parameter.value;
+  parameter.standard_error = 0.0;
+  return parameter;
+}
+
+/// The estimates of an identification that is being made.
+class Estimation {
+ public:
+  Estimation(std::span<const TestRecord> records, std::span<const RecordParts> parts, const ContactFit& fit,
+             const ReadingReplicates& replicates, const IdentificationOptions& options, double widening)
+      : records_(records),
+        parts_(parts),
+        fit_(fit),
+        replicates_(replicates),
+        options_(options),
+        widening_(widening) {}
+
+  ParameterEstimate estimate(const FittedQuantity& quantity) const {
+    const Coordinate coordinate = quantity.coordinates.front();
+    if (quantity.key.empty() ? is_known(options_, log_k1) && is_known(options_, log_k2)
+                             : is_known(options_, coordinate)) {
+      return given(quantity, options_);
+    }
+    QuantityEstimate found = interval_by_replicates(quantity, replicates_, widening_);
+    if (is_open(quantity, found)) return open(quantity);
+    if (half_width(found) > widest_linear && !quantity.key.empty()) {
+      found = interval_by_profile(records_, fit_, quantity, found);
+      if (is_open(quantity, found)) return open(quantity);
+    }
+    return reported(quantity, found);
+  }
+
+ private:
+  ParameterEstimate open(const FittedQuantity& quantity) const {
+    ParameterEstimate parameter = unestimated(quantity);
+    parameter.reason = missing_information(records_, parts_, fit_, quantity.coordinates.back());
+    return parameter;
+  }
+
+  std::span<const TestRecord> records_;
+  std::span<const RecordParts> parts_;
+  const ContactFit& fit_;
+  const ReadingReplicates& replicates_;
+  const IdentificationOptions& options_;
+  double widening_;
+};
+
+/// Of the errors of two quantities in the replicates.
+double correlation_of(const FittedQuantity& one, const FittedQuantity& other,
+                      const ReadingReplicates& replicates) {
+  constexpr auto dimension = static_cast<Eigen::Index>(coordinate_count);
+  const auto centred = [&](const FittedQuantity& quantity) {
+    const Eigen::VectorXd errors = replicates.errors.leftCols<dimension>() * quantity.slope;
+    return Eigen::VectorXd(errors.array() - errors.mean());
+  };
+  const Eigen::VectorXd x = centred(one);
+  const Eigen::VectorXd y = centred(other);
+  return x.dot(y) / std::sqrt(x.squaredNorm() * y.squaredNorm());
+}
+
+std::vector<Identification::Correlation> strong_correlations(const std::vector<FittedQuantity>& quantities,
+                                                             const std::vector<ParameterEstimate>& parameters,
+                                                             const ReadingReplicates& replicates) {
+  constexpr double strong = 0.9;
+  std::vector<Identification::Correlation> correlations;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    for (std::size_t j = i + 1; j < quantities.size(); ++j) {
+      const bool both = parameters[i].status == EstimateStatus::estimated &&
+                        parameters[j].status == EstimateStatus::estimated && !quantities[i].key.empty() &&
+                        !quantities[j].key.empty();
+      if (!both) continue;
+      const double value = correlation_of(quantities[i], quantities[j], replicates);
+      if (std::abs(value) >= strong) correlations.push_back({parameters[i].name, parameters[j].name, value});
+    }
+  }
+  return correlations;
+}
+
+}  // namespace
+
+Identification identify(const std::vector<TestRecord>& records, const IdentificationOptions& options) {
+  std::vector<RecordParts> parts;
+  for (const TestRecord& record : records) parts.push_back(parts_of(record));
+  check_reversals(parts, options);
+  const ContactFit fit = fit_contact(records, parts, options.known);
+  check_explained(records, fit);
+  const ReadingReplicates replicates =
+      replicate_readings(records, fit.model, fit.setting, fit.noise, options.replicates);
+
+  Identification result;
+  result.checks = check_residuals(residual_statistics(residuals_of(fit.model, fit.observations, {})),
+                                  replicates.residuals);
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    result.records.push_back(summary_of(records[r], parts[r], fit, r));
+  }
+  const std::vector<FittedQuantity> quantities = fitted_quantities(fit.model.point, fit.setting.creep_torque);
+  const Estimation estimation(records, parts, fit, replicates, options, result.checks.widening);
+  for (const FittedQuantity& quantity : quantities) {
+    result.parameters.push_back(estimation.estimate(quantity));
+  }
+  result.correlations = strong_correlations(quantities, result.parameters, replicates);
+  return result;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,87 @@
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/identification/identification_report.hpp"
+#include "analysis/identification/manifest_fragment.hpp"
+#include "analysis/text.hpp"
+
+namespace zerocount {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+std::string status_word(EstimateStatus status) {
+  switch (status) {
+    case EstimateStatus::estimated:
+      return "estimated";
+    case EstimateStatus::known:
+      return "given";
+    case EstimateStatus::not_identifiable:
+      break;
+  }
+  return "not_identifiable";
+}
+
+Json parameter_json(const ParameterEstimate& parameter) {
+  Json object;
+  object["name"] = parameter.name;
+  object["key"] = parameter.key.empty() ? Json() : Json(parameter.key);
+  object["unit"] = parameter.unit;
+  object["status"] = status_word(parameter.status);
+  object["value"] = number(parameter.value);
+  object["standard_error"] = number(parameter.standard_error);
+  object["low"] = number(parameter.low);
+  object["high"] = number(parameter.high);
+  if (!parameter.reason.empty()) object["reason"] = parameter.reason;
+  if (parameter.status == EstimateStatus::estimated && !parameter.key.empty()) {
+    object["distribution"] = distribution_text(parameter);
+  }
+  return object;
+}
+
+Json record_json(const RecordSummary& record) {
+  return {{"name", printable(record.name)}, {"samples", record.samples}, {"duration", record.duration},
+          {"counted", record.counted},      {"unit", record.unit},       {"branches", record.branches},
+          {"reversals", record.reversals},  {"holds", record.holds},     {"ring_downs", record.ring_downs},
+          {"misfit", record.misfit},        {"noise", record.noise}};
+}
+
+Json checks_json(const ResidualChecks& checks) {
+  return {{"observations", checks.observations},
+          {"spread", checks.spread},
+          {"expected_spread", checks.expected_spread},
+          {"spread_chance", checks.spread_chance},
+          {"runs", checks.runs},
+          {"expected_runs", checks.expected_runs},
+          {"runs_chance", checks.runs_chance},
+          {"correlation_length", checks.correlation_length},
+          {"expected_correlation_length", checks.expected_correlation_length},
+          {"passed", checks.passed},
+          {"widening", checks.widening}};
+}
+
+}  // namespace
+
+std::string identification_json(const Identification& identification) {
+  Json json;
+  json["parameters"] = Json::array();
+  for (const ParameterEstimate& parameter : identification.parameters) {
+    json["parameters"].push_back(parameter_json(parameter));
+  }
+  json["correlations"] = Json::array();
+  for (const Identification::Correlation& pair : identification.correlations) {
+    json["correlations"].push_back({{"one", pair.one}, {"other", pair.other}, {"value", pair.value}});
+  }
+  json["records"] = Json::array();
+  for (const RecordSummary& record : identification.records) json["records"].push_back(record_json(record));
+  json["residuals"] = checks_json(identification.checks);
+  json["manifest"] = manifest_fragment(identification);
+  return json.dump(2) + "\n";
+}
+
+}  // namespace zerocount

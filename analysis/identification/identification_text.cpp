@@ -1,0 +1,81 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "analysis/identification/identification_report.hpp"
+#include "analysis/identification/manifest_fragment.hpp"
+#include "analysis/text.hpp"
+
+namespace zerocount {
+namespace {
+
+/// With as many digits as half the interval's width shows, and one more.
+std::string number(double value, const ParameterEstimate& parameter) {
+  const double width = parameter.high - parameter.low;
+  if (!(width > 0.0) || value == 0.0) return fmt::format("{:g}", value);
+  constexpr int fewest = 3;
+  constexpr int most = 15;
+  const int digits = static_cast<int>(std::ceil(std::log10(std::abs(value) / width))) + 2;
+  return fmt::format("{:.{}g}", value, std::clamp(digits, fewest, most));
+}
+
+std::vector<std::string> row_of(const ParameterEstimate& parameter) {
+  const std::string& name = parameter.name;
+  if (parameter.status == EstimateStatus::not_identifiable) {
+    return {name, "–", parameter.unit, "–", "–", "not identifiable"};
+  }
+  const std::string value = number(parameter.value, parameter);
+  if (parameter.status == EstimateStatus::known) return {name, value, parameter.unit, "–", "–", "given"};
+  const double half_width = 0.5 * (parameter.high - parameter.low);
+  return {name,
+          value,
+          parameter.unit,
+          fmt::format("{} to {}", number(parameter.low, parameter), number(parameter.high, parameter)),
+          fmt::format("{:.2g} %", 100.0 * half_width / parameter.value),
+          "estimated"};
+}
+
+std::string record_line(const RecordSummary& record) {
+  const std::string noise =
+      record.noise > 0.0 ? fmt::format(", noise {:.3g}", record.noise) : std::string(", no noise");
+  return fmt::format(
+      "  {}: {} samples, {:.4g} s; {} branches, {} reversals, {} holds, {} ring-downs\n"
+      "    read in {} of {:.6g} rad{}; the model leaves {:.3g} (root mean square)\n",
+      printable(record.name), record.samples, record.duration, record.branches, record.reversals,
+      record.holds, record.ring_downs, record.counted ? "counts" : "units", record.unit, noise,
+      record.misfit);
+}
+
+std::string checks_text(const ResidualChecks& checks) {
+  std::string text = fmt::format(
+      "Residuals of {} observations, beside those of records made up from the fit:\n"
+      "  spread {:.3f}, expected {:.3f}: as large by chance in {:.1f} %\n"
+      "  runs of one sign {:.0f}, expected {:.0f}: as far off by chance in {:.1f} %\n",
+      checks.observations, checks.spread, checks.expected_spread, 100.0 * checks.spread_chance, checks.runs,
+      checks.expected_runs, 100.0 * checks.runs_chance);
+  if (checks.passed) return text + "  They are what the encoder's steps and noise explain.\n";
+  return text +
+         fmt::format(
+             "  LACK OF FIT: they are more than the encoder's steps and noise explain. The intervals were\n"
+             "  widened by the factor {:.3g}, and hold only as far as the model does.\n",
+             checks.widening);
+}
+
+}  // namespace
+
+std::string identification_text(const Identification& identification) {
+  std::vector<std::vector<std::string>> cells{{"parameter", "value", "unit", "95 % interval", "±", "status"}};
+  for (const ParameterEstimate& parameter : identification.parameters) cells.push_back(row_of(parameter));
+  std::string text = aligned_table(cells, {false, true, false, true, true, false});
+  text += "\n";
+  for (const ParameterEstimate& parameter : identification.parameters) {
+    if (parameter.status != EstimateStatus::not_identifiable) continue;
+    text += fmt::format("{} is not identifiable from this, because {}.\n", parameter.name, parameter.reason);
+  }
+  text += "Records:\n";
+  for (const RecordSummary& record : identification.records) text += record_line(record);
+  text += checks_text(identification.checks);
+  return text + "\nTo paste into a manifest:\n\n" + manifest_fragment(identification);
+}
+
+}  // namespace zerocount

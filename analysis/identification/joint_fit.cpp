@@ -1,0 +1,141 @@
+#include "analysis/identification/joint_fit.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <ceres/cost_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+#include <glog/logging.h>
+
+namespace zerocount {
+namespace {
+
+/// How far (in logarithms) a fit may take a coordinate from the prior: a factor of 100. Far beyond it lie
+/// rotors whose simulation takes for ever.
+constexpr double farthest = 4.6;
+constexpr double least_exponent = 0.2;
+constexpr double most_exponent = 20.0;
+
+/// Ceres writes its log through glog, to standard error; what it has to say of a fit is in its summary.
+class QuietLog {
+ public:
+  QuietLog() : before_(FLAGS_minloglevel) { FLAGS_minloglevel = google::NUM_SEVERITIES; }
+  QuietLog(const QuietLog&) = delete;
+  QuietLog& operator=(const QuietLog&) = delete;
+  ~QuietLog() { FLAGS_minloglevel = before_; }
+
+ private:
+  int before_;
+};
+
+/// The residuals of all records, and of the prior, as Ceres wants them: of two blocks of parameters, the
+/// contact's coordinates and the offsets.
+class JointResiduals : public ceres::CostFunction {
+ public:
+  JointResiduals(std::span<const TestRecord> records, const Observations& observations,
+                 const FitSetting& setting)
+      : records_(records), observations_(observations), setting_(setting) {
+    std::size_t residuals = coordinate_count;
+    for (const std::vector<AngleObservation>& of_record : observations) residuals += of_record.size();
+    set_num_residuals(static_cast<int>(residuals));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(coordinate_count));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(records.size()));
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const Eigen::Map<const ContactPoint> contact(parameters[0]);
+    if (!within_reach(contact)) return false;
+    double* const by_contact = jacobians != nullptr ? jacobians[0] : nullptr;
+    double* const by_offset = jacobians != nullptr ? jacobians[1] : nullptr;
+    FreeCoordinates none{};
+    int row = 0;
+    for (std::size_t r = 0; r < records_.size(); ++r) {
+      const RecordMotion motion = motion_with_sensitivity(records_[r], contact, setting_.creep_torque,
+                                                          by_contact != nullptr ? setting_.free : none);
+      if (!motion.path.allFinite() || !motion.sensitivity.allFinite()) return false;
+      for (const AngleObservation& observation : observations_[r]) {
+        const double scale = 1.0 / std::sqrt(observation.variance);
+        residuals[row] =
+            scale * (mean_over(observation, motion.path).value() + parameters[1][r] - observation.position);
+        if (by_contact != nullptr) {
+          Eigen::Map<PathSlope>(by_contact + static_cast<std::size_t>(row) * coordinate_count) =
+              scale * mean_over(observation, motion.sensitivity);
+        }
+        if (by_offset != nullptr) {
+          double* const slopes = by_offset + static_cast<std::size_t>(row) * records_.size();
+          for (std::size_t i = 0; i < records_.size(); ++i) slopes[i] = i == r ? scale : 0.0;
+        }
+        ++row;
+      }
+    }
+    add_prior(contact, row, residuals, by_contact, by_offset);
+    return true;
+  }
+
+ private:
+  bool within_reach(const Eigen::Map<const ContactPoint>& contact) const {
+    for (std::size_t j = 0; j < creep_exponent; ++j) {
+      if (!(std::abs(contact[j] - setting_.prior[j]) <= farthest)) return false;
+    }
+    return contact[creep_exponent] >= least_exponent && contact[creep_exponent] <= most_exponent;
+  }
+
+  void add_prior(const Eigen::Map<const ContactPoint>& contact, int row, double* residuals,
+                 double* by_contact, double* by_offset) const {
+    for (std::size_t i = 0; i < coordinate_count; ++i) {
+      const auto at = static_cast<std::size_t>(row) + i;
+      const double scale = setting_.free[i] ? 1.0 / setting_.prior_spread : 0.0;
+      residuals[at] = scale * (contact[i] - setting_.prior[i]);
+      if (by_contact != nullptr) {
+        for (std::size_t j = 0; j < coordinate_count; ++j) {
+          by_contact[at * coordinate_count + j] = i == j ? scale : 0.0;
+        }
+      }
+      if (by_offset == nullptr) continue;
+      for (std::size_t r = 0; r < records_.size(); ++r) by_offset[at * records_.size() + r] = 0.0;
+    }
+  }
+
+  std::span<const TestRecord> records_;
+  const Observations& observations_;
+  const FitSetting& setting_;
+};
+
+void keep_known(ceres::Problem& problem, double* contact, const FreeCoordinates& free) {
+  std::vector<int> known;
+  for (std::size_t j = 0; j < coordinate_count; ++j) {
+    if (!free[j]) known.push_back(static_cast<int>(j));
+  }
+  if (known.size() == coordinate_count) {
+    problem.SetParameterBlockConstant(contact);
+  } else if (!known.empty()) {
+    problem.SetManifold(contact, new ceres::SubsetManifold(static_cast<int>(coordinate_count), known));
+  }
+}
+
+}  // namespace
+
+FitResult fit_jointly(std::span<const TestRecord> records, const Observations& observations,
+                      const FitPoint& start, const FitSetting& setting) {
+  const QuietLog quiet;
+  FitPoint point = start;
+  ceres::Problem problem;
+  problem.AddResidualBlock(new JointResiduals(records, observations, setting), nullptr, point.contact.data(),
+                           point.offset.data());
+  keep_known(problem, point.contact.data(), setting.free);
+  ceres::Solver::Options options;
+  options.logging_type = ceres::SILENT;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = setting.most_steps;
+  options.function_tolerance = setting.tolerance;
+  options.parameter_tolerance = 1e-9;
+  options.max_num_consecutive_invalid_steps = setting.most_steps;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable()) return {start, std::numeric_limits<double>::infinity()};
+  return {point, 2.0 * summary.final_cost};  // Ceres' cost is half the sum
+}
+
+}  // namespace zerocount

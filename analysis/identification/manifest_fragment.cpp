@@ -1,0 +1,91 @@
+#include "analysis/identification/manifest_fragment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace zerocount {
+namespace {
+
+constexpr double two_sided_95 = 1.959963984540054;  // Φ⁻¹(0.975)
+
+/// The number with as many digits as its uncertainty deserves, and two more. With a point, because there are
+/// YAML readers that take 2e5 for a text.
+std::string manifest_number(double value, double relative_uncertainty) {
+  constexpr int fewest = 3;
+  constexpr int most = 17;
+  const double wanted = relative_uncertainty > 0.0 ? 3.0 - std::log10(relative_uncertainty) : most;
+  const int digits = static_cast<int>(std::clamp(std::ceil(wanted), double{fewest}, double{most}));
+  std::string text = fmt::format("{}", std::stod(fmt::format("{:.{}g}", value, digits)));
+  const std::size_t exponent = text.find('e');
+  if (exponent == std::string::npos) return text;
+  if (text[exponent + 1] == '+') text.erase(exponent + 1, 1);
+  if (text.find('.') == std::string::npos) text.insert(exponent, ".0");
+  return text;
+}
+
+std::string line_of(const ParameterEstimate& parameter, const std::string& name) {
+  switch (parameter.status) {
+    case EstimateStatus::known:
+      return fmt::format("  {}: {}   # {}, given\n", name, manifest_number(parameter.value, 0.0),
+                         parameter.unit);
+    case EstimateStatus::estimated:
+      return fmt::format("  {}: {}   # {}, 95 %: {:.6g} to {:.6g}\n", name, distribution_text(parameter),
+                         parameter.unit, parameter.low, parameter.high);
+    case EstimateStatus::not_identifiable:
+      break;
+  }
+  return fmt::format("  # {}: not identifiable, because {}\n", name, parameter.reason);
+}
+
+}  // namespace
+
+std::string distribution_text(const ParameterEstimate& parameter) {
+  constexpr double small_digits = 1e-3;  // of a spread, four digits are enough
+  if (parameter.name == "n") {
+    const double mean = 0.5 * (parameter.low + parameter.high);
+    const double sd = 0.5 * (parameter.high - parameter.low) / two_sided_95;
+    if (!(sd > 0.0)) return manifest_number(mean, 0.0);
+    constexpr double far = 8.0;
+    return fmt::format("{{truncated_normal: {{mean: {}, sd: {}, low: 1, high: {}}}}}",
+                       manifest_number(mean, sd / mean), manifest_number(sd, small_digits),
+                       manifest_number(std::max(mean, 1.0) + far * sd, sd / mean));
+  }
+  const double median = std::sqrt(parameter.low * parameter.high);
+  const double spread = 0.5 * std::log(parameter.high / parameter.low) / two_sided_95;
+  const double cv = std::sqrt(std::expm1(spread * spread));
+  if (!(cv > 0.0)) return manifest_number(median, 0.0);
+  return fmt::format("{{lognormal: {{median: {}, cv: {}}}}}", manifest_number(median, cv),
+                     manifest_number(cv, small_digits));
+}
+
+std::string manifest_fragment(const Identification& identification) {
+  std::string text = "# Identified from";
+  for (const RecordSummary& record : identification.records) {
+    text += fmt::format("{} {}", &record == &identification.records.front() ? "" : ",", record.name);
+  }
+  text +=
+      ".\n# The central 95 % of each distribution are the confidence interval. Trials draw them "
+      "independently";
+  for (const Identification::Correlation& pair : identification.correlations) {
+    text += fmt::format("{}\n# {} and {}: {:.2f}",
+                        &pair == &identification.correlations.front() ? ", although errors correlate:" : "",
+                        pair.one, pair.other, pair.value);
+  }
+  text += "\n";
+  for (const std::string group : {"plant", "friction"}) {
+    std::string lines;
+    bool any = false;
+    for (const ParameterEstimate& parameter : identification.parameters) {
+      if (!parameter.key.starts_with(group + ".")) continue;
+      lines += line_of(parameter, parameter.key.substr(group.size() + 1));
+      any = any || parameter.status != EstimateStatus::not_identifiable;
+    }
+    // A map of comments alone would be no map.
+    text += any ? group + ":\n" + lines : "# " + group + ":\n" + lines;
+  }
+  return text;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,100 @@
+#include "analysis/identification/missing_information.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace zerocount {
+namespace {
+
+/// A hold in which the rotor creeps.
+struct CreepingHold {
+  double torque{0.0};  ///< magnitude, N m
+  double creep{0.0};   ///< by how far the fitted path goes from its first quarter to its end, in readings
+};
+
+std::vector<CreepingHold> creeping_holds(std::span<const TestRecord> records,
+                                         std::span<const RecordParts> parts, const ContactFit& fit) {
+  std::vector<CreepingHold> holds;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const Eigen::VectorXd& path = fit.model.motions[r].path;
+    for (const TorqueHold& hold : parts[r].holds) {
+      const std::size_t settled = hold.first + (hold.last - hold.first) / 4;
+      const double creep =
+          path[static_cast<Eigen::Index>(hold.last)] - path[static_cast<Eigen::Index>(settled)];
+      holds.push_back({std::abs(hold.torque), std::abs(creep)});
+    }
+  }
+  return holds;
+}
+
+std::string of_spring(const ContactFit& fit, std::span<const TestRecord> records) {
+  const double softening = std::exp(-fit.model.point.contact[log_beta]) / records.front().unit;
+  return fmt::format(
+      "the readings show too little of how the spring softens after a reversal (within about "
+      "{:.2g} of their steps): reverse more often, or read finer",
+      softening);
+}
+
+std::string of_ring_down(std::span<const TestRecord> records, std::span<const RecordParts> parts) {
+  std::size_t ring_downs = 0;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const double range = torque_range(records[r]);
+    ring_downs += static_cast<std::size_t>(
+        std::count_if(parts[r].holds.begin(), parts[r].holds.end(),
+                      [&](const TorqueHold& hold) { return rings_down(hold, range); }));
+  }
+  if (ring_downs == 0) {
+    return "there is no ring-down: the torque never steps (by 5 % of its range within 8 samples) and then "
+           "stays";
+  }
+  return "the ring-downs are too small, or die out too fast for the sampling, to show it";
+}
+
+std::string of_creep(const std::vector<CreepingHold>& holds, Coordinate coordinate) {
+  if (holds.empty())
+    return "the torque is never held (for 20 samples or more), and so creep is not seen alone";
+  double most = 0.0;
+  for (const CreepingHold& hold : holds) most = std::max(most, hold.creep);
+  constexpr double least_creep = 2.0;
+  if (most < least_creep) {
+    return fmt::format("the rotor creeps by {:.2g} steps of the readings at most while the torque is held",
+                       most);
+  }
+  double low = 0.0;
+  double high = 0.0;
+  for (const CreepingHold& hold : holds) {
+    if (hold.creep < least_creep) continue;
+    if (low == 0.0 || hold.torque < low) low = hold.torque;
+    high = std::max(high, hold.torque);
+  }
+  constexpr double one_level = 1.1;
+  if (coordinate != log_alpha && high < one_level * low) {
+    return fmt::format("creep is seen at one torque only, {:.3g} N m: hold another, or give friction.n",
+                       high);
+  }
+  return "the holds are too short, or too much alike, to show the course of creep";
+}
+
+}  // namespace
+
+std::string missing_information(std::span<const TestRecord> records, std::span<const RecordParts> parts,
+                                const ContactFit& fit, Coordinate coordinate) {
+  switch (coordinate) {
+    case log_k1:
+    case log_k2:
+    case log_beta:
+      return of_spring(fit, records);
+    case log_damping:
+    case log_inertia:
+      return of_ring_down(records, parts);
+    case log_alpha:
+    case log_limit:
+    case creep_exponent:
+      break;
+  }
+  return of_creep(creeping_holds(records, parts, fit), coordinate);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,75 @@
+#include <Eigen/Cholesky>
+
+#include "analysis/identification/joint_fit.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr auto dimension = static_cast<Eigen::Index>(coordinate_count);
+
+}  // namespace
+
+FittedModel model_at(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting) {
+  FittedModel model{point, {}};
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    model.motions.push_back(
+        motion_with_sensitivity(records[r], point.contact, setting.creep_torque, setting.free));
+    model.motions.back().path.array() += point.offset[static_cast<Eigen::Index>(r)];
+  }
+  return model;
+}
+
+Eigen::MatrixXd textbook_covariance(const FittedModel& model, const Observations& observations,
+                                    const FitSetting& setting) {
+  NormalEquationsSum sum(observations.size(), setting);
+  for (std::size_t r = 0; r < observations.size(); ++r) {
+    sum.add(r, observations[r], model.motions[r].path, model.motions[r].sensitivity);
+  }
+  const Eigen::MatrixXd matrix = sum.with_prior(setting.prior).matrix;
+  return matrix.llt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+}
+
+NormalEquationsSum::NormalEquationsSum(std::size_t records, const FitSetting& setting) : setting_(setting) {
+  const Eigen::Index size = dimension + static_cast<Eigen::Index>(records);
+  sum_.matrix.setZero(size, size);
+  sum_.gradient.setZero(size);
+}
+
+void NormalEquationsSum::add(std::size_t record, const std::vector<AngleObservation>& observations,
+                             const Eigen::VectorXd& path, const PathSensitivity& sensitivity) {
+  Eigen::Matrix<double, coordinate_count + 1, 1> slope;
+  Eigen::Matrix<double, coordinate_count + 1, coordinate_count + 1> matrix;
+  Eigen::Matrix<double, coordinate_count + 1, 1> gradient;
+  matrix.setZero();
+  gradient.setZero();
+  slope[dimension] = 1.0;  // of the offset
+  for (const AngleObservation& observation : observations) {
+    slope.head<dimension>() = mean_over(observation, sensitivity);
+    const double residual = observation.position - mean_over(observation, path).value();
+    const double weight = 1.0 / observation.variance;
+    matrix.noalias() += (weight * slope) * slope.transpose();
+    gradient.noalias() += (weight * residual) * slope;
+    sum_.squares += weight * residual * residual;
+  }
+  sum_.observations += observations.size();
+  const Eigen::Index offset = dimension + static_cast<Eigen::Index>(record);
+  sum_.matrix.topLeftCorner(dimension, dimension) += matrix.topLeftCorner<dimension, dimension>();
+  sum_.matrix.block(0, offset, dimension, 1) += matrix.topRightCorner<dimension, 1>();
+  sum_.matrix.block(offset, 0, 1, dimension) += matrix.bottomLeftCorner<1, dimension>();
+  sum_.matrix(offset, offset) += matrix(dimension, dimension);
+  sum_.gradient.head(dimension) += gradient.head<dimension>();
+  sum_.gradient[offset] += gradient[dimension];
+}
+
+NormalEquations NormalEquationsSum::with_prior(const ContactPoint& at) const {
+  NormalEquations equations = sum_;
+  const double weight = 1.0 / (setting_.prior_spread * setting_.prior_spread);
+  for (Eigen::Index j = 0; j < dimension; ++j) {
+    const bool free = setting_.free[static_cast<std::size_t>(j)];
+    equations.matrix(j, j) += free ? weight : 1.0;
+    if (free) equations.gradient[j] += weight * (setting_.prior[j] - at[j]);
+  }
+  return equations;
+}
+
+}  // namespace zerocount

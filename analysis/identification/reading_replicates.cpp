@@ -1,0 +1,130 @@
+#include "analysis/identification/reading_replicates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <Eigen/Cholesky>
+
+#include "core/random/random_numbers.hpp"
+#include "core/random/variates.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr auto dimension = static_cast<Eigen::Index>(coordinate_count);
+
+/// Of the textbook's standard deviations, over which the truths of the replicates are spread.
+constexpr double truth_spread = 3.0;
+
+/// Key of the replicates' random numbers: any, but always the same, so that a record has one result.
+constexpr RandomStream replicate_stream{{0x1d3a71f1U, 0xca710bb5U}, 0};
+
+/// The standard normal numbers of one replicate.
+class ReplicateNoise {
+ public:
+  explicit ReplicateNoise(std::size_t replicate) : replicate_(replicate) {}
+  double next() { return standard_normal(random_bits(replicate_stream, replicate_, draw_++)); }
+  Eigen::VectorXd next(Eigen::Index size) {
+    return Eigen::VectorXd::NullaryExpr(size, [this] { return next(); });
+  }
+
+ private:
+  std::uint64_t replicate_;
+  std::uint32_t draw_{0};
+};
+
+/// What the record's encoder reads along `path`.
+Eigen::VectorXd read_path(const TestRecord& record, const Eigen::VectorXd& path, double noise,
+                          ReplicateNoise& random) {
+  Eigen::VectorXd readings = path;
+  if (noise > 0.0) readings += noise * random.next(path.size());
+  if (record.counted) readings = readings.array().floor();
+  return readings;
+}
+
+}  // namespace
+
+ResidualStatistics residual_statistics(const std::vector<double>& residuals) {
+  ResidualStatistics statistics;
+  statistics.observations = residuals.size();
+  for (const double residual : residuals) statistics.squares += residual * residual;
+  if (residuals.empty()) return statistics;
+  statistics.runs = 1.0;
+  for (std::size_t i = 1; i < residuals.size(); ++i) {
+    if (std::signbit(residuals[i]) != std::signbit(residuals[i - 1])) statistics.runs += 1.0;
+  }
+  if (statistics.squares == 0.0) return statistics;
+  for (std::size_t lag = 1; lag < residuals.size() / 4; ++lag) {
+    double product = 0.0;
+    for (std::size_t i = lag; i < residuals.size(); ++i) product += residuals[i] * residuals[i - lag];
+    if (product <= 0.0) break;
+    statistics.correlation_length += 2.0 * product / statistics.squares;
+  }
+  return statistics;
+}
+
+std::vector<double> residuals_of(const FittedModel& model, const Observations& observations,
+                                 const Eigen::VectorXd& step) {
+  std::vector<double> residuals;
+  for (std::size_t r = 0; r < observations.size(); ++r) {
+    const RecordMotion& motion = model.motions[r];
+    for (const AngleObservation& observation : observations[r]) {
+      double modelled = mean_over(observation, motion.path).value();
+      if (step.size() > 0) {
+        modelled += (mean_over(observation, motion.sensitivity) * step.head<dimension>()).value() +
+                    step[dimension + static_cast<Eigen::Index>(r)];
+      }
+      residuals.push_back((observation.position - modelled) / std::sqrt(observation.variance));
+    }
+  }
+  return residuals;
+}
+
+ReadingReplicates replicate_readings(std::span<const TestRecord> records, const FittedModel& model,
+                                     const FitSetting& setting, const std::vector<double>& noise,
+                                     std::size_t replicates) {
+  NormalEquationsSum at_model(records.size(), setting);
+  Observations observations(records.size());
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const RecordMotion& motion = model.motions[r];
+    const Eigen::VectorXd readings =
+        Eigen::Map<const Eigen::VectorXd>(records[r].reading.data(), motion.path.size());
+    observe(records[r], motion.path, readings, noise[r], observations[r]);
+    at_model.add(r, observations[r], motion.path, motion.sensitivity);
+  }
+  const Eigen::MatrixXd matrix = at_model.with_prior(setting.prior).matrix;
+  const Eigen::LLT<Eigen::MatrixXd> root(matrix);
+
+  ReadingReplicates result;
+  result.errors.resize(static_cast<Eigen::Index>(replicates), matrix.rows());
+  FittedModel truth = model;
+  for (std::size_t i = 0; i < replicates; ++i) {
+    ReplicateNoise random(i);
+    // matrix⁻¹ is the textbook's covariance, and L⁻ᵀz has it, where matrix = L·Lᵀ.
+    const Eigen::VectorXd away = truth_spread * root.matrixU().solve(random.next(matrix.rows()));
+    NormalEquationsSum sum(records.size(), setting);
+    for (std::size_t r = 0; r < records.size(); ++r) {
+      const RecordMotion& motion = model.motions[r];
+      Eigen::VectorXd& path = truth.motions[r].path;
+      path = motion.path;
+      path.noalias() += motion.sensitivity * away.head<dimension>();
+      path.array() += away[dimension + static_cast<Eigen::Index>(r)];
+      const Eigen::VectorXd readings = read_path(records[r], path, noise[r], random);
+      observe(records[r], path, readings, noise[r], observations[r]);
+      sum.add(r, observations[r], path, motion.sensitivity);
+    }
+    NormalEquations equations = sum.with_prior(setting.prior);
+    // The prior errs as much as it says: what only it determines is as uncertain as it is.
+    for (Eigen::Index j = 0; j < dimension; ++j) {
+      if (setting.free[static_cast<std::size_t>(j)])
+        equations.gradient[j] += random.next() / setting.prior_spread;
+    }
+    const Eigen::VectorXd error = equations.matrix.llt().solve(equations.gradient);
+    result.errors.row(static_cast<Eigen::Index>(i)) = error;
+    result.residuals.push_back(residual_statistics(residuals_of(truth, observations, error)));
+  }
+  return result;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,193 @@
+#include "analysis/identification/record_checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "analysis/identification/record_parts.hpp"
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::size_t least_samples = 100;
+constexpr double jitter_allowed = 0.25;  // of the sampling interval
+constexpr double least_counts = 5.0;     // of travel
+constexpr std::size_t clipped_samples = 3;
+
+[[noreturn]] void refuse(const std::string& place, const std::string& reason) {
+  throw Failure(ExitCode::bad_data, fmt::format("{}: {}", place, reason));
+}
+
+/// Values between which a quantity is believed, and what is asked where it is not.
+struct Plausible {
+  std::string_view quantity;
+  std::string_view unit;
+  double low;
+  double high;
+  std::string_view question;
+};
+
+void check_plausible(const RawSeries& series, const Plausible& plausible, double value) {
+  if (value >= plausible.low && value <= plausible.high) return;
+  refuse(series.name,
+         fmt::format("{} is {:.4g} {}, {} what is plausible for a rotor on its friction ({:g} to {:g} "
+                     "{}): {} If it is right, give --any-magnitude",
+                     plausible.quantity, value, plausible.unit, value < plausible.low ? "below" : "above",
+                     plausible.low, plausible.high, plausible.unit, plausible.question));
+}
+
+double travel(const TestRecord& record) {
+  const auto [low, high] = std::minmax_element(record.reading.begin(), record.reading.end());
+  return *high - *low;
+}
+
+/// The code beyond which a converter of `bits` has none, on the side of `code`.
+double last_code(int bits, double code) {
+  const double half = std::ldexp(1.0, bits - 1);
+  return code < 0.0 ? -half : half - 1.0;
+}
+
+/// Where the bits of the converter are not known, the end of the range of any from 12 bits.
+bool at_end_of_range(const RawSeries& series, double code) {
+  if (series.dac_bits > 0) return code == last_code(series.dac_bits, code);
+  constexpr int least_bits = 12;
+  constexpr int most_bits = 24;
+  for (int bits = least_bits; bits <= most_bits; ++bits) {
+    if (code == last_code(bits, code)) return true;
+  }
+  return false;
+}
+
+void check_codes(const RawSeries& series) {
+  std::size_t repeated = 0;
+  for (std::size_t k = 0; k < series.code.size(); ++k) {
+    repeated = at_end_of_range(series, series.code[k]) ? repeated + 1 : 0;
+    if (repeated == clipped_samples) {
+      refuse(place_of(series, k),
+             fmt::format("the torque is clipped: the DAC's code stays at {:.0f}, the end of "
+                         "its range",
+                         series.code[k]));
+    }
+  }
+}
+
+/// Whether the angle goes on and comes back while the torque stays at its extreme.
+void check_flat_top(const RawSeries& series, const TestRecord& record, const TorqueHold& hold) {
+  const double sign = hold.torque > 0.0 ? 1.0 : -1.0;
+  const double noticeable = std::max(record.counted ? least_counts : 0.0, 0.01 * travel(record));
+  std::size_t peak = hold.first;
+  for (std::size_t k = hold.first; k <= hold.last; ++k) {
+    if (sign * record.reading[k] > sign * record.reading[peak]) peak = k;
+  }
+  const double rise = sign * (record.reading[peak] - record.reading[hold.first]);
+  const double fall = sign * (record.reading[peak] - record.reading[hold.last]);
+  const bool swings = peak - hold.first < (hold.last - hold.first) / 20;
+  if (rise < noticeable || fall < noticeable || swings) return;
+  refuse(place_of(series, hold.first),
+         fmt::format(
+             "the torque is clipped: it stays at {:.4g} N m for {:.3g} s, and meanwhile the angle goes on "
+             "by {:.3g} rad and comes back by {:.3g} rad",
+             hold.torque, static_cast<double>(hold.last - hold.first) * record.sample_time,
+             rise * record.unit, fall * record.unit));
+}
+
+}  // namespace
+
+double checked_sample_time(const RawSeries& series) {
+  const std::size_t samples = series.time.size();
+  if (samples < least_samples) {
+    refuse(series.name,
+           fmt::format("is too short: {} samples; expected {} at least", samples, least_samples));
+  }
+  for (std::size_t k = 1; k < samples; ++k) {
+    if (series.time[k] > series.time[k - 1]) continue;
+    refuse(place_of(series, k),
+           fmt::format("the time {} s does not come after {} s", series.time[k], series.time[k - 1]));
+  }
+  const double interval = (series.time.back() - series.time.front()) / static_cast<double>(samples - 1);
+  for (std::size_t k = 0; k < samples; ++k) {
+    const double on_grid = series.time.front() + static_cast<double>(k) * interval;
+    const double off = std::abs(series.time[k] - on_grid) / interval;
+    if (off <= jitter_allowed) continue;
+    refuse(place_of(series, k),
+           fmt::format(
+               "the samples are not equally spaced: at {} s this one is {:.2g} sampling intervals ({:.6g} s) "
+               "off a regular grid; expected {} at most. Are samples missing?",
+               series.time[k], off, interval, jitter_allowed));
+  }
+  return interval;
+}
+
+void check_magnitudes(const RawSeries& series, const TestRecord& record) {
+  check_plausible(series, {"the sampling interval", "s", 1e-6, 2e-2, "is the time in ms or us?"},
+                  record.sample_time);
+  check_plausible(series, {"the largest torque", "N m", 1e-3, 20.0, "is the torque in mN m?"},
+                  largest_torque(record));
+  const double turned = travel(record) * record.unit;
+  check_plausible(
+      series,
+      {"the travel", "rad", 4e-6, 0.05,
+       "is the angle in mrad or degrees, are the counts per revolution right, did the rotor slide?"},
+      turned);
+  check_plausible(series,
+                  {"the torque's range over the travel", "N m/rad", 1.0, 2e4,
+                   "are torque and angle in N m and rad, are the counts per revolution right?"},
+                  torque_range(record) / turned);
+}
+
+void check_change(const RawSeries& series, const TestRecord& record) {
+  if (!(torque_range(record) > 0.0)) refuse(series.name, "the torque is 0 throughout");
+  if (!(travel(record) > 0.0)) {
+    refuse(series.name, "the angle is constant: the encoder does not see the rotor move");
+  }
+}
+
+void check_motion(const RawSeries& series, const TestRecord& record) {
+  const double counts = travel(record);
+  if (record.counted && counts < least_counts) {
+    refuse(series.name, fmt::format("the rotor moves by {:.0f} counts only; expected {:.0f} at least", counts,
+                                    least_counts));
+  }
+  constexpr std::size_t lag = 10;
+  double agreement = 0.0;
+  for (std::size_t k = lag; k < sample_count(record); ++k) {
+    agreement += (record.torque[k - 1].now - record.torque[k - lag].now) *
+                 (record.reading[k] - record.reading[k - lag]);
+  }
+  if (agreement < 0.0) {
+    refuse(series.name, "the angle falls where the torque rises: one of them has the wrong sign");
+  }
+}
+
+void check_sticking(const RawSeries& series) {
+  const auto slides = std::find(series.sliding.begin(), series.sliding.end(), true);
+  if (slides == series.sliding.end()) return;
+  const auto sample = static_cast<std::size_t>(slides - series.sliding.begin());
+  refuse(place_of(series, sample),
+         fmt::format(
+             "the rotor breaks away and slides at {:.6g} s; what is identified holds before that only: test "
+             "with less torque, or cut the record",
+             series.time[sample]));
+}
+
+void check_clipping(const RawSeries& series, const TestRecord& record) {
+  check_codes(series);
+  const double range = torque_range(record);
+  double high = 0.0;
+  double low = 0.0;
+  for (const TorqueCourse& torque : record.torque) {
+    high = std::max(high, torque.now);
+    low = std::min(low, torque.now);
+  }
+  constexpr double tolerance = 2e-3;  // of the range
+  for (const TorqueHold& hold : parts_of(record).holds) {
+    const bool at_extreme = hold.torque >= high - tolerance * range || hold.torque <= low + tolerance * range;
+    if (at_extreme && !rings_down(hold, range)) check_flat_top(series, record, hold);
+  }
+}
+
+}  // namespace zerocount

@@ -1,0 +1,79 @@
+#include "analysis/identification/record_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zerocount {
+namespace {
+
+constexpr double turn_threshold = 0.02;    // of the range
+constexpr double hold_tolerance = 1e-3;    // of the range
+constexpr double step_threshold = 0.05;    // of the range
+constexpr double slow_threshold = 0.2;     // of the range
+constexpr std::size_t least_samples = 20;  // of a hold and of a slow branch
+constexpr std::size_t step_samples = 8;
+
+/// The torque at a sample; before the first it is 0.
+double torque_at(const TestRecord& record, std::ptrdiff_t sample) {
+  return sample < 0 ? 0.0 : record.torque[static_cast<std::size_t>(sample)].now;
+}
+
+/// The branches between the turning points: a turning point is an extreme from which the torque has come back
+/// by more than the threshold.
+std::vector<LoadingBranch> branches_of(const TestRecord& record, double threshold) {
+  std::vector<LoadingBranch> branches;
+  LoadingBranch branch;  // from the last turning point to the farthest torque since
+  int direction = 0;
+  for (std::size_t k = 0; k < record.torque.size(); ++k) {
+    const double torque = record.torque[k].now;
+    const double way = torque - branch.to;
+    if (direction == 0) {
+      if (std::abs(torque - branch.from) > threshold) direction = torque > branch.from ? 1 : -1;
+      branch.last = k;
+      branch.to = torque;
+    } else if (way * direction >= 0.0) {
+      if (way != 0.0) branch.last = k;
+      branch.to = torque;
+    } else if (std::abs(way) > threshold) {
+      branches.push_back(branch);
+      branch = {branch.last, k, branch.to, torque};
+      direction = -direction;
+    }
+  }
+  if (direction != 0) branches.push_back(branch);
+  return branches;
+}
+
+std::vector<TorqueHold> holds_of(const TestRecord& record, double tolerance) {
+  std::vector<TorqueHold> holds;
+  const std::size_t samples = record.torque.size();
+  for (std::size_t first = 0; first < samples;) {
+    const double torque = record.torque[first].now;
+    std::size_t end = first + 1;
+    while (end < samples && std::abs(record.torque[end].now - torque) <= tolerance) ++end;
+    if (end - first >= least_samples) {
+      const auto before = static_cast<std::ptrdiff_t>(first) - static_cast<std::ptrdiff_t>(step_samples);
+      holds.push_back({first, end - 1, torque, torque_at(record, before)});
+    }
+    first = end;
+  }
+  return holds;
+}
+
+}  // namespace
+
+RecordParts parts_of(const TestRecord& record) {
+  const double range = torque_range(record);
+  return {branches_of(record, turn_threshold * range), holds_of(record, hold_tolerance * range)};
+}
+
+bool rings_down(const TorqueHold& hold, double range) {
+  return std::abs(hold.torque - hold.from) >= step_threshold * range;
+}
+
+bool is_slow(const LoadingBranch& branch, double range) {
+  return branch.last - branch.first >= least_samples &&
+         std::abs(branch.to - branch.from) >= slow_threshold * range;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/identification/starting_point.hpp"
+
+namespace zerocount {
+namespace {
+
+/// Torque over travel of one branch, from its reversal point.
+struct Chord {
+  std::vector<double> travel;  ///< rad
+  std::vector<double> torque;  ///< N m
+};
+
+/// @param doubled whether the branch is the virgin curve: sgn(x)·½·f(2|x|), so twice both is the branch law.
+Chord chord_of(const TestRecord& record, const LoadingBranch& branch, const Eigen::VectorXd& angle,
+               bool doubled) {
+  Chord chord;
+  const double sign = branch.to > branch.from ? 1.0 : -1.0;
+  const double factor = doubled ? 2.0 : 1.0;
+  const double start = angle[static_cast<Eigen::Index>(branch.first)];
+  for (std::size_t k = branch.first + 1; k <= branch.last; ++k) {
+    // The angle at t_k is what the torque before it has led to.
+    chord.travel.push_back(factor * sign * (angle[static_cast<Eigen::Index>(k)] - start));
+    chord.torque.push_back(factor * sign * (record.torque[k - 1].now - branch.from));
+  }
+  return chord;
+}
+
+struct Line {
+  double slope{0.0};
+  double intercept{0.0};
+};
+
+/// Least squares through the points whose travel is at least `from`.
+Line line_through(const Chord& chord, double from) {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < chord.travel.size(); ++i) {
+    if (chord.travel[i] < from) continue;
+    n += 1.0;
+    x += chord.travel[i];
+    y += chord.torque[i];
+    xx += chord.travel[i] * chord.travel[i];
+    xy += chord.travel[i] * chord.torque[i];
+  }
+  const double spread = n * xx - x * x;
+  if (n < 3.0 || !(spread > 0.0)) return {};
+  const double slope = (n * xy - x * y) / spread;
+  return {slope, (y - slope * x) / n};
+}
+
+/// The travel at which the chord has gained `share` of the line's intercept; `least` where that is less.
+double softening_travel(const Chord& chord, const Line& line, double share, double least) {
+  for (std::size_t i = 0; i < chord.travel.size(); ++i) {
+    if (chord.torque[i] - line.slope * chord.travel[i] >= share * line.intercept) {
+      return std::max(chord.travel[i], least);
+    }
+  }
+  return least;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Where there is no slow branch to look at: the softest of the steps, and otherwise the largest torque over
+/// the largest angle, with a guess of how the spring softens.
+SpringEstimate secant_estimate(std::span<const TestRecord> records, std::span<const RecordParts> parts) {
+  constexpr double softened = 20.0;  // β times the travel
+  constexpr double offset = 0.05;    // of the torque
+  SpringEstimate estimate{std::numeric_limits<double>::infinity(), 0.0, 0.0};
+  const auto take = [&](double torque, double travel) {
+    if (!(travel > 0.0) || torque / travel >= estimate.k1) return;
+    estimate = {torque / travel, offset * torque, softened / travel};
+  };
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const double range = torque_range(records[r]);
+    for (const TorqueHold& hold : parts[r].holds) {
+      if (rings_down(hold, range)) {
+        take(std::abs(hold.torque - hold.from), first_swing(records[r], hold).travel);
+      }
+    }
+  }
+  if (std::isfinite(estimate.k1)) return estimate;
+  for (const TestRecord& record : records) {
+    const Eigen::VectorXd angle = measured_angle(record);
+    take(torque_range(record), angle.maxCoeff() - angle.minCoeff());
+  }
+  return estimate;
+}
+
+}  // namespace
+
+SpringEstimate estimate_spring(std::span<const TestRecord> records, std::span<const RecordParts> parts,
+                               const CreepEstimate& creep, double creep_torque) {
+  std::vector<double> slopes, offsets, rates;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const double range = torque_range(records[r]);
+    const Eigen::VectorXd angle =
+        measured_angle(records[r]) - creep_extension(records[r], creep, creep_torque);
+    const bool virgin = records[r].start.preload == 0.0 && records[r].start.history.empty();
+    for (std::size_t b = 0; b < parts[r].branches.size(); ++b) {
+      const LoadingBranch& branch = parts[r].branches[b];
+      if (!is_slow(branch, range)) continue;
+      const Chord chord = chord_of(records[r], branch, angle, virgin && b == 0);
+      const double travel = chord.travel.back();
+      const Line line = line_through(chord, 0.6 * travel);
+      if (!(line.slope > 0.0) || !(travel > 0.0)) continue;
+      slopes.push_back(line.slope);
+      if (!(line.intercept > 0.0)) continue;
+      offsets.push_back(line.intercept);
+      constexpr double share = 0.632;  // 1 − 1/e
+      rates.push_back(1.0 / softening_travel(chord, line, share, 0.5 * records[r].unit));
+    }
+  }
+  if (slopes.empty()) return secant_estimate(records, parts);
+  SpringEstimate estimate;
+  estimate.k1 = median(slopes);
+  estimate.offset = offsets.empty() ? 0.01 * estimate.k1 * records[0].unit : median(offsets);
+  estimate.beta = rates.empty() ? 1.0 / records[0].unit : median(rates);
+  return estimate;
+}
+
+}  // namespace zerocount

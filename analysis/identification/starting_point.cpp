@@ -1,0 +1,181 @@
+#include "analysis/identification/starting_point.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "analysis/identification/record_motion.hpp"
+
+namespace zerocount {
+namespace {
+
+/// A ring-down, and the record it is in.
+struct RingDown {
+  const TestRecord* record{nullptr};
+  TorqueHold hold;
+};
+
+RingDown largest_ring_down(std::span<const TestRecord> records, std::span<const RecordParts> parts) {
+  RingDown largest;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    for (const TorqueHold& hold : parts[r].holds) {
+      if (!rings_down(hold, torque_range(records[r]))) continue;
+      const bool larger = largest.record == nullptr || std::abs(hold.torque - hold.from) >
+                                                           std::abs(largest.hold.torque - largest.hold.from);
+      if (larger) largest = {&records[r], hold};
+    }
+  }
+  return largest;
+}
+
+/// Sum of squares (in units of the readings) of what the model leaves of the record, about its mean.
+double misfit(const TestRecord& record, const ContactPoint& point, double creep_torque) {
+  const Eigen::VectorXd path = angle_path(record, contact_at(point, creep_torque));
+  const Eigen::Map<const Eigen::VectorXd> readings(record.reading.data(), path.size());
+  const Eigen::VectorXd residual = readings - path;
+  const double sum = (residual.array() - residual.mean()).square().sum();
+  return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+}
+
+using ChosenRecords = std::vector<const TestRecord*>;
+
+double misfit(const ChosenRecords& records, const ContactPoint& point, double creep_torque) {
+  double sum = 0.0;
+  for (const TestRecord* record : records) sum += misfit(*record, point, creep_torque);
+  return sum;
+}
+
+/// The best of the point and those that are `changes` away from it.
+ContactPoint best_of(const ChosenRecords& records, const ContactPoint& point, double creep_torque,
+                     std::span<const ContactPoint> changes) {
+  ContactPoint best = point;
+  double least = misfit(records, point, creep_torque);
+  for (const ContactPoint& change : changes) {
+    const ContactPoint tried = point + change;
+    const double left = misfit(records, tried, creep_torque);
+    if (left >= least) continue;
+    least = left;
+    best = tried;
+  }
+  return best;
+}
+
+/// β is the hardest to see in a chord; k2/β stays what it is.
+std::vector<ContactPoint> softening_changes() {
+  std::vector<ContactPoint> changes;
+  for (const double factor : {0.3, 0.55, 1.8, 3.3}) {
+    ContactPoint change = ContactPoint::Zero();
+    change[log_beta] = change[log_k2] = std::log(factor);
+    changes.push_back(change);
+  }
+  return changes;
+}
+
+std::vector<ContactPoint> ringing_changes() {
+  std::vector<ContactPoint> changes;
+  for (const double inertia : {0.4, 0.63, 1.0, 1.6, 2.5}) {
+    for (const double damping : {0.2, 0.45, 1.0, 2.2}) {
+      ContactPoint change = ContactPoint::Zero();
+      change[log_inertia] = std::log(inertia);
+      change[log_damping] = std::log(damping);
+      changes.push_back(change);
+    }
+  }
+  return changes;
+}
+
+ChosenRecords all_of(std::span<const TestRecord> records) {
+  ChosenRecords all;
+  for (const TestRecord& record : records) all.push_back(&record);
+  return all;
+}
+
+/// Those with a ring-down.
+ChosenRecords ringing_ones(std::span<const TestRecord> records, std::span<const RecordParts> parts) {
+  ChosenRecords ringing;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const double range = torque_range(records[r]);
+    const bool rings = std::any_of(parts[r].holds.begin(), parts[r].holds.end(),
+                                   [&](const TorqueHold& hold) { return rings_down(hold, range); });
+    if (rings) ringing.push_back(&records[r]);
+  }
+  return ringing;
+}
+
+}  // namespace
+
+FirstSwing first_swing(const TestRecord& record, const TorqueHold& ring_down) {
+  const Eigen::VectorXd angle = measured_angle(record);
+  const double sign = ring_down.torque > ring_down.from ? 1.0 : -1.0;
+  const auto first = static_cast<Eigen::Index>(ring_down.first);
+  const auto samples = static_cast<Eigen::Index>(ring_down.last) - first + 1;
+  const Eigen::VectorXd swing = sign * (angle.segment(first, samples).array() - angle[first]);
+  Eigen::Index peak = 0;
+  while (peak + 1 < swing.size() && swing[peak + 1] >= swing[peak]) ++peak;
+  const Eigen::Index settled = std::min(6 * (peak + 1), swing.size() - 1);
+  const double travel = swing[settled];
+  return {static_cast<std::size_t>(peak + 1), travel, travel > 0.0 ? swing[peak] / travel - 1.0 : 0.0};
+}
+
+PlantParameters estimate_ring_down(std::span<const TestRecord> records, std::span<const RecordParts> parts,
+                                   double k1) {
+  const RingDown ring = largest_ring_down(records, parts);
+  const double sample_time = records.front().sample_time;
+  // Without a ring-down: an oscillation of 20 samples, damped to a third of what would be critical.
+  double period = 20.0 * sample_time;
+  double damping_ratio = 0.33;
+  if (ring.record != nullptr) {
+    const FirstSwing swing = first_swing(*ring.record, ring.hold);
+    period = 2.0 * ring.record->sample_time * static_cast<double>(swing.peak);
+    if (swing.overshoot > 0.0 && swing.overshoot < 1.0) {
+      const double decay = -std::log(swing.overshoot);
+      damping_ratio = decay / std::hypot(std::numbers::pi, decay);
+    }
+  }
+  const double ratio = std::clamp(damping_ratio, 0.05, 0.9);
+  const double frequency = 2.0 * std::numbers::pi / period / std::sqrt(1.0 - ratio * ratio);
+  PlantParameters plant;
+  plant.inertia = k1 / (frequency * frequency);
+  plant.presliding_damping = 2.0 * ratio * std::sqrt(k1 * plant.inertia);
+  return plant;
+}
+
+ContactPoint starting_point(std::span<const TestRecord> records, std::span<const RecordParts> parts,
+                            double creep_torque) {
+  CreepEstimate creep = estimate_creep(records, parts, creep_torque);
+  const SpringEstimate spring = estimate_spring(records, parts, creep, creep_torque);
+  // Where no creep is seen, one that is small beside the spring.
+  if (!(creep.limit > 0.0)) creep.limit = 1e-3 * creep_torque / spring.k1;
+  ContactParameters contact;
+  contact.plant = estimate_ring_down(records, parts, spring.k1);
+  contact.friction.k1 = spring.k1;
+  contact.friction.k2 = spring.offset * spring.beta;
+  contact.friction.beta = spring.beta;
+  contact.friction.alpha = creep.alpha;
+  contact.friction.n = creep.exponent;
+  contact.friction.lambda = std::pow(creep_torque, creep.exponent) / creep.limit;
+  ContactPoint point = point_of(contact, creep_torque);
+
+  point = best_of(all_of(records), point, creep_torque, softening_changes());
+  return best_of(ringing_ones(records, parts), point, creep_torque, ringing_changes());
+}
+
+std::vector<ContactPoint> other_starting_points(std::span<const TestRecord> records,
+                                                std::span<const RecordParts> parts, const ContactPoint& start,
+                                                double creep_torque) {
+  const ChosenRecords ringing = ringing_ones(records, parts);
+  std::vector<ContactPoint> others;
+  for (const double rate : {0.1, 1.0, 5.0, 20.0, 80.0}) {
+    for (const double offset : {0.3, 1.0}) {
+      ContactPoint point = start;
+      point[log_beta] += std::log(rate);
+      point[log_k2] += std::log(rate * offset);
+      others.push_back(best_of(ringing, point, creep_torque, ringing_changes()));
+    }
+  }
+  return others;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include "analysis/identification/raw_series.hpp"
+#include "core/failure.hpp"
+#include "core/trial/random_history.hpp"
+#include "experiments/study.hpp"
+#include "results/reading/study_file.hpp"
+
+namespace zerocount {
+namespace {
+
+/// The first record of the trial with the global row `row` in the table of records, which is ordered by
+/// trial; its size where there is none.
+std::int64_t first_record(const StudyFile& file, std::int64_t row) {
+  std::int64_t low = 0;
+  std::int64_t high = file.trace_count();
+  while (low < high) {
+    const std::int64_t middle = low + (high - low) / 2;
+    if (file.trace_at(middle, 1).front().trial < row) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+std::vector<TraceRecord> records_of(const StudyFile& file, std::int64_t row) {
+  const std::int64_t first = first_record(file, row);
+  return file.trace_at(first, first_record(file, row + 1) - first);
+}
+
+PlantStart start_of(const TrialParameters& trial, const SeriesChoice& choice) {
+  PlantStart start;
+  start.hardening = choice.hardening.value_or(trial.initial.hardening);
+  start.preload = choice.preload.value_or(trial.initial.preload);
+  start.history = draw_history(trial.initial.history, trial.randomness);
+  start.velocity = trial.initial.velocity;
+  return start;
+}
+
+}  // namespace
+
+RawSeries read_study_series(const std::filesystem::path& path, std::int64_t point, std::int64_t index,
+                            const SeriesChoice& choice) {
+  const StudyFile file(path, Require::any_part);
+  const Study study =
+      parse_study(file.header().manifest, path.string() + ":/manifest", file.header().overrides);
+  if (point >= point_count(study) || index >= study.trials) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: has no point {}, trial {}; it has {} points of {} trials", path.string(),
+                              point, index, point_count(study), study.trials));
+  }
+  const std::vector<TraceRecord> records = records_of(file, point * study.trials + index);
+  if (records.empty()) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: keeps no records of point {}, trial {}; a study keeps those that its "
+                              "manifest names: retain: {{trials: [{}]}}",
+                              path.string(), point, index, index));
+  }
+  const TrialParameters trial = study_trial(study, point, index).parameters;
+
+  RawSeries series;
+  series.name = fmt::format("{} (point {}, trial {})", path.string(), point, index);
+  const bool counts = choice.angle.value_or("count") == "count";
+  const bool commanded = choice.torque.value_or("drive_torque") == "torque";
+  for (const TraceRecord& record : records) {
+    series.time.push_back(record.t);
+    series.torque.push_back(commanded ? record.torque : record.drive_torque);
+    series.angle.push_back(counts ? static_cast<double>(record.count) : record.theta);
+    series.code.push_back(static_cast<double>(record.code));
+    series.sliding.push_back(record.mode == HookMode::slide);
+  }
+  series.torque_kind = commanded ? TorqueKind::commanded : TorqueKind::motor;
+  series.bandwidth = choice.bandwidth.value_or(trial.amplifier.bandwidth);
+  if (counts) series.counts_per_revolution = choice.counts_per_revolution.value_or(trial.encoder.fine);
+  series.dac_bits = trial.dac.bits;
+  series.start = start_of(trial, choice);
+  series.units_known = true;
+  return series;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,258 @@
+// What a record must be, and the reason that is given where it is not.
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "analysis/identification/raw_series.hpp"
+#include "core/failure.hpp"
+#include "core/plant/plant.hpp"
+#include "tests/analysis/identification/material_tests.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+constexpr double counts_per_revolution = 1.62e6;
+
+/// A good series: the paper's rig, loaded and unloaded slowly, with a hold.
+RawSeries good_series() {
+  TorqueProgramme programme;
+  programme.ramp(0.1, 0.4).ramp(-0.1, 0.4).ramp(0.15, 0.4).hold(0.2).ramp(0.0, 0.4);
+  std::mt19937_64 random(1);
+  ContactParameters contact;
+  const TestRecord record = simulated_test(contact, programme, {}, random);
+  RawSeries series;
+  series.name = "good.csv";
+  for (std::size_t k = 0; k < sample_count(record); ++k) {
+    series.lines.push_back(k + 2);
+    series.time.push_back(5e-4 * static_cast<double>(k));
+    series.torque.push_back(record.torque[k].now);
+    series.angle.push_back(record.reading[k]);
+  }
+  series.counts_per_revolution = counts_per_revolution;
+  return series;
+}
+
+/// The message with which the series is refused once `spoil` has changed it.
+std::string refusal(const std::function<void(RawSeries&)>& spoil, RawSeries series = good_series()) {
+  spoil(series);
+  try {
+    checked_record(series, false);
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::bad_data);
+    return failure.what();
+  }
+  return "not refused";
+}
+
+/// Whether the refusal begins with `place` and contains `reason`.
+::testing::AssertionResult refused(const std::string& message, const std::string& place,
+                                   const std::string& reason) {
+  if (message.starts_with(place + ": ") && message.find(reason) != std::string::npos) {
+    return ::testing::AssertionSuccess();
+  }
+  return ::testing::AssertionFailure() << message;
+}
+
+/// The series in rad, as an encoder without steps would give it.
+RawSeries in_radians(RawSeries series) {
+  for (double& angle : series.angle) angle *= 2.0 * std::numbers::pi / counts_per_revolution;
+  series.counts_per_revolution = 0.0;
+  return series;
+}
+
+TEST(CheckedRecord, KeepsAGoodSeries) {
+  const RawSeries series = good_series();
+  const TestRecord record = checked_record(series, false);
+  EXPECT_TRUE(record.counted);
+  EXPECT_EQ(record.reading, series.angle);
+  EXPECT_NEAR(record.sample_time, 5e-4, 1e-15);
+  EXPECT_EQ(record.unit, 2.0 * std::numbers::pi / counts_per_revolution);
+  for (std::size_t k = 0; k < sample_count(record); ++k) {
+    EXPECT_TRUE(is_constant(record.torque[k]));
+    EXPECT_EQ(record.torque[k].now, series.torque[k]);
+  }
+}
+
+TEST(CheckedRecord, TimeMustRise) {
+  EXPECT_TRUE(refused(refusal([](RawSeries& s) { s.time[100] = s.time[99]; }), "good.csv:102",
+                      "does not come after"));
+  EXPECT_TRUE(
+      refused(refusal([](RawSeries& s) { s.time[100] = -1.0; }), "good.csv:102", "does not come after"));
+}
+
+TEST(CheckedRecord, SamplesMustBeEquallySpacedButForJitter) {
+  const auto jitter = [](double share) {
+    return [share](RawSeries& s) {
+      for (std::size_t k = 1; k + 1 < s.time.size(); k += 2) s.time[k] += share * 5e-4;
+    };
+  };
+  EXPECT_EQ(refusal(jitter(0.1)), "not refused");
+  EXPECT_TRUE(refused(refusal(jitter(0.4)), "good.csv:3", "not equally spaced"));
+
+  // A sample that is missing anywhere inside.
+  for (const std::size_t missing : {10, 500, 1500}) {
+    const std::string message = refusal([missing](RawSeries& s) {
+      const auto at = static_cast<std::ptrdiff_t>(missing);
+      s.time.erase(s.time.begin() + at);
+      s.torque.erase(s.torque.begin() + at);
+      s.angle.erase(s.angle.begin() + at);
+      s.lines.erase(s.lines.begin() + at);
+    });
+    EXPECT_NE(message.find("Are samples missing?"), std::string::npos) << message;
+  }
+}
+
+TEST(CheckedRecord, MustBeLongEnough) {
+  const std::string message = refusal([](RawSeries& s) {
+    s.time.resize(99);
+    s.torque.resize(99);
+    s.angle.resize(99);
+  });
+  EXPECT_TRUE(refused(message, "good.csv", "too short: 99 samples"));
+}
+
+TEST(CheckedRecord, SomethingMustMove) {
+  EXPECT_TRUE(refused(refusal([](RawSeries& s) { s.torque.assign(s.torque.size(), 0.0); }), "good.csv",
+                      "the torque is 0 throughout"));
+  EXPECT_TRUE(refused(refusal([](RawSeries& s) { s.angle.assign(s.angle.size(), 7.0); }), "good.csv",
+                      "the angle is constant"));
+  EXPECT_TRUE(refused(refusal([](RawSeries& s) {
+                        for (double& angle : s.angle) angle = std::floor(angle / 400.0);
+                        s.counts_per_revolution /= 400.0;
+                      }),
+                      "good.csv", "counts only"));
+}
+
+TEST(CheckedRecord, TorqueAndAngleMustAgreeInSign) {
+  EXPECT_TRUE(refused(refusal([](RawSeries& s) {
+                        for (double& angle : s.angle) angle = -angle;
+                      }),
+                      "good.csv", "wrong sign"));
+}
+
+TEST(CheckedRecord, CountsMustBeWhole) {
+  EXPECT_TRUE(refused(refusal([](RawSeries& s) { s.angle[5] = 0.5; }), "good.csv:7", "no whole number"));
+}
+
+// What a thousandfold error makes of each quantity is refused, in either direction, and kept where it is
+// asked for.
+TEST(CheckedRecord, UnitsAThousandfoldOffAreRefused) {
+  const auto times = [](std::vector<double> RawSeries::*values, double factor) {
+    return [values, factor](RawSeries& s) {
+      for (double& value : s.*values) value *= factor;
+    };
+  };
+  const RawSeries radians = in_radians(good_series());
+  for (const double factor : {1e3, 1e-3}) {
+    EXPECT_TRUE(refused(refusal(times(&RawSeries::torque, factor)), "good.csv", "plausible")) << factor;
+    EXPECT_TRUE(refused(refusal(times(&RawSeries::angle, factor), radians), "good.csv", "plausible"))
+        << factor;
+    EXPECT_TRUE(refused(refusal([factor](RawSeries& s) { s.counts_per_revolution *= factor; }), "good.csv",
+                        "plausible"))
+        << factor;
+  }
+  EXPECT_TRUE(refused(refusal(times(&RawSeries::time, 1e3)), "good.csv", "is the time in ms"));
+  RawSeries millinewtons = good_series();
+  for (double& torque : millinewtons.torque) torque *= 1e3;
+  EXPECT_NO_THROW(checked_record(millinewtons, true));
+}
+
+TEST(CheckedRecord, SlidingIsNamed) {
+  EXPECT_TRUE(refused(refusal([](RawSeries& s) {
+                        s.sliding.assign(s.time.size(), false);
+                        s.sliding[321] = true;
+                      }),
+                      "good.csv:323", "breaks away"));
+}
+
+// The torque that was recorded is cut off, the one that acted was not.
+TEST(CheckedRecord, ClippedTorqueIsNamed) {
+  for (const double limit : {0.05, 0.08, 0.12, 0.14}) {
+    const std::string message = refusal([limit](RawSeries& s) {
+      for (double& torque : s.torque) torque = std::clamp(torque, -limit, limit);
+    });
+    EXPECT_NE(message.find("the torque is clipped"), std::string::npos) << limit << ": " << message;
+  }
+}
+
+TEST(CheckedRecord, CodesAtTheEndOfTheRangeAreClipping) {
+  const auto saturated = [](double code, int bits) {
+    return [code, bits](RawSeries& s) {
+      s.dac_bits = bits;
+      s.code.assign(s.time.size(), 0.0);
+      for (std::size_t k = 50; k < 60; ++k) s.code[k] = code;
+    };
+  };
+  EXPECT_TRUE(refused(refusal(saturated(2047, 12)), "good.csv:54", "end of its range"));
+  EXPECT_TRUE(refused(refusal(saturated(-2048, 12)), "good.csv:54", "end of its range"));
+  EXPECT_TRUE(refused(refusal(saturated(32767, 0)), "good.csv:54", "end of its range"));
+  EXPECT_EQ(refusal(saturated(2047, 16)), "not refused");
+  EXPECT_EQ(refusal(saturated(127, 0)), "not refused");
+}
+
+// Holds, ring-downs and creep at the extremes of the torque are no clipping.
+TEST(CheckedRecord, HoldsAtTheExtremesAreNotClipping) {
+  std::mt19937_64 random(5);
+  for (int round = 0; round < 20; ++round) {
+    const ContactParameters contact = random_contact(random);
+    TorqueProgramme programme;
+    programme.step(0.1).hold(0.3).step(-0.1).hold(0.3).ramp(0.12, 0.4).hold(0.5).ramp(-0.12, 2.0).hold(0.3);
+    const TestRecord record = simulated_test(contact, programme, {}, random);
+    RawSeries series;
+    for (std::size_t k = 0; k < sample_count(record); ++k) {
+      series.time.push_back(5e-4 * static_cast<double>(k));
+      series.torque.push_back(record.torque[k].now);
+      series.angle.push_back(record.reading[k]);
+    }
+    series.counts_per_revolution = counts_per_revolution;
+    EXPECT_NO_THROW(checked_record(series, false)) << round;
+  }
+}
+
+TEST(CheckedRecord, CountsWrittenInRadAreRecognised) {
+  RawSeries series = in_radians(good_series());
+  const TestRecord exact = checked_record(series, false);
+  EXPECT_TRUE(exact.counted);
+  EXPECT_NEAR(exact.unit, 2.0 * std::numbers::pi / counts_per_revolution, 1e-12 * exact.unit);
+  const RawSeries counts = good_series();
+  for (std::size_t k = 0; k < counts.angle.size(); ++k) {
+    EXPECT_EQ(exact.reading[k], counts.angle[k] - counts.angle[0]);
+  }
+  // With seven digits of an angle that is far from 0.
+  for (double& angle : series.angle) angle = std::round((angle + 0.01) * 1e9) / 1e9;
+  EXPECT_TRUE(checked_record(series, false).counted);
+  // A smooth angle is none of an encoder.
+  for (std::size_t k = 0; k < series.angle.size(); ++k)
+    series.angle[k] += 1e-7 * std::sin(static_cast<double>(k));
+  EXPECT_FALSE(checked_record(series, false).counted);
+}
+
+// The amplifier's lag: from what it was told, or from what it gave at the samples.
+TEST(CheckedRecord, AnAmplifierOfKnownBandwidthIsFollowed) {
+  constexpr double bandwidth = 100.0;
+  const double rate = 2.0 * std::numbers::pi * bandwidth;
+  RawSeries commanded = good_series();
+  commanded.bandwidth = bandwidth;
+  RawSeries motor = commanded;
+  motor.torque_kind = TorqueKind::motor;
+  double now = 0.0;
+  for (std::size_t k = 0; k < commanded.torque.size(); ++k) {
+    motor.torque[k] = now;
+    now = course_after({now, commanded.torque[k], rate}, 5e-4).now;
+  }
+  const TestRecord told = checked_record(commanded, false);
+  const TestRecord given = checked_record(motor, false);
+  for (std::size_t k = 0; k + 1 < told.torque.size(); ++k) {
+    EXPECT_NEAR(told.torque[k].now, motor.torque[k], 1e-12);
+    EXPECT_NEAR(given.torque[k].now, motor.torque[k], 1e-12);
+    EXPECT_NEAR(told.torque[k].settled, commanded.torque[k], 1e-12);
+    EXPECT_NEAR(given.torque[k].settled, commanded.torque[k], 1e-11);
+    EXPECT_EQ(given.torque[k].rate, rate);
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,0 +1,39 @@
+// How often the 95 % intervals of `zerocount identify` hold the truth, over simulated rigs.
+//
+// usage: identification_coverage PROTOCOL SETS [FIRST] [NOISE] [TORQUE_STEP]
+//   PROTOCOL     three: ramps, steps and holds as three records; one: all in one record
+//   SETS, FIRST  so many rigs, from this number on (default 0)
+//   NOISE        of the readings before rounding, counts (default 0)
+//   TORQUE_STEP  of the DAC, N m (default 2.4e-4; 0: exact)
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "tests/analysis/identification/material_tests.hpp"
+
+int main(int count, char** words) {
+  using namespace zerocount::testing;
+  if (count < 3) {
+    fmt::print(stderr, "usage: {} three|one SETS [FIRST] [NOISE] [TORQUE_STEP]\n", words[0]);
+    return 2;
+  }
+  const bool three = std::string(words[1]) == "three";
+  const int sets = std::atoi(words[2]);
+  const int first = count > 3 ? std::atoi(words[3]) : 0;
+  TestInstrument instrument;
+  if (count > 4) instrument.noise = std::atof(words[4]);
+  if (count > 5) instrument.torque_step = std::atof(words[5]);
+  const CoverageStudy study = study_coverage(first, sets, three ? three_tests() : one_test(), instrument);
+  fmt::print("{} rigs from number {}, noise {} counts, torque step {} N m: {} refused, {} with lack of fit\n",
+             study.sets, first, instrument.noise, instrument.torque_step, study.refused, study.lacking);
+  fmt::print("{:<20} {:>6} {:>10} {:>9} {:>6} {:>12} {:>11}\n", "parameter", "held", "estimated", "coverage",
+             "open", "rms error/se", "half-width");
+  for (const Coverage& c : study.parameters) {
+    const double n = c.estimated;
+    fmt::print("{:<20} {:>6} {:>10} {:>7.1f} % {:>6} {:>12.2f} {:>9.2g} %\n", c.name, c.held, c.estimated,
+               100.0 * c.held / n, c.open, std::sqrt(c.squared_errors / n), 100.0 * c.half_widths / n);
+  }
+}

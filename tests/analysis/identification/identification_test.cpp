@@ -1,0 +1,265 @@
+// Identification as its users meet it: the truth is found, by data that other formulations than the model's
+// own made; what is open is said to be; and what does not fit is said not to.
+#include "analysis/identification/identification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "core/failure.hpp"
+#include "tests/analysis/identification/material_tests.hpp"
+#include "tests/analysis/identification/quasistatic_judge.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+const ParameterEstimate& estimate_of(const Identification& found, const std::string& name) {
+  const auto at = std::find_if(found.parameters.begin(), found.parameters.end(),
+                               [&](const ParameterEstimate& parameter) { return parameter.name == name; });
+  if (at == found.parameters.end()) throw std::logic_error(name);
+  return *at;
+}
+
+/// The interval holds the truth, is no wider than `widest` (relative), and the value is in it.
+::testing::AssertionResult finds(const Identification& found, const std::string& name, double truth,
+                                 double widest) {
+  const ParameterEstimate& parameter = estimate_of(found, name);
+  const bool good = parameter.status == EstimateStatus::estimated && parameter.low <= truth &&
+                    truth <= parameter.high && parameter.low <= parameter.value &&
+                    parameter.value <= parameter.high && parameter.high - parameter.low <= widest * truth;
+  if (good) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << name << " = " << parameter.value << " [" << parameter.low << ", "
+                                       << parameter.high << "], truth " << truth << "; " << parameter.reason;
+}
+
+/// The value is within the relative distance `off` of the truth.
+::testing::AssertionResult is_near(const Identification& found, const std::string& name, double truth,
+                                   double off) {
+  const ParameterEstimate& parameter = estimate_of(found, name);
+  if (std::abs(parameter.value / truth - 1.0) <= off) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure()
+         << name << " = " << parameter.value << ", truth " << truth << "; " << parameter.reason;
+}
+
+bool is_open(const Identification& found, const std::string& name) {
+  return estimate_of(found, name).status == EstimateStatus::not_identifiable;
+}
+
+const std::vector<KnownParameter> no_creep{{log_alpha, 1e-9}, {log_limit, 1.0}, {creep_exponent, 2.0}};
+
+/// Known, and so small that they do not show in a slow test.
+constexpr double light_damping = 1e-2;
+const std::vector<KnownParameter> light_rotor{{log_damping, light_damping}, {log_inertia, 1e-5}};
+
+/// A contact that softens over a few counts of `judge_counts`.
+constexpr double judge_counts = 2e5;
+FrictionParameters wide_contact() {
+  FrictionParameters friction;
+  friction.beta = 2e4;
+  friction.lambda = 20.0;
+  return friction;
+}
+
+FrictionParameters without_creep(FrictionParameters friction) {
+  friction.alpha = 0.0;
+  return friction;
+}
+
+TorqueProgramme loading_and_unloading() {
+  TorqueProgramme programme;
+  programme.ramp(0.3, 0.4).ramp(-0.3, 0.4).ramp(0.3, 0.4).ramp(0.1, 0.4).ramp(0.2, 0.4).ramp(-0.3, 0.4);
+  return programme;
+}
+
+// With the spring linear and no creep, a step is answered by the damped oscillation of the textbook:
+// θ = u/k·Re(1 − (1 + iδ/ω)·exp(−δt + iωt)), δ = c/2J, ω² = k/J − δ².
+TEST(Identification, FindsALinearOscillatorFromItsClosedForm) {
+  const double k = 130.0, c = 0.15, inertia = 6e-4;
+  const double decay = c / (2.0 * inertia);
+  const double omega = std::sqrt(k / inertia - decay * decay);
+  TorqueProgramme programme;
+  TestRecord record;
+  record.name = "oscillator";
+  record.unit = 2.0 * std::numbers::pi / 1.62e6;
+  record.counted = true;
+  std::vector<double> steps;  // torque changes, one every 200 samples
+  for (int i = 0; i < 6; ++i) steps.push_back(i % 2 == 0 ? 0.08 : -0.08);
+  for (std::size_t sample = 0; sample < 200 * steps.size(); ++sample) {
+    double angle = 0.0;
+    double torque = 0.0;
+    for (std::size_t i = 0; i <= sample / 200; ++i) {
+      const double t = 5e-4 * static_cast<double>(sample - 200 * i);
+      const std::complex<double> phasor = std::exp(std::complex<double>(-decay * t, omega * t));
+      angle += steps[i] / k * (1.0 - (std::complex<double>(1.0, -decay / omega) * phasor).real());
+      torque += steps[i];
+    }
+    record.reading.push_back(std::floor(angle / record.unit + 0.37));
+    record.torque.push_back(constant_torque(torque));
+  }
+  IdentificationOptions options{no_creep, 500};
+  options.known.push_back({log_k2, 1e-9});
+  options.known.push_back({log_beta, 1e5});
+  const Identification found = identify({record}, options);
+  EXPECT_TRUE(finds(found, "k1", k, 0.01));
+  EXPECT_TRUE(finds(found, "presliding_damping", c, 0.02));
+  EXPECT_TRUE(finds(found, "inertia", inertia, 0.01));
+  EXPECT_TRUE(found.checks.passed);
+}
+
+// The spring as a sum of stop elements, which knows nothing of reversal points; and creep in small explicit
+// steps beside it. The judge has no inertia: its rotor does not swing about each sample's step of the torque,
+// which with the model's takes it some hundredths of a count farther. So the agreement has a limit, whatever
+// the intervals say.
+TEST(Identification, FindsTheSpringOfStopElements) {
+  const FrictionParameters friction = without_creep(wide_contact());
+  IdentificationOptions options{no_creep, 200};
+  options.known.insert(options.known.end(), light_rotor.begin(), light_rotor.end());
+  const Identification found = identify(
+      {quasistatic_test(friction, light_damping, loading_and_unloading(), judge_counts, 0.6)}, options);
+  EXPECT_TRUE(is_near(found, "k1", friction.k1, 1e-4));
+  EXPECT_TRUE(is_near(found, "k2", friction.k2, 0.015));
+  EXPECT_TRUE(is_near(found, "k1_plus_k2", friction.k1 + friction.k2, 0.015));
+  EXPECT_TRUE(is_near(found, "beta", friction.beta, 0.015));
+}
+
+TEST(Identification, FindsCreepAtHeldTorques) {
+  FrictionParameters friction = wide_contact();
+  friction.n = 1.8;
+  TorqueProgramme programme;
+  programme.ramp(0.1, 0.4).hold(3.0).ramp(-0.1, 0.4).ramp(0.2, 0.4).hold(3.0).ramp(-0.2, 0.4).ramp(0.0, 0.4);
+  const Identification found =
+      identify({quasistatic_test(friction, light_damping, programme, judge_counts, 0.2)}, {light_rotor, 200});
+  EXPECT_TRUE(is_near(found, "k1", friction.k1, 1e-4));
+  EXPECT_TRUE(is_near(found, "k2", friction.k2, 0.015));
+  EXPECT_TRUE(is_near(found, "beta", friction.beta, 0.015));
+  EXPECT_TRUE(is_near(found, "alpha", friction.alpha, 1e-3));
+  EXPECT_TRUE(is_near(found, "lambda", friction.lambda, 1e-3));
+  EXPECT_TRUE(is_near(found, "n", friction.n, 1e-3));
+}
+
+// Two tests that are not of one contact, and are said to be.
+TEST(Identification, SaysThatTheModelDoesNotFit) {
+  std::mt19937_64 random(50);
+  TorqueProgramme programme;
+  programme.step(0.05).hold(0.05).step(0.0).hold(0.05).ramp(0.08, 0.8).ramp(-0.08, 0.8).hold(0.1);
+  ContactParameters softer;
+  softer.friction.k1 *= 0.99;
+  const TestRecord one = simulated_test({}, programme, {}, random);
+  const TestRecord other = simulated_test(softer, programme, {}, random);
+  const Identification apart = identify({one}, {{}, 200});
+  EXPECT_TRUE(apart.checks.passed);
+  EXPECT_EQ(apart.checks.widening, 1.0);
+  const Identification together = identify({one, other}, {{}, 200});
+  EXPECT_FALSE(together.checks.passed);
+  EXPECT_LT(together.checks.spread_chance, 0.01);
+  EXPECT_GT(together.checks.widening, 1.5);
+  // What is widened is the interval.
+  const ParameterEstimate& alone = estimate_of(apart, "k1");
+  const ParameterEstimate& joint = estimate_of(together, "k1");
+  EXPECT_GT(joint.high - joint.low, alone.high - alone.low);
+}
+
+TEST(Identification, LeavesOpenWhatARecordDoesNotShow) {
+  std::mt19937_64 random(51);
+  // Creep at one torque: its course is seen, but not λ and n apart.
+  TorqueProgramme one_level;
+  one_level.step(0.1).hold(0.1).step(0.0).hold(0.1).step(0.1).hold(0.7).step(0.0).hold(0.1);
+  TestInstrument coarse;
+  coarse.counts_per_revolution = 2e5;
+  const Identification found = identify({simulated_test({}, one_level, coarse, random)});
+  EXPECT_TRUE(finds(found, "inertia", 5.54e-4, 0.2));
+  EXPECT_TRUE(finds(found, "k1", 110.0, 0.1));
+  EXPECT_TRUE(finds(found, "alpha", 0.5, 0.1));
+  EXPECT_TRUE(is_open(found, "n")) << estimate_of(found, "n").low << ", " << estimate_of(found, "n").high;
+  EXPECT_TRUE(is_open(found, "lambda"));
+  EXPECT_NE(estimate_of(found, "n").reason.find("one torque only"), std::string::npos)
+      << estimate_of(found, "n").reason;
+
+  // Slow ramps of an exact torque, without corners that would make the rotor swing.
+  TorqueProgramme slow(5e-3);
+  slow.ramp(0.08, 0.02).ramp(-0.08, 0.02).ramp(0.08, 0.02);
+  ContactParameters no_creep_at_all;
+  no_creep_at_all.friction.alpha = 0.0;
+  TestInstrument exact;
+  exact.torque_step = 0.0;
+  const Identification quiet = identify({simulated_test(no_creep_at_all, slow, exact, random)});
+  EXPECT_TRUE(finds(quiet, "k1", 110.0, 0.01));
+  EXPECT_TRUE(is_open(quiet, "inertia"));
+  EXPECT_NE(estimate_of(quiet, "inertia").reason.find("no ring-down"), std::string::npos);
+  EXPECT_TRUE(is_open(quiet, "alpha"));
+  EXPECT_NE(estimate_of(quiet, "alpha").reason.find("never held"), std::string::npos);
+  EXPECT_TRUE(std::isnan(estimate_of(quiet, "alpha").value));
+}
+
+TEST(Identification, TakesWhatIsKnown) {
+  std::mt19937_64 random(52);
+  const ContactParameters truth = random_contact(random);
+  std::vector<TestRecord> records;
+  for (const TorqueProgramme& programme : three_tests()) {
+    records.push_back(simulated_test(truth, programme, {}, random));
+  }
+  const Identification found =
+      identify(records, {{{creep_exponent, truth.friction.n}, {log_limit, truth.friction.lambda}}, 300});
+  for (const std::string name : {"lambda", "n"}) {
+    EXPECT_EQ(estimate_of(found, name).status, EstimateStatus::known);
+    EXPECT_EQ(estimate_of(found, name).value, true_value(truth, name));
+  }
+  EXPECT_TRUE(finds(found, "alpha", truth.friction.alpha, 0.01));
+  EXPECT_TRUE(found.checks.passed);
+}
+
+TEST(Identification, TooFewReversalsAreRefused) {
+  std::mt19937_64 random(53);
+  TorqueProgramme once;
+  once.step(0.05).hold(0.05).ramp(0.1, 0.4).ramp(0.0, 0.4);
+  TorqueProgramme never;
+  never.ramp(0.1, 0.4).hold(0.5);
+  for (const TorqueProgramme& programme : {once, never}) {
+    try {
+      identify({simulated_test({}, programme, {}, random)});
+      FAIL();
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), ExitCode::bad_data);
+      EXPECT_NE(std::string(failure.what()).find("too few reversals"), std::string::npos);
+    }
+  }
+  // Two records with one each have two.
+  const std::vector<TestRecord> two{simulated_test({}, once, {}, random),
+                                    simulated_test({}, once, {}, random)};
+  EXPECT_NO_THROW(identify(two, {{}, 100}));
+}
+
+TEST(Identification, ABreakawayIsRefused) {
+  std::mt19937_64 random(54);
+  ContactParameters contact;
+  contact.friction.breakaway = 0.12;
+  TorqueProgramme programme;
+  programme.ramp(0.1, 0.2).ramp(-0.1, 0.2).ramp(0.13, 0.2).ramp(0.0, 2.0).ramp(0.05, 0.2);
+  try {
+    identify({simulated_test(contact, programme, {}, random)});
+    FAIL();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::bad_data);
+    EXPECT_NE(std::string(failure.what()).find("Did the rotor slide"), std::string::npos) << failure.what();
+  }
+}
+
+TEST(Identification, DependsOnTheRecordAlone) {
+  std::mt19937_64 random(55);
+  TorqueProgramme programme;
+  programme.step(0.05).hold(0.1).step(0.0).hold(0.1).ramp(0.1, 0.4).ramp(-0.1, 0.4).hold(0.5);
+  const TestRecord record = simulated_test({}, programme, {}, random);
+  const Identification once = identify({record}, {{}, 100});
+  const Identification again = identify({record}, {{}, 100});
+  for (std::size_t i = 0; i < once.parameters.size(); ++i) {
+    if (once.parameters[i].status != EstimateStatus::estimated) continue;
+    EXPECT_EQ(once.parameters[i].value, again.parameters[i].value);
+    EXPECT_EQ(once.parameters[i].low, again.parameters[i].low);
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

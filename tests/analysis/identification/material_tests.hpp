@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "analysis/identification/contact_coordinates.hpp"
+#include "analysis/identification/identification.hpp"
+#include "analysis/identification/test_record.hpp"
+
+namespace zerocount::testing {
+
+/// A torque at every sample, from 0 N m at the start.
+class TorqueProgramme {
+ public:
+  explicit TorqueProgramme(double sample_time = 5e-4) : sample_time_(sample_time) {}
+
+  TorqueProgramme& ramp(double to, double rate);  ///< N m, N m/s
+  TorqueProgramme& step(double to) { return ramp(to, 1e9); }
+  TorqueProgramme& hold(double duration);  ///< s
+
+  double sample_time() const { return sample_time_; }
+  const std::vector<double>& torque() const { return torque_; }  ///< [sample], N m
+
+ private:
+  double sample_time_;
+  std::vector<double> torque_;
+};
+
+/// What a rig's DAC and encoder do.
+struct TestInstrument {
+  double counts_per_revolution{1.62e6};
+  double torque_step{2.4e-4};  ///< Δu, N m; 0: the torque is exact
+  double noise{0.0};           ///< of the readings before rounding, counts
+};
+
+/// A rig of the paper's kind: its numbers, each times a random factor of 0.5 to 2, and n between 1.5 and 2.5.
+ContactParameters random_contact(std::mt19937_64& random);
+
+/// A test of the contact, simulated by core's Plant sample by sample, and read by an encoder of random phase.
+TestRecord simulated_test(const ContactParameters& contact, const TorqueProgramme& programme,
+                          const TestInstrument& instrument, std::mt19937_64& random);
+
+/// Slow loading and unloading with inner loops; four steps with their ring-downs; two holds. One record each.
+std::vector<TorqueProgramme> three_tests();
+
+/// All of that in one record.
+std::vector<TorqueProgramme> one_test();
+
+/// The contact's parameter of the name that its estimate has.
+double true_value(const ContactParameters& contact, const std::string& name);
+
+/// How often the intervals of a parameter held the truth.
+struct Coverage {
+  std::string name;
+  int held{0};
+  int estimated{0};
+  int open{0};                 ///< times that it was not identifiable
+  double squared_errors{0.0};  ///< Σ (error/standard error)²
+  double half_widths{0.0};     ///< Σ half-width/value
+};
+
+/// What came of identifying many rigs.
+struct CoverageStudy {
+  std::vector<Coverage> parameters;  ///< in the order of Identification::parameters
+  int sets{0};
+  int refused{0};  ///< the identification threw
+  int lacking{0};  ///< the residual checks failed
+};
+
+/// Identifies `sets` random contacts, number `first` on, by simulated tests; the set number seeds each.
+CoverageStudy study_coverage(int first, int sets, const std::vector<TorqueProgramme>& programmes,
+                             const TestInstrument& instrument, const IdentificationOptions& options = {});
+
+}  // namespace zerocount::testing

@@ -1,0 +1,178 @@
+// `zerocount identify` from the command line: from a study's file and from its trace to a manifest that can
+// be checked.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+/// Loading and unloading, and a hold, at one design point; steps at the other. k1 is 130 N m/rad at both.
+constexpr const char* material_tests = R"(
+zerocount: 1
+name: material-tests
+seed: 7
+trials: 2
+friction: {k1: 130}
+command: {torque: {levels: [0.1, -0.1, 0.12, 0.0], rate: 0.4}, hold: 0.2}
+initial: {encoder_phase: {uniform: [0, 1]}}
+retain: {trials: [0]}
+sweep: {cases: {slow: {command.torque.rate: 0.4}, steps: {command.torque.rate: 1.0e6}}}
+)";
+
+class Identify : public ::testing::Test {
+ protected:
+  Identify() { folder_.write("tests.yaml", material_tests); }
+  ProgramResult run(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+  void run_study() { ASSERT_EQ(run({"run", "tests.yaml", "-o", "tests.h5"}).code, 0); }
+  void trace(const std::string& name, const std::string& point) {
+    ASSERT_EQ(run({"trace", "tests.yaml", "--point", point, "-o", name}).code, 0);
+  }
+
+  TemporaryFolder folder_;
+};
+
+const nlohmann::json& parameter(const nlohmann::json& json, const std::string& name) {
+  return *std::find_if(json["parameters"].begin(), json["parameters"].end(),
+                       [&](const nlohmann::json& one) { return one["name"] == name; });
+}
+
+TEST_F(Identify, FindsTheTruthInAResultsFile) {
+  run_study();
+  const ProgramResult result =
+      run({"identify", "tests.h5", "--point", "0", "--point", "1", "--format", "json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.err, "");  // no library speaks to the user
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["records"].size(), 2u);
+  EXPECT_TRUE(json["residuals"]["passed"].get<bool>());
+  const std::pair<const char*, double> truths[] = {{"k1", 130.0},        {"k2", 750.0},
+                                                   {"beta", 2e5},        {"presliding_damping", 0.2},
+                                                   {"inertia", 5.54e-4}, {"alpha", 0.5}};
+  for (const auto& [name, truth] : truths) {
+    EXPECT_EQ(parameter(json, name)["status"], "estimated") << name;
+    EXPECT_NEAR(parameter(json, name)["value"].get<double>() / truth, 1.0, 0.03) << name;
+  }
+}
+
+TEST_F(Identify, FindsTheSameInATrace) {
+  run_study();
+  trace("slow.csv", "0");
+  const ProgramResult file = run({"identify", "tests.h5", "--format", "json"});
+  const ProgramResult table =
+      run({"identify", "slow.csv", "--counts-per-revolution", "1620000", "--format", "json"});
+  ASSERT_EQ(table.code, 0) << table.err;
+  const auto from_file = nlohmann::json::parse(file.out);
+  const auto from_table = nlohmann::json::parse(table.out);
+  EXPECT_EQ(parameter(from_table, "k1")["value"], parameter(from_file, "k1")["value"]);
+  EXPECT_EQ(parameter(from_table, "beta")["low"], parameter(from_file, "beta")["low"]);
+}
+
+TEST_F(Identify, TheFragmentIsPartOfAManifest) {
+  run_study();
+  ASSERT_EQ(
+      run({"identify", "tests.h5", "--point", "0", "--point", "1", "--format", "yaml", "-o", "found.yaml"})
+          .code,
+      0);
+  const std::string fragment = folder_.read("found.yaml");
+  EXPECT_NE(fragment.find("k1: {lognormal: {median: 129."), std::string::npos) << fragment;
+  folder_.write(
+      "study.yaml",
+      "zerocount: 1\nname: identified\nseed: 1\ntrials: 4\ncommand: {targets: [3], hold: 0.1}\n" + fragment);
+  const ProgramResult check = run({"check", "study.yaml"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_EQ(run({"run", "study.yaml", "-o", "identified.h5"}).code, 0);
+  // Never over an existing file.
+  EXPECT_EQ(run({"identify", "tests.h5", "--format", "yaml", "-o", "found.yaml"}).code, 2);
+}
+
+TEST_F(Identify, WhatIsKnownIsTaken) {
+  run_study();
+  const ProgramResult result = run({"identify", "tests.h5", "--fix", "friction.n=2", "--format", "json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(parameter(json, "n")["status"], "given");
+  EXPECT_EQ(parameter(json, "n")["value"], 2.0);
+}
+
+TEST_F(Identify, BadDataAreRefusedWithTheReason) {
+  const auto refusal = [&](const std::string& name, const std::string& text) {
+    folder_.write(name, text);
+    const ProgramResult result = run({"identify", name});
+    EXPECT_EQ(result.code, 4) << result.err;
+    EXPECT_EQ(result.err.find(name), 0u) << result.err;
+    EXPECT_EQ(result.out, "");
+    return result.err;
+  };
+  std::string ramp = "t,torque,theta\n";
+  for (int k = 0; k < 300; ++k) {
+    ramp += std::to_string(k * 5e-4) + "," + std::to_string(k * 5e-4) + "," + std::to_string(k * 4e-6) + "\n";
+  }
+  EXPECT_NE(
+      refusal("text.csv", ramp + "0.15,much,0\n").find("text.csv:302: torque: 'much' is no finite number"),
+      std::string::npos);
+  EXPECT_NE(refusal("back.csv", ramp + "0.1,0,0\n").find("does not come after"), std::string::npos);
+  folder_.write("ramp.csv", ramp);
+  const ProgramResult once = run({"identify", "ramp.csv"});
+  EXPECT_EQ(once.code, 4);
+  EXPECT_NE(once.err.find("too few reversals"), std::string::npos) << once.err;
+}
+
+TEST_F(Identify, BadUsageIsRefused) {
+  folder_.write("data.csv", "t,torque,count\n0,0,0\n");
+  folder_.write("wrong.csv", "time [ms],torque,theta\n0,0,0\n");
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {},
+           {"nothing.csv"},
+           {"data.csv"},
+           {"wrong.csv"},
+           {"data.csv", "--counts-per-revolution", "many"},
+           {"data.csv", "--counts-per-revolution", "1000", "--angle", "theta"},
+           {"data.csv", "--fix", "friction.k3=1"},
+           {"data.csv", "--fix", "friction.n=0.5"},
+           {"data.csv", "--fix", "friction.n=2", "--fix", "friction.n=3"},
+           {"data.csv", "--point", "1", "--counts-per-revolution", "1000"},
+           {"data.csv", "--format", "xml"}}) {
+    std::vector<std::string> all{"identify"};
+    all.insert(all.end(), words.begin(), words.end());
+    const ProgramResult result = run(all);
+    if (words.size() == 5 && words[1] == "--point") {
+      EXPECT_NE(result.code, 0);
+      continue;
+    }
+    EXPECT_EQ(result.code, 2) << ::testing::PrintToString(words) << result.err;
+  }
+}
+
+TEST_F(Identify, TrialsWithoutRecordsAreNamed) {
+  run_study();
+  const ProgramResult none = run({"identify", "tests.h5", "--trial", "1"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("retain: {trials: [1]}"), std::string::npos) << none.err;
+  EXPECT_EQ(run({"identify", "tests.h5", "--trial", "5"}).code, 2);
+  EXPECT_EQ(run({"identify", "tests.h5", "--point", "2"}).code, 2);
+}
+
+TEST_F(Identify, BreakawayIsNamed) {
+  folder_.write("slide.yaml", R"(
+zerocount: 1
+name: slide
+seed: 7
+trials: 1
+friction: {breakaway: 0.11}
+command: {torque: {levels: [0.1, -0.1, 0.12, 0.0], rate: 0.4}, hold: 0.1}
+retain: {trials: [0]}
+)");
+  ASSERT_EQ(run({"run", "slide.yaml", "-o", "slide.h5"}).code, 0);
+  const ProgramResult result = run({"identify", "slide.h5"});
+  EXPECT_EQ(result.code, 4);
+  EXPECT_NE(result.err.find("breaks away"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -51,7 +51,8 @@ struct SequenceMove {
 struct TraceExtras {
   bool reference{false};     ///< at some point, the reference is not a step
   bool phase{false};         ///< at some point, the control has two phases
-  bool drive_torque{false};  ///< at some point, the motor's torque is not the code times the resolution
+  bool drive_torque{false};  ///< at some point, the motor's torque is not the code times the resolution,
+                             ///< but for the delay of a closed loop
 };
 
 struct StudyPlan;  // compiled form of the manifest, private to this folder

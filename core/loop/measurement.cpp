@@ -1,6 +1,5 @@
 #include "core/loop/measurement.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -58,7 +57,9 @@ std::int64_t ImperfectEncoder::read(std::int64_t k, double theta) {
   if (errors_.interpolation != 0.0) x += interpolation_error(x) - start_interpolation_;
   if (errors_.noise != 0.0)
     x += errors_.noise * standard_normal(random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
-  const auto raw = static_cast<std::int64_t>(std::floor(std::clamp(x, -farthest_count, farthest_count)));
+  // fmin and fmax pass over what is not a number.
+  const auto raw =
+      static_cast<std::int64_t>(std::floor(std::fmin(std::fmax(x, -farthest_count), farthest_count)));
   if (errors_.missed != 0.0) miss_counts(k, raw);
   return raw - lost_;
 }

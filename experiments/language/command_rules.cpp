@@ -155,6 +155,10 @@ ValueRule time_of_travel(const std::optional<SequenceCycle>& sequence) {
                            2.0 * std::numbers::pi / l[fine].low);
     const double needed = travel.duration() + l[window].high;
     if (needed <= l[hold].low) return {};
+    if (!std::isfinite(needed)) {
+      return {{"a limit of the profile can be so small that the travel takes for ever",
+               "limits of the profile with a lowest value above 0"}};
+    }
     return {
         {fmt::format("a travel of {} counts can take {:.6g} s, which leaves no window of {} s in the hold "
                      "of {} s",

@@ -31,10 +31,11 @@ bool has_uneven_drive(const StudyPlan& plan) {
     if (holds_somewhere(plan, error, [](Limits l) { return l[0].low != 0.0 || l[0].high != 0.0; }))
       return true;
   }
-  const std::array<std::string_view, 1> through{"command.torque.through"};
-  return plan.open_loop && holds_somewhere(plan, through, [](Limits l) {
-           return l[0].high == static_cast<double>(TorquePath::exact);
-         });
+  if (!plan.open_loop) return false;
+  const std::array<std::string_view, 2> command{"command.torque.through", "controller.delay"};
+  return holds_somewhere(plan, command, [](Limits l) {
+    return l[0].high == static_cast<double>(TorquePath::exact) || l[1].high > 0.0;
+  });
 }
 
 }  // namespace

@@ -147,6 +147,7 @@ TEST(Study, RecordsTheTorqueOfTheMotorWhereItIsNotThatOfTheCode) {
   EXPECT_FALSE(extras("controller: {delay: 2}").drive_torque);
   EXPECT_FALSE(extras("dac: {noise: 0, offset: 0}\namplifier: {bandwidth: 0}").drive_torque);
   EXPECT_FALSE(extras("", "{torque: {levels: [0.1]}}").drive_torque);
+  EXPECT_TRUE(extras("controller: {delay: 2}", "{torque: {levels: [0.1]}}").drive_torque);
   EXPECT_TRUE(extras("", "{torque: {levels: [0.1], through: exact}}").drive_torque);
   EXPECT_TRUE(extras("amplifier: {bandwidth: 100}").drive_torque);
   for (const std::string error : {"offset", "gain_error", "nonlinearity", "noise"}) {

@@ -52,6 +52,23 @@ TEST(PaperFig4, ClosedLoopsLeaveNoTrace) {
   });
 }
 
+// Beyond the loops that have closed, the spring goes on along the curve that it left for them.
+TEST(PaperFig4, BeyondClosedLoopsTheSpringGoesOnAsIfTheyHadNotBeen) {
+  const Study direct = shipped_study("paper-fig4", {"command.torque.levels=[0.012, 0.018, -0.018]"});
+  const Study by_loops = shipped_study(
+      "paper-fig4",
+      {"command.torque.levels=[0.012, -0.004, 0.004, -0.004, 0.012, 0.004, 0.012, 0.018, -0.018]"});
+  for (std::int64_t index = 0; index < trials; ++index) {
+    const TrialParameters parameters = trial_of(direct, "all", index);
+    const std::vector<MoveOutcome> straight = run_trial(parameters).moves;
+    const std::vector<MoveOutcome> looped = run_trial(trial_of(by_loops, "all", index)).moves;
+    const double tolerance = position_tolerance(parameters);
+    EXPECT_NEAR(looped[7].final_position, straight[1].final_position, tolerance);
+    EXPECT_NEAR(looped[8].final_position, straight[2].final_position, tolerance);
+    EXPECT_EQ(looped[8].reversal_depth, straight[2].reversal_depth);
+  }
+}
+
 TEST(PaperFig4, LoopsBetweenTheSameTorquesAreCongruent) {
   look_at_trials([](const TrialParameters& parameters, const std::vector<MoveOutcome>& at) {
     const std::vector<double>& levels = parameters.command.torque.levels;

@@ -68,6 +68,22 @@ TEST_P(MeasurementProperties, IdealEncodersReadAsTheyAlwaysDid) {
   EXPECT_DOUBLE_EQ(ideal.fine_resolution() * ideal.fine_per_coarse(), ideal.coarse_resolution());
 }
 
+// Beyond all sense, but not beyond the numbers: a count stays one that others can be taken from.
+TEST(Measurement, OfAbsurdErrorsStaysAWholeNumber) {
+  for (const double absurd : {1e30, 1e300, 1e308}) {
+    EncoderParameters encoders;
+    encoders.fine_errors.eccentricity = absurd;
+    encoders.fine_errors.interpolation = absurd;
+    encoders.coarse_errors.noise = absurd;
+    Measurement measurement(encoders, 0.5, 0.0, randomness_of_encoders(1));
+    for (std::int64_t k = 0; k < 100; ++k) {
+      const EncoderReading reading = measurement.read(k, 0.01 * static_cast<double>(k));
+      EXPECT_LE(std::abs(static_cast<double>(reading.fine)), 0x1p52);
+      EXPECT_LE(std::abs(static_cast<double>(reading.coarse)), 0x1p52);
+    }
+  }
+}
+
 TEST_P(MeasurementProperties, SystematicErrorsStartAtCountZero) {
   for (int i = 0; i < 100; ++i) {
     EncoderParameters encoders = random_encoders();

@@ -133,6 +133,12 @@ INSTANTIATE_TEST_SUITE_P(
                   "m.yaml:6:53: command.hold: a travel of 4500 counts can take 1.74533 s, which leaves no "
                   "window of 0.05 s in the hold of 1 s; expected command.hold at least 1.79533 s, or higher "
                   "limits of the profile"},
+        UnfitCase{
+            "{targets: [4500], profile: {shape: trapezoidal, velocity_limit: {lognormal: {median: 2, cv: "
+            "0.1}}}}",
+            "",
+            "m.yaml:5:45: command.hold: a limit of the profile can be so small that the travel takes "
+            "for ever; expected limits of the profile with a lowest value above 0"},
         // From one end of the axis to the other; the overrun; and in a cycle from one side the way back.
         UnfitCase{
             "{sequence: {targets: [0, 4500], overrun: 10}, hold: 0.0764, profile: {shape: trapezoidal}}", "",

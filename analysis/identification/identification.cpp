@@ -210,6 +210,7 @@ std::vector<Identification::Correlation> strong_correlations(const std::vector<F
 
 Identification identify(const std::vector<TestRecord>& records, const IdentificationOptions& options) {
   std::vector<RecordParts> parts;
+  parts.reserve(records.size());
   for (const TestRecord& record : records) parts.push_back(parts_of(record));
   check_reversals(parts, options);
   const ContactFit fit = fit_contact(records, parts, options.known);

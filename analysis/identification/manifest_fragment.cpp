@@ -83,7 +83,8 @@ std::string manifest_fragment(const Identification& identification) {
       any = any || parameter.status != EstimateStatus::not_identifiable;
     }
     // A map of comments alone would be no map.
-    text += any ? group + ":\n" + lines : "# " + group + ":\n" + lines;
+    if (!any) text.append("# ");
+    text.append(group).append(":\n").append(lines);
   }
   return text;
 }

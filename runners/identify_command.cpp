@@ -68,13 +68,34 @@ std::optional<std::string> column_option(const Arguments& arguments, const char*
   return arguments.one_of(name, columns);
 }
 
+/// What is slower than this is no amplifier of a positioning drive, and beyond what the samples can tell.
+std::optional<double> bandwidth_option(const Arguments& arguments) {
+  constexpr double least = 0.01;
+  const std::optional<double> bandwidth = number_option(arguments, "amplifier-bandwidth", 0.0);
+  if (bandwidth && *bandwidth > 0.0 && *bandwidth < least) {
+    arguments.refuse(
+        fmt::format("option '--amplifier-bandwidth': {:g} Hz; expected 0 (it follows at once), "
+                    "or {} Hz at least",
+                    *bandwidth, least));
+  }
+  return bandwidth;
+}
+
+std::optional<int> count_option(const Arguments& arguments, const char* name, int low, int high) {
+  const std::optional<std::int64_t> number = arguments.whole_number(name, low, high);
+  if (!number) return std::nullopt;
+  return static_cast<int>(*number);
+}
+
 SeriesChoice series_choice(const Arguments& arguments) {
   constexpr double any = -std::numeric_limits<double>::infinity();
   SeriesChoice choice;
   choice.torque = column_option(arguments, "torque", {"torque", "drive_torque"});
   choice.angle = column_option(arguments, "angle", {"count", "theta"});
   choice.counts_per_revolution = number_option(arguments, "counts-per-revolution", 1.0);
-  choice.bandwidth = number_option(arguments, "amplifier-bandwidth", 0.0);
+  choice.bandwidth = bandwidth_option(arguments);
+  choice.delay = count_option(arguments, "delay", 0, 1000000);
+  choice.dac_bits = count_option(arguments, "dac-bits", 2, 32);
   choice.preload = number_option(arguments, "preload", any);
   choice.hardening = number_option(arguments, "hardening", 0.0);
   return choice;
@@ -135,30 +156,28 @@ std::vector<std::int64_t> point_options(const Arguments& arguments) {
 std::vector<TestRecord> read_records(const Arguments& arguments) {
   const SeriesChoice choice = series_choice(arguments);
   const bool any_magnitude = arguments.has("any-magnitude");
+  const std::vector<std::string>& paths = arguments.operands();
+  if ((arguments.has("point") || arguments.has("trial")) &&
+      std::none_of(paths.begin(), paths.end(), holds_results)) {
+    arguments.refuse("options '--point' and '--trial' go with a results file");
+  }
   std::vector<TestRecord> records;
-  bool results = false;
-  for (const std::string& path : arguments.operands()) {
+  for (const std::string& path : paths) {
     if (!holds_results(path)) {
       records.push_back(checked_record(read_csv_series(path, choice), any_magnitude));
       continue;
     }
-    results = true;
     constexpr std::int64_t most = std::int64_t{1} << 53;
     const std::int64_t index = arguments.whole_number("trial", 0, most).value_or(0);
     for (const std::int64_t point : point_options(arguments)) {
       records.push_back(checked_record(read_study_series(path, point, index, choice), any_magnitude));
     }
   }
-  if (!results && (arguments.has("point") || arguments.has("trial"))) {
-    arguments.refuse("options '--point' and '--trial' go with a results file");
-  }
   return records;
 }
 
 void write_report(const std::string& text, const std::filesystem::path& path) {
-  if (std::filesystem::exists(path)) {
-    throw Failure(ExitCode::bad_input, fmt::format("{}: exists; give another name with -o", path.string()));
-  }
+  require_new(path);
   const UnfinishedFile unfinished(path);
   {
     const FileDescriptor file(
@@ -172,6 +191,7 @@ void write_report(const std::string& text, const std::filesystem::path& path) {
 ExitCode identify_records(const Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"text", "json", "yaml"});
   const IdentificationOptions options = identification_options(arguments);
+  if (arguments.has("output")) require_new(arguments.required("output"));
   const Identification found = identify(read_records(arguments), options);
   const std::string report = format == "json"   ? identification_json(found)
                              : format == "yaml" ? manifest_fragment(found)
@@ -205,6 +225,8 @@ Command identify_command() {
             {"angle", "COLUMN", "count or theta, where both are there (default count, if N is given)"},
             {"torque", "COLUMN", "torque or drive_torque, where both are there (default the latter)"},
             {"amplifier-bandwidth", "HZ", "of the amplifier (default 0: it follows at once)"},
+            {"delay", "SAMPLES", "after which the column torque acts (default 0)"},
+            {"dac-bits", "BITS", "of the converter whose codes the column code has, to see it clip"},
             {"preload", "TORQUE", "loaded slowly to this and let go before the test, N m (default 0)"},
             {"hardening", "XH", "work hardening before the test, rad (default 0)"},
             {"fix", "KEY=VALUE", "a parameter that is known, as friction.n=2; may be repeated", true},

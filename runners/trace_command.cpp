@@ -68,9 +68,7 @@ TrialResult write_trace(const TraceSubject& subject, std::FILE* file, bool json)
 
 /// Writes the trace to a file that has its name only when it is whole.
 TrialResult write_trace_file(const TraceSubject& subject, const std::filesystem::path& path, bool json) {
-  if (std::filesystem::exists(path)) {
-    throw Failure(ExitCode::bad_input, fmt::format("{}: exists; give another name with -o", path.string()));
-  }
+  require_new(path);
   const UnfinishedFile unfinished(path);
   std::FILE* const file = std::fopen(unfinished.path().c_str(), "w");
   if (file == nullptr) fail_with(path, "write", errno);

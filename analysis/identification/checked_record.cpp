@@ -21,9 +21,10 @@ std::vector<TorqueCourse> courses_of(const RawSeries& series, double sample_time
   std::vector<TorqueCourse> courses;
   const double rate = 2.0 * std::numbers::pi * series.bandwidth;
   const double left = std::exp(-rate * sample_time);
+  const double gone = -std::expm1(-rate * sample_time);
   double lagging = 0.0;  // the motor's torque behind a commanded one
   for (std::size_t k = 0; k < series.torque.size(); ++k) {
-    const double torque = series.torque[k];
+    const double torque = k < series.delay ? 0.0 : series.torque[k - series.delay];
     if (rate == 0.0) {
       courses.push_back(constant_torque(torque));
     } else if (series.torque_kind == TorqueKind::commanded) {
@@ -31,7 +32,7 @@ std::vector<TorqueCourse> courses_of(const RawSeries& series, double sample_time
       lagging = torque + (lagging - torque) * left;
     } else {
       const double next = k + 1 < series.torque.size() ? series.torque[k + 1] : torque;
-      courses.push_back({torque, (next - torque * left) / (1.0 - left), rate});
+      courses.push_back({torque, (next - torque * left) / gone, rate});
     }
   }
   return courses;

@@ -5,8 +5,10 @@
 #include <numbers>
 
 #include <Eigen/Cholesky>
+#include <fmt/format.h>
 
 #include "analysis/identification/starting_point.hpp"
+#include "core/failure.hpp"
 
 namespace zerocount {
 namespace {
@@ -136,6 +138,22 @@ FitPoint fit_roughly(std::span<const TestRecord> records, std::span<const Record
   return best.point;
 }
 
+FittedModel followed_model(std::span<const TestRecord> records, const FitPoint& point,
+                           const FitSetting& setting) {
+  FittedModel model = model_at(records, point, setting);
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const RecordMotion& motion = model.motions[r];
+    if (motion.path.allFinite() && motion.sensitivity.allFinite()) continue;
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: the rotor that comes nearest to this record cannot be simulated: it is too "
+                    "stiff, too light or too strongly damped beside the sampling interval. Are the "
+                    "units right?",
+                    records[r].name));
+  }
+  return model;
+}
+
 /// The largest component of the step that the normal equations still want, in textbook standard deviations.
 double step_left(std::span<const TestRecord> records, const ContactFit& fit) {
   NormalEquationsSum sum(records.size(), fit.setting);
@@ -168,13 +186,13 @@ ContactFit fit_contact(std::span<const TestRecord> records, std::span<const Reco
   for (std::size_t j = 0; j < coordinate_count; ++j) {
     if (fit.setting.free[j]) fit.setting.prior[j] = point.contact[j];
   }
-  fit.model = model_at(records, point, fit.setting);
+  fit.model = followed_model(records, point, fit.setting);
   update_misfit(records, fit);
   for (int round = 0; round < most_rounds; ++round) {
     observe_again(records, fit);
     if (step_left(records, fit) < small_change) break;
     point = fit_jointly(records, fit.observations, fit.model.point, fit.setting).point;
-    fit.model = model_at(records, point, fit.setting);
+    fit.model = followed_model(records, point, fit.setting);
     update_misfit(records, fit);
   }
   return fit;

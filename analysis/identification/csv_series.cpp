@@ -43,6 +43,17 @@ std::string place_of(const RawSeries& series, std::size_t sample) {
   return fmt::format("{}:{}", series.name, series.lines[sample]);
 }
 
+std::size_t delay_of(const RawSeries& series, const SeriesChoice& choice, int otherwise) {
+  if (series.torque_kind == TorqueKind::commanded) {
+    return static_cast<std::size_t>(choice.delay.value_or(otherwise));
+  }
+  if (choice.delay.value_or(0) == 0) return 0;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: drive_torque is the motor's torque, behind any delay; --delay goes with "
+                            "--torque torque",
+                            series.name));
+}
+
 RawSeries read_csv_series(const std::filesystem::path& path, const SeriesChoice& choice) {
   const CsvTable table(path);
   const std::string time = column_of(table, std::nullopt, {"t", "time"}, "time");
@@ -63,11 +74,13 @@ RawSeries read_csv_series(const std::filesystem::path& path, const SeriesChoice&
   series.torque = read_numbers(table, torque, {"N m", "Nm", "N·m"});
   series.torque_kind = torque == "drive_torque" ? TorqueKind::motor : TorqueKind::commanded;
   series.bandwidth = choice.bandwidth.value_or(0.0);
+  series.delay = delay_of(series, choice, 0);
   const bool counts = angle == "count";
   series.angle = read_numbers(
       table, angle, counts ? std::vector<std::string>{"count", "1"} : std::vector<std::string>{"rad"});
   if (counts) series.counts_per_revolution = *choice.counts_per_revolution;
   if (table.has("code")) series.code = table.numbers("code");
+  series.dac_bits = choice.dac_bits.value_or(0);
   if (table.has("mode")) series.sliding = table.equals("mode", "slide");
   series.start.preload = choice.preload.value_or(0.0);
   series.start.hardening = choice.hardening.value_or(0.0);

@@ -40,6 +40,28 @@ void check_reversals(std::span<const RecordParts> parts, const IdentificationOpt
                             reversals == 0 ? "never" : "once", least_reversals));
 }
 
+bool is_same(const TorqueCourse& one, const TorqueCourse& other) {
+  return one.now == other.now && one.settled == other.settled && one.rate == other.rate;
+}
+
+/// A record given twice would count twice.
+void check_different(std::span<const TestRecord> records) {
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const TestRecord& one = records[j];
+      const TestRecord& other = records[i];
+      if (one.reading != other.reading ||
+          !std::equal(one.torque.begin(), one.torque.end(), other.torque.begin(), is_same)) {
+        continue;
+      }
+      throw Failure(ExitCode::bad_data,
+                    fmt::format("{}: is {} once more, equal in every sample; expected records of different "
+                                "tests",
+                                other.name, one.name));
+    }
+  }
+}
+
 /// The largest share of a record's travel that the model may leave unexplained.
 constexpr double most_unexplained = 0.05;
 
@@ -209,6 +231,7 @@ std::vector<Identification::Correlation> strong_correlations(const std::vector<F
 }  // namespace
 
 Identification identify(const std::vector<TestRecord>& records, const IdentificationOptions& options) {
+  check_different(records);
   std::vector<RecordParts> parts;
   parts.reserve(records.size());
   for (const TestRecord& record : records) parts.push_back(parts_of(record));

@@ -15,20 +15,19 @@ namespace {
 /// How far (in logarithms) a fit may take a coordinate from the prior: a factor of 100. Far beyond it lie
 /// rotors whose simulation takes for ever.
 constexpr double farthest = 4.6;
+/// Creep may go much further down, until there is none: no simulation is the slower for that.
+constexpr double least_creep = 14.0;
 constexpr double least_exponent = 0.2;
 constexpr double most_exponent = 20.0;
 
-/// Ceres writes its log through glog, to standard error; what it has to say of a fit is in its summary.
-class QuietLog {
- public:
-  QuietLog() : before_(FLAGS_minloglevel) { FLAGS_minloglevel = google::NUM_SEVERITIES; }
-  QuietLog(const QuietLog&) = delete;
-  QuietLog& operator=(const QuietLog&) = delete;
-  ~QuietLog() { FLAGS_minloglevel = before_; }
-
- private:
-  int before_;
-};
+/// Ceres writes its log through glog, to standard error; what it has to say of a fit is in its summary. A
+/// broken condition inside it is still said, before the program ends.
+void quieten_log() {
+  [[maybe_unused]] static const bool quiet = [] {
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    return true;
+  }();
+}
 
 /// The residuals of all records, and of the prior, as Ceres wants them: of two blocks of parameters, the
 /// contact's coordinates and the offsets.
@@ -77,7 +76,8 @@ class JointResiduals : public ceres::CostFunction {
  private:
   bool within_reach(const Eigen::Map<const ContactPoint>& contact) const {
     for (std::size_t j = 0; j < creep_exponent; ++j) {
-      if (!(std::abs(contact[j] - setting_.prior[j]) <= farthest)) return false;
+      const double away = contact[j] - setting_.prior[j];
+      if (!(away <= farthest && away >= (j == log_limit ? -least_creep : -farthest))) return false;
     }
     return contact[creep_exponent] >= least_exponent && contact[creep_exponent] <= most_exponent;
   }
@@ -119,7 +119,7 @@ void keep_known(ceres::Problem& problem, double* contact, const FreeCoordinates&
 
 FitResult fit_jointly(std::span<const TestRecord> records, const Observations& observations,
                       const FitPoint& start, const FitSetting& setting) {
-  const QuietLog quiet;
+  quieten_log();
   FitPoint point = start;
   ceres::Problem problem;
   problem.AddResidualBlock(new JointResiduals(records, observations, setting), nullptr, point.contact.data(),

@@ -44,8 +44,9 @@ std::string line_of(const ParameterEstimate& parameter, const std::string& name)
 std::string distribution_text(const ParameterEstimate& parameter) {
   constexpr double small_digits = 1e-3;  // of a spread, four digits are enough
   if (parameter.name == "n") {
-    const double mean = 0.5 * (parameter.low + parameter.high);
-    const double sd = 0.5 * (parameter.high - parameter.low) / two_sided_95;
+    const bool cut = parameter.low <= 1.0;  // the interval was cut where n ends, so has lost its middle
+    const double mean = cut ? parameter.value : 0.5 * (parameter.low + parameter.high);
+    const double sd = (parameter.high - mean) / two_sided_95;
     if (!(sd > 0.0)) return manifest_number(mean, 0.0);
     constexpr double far = 8.0;
     return fmt::format("{{truncated_normal: {{mean: {}, sd: {}, low: 1, high: {}}}}}",
@@ -66,8 +67,8 @@ std::string manifest_fragment(const Identification& identification) {
     text += fmt::format("{} {}", &record == &identification.records.front() ? "" : ",", record.name);
   }
   text +=
-      ".\n# The central 95 % of each distribution are the confidence interval. Trials draw them "
-      "independently";
+      ".\n# The central 95 % of each distribution are the confidence interval; its median is their middle, "
+      "not\n# quite the estimate. Trials draw the parameters independently";
   for (const Identification::Correlation& pair : identification.correlations) {
     text += fmt::format("{}\n# {} and {}: {:.2f}",
                         &pair == &identification.correlations.front() ? ", although errors correlate:" : "",

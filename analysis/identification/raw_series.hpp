@@ -26,6 +26,7 @@ struct RawSeries {
   std::vector<double> torque;      ///< N m
   TorqueKind torque_kind{TorqueKind::commanded};
   double bandwidth{0.0};              ///< of the amplifier, Hz; 0: it follows at once
+  std::size_t delay{0};               ///< samples after which a commanded torque acts; until then it is 0
   std::vector<double> angle;          ///< whole counts, or rad
   double counts_per_revolution{0.0};  ///< 0 where the angle is in rad
   std::vector<double> code;           ///< DAC codes; empty where unknown
@@ -44,22 +45,29 @@ struct SeriesChoice {
   std::optional<std::string> angle;   ///< column: count or theta
   std::optional<double> counts_per_revolution;
   std::optional<double> bandwidth;  ///< Hz
+  std::optional<int> delay;         ///< of the commanded torque, samples
+  std::optional<int> dac_bits;
   std::optional<double> preload;    ///< N m
   std::optional<double> hardening;  ///< rad
 };
 
+/// The samples after which the series' torque acts: those chosen, `otherwise` where none are; a motor's
+/// torque acts at once.
+/// @throws Failure (bad_input) where a delay is chosen for the motor's torque.
+std::size_t delay_of(const RawSeries& series, const SeriesChoice& choice, int otherwise);
+
 /// A series from a table with the columns t (s), torque or drive_torque (N m), count or theta (rad); that of
 /// `zerocount trace` is one. Where both torques are there, drive_torque is taken. Where both angles are
 /// there, count is taken if the counts per revolution are given, theta otherwise.
-/// @throws Failure: bad_input where the columns are not there, or are said to have other units; and what
-/// CsvTable throws.
+/// @throws Failure: bad_input where the columns are not there, are said to have other units, or a delay is
+/// chosen for the motor's torque; and what CsvTable throws.
 RawSeries read_csv_series(const std::filesystem::path& path, const SeriesChoice& choice);
 
-/// A series from the trial's records in the results file. The start of the contact, the encoder's resolution
-/// and the amplifier's bandwidth are those of the trial, unless chosen otherwise. The angle is that of the
-/// fine encoder's counts, unless theta is chosen.
-/// @throws Failure: bad_input where the file has no such trial or no records of it; and what StudyFile
-/// throws.
+/// A series from the trial's records in the results file. The start of the contact, the encoder's resolution,
+/// the delay and the amplifier's bandwidth are those of the trial, unless chosen otherwise. The angle is that
+/// of the fine encoder's counts, unless theta is chosen.
+/// @throws Failure: bad_input where the file has no such trial or no records of it, or a delay is chosen for
+/// the motor's torque; and what StudyFile throws.
 RawSeries read_study_series(const std::filesystem::path& path, std::int64_t point, std::int64_t index,
                             const SeriesChoice& choice);
 

@@ -51,27 +51,35 @@ double last_code(int bits, double code) {
   return code < 0.0 ? -half : half - 1.0;
 }
 
-/// Where the bits of the converter are not known, the end of the range of any from 12 bits.
-bool at_end_of_range(const RawSeries& series, double code) {
-  if (series.dac_bits > 0) return code == last_code(series.dac_bits, code);
-  constexpr int least_bits = 12;
-  constexpr int most_bits = 24;
-  for (int bits = least_bits; bits <= most_bits; ++bits) {
-    if (code == last_code(bits, code)) return true;
-  }
-  return false;
+/// The shortest word, from 12 bits, that has codes from `low` to `high`: where the converter's is not known,
+/// the only one that can be at its end somewhere.
+int shortest_word(double low, double high) {
+  int bits = 12;
+  while (low < last_code(bits, -1.0) || high > last_code(bits, 1.0)) ++bits;
+  return bits;
 }
 
 void check_codes(const RawSeries& series) {
+  if (series.code.empty()) return;
+  const auto low = std::min_element(series.code.begin(), series.code.end());
+  const auto high = std::max_element(series.code.begin(), series.code.end());
+  const int bits = series.dac_bits > 0 ? series.dac_bits : shortest_word(*low, *high);
+  for (const auto extreme : {low, high}) {
+    if (*extreme >= last_code(bits, -1.0) && *extreme <= last_code(bits, 1.0)) continue;
+    refuse(place_of(series, static_cast<std::size_t>(extreme - series.code.begin())),
+           fmt::format("the code {:.0f} is beyond the DAC's {} bits", *extreme, bits));
+  }
+  const std::string doubt =
+      series.dac_bits > 0
+          ? ""
+          : fmt::format(" if it has {} bits. If it has others, give them with --dac-bits", bits);
   std::size_t repeated = 0;
   for (std::size_t k = 0; k < series.code.size(); ++k) {
-    repeated = at_end_of_range(series, series.code[k]) ? repeated + 1 : 0;
-    if (repeated == clipped_samples) {
-      refuse(place_of(series, k),
-             fmt::format("the torque is clipped: the DAC's code stays at {:.0f}, the end of "
-                         "its range",
-                         series.code[k]));
-    }
+    repeated = series.code[k] == last_code(bits, series.code[k]) ? repeated + 1 : 0;
+    if (repeated < clipped_samples) continue;
+    refuse(place_of(series, k), fmt::format("the torque is clipped: the DAC's code stays at {:.0f}, the end "
+                                            "of its range{}",
+                                            series.code[k], doubt));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 
@@ -47,11 +48,12 @@ double misfit(const ChosenRecords& records, const ContactPoint& point, double cr
   return sum;
 }
 
-/// The best of the point and those that are `changes` away from it.
+/// The best of the point and those that are `changes` away from it, if they leave less than `share` of what
+/// the point leaves.
 ContactPoint best_of(const ChosenRecords& records, const ContactPoint& point, double creep_torque,
-                     std::span<const ContactPoint> changes) {
+                     std::span<const ContactPoint> changes, double share = 1.0) {
   ContactPoint best = point;
-  double least = misfit(records, point, creep_torque);
+  double least = share * misfit(records, point, creep_torque);
   for (const ContactPoint& change : changes) {
     const ContactPoint tried = point + change;
     const double left = misfit(records, tried, creep_torque);
@@ -73,10 +75,11 @@ std::vector<ContactPoint> softening_changes() {
   return changes;
 }
 
-std::vector<ContactPoint> ringing_changes() {
+std::vector<ContactPoint> changes_of(std::initializer_list<double> inertias,
+                                     std::initializer_list<double> dampings) {
   std::vector<ContactPoint> changes;
-  for (const double inertia : {0.4, 0.63, 1.0, 1.6, 2.5}) {
-    for (const double damping : {0.2, 0.45, 1.0, 2.2}) {
+  for (const double inertia : inertias) {
+    for (const double damping : dampings) {
       ContactPoint change = ContactPoint::Zero();
       change[log_inertia] = std::log(inertia);
       change[log_damping] = std::log(damping);
@@ -104,6 +107,19 @@ ChosenRecords ringing_ones(std::span<const TestRecord> records, std::span<const 
   return ringing;
 }
 
+/// J and c beside those of the point, by the records with a ring-down. Where none has one, over a wider range
+/// by all: the rotor may show in how it follows the steps of the DAC.
+ContactPoint with_best_ringing(std::span<const TestRecord> records, std::span<const RecordParts> parts,
+                               const ContactPoint& point, double creep_torque) {
+  const ChosenRecords ringing = ringing_ones(records, parts);
+  if (!ringing.empty()) {
+    return best_of(ringing, point, creep_torque,
+                   changes_of({0.4, 0.63, 1.0, 1.6, 2.5}, {0.2, 0.45, 1.0, 2.2}));
+  }
+  constexpr double much = 0.8;
+  return best_of(all_of(records), point, creep_torque, changes_of({1.0, 10.0, 100.0}, {0.5, 2.0, 8.0}), much);
+}
+
 }  // namespace
 
 FirstSwing first_swing(const TestRecord& record, const TorqueHold& ring_down) {
@@ -123,8 +139,9 @@ PlantParameters estimate_ring_down(std::span<const TestRecord> records, std::spa
                                    double k1) {
   const RingDown ring = largest_ring_down(records, parts);
   const double sample_time = records.front().sample_time;
-  // Without a ring-down: an oscillation of 20 samples, damped to a third of what would be critical.
-  double period = 20.0 * sample_time;
+  // Without a ring-down: an oscillation too fast for the samples, damped to a third of what would be
+  // critical.
+  double period = 4.0 * sample_time;
   double damping_ratio = 0.33;
   if (ring.record != nullptr) {
     const FirstSwing swing = first_swing(*ring.record, ring.hold);
@@ -159,20 +176,19 @@ ContactPoint starting_point(std::span<const TestRecord> records, std::span<const
   ContactPoint point = point_of(contact, creep_torque);
 
   point = best_of(all_of(records), point, creep_torque, softening_changes());
-  return best_of(ringing_ones(records, parts), point, creep_torque, ringing_changes());
+  return with_best_ringing(records, parts, point, creep_torque);
 }
 
 std::vector<ContactPoint> other_starting_points(std::span<const TestRecord> records,
                                                 std::span<const RecordParts> parts, const ContactPoint& start,
                                                 double creep_torque) {
-  const ChosenRecords ringing = ringing_ones(records, parts);
   std::vector<ContactPoint> others;
   for (const double rate : {0.1, 1.0, 5.0, 20.0, 80.0}) {
     for (const double offset : {0.3, 1.0}) {
       ContactPoint point = start;
       point[log_beta] += std::log(rate);
       point[log_k2] += std::log(rate * offset);
-      others.push_back(best_of(ringing, point, creep_torque, ringing_changes()));
+      others.push_back(with_best_ringing(records, parts, point, creep_torque));
     }
   }
   return others;

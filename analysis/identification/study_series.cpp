@@ -73,8 +73,9 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
   }
   series.torque_kind = commanded ? TorqueKind::commanded : TorqueKind::motor;
   series.bandwidth = choice.bandwidth.value_or(trial.amplifier.bandwidth);
+  series.delay = delay_of(series, choice, trial.controller.delay);
   if (counts) series.counts_per_revolution = choice.counts_per_revolution.value_or(trial.encoder.fine);
-  series.dac_bits = trial.dac.bits;
+  series.dac_bits = choice.dac_bits.value_or(trial.dac.bits);
   series.start = start_of(trial, choice);
   series.units_known = true;
   return series;

@@ -26,6 +26,10 @@ class UnfinishedFile {
   std::filesystem::path part_;
 };
 
+/// For what never overwrites: @throws Failure (bad_input) where something has the name `path` already;
+/// machine_failed with the system's reason where that cannot be found out.
+void require_new(const std::filesystem::path& path);
+
 /// Brings the finished file part_of(path) to the disk and gives it its name `path`.
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void publish(const std::filesystem::path& path);

@@ -188,9 +188,17 @@ TEST(CheckedRecord, CodesAtTheEndOfTheRangeAreClipping) {
   };
   EXPECT_TRUE(refused(refusal(saturated(2047, 12)), "good.csv:54", "end of its range"));
   EXPECT_TRUE(refused(refusal(saturated(-2048, 12)), "good.csv:54", "end of its range"));
-  EXPECT_TRUE(refused(refusal(saturated(32767, 0)), "good.csv:54", "end of its range"));
+  EXPECT_TRUE(refused(refusal(saturated(32767, 0)), "good.csv:54", "if it has 16 bits"));
   EXPECT_EQ(refusal(saturated(2047, 16)), "not refused");
   EXPECT_EQ(refusal(saturated(127, 0)), "not refused");
+  EXPECT_TRUE(refused(refusal(saturated(2048, 12)), "good.csv:52", "beyond the DAC's 12 bits"));
+
+  // The end of a shorter word's range is none where other codes lie beyond it.
+  const auto with_larger = [&](RawSeries& s) {
+    saturated(-2048, 0)(s);
+    s.code[200] = 3000;
+  };
+  EXPECT_EQ(refusal(with_larger), "not refused");
 }
 
 // Holds, ring-downs and creep at the extremes of the torque are no clipping.
@@ -228,6 +236,16 @@ TEST(CheckedRecord, CountsWrittenInRadAreRecognised) {
   for (std::size_t k = 0; k < series.angle.size(); ++k)
     series.angle[k] += 1e-7 * std::sin(static_cast<double>(k));
   EXPECT_FALSE(checked_record(series, false).counted);
+}
+
+TEST(CheckedRecord, ACommandedTorqueActsAfterTheDelay) {
+  RawSeries series = good_series();
+  series.delay = 3;
+  const TestRecord record = checked_record(series, false);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(record.torque[k].now, 0.0);
+  for (std::size_t k = 3; k < series.torque.size(); ++k) {
+    EXPECT_EQ(record.torque[k].now, series.torque[k - 3]);
+  }
 }
 
 // The amplifier's lag: from what it was told, or from what it gave at the samples.

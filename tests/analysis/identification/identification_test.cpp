@@ -187,11 +187,29 @@ TEST(Identification, LeavesOpenWhatARecordDoesNotShow) {
   exact.torque_step = 0.0;
   const Identification quiet = identify({simulated_test(no_creep_at_all, slow, exact, random)});
   EXPECT_TRUE(finds(quiet, "k1", 110.0, 0.01));
-  EXPECT_TRUE(is_open(quiet, "inertia"));
+  EXPECT_TRUE(is_open(quiet, "inertia"))
+      << estimate_of(quiet, "inertia").low << ", " << estimate_of(quiet, "inertia").high;
   EXPECT_NE(estimate_of(quiet, "inertia").reason.find("no ring-down"), std::string::npos);
   EXPECT_TRUE(is_open(quiet, "alpha"));
   EXPECT_NE(estimate_of(quiet, "alpha").reason.find("never held"), std::string::npos);
   EXPECT_TRUE(std::isnan(estimate_of(quiet, "alpha").value));
+}
+
+TEST(Identification, ARecordGivenTwiceIsRefused) {
+  std::mt19937_64 random(53);
+  TestRecord one = simulated_test({}, loading_and_unloading(), {}, random);
+  TestRecord other = simulated_test({}, loading_and_unloading(), {}, random);  // of another phase
+  one.name = "one";
+  other.name = "other";
+  TestRecord again = one;
+  again.name = "again";
+  try {
+    identify({one, other, again});
+    FAIL() << "not refused";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::bad_data);
+    EXPECT_EQ(std::string(failure.what()).find("again: is one once more"), 0u) << failure.what();
+  }
 }
 
 TEST(Identification, TakesWhatIsKnown) {

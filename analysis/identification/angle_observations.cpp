@@ -84,6 +84,7 @@ double counting_noise(const Eigen::VectorXd& path, const Eigen::VectorXd& readin
   std::vector<double> ways;
   double seen = 0.0;   // counts passed between neighbours
   double taken = 0.0;  // way of the rotor between them
+  double edges = 0.0;  // on that way
   double turns = 1.0;
   double last_sign = 0.0;
   for (Eigen::Index k = 0; k + 1 < path.size(); ++k) {
@@ -92,16 +93,19 @@ double counting_noise(const Eigen::VectorXd& path, const Eigen::VectorXd& readin
     ways.push_back(std::abs(step));
     seen += std::abs(readings[k + 1] - readings[k]);
     taken += std::abs(step);
+    edges += std::abs(std::floor(path[k + 1]) - std::floor(path[k]));
     if (step * last_sign < 0.0) turns += 1.0;
     if (step != 0.0) last_sign = step;
   }
-  // Without noise, each way in one direction passes as many edges as it is long, give or take less than one.
   const auto surplus = [&](double noise) {
     double expected = 0.0;
     for (const double way : ways) expected += expected_difference(way, noise);
     return expected - seen;
   };
-  if (seen - taken < 3.0 + 2.0 * std::sqrt(turns)) return 0.0;
+  // Without noise, each way in one direction passes as many edges as it is long, give or take less than one;
+  // and as many as there are on the path, but where that is a little off and turns near an edge.
+  const double by_chance = 3.0 + 2.0 * std::sqrt(turns);
+  if (seen - taken < by_chance || seen - edges < by_chance) return 0.0;
   constexpr double most = 100.0;
   if (surplus(most) <= 0.0) return most;
   constexpr int bits = 20;

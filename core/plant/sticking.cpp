@@ -78,6 +78,7 @@ double Plant::time_at_rest(const Elongation& elongation, const TorqueCourse& tor
   const double missing = std::copysign(whole, torque.settled - torque.now) - elongation.acceleration;
   return std::min(duration, time_until(torque, torque.now + plant_.inertia * missing));
 }
+
 /// The direction in which the hook slides from now on, or 0 where it holds.
 int Plant::slides_towards(double torque) const {
   const double hook_torque = spring_.torque() + plant_.presliding_damping * omega_;

@@ -11,6 +11,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tests/analysis/identification/material_tests.hpp"
 
@@ -29,11 +30,13 @@ int main(int count, char** words) {
   const CoverageStudy study = study_coverage(first, sets, three ? three_tests() : one_test(), instrument);
   fmt::print("{} rigs from number {}, noise {} counts, torque step {} N m: {} refused, {} with lack of fit\n",
              study.sets, first, instrument.noise, instrument.torque_step, study.refused, study.lacking);
-  fmt::print("{:<20} {:>6} {:>10} {:>9} {:>6} {:>12} {:>11}\n", "parameter", "held", "estimated", "coverage",
-             "open", "rms error/se", "half-width");
+  fmt::print("{:<20} {:>6} {:>10} {:>9} {:>6} {:>12} {:>11} {:>9} {:>6}\n", "parameter", "held", "estimated",
+             "coverage", "open", "rms error/se", "half-width", "farthest", "rig");
   for (const Coverage& c : study.parameters) {
     const double n = c.estimated;
-    fmt::print("{:<20} {:>6} {:>10} {:>7.1f} % {:>6} {:>12.2f} {:>9.2g} %\n", c.name, c.held, c.estimated,
-               100.0 * c.held / n, c.open, std::sqrt(c.squared_errors / n), 100.0 * c.half_widths / n);
+    fmt::print("{:<20} {:>6} {:>10} {:>7.1f} % {:>6} {:>12.2f} {:>9.2g} % {:>9.2f} {:>6}\n", c.name, c.held,
+               c.estimated, 100.0 * c.held / n, c.open, std::sqrt(c.squared_errors / n),
+               100.0 * c.half_widths / n, c.farthest, c.farthest_set);
   }
+  fmt::print("rigs with lack of fit: {}\n", fmt::join(study.lacking_sets, " "));
 }

@@ -101,7 +101,7 @@ double true_value(const ContactParameters& contact, const std::string& name) {
 
 namespace {
 
-void count(const Identification& found, const ContactParameters& truth, CoverageStudy& study) {
+void count(const Identification& found, const ContactParameters& truth, int set, CoverageStudy& study) {
   study.parameters.resize(found.parameters.size());
   for (std::size_t i = 0; i < found.parameters.size(); ++i) {
     const ParameterEstimate& parameter = found.parameters[i];
@@ -114,9 +114,15 @@ void count(const Identification& found, const ContactParameters& truth, Coverage
     if (parameter.low <= value && value <= parameter.high) ++coverage.held;
     const double error = (parameter.value - value) / parameter.standard_error;
     coverage.squared_errors += error * error;
+    if (std::abs(error) > coverage.farthest) {
+      coverage.farthest = std::abs(error);
+      coverage.farthest_set = set;
+    }
     coverage.half_widths += 0.5 * (parameter.high - parameter.low) / parameter.value;
   }
-  if (!found.checks.passed) ++study.lacking;
+  if (found.checks.passed) return;
+  ++study.lacking;
+  study.lacking_sets.push_back(set);
 }
 
 }  // namespace
@@ -133,7 +139,7 @@ CoverageStudy study_coverage(int first, int sets, const std::vector<TorqueProgra
       records.push_back(simulated_test(truth, programme, instrument, random));
     }
     try {
-      count(identify(records, options), truth, study);
+      count(identify(records, options), truth, set, study);
     } catch (const Failure&) {
       ++study.refused;
     }

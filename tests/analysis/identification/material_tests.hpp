@@ -59,14 +59,17 @@ struct Coverage {
   int open{0};                 ///< times that it was not identifiable
   double squared_errors{0.0};  ///< Σ (error/standard error)²
   double half_widths{0.0};     ///< Σ half-width/value
+  double farthest{0.0};        ///< largest |error/standard error|
+  int farthest_set{0};         ///< of which rig
 };
 
 /// What came of identifying many rigs.
 struct CoverageStudy {
   std::vector<Coverage> parameters;  ///< in the order of Identification::parameters
   int sets{0};
-  int refused{0};  ///< the identification threw
-  int lacking{0};  ///< the residual checks failed
+  int refused{0};                 ///< the identification threw
+  int lacking{0};                 ///< the residual checks failed
+  std::vector<int> lacking_sets;  ///< their numbers
 };
 
 /// Identifies `sets` random contacts, number `first` on, by simulated tests; the set number seeds each.

@@ -18,8 +18,9 @@ namespace {
 constexpr const char* help =
     "Reports every error of the manifest, each with its place. If there is none, prints the\n"
     "plan (design points, trials, cost) and what the theory says of each design point: the\n"
-    "bounds of the paper's criteria (6) and (7) on ki, the bound of the sampled loop about\n"
-    "the lowest stiffness k1, and the rules for the DAC and the sample rate.\n"
+    "bounds of the paper's criteria (6) and (7) on ki, which know of no sampling, delay or\n"
+    "amplifier, the bound of the sampled loop about the lowest stiffness k1, which has them,\n"
+    "and the rules for the DAC and the sample rate.\n"
     "\n"
     "Example: zerocount check experiments/manifests/paper-gains.yaml\n";
 
@@ -53,6 +54,12 @@ struct PointTheory {
   TheoryPrediction prediction;
 };
 
+/// ki below which the trial's sampled loop is stable about a spring of `stiffness` (N m/rad), N m/count.
+double sampled_bound(double stiffness, const TrialParameters& p) {
+  return sampled_critical_integral_gain(stiffness, p.plant, p.encoder, p.controller,
+                                        {1.0 + p.dac.gain_error, p.amplifier.bandwidth});
+}
+
 PointTheory examine(const Study& study, std::int64_t point) {
   PointTheory theory;
   TrialParameters softest;
@@ -78,10 +85,8 @@ PointTheory examine(const Study& study, std::int64_t point) {
     if (contact.k1 > k1.high) stiffest = p;
     k1.add(contact.k1);
   }
-  theory.sampled_below.add(
-      sampled_critical_integral_gain(k1.low, softest.plant, softest.encoder, softest.controller));
-  theory.sampled_below.add(
-      sampled_critical_integral_gain(k1.high, stiffest.plant, stiffest.encoder, stiffest.controller));
+  theory.sampled_below.add(sampled_bound(k1.low, softest));
+  theory.sampled_below.add(sampled_bound(k1.high, stiffest));
   return theory;
 }
 

@@ -9,10 +9,34 @@
 #include "runners/study_runner.hpp"
 
 namespace zerocount {
+namespace {
+
+/// The trial, cut where it has more than `most` samples: a long one costs per sample what its beginning does,
+/// or less.
+TrialParameters beginning_of(TrialParameters trial, std::int64_t most) {
+  CommandParameters& command = trial.command;
+  std::int64_t samples = 0;
+  std::size_t moves = 0;
+  while (moves < move_count(trial) && samples < most) samples += samples_of_move(trial, moves++);
+  if (command.torque.levels.empty()) {
+    command.targets.resize(moves);
+  } else {
+    command.torque.levels.resize(moves);
+  }
+  if (samples <= most) return trial;
+  // The last of them goes beyond: all are shortened alike.
+  const double share = static_cast<double>(most) / static_cast<double>(samples);
+  command.hold *= share;
+  command.torque.rate /= share;
+  return trial;
+}
+
+}  // namespace
 
 StudyCost measure_cost(const Study& study) {
-  constexpr double patience = 0.3;       // s
-  constexpr std::int64_t stride = 7919;  // a prime, so that the sample wanders over points and trials
+  constexpr double patience = 0.3;               // s
+  constexpr std::int64_t most_samples = 200000;  // of one trial
+  constexpr std::int64_t stride = 7919;          // a prime, so that the sample wanders over points and trials
   StudyCost cost;
   cost.samples = samples_per_trial(study) * static_cast<double>(trial_count(study));
   cost.cores = oneapi::tbb::info::default_concurrency();
@@ -22,9 +46,10 @@ StudyCost measure_cost(const Study& study) {
   const std::int64_t rows = trial_count(study);
   for (std::int64_t i = 0; i < std::min<std::int64_t>(rows, 1000) && elapsed < patience; ++i) {
     const std::int64_t row = i * stride % rows;
-    const StudyTrial trial = study_trial(study, row / study.trials, row % study.trials);
-    run_trial(trial.parameters);
-    samples += static_cast<double>(samples_of_trial(trial.parameters));
+    const TrialParameters trial =
+        beginning_of(study_trial(study, row / study.trials, row % study.trials).parameters, most_samples);
+    run_trial(trial);
+    samples += static_cast<double>(samples_of_trial(trial));
     elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   cost.seconds_per_sample = elapsed / samples;

@@ -1,5 +1,7 @@
 #include "core/theory/sampled_stability.hpp"
 
+#include <numbers>
+
 #include <Eigen/Dense>
 #include <unsupported/Eigen/MatrixFunctions>
 
@@ -8,28 +10,39 @@
 namespace zerocount {
 namespace {
 
-/// The rotor over one sample, x = (count, change of count per sample at the current velocity): x ← A·x + b·u.
+/// The driven rotor over one sample, x ← A·x + b·v with x = (count, change of count per sample at the current
+/// velocity, and where the amplifier lags, its torque).
 struct HeldPlant {
-  Eigen::Matrix2d A;  ///< dimensionless
-  Eigen::Vector2d b;  ///< counts/(N m)
+  Eigen::MatrixXd A;  ///< of counts and N m
+  Eigen::VectorXd b;  ///< counts/(N m); 1 for the torque
 };
 
 /// Exact discretisation: exp([F g; 0 0]) holds A in its upper left block and b above its last entry, with
 /// time in samples.
-HeldPlant discretise(double stiffness, const PlantParameters& plant, double dx, double T) {
-  Eigen::Matrix3d generator = Eigen::Matrix3d::Zero();
+HeldPlant discretise(double stiffness, const PlantParameters& plant, double dx, double T,
+                     const LinearDrive& drive) {
+  const bool lags = drive.bandwidth > 0.0;
+  const Eigen::Index states = lags ? 3 : 2;
+  constexpr Eigen::Index torque = 2;  // the amplifier's, or its input where it does not lag
+  Eigen::MatrixXd generator = Eigen::MatrixXd::Zero(states + 1, states + 1);
   generator(0, 1) = 1.0;
   generator(1, 0) = -stiffness * T * T / plant.inertia;
   generator(1, 1) = -plant.presliding_damping * T / plant.inertia;
-  generator(1, 2) = T * T / plant.inertia / dx;
-  const Eigen::Matrix3d flow = generator.exp();
-  return {flow.topLeftCorner<2, 2>(), flow.topRightCorner<2, 1>()};
+  generator(1, torque) = T * T / plant.inertia / dx;
+  if (lags) {
+    const double rate = 2.0 * std::numbers::pi * drive.bandwidth * T;
+    generator(torque, torque) = -rate;
+    generator(torque, states) = rate;
+  }
+  const Eigen::MatrixXd flow = generator.exp();
+  return {flow.topLeftCorner(states, states), drive.gain * flow.topRightCorner(states, 1)};
 }
 
-/// The one-sample map of (count, change per sample, last count, integral, pending torques newest first),
-/// target 0.
+/// The one-sample map of (the driven rotor, last count, integral, pending torques newest first), target 0.
 Eigen::MatrixXd closed_loop(const HeldPlant& plant, const ControllerParameters& controller) {
-  constexpr Eigen::Index count = 0, last_count = 2, integral = 3, pending = 4;
+  const Eigen::Index driven = plant.A.rows();
+  constexpr Eigen::Index count = 0;
+  const Eigen::Index last_count = driven, integral = driven + 1, pending = driven + 2;
   const Eigen::Index states = pending + controller.delay;
 
   Eigen::RowVectorXd next_integral = Eigen::RowVectorXd::Zero(states);  // I + ki·(e_k + e_{k−1}), e = −count
@@ -45,8 +58,8 @@ Eigen::MatrixXd closed_loop(const HeldPlant& plant, const ControllerParameters& 
       controller.delay == 0 ? decided : Eigen::RowVectorXd::Unit(states, states - 1);
 
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(states, states);
-  map.topLeftCorner<2, 2>() = plant.A;
-  map.topRows<2>() += plant.b * applied;
+  map.topLeftCorner(driven, driven) = plant.A;
+  map.topRows(driven) += plant.b * applied;
   map(last_count, count) = 1.0;
   map.row(integral) = next_integral;
   if (controller.delay > 0) map.row(pending) = decided;
@@ -61,15 +74,17 @@ double spectral_radius(const HeldPlant& plant, const ControllerParameters& contr
 }  // namespace
 
 double sampled_spectral_radius(double stiffness, const PlantParameters& plant,
-                               const EncoderParameters& encoder, const ControllerParameters& controller) {
-  return spectral_radius(discretise(stiffness, plant, count_angle(encoder), sample_time(controller)),
-                         controller);
+                               const EncoderParameters& encoder, const ControllerParameters& controller,
+                               const LinearDrive& drive) {
+  const double T = sample_time(controller);
+  return spectral_radius(discretise(stiffness, plant, count_angle(encoder), T, drive), controller);
 }
 
 double sampled_critical_integral_gain(double stiffness, const PlantParameters& plant,
-                                      const EncoderParameters& encoder, ControllerParameters controller) {
+                                      const EncoderParameters& encoder, ControllerParameters controller,
+                                      const LinearDrive& drive) {
   const double dx = count_angle(encoder);
-  const HeldPlant held = discretise(stiffness, plant, dx, sample_time(controller));
+  const HeldPlant held = discretise(stiffness, plant, dx, sample_time(controller), drive);
   const auto stable = [&](double ki) {
     controller.ki = ki;
     return spectral_radius(held, controller) < 1.0;

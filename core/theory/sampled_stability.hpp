@@ -8,16 +8,24 @@
 /// delay are kept exactly.
 namespace zerocount {
 
+/// What drives the rotor, made linear.
+struct LinearDrive {
+  double gain{1.0};       ///< torque per torque decided: 1 + dac.gain_error
+  double bandwidth{0.0};  ///< of the amplifier, Hz; 0: it follows at once
+};
+
 /// Spectral radius (dimensionless) of the sampled loop about a spring of `stiffness` (N m/rad); below 1 it is
 /// stable.
 ///
-/// The rotor obeys J·θ¨ + c·θ˙ + k·θ = u with u held over each sample, discretised exactly by the matrix
-/// exponential; the controller is the trapezoidal integral, kp, and kd on the difference of successive
-/// counts, with `controller.delay` samples between deciding a torque and applying it. Eigenvalues of the
-/// one-sample map of (count, its change per sample, last count, integral, torques decided and not yet
+/// The rotor obeys J·θ¨ + c·θ˙ + k·θ = u; u is the drive's input v, held over each sample, or follows it by
+/// u˙ = 2πf·(v − u), f the amplifier's bandwidth. Both are discretised exactly by the matrix exponential. The
+/// controller is the trapezoidal integral, kp, and kd on the difference of successive counts, with
+/// `controller.delay` samples between deciding a torque and applying it. Eigenvalues of the one-sample map of
+/// (count, its change per sample, u where it lags, last count, integral, torques decided and not yet
 /// applied).
 double sampled_spectral_radius(double stiffness, const PlantParameters& plant,
-                               const EncoderParameters& encoder, const ControllerParameters& controller);
+                               const EncoderParameters& encoder, const ControllerParameters& controller,
+                               const LinearDrive& drive = {});
 
 /// Digital integral gain (N m/count) below which the sampled loop about a spring of `stiffness` (N m/rad) is
 /// stable: the end of the interval of stable gains that begins at 0, to 1e-9 relative. 0 where the loop
@@ -27,6 +35,7 @@ double sampled_spectral_radius(double stiffness, const PlantParameters& plant,
 /// exists: the held plant has more poles than zeros, so a large enough gain drives an eigenvalue out of the
 /// unit circle.
 double sampled_critical_integral_gain(double stiffness, const PlantParameters& plant,
-                                      const EncoderParameters& encoder, ControllerParameters controller);
+                                      const EncoderParameters& encoder, ControllerParameters controller,
+                                      const LinearDrive& drive = {});
 
 }  // namespace zerocount

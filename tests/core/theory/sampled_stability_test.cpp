@@ -5,6 +5,7 @@
 #include <complex>
 #include <cstddef>
 #include <deque>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -22,9 +23,12 @@ const EncoderParameters encoder;
 /// the damped oscillator (complex exponents): an implementation apart from the one under test.
 class LinearLoop {
  public:
-  LinearLoop(double stiffness, const PlantParameters& plant, const ControllerParameters& controller)
+  LinearLoop(double stiffness, const PlantParameters& plant, const ControllerParameters& controller,
+             const LinearDrive& drive)
       : stiffness_(stiffness),
+        plant_(plant),
         controller_(controller),
+        drive_(drive),
         pending_(static_cast<std::size_t>(controller.delay), 0.0) {
     const std::complex<double> half = plant.presliding_damping / (2.0 * plant.inertia);
     const std::complex<double> root = std::sqrt(half * half - stiffness / plant.inertia);
@@ -40,7 +44,7 @@ class LinearLoop {
     pending_.push_back(integral_ + controller_.kp * error - controller_.kd * (count - last_count_));
     last_error_ = error;
     last_count_ = count;
-    hold(pending_.front());
+    hold(drive_.gain * pending_.front());
     pending_.pop_front();
     ++k_;
   }
@@ -48,18 +52,30 @@ class LinearLoop {
   double size() const { return std::abs(angle_) + std::abs(velocity_) / 1000.0; }
 
  private:
-  void hold(double torque) {
+  /// The motor's torque is v + lag·exp(−rt), lag = 0 without an amplifier's; the rotor follows with the
+  /// particular solution v/k + follow·exp(−rt).
+  void hold(double input) {
     const double T = 1.0 / controller_.sample_rate;
-    const double rest = torque / stiffness_;
-    const std::complex<double> x = angle_ - rest;
-    const std::complex<double> a = (velocity_ - slow_ * x) / (fast_ - slow_);
+    const double rate = 2.0 * std::numbers::pi * drive_.bandwidth;
+    const double lag = drive_.bandwidth > 0.0 ? torque_ - input : 0.0;
+    const double follow =
+        lag / (plant_.inertia * rate * rate - plant_.presliding_damping * rate + stiffness_);
+    const double rest = input / stiffness_;
+    const double left = std::exp(-rate * T);
+    const std::complex<double> x = angle_ - rest - follow;
+    const std::complex<double> a = (velocity_ + rate * follow - slow_ * x) / (fast_ - slow_);
     const std::complex<double> b = x - a;
-    angle_ = rest + (a * std::exp(fast_ * T) + b * std::exp(slow_ * T)).real();
-    velocity_ = (a * fast_ * std::exp(fast_ * T) + b * slow_ * std::exp(slow_ * T)).real();
+    angle_ = rest + follow * left + (a * std::exp(fast_ * T) + b * std::exp(slow_ * T)).real();
+    velocity_ =
+        -rate * follow * left + (a * fast_ * std::exp(fast_ * T) + b * slow_ * std::exp(slow_ * T)).real();
+    torque_ = input + lag * left;
   }
 
   double stiffness_;
+  PlantParameters plant_;
   ControllerParameters controller_;
+  LinearDrive drive_;
+  double torque_{0.0};  // of the motor
   std::deque<double> pending_;
   std::complex<double> fast_, slow_;
   double angle_{1e-5}, velocity_{0.0}, integral_{0.0}, last_error_{0.0}, last_count_{0.0};
@@ -68,8 +84,8 @@ class LinearLoop {
 
 /// Growth per sample of the linear loop's largest motion, from its size over late windows.
 double simulated_growth(double stiffness, const PlantParameters& plant,
-                        const ControllerParameters& controller) {
-  LinearLoop loop(stiffness, plant, controller);
+                        const ControllerParameters& controller, const LinearDrive& drive = {}) {
+  LinearLoop loop(stiffness, plant, controller, drive);
   const auto largest_of_next = [&loop](int samples) {
     double largest = 0.0;
     for (int k = 0; k < samples; ++k) {
@@ -121,13 +137,15 @@ TEST(SampledStability, LinearLoopDecaysBelowTheBoundAndGrowsAboveIt) {
     controller.kp = 0.5 * part(random) * stiffness * count_angle(encoder);
     controller.kd = 2e-4 * part(random);
     controller.delay = static_cast<int>(random() % 4);
-    const double bound = sampled_critical_integral_gain(stiffness, plant, encoder, controller);
+    LinearDrive drive{0.7 + 0.6 * part(random), 0.0};
+    if (random() % 2 == 0) drive.bandwidth = 30.0 * std::pow(30.0, part(random));
+    const double bound = sampled_critical_integral_gain(stiffness, plant, encoder, controller, drive);
     if (bound == 0.0) continue;  // unstable without integral; its own test below
     ++judged;
     for (const double side : {0.99, 1.01}) {
       controller.ki = side * bound;
-      const double growth = simulated_growth(stiffness, plant, controller);
-      const double radius = sampled_spectral_radius(stiffness, plant, encoder, controller);
+      const double growth = simulated_growth(stiffness, plant, controller, drive);
+      const double radius = sampled_spectral_radius(stiffness, plant, encoder, controller, drive);
       EXPECT_EQ(growth < 1.0, side < 1.0) << "trial " << i << ", delay " << controller.delay;
       EXPECT_EQ(radius < 1.0, side < 1.0) << "trial " << i << ", delay " << controller.delay;
     }
@@ -141,9 +159,11 @@ TEST(SampledStability, SpectralRadiusIsTheGrowthOfTheLinearLoop) {
     controller.delay = delay;
     controller.kp = 1e-4;
     controller.kd = 1e-4;
-    controller.ki = 1.02 * sampled_critical_integral_gain(300.0, rig, encoder, controller);
-    EXPECT_NEAR(simulated_growth(300.0, rig, controller),
-                sampled_spectral_radius(300.0, rig, encoder, controller), 2e-6);
+    for (const LinearDrive& drive : {LinearDrive{}, LinearDrive{1.1, 150.0}}) {
+      controller.ki = 1.02 * sampled_critical_integral_gain(300.0, rig, encoder, controller, drive);
+      EXPECT_NEAR(simulated_growth(300.0, rig, controller, drive),
+                  sampled_spectral_radius(300.0, rig, encoder, controller, drive), 2e-6);
+    }
   }
 }
 
@@ -157,6 +177,12 @@ TEST(SampledStability, DelayLowersTheBound) {
     EXPECT_GT(bound, 0.0);
     last = bound;
   }
+}
+
+TEST(SampledStability, TheDrivesGainIsPartOfTheLoops) {
+  const ControllerParameters controller;
+  EXPECT_NEAR(sampled_critical_integral_gain(110.0, rig, encoder, controller, {1.5, 0.0}),
+              sampled_critical_integral_gain(110.0, rig, encoder, controller) / 1.5, 1e-12);
 }
 
 TEST(SampledStability, NoIntegralGainIsStableWhereTheLoopWithoutIntegralIsNot) {

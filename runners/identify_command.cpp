@@ -38,8 +38,8 @@ constexpr const char* help =
     "--preload and --hardening say.\n"
     "\n"
     "What is printed ends with the result as a piece of a manifest; --format yaml is that\n"
-    "alone. Records that cannot serve are refused with the reason and exit code 4; where\n"
-    "nothing can be identified the exit code is 3.\n"
+    "alone. Records that cannot serve are refused with the reason and exit code 4, files that\n"
+    "are no such tables with 2; where nothing can be identified the exit code is 3.\n"
     "\n"
     "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
     "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n";

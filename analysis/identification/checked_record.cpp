@@ -98,8 +98,10 @@ TestRecord checked_record(const RawSeries& series, bool any_magnitude) {
   set_readings(series, record);
   check_sticking(series);
   check_change(series, record);
-  if (!any_magnitude && !series.units_known) check_magnitudes(series, record);
+  record.units_believed = any_magnitude || series.units_known;
+  if (!record.units_believed) check_magnitudes(series, record);
   check_motion(series, record);
+  check_glitches(series, record);
   check_clipping(series, record);
   return record;
 }

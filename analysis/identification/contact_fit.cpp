@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
+#include "analysis/identification/fit_refusals.hpp"
 #include "analysis/identification/reading_replicates.hpp"
 #include "analysis/identification/starting_point.hpp"
 #include "core/failure.hpp"
@@ -115,6 +116,7 @@ FitPoint fit_roughly(std::span<const TestRecord> records, std::span<const Record
   FitSetting rough = setting;
   rough.tolerance = 1e-3;
   FitResult best = fit_jointly(records, observations, start, rough);
+  refuse_glitches(records, best.point, setting);
   if (are_explained(records, best.point, setting)) return best.point;
 
   // A few steps from each of the other starting points, and on from those that came nearest.
@@ -167,11 +169,11 @@ double step_left(std::span<const TestRecord> records, const ContactFit& fit) {
   return (step.array().abs() / covariance.diagonal().array().sqrt()).maxCoeff();
 }
 
-/// Observes and fits, by turns, from `point` on.
-void refine(std::span<const TestRecord> records, const FitPoint& from, ContactFit& fit) {
+/// Observes and fits, by turns, from `from` on.
+void refine(std::span<const TestRecord> records, const FitPoint& from, int rounds, ContactFit& fit) {
   fit.model = followed_model(records, from, fit.setting);
   update_misfit(records, fit);
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     observe_again(records, fit);
     if (step_left(records, fit) < small_change) break;
     const FitPoint point = fit_jointly(records, fit.observations, fit.model.point, fit.setting).point;
@@ -191,18 +193,23 @@ void try_other_softening(std::span<const TestRecord> records, ContactFit& fit) {
   if (!fit.setting.free[log_beta] || !fit.setting.free[log_k2]) return;
   constexpr double explained = 1.0;  // of the standard deviations that the observations are given
   const ContactFit first = fit;
+  bool found = false;
   for (const double shift : {-2.0, -4.0, -6.0, -8.0, 2.0, 4.0}) {
-    if (spread(fit) < explained) return;
+    if (spread(fit) < explained) break;
     ContactFit other = first;
     FitPoint point = first.model.point;
     for (const Coordinate coordinate : {log_beta, log_k2}) {
       other.setting.prior[coordinate] = point.contact[coordinate] += shift;
     }
     other.setting.most_steps = 8;
-    refine(records, point, other);
-    if (spread(other) < spread(fit)) fit = other;
+    refine(records, point, 1, other);
+    observe_again(records, other);
+    if (spread(other) >= spread(fit)) continue;
+    fit = other;
+    found = true;
   }
   fit.setting.most_steps = first.setting.most_steps;
+  if (found) refine(records, fit.model.point, most_rounds, fit);
 }
 
 }  // namespace
@@ -225,8 +232,15 @@ ContactFit fit_contact(std::span<const TestRecord> records, std::span<const Reco
   for (std::size_t j = 0; j < coordinate_count; ++j) {
     if (fit.setting.free[j]) fit.setting.prior[j] = point.contact[j];
   }
-  refine(records, point, fit);
+  fit.model = followed_model(records, point, fit.setting);
+  update_misfit(records, fit);
+  constexpr double rough_tolerance =
+      1.5;  // the fit to all readings alike is the one that leaves least of them
+  refuse_unexplained(records, fit, rough_tolerance);
+  refine(records, point, most_rounds, fit);
   try_other_softening(records, fit);
+  refuse_glitches(records, fit.model.point, fit.setting);
+  refuse_unexplained(records, fit, 1.0);
   return fit;
 }
 

@@ -33,7 +33,8 @@ double creep_torque_for(std::span<const TestRecord> records, const std::vector<K
 /// Fits the contact to all records together: from the starting point, first by all readings alike, which
 /// leads near from far away, then by the observations that the readings really are, made anew until they no
 /// longer change the fit.
-/// @throws Failure (bad_data) where the fit ends at a rotor that cannot be simulated.
+/// @throws Failure (bad_data) where a single reading is off, the model does not explain a record, or the fit
+/// ends at a rotor that cannot be simulated.
 ContactFit fit_contact(std::span<const TestRecord> records, std::span<const RecordParts> parts,
                        const std::vector<KnownParameter>& known);
 

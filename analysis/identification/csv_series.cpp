@@ -57,6 +57,10 @@ std::size_t delay_of(const RawSeries& series, const SeriesChoice& choice, int ot
 RawSeries read_csv_series(const std::filesystem::path& path, const SeriesChoice& choice) {
   const CsvTable table(path);
   const std::string time = column_of(table, std::nullopt, {"t", "time"}, "time");
+  if (table.has("t") && table.has("time")) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: has both columns t and time; expected one of them", table.name()));
+  }
   const std::string torque = column_of(table, choice.torque, {"drive_torque", "torque"}, "torque");
   std::vector<std::string> angles{"theta", "count"};
   if (choice.counts_per_revolution) std::swap(angles[0], angles[1]);

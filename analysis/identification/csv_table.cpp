@@ -91,6 +91,13 @@ void CsvTable::read_header(std::string_view line) {
                   fmt::format("{}: is no text; expected comma-separated values, or a results file", name_));
   }
   const std::size_t cells = cells_in(line);
+  if (cells == 1) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: the header has no comma; expected columns separated by commas{}", name_,
+                              line.find(';') != std::string_view::npos    ? ", not by semicolons"
+                              : line.find('\t') != std::string_view::npos ? ", not by tabs"
+                                                                          : ""));
+  }
   for (std::size_t i = 0; i < cells; ++i) {
     std::string_view cell = next_cell(line);
     std::string_view unit;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "analysis/identification/confidence_interval.hpp"
+#include "analysis/identification/fit_refusals.hpp"
 #include "analysis/identification/missing_information.hpp"
 #include "analysis/identification/reading_replicates.hpp"
 #include "analysis/identification/residual_checks.hpp"
@@ -59,26 +60,6 @@ void check_different(std::span<const TestRecord> records) {
                                 "tests",
                                 other.name, one.name));
     }
-  }
-}
-
-/// The largest share of a record's travel that the model may leave unexplained.
-constexpr double most_unexplained = 0.05;
-
-void check_explained(std::span<const TestRecord> records, const ContactFit& fit) {
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const auto [low, high] = std::minmax_element(records[r].reading.begin(), records[r].reading.end());
-    const double allowed = std::max(records[r].counted ? 2.0 : 0.0, most_unexplained * (*high - *low));
-    if (fit.misfit[r] <= allowed) continue;
-    const std::size_t sample = largest_misfit_growth(records[r], fit.model.motions[r].path);
-    throw Failure(
-        ExitCode::bad_data,
-        fmt::format(
-            "{}: the pre-sliding model does not explain this record: what it leaves is {:.3g} rad (root "
-            "mean square) of a travel of {:.3g} rad, and it parts from the record most at {:.4g} s. Did the "
-            "rotor slide, was the torque clipped, is the contact not as it was said to be at the start?",
-            records[r].name, fit.misfit[r] * records[r].unit, (*high - *low) * records[r].unit,
-            static_cast<double>(sample) * records[r].sample_time));
   }
 }
 
@@ -237,13 +218,13 @@ Identification identify(const std::vector<TestRecord>& records, const Identifica
   for (const TestRecord& record : records) parts.push_back(parts_of(record));
   check_reversals(parts, options);
   const ContactFit fit = fit_contact(records, parts, options.known);
-  check_explained(records, fit);
   const ReadingReplicates replicates =
       replicate_readings(records, fit.model, fit.setting, fit.noise, options.replicates);
 
   Identification result;
   result.checks = check_residuals(residual_statistics(residuals_of(fit.model, fit.observations, {})),
                                   replicates.residuals);
+  refuse_gross_misfit(records, fit, result.checks);
   for (std::size_t r = 0; r < records.size(); ++r) {
     result.records.push_back(summary_of(records[r], parts[r], fit, r));
   }
@@ -252,6 +233,9 @@ Identification identify(const std::vector<TestRecord>& records, const Identifica
   for (const FittedQuantity& quantity : quantities) {
     result.parameters.push_back(estimation.estimate(quantity));
   }
+  const auto value = [&](std::size_t quantity) { return result.parameters[quantity].value; };
+  constexpr std::size_t of_k1 = 0, of_inertia = 5;  // among the fitted quantities
+  refuse_implausible_frequency(records, value(of_k1), value(of_inertia));
   result.correlations = strong_correlations(quantities, result.parameters, replicates);
   return result;
 }

@@ -69,8 +69,9 @@ struct IdentificationOptions {
 /// Where the interval is so wide that the model is no longer linear across it, its ends are those of the
 /// profile likelihood at the same level. What is left open by more than a factor of 4 (n: by more than 2) is
 /// not identifiable.
-/// @throws Failure (bad_data) where a record is there twice, the torque reverses less than twice, or the
-/// model does not explain a record at all.
+/// @throws Failure (bad_data) where a record is there twice, the torque reverses less than twice, a single
+/// reading is off, the model does not explain the records, or the rotor is implausibly slow or fast in units
+/// that are not believed.
 Identification identify(const std::vector<TestRecord>& records, const IdentificationOptions& options = {});
 
 }  // namespace zerocount

@@ -9,30 +9,21 @@
 namespace zerocount {
 namespace {
 
-/// With as many digits as half the interval's width shows, and one more.
-std::string number(double value, const ParameterEstimate& parameter) {
-  const double width = parameter.high - parameter.low;
-  if (!(width > 0.0) || value == 0.0) return fmt::format("{:g}", value);
-  constexpr int fewest = 3;
-  constexpr int most = 15;
-  const int digits = static_cast<int>(std::ceil(std::log10(std::abs(value) / width))) + 2;
-  return fmt::format("{:.{}g}", value, std::clamp(digits, fewest, most));
-}
-
 std::vector<std::string> row_of(const ParameterEstimate& parameter) {
   const std::string& name = parameter.name;
   if (parameter.status == EstimateStatus::not_identifiable) {
     return {name, "–", parameter.unit, "–", "–", "not identifiable"};
   }
-  const std::string value = number(parameter.value, parameter);
+  const std::string value = with_digits(parameter.value, parameter);
   if (parameter.status == EstimateStatus::known) return {name, value, parameter.unit, "–", "–", "given"};
   const double half_width = 0.5 * (parameter.high - parameter.low);
-  return {name,
-          value,
-          parameter.unit,
-          fmt::format("{} to {}", number(parameter.low, parameter), number(parameter.high, parameter)),
-          fmt::format("{:.2g} %", 100.0 * half_width / parameter.value),
-          "estimated"};
+  return {
+      name,
+      value,
+      parameter.unit,
+      fmt::format("{} to {}", with_digits(parameter.low, parameter), with_digits(parameter.high, parameter)),
+      fmt::format("{:.2g} %", 100.0 * half_width / parameter.value),
+      "estimated"};
 }
 
 std::string record_line(const RecordSummary& record) {

@@ -1,5 +1,6 @@
 #include "analysis/identification/joint_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,6 +16,8 @@ namespace {
 /// How far (in logarithms) a fit may take a coordinate from the prior: a factor of 100. Far beyond it lie
 /// rotors whose simulation takes for ever.
 constexpr double farthest = 4.6;
+/// Largest rate of a rotor's oscillation or damping, in 1/sampling interval, that a fit may try.
+constexpr double fastest = 20.0;
 /// Creep may go much further down, until there is none: no simulation is the slower for that.
 constexpr double least_creep = 14.0;
 constexpr double least_exponent = 0.2;
@@ -27,6 +30,13 @@ void quieten_log() {
     FLAGS_minloglevel = google::GLOG_FATAL;
     return true;
   }();
+}
+
+/// The rate (1/s) that decides how small the steps of a simulation must be.
+double rate_of(const ContactPoint& point, double creep_torque) {
+  const ContactParameters contact = contact_at(point, creep_torque);
+  const double oscillation = std::sqrt((contact.friction.k1 + contact.friction.k2) / contact.plant.inertia);
+  return std::max(oscillation, contact.plant.presliding_damping / contact.plant.inertia);
 }
 
 /// The residuals of all records, and of the prior, as Ceres wants them: of two blocks of parameters, the
@@ -44,7 +54,7 @@ class JointResiduals : public ceres::CostFunction {
   }
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const Eigen::Map<const ContactPoint> contact(parameters[0]);
+    const ContactPoint contact = Eigen::Map<const ContactPoint>(parameters[0]);
     if (!within_reach(contact)) return false;
     double* const by_contact = jacobians != nullptr ? jacobians[0] : nullptr;
     double* const by_offset = jacobians != nullptr ? jacobians[1] : nullptr;
@@ -74,7 +84,10 @@ class JointResiduals : public ceres::CostFunction {
   }
 
  private:
-  bool within_reach(const Eigen::Map<const ContactPoint>& contact) const {
+  bool within_reach(const ContactPoint& contact) const {
+    const double interval = records_.front().sample_time;
+    const double limit = std::max(fastest, 2.0 * rate_of(setting_.prior, setting_.creep_torque) * interval);
+    if (rate_of(contact, setting_.creep_torque) * interval > limit) return false;
     for (std::size_t j = 0; j < creep_exponent; ++j) {
       const double away = contact[j] - setting_.prior[j];
       if (!(away <= farthest && away >= (j == log_limit ? -least_creep : -farthest))) return false;
@@ -82,8 +95,8 @@ class JointResiduals : public ceres::CostFunction {
     return contact[creep_exponent] >= least_exponent && contact[creep_exponent] <= most_exponent;
   }
 
-  void add_prior(const Eigen::Map<const ContactPoint>& contact, int row, double* residuals,
-                 double* by_contact, double* by_offset) const {
+  void add_prior(const ContactPoint& contact, int row, double* residuals, double* by_contact,
+                 double* by_offset) const {
     for (std::size_t i = 0; i < coordinate_count; ++i) {
       const auto at = static_cast<std::size_t>(row) + i;
       const double scale = setting_.free[i] ? 1.0 / setting_.prior_spread : 0.0;

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double two_sided_95 = 1.959963984540054;  // Φ⁻¹(0.975)
 
-/// The number with as many digits as its uncertainty deserves, and two more. With a point, because there are
-/// YAML readers that take 2e5 for a text.
+/// The number with as many digits as its uncertainty deserves, and two more. With a point and a sign of the
+/// exponent: there are YAML readers that take 2e5 and 2.0e5 for texts.
 std::string manifest_number(double value, double relative_uncertainty) {
   constexpr int fewest = 3;
   constexpr int most = 17;
@@ -20,7 +20,6 @@ std::string manifest_number(double value, double relative_uncertainty) {
   std::string text = fmt::format("{}", std::stod(fmt::format("{:.{}g}", value, digits)));
   const std::size_t exponent = text.find('e');
   if (exponent == std::string::npos) return text;
-  if (text[exponent + 1] == '+') text.erase(exponent + 1, 1);
   if (text.find('.') == std::string::npos) text.insert(exponent, ".0");
   return text;
 }
@@ -31,8 +30,9 @@ std::string line_of(const ParameterEstimate& parameter, const std::string& name)
       return fmt::format("  {}: {}   # {}, given\n", name, manifest_number(parameter.value, 0.0),
                          parameter.unit);
     case EstimateStatus::estimated:
-      return fmt::format("  {}: {}   # {}, 95 %: {:.6g} to {:.6g}\n", name, distribution_text(parameter),
-                         parameter.unit, parameter.low, parameter.high);
+      return fmt::format("  {}: {}   # {}, 95 %: {} to {}\n", name, distribution_text(parameter),
+                         parameter.unit, with_digits(parameter.low, parameter),
+                         with_digits(parameter.high, parameter));
     case EstimateStatus::not_identifiable:
       break;
   }
@@ -40,6 +40,15 @@ std::string line_of(const ParameterEstimate& parameter, const std::string& name)
 }
 
 }  // namespace
+
+std::string with_digits(double value, const ParameterEstimate& parameter) {
+  const double width = parameter.high - parameter.low;
+  if (!(width > 0.0) || value == 0.0) return fmt::format("{:g}", value);
+  constexpr int fewest = 3;
+  constexpr int most = 15;
+  const int digits = static_cast<int>(std::ceil(std::log10(std::abs(value) / width))) + 2;
+  return fmt::format("{:.{}g}", value, std::clamp(digits, fewest, most));
+}
 
 std::string distribution_text(const ParameterEstimate& parameter) {
   constexpr double small_digits = 1e-3;  // of a spread, four digits are enough
@@ -75,6 +84,9 @@ std::string manifest_fragment(const Identification& identification) {
                         pair.one, pair.other, pair.value);
   }
   text += "\n";
+  if (!identification.checks.passed) {
+    text += "# Lack of fit: the model leaves more than encoder and noise explain; do not rely on this.\n";
+  }
   for (const std::string group : {"plant", "friction"}) {
     std::string lines;
     bool any = false;

@@ -13,6 +13,9 @@ namespace zerocount {
 /// Positive parameters are lognormal, and n is a truncated normal from 1.
 std::string manifest_fragment(const Identification& identification);
 
+/// `value` with as many digits as half the width of the parameter's interval shows, and one more.
+std::string with_digits(double value, const ParameterEstimate& parameter);
+
 /// The distribution of one estimated parameter, as in the fragment.
 std::string distribution_text(const ParameterEstimate& parameter);
 

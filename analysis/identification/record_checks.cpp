@@ -45,6 +45,47 @@ double travel(const TestRecord& record) {
   return *high - *low;
 }
 
+/// Half the usual time from a sample to the next but one: jitter of single samples has no part in it.
+double usual_interval(const std::vector<double>& time) {
+  std::vector<double> over_two;
+  for (std::size_t k = 2; k < time.size(); ++k) over_two.push_back(0.5 * (time[k] - time[k - 2]));
+  const auto middle = over_two.begin() + static_cast<std::ptrdiff_t>(over_two.size() / 2);
+  std::nth_element(over_two.begin(), middle, over_two.end());
+  return *middle;
+}
+
+void check_gaps(const RawSeries& series) {
+  constexpr double gap = 1.75;  // of the interval: more than jitter of two samples can make
+  const double interval = usual_interval(series.time);
+  for (std::size_t k = 1; k < series.time.size(); ++k) {
+    const double waited = series.time[k] - series.time[k - 1];
+    if (waited <= gap * interval) continue;
+    refuse(place_of(series, k), fmt::format("the samples are not equally spaced: {} s come {:.3g} sampling "
+                                            "intervals ({:.6g} s) after the sample before. Are samples "
+                                            "missing?",
+                                            series.time[k], waited / interval, interval));
+  }
+}
+
+struct RegularGrid {
+  double start{0.0};
+  double interval{0.0};
+};
+
+/// By least squares.
+RegularGrid nearest_grid(const std::vector<double>& time) {
+  const auto samples = static_cast<double>(time.size());
+  const double middle = 0.5 * (samples - 1.0);
+  double mean = 0.0;
+  for (const double t : time) mean += (t - time.front()) / samples;
+  double product = 0.0;
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    product += (static_cast<double>(k) - middle) * (time[k] - time.front() - mean);
+  }
+  const double interval = product * 12.0 / (samples * (samples * samples - 1.0));
+  return {time.front() + mean - middle * interval, interval};
+}
+
 /// The code beyond which a converter of `bits` has none, on the side of `code`.
 double last_code(int bits, double code) {
   const double half = std::ldexp(1.0, bits - 1);
@@ -106,28 +147,27 @@ void check_flat_top(const RawSeries& series, const TestRecord& record, const Tor
 }  // namespace
 
 double checked_sample_time(const RawSeries& series) {
-  const std::size_t samples = series.time.size();
-  if (samples < least_samples) {
+  const std::vector<double>& time = series.time;
+  if (time.size() < least_samples) {
     refuse(series.name,
-           fmt::format("is too short: {} samples; expected {} at least", samples, least_samples));
+           fmt::format("is too short: {} samples; expected {} at least", time.size(), least_samples));
   }
-  for (std::size_t k = 1; k < samples; ++k) {
-    if (series.time[k] > series.time[k - 1]) continue;
-    refuse(place_of(series, k),
-           fmt::format("the time {} s does not come after {} s", series.time[k], series.time[k - 1]));
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    if (time[k] > time[k - 1]) continue;
+    refuse(place_of(series, k), fmt::format("the time {} s does not come after {} s", time[k], time[k - 1]));
   }
-  const double interval = (series.time.back() - series.time.front()) / static_cast<double>(samples - 1);
-  for (std::size_t k = 0; k < samples; ++k) {
-    const double on_grid = series.time.front() + static_cast<double>(k) * interval;
-    const double off = std::abs(series.time[k] - on_grid) / interval;
-    if (off <= jitter_allowed) continue;
+  check_gaps(series);
+  const RegularGrid grid = nearest_grid(time);
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    const double off = std::abs(time[k] - grid.start - static_cast<double>(k) * grid.interval);
+    if (off <= jitter_allowed * grid.interval) continue;
     refuse(place_of(series, k),
            fmt::format(
                "the samples are not equally spaced: at {} s this one is {:.2g} sampling intervals ({:.6g} s) "
-               "off a regular grid; expected {} at most. Are samples missing?",
-               series.time[k], off, interval, jitter_allowed));
+               "off the nearest regular grid; expected {} at most",
+               time[k], off / grid.interval, grid.interval, jitter_allowed));
   }
-  return interval;
+  return grid.interval;
 }
 
 void check_magnitudes(const RawSeries& series, const TestRecord& record) {
@@ -169,6 +209,28 @@ void check_motion(const RawSeries& series, const TestRecord& record) {
   if (agreement < 0.0) {
     refuse(series.name, "the angle falls where the torque rises: one of them has the wrong sign");
   }
+}
+
+void check_glitches(const RawSeries& series, const TestRecord& record) {
+  constexpr double beyond_all = 10.0;
+  const std::vector<double>& reading = record.reading;
+  // By how much each reading stands out beyond both its neighbours.
+  std::vector<double> height(reading.size(), 0.0);
+  for (std::size_t k = 1; k + 1 < reading.size(); ++k) {
+    const double there = reading[k] - reading[k - 1];
+    const double back = reading[k] - reading[k + 1];
+    if (there * back > 0.0) height[k] = std::min(std::abs(there), std::abs(back));
+  }
+  const auto highest = std::max_element(height.begin(), height.end());
+  double next = record.counted ? 1.0 : 0.0;
+  for (auto at = height.begin(); at != height.end(); ++at) {
+    if (at != highest) next = std::max(next, *at);
+  }
+  if (!(*highest > beyond_all * next)) return;
+  refuse(place_of(series, static_cast<std::size_t>(highest - height.begin())),
+         fmt::format("this one angle is {:.3g} rad off those before and after it: a fault of the reading. "
+                     "Put in what they say, or cut the record",
+                     *highest * record.unit));
 }
 
 void check_sticking(const RawSeries& series) {

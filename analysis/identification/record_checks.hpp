@@ -7,8 +7,8 @@ namespace zerocount {
 // What a series must be for identification to make sense of it. Each throws Failure (bad_data) with the place
 // and the reason where it is not.
 
-/// 100 samples or more, at times that rise, on a regular grid: no sample is farther from it than a quarter of
-/// the sampling interval.
+/// 100 samples or more, at times that rise, without gaps, on a regular grid: no sample is farther from the
+/// nearest than a quarter of the sampling interval.
 /// @returns the sampling interval, s.
 double checked_sample_time(const RawSeries& series);
 
@@ -28,6 +28,9 @@ void check_change(const RawSeries& series, const TestRecord& record);
 
 /// The angle changes by 5 counts at least, in the sense of the torque.
 void check_motion(const RawSeries& series, const TestRecord& record);
+
+/// No single reading stands out beyond its neighbours by more than ten times what any other does.
+void check_glitches(const RawSeries& series, const TestRecord& record);
 
 /// The hook held, where the series knows.
 void check_sticking(const RawSeries& series);

@@ -47,12 +47,40 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
   const double off_here = off(residuals);
   checks.runs_chance =
       share(replicates, [&](const ResidualStatistics& replicate) { return off(replicate) >= off_here; });
-  checks.passed = checks.spread_chance >= least_chance && checks.runs_chance >= least_chance;
+  checks.passed = (checks.spread_chance >= least_chance && checks.runs_chance >= least_chance) ||
+                  checks.spread < 0.5 * checks.expected_spread;
   if (checks.passed) return checks;
   const double larger = std::max(1.0, checks.spread / checks.expected_spread);
   const double longer = std::max(1.0, checks.correlation_length / checks.expected_correlation_length);
   checks.widening = larger * std::sqrt(longer);
   return checks;
+}
+
+std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::VectorXd& path) {
+  const std::size_t samples = record.reading.size();
+  std::vector<double> off(samples);
+  for (std::size_t k = 0; k < samples; ++k) {
+    const double left = record.reading[k] - path[static_cast<Eigen::Index>(k)];
+    off[k] = record.counted ? std::max(std::abs(left + 0.5) - 0.5, 0.0) : std::abs(left);
+  }
+  std::vector<double> sorted = off;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(samples / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  constexpr double deviations = 12.0;
+  constexpr double deviation_over_median = 1.4826;  // of a normal distribution
+  constexpr double arithmetic = 1e-3;
+  const double least = (record.counted ? 1.5 : arithmetic) + deviations * deviation_over_median * *middle;
+  constexpr std::size_t near = 3;
+  constexpr std::size_t far = 6;
+  for (std::size_t k = far; k + far < samples; ++k) {
+    if (off[k] <= least) continue;
+    bool alone = true;
+    for (std::size_t lag = near; lag <= far; ++lag) {
+      alone = alone && off[k - lag] < off[k] / 3.0 && off[k + lag] < off[k] / 3.0;
+    }
+    if (alone) return k;
+  }
+  return std::nullopt;
 }
 
 std::size_t largest_misfit_growth(const TestRecord& record, const Eigen::VectorXd& path) {

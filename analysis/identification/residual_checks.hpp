@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "analysis/identification/reading_replicates.hpp"
@@ -20,7 +21,9 @@ struct ResidualChecks {
   double runs_chance{1.0};         ///< share of the made-up records as far from expected_runs or farther
   double correlation_length{1.0};  ///< see ResidualStatistics
   double expected_correlation_length{1.0};
-  bool passed{true};  ///< both chances are 1 % or more
+  /// Both chances are 1 % or more; or the spread is less than half of what is expected, where the course of
+  /// what is left does not matter: readings without noise and steps leave arithmetic.
+  bool passed{true};
   /// Factor by which intervals are to be widened, where the checks failed: by how much larger the residuals
   /// are than expected, and by how much longer they keep their course.
   double widening{1.0};
@@ -28,6 +31,10 @@ struct ResidualChecks {
 
 ResidualChecks check_residuals(const ResidualStatistics& residuals,
                                const std::vector<ResidualStatistics>& replicates);
+
+/// A sample at which the reading alone is off the path, by 1.5 counts (where they are counts) and 12 times
+/// what is usual, while those a few samples away are not; nothing where there is none.
+std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::VectorXd& path);
 
 /// The sample about which the readings part fastest from the path: where what is left of them changes most
 /// over 20 samples.

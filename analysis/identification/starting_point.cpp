@@ -120,6 +120,21 @@ ContactPoint with_best_ringing(std::span<const TestRecord> records, std::span<co
   return best_of(all_of(records), point, creep_torque, changes_of({1.0, 10.0, 100.0}, {0.5, 2.0, 8.0}), much);
 }
 
+/// The spring, J and c as the records show them if they creep so.
+ContactPoint point_with_creep(std::span<const TestRecord> records, std::span<const RecordParts> parts,
+                              const CreepEstimate& creep, double creep_torque) {
+  const SpringEstimate spring = estimate_spring(records, parts, creep, creep_torque);
+  ContactParameters contact;
+  contact.plant = estimate_ring_down(records, parts, spring.k1);
+  contact.friction.k1 = spring.k1;
+  contact.friction.k2 = spring.offset * spring.beta;
+  contact.friction.beta = spring.beta;
+  contact.friction.alpha = creep.alpha;
+  contact.friction.n = creep.exponent;
+  contact.friction.lambda = std::pow(creep_torque, creep.exponent) / creep.limit;
+  return best_of(all_of(records), point_of(contact, creep_torque), creep_torque, softening_changes());
+}
+
 }  // namespace
 
 FirstSwing first_swing(const TestRecord& record, const TorqueHold& ring_down) {
@@ -162,20 +177,23 @@ PlantParameters estimate_ring_down(std::span<const TestRecord> records, std::spa
 ContactPoint starting_point(std::span<const TestRecord> records, std::span<const RecordParts> parts,
                             double creep_torque) {
   CreepEstimate creep = estimate_creep(records, parts, creep_torque);
-  const SpringEstimate spring = estimate_spring(records, parts, creep, creep_torque);
-  // Where no creep is seen, one that is small beside the spring.
-  if (!(creep.limit > 0.0)) creep.limit = 1e-3 * creep_torque / spring.k1;
-  ContactParameters contact;
-  contact.plant = estimate_ring_down(records, parts, spring.k1);
-  contact.friction.k1 = spring.k1;
-  contact.friction.k2 = spring.offset * spring.beta;
-  contact.friction.beta = spring.beta;
-  contact.friction.alpha = creep.alpha;
-  contact.friction.n = creep.exponent;
-  contact.friction.lambda = std::pow(creep_torque, creep.exponent) / creep.limit;
-  ContactPoint point = point_of(contact, creep_torque);
-
-  point = best_of(all_of(records), point, creep_torque, softening_changes());
+  ContactPoint point;
+  if (creep.limit > 0.0) {
+    point = point_with_creep(records, parts, creep, creep_torque);
+  } else {
+    // No hold shows any: there is none, or no hold. So much of it, as a share of the spring's travel, as the
+    // records bear best.
+    const double travel = creep_torque / estimate_spring(records, parts, creep, creep_torque).k1;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double share : {1e-3, 0.1, 0.2, 0.3, 0.45, 0.7, 1.0, 1.5, 2.2, 3.3}) {
+      creep.limit = share * travel;
+      const ContactPoint tried = point_with_creep(records, parts, creep, creep_torque);
+      const double left = misfit(all_of(records), tried, creep_torque);
+      if (left >= least) continue;
+      least = left;
+      point = tried;
+    }
+  }
   return with_best_ringing(records, parts, point, creep_torque);
 }
 

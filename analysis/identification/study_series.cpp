@@ -63,7 +63,9 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
   RawSeries series;
   series.name = fmt::format("{} (point {}, trial {})", path.string(), point, index);
   const bool counts = choice.angle.value_or("count") == "count";
-  const bool commanded = choice.torque.value_or("drive_torque") == "torque";
+  // Without its column, the motor's torque is the one decided, after the control's delay.
+  const bool commanded =
+      choice.torque.value_or("drive_torque") == "torque" || !file.trace_extras().drive_torque;
   for (const TraceRecord& record : records) {
     series.time.push_back(record.t);
     series.torque.push_back(commanded ? record.torque : record.drive_torque);

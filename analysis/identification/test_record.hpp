@@ -19,7 +19,8 @@ struct TestRecord {
   double unit{1.0};                  ///< of the readings, rad: a count, where they are counts
   /// Whether the readings are whole counts, so that the rotor is anywhere in [reading, reading + 1).
   bool counted{false};
-  PlantStart start;  ///< what is known of the contact at the first sample
+  bool units_believed{false};  ///< whatever the magnitudes that come of them
+  PlantStart start;            ///< what is known of the contact at the first sample
 };
 
 inline std::size_t sample_count(const TestRecord& record) {

@@ -77,7 +77,7 @@ class StudyFile {
   std::int64_t trace_count() const { return trace_ ? trace_->rows() : 0; }
   const TraceExtras& trace_extras() const { return trace_extras_; }  ///< the further columns it has
   /// By position in the table. Without its column, `reference` is the target, `phase` fine, and
-  /// `drive_torque` the torque decided, which is the motor's where the control has no delay.
+  /// `drive_torque` the torque decided, which becomes the motor's after the control's delay.
   std::vector<TraceRecord> trace_at(std::int64_t first, std::int64_t count) const;
 
   bool has_profiles() const { return file_.contains("profile"); }

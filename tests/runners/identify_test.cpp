@@ -92,6 +92,29 @@ TEST_F(Identify, ACommandedTorqueIsDelayed) {
             of_motor);
 }
 
+// The records of a closed loop have no drive_torque where the drive does nothing but wait.
+TEST_F(Identify, TheDelayOfAClosedLoopIsThatOfItsTorque) {
+  for (const std::string delay : {"0", "1", "3"}) {
+    folder_.write("loop.yaml", R"(
+zerocount: 1
+name: loop
+seed: 7
+trials: 1
+friction: {k1: 130, breakaway: 1}
+controller: {ki: 1.0e-5, delay: )" +
+                                   delay + R"(}
+command: {targets: [60, -60, 60, -60, 0], hold: 0.4}
+retain: {trials: [0]}
+)");
+    const std::string results = "loop" + delay + ".h5";
+    ASSERT_EQ(run({"run", "loop.yaml", "-o", results}).code, 0);
+    const ProgramResult result = run({"identify", results, "--format", "json"});
+    ASSERT_EQ(result.code, 0) << "delay " << delay << ": " << result.err;
+    const auto k1 = parameter(nlohmann::json::parse(result.out), "k1");
+    EXPECT_NEAR(k1["value"].get<double>(), 130.0, 3.0) << "delay " << delay;
+  }
+}
+
 TEST_F(Identify, TheFragmentIsPartOfAManifest) {
   run_study();
   ASSERT_EQ(
@@ -144,6 +167,8 @@ TEST_F(Identify, BadDataAreRefusedWithTheReason) {
 
 TEST_F(Identify, BadUsageIsRefused) {
   folder_.write("data.csv", "t,torque,count\n0,0,0\n");
+  folder_.write("tabs.csv", "t\ttorque\ttheta\n0\t0\t0\n");
+  folder_.write("times.csv", "t,time,torque,theta\n0,0,0,0\n");
   folder_.write("motor.csv", "t,drive_torque,theta\n0,0,0\n");
   folder_.write("wrong.csv", "time [ms],torque,theta\n0,0,0\n");
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
@@ -153,6 +178,8 @@ TEST_F(Identify, BadUsageIsRefused) {
            {"wrong.csv"},
            {"data.csv", "--counts-per-revolution", "many"},
            {"data.csv", "--counts-per-revolution", "1000", "--angle", "theta"},
+           {"tabs.csv"},
+           {"times.csv"},
            {"data.csv", "--fix", "friction.k3=1"},
            {"data.csv", "--fix", "friction.n=0.5"},
            {"data.csv", "--fix", "friction.n=2", "--fix", "friction.n=3"},

@@ -90,7 +90,8 @@ TEST(CheckedRecord, SamplesMustBeEquallySpacedButForJitter) {
     };
   };
   EXPECT_EQ(refusal(jitter(0.1)), "not refused");
-  EXPECT_TRUE(refused(refusal(jitter(0.4)), "good.csv:3", "not equally spaced"));
+  EXPECT_EQ(refusal(jitter(0.45)), "not refused");  // half of it off the grid between
+  EXPECT_TRUE(refused(refusal(jitter(0.6)), "good.csv:2", "not equally spaced"));
 
   // A sample that is missing anywhere inside.
   for (const std::size_t missing : {10, 500, 1500}) {
@@ -101,7 +102,7 @@ TEST(CheckedRecord, SamplesMustBeEquallySpacedButForJitter) {
       s.angle.erase(s.angle.begin() + at);
       s.lines.erase(s.lines.begin() + at);
     });
-    EXPECT_NE(message.find("Are samples missing?"), std::string::npos) << message;
+    EXPECT_TRUE(refused(message, "good.csv:" + std::to_string(missing + 3), "Are samples missing?"));
   }
 }
 
@@ -131,6 +132,13 @@ TEST(CheckedRecord, TorqueAndAngleMustAgreeInSign) {
                         for (double& angle : s.angle) angle = -angle;
                       }),
                       "good.csv", "wrong sign"));
+}
+
+TEST(CheckedRecord, AReadingThatStandsOutAloneIsNamed) {
+  for (const double off : {-500.0, -30.0, 30.0, 500.0}) {
+    EXPECT_TRUE(refused(refusal([off](RawSeries& s) { s.angle[1234] += off; }), "good.csv:1236",
+                        "a fault of the reading"));
+  }
 }
 
 TEST(CheckedRecord, CountsMustBeWhole) {

@@ -57,17 +57,17 @@ TEST_F(CsvTables, WordsAreCompared) {
 }
 
 TEST_F(CsvTables, CellsThatAreNoNumbersAreNamedWithTheirLines) {
-  EXPECT_EQ(refusal("x\n1\nabc\n", ExitCode::bad_data), ":3: x: 'abc' is no finite number");
+  EXPECT_EQ(refusal("x,y\n1,0\nabc,0\n", ExitCode::bad_data), ":3: x: 'abc' is no finite number");
   EXPECT_EQ(refusal("y,x\n1,\n", ExitCode::bad_data), ":2: x: an empty cell is no finite number");
   for (const std::string cell : {"nan", "inf", "-inf", "1e999", "1.5.2", "0x10", "1 2", "--1"}) {
-    EXPECT_EQ(refusal("x\n1\n\n" + cell + "\n", ExitCode::bad_data),
+    EXPECT_EQ(refusal("x,y\n1,0\n\n" + cell + ",0\n", ExitCode::bad_data),
               ":4: x: '" + cell + "' is no finite number");
   }
 }
 
 TEST_F(CsvTables, ListsTheFirstFaultsAndCountsTheRest) {
-  std::string text = "x\n";
-  for (int i = 0; i < 8; ++i) text += "?\n";
+  std::string text = "x,y\n";
+  for (int i = 0; i < 8; ++i) text += "?,0\n";
   const std::string message = refusal(text, ExitCode::bad_data);
   EXPECT_NE(message.find(":6: x: '?'"), std::string::npos) << message;
   EXPECT_EQ(message.find(":7: x: '?'"), std::string::npos) << message;
@@ -77,6 +77,10 @@ TEST_F(CsvTables, ListsTheFirstFaultsAndCountsTheRest) {
 TEST_F(CsvTables, WhatIsNoTableIsRefused) {
   EXPECT_EQ(refusal("x,y\n1,2\n3\n", ExitCode::bad_data),
             ":3: a row of 1 cells; expected 2, as the header has");
+  EXPECT_EQ(refusal("x;y\n1;2\n", ExitCode::bad_input),
+            ": the header has no comma; expected columns separated by commas, not by semicolons");
+  EXPECT_EQ(refusal("zerocount: 1\n", ExitCode::bad_input),
+            ": the header has no comma; expected columns separated by commas");
   EXPECT_EQ(refusal("x,x\n1,2\n", ExitCode::bad_input), ": two columns are named 'x'");
   EXPECT_EQ(refusal("", ExitCode::bad_input), ": is empty; expected a table");
   EXPECT_EQ(refusal(std::string("a\0b\n", 4), ExitCode::bad_input),

@@ -1,0 +1,90 @@
+#include "analysis/identification/fit_refusals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+/// The largest share of a record's travel that the model may leave unexplained.
+constexpr double most_unexplained = 0.02;
+
+/// Beyond this factor of what is expected, the residuals leave nothing of the model to hold on to.
+constexpr double most_spread = 30.0;
+
+/// Natural frequencies that are believed, Hz: a time in ms or µs makes the rotor a thousand times as slow.
+constexpr double slowest_rotor = 0.5;
+constexpr double fastest_rotor = 2e4;
+
+}  // namespace
+
+void refuse_glitches(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting) {
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const TestRecord& record = records[r];
+    Eigen::VectorXd path = angle_path(record, contact_at(point.contact, setting.creep_torque));
+    path.array() += point.offset[static_cast<Eigen::Index>(r)];
+    const std::optional<std::size_t> glitch = find_glitch(record, path);
+    if (!glitch) continue;
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format("{}: the reading at sample {} ({:.6g} s) is off by {:.3g} rad, those before and "
+                    "after it are not: a fault of the reading. Put in what they say, or cut the "
+                    "record",
+                    record.name, *glitch, static_cast<double>(*glitch) * record.sample_time,
+                    (record.reading[*glitch] - path[static_cast<Eigen::Index>(*glitch)]) * record.unit));
+  }
+}
+
+void refuse_unexplained(std::span<const TestRecord> records, const ContactFit& fit, double tolerance) {
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const auto [low, high] = std::minmax_element(records[r].reading.begin(), records[r].reading.end());
+    const double allowed = std::max(records[r].counted ? 2.0 : 0.0, most_unexplained * (*high - *low));
+    if (fit.misfit[r] <= tolerance * allowed) continue;
+    const std::size_t sample = largest_misfit_growth(records[r], fit.model.motions[r].path);
+    throw Failure(
+        ExitCode::bad_data,
+        fmt::format(
+            "{}: the pre-sliding model does not explain this record: what it leaves is {:.3g} rad (root "
+            "mean square) of a travel of {:.3g} rad, and it parts from the record most at {:.4g} s. Did the "
+            "rotor slide, was the torque clipped, is the contact not as it was said to be at the start?",
+            records[r].name, fit.misfit[r] * records[r].unit, (*high - *low) * records[r].unit,
+            static_cast<double>(sample) * records[r].sample_time));
+  }
+}
+
+void refuse_gross_misfit(std::span<const TestRecord> records, const ContactFit& fit,
+                         const ResidualChecks& checks) {
+  if (!(checks.spread > most_spread * checks.expected_spread)) return;
+  const auto worst =
+      static_cast<std::size_t>(std::max_element(fit.misfit.begin(), fit.misfit.end()) - fit.misfit.begin());
+  const std::size_t sample = largest_misfit_growth(records[worst], fit.model.motions[worst].path);
+  throw Failure(
+      ExitCode::bad_data,
+      fmt::format("{}: the pre-sliding model does not explain the records: what it leaves is {:.0f} "
+                  "times what the encoder's steps and noise would, and it parts from this record "
+                  "most at {:.4g} s. Does a record begin under load, is the torque of another time "
+                  "than the angle, did the rotor slide?",
+                  records[worst].name, checks.spread / checks.expected_spread,
+                  static_cast<double>(sample) * records[worst].sample_time));
+}
+
+void refuse_implausible_frequency(std::span<const TestRecord> records, double k1, double inertia) {
+  const bool believed = std::all_of(records.begin(), records.end(),
+                                    [](const TestRecord& record) { return record.units_believed; });
+  const double frequency = std::sqrt(k1 / inertia) / (2.0 * std::numbers::pi);
+  if (believed || std::isnan(frequency) || (frequency >= slowest_rotor && frequency <= fastest_rotor)) return;
+  throw Failure(
+      ExitCode::bad_data,
+      fmt::format("{}: the rotor would swing on its friction with {:.4g} Hz, {} what is plausible "
+                  "({:g} to {:g} Hz): is the time in ms or us? If it is right, give --any-magnitude",
+                  records.front().name, frequency, frequency < slowest_rotor ? "below" : "above",
+                  slowest_rotor, fastest_rotor));
+}
+
+}  // namespace zerocount

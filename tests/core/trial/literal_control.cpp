@@ -1,0 +1,85 @@
+#include "tests/core/trial/literal_control.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zerocount::testing {
+namespace {
+
+using Real = long double;
+using Samples = std::vector<SampleRecord>;
+
+/// Error and count of each sample as the encoder of one law has them, fine counts.
+struct LiteralFeedback {
+  std::vector<Real> error;
+  std::vector<Real> count;
+  Real error_before(std::size_t k) const { return k == 0 ? 0 : error[k - 1]; }
+  Real count_change(std::size_t k) const { return k == 0 ? 0 : count[k] - count[k - 1]; }
+};
+
+LiteralFeedback feedback_by(EncoderChoice encoder, const TrialParameters& p, const Samples& samples) {
+  const Real fine_per_coarse = static_cast<Real>(p.encoder.fine) / p.encoder.coarse;
+  LiteralFeedback feedback;
+  for (const SampleRecord& sample : samples) {
+    feedback.count.push_back(encoder == EncoderChoice::fine
+                                 ? static_cast<Real>(sample.count)
+                                 : static_cast<Real>(sample.coarse_count) * fine_per_coarse);
+    feedback.error.push_back(static_cast<Real>(sample.reference) - feedback.count.back());
+  }
+  return feedback;
+}
+
+std::vector<ControlPhase> phases(const TrialParameters& p, const LiteralFeedback& fine,
+                                 const LiteralFeedback& coarse) {
+  const CoarsePhaseParameters& rule = p.controller.coarse;
+  const auto dwell = static_cast<std::size_t>(
+      std::max(1LL, std::llround(rule.fine_dwell * p.controller.sample_rate)));  // samples
+  const auto settled = [&](std::size_t k) {
+    return std::abs(coarse.error[k]) <= rule.fine_within &&
+           std::abs(coarse.count_change(k)) <= rule.fine_rate;
+  };
+  std::vector<ControlPhase> phase;
+  std::size_t entered = 0;  // the sample since which the phase is the coarse one
+  for (std::size_t k = 0; k < fine.error.size(); ++k) {
+    if (k == 0 || phase.back() == ControlPhase::fine) {
+      const bool beyond = std::abs(fine.error[k]) > rule.coarse_beyond;
+      if (beyond) entered = k;
+      phase.push_back(beyond ? ControlPhase::coarse : ControlPhase::fine);
+      continue;
+    }
+    bool ready = k + 1 >= entered + dwell;
+    for (std::size_t j = k + 1 - dwell; ready && j <= k; ++j) ready = settled(j);
+    phase.push_back(ready ? ControlPhase::fine : ControlPhase::coarse);
+  }
+  return phase;
+}
+
+}  // namespace
+
+std::vector<LiteralDecision> literal_decisions(const TrialParameters& p, const Samples& samples) {
+  const ControllerParameters& c = p.controller;
+  const bool two_phases = c.coarse.coarse_beyond < 1e12;
+  const LiteralFeedback fine = feedback_by(c.encoder, p, samples);
+  const LiteralFeedback coarse = feedback_by(c.coarse.encoder, p, samples);
+  const std::vector<ControlPhase> phase =
+      two_phases ? phases(p, fine, coarse) : std::vector<ControlPhase>(samples.size(), ControlPhase::fine);
+  const Real lowest = -std::ldexp(Real{1}, p.dac.bits - 1) * p.dac.resolution;
+  const Real highest = (std::ldexp(Real{1}, p.dac.bits - 1) - 1) * p.dac.resolution;
+  std::vector<LiteralDecision> decisions;
+  Real integral = p.initial.integral;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const bool in_fine = phase[k] == ControlPhase::fine;
+    const LiteralFeedback& now = in_fine ? fine : coarse;
+    const Real kp = in_fine ? c.kp : c.coarse.kp;
+    const Real ki = in_fine ? c.ki : c.coarse.ki;
+    const Real kd = in_fine ? (two_phases ? 0.0 : c.kd) : c.coarse.kd;
+    if (k > 0 && phase[k] != phase[k - 1])
+      integral = static_cast<Real>(samples[k - 1].code) * p.dac.resolution;
+    integral += ki * (now.error[k] + now.error_before(k));
+    if (c.anti_windup == AntiWindup::clamp) integral = std::clamp(integral, lowest, highest);
+    decisions.push_back({phase[k], integral, integral + kp * now.error[k] - kd * now.count_change(k)});
+  }
+  return decisions;
+}
+
+}  // namespace zerocount::testing

@@ -1,0 +1,147 @@
+#include "tests/core/trial/literal_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <numbers>
+
+#include "tests/core/trial/literal_command.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using Errors = std::vector<std::int64_t>;
+using Samples = std::vector<SampleRecord>;
+
+int sign(double value) {
+  return (value > 0) - (value < 0);
+}
+
+std::int64_t largest(Errors::const_iterator from, Errors::const_iterator to) {
+  std::int64_t size = 0;
+  for (auto e = from; e != to; ++e) size = std::max(size, std::abs(*e));
+  return size;
+}
+
+/// Whether there is an angle that both counts stand for. In 1/(fine·coarse) revolutions from the rotor's
+/// start, the counts are [(f − φ)·coarse, (f + 1 − φ)·coarse) and [(c − φ)·fine, (c + 1 − φ)·fine).
+bool have_a_common_angle(const TrialParameters& p, const SampleRecord& sample) {
+  const auto fine = static_cast<std::int64_t>(p.encoder.fine);
+  const auto coarse = static_cast<std::int64_t>(p.encoder.coarse);
+  const std::int64_t apart = sample.count * coarse - sample.coarse_count * fine;
+  const long double by_phase =
+      static_cast<long double>(p.initial.encoder_phase) * static_cast<long double>(coarse - fine);
+  return static_cast<long double>(apart - fine) < by_phase &&
+         by_phase < static_cast<long double>(apart + coarse);
+}
+
+bool is_flawed(const EncoderErrors& errors) {
+  return errors.eccentricity != 0 || errors.interpolation != 0 || errors.noise != 0 || errors.missed != 0;
+}
+
+std::int64_t disagreements(const TrialParameters& p, const Samples& samples, const MoveSpan& span) {
+  if (!is_flawed(p.encoder.fine_errors) && !is_flawed(p.encoder.coarse_errors)) return 0;
+  std::int64_t number = 0;
+  for (std::size_t k = span.first; k < span.first + span.size; ++k) {
+    number += have_a_common_angle(p, samples[k]) ? 0 : 1;
+  }
+  return number;
+}
+
+std::int64_t phase_changes(const Samples& samples, const MoveSpan& span) {
+  std::int64_t number = 0;
+  for (std::size_t k = std::max<std::size_t>(span.first, 1); k < span.first + span.size; ++k) {
+    number += samples[k].phase != samples[k - 1].phase ? 1 : 0;
+  }
+  return number;
+}
+
+/// The first of the first `dwell` zeros in a row, or where the errors end.
+std::size_t first_of_dwell(const Errors& errors, std::size_t dwell) {
+  const auto found = std::search_n(errors.begin(), errors.end(), dwell, 0);
+  return static_cast<std::size_t>(found - errors.begin());
+}
+
+/// The runs of errors other than 0 from sample `from` on.
+std::vector<Jerk> jerks_of(const Errors& errors, std::size_t from, double sample_time, std::size_t move) {
+  std::vector<Jerk> jerks;
+  const auto zero = [](std::int64_t e) { return e == 0; };
+  auto begin = std::find_if_not(errors.begin() + static_cast<std::ptrdiff_t>(from), errors.end(), zero);
+  while (begin != errors.end()) {
+    const auto end = std::find_if(begin, errors.end(), zero);
+    jerks.push_back(
+        {static_cast<std::int64_t>(move), static_cast<double>(begin - errors.begin()) * sample_time,
+         static_cast<double>(end - begin) * sample_time, largest(begin, end), *begin < 0 ? 1 : -1});
+    begin = std::find_if_not(end, errors.end(), zero);
+  }
+  return jerks;
+}
+
+void judge(const Errors& errors, const TrialParameters& p, std::size_t move, LiteralMeasures& measures) {
+  const double rate = p.controller.sample_rate;
+  const auto dwell = static_cast<std::size_t>(std::llround(p.verdict.dwell * rate));
+  const auto window = std::llround(p.verdict.window * rate);
+  MoveOutcome& outcome = measures.outcome;
+  const std::int64_t in_window = largest(errors.end() - window, errors.end());
+  outcome.outcome = in_window == 0   ? Outcome::zero_count
+                    : in_window == 1 ? Outcome::one_count
+                                     : Outcome::oscillating;
+  for (const std::int64_t e : errors) {
+    outcome.overshoot = std::max(outcome.overshoot, -sign(static_cast<double>(errors.front())) * e);
+  }
+  const std::size_t arrival = first_of_dwell(errors, dwell);
+  if (arrival == errors.size()) return;
+  outcome.arrived = true;
+  outcome.arrival = static_cast<std::int64_t>(arrival);
+  outcome.settling_time = static_cast<double>(arrival) / rate;
+  outcome.stable = largest(errors.begin() + outcome.arrival, errors.end()) <= 1;
+  measures.jerks = jerks_of(errors, arrival + dwell, 1 / rate, move);
+  outcome.jerk_count = static_cast<std::int64_t>(measures.jerks.size());
+  const auto along = std::count_if(measures.jerks.begin(), measures.jerks.end(), [&](const Jerk& jerk) {
+    return jerk.direction == sign(outcome.holding_torque);
+  });
+  if (!measures.jerks.empty()) {
+    outcome.jerk_agreement = static_cast<double>(along) / static_cast<double>(measures.jerks.size());
+  }
+}
+
+}  // namespace
+
+LiteralMeasures literal_measures(const TrialParameters& p, const Samples& samples,
+                                 const std::vector<long double>& wanted, std::size_t move) {
+  const MoveSpan span = literal_spans(p)[move];
+  const SampleRecord& last = samples[span.first + span.size - 1];
+  const bool open = !p.command.torque.levels.empty();
+  const std::int64_t target = open ? 0 : p.command.targets[move];
+  const long double most = std::ldexp(1.0L, p.dac.bits - 1);
+  LiteralMeasures measures;
+  MoveOutcome& outcome = measures.outcome;
+  Errors errors;
+  for (std::size_t k = span.first; k < span.first + span.size; ++k) {
+    errors.push_back(target - samples[k].count);
+    outcome.peak_torque = std::max(outcome.peak_torque, std::abs(samples[k].torque));
+    if (open && p.command.torque.through == TorquePath::exact) continue;
+    const long double code = wanted[k] / p.dac.resolution;
+    outcome.saturated = outcome.saturated || code < -most - 0.5L || code > most - 0.5L;
+  }
+  outcome.final_error = errors.back();
+  outcome.holding_torque = last.torque;
+  outcome.final_position = last.theta;
+  outcome.creep = last.xp;
+  outcome.encoder_disagreement = disagreements(p, samples, span);
+  outcome.phase_changes = phase_changes(samples, span);
+  if (open) {
+    outcome.outcome = Outcome::open_loop;
+    outcome.travel_time = static_cast<double>(literal_samples_on_the_way(p, move)) / p.controller.sample_rate;
+    return measures;
+  }
+  outcome.travel_time = static_cast<double>(literal_motion(p, move).duration());
+  const long double resolution = 2 * std::numbers::pi_v<long double> / p.encoder.fine;
+  const long double middle = (static_cast<long double>(target) + 0.5L - p.initial.encoder_phase) * resolution;
+  outcome.true_error = static_cast<double>((middle - last.theta) / resolution);
+  judge(errors, p, move, measures);
+  return measures;
+}
+
+}  // namespace zerocount::testing

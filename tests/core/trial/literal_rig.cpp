@@ -1,0 +1,107 @@
+#include "tests/core/trial/literal_rig.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "core/random/variates.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using Real = long double;
+using Samples = std::vector<SampleRecord>;
+
+constexpr Real turn = 2 * std::numbers::pi_v<Real>;
+
+Real systematic_position(Real theta, Real counts, const EncoderErrors& errors,
+                         const InitialConditions& start) {
+  const Real resolution = turn / counts;
+  const Real origin = static_cast<Real>(start.position) - errors.eccentricity_angle;
+  const Real seen = theta + errors.eccentricity * (std::sin(origin + theta) - std::sin(origin));
+  const Real x = seen / resolution + start.encoder_phase;
+  const auto wave = [&](Real at) {
+    return std::sin(turn * (std::floor(start.position / resolution) + at) / errors.interpolation_period);
+  };
+  return x + errors.interpolation * (wave(x) - wave(start.encoder_phase));
+}
+
+/// The smallest number whose distribution function reaches the uniform number: the terms summed one by one.
+std::int64_t binomial_by_terms(std::int64_t n, Real probability, Real uniform) {
+  Real term = std::pow(1 - probability, static_cast<Real>(n));
+  Real reached = term;
+  std::int64_t happened = 0;
+  while (reached < uniform && happened < n) {
+    term *=
+        static_cast<Real>(n - happened) / static_cast<Real>(happened + 1) * probability / (1 - probability);
+    reached += term;
+    ++happened;
+  }
+  return happened;
+}
+
+std::vector<std::int64_t> counts_of(Real counts, const EncoderErrors& errors, const RandomKey& noise,
+                                    const RandomKey& missed, const TrialParameters& p,
+                                    const Samples& samples) {
+  const TrialRandomness& random = p.randomness;
+  std::vector<std::int64_t> rounded;
+  std::vector<std::int64_t> shown;
+  std::int64_t lost = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    Real x = systematic_position(samples[k].theta, counts, errors, p.initial);
+    x += errors.noise *
+         static_cast<Real>(standard_normal(random_bits_at({noise, random.stream}, random.trial, k)));
+    rounded.push_back(static_cast<std::int64_t>(std::floor(x)));
+    const std::int64_t passed = k == 0 ? 0 : rounded[k] - rounded[k - 1];
+    const Real uniform = open_uniform(random_bits_at({missed, random.stream}, random.trial, k));
+    const std::int64_t not_counted = binomial_by_terms(std::abs(passed), errors.missed, uniform);
+    lost += passed > 0 ? not_counted : -not_counted;
+    shown.push_back(rounded[k] - lost);
+  }
+  return shown;
+}
+
+/// What the converter gives for the code of sample k, N m.
+Real converted(const TrialParameters& p, const Samples& samples, std::size_t k) {
+  const DacParameters& dac = p.dac;
+  const Real half_range = (std::ldexp(Real{1}, dac.bits) - 1) / 2;
+  const Real from_middle = (static_cast<Real>(samples[k].code) + Real{0.5}) / half_range;
+  const Real bow = dac.nonlinearity * (1 - from_middle * from_middle);
+  const Real z =
+      standard_normal(random_bits_at({p.randomness.dac_noise, p.randomness.stream}, p.randomness.trial, k));
+  return dac.resolution * (1 + Real{dac.gain_error}) * (static_cast<Real>(samples[k].code) + bow) +
+         dac.offset + dac.noise * z;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> literal_fine_counts(const TrialParameters& p, const Samples& samples) {
+  return counts_of(p.encoder.fine, p.encoder.fine_errors, p.randomness.fine_noise, p.randomness.fine_missed,
+                   p, samples);
+}
+
+std::vector<std::int64_t> literal_coarse_counts(const TrialParameters& p, const Samples& samples) {
+  return counts_of(p.encoder.coarse, p.encoder.coarse_errors, p.randomness.coarse_noise,
+                   p.randomness.coarse_missed, p, samples);
+}
+
+std::vector<LiteralDrive> literal_drive(const TrialParameters& p, const Samples& samples) {
+  const bool exact = !p.command.torque.levels.empty() && p.command.torque.through == TorquePath::exact;
+  const auto delay = static_cast<std::size_t>(p.controller.delay);
+  const Real lag = turn * p.amplifier.bandwidth / p.controller.sample_rate;  // 2πf·T
+  std::vector<LiteralDrive> drive;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    LiteralDrive now;
+    if (k >= delay) now.input = exact ? Real{samples[k - delay].torque} : converted(p, samples, k - delay);
+    if (lag == 0) {
+      now.output = now.input;
+    } else if (k > 0) {
+      const LiteralDrive& before = drive.back();
+      now.output = before.output - std::expm1(-lag) * (before.input - before.output);
+    }
+    drive.push_back(now);
+  }
+  return drive;
+}
+
+}  // namespace zerocount::testing

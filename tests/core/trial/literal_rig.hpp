@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/trial/trial.hpp"
+
+/// What encoders, converter and amplifier do, worked out anew from core/README.md and the recorded samples of
+/// a whole trial at once.
+namespace zerocount::testing {
+
+/// What an encoder shows at each sample, by the recorded angles.
+std::vector<std::int64_t> literal_fine_counts(const TrialParameters& p,
+                                              const std::vector<SampleRecord>& samples);
+std::vector<std::int64_t> literal_coarse_counts(const TrialParameters& p,
+                                                const std::vector<SampleRecord>& samples);
+
+/// The amplifier at a sample.
+struct LiteralDrive {
+  long double input{0};   ///< v, N m
+  long double output{0};  ///< u at t_k, N m
+};
+
+/// The amplifier's input and output by the recorded codes, or by the recorded torques past the converter.
+std::vector<LiteralDrive> literal_drive(const TrialParameters& p, const std::vector<SampleRecord>& samples);
+
+}  // namespace zerocount::testing

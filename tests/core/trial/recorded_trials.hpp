@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/trial/trial.hpp"
+#include "tests/core/trial/literal_command.hpp"
+#include "tests/core/trial/literal_control.hpp"
+#include "tests/core/trial/widened_trials.hpp"
+
+namespace zerocount::testing {
+
+/// A trial with all that is told of it.
+struct RecordedTrial {
+  std::string name;
+  TrialParameters parameters;
+  std::vector<SampleRecord> samples;
+  std::vector<Jerk> jerks;
+  TrialOutcome outcome;
+
+  bool is_open() const { return !parameters.command.torque.levels.empty(); }
+  bool is_exact() const { return is_open() && parameters.command.torque.through == TorquePath::exact; }
+};
+
+/// Runs a random trial.
+inline RecordedTrial record(WidenedKind kind, std::uint64_t index) {
+  RecordedTrial trial;
+  trial.name = "kind " + std::to_string(static_cast<int>(kind)) + " trial " + std::to_string(index);
+  trial.parameters = widened_trial(kind, index);
+  TrialObservers observers;
+  observers.sample = [&trial](const SampleRecord& sample) { trial.samples.push_back(sample); };
+  observers.jerk = [&trial](const Jerk& jerk) { trial.jerks.push_back(jerk); };
+  trial.outcome = run_trial(trial.parameters, observers);
+  return trial;
+}
+
+/// The random trials that the tests judge: 32 with two phases, 16 with one, 16 open loop.
+inline const std::vector<RecordedTrial>& recorded_trials() {
+  static const std::vector<RecordedTrial> trials = [] {
+    std::vector<RecordedTrial> all;
+    for (std::uint64_t index = 0; index < 32; ++index) {
+      all.push_back(record(WidenedKind::two_phases, index));
+      if (index % 2 == 0) all.push_back(record(WidenedKind::one_phase, index));
+      if (index % 2 == 0) all.push_back(record(WidenedKind::open_loop, index));
+    }
+    return all;
+  }();
+  return trials;
+}
+
+/// Calls `check` with each trial. Fails where one has not the samples of its moves.
+template <class Check>
+void for_each_trial(Check check) {
+  for (const RecordedTrial& trial : recorded_trials()) {
+    SCOPED_TRACE(trial.name);
+    const MoveSpan last = literal_spans(trial.parameters).back();
+    ASSERT_EQ(trial.samples.size(), last.first + last.size);
+    ASSERT_EQ(trial.outcome.moves.size(), literal_spans(trial.parameters).size());
+    check(trial);
+  }
+}
+
+/// Calls `check` with the number and the span of each move.
+template <class Check>
+void for_each_move(const RecordedTrial& trial, Check check) {
+  const std::vector<MoveSpan> spans = literal_spans(trial.parameters);
+  for (std::size_t move = 0; move < spans.size(); ++move) {
+    SCOPED_TRACE(::testing::Message() << "move " << move);
+    check(move, spans[move]);
+  }
+}
+
+/// The torque (N m) of each sample before it is rounded to a code.
+inline std::vector<long double> wanted_torques(const RecordedTrial& trial) {
+  if (trial.is_open()) return literal_torques(trial.parameters);
+  std::vector<long double> torques;
+  for (const LiteralDecision& decision : literal_decisions(trial.parameters, trial.samples)) {
+    torques.push_back(decision.torque);
+  }
+  return torques;
+}
+
+}  // namespace zerocount::testing

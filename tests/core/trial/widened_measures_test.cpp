@@ -1,0 +1,126 @@
+// What is measured of every move of random trials, by the definitions of the measures and the recorded
+// samples; and that these trials show all of it.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/core/trial/literal_measures.hpp"
+#include "tests/core/trial/recorded_trials.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+/// The deepest stack of reversal points at the samples of a move and at its end.
+std::int64_t deepest_sample(const RecordedTrial& trial, const MoveSpan& span) {
+  std::int64_t depth = 0;
+  const std::size_t last = std::min(span.first + span.size, trial.samples.size() - 1);
+  for (std::size_t k = span.first; k <= last; ++k) depth = std::max(depth, trial.samples[k].depth);
+  return depth;
+}
+
+TEST(WidenedMeasures, AreThoseOfTheSamplesOfEachMove) {
+  for_each_trial([](const RecordedTrial& trial) {
+    const std::vector<long double> wanted = wanted_torques(trial);
+    for_each_move(trial, [&](std::size_t move, const MoveSpan& span) {
+      const MoveOutcome measured = trial.outcome.moves[move];
+      const MoveOutcome expected = literal_measures(trial.parameters, trial.samples, wanted, move).outcome;
+      EXPECT_EQ(measured.outcome, expected.outcome);
+      EXPECT_EQ(measured.arrived, expected.arrived);
+      EXPECT_EQ(measured.stable, expected.stable);
+      EXPECT_EQ(measured.saturated, expected.saturated);
+      EXPECT_EQ(measured.arrival, expected.arrival);
+      EXPECT_EQ(measured.overshoot, expected.overshoot);
+      EXPECT_EQ(measured.final_error, expected.final_error);
+      EXPECT_EQ(measured.final_position, expected.final_position);
+      EXPECT_EQ(measured.holding_torque, expected.holding_torque);
+      EXPECT_EQ(measured.peak_torque, expected.peak_torque);
+      EXPECT_EQ(measured.creep, expected.creep);
+      EXPECT_EQ(measured.phase_changes, expected.phase_changes);
+      EXPECT_EQ(measured.encoder_disagreement, expected.encoder_disagreement);
+      EXPECT_EQ(measured.jerk_count, expected.jerk_count);
+      const auto expect_same = [](double value, double other, double tolerance, const char* name) {
+        EXPECT_EQ(std::isnan(value), std::isnan(other)) << name;
+        if (!std::isnan(other)) {
+          EXPECT_NEAR(value, other, tolerance) << name;
+        }
+      };
+      expect_same(measured.travel_time, expected.travel_time, 1e-12, "travel_time");
+      expect_same(measured.settling_time, expected.settling_time, 1e-12, "settling_time");
+      expect_same(measured.true_error, expected.true_error, 1e-8, "true_error");
+      expect_same(measured.jerk_agreement, expected.jerk_agreement, 1e-15, "jerk_agreement");
+      // The deepest may lie between two samples, but no two reversals fit there.
+      const std::int64_t depth = deepest_sample(trial, span);
+      EXPECT_GE(measured.reversal_depth, depth);
+      EXPECT_LE(measured.reversal_depth, depth + 1);
+    });
+  });
+}
+
+TEST(WidenedMeasures, TellOfTheJerksOfEachMove) {
+  for_each_trial([](const RecordedTrial& trial) {
+    const std::vector<long double> wanted = wanted_torques(trial);
+    std::vector<Jerk> expected;
+    for_each_move(trial, [&](std::size_t move, const MoveSpan&) {
+      for (const Jerk& jerk : literal_measures(trial.parameters, trial.samples, wanted, move).jerks)
+        expected.push_back(jerk);
+    });
+    ASSERT_EQ(trial.jerks.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_EQ(trial.jerks[i].move, expected[i].move);
+      EXPECT_EQ(trial.jerks[i].magnitude, expected[i].magnitude);
+      EXPECT_EQ(trial.jerks[i].direction, expected[i].direction);
+      EXPECT_NEAR(trial.jerks[i].onset, expected[i].onset, 1e-12);
+      EXPECT_NEAR(trial.jerks[i].duration, expected[i].duration, 1e-12);
+    }
+  });
+}
+
+/// How often the trials show what the tests are about.
+std::map<std::string, std::int64_t> sights() {
+  std::map<std::string, std::int64_t> seen;
+  for_each_trial([&](const RecordedTrial& trial) {
+    const TrialParameters& p = trial.parameters;
+    const long double highest = (std::ldexp(1.0L, p.dac.bits - 1) - 1.0L) * p.dac.resolution;
+    if (!trial.is_open()) {
+      for (const LiteralDecision& decision : literal_decisions(p, trial.samples)) {
+        seen["integral at its bound"] += decision.integral == highest;
+        seen["integral beyond the converter"] += decision.integral > highest;
+      }
+      seen["starts in the coarse phase with an integral"] +=
+          trial.samples.front().phase == ControlPhase::coarse && p.initial.integral != 0.0;
+    }
+    for_each_move(trial, [&](std::size_t move, const MoveSpan&) {
+      const MoveOutcome& m = trial.outcome.moves[move];
+      seen["arrived"] += m.arrived;
+      seen["stable"] += m.stable;
+      seen["arrived, not stable"] += m.arrived && !m.stable;
+      seen["zero count"] += m.outcome == Outcome::zero_count;
+      seen["one count"] += m.outcome == Outcome::one_count;
+      seen["oscillating"] += m.outcome == Outcome::oscillating;
+      seen["open loop"] += m.outcome == Outcome::open_loop;
+      seen["jerks"] += m.jerk_count;
+      seen["saturated"] += m.saturated;
+      seen["broke away"] += m.broke_away;
+      seen["overshoot"] += m.overshoot > 0;
+      seen["travel of a reference"] += !trial.is_open() && m.travel_time > 0.0;
+      seen["travel of a torque"] += trial.is_open() && m.travel_time > 0.0;
+      seen["phase changes in the first move"] += move == 0 ? m.phase_changes : 0;
+      seen["phase changes in a later move"] += move > 0 ? m.phase_changes : 0;
+      seen["disagreements in the first move"] += move == 0 ? m.encoder_disagreement : 0;
+      seen["disagreements in a later move"] += move > 0 ? m.encoder_disagreement : 0;
+    });
+  });
+  return seen;
+}
+
+TEST(WidenedMeasures, SeeAllThatThereIsToMeasure) {
+  for (const auto& [sight, times] : sights()) EXPECT_GE(times, 3) << sight;
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/trial/parameters.hpp"
+
+namespace zerocount::testing {
+
+/// Kinds of random trials with all that a loop can have beside its plant.
+enum class WidenedKind {
+  two_phases,  ///< moves of tens to thousands of counts, by a coarse and a fine law
+  one_phase,   ///< moves of tens of counts, by one law: they arrive, creep and jerk
+  open_loop    ///< torque levels
+};
+
+/// The parameters of random trial `index` of a kind: always the same for the same arguments. Two to four
+/// moves with step, trapezoidal and s-curve references; the encoders that feed back, with and without errors;
+/// delay, converter with and without errors, amplifier; anti-windup; starts of every kind.
+TrialParameters widened_trial(WidenedKind kind, std::uint64_t index);
+
+}  // namespace zerocount::testing

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/failure.hpp"
+#include "core/numerics/sign.hpp"
 
 namespace zerocount {
 namespace {
@@ -15,10 +16,6 @@ namespace {
 /// equal intervals differ, in a tally and in a comparison: to the picosecond they do not.
 double rounded_interval(double seconds) {
   return std::round(seconds * 1e12) / 1e12;
-}
-
-int sign(double value) {
-  return (value > 0.0) - (value < 0.0);
 }
 
 RateWithBounds rate_with_bounds(std::int64_t successes, std::int64_t trials) {
@@ -127,7 +124,7 @@ void PointAccumulator::add_jerks(const MoveOutcome& move, std::span<const Jerk> 
   }
   intervals_.clear();
   for (std::size_t i = 0; i < jerks.size(); ++i) {
-    counted_.jerks_agreeing += jerks[i].direction == sign(move.holding_torque);
+    counted_.jerks_agreeing += jerks[i].direction == sign_of(move.holding_torque);
     one_count_jerks_ += jerks[i].magnitude == 1;
     if (i == 0) continue;
     const double interval = rounded_interval(jerks[i].onset - jerks[i - 1].onset);

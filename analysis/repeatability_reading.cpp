@@ -88,9 +88,10 @@ PointRepeatability point_statistics(const PointReader& reader, const SequenceSha
   point.evaluated = reader.evaluated();
   if (shape.cycles >= 2) {
     const std::vector<double> values = reader.axis(encoder, overall_repeatability(shape));
-    point.zero_repeatability = std::count(values.begin(), values.end(), 0.0);
-    point.zero_rate = rate(point.zero_repeatability, trials);
-    point.zero_bounds = clopper_pearson(point.zero_repeatability, trials);
+    const std::int64_t zero = std::count(values.begin(), values.end(), 0.0);
+    point.zero_repeatability = zero;
+    point.zero_rate = rate(zero, trials);
+    point.zero_bounds = clopper_pearson(zero, trials);
   }
   for (const std::vector<double>& positions : reader.target_column(0)) {
     Moments& moments = point.positions.emplace_back();

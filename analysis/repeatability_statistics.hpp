@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -48,8 +49,8 @@ struct PointRepeatability {
   std::int64_t trials{0};
   std::int64_t evaluated{0};  ///< trials whose motion was never lost: those that have values
   /// Trials in which, by the encoder, all approaches of a target ended on the same count: R = 0, or R↑ or R↓
-  /// where there is one direction only.
-  std::int64_t zero_repeatability{0};
+  /// where there is one direction only. Nothing of a single cycle, which has no repeatability.
+  std::optional<std::int64_t> zero_repeatability{};
   double zero_rate{std::numeric_limits<double>::quiet_NaN()};  ///< zero_repeatability / trials; NaN for n = 1
   ConfidenceInterval zero_bounds{0.0, 1.0};                    ///< of zero_rate, Clopper–Pearson
   std::vector<Moments> positions;                              ///< [target], counts

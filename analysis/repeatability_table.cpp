@@ -99,12 +99,14 @@ void add_values(std::vector<TextColumn>& columns, std::span<const RepeatabilityF
 }
 
 std::string zero_share(const RowOfValues& row) {
-  if (row.from().unit != "count" || std::isnan(row.point.zero_rate)) return {};
-  return percentage(row.point.zero_repeatability, row.point.trials);
+  if (row.from().unit != "count") return {};
+  if (!row.point.zero_repeatability) return "–";
+  return percentage(*row.point.zero_repeatability, row.point.trials);
 }
 
 std::string zero_bounds(const RowOfValues& row) {
-  if (zero_share(row).empty()) return {};
+  if (row.from().unit != "count") return {};
+  if (!row.point.zero_repeatability) return "–";
   const ConfidenceInterval& bounds = row.point.zero_bounds;
   return fmt::format("[{:.1f}, {:.1f}]", 100.0 * bounds.low, 100.0 * bounds.high);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -18,7 +19,7 @@ void add_fields(nlohmann::ordered_json& json, std::span<const ReportField<Subjec
   for (const ReportField<Subject>& field : fields) {
     nlohmann::ordered_json& place = field.group.empty() ? json : json[std::string(field.group)];
     const double value = field.value(subject);
-    if (field.whole) {
+    if (field.whole && !std::isnan(value)) {
       place[std::string(field.name)] = static_cast<std::int64_t>(value);
     } else {
       place[std::string(field.name)] = value;

@@ -16,11 +16,11 @@
 #include "analysis/repeatability_summary.hpp"
 #include "analysis/study_features.hpp"
 #include "core/failure.hpp"
+#include "results/layout/table_io.hpp"
 
 namespace zerocount {
 namespace {
 
-constexpr std::int64_t trials_at_once = 4096;
 constexpr std::int64_t jerks_at_once = 65536;
 
 [[noreturn]] void fail(const StudyFile& file, const std::string& what) {
@@ -97,6 +97,7 @@ std::vector<PointSummary> study_statistics(const StudyFile& file, const Study& s
   PointAccumulator point(kind);
   JerkStream jerks(file);
   TrialOutcome trial;
+  const std::int64_t trials_at_once = chunk_rows(moves);
   for (std::int64_t first = 0; first < file.rows().end(); first += trials_at_once) {
     const RowRange block{first, std::min(trials_at_once, file.rows().end() - first)};
     const std::vector<MoveOutcome> outcomes = file.outcomes(block);

@@ -55,6 +55,14 @@ struct TraceExtras {
                              ///< but for the delay of a closed loop
 };
 
+/// What the trials of a study may meet in the loop, by all that their parameters can be.
+struct LoopExtras {
+  bool encoder_errors{false};  ///< in some trial, an encoder is not ideal
+  /// In some trial nothing brings the moves to their targets: there is no integral control, or friction has
+  /// no pre-sliding motion.
+  bool lasting_errors{false};
+};
+
 struct StudyPlan;  // compiled form of the manifest, private to this folder
 
 /// One manifest, understood: everything that determines its trials.
@@ -82,6 +90,7 @@ struct Study {
   std::vector<SequenceMove> sequence;         ///< [move]; empty where there is none
   bool open_loop{false};                      ///< the moves are torque levels, without targets
   TraceExtras trace_extras;
+  LoopExtras loop_extras;
   std::vector<std::string> warnings;  ///< what is allowed but may surprise, a line each, with its place
 
   std::shared_ptr<const StudyPlan> plan;

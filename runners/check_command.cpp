@@ -45,10 +45,12 @@ std::string text(const Range& range) {
 
 /// What section 3 of the paper says of the trials of a design point.
 struct PointTheory {
+  std::string_view outside;  // why it says nothing of them; empty where it does
   Range ki, stable_below, sampled_below,
       unstable_above;               // N m/count; sampled_below of the softest and stiffest
   Range dac_resolution, dac_bound;  // N m
   Range frequency, sample_rate;     // Hz
+  bool coarse_feedback{false};      // Δx of that bound is the coarse encoder's
   bool fine_enough{true};           // the DAC, in every trial
   bool fast_enough{true};           // the sampling, in every trial
   TheoryPrediction prediction;
@@ -60,8 +62,18 @@ double sampled_bound(double stiffness, const TrialParameters& p) {
                                         {1.0 + p.dac.gain_error, p.amplifier.bandwidth});
 }
 
+/// Form of the command and friction model are the same in all trials of a point.
+std::string_view why_outside(const TrialParameters& first) {
+  if (predict(first).applies) return {};
+  return first.friction.model == FrictionModel::coulomb
+             ? "friction.model coulomb has no spring before it slides"
+             : "the loop is open";
+}
+
 PointTheory examine(const Study& study, std::int64_t point) {
   PointTheory theory;
+  theory.outside = why_outside(study_trial(study, point, 0).parameters);
+  if (!theory.outside.empty()) return theory;
   TrialParameters softest;
   TrialParameters stiffest;
   Range k1;  // N m/rad
@@ -69,7 +81,8 @@ PointTheory examine(const Study& study, std::int64_t point) {
     const TrialParameters p = study_trial(study, point, index).parameters;
     const FrictionParameters contact = friction_at(p.friction, p.initial.position);
     const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
-    const double dac_bound = dac_resolution_bound(contact.k1, p.encoder);
+    const double dac_bound = dac_resolution_bound(contact.k1, p.encoder, p.controller.encoder);
+    theory.coarse_feedback = p.controller.encoder == EncoderChoice::coarse;
     theory.ki.add(p.controller.ki);
     theory.stable_below.add(bounds.stable_below);
     theory.unstable_above.add(bounds.unstable_above);
@@ -91,14 +104,16 @@ PointTheory examine(const Study& study, std::int64_t point) {
 }
 
 std::string describe(const PointTheory& theory) {
+  if (!theory.outside.empty()) return fmt::format("    the theory is not about it: {}\n", theory.outside);
   std::string out;
   out += fmt::format("    ki                            {} N m/count: {}\n", text(theory.ki),
                      verdict(theory.prediction));
   out += fmt::format("    (6) stable below              {} N m/count\n", text(theory.stable_below));
   out += fmt::format("    sampled loop at k1, below     {} N m/count\n", text(theory.sampled_below));
   out += fmt::format("    (7) unstable above            {} N m/count\n", text(theory.unstable_above));
-  out += fmt::format("    DAC: resolution {} N m, must be below k1·Δx = {} N m: {}\n",
+  out += fmt::format("    DAC: resolution {} N m, must be below k1·Δx = {} N m{}: {}\n",
                      text(theory.dac_resolution), text(theory.dac_bound),
+                     theory.coarse_feedback ? " with the Δx of the coarse encoder" : "",
                      theory.fine_enough ? "holds" : "does not hold in every trial");
   out += fmt::format("    natural frequency {} Hz, sample rate {} Hz: {}\n", text(theory.frequency),
                      text(theory.sample_rate),
@@ -136,10 +151,10 @@ ExitCode check(const Arguments& arguments) {
   if (shown < point_count(study)) {
     fmt::print("  … and {} more points (--all-points shows them)\n", point_count(study) - shown);
   }
-  const FrictionAlongRotor friction = study_trial(study, 0, 0).parameters.friction;
-  if (!friction.profiled.empty()) {
+  const TrialParameters first = study_trial(study, 0, 0).parameters;
+  if (!first.friction.profiled.empty() && predict(first).applies) {
     fmt::print("\nLowest k1 along the rotor (point 0): {:.4g} N m/rad; the paper advises to use it in (6).\n",
-               lowest_k1(friction));
+               lowest_k1(first.friction));
   }
   return ExitCode::success;
 }

@@ -5,7 +5,7 @@
 namespace zerocount {
 namespace {
 
-constexpr double never = 1e12;  // counts: more than any target is away from any other
+constexpr double never = 1e12;  // counts: the value that says that there is no coarse phase
 
 PidGains fine_gains(const ControllerParameters& p) {
   return {p.kp, p.ki, has_coarse_phase(p) ? 0.0 : p.kd};

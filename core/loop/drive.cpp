@@ -1,5 +1,6 @@
 #include "core/loop/drive.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -7,6 +8,13 @@
 #include "core/random/variates.hpp"
 
 namespace zerocount {
+namespace {
+
+/// Hz. A torque that is there in less than a picosecond is there at once, but the series of its rise would
+/// leave the range of a double.
+constexpr double highest_bandwidth = 1e12;
+
+}  // namespace
 
 Drive::Drive(const DacParameters& dac, const AmplifierParameters& amplifier, int delay, double sample_time,
              const TrialRandomness& randomness)
@@ -15,7 +23,7 @@ Drive::Drive(const DacParameters& dac, const AmplifierParameters& amplifier, int
       noise_{randomness.dac_noise, randomness.stream},
       trial_(randomness.trial),
       delay_(delay),
-      rate_(2.0 * std::numbers::pi * amplifier.bandwidth),
+      rate_(2.0 * std::numbers::pi * std::min(amplifier.bandwidth, highest_bandwidth)),
       left_of_step_(std::exp(-rate_ * sample_time)) {}
 
 double Drive::converted(std::int64_t k, std::int64_t code) const {

@@ -39,7 +39,7 @@ class TorqueDelay {
 ///
 ///   du/dt = 2πf·(v − u),   so u(t_k + t) = v + (u(t_k) − v)·exp(−2πf·t);
 ///
-/// with f = 0, u = v.
+/// with f = 0, u = v. Beyond 1e12 Hz, f counts as that.
 ///
 /// Call one of the two send functions once at each sample, in order.
 class Drive {

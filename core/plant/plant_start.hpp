@@ -14,7 +14,8 @@ struct PlantStart {
   std::vector<double> history{};
   double velocity{0.0};  ///< ω, rad/s
   /// Arrival from sliding: where velocity ≠ 0 the hook slides, and the spring had the breakaway torque when
-  /// it began to. There is no contact then, so that hardening, preload and history have no effect.
+  /// it began to. There is no contact then, so that hardening, preload and history have no effect. A Coulomb
+  /// contact slides wherever velocity ≠ 0, whatever stands here.
   bool sliding{false};
 };
 

@@ -30,8 +30,9 @@ double lowest_k1(const FrictionAlongRotor& friction) {
   return lowest;
 }
 
-double dac_resolution_bound(double k1, const EncoderParameters& encoder) {
-  return k1 * count_angle(encoder);
+double dac_resolution_bound(double k1, const EncoderParameters& encoder, EncoderChoice feedback) {
+  const double counts = feedback == EncoderChoice::fine ? encoder.fine : encoder.coarse;
+  return k1 * (2.0 * std::numbers::pi / counts);
 }
 
 double natural_frequency(double stiffness, const PlantParameters& plant) {

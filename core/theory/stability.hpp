@@ -34,8 +34,9 @@ IntegralGainBounds integral_gain_bounds(const PlantParameters& plant, const Fric
 double lowest_k1(const FrictionAlongRotor& friction);
 
 /// Torque step Δu (N m) that the DAC must stay below for a zero-count error to be possible: k1·Δx (issue 4 of
-/// the paper's section 3: one code moves the rotor by at most Δu/k1).
-double dac_resolution_bound(double k1, const EncoderParameters& encoder);
+/// the paper's section 3: one code moves the rotor by at most Δu/k1). Δx is of the encoder that is fed back.
+double dac_resolution_bound(double k1, const EncoderParameters& encoder,
+                            EncoderChoice feedback = EncoderChoice::fine);
 
 /// √(stiffness/J)/2π, Hz. With k1 + k2 it is the highest natural frequency of the pre-sliding motion.
 double natural_frequency(double stiffness, const PlantParameters& plant);

@@ -7,10 +7,12 @@ namespace zerocount {
 /// A torque that goes from one level to the next at a constant rate, sampled: each value is held until the
 /// next instant.
 struct TorqueRamp {
-  double from{0.0};         ///< N m
-  double to{0.0};           ///< N m
-  double per_sample{0.0};   ///< change from sample to sample, with its sign, N m
-  std::int64_t samples{0};  ///< on the way: the first sample that has the torque `to`
+  double from{0.0};        ///< N m
+  double to{0.0};          ///< N m
+  double per_sample{0.0};  ///< change from sample to sample, with its sign, N m
+  /// On the way: the first sample that has the torque `to`. With s = |to − from|/rate·sample_rate it is
+  /// ⌈s − 1e-9·max(s, 1)⌉: a whole number s must not gain a sample by rounding.
+  std::int64_t samples{0};
 };
 
 /// @param rate magnitude of the rate, N m/s, positive. @param sample_rate Hz.

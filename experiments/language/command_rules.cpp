@@ -24,8 +24,23 @@ std::string too_many_samples() {
   return fmt::format("at most {} samples in a trial", most_samples);
 }
 
+// A distribution that reaches infinity is told of itself, not of all that it makes endless.
+ValueRule highest_value(std::string_view parameter, const std::string& expected) {
+  return {
+      {parameter}, false, [expected](Limits l, Limits) -> Faults {
+        if (std::isfinite(l[0].high)) return {};
+        return {{"its values have no upper limit, so that a trial can have any number of samples", expected}};
+      }};
+}
+
+std::vector<ValueRule> rules_of_samples() {
+  return {highest_value("command.hold", "a distribution of the hold with a highest value"),
+          highest_value("controller.sample_rate", "a distribution of the sample rate with a highest value")};
+}
+
 ValueRule samples_of_targets(double moves) {
   return {{"command.hold", "controller.sample_rate"}, false, [moves](Limits l, Limits) -> Faults {
+            if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high)) return {};  // told already
             if (l[0].high * l[1].high * moves <= most_samples) return {};
             return {{fmt::format("{} moves of {} s at {} Hz can be more than {} samples", moves, l[0].high,
                                  l[1].high, most_samples),
@@ -48,11 +63,39 @@ double longest_way(Limits list) {
   return way;
 }
 
+ValueRule limits_of_torque_levels() {
+  return {{}, true, [](Limits, Limits levels) -> Faults {
+            Faults faults;
+            for (std::size_t i = 0; i < levels.size(); ++i) {
+              if (std::isfinite(levels[i].low) && std::isfinite(levels[i].high)) continue;
+              faults.push_back({"its values have no limit, so that the torque can take for ever to the level",
+                                "a distribution of the level with a lowest and a highest value",
+                                {i}});
+            }
+            return faults;
+          }};
+}
+
+// The time of all ways together, s. Where the torque stays at 0, no rate is too small.
+double time_of_ramps(Limits levels, const ValueLimits& rate) {
+  const double way = longest_way(levels);
+  return way == 0.0 ? 0.0 : way / rate.low;
+}
+
+ValueRule lowest_rate_of_torque() {
+  return {{"command.torque.rate"}, true, [](Limits l, Limits levels) -> Faults {
+            if (std::isfinite(time_of_ramps(levels, l[0])) || !std::isfinite(longest_way(levels))) return {};
+            return {{"the rate can be so small that the torque takes for ever to a level",
+                     "a rate with a lowest value above 0"}};
+          }};
+}
+
 ValueRule samples_of_torque_levels() {
   return {{"command.hold", "controller.sample_rate", "command.torque.rate"},
           true,
           [](Limits l, Limits levels) -> Faults {
-            const double ramps = longest_way(levels) / l[2].low;
+            const double ramps = time_of_ramps(levels, l[2]);
+            if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high) || !std::isfinite(ramps)) return {};
             const double time = static_cast<double>(levels.size()) * l[0].high + ramps;
             if (time * l[1].high <= most_samples) return {};
             return {{fmt::format("{} levels held for {} s, and {} s on the way to them, can be more than {} "
@@ -92,10 +135,11 @@ ValueRule order_of_targets() {
             Faults faults;
             for (std::size_t i = 1; i < targets.size(); ++i) {
               if (targets[i].low > targets[i - 1].high) continue;
-              faults.push_back({fmt::format("{} counts can be at or below the target before it, {} counts",
-                                            targets[i].low, targets[i - 1].high),
-                                "targets in ascending order in every trial",
-                                {i, i - 1}});
+              faults.push_back(
+                  {fmt::format("the target can be at {} counts, at or below the one before it, {} counts",
+                               targets[i].low, targets[i - 1].high),
+                   "targets in ascending order in every trial",
+                   {i, i - 1}});
             }
             return faults;
           }};
@@ -171,11 +215,21 @@ ValueRule time_of_travel(const std::optional<SequenceCycle>& sequence) {
 }  // namespace
 
 std::vector<ValueRule> command_rules(const StudyPlan& plan) {
-  if (plan.open_loop) return {samples_of_torque_levels(), range_of_the_converter()};
+  std::vector<ValueRule> rules = rules_of_samples();
+  const auto add = [&rules](const std::vector<ValueRule>& more) {
+    rules.insert(rules.end(), more.begin(), more.end());
+  };
   const auto listed = static_cast<std::int64_t>(plan.list.count);
-  if (!plan.sequence) return {samples_of_targets(static_cast<double>(listed)), time_of_travel({})};
-  return {samples_of_targets(static_cast<double>(sequence_move_count(*plan.sequence, listed))),
-          order_of_targets(), reach_of_the_overrun(), time_of_travel(plan.sequence)};
+  if (plan.open_loop) {
+    add({limits_of_torque_levels(), lowest_rate_of_torque(), samples_of_torque_levels(),
+         range_of_the_converter()});
+  } else if (!plan.sequence) {
+    add({samples_of_targets(static_cast<double>(listed)), time_of_travel({})});
+  } else {
+    add({samples_of_targets(static_cast<double>(sequence_move_count(*plan.sequence, listed))),
+         order_of_targets(), reach_of_the_overrun(), time_of_travel(plan.sequence)});
+  }
+  return rules;
 }
 
 }  // namespace zerocount

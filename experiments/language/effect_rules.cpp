@@ -1,5 +1,7 @@
 #include "experiments/language/effect_rules.hpp"
 
+#include <algorithm>
+
 namespace zerocount {
 namespace {
 
@@ -21,14 +23,22 @@ bool can_be_positive(const ValueLimits& limits) {
   return limits.high > 0.0;
 }
 
+constexpr std::string_view the_loop_is_open = "it has no effect: the loop is open with command.torque";
+constexpr std::string_view a_closed_loop = "command.targets or command.sequence, or the key left out";
+
 std::vector<EffectRule> rules_of_the_command(const StudyPlan& plan) {
   const bool open_loop = plan.open_loop;
   return {
       {.keys = {"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
-                "controller.encoder", "controller.coarse", "initial.integral", "command.profile", "verdict"},
+                "controller.encoder", "controller.coarse", "command.profile", "verdict"},
        .has_effect = open_loop ? never : always,
-       .what = "it has no effect: the loop is open with command.torque",
-       .expected = "command.targets or command.sequence, or the key left out"},
+       .what = the_loop_is_open,
+       .expected = a_closed_loop},
+      {.keys = {"initial.integral"},
+       .has_effect = open_loop ? never : always,
+       .what = the_loop_is_open,
+       .expected = a_closed_loop,
+       .off_at_zero = true},
       {.keys = {"command.torque"},
        .has_effect = open_loop ? always : never,
        .what = "it has no effect: there are no command.torque.levels",
@@ -121,11 +131,59 @@ std::vector<EffectRule> rules_of_the_contact() {
   };
 }
 
+// A value may stand in a manifest from which a term of friction was taken away by another value.
+std::vector<EffectRule> rules_of_vanished_terms() {
+  return {
+      {.keys = {"friction.lambda", "friction.n", "initial.hardening"},
+       .depends_on = {"friction.model", "friction.alpha"},
+       .has_effect =
+           [](Limits l) { return is_word<FrictionModel::presliding>(l[0]) && can_be_positive(l[1]); },
+       .what = "it has no effect: friction.alpha is 0 wherever friction.model is presliding",
+       .off_at_zero = true,
+       .warn_only = true},
+      {.keys = {"friction.beta"},
+       .depends_on = {"friction.model", "friction.k2"},
+       .has_effect = [](Limits l) { return !is_word<FrictionModel::coulomb>(l[0]) && can_be_positive(l[1]); },
+       .what = "it has no effect: friction.k2 is 0 wherever friction.model has a spring",
+       .warn_only = true},
+      {.keys = {"friction.stribeck_velocity"},
+       .depends_on = {"friction.coulomb_ratio"},
+       .has_effect = [](Limits l) { return l[0].low < 1.0; },
+       .what = "it has no effect: friction.coulomb_ratio is 1 at every point",
+       .warn_only = true},
+      {.keys = {"initial.mode"},
+       .depends_on = {"friction.model"},
+       .has_effect = [](Limits l) { return !is_word<FrictionModel::coulomb>(l[0]); },
+       .what = "it has no effect: friction.model is coulomb at every point, which slides wherever there is a "
+               "velocity",
+       .off_at_zero = true,
+       .warn_only = true},
+  };
+}
+
+// The place on the rotor selects from profiles and from the errors of encoders that are fixed on it.
+EffectRule rule_of_the_position(const StudyPlan& plan) {
+  const bool along_the_rotor = !plan.profiles.empty();
+  return {.keys = {"initial.position"},
+          .depends_on = {"encoder.fine_errors.eccentricity", "encoder.fine_errors.interpolation",
+                         "encoder.coarse_errors.eccentricity", "encoder.coarse_errors.interpolation"},
+          .has_effect =
+              [along_the_rotor](Limits l) {
+                return along_the_rotor || std::any_of(l.begin(), l.end(), can_be_positive);
+              },
+          .what =
+              "it has no effect: nothing differs along the rotor, neither friction by a profile nor an "
+              "encoder by its eccentricity or interpolation",
+          .off_at_zero = true,
+          .warn_only = true};
+}
+
 }  // namespace
 
 std::vector<EffectRule> effect_rules(const StudyPlan& plan) {
   std::vector<EffectRule> rules = rules_of_the_command(plan);
-  for (const auto& more : {rules_of_the_loop(), rules_of_the_contact()}) {
+  rules.push_back(rule_of_the_position(plan));
+  for (const auto& more : {rules_of_the_loop(), rules_of_the_contact(), rules_of_vanished_terms()}) {
     rules.insert(rules.end(), more.begin(), more.end());
   }
   return rules;

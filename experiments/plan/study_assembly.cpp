@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiments/designs/random_key.hpp"
+#include "experiments/language/loop_extras.hpp"
 #include "experiments/language/slots.hpp"
 #include "experiments/language/trace_extras.hpp"
 
@@ -121,6 +122,7 @@ void assemble_study(const std::vector<ProfileRequest>& requests, const std::vect
   study.point_labels = label_points(axes);
   study.axes = describe_axes(axes, plan);
   study.trace_extras = find_trace_extras(plan);
+  study.loop_extras = find_loop_extras(plan);
   const std::vector<bool> swept = swept_slots(plan);
   list_input_columns(swept, plan, study);
   derive_randomness(study, plan);

@@ -22,10 +22,16 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+constexpr std::size_t longest = 80;
+
 }  // namespace
 
+bool is_near(std::string_view name, std::string_view candidate) {
+  return name.size() <= longest &&
+         3 * edit_distance(name, candidate) <= std::max(name.size(), candidate.size());
+}
+
 std::string_view nearest_name(std::string_view name, std::span<const std::string> candidates) {
-  constexpr std::size_t longest = 80;
   if (name.size() > longest || candidates.empty()) return {};
   const auto nearest = std::min_element(
       candidates.begin(), candidates.end(),

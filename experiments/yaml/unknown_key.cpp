@@ -26,6 +26,13 @@ std::string_view same_name_elsewhere(std::string_view key) {
   return {};
 }
 
+// A slip of the pen in this map is more likely than a key that was meant for another.
+std::string_view nearest_key(std::string_view key, std::span<const std::string> known) {
+  const std::string_view here = nearest_name(key, known);
+  const std::string_view elsewhere = same_name_elsewhere(key);
+  return elsewhere.empty() || is_near(key, here) ? here : elsewhere;
+}
+
 }  // namespace
 
 void add_unknown_key(const Field& map, const YamlEntry& entry, std::span<const std::string> known,
@@ -38,8 +45,7 @@ void add_unknown_key(const Field& map, const YamlEntry& entry, std::span<const s
                     entry.key.substr(0, entry.key.find('.')), entry.key.substr(entry.key.find('.') + 1)));
     return;
   }
-  const std::string_view elsewhere = same_name_elsewhere(entry.key);
-  const std::string_view nearest = elsewhere.empty() ? nearest_name(entry.key, known) : elsewhere;
+  const std::string_view nearest = nearest_key(entry.key, known);
   const std::string what =
       nearest.empty() ? "unknown key" : fmt::format("unknown key, nearest known: {}", nearest);
   constexpr std::size_t most_listed = 20;

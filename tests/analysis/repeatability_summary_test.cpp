@@ -106,7 +106,18 @@ TEST(RepeatabilitySummary, OfASingleCycleHasNoRepeatability) {
   EXPECT_NE(text.find("in 1 cycle\n"), std::string::npos);
   const auto rows = rows_of(text, "fine");
   EXPECT_EQ(rows[2], (std::vector<std::string>{"fine", "encoder", "(count)", "80", "1", "(1)", "–", "–", "–",
-                                               "1", "(1)", "0", "(0)", "–"}));
+                                               "1", "(1)", "0", "(0)", "–", "–", "–"}));
+}
+
+// Where R is not defined, no trial has it, and none has it at 0 either: that is not 0 trials of 80.
+TEST(RepeatabilitySummary, OfASingleCycleCountsNoZeros) {
+  const nlohmann::json json = nlohmann::json::parse(
+      summary_json_text(summary_of(testing::sequence_study("cycles: 1"), one_count_of_reversal)));
+  const nlohmann::json& point = json["points"][0]["repeatability"];
+  EXPECT_EQ(point["trials"], 80);
+  for (const char* name : {"zero_repeatability", "zero_repeatability_rate"}) {
+    EXPECT_TRUE(point.at(name).is_null()) << name;
+  }
 }
 
 TEST(RepeatabilitySummary, DeviationsOfManyCountsAreShownInFull) {

@@ -1,60 +1,72 @@
 #include "analysis/study_features.hpp"
 
+#include <string>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace zerocount {
 namespace {
 
-TrialParameters parameters_with(void (*change)(TrialParameters&)) {
-  TrialParameters parameters;
-  change(parameters);
-  return parameters;
+StudyFeatures features_with(const std::string& more, int seed = 5) {
+  return study_features(parse_study(fmt::format("zerocount: 1\nname: features\nseed: {}\ntrials: 3\n"
+                                                "command: {{targets: [10], hold: 0.2}}\n{}\n",
+                                                seed, more),
+                                    "test"));
+}
+
+bool has_encoder_errors(const std::string& more, int seed = 5) {
+  return features_with(more, seed).encoder_errors;
+}
+
+bool has_final_error(const std::string& more, int seed = 5) {
+  return features_with(more, seed).final_error;
 }
 
 TEST(StudyFeatures, OfThePapersLoopAreNone) {
-  const StudyFeatures none = trial_features({});
+  const StudyFeatures none = features_with("");
   EXPECT_FALSE(none.open_loop || none.travel || none.phases || none.encoder_errors || none.final_error);
 }
 
-TEST(StudyFeatures, AreWhatTheParametersUse) {
-  EXPECT_TRUE(trial_features(parameters_with([](auto& p) { p.command.torque.levels = {0.1}; })).open_loop);
-  EXPECT_TRUE(trial_features(parameters_with([](auto& p) {
-                p.command.profile.shape = ReferenceShape::trapezoidal;
-              })).travel);
-  EXPECT_TRUE(
-      trial_features(parameters_with([](auto& p) { p.encoder.fine_errors.noise = 0.1; })).encoder_errors);
-  EXPECT_TRUE(
-      trial_features(parameters_with([](auto& p) { p.encoder.coarse_errors.missed = 1e-3; })).encoder_errors);
-  EXPECT_TRUE(trial_features(parameters_with([](auto& p) {
-                p.encoder.coarse_errors.eccentricity = 1e-6;
-              })).encoder_errors);
-  EXPECT_TRUE(trial_features(parameters_with([](auto& p) {
-                p.encoder.fine_errors.interpolation = 0.2;
-              })).encoder_errors);
+TEST(StudyFeatures, EncoderErrorsAreThoseOfEitherEncoder) {
+  for (const std::string encoder : {"fine_errors", "coarse_errors"}) {
+    for (const std::string error : {"eccentricity", "interpolation", "noise", "missed"}) {
+      EXPECT_TRUE(has_encoder_errors(fmt::format("encoder: {{{}: {{{}: 1.0e-3}}}}", encoder, error)));
+      EXPECT_FALSE(has_encoder_errors(fmt::format("encoder: {{{}: {{{}: 0}}}}", encoder, error)));
+    }
+  }
 }
 
-TEST(StudyFeatures, MovesMayEndBesideTheirTargetsWithoutIntegralPreSlidingOrOnTheWay) {
-  EXPECT_TRUE(trial_features(parameters_with([](auto& p) { p.controller.ki = 0.0; })).final_error);
-  EXPECT_TRUE(trial_features(parameters_with([](auto& p) {
-                p.friction.model = FrictionModel::coulomb;
-              })).final_error);
-  EXPECT_FALSE(
-      trial_features(parameters_with([](auto& p) { p.friction.model = FrictionModel::spring; })).final_error);
-  EXPECT_TRUE(trial_features(parameters_with([](auto& p) {
-                p.command.profile.shape = ReferenceShape::s_curve;
-              })).final_error);
+TEST(StudyFeatures, MovesMayEndBesideTheirTargetsWithoutIntegralOrPreSliding) {
+  EXPECT_TRUE(has_final_error("controller: {ki: 0}"));
+  EXPECT_TRUE(has_final_error("friction: {model: coulomb}"));
+  EXPECT_FALSE(has_final_error("friction: {model: spring}"));
 }
 
 TEST(StudyFeatures, OfAStudyAreThoseOfAnyPoint) {
-  Study study = parse_study(
-      "zerocount: 1\nname: two\nseed: 5\ntrials: 3\ncommand: {targets: [10], hold: 0.2}\n"
-      "sweep: {grid: {controller.ki: [3.85e-5, 0]}}\n",
-      "test");
-  EXPECT_TRUE(study_features(study).final_error);
-  EXPECT_FALSE(study_features(study).phases);
-  study.trace_extras = {true, true, false};
+  EXPECT_TRUE(has_final_error("sweep: {grid: {controller.ki: [3.85e-5, 0]}}"));
+  EXPECT_TRUE(has_final_error("sweep: {grid: {friction.model: [presliding, spring, coulomb]}}"));
+  EXPECT_TRUE(has_encoder_errors("sweep: {cases: {a: {}, b: {encoder.coarse_errors.noise: 0.1}}}"));
+}
+
+// One seed draws an error in the first trial, another does not: the columns are the same.
+TEST(StudyFeatures, DoNotDependOnWhatIsDrawn) {
+  for (int seed = 1; seed <= 20; ++seed) {
+    EXPECT_TRUE(has_encoder_errors("encoder: {fine_errors: {noise: {choice: [0, 0.3]}}}", seed)) << seed;
+    EXPECT_FALSE(has_encoder_errors("encoder: {fine_errors: {noise: {choice: [0, 0]}}}", seed)) << seed;
+    EXPECT_TRUE(has_final_error("controller: {ki: {choice: [3.85e-5, 0]}}", seed)) << seed;
+    EXPECT_FALSE(has_final_error("controller: {ki: {choice: [3.85e-5, 9.45e-5]}}", seed)) << seed;
+  }
+}
+
+TEST(StudyFeatures, OfTheSampleRecordsAreThoseOfTheTable) {
+  Study study;
+  study.trace_extras = {true, false, false};
   EXPECT_TRUE(study_features(study).travel);
+  EXPECT_TRUE(study_features(study).final_error);
+  study.trace_extras = {false, true, false};
   EXPECT_TRUE(study_features(study).phases);
+  EXPECT_TRUE(study_features(study).final_error);
   study.open_loop = true;
   EXPECT_TRUE(study_features(study).open_loop);
 }

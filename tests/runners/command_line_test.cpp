@@ -109,6 +109,40 @@ TEST_F(CommandLine, CheckPrintsThePlanAndTheCriteria) {
   }
 }
 
+TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
+  const std::string head = "zerocount: 1\nname: rig\nseed: 1\ntrials: 10\n";
+  folder_.write("open.yaml", head + "command: {torque: {levels: [0.1], through: exact}}\n");
+  folder_.write("models.yaml",
+                head + "command: {targets: [5]}\n" + "sweep: {grid: {friction.model: [coulomb, spring]}}\n");
+  const std::string open = run({"check", "open.yaml"}).out;
+  EXPECT_NE(open.find("  point 0: all\n    the theory is not about it: the loop is open\n"),
+            std::string::npos)
+      << open;
+  for (const char* bound : {"(6)", "(7)", "sampled loop", "DAC", "natural frequency", "N m/count"}) {
+    EXPECT_EQ(open.find(bound), std::string::npos) << bound;
+  }
+  const std::string models = run({"check", "models.yaml"}).out;
+  EXPECT_NE(models.find("  point 0: friction.model=coulomb\n"
+                        "    the theory is not about it: friction.model coulomb has no spring before it "
+                        "slides\n"
+                        "  point 1: friction.model=spring\n"
+                        "    ki  "),
+            std::string::npos)
+      << models;
+}
+
+// One count of the coarse encoder is 18.75 of the fine one: k1·Δx is 0.008 N m, not 4.27e-4.
+TEST_F(CommandLine, CheckTakesTheCountThatIsFedBackForTheRuleOfTheDac) {
+  folder_.write("coarse.yaml",
+                "zerocount: 1\nname: rig\nseed: 1\ntrials: 1\ncommand: {targets: [5]}\n"
+                "controller: {encoder: coarse}\ndac: {resolution: 5.0e-4}\n");
+  const std::string out = run({"check", "coarse.yaml"}).out;
+  EXPECT_NE(out.find("DAC: resolution 0.0005 N m, must be below k1·Δx = 0.008 N m with the Δx of the coarse "
+                     "encoder: holds\n"),
+            std::string::npos)
+      << out;
+}
+
 TEST_F(CommandLine, ParametersAndSchemaComeFromTheSameTable) {
   const ProgramResult parameters = run({"parameters"});
   EXPECT_EQ(parameters.code, 0);

@@ -1,5 +1,6 @@
 // Torque levels in place of targets, from the manifest to the table; and the columns of sample records that a
 // study uses.
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -85,6 +86,18 @@ TEST_F(OpenLoop, SampleRecordsHaveNoTarget) {
     EXPECT_EQ(record.error, -record.count);
   }
   EXPECT_EQ(run({"trace", "loads.h5", "--point", "1", "--trial", "3"}).code, 0);
+}
+
+// results/README.md, /trace/code.
+TEST_F(OpenLoop, SampleRecordsOfAnExactTorqueHaveNoCode) {
+  ASSERT_EQ(run({"run", "loads.yaml", "-o", "exact.h5", "--set", "command.torque.through=exact"}).code, 0);
+  const StudyFile file(folder / "exact.h5");
+  double largest = 0.0;
+  for (const TraceRecord& record : file.trace_at(0, file.trace_count())) {
+    EXPECT_EQ(record.code, 0);
+    largest = std::max(largest, record.torque);
+  }
+  EXPECT_EQ(largest, 0.15);
 }
 
 TEST_F(OpenLoop, DatasetsAreTheSameForAnyNumberOfThreads) {

@@ -146,6 +146,13 @@ TEST(Drive, AmplifierStepResponseIsExponential) {
   }
 }
 
+TEST(Drive, BeyondTheHighestBandwidthThereIsNone) {
+  AmplifierParameters fast;
+  fast.bandwidth = 1e300;
+  Drive drive({}, fast, 0, 5e-4, {});
+  EXPECT_EQ(drive.send_exact(0.1).rate, 2.0 * std::numbers::pi * 1e12);
+}
+
 TEST(Drive, TorqueIsContinuousFromSampleToSample) {
   for (const double bandwidth : {5.0, 200.0, 3000.0}) {
     Drive drive(converter_with_errors(), {bandwidth}, 1, sample_time, randomness_of(1));

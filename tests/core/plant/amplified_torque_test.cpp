@@ -106,6 +106,26 @@ TEST(PlantUnderAnAmplifier, TendsToThatOfConstantTorqueWithItsBandwidth) {
   }
 }
 
+// 10¹² Hz, the highest bandwidth that the drive has: the torque is there in a picosecond.
+TEST(PlantUnderAnAmplifier, CanBeFollowedUpToTheHighestBandwidth) {
+  const double rate = 2.0 * std::numbers::pi * 1e12;
+  for (const FrictionModel model :
+       {FrictionModel::presliding, FrictionModel::spring, FrictionModel::coulomb}) {
+    FrictionAlongRotor friction;
+    friction.model = model;
+    Plant amplified({}, friction, {}, tolerance);
+    Plant constant({}, friction, {}, tolerance);
+    double now = 0.0;
+    for (const double u : {0.2, -0.1, 0.45, 0.5, -0.2, 0.1}) {
+      amplified.advance({now, u, rate}, sample);
+      constant.advance(constant_torque(u), sample);
+      now = u;
+      EXPECT_TRUE(amplified.finite());
+      EXPECT_NEAR(amplified.theta(), constant.theta(), 2.0 / rate);
+    }
+  }
+}
+
 TEST(PlantUnderAnAmplifier, MovesAlikeInOneStepOrInPieces) {
   std::mt19937 random(32);
   std::uniform_real_distribution<double> unit(0.0, 1.0);

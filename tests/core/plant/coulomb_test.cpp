@@ -231,6 +231,21 @@ TEST(CoulombPlant, SlidesUnderTheSameLawAsThePreslidingOne) {
   }
 }
 
+// Nothing could give way to a velocity but sliding.
+TEST(CoulombPlant, SlidesAtTheStartWithAVelocityWhateverTheMode) {
+  for (const double omega : {2.0, -0.3, 1e-6}) {
+    Plant sliding({}, coulomb(0.6), {.velocity = omega, .sliding = true}, tolerance);
+    Plant sticking({}, coulomb(0.6), {.velocity = omega, .sliding = false}, tolerance);
+    EXPECT_TRUE(sticking.sliding());
+    for (int k = 0; k < 5; ++k) {
+      hold(sliding, 0.1, 5e-4);
+      hold(sticking, 0.1, 5e-4);
+      EXPECT_EQ(sliding.theta(), sticking.theta());
+      EXPECT_EQ(sliding.omega(), sticking.omega());
+    }
+  }
+}
+
 TEST(CoulombPlant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
   std::mt19937 random(4);
   std::normal_distribution<double> torque(0.0, 0.4);

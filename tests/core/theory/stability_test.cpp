@@ -123,6 +123,12 @@ TEST(Rules, DacStepOfThePapersRig) {
   EXPECT_LT(DacParameters{}.resolution, dac_resolution_bound(contact.k1, encoder));
 }
 
+// The coarse encoder has 18.75 times the count.
+TEST(Rules, DacStepWithTheCoarseEncoderFedBack) {
+  EXPECT_DOUBLE_EQ(dac_resolution_bound(contact.k1, encoder, EncoderChoice::coarse),
+                   18.75 * dac_resolution_bound(contact.k1, encoder));
+}
+
 TEST(Rules, NaturalFrequencyAndSampleRateOfThePapersRig) {
   expect_as_printed(natural_frequency(contact.k1 + contact.k2, plant), 198.0, 1.0);
   EXPECT_NEAR(advised_sample_rate(plant, contact), 1983.0, 1.0);

@@ -173,14 +173,17 @@ TEST(Command, TheShapeOfASequenceIsTheSameEverywhere) {
 
 TEST(Command, TheTargetsOfASequenceAscendInEveryTrial) {
   EXPECT_EQ(refused("{sequence: {targets: [1, 5, 5], overrun: 2}}"),
-            "m.yaml:5:38: command.sequence.targets.2: 5 counts can be at or below the target before it, 5 "
+            "m.yaml:5:38: command.sequence.targets.2: the target can be at 5 counts, at or below the one "
+            "before it, 5 "
             "counts; expected targets in ascending order in every trial");
   EXPECT_EQ(refused("{sequence: {targets: [{integers: [1, 9]}, {integers: [9, 20]}], overrun: 2}}"),
-            "m.yaml:5:52: command.sequence.targets.1: 9 counts can be at or below the target before it, 9 "
+            "m.yaml:5:52: command.sequence.targets.1: the target can be at 9 counts, at or below the one "
+            "before it, 9 "
             "counts; expected targets in ascending order in every trial");
   EXPECT_EQ(refused("{sequence: {targets: [1, 10], overrun: 2}}",
                     "sweep: {grid: {command.sequence.targets.0: [5, 12]}}"),
-            "m.yaml:6:48: command.sequence.targets.1: 10 counts can be at or below the target before it, 12 "
+            "m.yaml:6:48: command.sequence.targets.1: the target can be at 10 counts, at or below the one "
+            "before it, 12 "
             "counts; expected targets in ascending order in every trial");
   EXPECT_EQ(refused("{sequence: {targets: [1, 10], overrun: 1000000000000}}"),
             "m.yaml:5:49: command.sequence.overrun: the sequence can go as far as 1000000000010 counts; "

@@ -55,6 +55,8 @@ INSTANTIATE_TEST_SUITE_P(
             "m.yaml:6:19: verdict.window: it has no effect: the loop is open with command.torque; expected "
             "command.targets or command.sequence, or the key left out"},
         IdleCase{"{torque: {levels: [0.1]}}", "controller: {sample_rate: 1000, delay: 2}", ""},
+        // An integral of nought asks for nothing.
+        IdleCase{"{torque: {levels: [0.1]}}", "initial: {integral: 0}", ""},
         IdleCase{
             "{torque: {levels: [0.1], through: exact}}", "dac: {bits: 14}",
             "m.yaml:6:13: dac.bits: it has no effect: the torque does not go through the converter at any "
@@ -179,6 +181,78 @@ TEST(IdleKeys, WhatAFrictionModelDoesNotUseIsAWarningAtMost) {
             (Warnings{"m.yaml:6:28: friction.alpha: it has no effect: friction.model is presliding at no "
                       "point"}));
 }
+
+struct VanishedTerm {
+  const char* more;     // from the sixth line on
+  const char* warning;  // the only one; empty: none
+};
+
+void PrintTo(const VanishedTerm& tested, std::ostream* out) {
+  *out << tested.more;
+}
+
+class VanishedTerms : public testing::TestWithParam<VanishedTerm> {};
+
+// A manifest that switches a term off by its size may keep the rest of it, and is told.
+TEST_P(VanishedTerms, AreWarningsForWhatBelongsToThem) {
+  const std::string expected = GetParam().warning;
+  EXPECT_EQ(warnings(GetParam().more),
+            expected.empty() ? std::vector<std::string>{} : std::vector<std::string>{expected});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfThePosition, VanishedTerms,
+    testing::Values(
+        VanishedTerm{"initial: {position: 1}",
+                     "m.yaml:6:21: initial.position: it has no effect: nothing differs along the rotor, "
+                     "neither friction by a profile nor an encoder by its eccentricity or interpolation"},
+        VanishedTerm{"initial: {position: {uniform: [0, 1]}}\nencoder: {fine_errors: {noise: 0.1}}",
+                     "m.yaml:6:21: initial.position: it has no effect: nothing differs along the rotor, "
+                     "neither friction by a profile nor an encoder by its eccentricity or interpolation"},
+        VanishedTerm{"initial: {position: 0}", ""},
+        VanishedTerm{"initial: {position: 1}\nencoder: {fine_errors: {eccentricity: 1.0e-5}}", ""},
+        VanishedTerm{"initial: {position: 1}\nencoder: {coarse_errors: {interpolation: {uniform: [0, 1]}}}",
+                     ""},
+        VanishedTerm{"initial: {position: 1}\n"
+                     "friction: {k2: {profile: {mean: 700, cv: 0.1, correlation_length: 1}}}",
+                     ""}));
+
+INSTANTIATE_TEST_SUITE_P(
+    OfFriction, VanishedTerms,
+    testing::Values(
+        VanishedTerm{"friction: {alpha: 0, lambda: 5}",
+                     "m.yaml:6:30: friction.lambda: it has no effect: friction.alpha is 0 wherever "
+                     "friction.model is presliding"},
+        VanishedTerm{"friction: {alpha: 0}\ninitial: {hardening: 1.0e-6}",
+                     "m.yaml:7:22: initial.hardening: it has no effect: friction.alpha is 0 wherever "
+                     "friction.model is presliding"},
+        VanishedTerm{"friction: {alpha: {uniform: [0, 1]}, lambda: 5, n: 3}\ninitial: {hardening: 1.0e-6}",
+                     ""},
+        VanishedTerm{"friction: {lambda: 5}\nsweep: {grid: {friction.alpha: [0, 1]}}", ""},
+        // Each alone would act somewhere, but not at the same point.
+        VanishedTerm{"friction: {n: 1}\n"
+                     "sweep: {cases: {a: {friction.alpha: 0}, b: {friction.model: spring}}}",
+                     "m.yaml:6:15: friction.n: it has no effect: friction.alpha is 0 wherever friction.model "
+                     "is presliding"},
+        VanishedTerm{"friction: {beta: 1.0e+5, k2: 0}",
+                     "m.yaml:6:18: friction.beta: it has no effect: friction.k2 is 0 wherever friction.model "
+                     "has a spring"},
+        VanishedTerm{"friction: {beta: 1.0e+5}\nsweep: {grid: {friction.k2: [0, 750]}}", ""},
+        VanishedTerm{"friction: {coulomb_ratio: 1, stribeck_velocity: 0.1}",
+                     "m.yaml:6:49: friction.stribeck_velocity: it has no effect: friction.coulomb_ratio is 1 "
+                     "at every point"},
+        VanishedTerm{"friction: {coulomb_ratio: {choice: [1, 0.9]}, stribeck_velocity: 0.1}", ""}));
+
+INSTANTIATE_TEST_SUITE_P(
+    OfTheMode, VanishedTerms,
+    testing::Values(
+        VanishedTerm{"friction: {model: coulomb}\ninitial: {mode: slide, velocity: 1}",
+                     "m.yaml:7:17: initial.mode: it has no effect: friction.model is coulomb at every point, "
+                     "which slides wherever there is a velocity"},
+        VanishedTerm{"friction: {model: coulomb}\ninitial: {mode: stick, velocity: 1}", ""},
+        VanishedTerm{"initial: {mode: slide, velocity: 1}\n"
+                     "sweep: {grid: {friction.model: [coulomb, spring]}}",
+                     ""}));
 
 // The rules name what there is.
 TEST(IdleKeys, SpeakOfParametersAndSectionsAlone) {

@@ -94,6 +94,16 @@ TEST(Sections, KeysOfAnotherMapAreToldWhereTheyBelong) {
             0u);
 }
 
+// initial.mode has this very name; but a letter is sooner forgotten than a section confused.
+TEST(Sections, KeysNearThoseOfTheirMapAreNotLookedForElsewhere) {
+  EXPECT_EQ(refusal_of(minimal_manifest("friction: {mode: coulomb}"))
+                .find("m.yaml:6:12: friction.mode: unknown key, nearest known: model; "),
+            0u);
+  EXPECT_EQ(refusal_of(minimal_manifest(), {"friction.mode=x"})
+                .find("--set friction.mode=x: friction.mode: unknown key, nearest known: model; "),
+            0u);
+}
+
 TEST(Sections, SweepsAndOverridesAreToldTheNearestDottedName) {
   EXPECT_EQ(refusal_of(minimal_manifest("sweep: {grid: {controller.coarse.kdd: [1]}}")),
             "m.yaml:6:16: sweep.grid.controller.coarse.kdd: unknown key, nearest known: "

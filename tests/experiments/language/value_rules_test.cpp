@@ -98,13 +98,45 @@ INSTANTIATE_TEST_SUITE_P(
         UnfitCase{"{torque: {levels: [0.4, -0.4]}}", "", ""},
         UnfitCase{
             "{torque: {levels: [0.1, {normal: {mean: 0, sd: 1}}]}}", "",
-            "m.yaml:5:29: command.hold: 2 levels held for 1 s, and inf s on the way to them, can be more "
-            "than 1000000000000 samples at 2000 Hz; expected at most 1000000000000 samples in a trial"},
+            "m.yaml:5:34: command.torque.levels.1: its values have no limit, so that the torque can take for "
+            "ever to the level; expected a distribution of the level with a lowest and a highest value"},
+        UnfitCase{"{torque: {levels: [0.1], rate: {lognormal: {median: 1, cv: 0.1}}}}", "",
+                  "m.yaml:5:41: command.torque.rate: the rate can be so small that the torque takes for ever "
+                  "to a level; expected a rate with a lowest value above 0"},
+        // The torque stays at 0, where it is already: however small the rate, that takes no time.
+        UnfitCase{"{torque: {levels: [0, 0], rate: {lognormal: {median: 1, cv: 0.1}}}, hold: 1}", "", ""},
+        UnfitCase{
+            "{torque: {levels: [0, 0], rate: {lognormal: {median: 1, cv: 0.1}}}, hold: 1.0e+9}", "",
+            "m.yaml:5:84: command.hold: 2 levels held for 1000000000 s, and 0 s on the way to them, can "
+            "be more than 1000000000000 samples at 2000 Hz; expected at most 1000000000000 samples in a "
+            "trial"},
+        UnfitCase{"{torque: {levels: [0.1]}, hold: {lognormal: {median: 1, cv: 0.1}}}", "",
+                  "m.yaml:5:42: command.hold: 0 s can be less than one sample at 2000 Hz; expected at least "
+                  "one sample\n"
+                  "m.yaml:5:42: command.hold: its values have no upper limit, so that a trial can have any "
+                  "number of samples; expected a distribution of the hold with a highest value"},
         UnfitCase{
             "{torque: {levels: [0.1], rate: 1.0e-10}}", "",
             "m.yaml:5:41: command.hold: 1 levels held for 1 s, and 1000000000 s on the way to them, can "
             "be more than 1000000000000 samples at 2000 Hz; expected at most 1000000000000 samples in a "
             "trial"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Samples, ValueRules,
+    testing::Values(
+        UnfitCase{"{targets: [1], hold: {truncated_normal: {mean: 1, sd: 0.1, low: 0.5, high: 1.0e+9}}}", "",
+                  "m.yaml:5:31: command.hold: 1 moves of 1000000000 s at 2000 Hz can be more than "
+                  "1000000000000 samples; expected at most 1000000000000 samples in a trial"},
+        UnfitCase{"{targets: [1]}",
+                  "controller: {sample_rate: {lognormal: {median: 2000, cv: 0.1}}}\n"
+                  "verdict: {dwell: 0.05, window: 0.05}",
+                  "m.yaml:6:27: controller.sample_rate: its values have no upper limit, so that a trial can "
+                  "have any number of samples; expected a distribution of the sample rate with a highest "
+                  "value\n"
+                  "m.yaml:7:18: verdict.dwell: 0.05 s can be less than one sample at 0 Hz; expected at least "
+                  "one sample\n"
+                  "m.yaml:7:32: verdict.window: 0.05 s can be less than one sample at 0 Hz; expected at "
+                  "least one sample"}));
 
 // Paper's rig: 2π/1 620 000 rad a count. From 0 to 1° = 4500 counts = 0.01745 rad: with 2 rad/s and 100
 // rad/s² the velocity stays below its limit, and the travel takes 2√(0.01745/100) = 0.0264222 s.

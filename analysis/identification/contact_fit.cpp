@@ -191,35 +191,6 @@ double spread(const ContactFit& fit) {
   return std::sqrt(statistics.squares / static_cast<double>(statistics.observations));
 }
 
-/// A spring that softens within a count or two is hardly seen by the first fit, which may end far off. Where
-/// the observations say so, they are fitted from other rates of softening.
-void try_other_softening(std::span<const TestRecord> records, ContactFit& fit) {
-  if (!fit.setting.free[log_beta] || !fit.setting.free[log_k2]) return;
-  // Of the standard deviations that the observations are given. Those of edges are not independent: where the
-  // model is right, it leaves about half of them.
-  const bool noisy =
-      std::any_of(fit.noise.begin(), fit.noise.end(), [](double noise) { return noise > 0.0; });
-  const double explained = noisy ? 1.1 : 0.75;
-  const ContactFit first = fit;
-  bool found = false;
-  for (const double shift : {-2.0, -4.0, -6.0, -8.0, 2.0, 4.0}) {
-    if (spread(fit) < explained) break;
-    ContactFit other = first;
-    FitPoint point = first.model.point;
-    for (const Coordinate coordinate : {log_beta, log_k2}) {
-      other.setting.prior[coordinate] = point.contact[coordinate] += shift;
-    }
-    other.setting.most_steps = 10;
-    refine(records, point, 3, other);
-    observe_again(records, other);
-    if (spread(other) >= spread(fit)) continue;
-    fit = other;
-    found = true;
-  }
-  fit.setting.most_steps = first.setting.most_steps;
-  if (found) refine(records, fit.model.point, most_rounds, fit);
-}
-
 }  // namespace
 
 double creep_torque_for(std::span<const TestRecord> records, const std::vector<KnownParameter>& known) {
@@ -243,14 +214,37 @@ ContactFit fit_contact(std::span<const TestRecord> records, std::span<const Reco
   fit.model = followed_model(records, point, fit.setting);
   update_misfit(records, fit);
   refuse_glitches(records, point, fit.setting);
-  constexpr double rough_tolerance =
-      1.5;  // the fit to all readings alike is the one that leaves least of them
+  // The fit to all readings alike is the one that leaves least of them: what follows will not leave much
+  // less.
+  constexpr double rough_tolerance = 1.5;
   refuse_unexplained(records, fit, rough_tolerance);
   refine(records, point, most_rounds, fit);
-  try_other_softening(records, fit);
   refuse_glitches(records, fit.model.point, fit.setting);
   refuse_unexplained(records, fit, 1.0);
   return fit;
+}
+
+bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {
+  if (!fit.setting.free[log_beta] || !fit.setting.free[log_k2]) return false;
+  const ContactFit first = fit;
+  bool improved = false;
+  for (const double shift : {-2.0, -4.0, -6.0, -8.0, 2.0, 4.0}) {
+    ContactFit other = first;
+    FitPoint point = first.model.point;
+    for (const Coordinate coordinate : {log_beta, log_k2}) {
+      other.setting.prior[coordinate] = point.contact[coordinate] += shift;
+    }
+    other.setting.most_steps = 10;
+    refine(records, point, 3, other);
+    observe_again(records, other);
+    if (spread(other) >= spread(fit)) continue;
+    fit = other;
+    improved = true;
+  }
+  if (!improved) return false;
+  fit.setting.most_steps = first.setting.most_steps;
+  refine(records, fit.model.point, most_rounds, fit);
+  return true;
 }
 
 }  // namespace zerocount

@@ -38,4 +38,9 @@ double creep_torque_for(std::span<const TestRecord> records, const std::vector<K
 ContactFit fit_contact(std::span<const TestRecord> records, std::span<const RecordParts> parts,
                        const std::vector<KnownParameter>& known);
 
+/// Fits from other rates of softening, and keeps what leaves a smaller spread of residuals: a spring that
+/// softens within a count or two is hardly seen by the fit to all readings alike, which may end far off.
+/// @returns whether `fit` is another now.
+bool improve_softening(std::span<const TestRecord> records, ContactFit& fit);
+
 }  // namespace zerocount

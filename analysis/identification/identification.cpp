@@ -217,13 +217,16 @@ Identification identify(const std::vector<TestRecord>& records, const Identifica
   parts.reserve(records.size());
   for (const TestRecord& record : records) parts.push_back(parts_of(record));
   check_reversals(parts, options);
-  const ContactFit fit = fit_contact(records, parts, options.known);
-  const ReadingReplicates replicates =
-      replicate_readings(records, fit.model, fit.setting, fit.noise, options.replicates);
-
+  ContactFit fit = fit_contact(records, parts, options.known);
+  ReadingReplicates replicates;
   Identification result;
-  result.checks = check_residuals(residual_statistics(residuals_of(fit.model, fit.observations, {})),
-                                  replicates.residuals);
+  const auto check = [&] {
+    replicates = replicate_readings(records, fit.model, fit.setting, fit.noise, options.replicates);
+    result.checks = check_residuals(residual_statistics(residuals_of(fit.model, fit.observations, {})),
+                                    replicates.residuals);
+  };
+  check();
+  if (!result.checks.passed && improve_softening(records, fit)) check();
   refuse_gross_misfit(records, fit, result.checks);
   for (std::size_t r = 0; r < records.size(); ++r) {
     result.records.push_back(summary_of(records[r], parts[r], fit, r));

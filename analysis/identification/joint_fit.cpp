@@ -85,7 +85,8 @@ class JointResiduals : public ceres::CostFunction {
 
  private:
   bool within_reach(const ContactPoint& contact) const {
-    const double interval = records_.front().sample_time;
+    double interval = 0.0;  // the longest
+    for (const TestRecord& record : records_) interval = std::max(interval, record.sample_time);
     const double limit = std::max(fastest, 2.0 * rate_of(setting_.prior, setting_.creep_torque) * interval);
     if (rate_of(contact, setting_.creep_torque) * interval > limit) return false;
     for (std::size_t j = 0; j < creep_exponent; ++j) {

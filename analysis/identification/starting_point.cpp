@@ -178,22 +178,22 @@ PlantParameters estimate_ring_down(std::span<const TestRecord> records, std::spa
 ContactPoint starting_point(std::span<const TestRecord> records, std::span<const RecordParts> parts,
                             double creep_torque) {
   CreepEstimate creep = estimate_creep(records, parts, creep_torque);
-  ContactPoint point;
-  if (creep.limit > 0.0) {
-    point = point_with_creep(records, parts, creep, creep_torque);
-  } else {
-    // No hold shows any: there is none, or no hold. So much of it, as a share of the spring's travel, as the
-    // records bear best.
-    const double travel = creep_torque / estimate_spring(records, parts, creep, creep_torque).k1;
-    double least = std::numeric_limits<double>::infinity();
-    for (const double share : {1e-3, 0.1, 0.2, 0.3, 0.45, 0.7, 1.0, 1.5, 2.2, 3.3}) {
-      creep.limit = share * travel;
-      const ContactPoint tried = point_with_creep(records, parts, creep, creep_torque);
-      const double left = misfit(all_of(records), tried, creep_torque);
-      if (left >= least) continue;
-      least = left;
-      point = tried;
-    }
+  const bool seen = creep.limit > 0.0;
+  // Where no hold shows any there is none, or no hold. So much of it, as a share of the spring's travel, as
+  // the records bear best; a little to begin with.
+  const double travel = seen ? 0.0 : creep_torque / estimate_spring(records, parts, creep, creep_torque).k1;
+  if (!seen) creep.limit = 1e-3 * travel;
+  ContactPoint point = point_with_creep(records, parts, creep, creep_torque);
+  if (seen) return with_best_ringing(records, parts, point, creep_torque);
+
+  double least = misfit(all_of(records), point, creep_torque);
+  for (const double share : {0.1, 0.2, 0.3, 0.45, 0.7, 1.0, 1.5, 2.2, 3.3}) {
+    creep.limit = share * travel;
+    const ContactPoint tried = point_with_creep(records, parts, creep, creep_torque);
+    const double left = misfit(all_of(records), tried, creep_torque);
+    if (left >= least) continue;
+    least = left;
+    point = tried;
   }
   return with_best_ringing(records, parts, point, creep_torque);
 }

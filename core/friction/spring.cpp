@@ -1,5 +1,6 @@
 #include "core/friction/spring.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,10 +16,12 @@ SpringBranch virgin_branch(const FrictionParameters& friction, double sign) {
 }
 
 /// u ≥ 0 with k1·u + softening_torque·(1 − exp(−softening_rate·u)) = torque ≥ 0. The law is increasing and
-/// concave, so Newton's iteration from u = 0 climbs to the root without passing it; it ends where it no
-/// longer climbs.
+/// concave, so Newton's iteration from below climbs to the root without passing it; it ends where it no
+/// longer climbs. It begins where the law would end if it were as stiff as at its start, or as soft as at its
+/// end.
 double travel_at(const SpringBranch& branch, double torque) {
-  double travel = 0.0;
+  const double stiffest = branch.k1 + branch.softening_torque * branch.softening_rate;
+  double travel = std::max(torque / stiffest, (torque - branch.softening_torque) / branch.k1);
   for (;;) {
     const double softness = std::exp(-branch.softening_rate * travel);
     const double missing =
@@ -109,13 +112,37 @@ void HystereticSpring::move_to_torque(double torque) {
   const double now = this->torque();
   if (torque == now) return;
   set_direction(torque > now ? 1 : -1);
+  move_on_to_torque(torque);
+}
+
+void HystereticSpring::move_on_to_torque(double torque) {
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * std::abs(torque);
   for (std::optional<double> end = branch_end();
        end && direction_ * (torque - branch_end_torque()) >= -rounding; end = branch_end()) {
     move_on_branch(*end);
   }
   const double travel = travel_at(branch_, branch_.sign * (torque - branch_.torque));
-  move_on_branch(branch_.elongation + branch_.sign * travel);
+  const double x = branch_.elongation + branch_.sign * travel;
+  if (direction_ * (x - elongation_) > 0.0) move_on_branch(x);
+}
+
+void HystereticSpring::settle_at_torque(double torque) {
+  move_on_branch(elongation_ + (torque - this->torque()) / stiffness_on(branch_, elongation_));
+}
+
+double HystereticSpring::stiffness_at_torque(double torque) const {
+  const ReversalPoint here{elongation_, this->torque()};
+  const int direction = torque > here.torque ? 1 : -1;
+  const bool turns = direction_ != 0 && direction != direction_;
+  const auto point = [&](std::size_t i) { return i < stack_.size() ? stack_[i] : here; };
+  std::size_t depth = stack_.size() + (turns ? 1 : 0);
+  while (depth >= 2 && direction * (torque - point(depth - 2).torque) >= 0.0) depth -= 2;
+  if (depth == 1 && direction * (torque + point(0).torque) >= 0.0) depth = 0;
+  const SpringBranch branch =
+      depth > 0 ? branch_from(friction_, point(depth - 1).elongation, point(depth - 1).torque, direction)
+                : virgin_branch(friction_, torque < 0.0 ? -1.0 : 1.0);
+  return stiffness_on(
+      branch, branch.elongation + branch.sign * travel_at(branch, branch.sign * (torque - branch.torque)));
 }
 
 /// σ at branch_end(), N m.

@@ -82,6 +82,17 @@ class HystereticSpring {
   /// whatever branches lie between. The torque of a reversal point closes its loop.
   void move_to_torque(double torque);
 
+  /// Moves on in the present direction until it carries `torque` (N m), by whatever branches lie between;
+  /// stays where it carries as much already.
+  void move_on_to_torque(double torque);
+
+  /// Moves a way too short to be remembered, forwards or backwards along the present branch, until it carries
+  /// `torque` (N m), which is next to the present one.
+  void settle_at_torque(double torque);
+
+  /// Tangent stiffness (N m/rad) at `torque` (N m), other than the present one, if the spring moved there.
+  double stiffness_at_torque(double torque) const;
+
  private:
   double branch_end_torque() const;
   void select_branch();

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/friction/creep.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/friction/spring.hpp"
+#include "core/plant/creep_at_rest.hpp"
 #include "core/plant/events.hpp"
 #include "core/plant/parameters.hpp"
 #include "core/plant/plant_start.hpp"
@@ -14,9 +16,11 @@ namespace zerocount {
 
 /// What of the plant's motion is below notice.
 struct MotionTolerance {
-  /// Elongation (rad) that a Taylor step may leave out, below which an oscillation counts as rest, and by
-  /// which hardening must be exceeded before creep starts. A trial uses 1e-11 of a fine count.
+  /// Elongation (rad) that a Taylor step may leave out, and by which hardening must be exceeded before creep
+  /// starts. A trial uses 1e-11 of a fine count.
   double elongation{4e-16};
+  /// Amplitude (rad) below which an oscillation counts as rest. A trial uses 1e-8 of a fine count.
+  double rest{4e-14};
 };
 
 /// The rotor with its contact: the pre-sliding motion (paper, eq. 4, with creep) while the hook sticks,
@@ -25,12 +29,23 @@ struct MotionTolerance {
 /// The motion is integrated by Taylor series with every kink located in time: reversals, loop closures, the
 /// start and end of creep, breakaway, re-stick.
 ///
-/// Rest rule: where |dxs/dt| < ε·ωn and |d²xs/dt²| < ε·ωn², with ε = MotionTolerance::elongation and ωn² =
-/// (k1 + k2)/J, the elongation is held for the rest of the torque step and creep, if any, follows its exact
-/// solution at constant torque. Where the torque moves, the rest begins at half of that acceleration and
-/// lasts until the torque has brought it to the whole. The elongation is then never further than ε·(k1 +
-/// k2)/k1 from the one that balances the torque. Without this rule rounding would make the elongation rate
-/// flip sign for ever.
+/// Rest rule. Without one, an oscillation would die out for ever, and rounding would make the elongation rate
+/// flip its sign in the end. Let δσ and δω be what σ and ω differ by from those of a rotor that only creep
+/// moves under the present torque (CreepAtRest; without creep σ = u and ω = 0), ε = MotionTolerance::rest and
+/// ωn² = (k1 + k2)/J. Where
+///
+///   ((δσ + c·δω)/J)² + (ωn·δω)² < (ε·ωn²)²,   |δσ| < 2ε·dσ/dxs
+///
+/// σ and ω are set to those, and the rotor follows CreepAtRest for as long as the torque stays. What is left
+/// out is an oscillation of amplitude ε. It would have died out around the same σ, and leaves xs where it is
+/// but for some β·ε², because that is how much a loop of the spring of that size is open. The first condition
+/// is on the energy of the oscillation, which only falls: so which reversal is the last one to be remembered
+/// does not depend on when it is asked.
+///
+/// Where the torque moves, the elongation is held while |dxs/dt| < ε·ωn and |d²xs/dt²| < ε·ωn², with ε =
+/// MotionTolerance::elongation, from half of that acceleration until the torque has brought it to the whole;
+/// creep follows its exact solution at constant torque. The elongation is then never further than ε·(k1 +
+/// k2)/k1 from the one that balances the torque.
 ///
 /// FrictionModel::coulomb has no elongation and no creep: the rotor stands while |u| ≤ breakaway, and slides
 /// towards sgn(u) from the instant at which |u| passes it.
@@ -68,12 +83,23 @@ class Plant {
     double acceleration;
   };
 
+  /// At rest under a constant torque: since when, and how it began.
+  struct Rest {
+    double torque;      ///< u, N m
+    CreepAtRest creep;  ///< from then on
+    CreepState start;   ///< of creep, then
+    double time;        ///< since then, s
+  };
+
   // Each returns the time used, at most `duration`.
   double stick(const TorqueCourse& torque, double duration);
   double stand(const TorqueCourse& torque, double duration);  // stick of FrictionModel::coulomb
   double slide(const TorqueCourse& torque, double duration);
 
   Elongation elongation_under(double torque, double creep_rate_now) const;
+  bool begin_rest(double torque, const Elongation& elongation);
+  std::optional<CreepAtRest> slow_motion(double torque, double sign) const;
+  void go_on_at_rest(double duration);
   bool at_rest(const Elongation& elongation) const;
   double time_at_rest(const Elongation& elongation, const TorqueCourse& torque, double duration) const;
   int slides_towards(double torque) const;
@@ -98,6 +124,7 @@ class Plant {
   double creep_onset_torque_{0.0};  // |σ| at which creep starts, while it is off
   double hook_{0.0};
   double omega_{0.0};
+  std::optional<Rest> rest_;
 
   bool sliding_{false};
   double slide_theta_{0.0};

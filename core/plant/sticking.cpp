@@ -12,6 +12,11 @@ namespace zerocount {
 
 double Plant::stick(const TorqueCourse& torque, double duration) {
   if (friction_.model == FrictionModel::coulomb) return stand(torque, duration);
+  if (rest_ && is_constant(torque) && torque.now == rest_->torque) {
+    go_on_at_rest(duration);
+    return duration;
+  }
+  rest_.reset();
   if (!creeping_ && std::abs(spring_.torque()) >= creep_onset_torque_) creeping_ = true;
   double creep_rate_now = creep_rate();
   // The end of creep can lie closer to σ = 0 than the series of |σ|ⁿ sees, if n is no whole number.
@@ -20,9 +25,13 @@ double Plant::stick(const TorqueCourse& torque, double duration) {
     creep_rate_now = 0.0;
   }
   const Elongation elongation = elongation_under(torque.now, creep_rate_now);
-  if (at_rest(elongation)) {
-    const double rest = is_constant(torque) ? duration : time_at_rest(elongation, torque, duration);
-    if (rest > 0.0) {
+  if (is_constant(torque)) {
+    if (begin_rest(torque.now, elongation)) {
+      go_on_at_rest(duration);
+      return duration;
+    }
+  } else if (at_rest(elongation)) {
+    if (const double rest = time_at_rest(elongation, torque, duration); rest > 0.0) {
       hold_at_rest(rest);
       return rest;
     }

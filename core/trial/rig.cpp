@@ -12,6 +12,9 @@ namespace {
 /// because a trial that breaks away in every cycle of its ringing multiplies an error from cycle to cycle.
 constexpr double motion_tolerance_in_counts = 1e-11;
 
+/// Amplitude of an oscillation that counts as rest, in fine counts: a hundredth of the accuracy asked for.
+constexpr double rest_in_counts = 1e-8;
+
 /// Farther than this, counts are no longer whole numbers of a double.
 constexpr double most_counts = 0x1p52;
 
@@ -29,7 +32,8 @@ Rig::Rig(const TrialParameters& p)
       dac_(p.dac),
       drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness),
       plant_(p.plant, p.friction, plant_start(p),
-             MotionTolerance{motion_tolerance_in_counts * measurement_.fine_resolution()}) {}
+             MotionTolerance{motion_tolerance_in_counts * measurement_.fine_resolution(),
+                             rest_in_counts * measurement_.fine_resolution()}) {}
 
 SampleRecord Rig::read(std::int64_t k) {
   SampleRecord record;

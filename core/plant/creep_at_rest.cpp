@@ -1,0 +1,84 @@
+#include "core/plant/creep_at_rest.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zerocount {
+namespace {
+
+constexpr double slow = 0.1;  // α over the rates at which the rotor's own motion dies out
+
+/// Each round leaves less than some 1e-2 of the error: the terms that follow from others are small beside
+/// the leading ones, c·p in S and α·p in dp/dt.
+constexpr int rounds = 10;
+
+/// p₀, from p = α·(S(p)ⁿ/λ − xh), by Newton's iteration from its value for S = U.
+double rate_at_hardening(const CreepAtRest& rest, const FrictionParameters& contact, double hardening) {
+  double rate = (hardening_limit(contact, rest.balance) - hardening) * rest.g1;
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    const double torque = spring_torque_at_rate(rest, rate);
+    const double limit = hardening_limit(contact, torque);
+    const double excess = contact.alpha * (limit - hardening) - rate;
+    const double slope = contact.alpha * contact.n * limit / torque * (rest.s1 + 2.0 * rest.s2 * rate) + 1.0;
+    rate += excess / slope;
+  }
+  return rate;
+}
+
+}  // namespace
+
+std::optional<CreepAtRest> creep_at_rest(const PlantParameters& plant, const FrictionParameters& contact,
+                                         double torque, double sign, double stiffness, double hardening) {
+  const double inertia = plant.inertia;
+  const double damping = plant.presliding_damping;
+  const double alpha = contact.alpha;
+  if (!(alpha < slow * std::min(damping / (2.0 * inertia), stiffness / damping))) return std::nullopt;
+  CreepAtRest r{.balance = sign * torque, .sign = sign};
+  // n·Uⁿ⁻¹/λ and its derivative by U, times α
+  const double per_torque = alpha * contact.n * hardening_limit(contact, r.balance) / r.balance;
+  const double per_torque_squared = per_torque * (contact.n - 1.0) / r.balance;
+  r.g1 = alpha;
+  r.s1 = damping;
+  double last_g1 = 0.0;
+  for (int round = 0; round < rounds; ++round) {
+    last_g1 = r.g1;
+    r.w1 = 1.0 + r.g1 * r.s1 / stiffness;
+    r.w2 = (r.g2 * r.s1 + 2.0 * r.g1 * r.s2) / stiffness;
+    r.s1 = (damping - inertia * r.g1) * r.w1;
+    r.s2 = damping * r.w2 - inertia * (r.g2 * r.w1 + 2.0 * r.g1 * r.w2);
+    r.g1 = alpha - per_torque * r.g1 * r.s1;
+    r.g2 = per_torque_squared * r.s1 * r.g1 * r.s1 - per_torque * (r.g2 * r.s1 + 2.0 * r.g1 * r.s2);
+  }
+  const bool found = r.g1 > 0.0 && std::abs(r.g1 - last_g1) < 1e-12 * r.g1;
+  if (found) r.rate = rate_at_hardening(r, contact, hardening);
+  if (!(r.rate > 0.0)) return std::nullopt;
+  return r;
+}
+
+double error_of_creep_at_rest(const CreepAtRest& rest, const PlantParameters& plant,
+                              const FrictionParameters& contact, double stiffness, double last_stiffness) {
+  const double n = contact.n;
+  const double defect = rest.s1 * rest.rate / rest.balance;  // of S, as a share of U
+  const double per_torque = contact.alpha * n * hardening_limit(contact, rest.balance) / rest.balance;
+  const double coupling = per_torque * rest.s1 / rest.g1;
+  const double cubic =
+      (coupling * std::abs((n - 1.0) * (n - 2.0)) + (n * n + 1.0) * coupling * coupling) * defect * defect;
+  const double torque =
+      plant.presliding_damping * rest.g1 * rest.s1 * rest.rate * (1.0 / last_stiffness - 1.0 / stiffness);
+  return rest.rate / rest.g1 * cubic + torque * (1.0 / last_stiffness + per_torque / rest.g1);
+}
+
+double creep_rate_after(const CreepAtRest& rest, double t) {
+  const double z = rest.rate / (rest.g1 + rest.g2 * rest.rate) * std::exp(-rest.g1 * t);
+  return rest.g1 * z / (1.0 - rest.g2 * z);
+}
+
+double creep_until_rate(const CreepAtRest& rest, double rate) {
+  // (1/g2)·log(1 + g2·d/a), d the fall of the rate, by its series where g2 is small.
+  const double ratio = (rest.rate - rate) / (rest.g1 + rest.g2 * rate);
+  const double x = rest.g2 * ratio;
+  if (std::abs(x) < 1e-4) return ratio * (1.0 - x * (0.5 - x * (1.0 / 3.0 - 0.25 * x)));
+  return std::log1p(x) / rest.g2;
+}
+
+}  // namespace zerocount

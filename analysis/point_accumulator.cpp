@@ -8,6 +8,7 @@
 
 #include "core/failure.hpp"
 #include "core/numerics/sign.hpp"
+#include "core/trial/divergence.hpp"
 
 namespace zerocount {
 namespace {
@@ -53,6 +54,7 @@ void count_move(const MoveOutcome& move, MoveCounts& counts) {
   counts.arrived += move.arrived;
   counts.broke_away += move.broke_away;
   counts.saturated += move.saturated;
+  counts.stopped += move.stopped;
 }
 
 std::int64_t sum_of(const std::vector<MoveOutcome>& moves, std::int64_t MoveOutcome::*measure) {
@@ -100,11 +102,13 @@ void PointAccumulator::add_moves(const TrialOutcome& trial) {
       std::any_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.broke_away; });
   counted_.saturated +=
       std::any_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.saturated; });
+  counted_.stopped += std::any_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.stopped; });
   counted_.phase_changes.add(sum_of(moves, &MoveOutcome::phase_changes));
   counted_.encoder_disagreement.add(sum_of(moves, &MoveOutcome::encoder_disagreement));
 }
 
 void PointAccumulator::add_measures(const MoveOutcome& move) {
+  if (!was_run(move)) return;
   if (move.arrived) settling_times_.add(move.settling_time);
   const bool has_error = !kind_.open_loop && kind_.final_error_known && move.outcome != Outcome::nonfinite;
   if (has_error) final_errors_.add(std::abs(move.final_error));

@@ -38,9 +38,9 @@ std::int64_t trials_of_share(double share, std::int64_t trials, std::string_view
 
 }  // namespace
 
-std::vector<PointColumn> point_columns(std::span<const PointSummary> points) {
+std::vector<PointColumn> point_columns(std::span<const PointSummary> points, const StudyFeatures& features) {
   std::vector<PointColumn> columns;
-  for (const StatisticField& field : statistic_fields()) {
+  for (const StatisticField& field : statistic_fields(features)) {
     PointColumn column{flat_name(field), std::string(field.unit), std::string(field.long_name), {}};
     for (const PointSummary& point : points) column.values.push_back(field.value(point));
     columns.push_back(std::move(column));

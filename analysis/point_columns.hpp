@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/point_statistics.hpp"
+#include "analysis/study_features.hpp"
 #include "analysis/theory_prediction.hpp"
 #include "results/layout/layout.hpp"
 
@@ -14,7 +15,8 @@ namespace zerocount {
 
 /// The statistics of all points as columns of the results file's /point: one for each of statistic_fields(),
 /// by flat_name.
-std::vector<PointColumn> point_columns(std::span<const PointSummary> points);
+std::vector<PointColumn> point_columns(std::span<const PointSummary> points,
+                                       const StudyFeatures& features = {});
 
 /// The levels of an open-loop study, of all its points, as the group /level of the results file: a column for
 /// each of level_fields(), by flat_name.

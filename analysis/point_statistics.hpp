@@ -23,6 +23,7 @@ struct MoveCounts {
   std::int64_t stable{0};
   std::int64_t broke_away{0};
   std::int64_t saturated{0};
+  std::int64_t stopped{0};  ///< ended in it or before it
 };
 
 /// Share of trials with 95 % bounds; NaN where there are none that could be a part of it.
@@ -107,6 +108,7 @@ struct PointSummary {
   std::int64_t arrived{0};          ///< trials all of whose moves arrived
   std::int64_t broke_away{0};       ///< trials in which the hook slid during any move
   std::int64_t saturated{0};        ///< trials in which the DAC clipped during any move
+  std::int64_t stopped{0};          ///< trials that were ended early, because a move had diverged
   RateWithBounds success_rate;      ///< zero_count / judged
   RateWithBounds stable_rate;       ///< stable / judged
 

@@ -119,16 +119,24 @@ std::vector<StatisticField> outcome_and_jerk_fields() {
   };
 }
 
+std::vector<StatisticField> fields_of_all_studies() {
+  std::vector<StatisticField> all = outcome_and_jerk_fields();
+  const std::span<const StatisticField> measures = measure_statistic_fields();
+  all.insert(all.end(), measures.begin(), measures.end());
+  return all;
+}
+
 }  // namespace
 
-std::span<const StatisticField> statistic_fields() {
+std::span<const StatisticField> statistic_fields(const StudyFeatures& features) {
   static const std::vector<StatisticField> fields = [] {
-    std::vector<StatisticField> all = outcome_and_jerk_fields();
-    const std::span<const StatisticField> measures = measure_statistic_fields();
-    all.insert(all.end(), measures.begin(), measures.end());
+    std::vector<StatisticField> all = fields_of_all_studies();
+    all.push_back({"", "stopped", "1", "trials that were ended early, because a move had diverged", true,
+                   [](S s) { return number(s.stopped); }});
     return all;
   }();
-  return fields;
+  const std::span<const StatisticField> all(fields);
+  return features.stopping ? all : all.first(all.size() - 1);
 }
 
 }  // namespace zerocount

@@ -4,16 +4,18 @@
 
 #include "analysis/point_statistics.hpp"
 #include "analysis/report_field.hpp"
+#include "analysis/study_features.hpp"
 
 namespace zerocount {
 
 /// One number of PointSummary as it is reported.
 using StatisticField = ReportField<PointSummary>;
 
-/// All of them, in the order of the report.
-std::span<const StatisticField> statistic_fields();
+/// Those of a study with these features, in the order of the report: what only some studies have comes last.
+std::span<const StatisticField> statistic_fields(const StudyFeatures& features = {});
 
-/// The last of them: those of the measures of the moves, without settling times and jerks.
+/// The last of those that all studies have: those of the measures of the moves, without settling times and
+/// jerks.
 std::span<const StatisticField> measure_statistic_fields();
 
 }  // namespace zerocount

@@ -9,6 +9,7 @@ StudyFeatures study_features(const Study& study) {
   features.phases = study.trace_extras.phase;
   features.encoder_errors = study.loop_extras.encoder_errors;
   features.final_error = features.travel || features.phases || study.loop_extras.lasting_errors;
+  features.stopping = study.outcome_extras.stopped;
   return features;
 }
 

@@ -15,6 +15,7 @@ struct StudyFeatures {
   /// In some trial moves may end beside their targets by design: no integral control, friction without
   /// pre-sliding motion, or moves that are long.
   bool final_error{false};
+  bool stopping{false};  ///< at some point, a trial is ended where a move diverges
 };
 
 StudyFeatures study_features(const Study& study);

@@ -126,7 +126,7 @@ std::vector<TheoryPrediction> study_predictions(const Study& study) {
 StoredStatistics stored_statistics(const StudyFile& file, const Study& study) {
   const std::vector<PointSummary> points = study_statistics(file, study);
   StoredStatistics stored;
-  stored.points = point_columns(points);
+  stored.points = point_columns(points, study_features(study));
   const std::vector<PointColumn> predictions = prediction_columns(study_predictions(study));
   stored.points.insert(stored.points.end(), predictions.begin(), predictions.end());
   if (study.open_loop) {

@@ -45,7 +45,7 @@ void add_values(Line& line, std::span<const ReportField<Subject>> fields, const 
 
 Line csv_header(const StudySummary& summary) {
   Line header = point_names(summary);
-  add_names(header, statistic_fields());
+  add_names(header, statistic_fields(summary.features));
   for (const PredictionField& field : prediction_fields()) header.emplace_back(field.name);
   header.insert(header.end(), {"predicted", "observed"});
   for (const SummarySection& section : summary.sections) {
@@ -56,7 +56,7 @@ Line csv_header(const StudySummary& summary) {
 
 Line csv_row(const StudySummary& summary, std::size_t point) {
   Line row = point_values(summary, point);
-  add_values(row, statistic_fields(), summary.points[point]);
+  add_values(row, statistic_fields(summary.features), summary.points[point]);
   const TheoryPrediction prediction =
       summary.predictions.empty() ? TheoryPrediction{} : summary.predictions[point];
   for (const PredictionField& field : prediction_fields()) {

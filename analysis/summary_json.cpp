@@ -25,7 +25,7 @@ nlohmann::ordered_json axes_json(const StudySummary& summary, std::size_t point)
   return axes;
 }
 
-nlohmann::ordered_json moves_json(const PointSummary& statistics) {
+nlohmann::ordered_json moves_json(const PointSummary& statistics, const StudyFeatures& features) {
   nlohmann::ordered_json moves = nlohmann::ordered_json::array();
   for (const MoveCounts& move : statistics.by_move) {
     nlohmann::ordered_json counts;
@@ -36,6 +36,7 @@ nlohmann::ordered_json moves_json(const PointSummary& statistics) {
     counts["arrived"] = move.arrived;
     counts["broke_away"] = move.broke_away;
     counts["saturated"] = move.saturated;
+    if (features.stopping) counts["stopped"] = move.stopped;
     moves.push_back(std::move(counts));
   }
   return moves;
@@ -57,8 +58,8 @@ nlohmann::ordered_json summary_json(const StudySummary& summary) {
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     nlohmann::ordered_json point{{"point", i}, {"label", summary.labels[i]}, {"axes", axes_json(summary, i)}};
-    add_fields(point, statistic_fields(), summary.points[i]);
-    point["moves"] = moves_json(summary.points[i]);
+    add_fields(point, statistic_fields(summary.features), summary.points[i]);
+    point["moves"] = moves_json(summary.points[i], summary.features);
     if (summary.features.open_loop) point["levels"] = levels_json(summary.points[i]);
     if (!summary.predictions.empty()) point["prediction"] = prediction_json(summary.predictions[i]);
     if (const std::string seen = observed_at(summary, static_cast<std::int64_t>(i)); !seen.empty()) {

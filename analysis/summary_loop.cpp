@@ -39,6 +39,9 @@ void add_outcomes(std::vector<TextColumn>& columns, const StudySummary& summary)
 void add_features(std::vector<TextColumn>& columns, const StudySummary& summary) {
   using Point = const PointSummary&;
   const StudyFeatures& features = summary.features;
+  if (features.stopping) {
+    columns.push_back(by_point(summary, "stopped", [](Point p) { return percentage(p.stopped, p.trials); }));
+  }
   if (features.travel) {
     columns.push_back(
         by_point(summary, "travel (s)", [](Point p) { return short_number(p.travel_time.mean); }));
@@ -98,6 +101,12 @@ std::string loop_legend(const StudySummary& summary) {
       "Pearson, in %\n"
       "median, p95: settling time of the moves that arrived; arrived: their share of all moves\n"
       "jerks/trial: mean over all trials\n";
+  if (features.stopping) {
+    legend +=
+        "stopped: share of trials that were ended where a move had diverged; they count as oscillating, and "
+        "what is\n"
+        "measured of their moves is up to there\n";
+  }
   if (features.travel) legend += "travel: mean time that the reference takes to its target\n";
   if (features.final_error) legend += "|e|: error at the last sample of the moves, in counts\n";
   if (features.phases) legend += "phase changes: from coarse to fine control or back, mean over all trials\n";

@@ -55,6 +55,11 @@ struct TraceExtras {
                              ///< but for the delay of a closed loop
 };
 
+/// What the outcomes of a study hold beyond the columns that all have.
+struct OutcomeExtras {
+  bool stopped{false};  ///< at some point, a trial is ended where a move diverges
+};
+
 /// What the trials of a study may meet in the loop, by all that their parameters can be.
 struct LoopExtras {
   bool encoder_errors{false};  ///< in some trial, an encoder is not ideal
@@ -90,6 +95,7 @@ struct Study {
   std::vector<SequenceMove> sequence;         ///< [move]; empty where there is none
   bool open_loop{false};                      ///< the moves are torque levels, without targets
   TraceExtras trace_extras;
+  OutcomeExtras outcome_extras;
   LoopExtras loop_extras;
   std::vector<std::string> warnings;  ///< what is allowed but may surprise, a line each, with its place
 

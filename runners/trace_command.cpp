@@ -28,7 +28,7 @@ constexpr const char* help =
     "slide); values at the sampling instant, code and torque those decided there. Only where\n"
     "the study uses them: reference (counts, that the control follows), phase (fine or\n"
     "coarse), drive_torque (N m, of the motor; where it is not the code's, but for a delay of\n"
-    "a closed loop).\n"
+    "a closed loop). A trial that is stopped early ends there.\n"
     "\n"
     "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
 

@@ -37,9 +37,10 @@ std::string value_text(const RecordField<TraceRecord>& field, const TraceRecord&
   return std::visit(text, field.member);
 }
 
-nlohmann::ordered_json outcome_json(const MoveOutcome& outcome) {
+nlohmann::ordered_json outcome_json(const MoveOutcome& outcome,
+                                    const std::vector<RecordField<MoveOutcome>>& measures) {
   nlohmann::ordered_json object;
-  for (const RecordField<MoveOutcome>& field : outcome_fields()) {
+  for (const RecordField<MoveOutcome>& field : measures) {
     const auto put = [&](auto member) {
       const auto value = outcome.*member;
       using Value = std::remove_const_t<decltype(value)>;
@@ -61,6 +62,7 @@ nlohmann::ordered_json outcome_json(const MoveOutcome& outcome) {
 
 void TraceWriter::begin(const TraceSubject& subject) {
   columns_ = columns_of(subject.study.trace_extras);
+  measures_ = outcome_fields(format_version, subject.study.outcome_extras);
   if (json_) {
     nlohmann::ordered_json inputs = nlohmann::ordered_json::object();
     for (std::size_t i = 0; i < subject.trial.inputs.size(); ++i) {
@@ -96,7 +98,7 @@ void TraceWriter::write(const SampleRecord& sample) {
 void TraceWriter::end(const TrialOutcome& outcome) {
   if (!json_) return;
   nlohmann::ordered_json moves = nlohmann::ordered_json::array();
-  for (const MoveOutcome& move : outcome.moves) moves.push_back(outcome_json(move));
+  for (const MoveOutcome& move : outcome.moves) moves.push_back(outcome_json(move, measures_));
   fmt::print(file_, "],\n \"outcome\": {}}}\n", moves.dump());
 }
 

@@ -35,7 +35,8 @@ class TraceWriter {
  private:
   std::FILE* file_;
   bool json_;
-  std::vector<RecordField<TraceRecord>> columns_;  ///< since begin()
+  std::vector<RecordField<TraceRecord>> columns_;   ///< since begin()
+  std::vector<RecordField<MoveOutcome>> measures_;  ///< likewise
   bool first_{true};
 };
 

@@ -11,14 +11,14 @@ int sign_of(std::int64_t value) {
   return (value > 0) - (value < 0);
 }
 
+}  // namespace
+
 Outcome verdict(std::int64_t largest_error, bool finite, bool judged) {
   if (!finite) return Outcome::nonfinite;
   if (!judged) return Outcome::open_loop;
   if (largest_error == 0) return Outcome::zero_count;
   return largest_error == 1 ? Outcome::one_count : Outcome::oscillating;
 }
-
-}  // namespace
 
 MoveTiming move_timing(const TrialParameters& parameters, std::size_t move) {
   const double rate = parameters.controller.sample_rate;
@@ -85,7 +85,8 @@ bool MoveMeasures::finish(bool broke_away, std::int64_t reversal_depth, bool fin
   if (jerk_cut) end_jerk();
   outcome_.broke_away = broke_away;
   outcome_.reversal_depth = reversal_depth;
-  outcome_.outcome = verdict(largest_in_window_, finite, timing_.judged);
+  outcome_.outcome =
+      outcome_.stopped ? Outcome::oscillating : verdict(largest_in_window_, finite, timing_.judged);
   outcome_.stable = finite && outcome_.arrived && largest_since_arrival_ <= 1;
   if (outcome_.jerk_count > 0) {
     const std::int64_t agreeing =

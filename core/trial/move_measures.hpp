@@ -18,6 +18,16 @@ struct MoveTiming {
 
 MoveTiming move_timing(const TrialParameters& parameters, std::size_t move);
 
+/// Distance from the rotor at `theta` (rad) to the middle of the target's count, counts (see MoveOutcome).
+/// @param resolution of the fine encoder, rad. @param phase of it, in counts.
+inline double true_error(std::int64_t target, double theta, double resolution, double phase) {
+  return static_cast<double>(target) - (theta / resolution + phase - 0.5);
+}
+
+/// The verdict on a move whose largest |e| in the window is `largest_error` (counts).
+/// @param finite the motion could be followed. @param judged the move had a target.
+Outcome verdict(std::int64_t largest_error, bool finite, bool judged);
+
 /// What one sample contributes to the measures of its move.
 struct MoveSample {
   std::int64_t target{0};  ///< counts; 0 where there is none
@@ -37,6 +47,9 @@ class MoveMeasures {
   /// Takes the next sample of the move.
   /// @returns whether a jerk ended before this sample; then it is in last_jerk().
   bool add(const MoveSample& sample);
+
+  /// Says that the move has diverged with the sample taken last, and that there will be no other.
+  void stop() { outcome_.stopped = true; }
 
   /// Ends the move: takes what the plant did during it. Call once, after the last sample.
   /// @returns whether a jerk was cut by the end; then it is in last_jerk().

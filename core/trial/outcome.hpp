@@ -24,6 +24,7 @@ struct MoveOutcome {
   bool stable{false};        ///< arrived, and |e| ≤ 1 count from then to the end
   bool broke_away{false};    ///< the hook slid during the move
   bool saturated{false};     ///< the DAC clipped
+  bool stopped{false};       ///< ended at the sample at which it had diverged, or not run after one that was
   std::int64_t arrival{-1};  ///< first sample of the arrival dwell, from the move's start; −1 if never
   double settling_time{std::numeric_limits<double>::quiet_NaN()};  ///< arrival·T, s; NaN if never
   double travel_time{0.0};      ///< until the reference, or the torque, is where it is held, s

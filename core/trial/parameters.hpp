@@ -58,8 +58,10 @@ struct InitialConditions {
 
 /// How a move is judged.
 struct VerdictParameters {
-  double dwell{0.05};   ///< time at zero error that makes an arrival, s
-  double window{0.05};  ///< last part of the move, by which its outcome is judged, s
+  double dwell{0.05};    ///< time at zero error that makes an arrival, s
+  double window{0.05};   ///< last part of the move, by which its outcome is judged, s
+  bool stop{false};      ///< a move that diverges is ended there, and the trial with it (see divergence.hpp)
+  double limit{1000.0};  ///< |error| beyond that of the move's first sample that counts as diverged, counts
 };
 
 /// Everything that determines a trial: two equal sets give the same trial, bit for bit.

@@ -2,6 +2,7 @@
 
 #include "core/loop/controller.hpp"
 #include "core/loop/reference.hpp"
+#include "core/trial/divergence.hpp"
 #include "core/trial/move_measures.hpp"
 #include "core/trial/rig.hpp"
 #include "core/trial/torque_ramp.hpp"
@@ -10,16 +11,17 @@ namespace zerocount {
 namespace {
 
 /// Runs the samples of one move, from number `first` on. `decide(i, record)` completes the record of its
-/// sample i: what is commanded, and the torque.
+/// sample i: what is commanded, and the torque. A move that diverges is ended.
 template <class Decide>
-MoveOutcome run_move(Rig& rig, const MoveTiming& timing, std::int64_t move, std::int64_t first,
-                     const TrialObservers& observers, Decide decide) {
+MoveOutcome run_move(Rig& rig, const MoveTiming& timing, const VerdictParameters& verdict, std::int64_t move,
+                     std::int64_t first, const TrialObservers& observers, Decide decide) {
   MoveMeasures measures(timing, move);
   Plant& plant = rig.plant();
   plant.forget_deepest();
   const std::int64_t breakaways_before = plant.breakaways();
   const std::int64_t disagreements_before = rig.measurement().disagreements();
   const bool sliding_before = plant.sliding();
+  std::int64_t first_error = 0;
   for (std::int64_t i = 0; i < timing.samples && rig.readable(); ++i) {
     SampleRecord record = rig.read(first + i);
     decide(i, record);
@@ -27,6 +29,11 @@ MoveOutcome run_move(Rig& rig, const MoveTiming& timing, std::int64_t move, std:
     const bool jerk_ended =
         measures.add({record.target, record.count, record.torque, rig.clipped(), record.theta, record.xp});
     if (jerk_ended && observers.jerk) observers.jerk(measures.last_jerk());
+    if (i == 0) first_error = record.error;
+    if (timing.judged && diverged(verdict, first_error, record.error)) {
+      measures.stop();
+      break;
+    }
     rig.hold();
   }
   const bool slid = sliding_before || plant.breakaways() > breakaways_before;
@@ -35,11 +42,6 @@ MoveOutcome run_move(Rig& rig, const MoveTiming& timing, std::int64_t move, std:
   MoveOutcome outcome = measures.outcome();
   outcome.encoder_disagreement = rig.measurement().disagreements() - disagreements_before;
   return outcome;
-}
-
-/// Distance from the rotor at `theta` (rad) to the middle of the target's count, counts (see MoveOutcome).
-double true_error(std::int64_t target, double theta, double resolution, double phase) {
-  return static_cast<double>(target) - (theta / resolution + phase - 0.5);
 }
 
 /// Closed loop: the controller follows a reference to each target.
@@ -52,7 +54,8 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
   std::int64_t first = 0;
   std::int64_t from = 0;
   double torque_in_force = 0.0;
-  for (std::size_t m = 0; m < p.command.targets.size(); ++m) {
+  bool stopped = false;
+  for (std::size_t m = 0; m < p.command.targets.size() && !stopped; ++m) {
     const std::int64_t target = p.command.targets[m];
     const Reference reference(p.command.profile, from, target, resolution);
     const MoveTiming timing = move_timing(p, m);
@@ -66,16 +69,19 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
       record.phase = controller.phase();
       torque_in_force = record.torque;
     };
-    MoveOutcome move = run_move(rig, timing, static_cast<std::int64_t>(m), first, observers, decide);
+    MoveOutcome move =
+        run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, observers, decide);
     move.phase_changes = controller.phase_changes() - changes_before;
     move.travel_time = reference.duration();
     if (move.outcome != Outcome::nonfinite) {
       move.true_error = true_error(target, move.final_position, resolution, p.initial.encoder_phase);
     }
     outcome.moves.push_back(move);
+    stopped = move.stopped;
     first += timing.samples;
     from = target;
   }
+  outcome.moves.resize(p.command.targets.size(), move_not_run());
   return outcome;
 }
 
@@ -98,7 +104,8 @@ TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& obser
         rig.drive(torque, record);
       }
     };
-    MoveOutcome move = run_move(rig, timing, static_cast<std::int64_t>(m), first, observers, decide);
+    MoveOutcome move =
+        run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, observers, decide);
     move.travel_time = static_cast<double>(ramp.samples) * timing.sample_time;
     outcome.moves.push_back(move);
     first += timing.samples;

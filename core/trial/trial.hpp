@@ -38,6 +38,8 @@ struct TrialObservers {
 };
 
 /// Runs one trial: quantised DAC → plant with friction → encoder, from t = 0 to the end of the last move.
+/// With `verdict.stop` a trial ends at the sample at which a move has diverged (see divergence.hpp): its
+/// samples and jerks are those of the trial without it, up to there.
 ///
 /// A pure function: the same parameters give the same outcome and the same records, whatever ran before or
 /// runs beside it. The memory it uses does not grow with the number of samples.

@@ -94,6 +94,15 @@ std::vector<EffectRule> rules_of_the_loop() {
   };
 }
 
+// Left in place, so that a study can be run with and without by one word.
+EffectRule rule_of_the_limit() {
+  return {.keys = {"verdict.limit"},
+          .depends_on = {"verdict.stop"},
+          .has_effect = [](Limits l) { return l[0].high > 0.0; },
+          .what = "it has no effect: verdict.stop is true at no point",
+          .warn_only = true};
+}
+
 std::vector<EffectRule> rules_of_the_contact() {
   const auto both_positive = [](Limits l) { return can_be_positive(l[0]) && can_be_positive(l[1]); };
   return {
@@ -183,6 +192,7 @@ EffectRule rule_of_the_position(const StudyPlan& plan) {
 std::vector<EffectRule> effect_rules(const StudyPlan& plan) {
   std::vector<EffectRule> rules = rules_of_the_command(plan);
   rules.push_back(rule_of_the_position(plan));
+  rules.push_back(rule_of_the_limit());
   for (const auto& more : {rules_of_the_loop(), rules_of_the_contact(), rules_of_vanished_terms()}) {
     rules.insert(rules.end(), more.begin(), more.end());
   }

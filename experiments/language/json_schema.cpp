@@ -88,6 +88,7 @@ Json reference(std::string_view name) {
 
 // What may stand for one value of the parameter.
 Json value_schema(const Parameter& parameter) {
+  if (parameter.kind == ParameterKind::truth) return {{"type", "boolean"}};
   if (parameter.kind == ParameterKind::enumeration) return {{"enum", parameter.words}};
   const bool whole = parameter.kind == ParameterKind::whole_number;
   Json number{{"type", whole ? "integer" : "number"}};
@@ -106,7 +107,9 @@ Json key_schema(const Parameter& parameter) {
   schema["description"] = parameter.unit == "1"
                               ? std::string(parameter.meaning)
                               : std::string(parameter.meaning) + ", " + std::string(parameter.unit);
-  if (parameter.kind == ParameterKind::enumeration) {
+  if (parameter.kind == ParameterKind::truth) {
+    schema["default"] = default_value(parameter) != 0.0;
+  } else if (parameter.kind == ParameterKind::enumeration) {
     schema["default"] = default_text(parameter);
   } else if (has_default(parameter)) {
     schema["default"] = default_value(parameter);
@@ -137,7 +140,7 @@ Json sweep_schema() {
   for (const Parameter& parameter : parameter_table()) {
     const Json value = value_schema(parameter);
     const Json spaced = {{"anyOf", {list_of(value, 1), spacing_schema()}}};
-    const bool numeric = parameter.kind != ParameterKind::enumeration;
+    const bool numeric = !has_words(parameter);
     const Json whole_value = parameter.listed ? list_of(value, 1) : value;
     assignments[pattern_of(parameter, false)] = whole_value;
     grid[pattern_of(parameter, false)] = numeric && !parameter.listed ? spaced : list_of(whole_value, 1);

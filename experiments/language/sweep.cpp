@@ -115,8 +115,8 @@ void note_slots(SweptAxis& axis, const SlotRange& slots) {
 std::string value_label(const SweptAxis& axis, const SlotRange& slots, const YamlNode& node,
                         const ListedValues& list) {
   const std::size_t row = row_of_slot(slots.first, list);
-  if (slots.list || parameter_table()[row].kind == ParameterKind::enumeration ||
-      axis.axis.assignments.empty() || axis.axis.assignments.back().value.kind != Value::Kind::number) {
+  if (slots.list || has_words(parameter_table()[row]) || axis.axis.assignments.empty() ||
+      axis.axis.assignments.back().value.kind != Value::Kind::number) {
     return flow_text(node);
   }
   return fmt::format("{}", axis.axis.assignments.back().value.number);

@@ -31,7 +31,7 @@ SweepAxis empty_axis(std::size_t slot, const ListedValues& list, std::size_t poi
   axis.name = slot_name(slot, list);
   axis.unit = parameter.unit;
   axis.meaning = parameter.meaning;
-  if (parameter.kind == ParameterKind::enumeration) {
+  if (has_words(parameter)) {
     axis.kind = SweepAxis::Kind::text;
     axis.unit.clear();
     axis.texts.reserve(points);

@@ -68,8 +68,33 @@ std::vector<ValueRule> rules_of_the_start() {
   };
 }
 
+// A trial that is ended early is one whose moves have no ends.
+ValueRule no_stop_in_a_sequence() {
+  return {{"verdict.stop"}, false, without_list([](Limits l) -> Faults {
+            if (l[0].high == 0.0) return {};
+            return {
+                {"the values of ISO 230-2 are of the ends of all moves, which a trial that is ended early "
+                 "does not have",
+                 "false with command.sequence"}};
+          })};
+}
+
+ValueRule stop_with_two_phases() {
+  return {{"verdict.stop", "controller.coarse.coarse_beyond"},
+          false,
+          without_list([](Limits l) -> Faults {
+            if (l[0].high == 0.0 || !can_have_coarse_phase(l[1])) return {};
+            return {
+                {"the coarse phase may bring a rotor back from beyond verdict.limit, and so change an "
+                 "outcome that was taken as decided",
+                 ""}};
+          }),
+          true};
+}
+
 std::vector<ValueRule> rules_of_two_phases() {
   return {
+      stop_with_two_phases(),
       {{"controller.kd", "controller.coarse.coarse_beyond"}, false, without_list([](Limits l) -> Faults {
          if (!can_have_coarse_phase(l[1]) || l[0].high == 0.0) return {};
          return {{fmt::format("{} N m/count can act in the fine phase of a control with two", l[0].high),
@@ -97,6 +122,7 @@ std::vector<ValueRule> value_rules(const StudyPlan& plan) {
   add(command_rules(plan));
   add(rules_of_the_start());
   if (!plan.open_loop) add(rules_of_two_phases());
+  if (plan.sequence) add({no_stop_in_a_sequence()});
   return rules;
 }
 

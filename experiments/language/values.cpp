@@ -16,6 +16,7 @@ namespace {
 constexpr std::string_view profile_name = "profile";
 
 std::string expected_of(const Parameter& parameter) {
+  if (has_words(parameter)) return fmt::format("one of {}", fmt::join(parameter.words, ", "));
   const std::string words = in_words(parameter.range);
   const std::string noun = parameter.kind == ParameterKind::whole_number ? "whole numbers" : "numbers";
   return words.rfind("any", 0) == 0 ? "finite " + noun + " only" : noun + " " + words + " only";
@@ -23,6 +24,11 @@ std::string expected_of(const Parameter& parameter) {
 
 Value number_value(double number) {
   return {.kind = Value::Kind::number, .number = number};
+}
+
+Value read_truth_value(const Field& field, Problems& problems) {
+  const auto truth = read_truth(field, problems);
+  return truth ? number_value(*truth ? 1.0 : 0.0) : unreadable_value();
 }
 
 Value read_word(const Field& field, const Parameter& parameter, Problems& problems) {
@@ -154,6 +160,7 @@ Value unreadable_value() {
 
 Value read_value(const Field& field, std::size_t row, Reading& reading) {
   const Parameter& parameter = parameter_table()[row];
+  if (parameter.kind == ParameterKind::truth) return read_truth_value(field, reading.problems);
   if (parameter.kind == ParameterKind::enumeration) return read_word(field, parameter, reading.problems);
   if (field.node->kind == YamlNode::Kind::map) return read_map(field, row, reading);
   return read_number(field, parameter, reading.problems);

@@ -53,6 +53,16 @@ std::vector<Parameter> verdict_rows() {
           real_row("verdict.window", "s", "last part of a move, by which its outcome is judged", assumed,
                    above(0), 28),
           [](auto& p) -> auto& { return p.verdict.window; }),
+      stored_at(
+          truth_row("verdict.stop",
+                    "whether a trial ends where a move has diverged, its outcome being decided", assumed,
+                    first_sobol_dimension_beyond_moves + 6),
+          [](auto& p) -> auto& { return p.verdict.stop; }),
+      stored_at(
+          real_row("verdict.limit", "count",
+                   "|error| beyond that at the move's first sample by which it has diverged", assumed,
+                   above(1), 62),
+          [](auto& p) -> auto& { return p.verdict.limit; }),
   };
 }
 

@@ -24,8 +24,7 @@ struct Listing {
 };
 
 std::string allowed(const Parameter& parameter) {
-  if (parameter.kind == ParameterKind::enumeration)
-    return fmt::format("{}", fmt::join(parameter.words, " | "));
+  if (has_words(parameter)) return fmt::format("{}", fmt::join(parameter.words, " | "));
   return (parameter.kind == ParameterKind::whole_number ? "whole, " : "") + notation(parameter.range);
 }
 

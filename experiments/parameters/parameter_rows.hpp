@@ -10,8 +10,8 @@
 namespace zerocount {
 
 // The rows of the table of parameters, section by section. A new row of numbers takes the next free Sobol
-// dimension: 62 and 63, then those beyond the moves'. A word is never drawn: a new one takes its dimension
-// beyond the moves', the next of which is 6 more than the first.
+// dimension: 63, then those beyond the moves'. A word is never drawn: a new one takes its dimension beyond
+// the moves', the next of which is 7 more than the first.
 
 std::vector<Parameter> plant_rows();
 std::vector<Parameter> friction_rows();
@@ -45,6 +45,12 @@ inline Parameter word_row(std::string_view name, std::string_view meaning, std::
                           std::vector<std::string_view> words, std::size_t sobol_dimension) {
   const Interval range = closed(0, static_cast<double>(words.size() - 1));
   return {name, "1", meaning, source, ParameterKind::enumeration, range, std::move(words), sobol_dimension};
+}
+
+/// A row of `true` or `false`.
+inline Parameter truth_row(std::string_view name, std::string_view meaning, std::string_view source,
+                           std::size_t sobol_dimension) {
+  return {name, "1", meaning, source, ParameterKind::truth, closed(0, 1), {"false", "true"}, sobol_dimension};
 }
 
 /// Completes a row with the way to and from the trial's parameters: `At` returns a reference to the field.

@@ -42,7 +42,7 @@ double default_value(const Parameter& parameter) {
 std::string default_text(const Parameter& parameter) {
   if (!has_default(parameter)) return "none";
   const double value = default_value(parameter);
-  if (parameter.kind == ParameterKind::enumeration) {
+  if (has_words(parameter)) {
     return std::string(parameter.words[static_cast<std::size_t>(value)]);
   }
   return fmt::format("{}", value);

@@ -12,7 +12,7 @@
 
 namespace zerocount {
 
-enum class ParameterKind { real, whole_number, enumeration };
+enum class ParameterKind { real, whole_number, enumeration, truth };
 
 /// One row of the table of parameters: all that the project knows of one of a trial's parameters.
 struct Parameter {
@@ -22,7 +22,7 @@ struct Parameter {
   std::string_view source;  ///< of the default: a place in the paper, or "assumed"
   ParameterKind kind{ParameterKind::real};
   Interval range;                       ///< of the values allowed
-  std::vector<std::string_view> words;  ///< of an enumeration, in the order of its numbers
+  std::vector<std::string_view> words;  ///< of an enumeration or a truth value, in the order of its numbers
   std::size_t sobol_dimension{0};       ///< fixed for ever, so that a new row changes no other's draws
   double FrictionParameters::*profiled{nullptr};  ///< where a profile goes; null where none is allowed
   bool listed{false};  ///< a list of values: one way to say what the moves go to; a study uses one of them
@@ -51,7 +51,12 @@ inline bool has_default(const Parameter& parameter) {
   return parameter.get != nullptr;
 }
 
-/// Default value, from the core's own structs; an enumeration's is the number of its word.
+/// Whether its values are words, and not numbers: that of an enumeration or a truth value.
+inline bool has_words(const Parameter& parameter) {
+  return !parameter.words.empty();
+}
+
+/// Default value, from the core's own structs; where it is a word, the number of it.
 double default_value(const Parameter& parameter);
 
 /// The default as it would be written in a manifest; "none" where there is none.

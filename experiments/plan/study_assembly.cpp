@@ -9,6 +9,7 @@
 
 #include "experiments/designs/random_key.hpp"
 #include "experiments/language/loop_extras.hpp"
+#include "experiments/language/outcome_extras.hpp"
 #include "experiments/language/slots.hpp"
 #include "experiments/language/trace_extras.hpp"
 
@@ -122,6 +123,7 @@ void assemble_study(const std::vector<ProfileRequest>& requests, const std::vect
   study.point_labels = label_points(axes);
   study.axes = describe_axes(axes, plan);
   study.trace_extras = find_trace_extras(plan);
+  study.outcome_extras = find_outcome_extras(plan);
   study.loop_extras = find_loop_extras(plan);
   const std::vector<bool> swept = swept_slots(plan);
   list_input_columns(swept, plan, study);

@@ -84,9 +84,14 @@ std::vector<RecordField<MoveOutcome>> all_outcome_fields() {
                "share of the jerks in the direction of the holding torque, NaN if none", &M::jerk_agreement)};
 }
 
-std::vector<RecordField<MoveOutcome>> outcome_fields_of(std::int64_t version) {
+std::vector<RecordField<MoveOutcome>> outcome_fields_of(std::int64_t version, const OutcomeExtras& extras) {
   std::vector<RecordField<MoveOutcome>> fields = all_outcome_fields();
   std::erase_if(fields, [version](const auto& entry) { return entry.since > version; });
+  if (extras.stopped) {
+    fields.push_back(field<MoveOutcome>(
+        "stopped", "1", "the move had diverged and was ended there, or was not run after one that was",
+        &MoveOutcome::stopped));
+  }
   return fields;
 }
 
@@ -106,9 +111,12 @@ std::string word_of(const Column& column, std::int64_t value) {
   return flag == column.flags.end() ? std::to_string(value) : flag->word;
 }
 
-const std::vector<RecordField<MoveOutcome>>& outcome_fields(std::int64_t version) {
-  static const std::vector<RecordField<MoveOutcome>> current = outcome_fields_of(format_version);
-  static const std::vector<RecordField<MoveOutcome>> first = outcome_fields_of(1);
+const std::vector<RecordField<MoveOutcome>>& outcome_fields(std::int64_t version,
+                                                            const OutcomeExtras& extras) {
+  static const std::vector<RecordField<MoveOutcome>> first = outcome_fields_of(1, {});
+  static const std::vector<RecordField<MoveOutcome>> current = outcome_fields_of(format_version, {});
+  static const std::vector<RecordField<MoveOutcome>> with_stopped = outcome_fields_of(format_version, {true});
+  if (extras.stopped) return with_stopped;
   return version == 1 ? first : current;
 }
 

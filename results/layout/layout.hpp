@@ -76,8 +76,9 @@ struct TraceRecord : SampleRecord {
   std::int64_t trial{0};  ///< global row
 };
 
-/// The measures of a move that a file of `version` has.
-const std::vector<RecordField<MoveOutcome>>& outcome_fields(std::int64_t version = format_version);
+/// The measures of a move that a file of `version` has; those of `extras` come last.
+const std::vector<RecordField<MoveOutcome>>& outcome_fields(std::int64_t version = format_version,
+                                                            const OutcomeExtras& extras = {});
 const std::vector<RecordField<JerkRecord>>& jerk_fields();
 /// The columns of a sample record; those of `extras` come last.
 std::vector<RecordField<TraceRecord>> trace_fields(const TraceExtras& extras);
@@ -122,7 +123,7 @@ inline constexpr std::int64_t profile_angles = 4096;
 
 Table point_table(const std::vector<SweepAxis>& axes, const std::vector<PointColumn>& statistics);
 Table trial_table(const std::vector<InputColumn>& inputs);
-Table outcome_table(std::int64_t version = format_version);
+Table outcome_table(std::int64_t version = format_version, const OutcomeExtras& extras = {});
 Table jerk_table();
 Table trace_table(const TraceExtras& extras);
 Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn>& columns);

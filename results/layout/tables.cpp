@@ -57,9 +57,9 @@ Table trial_table(const std::vector<InputColumn>& inputs) {
   return table;
 }
 
-Table outcome_table(std::int64_t version) {
+Table outcome_table(std::int64_t version, const OutcomeExtras& extras) {
   return {"outcome", whole_numbers("trial", "global row of the trial"),
-          whole_numbers("move", "index of the move"), columns_of(outcome_fields(version))};
+          whole_numbers("move", "index of the move"), columns_of(outcome_fields(version, extras))};
 }
 
 Table jerk_table() {

@@ -41,6 +41,10 @@ std::vector<InputColumn> read_input_columns(const hdf5::File& file) {
   return inputs;
 }
 
+OutcomeExtras read_outcome_extras(const hdf5::File& file) {
+  return {file.open_group("outcome").contains("stopped")};
+}
+
 TraceExtras read_trace_extras(const hdf5::File& file) {
   if (!file.contains("trace")) return {};
   const hdf5::Group trace = file.open_group("trace");
@@ -80,7 +84,8 @@ StudyFile::StudyFile(const std::filesystem::path& path, Require require)
       header_(read_required(file_, path, require)),
       inputs_(read_input_columns(file_)),
       trials_(TableIo::open(file_, trial_table(inputs_))),
-      outcomes_(TableIo::open(file_, outcome_table(header_.version))),
+      outcome_extras_(read_outcome_extras(file_)),
+      outcomes_(TableIo::open(file_, outcome_table(header_.version, outcome_extras_))),
       jerks_(TableIo::open(file_, jerk_table())),
       trace_extras_(read_trace_extras(file_)),
       trace_(open_trace(file_, trace_extras_)) {
@@ -151,23 +156,23 @@ std::vector<double> StudyFile::inputs_of(std::int64_t row) const {
 }
 
 std::vector<MoveOutcome> StudyFile::outcomes(RowRange range) const {
-  return read_records(outcomes_, outcome_fields(header_.version), local(range), range.count);
+  return read_records(outcomes_, measures(), local(range), range.count);
 }
 
 std::vector<double> StudyFile::measure(std::string_view name, RowRange range) const {
   const auto has_name = [name](const RecordField<MoveOutcome>& field) { return field.column.name == name; };
-  const std::vector<RecordField<MoveOutcome>>& known = outcome_fields();
+  const std::vector<RecordField<MoveOutcome>>& known = outcome_fields(format_version, {true});
   const auto field = std::find_if(known.begin(), known.end(), has_name);
   if (field == known.end()) throw std::invalid_argument(fmt::format("'{}' is no measure of a move", name));
 
   const std::int64_t first = local(range);
   const auto size = static_cast<std::size_t>(range.count * outcomes_.width());
-  const std::vector<RecordField<MoveOutcome>>& stored = outcome_fields(header_.version);
-  const auto column = std::find_if(stored.begin(), stored.end(), has_name);
-  if (column == stored.end()) return std::vector<double>(size, field->before);
+  const auto column = std::find_if(measures().begin(), measures().end(), has_name);
+  if (column == measures().end()) return std::vector<double>(size, field->before);
   std::vector<MoveOutcome> moves(size);
   std::vector<std::byte> bytes(size * size_of(field->column.element));
-  outcomes_.column(static_cast<std::size_t>(column - stored.begin())).read(first, range.count, bytes.data());
+  outcomes_.column(static_cast<std::size_t>(column - measures().begin()))
+      .read(first, range.count, bytes.data());
   scatter(*field, bytes, std::span(moves));
   return as_doubles(*field, moves);
 }

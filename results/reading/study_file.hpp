@@ -58,11 +58,13 @@ class StudyFile {
   std::vector<double> inputs_of(std::int64_t row) const;               ///< [input column]
 
   /// The measures that the file has; one of an earlier version of the layout lacks some.
-  const std::vector<RecordField<MoveOutcome>>& measures() const { return outcome_fields(header_.version); }
+  const std::vector<RecordField<MoveOutcome>>& measures() const {
+    return outcome_fields(header_.version, outcome_extras_);
+  }
   /// Whether the final errors of the moves are in the file.
   bool final_error_known() const { return header_.version >= 2; }
-  /// All measures of the moves of these trials: [row][move], flattened. Those that the file lacks are 0,
-  /// which is their true value in such files but for final_error; true_error is NaN.
+  /// All measures of the moves of these trials: [row][move], flattened. Those that the file lacks are 0, or
+  /// false, which is their true value in such files but for final_error; true_error is NaN.
   std::vector<MoveOutcome> outcomes(RowRange rows) const;
   /// One measure of a move by its name, [row][move], flattened, whatever its type in the file, as doubles.
   /// NaN where it is not known.
@@ -92,6 +94,7 @@ class StudyFile {
   FileHeader header_;
   std::vector<InputColumn> inputs_;
   TableIo trials_;  ///< point, index, then one column per input
+  OutcomeExtras outcome_extras_;
   TableIo outcomes_;
   TableIo jerks_;
   TraceExtras trace_extras_;

@@ -118,7 +118,7 @@ void write_trials_of(std::span<const ShardInfo> shards, const Study& study, cons
   write_header(file, make_header(study, FileKind::study, rows, provenance));
   write_points(file, study);
   concatenate(file, trial_table(study.input_columns), shards, 1, rows.first);
-  concatenate(file, outcome_table(), shards, study.moves, rows.first);
+  concatenate(file, outcome_table(format_version, study.outcome_extras), shards, study.moves, rows.first);
   concatenate(file, jerk_table(), shards, 1, 0);
   write_profiles(file, study);
   if (!study.retained_trials.empty()) concatenate(file, trace_table(study.trace_extras), shards, 1, 0);

@@ -55,9 +55,10 @@ void write_outcomes(hdf5::File& file, const Study& study, std::span<const TrialR
   for (const TrialResult& result : results) {
     moves.insert(moves.end(), result.outcome.moves.begin(), result.outcome.moves.end());
   }
-  TableIo io = TableIo::create(file, outcome_table(), std::ssize(results), study.moves);
+  const OutcomeExtras& extras = study.outcome_extras;
+  TableIo io = TableIo::create(file, outcome_table(format_version, extras), std::ssize(results), study.moves);
   io.number_rows(results.front().row);
-  write_records(io, outcome_fields(), 0, std::span<const MoveOutcome>(moves));
+  write_records(io, outcome_fields(format_version, extras), 0, std::span<const MoveOutcome>(moves));
 }
 
 void write_jerks(hdf5::File& file, std::span<const TrialResult> results) {

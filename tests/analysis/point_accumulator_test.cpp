@@ -1,5 +1,6 @@
 #include "analysis/point_accumulator.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/failure.hpp"
+#include "core/trial/divergence.hpp"
 
 namespace zerocount {
 namespace {
@@ -88,6 +90,41 @@ TEST(PointStatistics, BreakawayAndSaturationInAnyMoveCountTheTrialOnce) {
   EXPECT_EQ(statistics.saturated, 2);
   EXPECT_EQ(statistics.by_move[0].broke_away, 1);
   EXPECT_EQ(statistics.by_move[1].saturated, 2);
+}
+
+TEST(PointStatistics, StoppedTrialsCountInEveryRateAndTheirMovesAsFarAsTheyWereRun) {
+  MoveOutcome sound = move_that(Outcome::zero_count, 0.1), stopped = move_that(Outcome::oscillating, never);
+  sound.holding_torque = 0.01;
+  sound.overshoot = 4;
+  stopped.holding_torque = 0.03;
+  stopped.overshoot = 1500;
+  stopped.final_error = -1500;
+  stopped.stopped = true;
+  PointAccumulator point;
+  point.add({{sound, sound, sound}}, {});
+  point.add({{sound, stopped, move_not_run()}}, {});
+  point.add({{stopped, move_not_run(), move_not_run()}}, {});
+  const PointSummary statistics = point.statistics();
+  EXPECT_EQ(statistics.trials, 3);
+  EXPECT_EQ(statistics.stopped, 2);
+  EXPECT_EQ(statistics.outcomes.zero_count, 1);
+  EXPECT_EQ(statistics.outcomes.oscillating, 2);
+  EXPECT_EQ(statistics.success_rate.value, 1.0 / 3.0);
+  ASSERT_EQ(statistics.by_move.size(), 3U);
+  for (int move = 0; move < 3; ++move) {
+    EXPECT_EQ(statistics.by_move[static_cast<std::size_t>(move)].stopped, std::min(move + 1, 2));
+    EXPECT_EQ(statistics.by_move[static_cast<std::size_t>(move)].outcomes.oscillating, std::min(move + 1, 2));
+  }
+  EXPECT_EQ(statistics.moves, 9);
+  for (const Moments& measure : {statistics.overshoot, statistics.holding_torque, statistics.peak_torque,
+                                 statistics.creep, statistics.travel_time}) {
+    EXPECT_EQ(measure.n, 6);  // three were not run
+    EXPECT_EQ(measure.nonfinite, 0);
+  }
+  EXPECT_EQ(statistics.final_error.n, 6);
+  EXPECT_EQ(statistics.final_error.max, 1500.0);
+  EXPECT_NEAR(statistics.overshoot.mean, (4 * 4 + 2 * 1500) / 6.0, 1e-9);
+  EXPECT_NEAR(statistics.holding_torque.mean, (4 * 0.01 + 2 * 0.03) / 6.0, 1e-15);
 }
 
 TEST(PointStatistics, SettlingTimesAreThoseOfTheMovesThatArrived) {

@@ -25,7 +25,8 @@ bool has_final_error(const std::string& more, int seed = 5) {
 
 TEST(StudyFeatures, OfThePapersLoopAreNone) {
   const StudyFeatures none = features_with("");
-  EXPECT_FALSE(none.open_loop || none.travel || none.phases || none.encoder_errors || none.final_error);
+  EXPECT_FALSE(none.open_loop || none.travel || none.phases || none.encoder_errors || none.final_error ||
+               none.stopping);
 }
 
 TEST(StudyFeatures, EncoderErrorsAreThoseOfEitherEncoder) {
@@ -47,6 +48,12 @@ TEST(StudyFeatures, OfAStudyAreThoseOfAnyPoint) {
   EXPECT_TRUE(has_final_error("sweep: {grid: {controller.ki: [3.85e-5, 0]}}"));
   EXPECT_TRUE(has_final_error("sweep: {grid: {friction.model: [presliding, spring, coulomb]}}"));
   EXPECT_TRUE(has_encoder_errors("sweep: {cases: {a: {}, b: {encoder.coarse_errors.noise: 0.1}}}"));
+}
+
+TEST(StudyFeatures, StoppingIsThatOfAnyPoint) {
+  EXPECT_TRUE(features_with("verdict: {stop: true}").stopping);
+  EXPECT_FALSE(features_with("verdict: {stop: false}").stopping);
+  EXPECT_TRUE(features_with("sweep: {grid: {verdict.stop: [false, true]}}").stopping);
 }
 
 // One seed draws an error in the first trial, another does not: the columns are the same.

@@ -216,6 +216,30 @@ TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {
   }
 }
 
+TEST(Summary, SaysHowManyTrialsWereStoppedWhereAStudyCanStopThem) {
+  StudySummary summary = two_cases();
+  summary.points[1].stopped = summary.points[1].by_move[0].stopped = 5;
+  EXPECT_EQ(summary_table(summary).find("stopped"), std::string::npos);
+  EXPECT_EQ(summary_csv(summary).find("stopped"), std::string::npos);
+  EXPECT_EQ(summary_json_text(summary).find("stopped"), std::string::npos);
+  const std::size_t columns = point_columns(summary.points).size();
+
+  summary.features.stopping = true;
+  const std::vector<std::string> lines = lines_of(summary_table(summary));
+  EXPECT_NE(lines[2].find("stopped"), std::string::npos);
+  EXPECT_NE(lines[5].find(" 71.4 % "), std::string::npos) << lines[5];
+  EXPECT_NE(summary_table(summary).find("\nstopped: share of trials"), std::string::npos);
+  EXPECT_NE(summary_csv(summary).find("encoder_disagreement_max,stopped,predicted"), std::string::npos);
+  const auto json = nlohmann::json::parse(summary_json_text(summary));
+  EXPECT_EQ(json["points"][0]["stopped"], 0);
+  EXPECT_EQ(json["points"][1]["stopped"], 5);
+  EXPECT_EQ(json["points"][1]["moves"][0]["stopped"], 5);
+  const std::vector<PointColumn> stored = point_columns(summary.points, summary.features);
+  ASSERT_EQ(stored.size(), columns + 1);
+  EXPECT_EQ(stored.back().name, "stopped");
+  EXPECT_EQ(stored.back().values, (std::vector<double>{0, 5}));
+}
+
 TEST(SummaryTable, HasADashWhereTheCriteriaAreNotAboutAPoint) {
   StudySummary summary = two_cases();
   summary.predictions[1] = {7, 0, 0, 7};

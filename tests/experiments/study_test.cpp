@@ -142,6 +142,19 @@ TEST(Study, RecordsAReferenceWhereItIsNotTheTarget) {
   EXPECT_TRUE(extras("sweep: {grid: {command.profile.shape: [step, trapezoidal]}}").reference);
 }
 
+TEST(Study, SaysWhatWasStoppedWhereATrialCanBe) {
+  const auto can_stop = [](const std::string& more) {
+    return study_of(minimal_manifest(more)).outcome_extras.stopped;
+  };
+  EXPECT_FALSE(can_stop(""));
+  EXPECT_FALSE(can_stop("verdict: {stop: false}"));
+  EXPECT_TRUE(can_stop("verdict: {stop: true}"));
+  EXPECT_TRUE(can_stop("sweep: {cases: {one: {}, two: {verdict.stop: true}}}"));
+  const Study study = study_of(minimal_manifest("verdict: {stop: true, limit: 250}"));
+  EXPECT_TRUE(study_trial(study, 0, 0).parameters.verdict.stop);
+  EXPECT_EQ(study_trial(study, 0, 0).parameters.verdict.limit, 250);
+}
+
 TEST(Study, RecordsTheTorqueOfTheMotorWhereItIsNotThatOfTheCode) {
   EXPECT_FALSE(extras("").drive_torque);
   EXPECT_FALSE(extras("controller: {delay: 2}").drive_torque);

@@ -60,6 +60,7 @@ MoveOutcome sample_move(std::mt19937_64& random, std::int64_t move, std::vector<
         {move, onset, 0.0005 * (1 + small(random)), 1 + small(random) / 8, small(random) < 5 ? -1 : 1});
     outcome.jerk_agreement = 0.5;
   }
+  outcome.stopped = small(random) < 3;
   return outcome;
 }
 
@@ -102,6 +103,7 @@ Study sample_study(std::int64_t points, std::int64_t trials, std::int64_t moves)
   study.profiles = {{"friction.k1", "N m/rad", profile}};
   study.retained_trials = {0};
   study.trace_extras = {true, true, true};
+  study.outcome_extras = {true};
   return study;
 }
 

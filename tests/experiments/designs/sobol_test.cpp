@@ -164,12 +164,14 @@ TEST(Sobol, TheDimensionsAreFixed) {
       {"initial.integral", 59},
       {"initial.history.reversals", 60},
       {"initial.history.torque", 61},
+      {"verdict.limit", 62},
       {"friction.model", 3064},
       {"controller.encoder", 3065},
       {"controller.coarse.encoder", 3066},
       {"command.torque.through", 3067},
       {"command.profile.shape", 3068},
       {"initial.mode", 3069},
+      {"verdict.stop", 3070},
   };
   std::size_t checked = 0;
   for (const Parameter& parameter : parameter_table()) {

@@ -54,6 +54,10 @@ INSTANTIATE_TEST_SUITE_P(
             "{torque: {levels: [0.1]}}", "verdict: {window: 0.1}",
             "m.yaml:6:19: verdict.window: it has no effect: the loop is open with command.torque; expected "
             "command.targets or command.sequence, or the key left out"},
+        IdleCase{
+            "{torque: {levels: [0.1]}}", "verdict: {stop: true}",
+            "m.yaml:6:17: verdict.stop: it has no effect: the loop is open with command.torque; expected "
+            "command.targets or command.sequence, or the key left out"},
         IdleCase{"{torque: {levels: [0.1]}}", "controller: {sample_rate: 1000, delay: 2}", ""},
         // An integral of nought asks for nothing.
         IdleCase{"{torque: {levels: [0.1]}}", "initial: {integral: 0}", ""},
@@ -180,6 +184,15 @@ TEST(IdleKeys, WhatAFrictionModelDoesNotUseIsAWarningAtMost) {
   EXPECT_EQ(warnings("friction: {k1: 100, alpha: 0.5}\nsweep: {grid: {friction.model: [coulomb, spring]}}\n"),
             (Warnings{"m.yaml:6:28: friction.alpha: it has no effect: friction.model is presliding at no "
                       "point"}));
+}
+
+TEST(IdleKeys, ALimitWithoutAStopIsAWarning) {
+  using Warnings = std::vector<std::string>;
+  const Warnings idle{"m.yaml:6:18: verdict.limit: it has no effect: verdict.stop is true at no point"};
+  EXPECT_EQ(warnings("verdict: {limit: 500}\n"), idle);
+  EXPECT_EQ(warnings("verdict: {limit: 500, stop: false}\n"), idle);
+  EXPECT_EQ(warnings("verdict: {limit: 500, stop: true}\n"), Warnings{});
+  EXPECT_EQ(warnings("verdict: {limit: 500}\nsweep: {grid: {verdict.stop: [false, true]}}\n"), Warnings{});
 }
 
 struct VanishedTerm {

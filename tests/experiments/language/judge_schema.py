@@ -123,7 +123,7 @@ def main():
     Draft202012Validator.check_schema(schema)
     validator = Draft202012Validator(schema)
 
-    texts = {str(p): p.read_text() for p in sorted(pathlib.Path(sys.argv[2]).glob("*.yaml"))}
+    texts = {str(p): p.read_text() for p in sorted(pathlib.Path(sys.argv[2]).parent.rglob("*.yaml"))}
     if len(texts) < 6:
         sys.exit("the shipped manifests are not there")
     texts["full manifest"] = subprocess.check_output([sys.argv[1], "full_manifest"], text=True)
@@ -149,6 +149,13 @@ def main():
         (["dac", "bits"], 12.5),
         (["dac", "bits"], {"uniform": [1, 2]}),
         (["controller", "anti_windup"], "klamp"),
+        (["verdict"], {"stop": 1}),
+        (["verdict"], {"stop": "true"}),
+        (["verdict"], {"stop": {"choice": [True, False]}}),
+        (["verdict"], {"stop": True, "limit": 1}),
+        (["verdict"], {"stop": True, "limit": True}),
+        (["sweep", "grid", "verdict.stop"], ["true"]),
+        (["sweep", "grid", "verdict.stop"], {"linspace": [0, 1, 2]}),
         (["command", "targets"], []),
         (["command", "targets"], 5),
         (["command", "targets"], [1.5]),
@@ -187,6 +194,8 @@ def main():
         (["sweep", "grid", "command.targets"], [[1, 2], [{"integers": [1, 2]}, 0]]),
         (["sweep", "grid", "controller.anti_windup"], ["clamp", "none"]),
         (["sweep", "cases", "c"], {"friction.k1": {"choice": [1, 2]}}),
+        (["verdict"], {"stop": True, "limit": {"uniform": [500, 2000]}}),
+        (["sweep", "grid", "verdict.stop"], [True, False]),
         (["seed"], 2**64 - 1),
     ]
     for path, value in also_good:

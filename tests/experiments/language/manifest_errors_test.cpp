@@ -99,6 +99,17 @@ INSTANTIATE_TEST_SUITE_P(
              "m.yaml:6:21: independent_points: '1' is not a truth value; expected true or false"},
         Case{"independent_points: \"true\"",
              "m.yaml:6:21: independent_points: 'true' is a quoted text; expected true or false"},
+        Case{"verdict: {stop: 1}",
+             "m.yaml:6:17: verdict.stop: '1' is not a truth value; expected true or false"},
+        Case{"verdict: {stop: yes}",
+             "m.yaml:6:17: verdict.stop: 'yes' is a truth value only in some versions of YAML; expected true "
+             "or false"},
+        Case{"verdict: {stop: 'true'}",
+             "m.yaml:6:17: verdict.stop: 'true' is a quoted text; expected true or false"},
+        Case{"verdict: {stop: {choice: [0, 1]}}",
+             "m.yaml:6:17: verdict.stop: a map stands here; expected true or false"},
+        Case{"verdict: {stop: true, limit: 1}",
+             "m.yaml:6:30: verdict.limit: '1' is out of range; expected a number greater than 1"},
         Case{"description: 12",
              "m.yaml:6:14: description: '12' reads as a number or a truth value; expected a text, in "
              "quotation marks "

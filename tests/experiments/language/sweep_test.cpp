@@ -125,6 +125,20 @@ TEST(Sweep, WordsListsAndDistributionsMayBeSwept) {
   EXPECT_EQ(study_trial(cases, 1, 0).parameters.friction.uniform.k1, 90);
 }
 
+TEST(Sweep, TruthValuesMayBeSweptLikeWords) {
+  const Study study = swept("{grid: {verdict.stop: [false, true]}}");
+  EXPECT_EQ(study.point_labels, (Labels{"verdict.stop=false", "verdict.stop=true"}));
+  EXPECT_EQ(study.axes[0].kind, SweepAxis::Kind::text);
+  EXPECT_EQ(study.axes[0].texts, (Labels{"false", "true"}));
+  EXPECT_FALSE(study_trial(study, 0, 0).parameters.verdict.stop);
+  EXPECT_TRUE(study_trial(study, 1, 0).parameters.verdict.stop);
+  EXPECT_EQ(failure_of("{grid: {verdict.stop: {linspace: [0, 1, 2]}}}"),
+            "m.yaml:6:41: sweep.grid.verdict.stop.linspace: the value 0 is not allowed; expected one of "
+            "false, true");
+  EXPECT_EQ(failure_of("{grid: {verdict.stop: [0]}}"),
+            "m.yaml:6:31: sweep.grid.verdict.stop.0: '0' is not a truth value; expected true or false");
+}
+
 TEST(Sweep, AnIndexChoosesAMove) {
   const Study study = swept("{grid: {command.targets.0: [7, 8]}}");
   EXPECT_EQ(study_trial(study, 1, 0).parameters.command.targets, std::vector<std::int64_t>{8});

@@ -87,6 +87,34 @@ INSTANTIATE_TEST_SUITE_P(
         UnfitCase{"{targets: [1]}", "controller: {coarse: {coarse_beyond: 60, fine_within: 60}}", ""}));
 
 INSTANTIATE_TEST_SUITE_P(
+    EarlyDecision, ValueRules,
+    testing::Values(
+        UnfitCase{"{sequence: {targets: [5, 10], overrun: 3}}", "verdict: {stop: true}",
+                  "m.yaml:6:17: verdict.stop: the values of ISO 230-2 are of the ends of all moves, which a "
+                  "trial that is ended early does not have; expected false with command.sequence"},
+        UnfitCase{"{sequence: {targets: [5, 10], overrun: 3}}",
+                  "sweep: {grid: {verdict.stop: [false, true]}}",
+                  "m.yaml:6:38: verdict.stop: the values of ISO 230-2 are of the ends of all moves, which a "
+                  "trial that is ended early does not have; expected false with command.sequence"},
+        UnfitCase{"{sequence: {targets: [5, 10], overrun: 3}}", "verdict: {stop: false}", ""},
+        UnfitCase{"{targets: [5, 10]}", "verdict: {stop: true}", ""}));
+
+TEST(EarlyDecision, IsAWarningWhereACoarsePhaseMayUndoIt) {
+  const auto warnings = [](const std::string& more) { return study_of(minimal_manifest(more)).warnings; };
+  const std::string coarse = "controller: {coarse: {coarse_beyond: 300}}\n";
+  EXPECT_EQ(warnings(coarse + "verdict: {stop: true}\n"),
+            (std::vector<std::string>{
+                "m.yaml:7:17: verdict.stop: the coarse phase may bring a rotor back from beyond "
+                "verdict.limit, and so change an outcome that was taken as decided"}));
+  EXPECT_TRUE(warnings(coarse + "verdict: {stop: false}\n").empty());
+  EXPECT_TRUE(warnings("verdict: {stop: true}\n").empty());
+  // Never both at one point.
+  EXPECT_TRUE(warnings("sweep: {cases: {one: {verdict.stop: true}, two: {controller.coarse.coarse_beyond: "
+                       "300}}}\n")
+                  .empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
     OpenLoop, ValueRules,
     testing::Values(
         UnfitCase{"{torque: {levels: [0.1]}, hold: 1.0e-4}", "",

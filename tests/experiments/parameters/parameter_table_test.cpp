@@ -81,6 +81,8 @@ const std::map<std::string, double> expected_defaults{
     {"initial.mode", 0},  // stick
     {"verdict.dwell", 0.05},
     {"verdict.window", 0.05},
+    {"verdict.stop", 0},  // false
+    {"verdict.limit", 1000},
 };
 
 TEST(ParameterTable, DefaultsAreTheRigOfThePaper) {
@@ -130,8 +132,7 @@ TEST(ParameterTable, EachRowWritesItsOwnFieldAndNoOther) {
 
 TEST(ParameterTable, OnlyNumbersOfFrictionMayVaryAlongTheRotorAndGoToTheSameField) {
   for (const Parameter& parameter : parameter_table()) {
-    const bool friction =
-        parameter.name.rfind("friction.", 0) == 0 && parameter.kind != ParameterKind::enumeration;
+    const bool friction = parameter.name.rfind("friction.", 0) == 0 && !has_words(parameter);
     ASSERT_EQ(parameter.profiled != nullptr, friction) << parameter.name;
     if (!friction) continue;
     TrialParameters changed;
@@ -182,7 +183,9 @@ TEST(ParameterTable, EveryRowIsDocumented) {
   for (const Parameter& parameter : parameter_table()) {
     EXPECT_FALSE(parameter.unit.empty() || parameter.meaning.empty() || parameter.source.empty())
         << parameter.name;
-    EXPECT_EQ(parameter.words.empty(), parameter.kind != ParameterKind::enumeration) << parameter.name;
+    const bool numbers =
+        parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::whole_number;
+    EXPECT_EQ(has_words(parameter), !numbers) << parameter.name;
   }
 }
 
@@ -194,6 +197,7 @@ TEST(ParameterTable, ListingsNameEveryParameter) {
     EXPECT_NE(markdown.find("| " + std::string(parameter.name) + " |"), std::string::npos);
   }
   EXPECT_NE(markdown.find("clamp \\| none"), std::string::npos);
+  EXPECT_NE(markdown.find("| false | false \\| true |"), std::string::npos);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "results/layout/layout.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ std::vector<Table> all_tables() {
   const Study study = sample_study();
   return {point_table(study.axes, {{"trials", "1", "trials", {}}}),
           trial_table(study.input_columns),
-          outcome_table(),
+          outcome_table(format_version, {true}),
           jerk_table(),
           trace_table({true, true, true}),
           statistic_table(level_group(), {{"torque", "N m", "torque", {}}}),
@@ -49,6 +50,13 @@ TEST(Layout, HasOneColumnPerMeasureOfAMove) {
                                           "jerk_count",
                                           "jerk_agreement"};
   EXPECT_EQ(names(outcome_table().columns), expected);
+}
+
+TEST(Layout, TellsWhatWasStoppedLastAndOnlyWhereItCanBe) {
+  std::vector<std::string> expected = names(outcome_table().columns);
+  EXPECT_EQ(std::count(expected.begin(), expected.end(), "stopped"), 0);
+  expected.emplace_back("stopped");
+  EXPECT_EQ(names(outcome_table(format_version, {true}).columns), expected);
 }
 
 TEST(Layout, OfVersion1HasTheFirstMeasures) {
@@ -123,10 +131,11 @@ TEST(Fields, ScatterIsTheReverseOfGather) {
     for (const SampleRecord& record : result.trace) records.push_back({record, result.row});
   }
   std::vector<MoveOutcome> moves_back(moves.size());
-  for (const RecordField<MoveOutcome>& field : outcome_fields()) {
+  const auto& measures = outcome_fields(format_version, study.outcome_extras);
+  for (const RecordField<MoveOutcome>& field : measures) {
     scatter(field, gather(field, std::span<const MoveOutcome>(moves)), std::span(moves_back));
   }
-  expect_equal_records(outcome_fields(), moves, moves_back);
+  expect_equal_records(measures, moves, moves_back);
   std::vector<TraceRecord> records_back(records.size());
   for (const RecordField<TraceRecord>& field : trace_fields(study.trace_extras)) {
     scatter(field, gather(field, std::span<const TraceRecord>(records)), std::span(records_back));

@@ -45,7 +45,8 @@ TEST_F(Version1, LacksMeasuresThatWereZeroOrAreNotKnown) {
   EXPECT_EQ(move.travel_time, 0.0);
   EXPECT_EQ(move.phase_changes, 0);
   EXPECT_EQ(move.encoder_disagreement, 0);
-  for (const char* measure : {"travel_time", "phase_changes", "encoder_disagreement"}) {
+  EXPECT_FALSE(move.stopped);
+  for (const char* measure : {"travel_time", "phase_changes", "encoder_disagreement", "stopped"}) {
     EXPECT_EQ(file.measure(measure, {0, 6}), std::vector<double>(12, 0.0)) << measure;
   }
   EXPECT_FALSE(file.final_error_known());

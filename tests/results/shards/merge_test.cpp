@@ -48,12 +48,13 @@ TEST(Merge, KeepsEverythingOfEveryTrial) {
   EXPECT_TRUE(file.header().complete);
   EXPECT_EQ(file.header().seed, study.seed);
   EXPECT_EQ(file.moves(), 3);
+  EXPECT_EQ(file.measures().size(), outcome_fields().size() + 1);  // and whether it was stopped
   std::int64_t jerk = 0;
   std::int64_t record = 0;
   for (std::int64_t row = 0; row < trial_count(study); ++row) {
     const TrialResult expected = sample_result(study, row);
     EXPECT_EQ(file.inputs_of(row), expected.inputs);
-    expect_equal_records(outcome_fields(), file.outcomes({row, 1}), expected.outcome.moves);
+    expect_equal_records(file.measures(), file.outcomes({row, 1}), expected.outcome.moves);
     std::vector<JerkRecord> jerks;
     for (const Jerk& each : expected.jerks) jerks.push_back({each, row});
     expect_equal_records(jerk_fields(), file.jerks({row, 1}), jerks);
@@ -66,6 +67,18 @@ TEST(Merge, KeepsEverythingOfEveryTrial) {
   }
   EXPECT_EQ(jerk, file.jerk_count());
   EXPECT_EQ(record, file.trace_count());
+}
+
+TEST(Merge, HasNoColumnForWhatTheStudyDoesNotUse) {
+  const TemporaryFolder directory;
+  Study study = sample_study();
+  study.outcome_extras = {};
+  const StudyFile file(write_sample_file(directory.path(), study));
+  EXPECT_FALSE(file.root().open_group("outcome").contains("stopped"));
+  EXPECT_EQ(file.measures().size(), outcome_fields().size());
+  for (const MoveOutcome& move : file.outcomes(file.rows())) EXPECT_FALSE(move.stopped);
+  const auto moves = static_cast<std::size_t>(file.rows().count * file.moves());
+  EXPECT_EQ(file.measure("stopped", file.rows()), std::vector<double>(moves, 0.0));
 }
 
 TEST(Merge, KeepsWhatIsKnownOfThePoints) {

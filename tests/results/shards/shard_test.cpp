@@ -30,7 +30,7 @@ TEST(Shard, ReadsBackWhatWasWritten) {
   for (std::int64_t row = rows.first; row < rows.end(); ++row) {
     const TrialResult expected = sample_result(study, row);
     EXPECT_EQ(file.inputs_of(row), expected.inputs);
-    expect_equal_records(outcome_fields(), file.outcomes({row, 1}), expected.outcome.moves);
+    expect_equal_records(file.measures(), file.outcomes({row, 1}), expected.outcome.moves);
     std::vector<JerkRecord> jerks;
     for (const Jerk& jerk : expected.jerks) jerks.push_back({jerk, row});
     expect_equal_records(jerk_fields(), file.jerks({row, 1}), jerks);

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+
+#include "core/trial/outcome.hpp"
+#include "core/trial/parameters.hpp"
+
+/// Early decision: a move that is so far from its target that it does not come back is ended there.
+namespace zerocount {
+
+/// Whether a move is ended after a sample with the error e = `error`, counts, because it has diverged. Always
+/// false without `verdict.stop`; otherwise where
+///
+///   |e| > limit + |e_0|,
+///
+/// e_0 = `first_error` being the error at the move's first sample. A move begins with its step as the error,
+/// whatever its reference does, and one that settles may overshoot by nearly as much: what goes beyond that
+/// tells a move that diverges from one that is long.
+inline bool diverged(const VerdictParameters& verdict, std::int64_t first_error, std::int64_t error) {
+  return verdict.stop &&
+         static_cast<double>(std::abs(error)) > verdict.limit + static_cast<double>(std::abs(first_error));
+}
+
+/// What stands for a move after one that was ended: nothing of it was run, because it would have begun in a
+/// state that is not known. It counts as oscillating and stopped; real measures are NaN, whole ones 0.
+inline MoveOutcome move_not_run() {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  MoveOutcome move;
+  move.outcome = Outcome::oscillating;
+  move.stopped = true;
+  move.travel_time = none;
+  move.final_position = none;
+  move.holding_torque = none;
+  move.peak_torque = none;
+  move.creep = none;
+  return move;
+}
+
+/// Whether anything of the move was run.
+inline bool was_run(const MoveOutcome& move) {
+  return !move.stopped || !std::isnan(move.final_position);
+}
+
+}  // namespace zerocount

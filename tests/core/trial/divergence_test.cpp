@@ -1,0 +1,273 @@
+// Early decision, by core/README.md: where a trial is ended, that it is the beginning of the trial that is
+// not ended, and that the outcomes of the paper's loops stay what they are.
+#include "core/trial/divergence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/core/trial/literal_command.hpp"
+#include "tests/core/trial/recorded_trials.hpp"
+#include "tests/core/trial/widened_trials.hpp"
+#include "tests/support/random_trials.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+TEST(Divergence, IsAnErrorLargerThanTheFirstByMoreThanTheLimit) {
+  const VerdictParameters verdict{.stop = true, .limit = 100.0};
+  for (const std::int64_t first : {0, 1, -1, 30, -30, 5000, -5000}) {
+    for (const int sign : {1, -1}) {
+      const std::int64_t most = std::abs(first) + 100;
+      EXPECT_FALSE(diverged(verdict, first, sign * most)) << first;
+      EXPECT_TRUE(diverged(verdict, first, sign * (most + 1))) << first;
+    }
+    EXPECT_FALSE(diverged(verdict, first, first));
+  }
+  EXPECT_FALSE(diverged({.stop = true, .limit = 100.5}, 0, 100));
+  EXPECT_TRUE(diverged({.stop = true, .limit = 100.5}, 0, 101));
+}
+
+TEST(Divergence, IsNotLookedForUnlessAskedFor) {
+  EXPECT_FALSE(diverged({.limit = 2.0}, 0, 1000000));
+  EXPECT_FALSE(VerdictParameters{}.stop);
+}
+
+/// A trial with all that is told of it.
+RecordedTrial run_recorded(const TrialParameters& parameters, const std::string& name = "") {
+  RecordedTrial trial{name, parameters, {}, {}, {}};
+  TrialObservers observers;
+  observers.sample = [&trial](const SampleRecord& sample) { trial.samples.push_back(sample); };
+  observers.jerk = [&trial](const Jerk& jerk) { trial.jerks.push_back(jerk); };
+  trial.outcome = run_trial(parameters, observers);
+  return trial;
+}
+
+auto fields(const SampleRecord& r) {
+  return std::tie(r.k, r.t, r.target, r.count, r.coarse_count, r.error, r.code, r.torque, r.theta, r.omega,
+                  r.xp, r.xh, r.depth, r.mode, r.reference, r.phase, r.drive_torque);
+}
+
+auto fields(const Jerk& jerk) {
+  return std::tie(jerk.move, jerk.onset, jerk.duration, jerk.magnitude, jerk.direction);
+}
+
+/// Not a number is like itself.
+double shown(double value) {
+  return std::isnan(value) ? -1e300 : value;
+}
+
+/// But what goes on after the last sample: broke_away and reversal_depth.
+auto measures(const MoveOutcome& m) {
+  return std::tuple(m.outcome, m.arrived, m.stable, m.saturated, m.arrival, shown(m.settling_time),
+                    shown(m.travel_time), m.overshoot, m.final_error, shown(m.true_error),
+                    shown(m.final_position), shown(m.holding_torque), shown(m.peak_torque), shown(m.creep),
+                    m.phase_changes, m.encoder_disagreement, m.jerk_count, shown(m.jerk_agreement));
+}
+
+/// Where the trial is to be ended.
+struct End {
+  std::size_t move{0};
+  std::size_t sample{0};  ///< of the trial
+};
+
+/// By all samples of the trial that is not ended: the first that is further from its target than the first of
+/// its move by more than the limit.
+std::optional<End> end_of(const RecordedTrial& whole, double limit) {
+  const std::vector<MoveSpan> spans = literal_spans(whole.parameters);
+  for (std::size_t move = 0; move < spans.size(); ++move) {
+    const auto distance = [&](std::size_t k) {
+      return std::abs(static_cast<double>(whole.parameters.command.targets[move]) -
+                      static_cast<double>(whole.samples[k].count));
+    };
+    for (std::size_t k = spans[move].first; k < spans[move].first + spans[move].size; ++k) {
+      if (distance(k) - distance(spans[move].first) > limit) return End{move, k};
+    }
+  }
+  return std::nullopt;
+}
+
+void expect_beginning_of(const RecordedTrial& whole, const RecordedTrial& ended, std::size_t samples) {
+  ASSERT_EQ(ended.samples.size(), samples);
+  for (std::size_t k = 0; k < samples; ++k) {
+    ASSERT_EQ(fields(ended.samples[k]), fields(whole.samples[k])) << "sample " << k;
+  }
+  ASSERT_LE(ended.jerks.size(), whole.jerks.size());
+  for (std::size_t i = 0; i + 1 < ended.jerks.size(); ++i) {
+    EXPECT_EQ(fields(ended.jerks[i]), fields(whole.jerks[i])) << "jerk " << i;
+  }
+  if (ended.jerks.empty()) return;
+  const Jerk& last = ended.jerks.back();  // may be cut
+  const Jerk& same = whole.jerks[ended.jerks.size() - 1];
+  EXPECT_EQ(last.move, same.move);
+  EXPECT_EQ(last.onset, same.onset);
+  EXPECT_EQ(last.direction, same.direction);
+  EXPECT_LE(last.duration, same.duration);
+  EXPECT_LE(last.magnitude, same.magnitude);
+}
+
+void expect_not_run(const MoveOutcome& move) {
+  EXPECT_TRUE(move.stopped);
+  EXPECT_FALSE(was_run(move));
+  EXPECT_EQ(move.outcome, Outcome::oscillating);
+  EXPECT_FALSE(move.arrived || move.stable || move.broke_away || move.saturated);
+  EXPECT_EQ(move.arrival, -1);
+  for (const double real : {move.settling_time, move.travel_time, move.true_error, move.final_position,
+                            move.holding_torque, move.peak_torque, move.creep, move.jerk_agreement}) {
+    EXPECT_TRUE(std::isnan(real));
+  }
+  for (const std::int64_t whole : {move.overshoot, move.final_error, move.reversal_depth, move.phase_changes,
+                                   move.encoder_disagreement, move.jerk_count}) {
+    EXPECT_EQ(whole, 0);
+  }
+}
+
+/// The move that was ended is measured like one that was never to go on.
+void expect_measured_to(const RecordedTrial& ended, const End& end) {
+  const MoveOutcome& move = ended.outcome.moves[end.move];
+  EXPECT_TRUE(move.stopped && was_run(move));
+  EXPECT_EQ(move.outcome, Outcome::oscillating);
+  EXPECT_FALSE(move.stable);
+  const SampleRecord& last = ended.samples[end.sample];
+  EXPECT_EQ(move.final_error, last.error);
+  EXPECT_EQ(move.final_position, last.theta);
+  EXPECT_EQ(move.holding_torque, last.torque);
+  EXPECT_EQ(move.creep, last.xp);
+  if (end.move > 0) return;
+  TrialParameters shorter = ended.parameters;
+  shorter.verdict.stop = false;
+  shorter.command.targets.resize(1);
+  shorter.command.hold = static_cast<double>(end.sample + 1) / shorter.controller.sample_rate;
+  const RecordedTrial cut = run_recorded(shorter);
+  ASSERT_EQ(cut.samples.size(), ended.samples.size());
+  const MoveOutcome& other = cut.outcome.moves[0];
+  EXPECT_EQ(measures(move), measures(other));
+  EXPECT_LE(move.broke_away, other.broke_away);
+  EXPECT_LE(move.reversal_depth, other.reversal_depth);
+  ASSERT_EQ(cut.jerks.size(), ended.jerks.size());
+  for (std::size_t i = 0; i < cut.jerks.size(); ++i) EXPECT_EQ(fields(cut.jerks[i]), fields(ended.jerks[i]));
+}
+
+struct Seen {
+  int trials{0}, ended{0}, later{0}, arrived{0}, moves_not_run{0};
+};
+
+void check(const RecordedTrial& whole, double limit, Seen& seen) {
+  SCOPED_TRACE(whole.name + " limit " + std::to_string(limit));
+  TrialParameters parameters = whole.parameters;
+  parameters.verdict.stop = true;
+  parameters.verdict.limit = limit;
+  const RecordedTrial ended = run_recorded(parameters);
+  const std::optional<End> end = end_of(whole, limit);
+  ++seen.trials;
+  ASSERT_EQ(ended.outcome.moves.size(), whole.outcome.moves.size());
+  expect_beginning_of(whole, ended, end ? end->sample + 1 : whole.samples.size());
+  for (std::size_t m = 0; m < ended.outcome.moves.size(); ++m) {
+    const MoveOutcome& move = ended.outcome.moves[m];
+    if (!end || m < end->move) {
+      EXPECT_EQ(measures(move), measures(whole.outcome.moves[m])) << "move " << m;
+      EXPECT_EQ(move.broke_away, whole.outcome.moves[m].broke_away);
+      EXPECT_EQ(move.reversal_depth, whole.outcome.moves[m].reversal_depth);
+      EXPECT_FALSE(move.stopped);
+    } else if (m > end->move) {
+      expect_not_run(move);
+      ++seen.moves_not_run;
+    }
+  }
+  if (!end) return;
+  expect_measured_to(ended, *end);
+  ++seen.ended;
+  seen.later += end->move > 0;
+  seen.arrived += ended.outcome.moves[end->move].arrived;
+}
+
+TEST(EarlyDecision, EndsARandomTrialWhereItDivergesAndChangesNothingBefore) {
+  Seen seen;
+  for (const TrialKind kind : {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away,
+                               TrialKind::coulomb, TrialKind::amplified, TrialKind::arriving}) {
+    for (std::uint64_t index = 0; index < 12; ++index) {
+      const RecordedTrial whole =
+          run_recorded(random_trial(kind, index),
+                       "kind " + std::to_string(static_cast<int>(kind)) + " trial " + std::to_string(index));
+      if (whole.outcome.moves.back().outcome == Outcome::nonfinite) continue;
+      for (const double limit : {2.0, 20.0, 300.0, 1000.0}) check(whole, limit, seen);
+    }
+  }
+  for (std::uint64_t index = 100; index < 130; ++index) {  // that begin at their target and leave it
+    TrialParameters parameters = random_trial(TrialKind::ringing, index);
+    parameters.command.targets.front() = 0;
+    parameters.initial.integral = 0.1;
+    parameters.verdict.dwell = 1.0 / parameters.controller.sample_rate;
+    check(run_recorded(parameters, "arriving trial " + std::to_string(index)), 30.0, seen);
+  }
+  for (const RecordedTrial& whole : recorded_trials()) {
+    if (whole.is_open()) continue;
+    for (const double limit : {2.0, 300.0}) check(whole, limit, seen);
+  }
+  std::cout << seen.trials << " trials, " << seen.ended << " ended, of them " << seen.later
+            << " after the first move and " << seen.arrived << " after arriving; " << seen.moves_not_run
+            << " moves not run\n";
+  EXPECT_GT(seen.ended, 50);
+  EXPECT_GT(seen.trials - seen.ended, 50);
+  EXPECT_GT(seen.later, 10);
+  EXPECT_GT(seen.arrived, 5);
+  EXPECT_GT(seen.moves_not_run, 20);
+}
+
+TEST(EarlyDecision, IsNothingToAnOpenLoop) {
+  for (std::uint64_t index = 0; index < 5; ++index) {
+    TrialParameters parameters = widened_trial(WidenedKind::open_loop, index);
+    const RecordedTrial whole = run_recorded(parameters);
+    parameters.verdict.stop = true;
+    parameters.verdict.limit = 2.0;
+    const RecordedTrial asked = run_recorded(parameters);
+    expect_beginning_of(whole, asked, whole.samples.size());
+    for (const MoveOutcome& move : asked.outcome.moves) EXPECT_FALSE(move.stopped);
+  }
+}
+
+// What makes it a decision: with the default limit, what is ended is what would have oscillated to its end.
+// The gains are those of section 4 of the paper and between; some trials go far and come back.
+TEST(EarlyDecision, KeepsTheOutcomesOfThePapersRig) {
+  std::uint64_t state = 20020734;
+  const auto draw = [&state](double low, double high) {
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return low + (high - low) * static_cast<double>(state >> 11) * 0x1p-53;
+  };
+  int ended = 0, settled = 0, far_and_back = 0;
+  for (int index = 0; index < 500; ++index) {
+    TrialParameters parameters;
+    parameters.friction.uniform.k1 = draw(90.0, 130.0);
+    parameters.friction.uniform.k2 = draw(600.0, 900.0);
+    parameters.initial.encoder_phase = draw(0.0, 1.0);
+    const bool short_move = index % 2 == 0;
+    parameters.controller.ki = short_move ? draw(3.85e-5, 3.3e-4) : 1e-5;
+    parameters.controller.kp = short_move && index % 4 == 0 ? draw(0.0, 6.21e-4) : 0.0;
+    parameters.command.targets = {std::llround(short_move ? draw(1.0, 30.0) : draw(-1000.0, 1000.0))};
+    const RecordedTrial whole = run_recorded(parameters);
+    parameters.verdict.stop = true;
+    const RecordedTrial early = run_recorded(parameters);
+    const MoveOutcome& expected = whole.outcome.moves[0];
+    const MoveOutcome& move = early.outcome.moves[0];
+    EXPECT_EQ(move.outcome, expected.outcome) << index;
+    EXPECT_EQ(move.stable, expected.stable) << index;
+    EXPECT_EQ(move.arrived, expected.arrived) << index;
+    EXPECT_EQ(shown(move.settling_time), shown(expected.settling_time)) << index;
+    ended += move.stopped;
+    settled += expected.outcome != Outcome::oscillating;
+    far_and_back += expected.outcome != Outcome::oscillating && end_of(whole, 300.0).has_value();
+  }
+  std::cout << ended << " ended, " << settled << " settled, " << far_and_back << " of them from afar\n";
+  EXPECT_GT(ended, 50);
+  EXPECT_GT(settled, 20);
+  EXPECT_GT(far_and_back, 0);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

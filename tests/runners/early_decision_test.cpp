@@ -1,0 +1,111 @@
+// A study with early decision from its manifest to its summary: the same outcomes as without, what was
+// stopped is told, and a trial replays.
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "results/reading/study_file.hpp"
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+class EarlyDecision : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder.emplace();
+    folder->write("study.yaml", small_manifest(40, "retain: {trials: [3]}\n"));
+    ASSERT_EQ(run({"run", "study.yaml", "-o", "whole.h5"}).code, 0);
+    const ProgramResult stopped = run(with_stop({"run", "study.yaml", "-o", "early.h5"}));
+    ASSERT_EQ(stopped.code, 0) << stopped.err;
+  }
+  static void TearDownTestSuite() { folder.reset(); }
+
+  static ProgramResult run(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder->path());
+  }
+  static std::vector<std::string> with_stop(std::vector<std::string> words) {
+    words.insert(words.end(), {"--set", "verdict.stop=true", "--set", "verdict.limit=100"});
+    return words;
+  }
+  static std::vector<double> measure(const char* file, const char* name) {
+    const StudyFile study(*folder / file);
+    return study.measure(name, study.rows());
+  }
+  static double stopped_trials() {
+    const std::vector<double> stopped = measure("early.h5", "stopped");
+    return static_cast<double>(std::count(stopped.begin(), stopped.end(), 1.0));
+  }
+
+  static inline std::optional<TemporaryFolder> folder;
+};
+
+TEST_F(EarlyDecision, KeepsTheOutcomesAndSaysWhatWasStopped) {
+  for (const char* name : {"outcome", "stable", "arrived", "arrival"}) {
+    EXPECT_EQ(measure("whole.h5", name), measure("early.h5", name)) << name;
+  }
+  EXPECT_GT(stopped_trials(), 20);
+  EXPECT_LT(stopped_trials(), 60);
+  const std::vector<double> outcomes = measure("early.h5", "outcome");
+  const std::vector<double> stopped = measure("early.h5", "stopped");
+  for (std::size_t row = 0; row < stopped.size(); ++row) {
+    if (stopped[row] == 0.0) continue;
+    EXPECT_EQ(outcomes[row], static_cast<double>(Outcome::oscillating)) << row;
+  }
+}
+
+TEST_F(EarlyDecision, LeavesNoColumnWhereItIsNotUsed) {
+  EXPECT_FALSE(StudyFile(*folder / "whole.h5").root().open_group("outcome").contains("stopped"));
+  EXPECT_TRUE(StudyFile(*folder / "early.h5").root().open_group("outcome").contains("stopped"));
+  EXPECT_EQ(run({"summary", "whole.h5"}).out.find("stopped"), std::string::npos);
+  EXPECT_EQ(run({"summary", "whole.h5", "--format", "csv"}).out.find("stopped"), std::string::npos);
+  EXPECT_EQ(run({"summary", "whole.h5", "--format", "json"}).out.find("stopped"), std::string::npos);
+}
+
+TEST_F(EarlyDecision, IsCountedInTheSummaryAndInThePoints) {
+  const auto json = nlohmann::json::parse(run({"summary", "early.h5", "--format", "json"}).out);
+  double in_json = 0, in_file = 0;
+  for (const auto& point : json["points"]) in_json += point["stopped"].get<double>();
+  for (const PointColumn& column : StudyFile(*folder / "early.h5").statistics()) {
+    if (column.name != "stopped") continue;
+    for (const double value : column.values) in_file += value;
+  }
+  EXPECT_EQ(in_json, stopped_trials());
+  EXPECT_EQ(in_file, stopped_trials());
+  EXPECT_NE(run({"summary", "early.h5"}).out.find(" stopped "), std::string::npos);
+  EXPECT_NE(run({"summary", "early.h5", "--format", "csv"}).out.find(",stopped,"), std::string::npos);
+  ASSERT_EQ(run({"export", "early.h5", "-o", "tables"}).code, 0);
+  EXPECT_NE(folder->read("tables/outcomes.csv").find(",stopped\n"), std::string::npos);
+}
+
+TEST_F(EarlyDecision, TracesAndRecordsEndWhereTheTrialDoes) {
+  const std::string whole = run({"trace", "whole.h5", "--point", "1", "--trial", "3"}).out;
+  const ProgramResult early = run({"trace", "early.h5", "--point", "1", "--trial", "3"});
+  EXPECT_EQ(early.code, 0) << early.err;
+  EXPECT_EQ(run(with_stop({"trace", "study.yaml", "--point", "1", "--trial", "3"})).out, early.out);
+  ASSERT_LT(early.out.size(), whole.size());
+  EXPECT_EQ(whole.substr(0, early.out.size()), early.out);
+
+  const StudyFile file(*folder / "early.h5");
+  const auto lines = std::count(early.out.begin(), early.out.end(), '\n') - 1;
+  EXPECT_EQ(file.trace_count(), 300 + lines);  // that trial of the other point is not stopped
+  const TraceRecord last = file.trace_at(file.trace_count() - 1, 1)[0];
+  EXPECT_EQ(last.k, lines - 1);
+  EXPECT_GT(std::abs(last.error), 100);
+}
+
+TEST_F(EarlyDecision, AllTrialsReplay) {
+  for (int trial = 0; trial < 40; trial += 7) {
+    const ProgramResult replay =
+        run({"trace", "early.h5", "--point", "1", "--trial", std::to_string(trial), "--format", "json"});
+    EXPECT_EQ(replay.code, 0) << replay.err;
+    const auto outcome = nlohmann::json::parse(replay.out)["outcome"][0];
+    EXPECT_EQ(outcome["stopped"], measure("early.h5", "stopped")[static_cast<std::size_t>(40 + trial)] != 0);
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

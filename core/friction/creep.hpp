@@ -33,6 +33,16 @@ inline double creep_onset_torque(const FrictionParameters& friction, double hard
   return std::max(torque_of_limit(friction, hardening), 1e-14 * friction.breakaway);
 }
 
+/// The |σ| (N m) at which creep that has ended sets in again: beyond the limit of `hardening` (rad), and
+/// beyond the rounding of the present σ = `torque` at `elongation` (rad), or creep would set in again at once
+/// where σ moves by less than that per step.
+inline double creep_onset_after_end(const FrictionParameters& friction, double hardening, double torque,
+                                    double elongation) {
+  const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *
+                          (std::abs(torque) + (friction.k1 + friction.k2) * std::abs(elongation));
+  return std::max(creep_onset_torque(friction, hardening), std::abs(torque) + rounding);
+}
+
 /// The exact state after `duration` (s) at the constant torque σ (N m): xh relaxes to its limit as exp(−αt).
 inline CreepState creep_at_constant_torque(const FrictionParameters& friction, CreepState start,
                                            double torque, double duration) {

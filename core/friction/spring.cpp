@@ -69,7 +69,7 @@ void HystereticSpring::start_virgin(double elongation, int direction) {
 void HystereticSpring::start_preloaded(double torque) {
   if (torque == 0.0) return start_virgin(0.0, 0);
   const double peak = virgin_elongation(friction_, torque);
-  stack_ = {{peak, torque}};
+  stack_.assign(1, {peak, torque});
   direction_ = torque > 0.0 ? -1 : 1;
   elongation_ = peak + direction_ * inverse_branch_law(friction_, std::abs(torque));
   select_branch();
@@ -87,8 +87,13 @@ std::optional<double> HystereticSpring::branch_end() const {
 }
 
 void HystereticSpring::set_direction(int direction) {
+  if (direction != direction_) set_direction(direction, elongation_, torque());
+}
+
+void HystereticSpring::set_direction(int direction, double x, double torque) {
+  elongation_ = x;
   if (direction == direction_) return;
-  if (direction_ != 0) stack_.push_back({elongation_, torque()});
+  if (direction_ != 0) stack_.push_back({x, torque});
   direction_ = direction;
   select_branch();
   close_loops();

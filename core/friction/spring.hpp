@@ -1,7 +1,8 @@
 #pragma once
 
 #include <optional>
-#include <vector>
+
+#include <boost/container/small_vector.hpp>
 
 #include "core/friction/parameters.hpp"
 
@@ -71,6 +72,12 @@ class HystereticSpring {
   /// Sets the direction of motion; a change of it makes the present elongation a reversal point.
   void set_direction(int direction);
 
+  /// The same where the elongation is x (rad) and the torque on the present branch there is known, N m.
+  void set_direction(int direction, double x, double torque);
+
+  /// Puts the elongation to x (rad) on the present branch, short of its end.
+  void place(double x) { elongation_ = x; }
+
   /// Moves along the present branch to x (rad), which lies ahead and not beyond branch_end(), and closes what
   /// x reaches.
   void move_on_branch(double x);
@@ -99,7 +106,8 @@ class HystereticSpring {
   void close_loops();
 
   FrictionParameters friction_;
-  std::vector<ReversalPoint> stack_;
+  /// A ringing that dies out leaves some forty points: up to there the memory is in here.
+  boost::container::small_vector<ReversalPoint, 48> stack_;
   SpringBranch branch_;
   double elongation_{0.0};
   int direction_{0};

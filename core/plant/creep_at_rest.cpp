@@ -81,4 +81,16 @@ double creep_until_rate(const CreepAtRest& rest, double rate) {
   return std::log1p(x) / rest.g2;
 }
 
+double rate_after_creep(const CreepAtRest& rest, double growth) {
+  const double x = rest.g2 * growth;
+  const double ratio =
+      growth * (std::abs(x) < 1e-4 ? 1.0 + x * (0.5 + x * (1.0 / 6.0 + x / 24.0)) : std::expm1(x) / x);
+  return (rest.rate - ratio * rest.g1) / (1.0 + ratio * rest.g2);
+}
+
+double time_until_rate(const CreepAtRest& rest, double rate) {
+  const double z = rate / (rest.g1 + rest.g2 * rate);
+  return std::log(rest.rate / (rest.g1 + rest.g2 * rest.rate) / z) / rest.g1;
+}
+
 }  // namespace zerocount

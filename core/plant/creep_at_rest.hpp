@@ -54,6 +54,12 @@ double creep_rate_after(const CreepAtRest& rest, double t);
 /// ∫p dt (rad): how far xh and |xp| have grown when the rate is down to `rate` (rad/s).
 double creep_until_rate(const CreepAtRest& rest, double rate);
 
+/// The rate (rad/s) at which ∫p dt has become `growth` (rad): 0 or less where it never does.
+double rate_after_creep(const CreepAtRest& rest, double growth);
+
+/// The time (s) until the rate is down to `rate` (rad/s, positive).
+double time_until_rate(const CreepAtRest& rest, double rate);
+
 /// S (N m) at the rate p (rad/s).
 inline double spring_torque_at_rate(const CreepAtRest& rest, double rate) {
   return rest.balance - rate * (rest.s1 + rate * rest.s2);

@@ -75,6 +75,33 @@ void Plant::advance(const TorqueCourse& torque, double duration) {
   }
 }
 
+PlantMotion Plant::motion() const {
+  return {spring_.elongation(),
+          omega_,
+          creep_,
+          creeping_,
+          creep_onset_torque_,
+          hook_,
+          sliding_,
+          slide_theta_,
+          slide_direction_,
+          breakaway_spring_torque_};
+}
+
+void Plant::set_motion(const PlantMotion& motion) {
+  rest_.reset();
+  spring_.place(motion.elongation);
+  omega_ = motion.omega;
+  creep_ = motion.creep;
+  creeping_ = motion.creeping;
+  creep_onset_torque_ = motion.creep_onset_torque;
+  hook_ = motion.hook;
+  sliding_ = motion.sliding;
+  slide_theta_ = motion.slide_theta;
+  slide_direction_ = motion.slide_direction;
+  breakaway_spring_torque_ = motion.breakaway_spring_torque;
+}
+
 void Plant::break_away(double direction) {
   slide_theta_ = theta();
   slide_direction_ = direction;

@@ -23,6 +23,20 @@ struct MotionTolerance {
   double rest{4e-14};
 };
 
+/// The motion of a plant at an instant, but for what the spring remembers.
+struct PlantMotion {
+  double elongation{0.0};  ///< xs, rad
+  double omega{0.0};       ///< ω, rad/s
+  CreepState creep{};
+  bool creeping{false};            ///< the creep law is on
+  double creep_onset_torque{0.0};  ///< |σ| at which it sets in while it is off, N m
+  double hook{0.0};                ///< rad
+  bool sliding{false};
+  double slide_theta{0.0};              ///< θ, rad
+  double slide_direction{0.0};          ///< −1, 1
+  double breakaway_spring_torque{0.0};  ///< σb, N m
+};
+
 /// The rotor with its contact: the pre-sliding motion (paper, eq. 4, with creep) while the hook sticks,
 /// sliding (paper, eq. 3) after breakaway, and the changes between them.
 ///
@@ -56,6 +70,20 @@ class Plant {
 
   /// Applies the torque for `duration` (s).
   void advance(const TorqueCourse& torque, double duration);
+
+  // For an engine that follows the motion itself and leaves to this class what is rare.
+  PlantMotion motion() const;
+  /// Takes over where another has followed the motion to. The spring must be on the same branch.
+  void set_motion(const PlantMotion& motion);
+  /// The hook starts to slide in `direction` (−1, 1).
+  void break_away(double direction);
+  /// The hook sticks, where the slide has come to ω = 0.
+  void re_stick();
+  /// By the rest rule, under the constant torque `torque` (N m). Where true, `advance` with that torque
+  /// follows CreepAtRest in one step.
+  /// @returns the motion from now on, or none where the rotor is not at rest.
+  std::optional<CreepAtRest> come_to_rest(double torque);
+  HystereticSpring& spring() { return spring_; }
 
   /// θ, rad.
   double theta() const { return sliding_ ? slide_theta_ : hook_ + spring_.elongation() + creep_.extension; }
@@ -109,8 +137,6 @@ class Plant {
   double creep_rate() const;
 
   bool torque_drives(double direction, const TorqueCourse& torque) const;
-  void break_away(double direction);
-  void re_stick();
 
   PlantParameters plant_;
   FrictionAlongRotor friction_;

@@ -6,6 +6,12 @@
 
 namespace zerocount {
 
+std::optional<CreepAtRest> Plant::come_to_rest(double torque) {
+  rest_.reset();
+  if (!begin_rest(torque, elongation_under(torque, creep_rate()))) return std::nullopt;
+  return rest_->creep;
+}
+
 /// Whether the rotor is at rest under the constant torque `torque` (N m); if so, puts it there.
 bool Plant::begin_rest(double torque, const Elongation& elongation) {
   const double inertia = plant_.inertia;

@@ -121,13 +121,8 @@ void Plant::pass(Event event) {
 
 void Plant::end_creep() {
   creeping_ = false;
-  // The onset lies beyond the rounding of σ, or creep would set in again at once where σ moves by less than
-  // that per step.
-  const double torque = std::abs(spring_.torque());
-  const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *
-                          (torque + (contact_.k1 + contact_.k2) * std::abs(spring_.elongation()));
-  creep_onset_torque_ =
-      std::max(creep_onset_torque(contact_, creep_.hardening + tolerance_.elongation), torque + rounding);
+  creep_onset_torque_ = creep_onset_after_end(contact_, creep_.hardening + tolerance_.elongation,
+                                              spring_.torque(), spring_.elongation());
 }
 
 void Plant::hold_at_rest(double duration) {

@@ -18,22 +18,24 @@ constexpr double rest_in_counts = 1e-8;
 /// Farther than this, counts are no longer whole numbers of a double.
 constexpr double most_counts = 0x1p52;
 
+}  // namespace
+
 PlantStart plant_start(const TrialParameters& p) {
   return {p.initial.position, p.initial.hardening,
           p.initial.preload,  draw_history(p.initial.history, p.randomness),
           p.initial.velocity, p.initial.mode == InitialMode::slide};
 }
 
-}  // namespace
+MotionTolerance motion_tolerance(double resolution) {
+  return {motion_tolerance_in_counts * resolution, rest_in_counts * resolution};
+}
 
 Rig::Rig(const TrialParameters& p)
     : sample_time_(1.0 / p.controller.sample_rate),
       measurement_(p.encoder, p.initial.encoder_phase, p.initial.position, p.randomness),
       dac_(p.dac),
       drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness),
-      plant_(p.plant, p.friction, plant_start(p),
-             MotionTolerance{motion_tolerance_in_counts * measurement_.fine_resolution(),
-                             rest_in_counts * measurement_.fine_resolution()}) {}
+      plant_(p.plant, p.friction, plant_start(p), motion_tolerance(measurement_.fine_resolution())) {}
 
 SampleRecord Rig::read(std::int64_t k) {
   SampleRecord record;

@@ -11,6 +11,12 @@
 
 namespace zerocount {
 
+/// What the plant of a trial finds at t = 0.
+PlantStart plant_start(const TrialParameters& parameters);
+
+/// How exactly a trial follows its motion, by the resolution (rad) of its fine encoder.
+MotionTolerance motion_tolerance(double resolution);
+
 /// The rig of a trial: the plant between its drive and its encoders. What closes the loop stands outside. One
 /// sample is: read, drive, hold.
 class Rig {

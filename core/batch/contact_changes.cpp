@@ -1,0 +1,136 @@
+// What happens to the contact of a lane between its steps.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/batch/lane_trial.hpp"
+
+namespace zerocount::batch {
+namespace {
+
+/// The branch that the spring is on, for the kernels.
+void show_branch(Tile& tile, int lane, const HystereticSpring& spring) {
+  MotionLanes& m = tile.motion;
+  const SpringBranch& branch = spring.branch();
+  m.branch_elongation[lane] = branch.elongation;
+  m.branch_torque[lane] = branch.torque;
+  m.branch_sign[lane] = branch.sign;
+  m.branch_softening_torque[lane] = branch.softening_torque;
+  m.branch_softening_rate[lane] = branch.softening_rate;
+  m.direction[lane] = spring.direction();
+  const double none = std::copysign(std::numeric_limits<double>::infinity(), spring.direction());
+  m.branch_end[lane] = spring.branch_end().value_or(none);
+}
+
+void show_contact(Tile& tile, int lane, const FrictionParameters& contact) {
+  ContactLanes& c = tile.contact;
+  c.k1[lane] = contact.k1;
+  c.stiffest[lane] = contact.k1 + contact.k2;
+  c.alpha[lane] = contact.alpha;
+  c.per_lambda[lane] = 1.0 / contact.lambda;
+  c.breakaway[lane] = contact.breakaway;
+  c.coulomb[lane] = contact.coulomb_ratio * contact.breakaway;
+  c.per_velocity_squared[lane] = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
+}
+
+void remember_depth(LaneTrial& trial) {
+  trial.deepest = std::max(trial.deepest, static_cast<std::int64_t>(trial.plant->spring().depth()));
+}
+
+/// A torque that is known to stay only until the next sample.
+void stop_at_next_sample(Tile& tile, int lane) {
+  TimeLanes& time = tile.time;
+  time.until[lane] -= (time.samples_left[lane] - 1.0) * time.sample_time[lane];
+  time.samples_left[lane] = 1.0;
+}
+
+}  // namespace
+
+void load_motion(const Tile& tile, int lane, LaneTrial& trial) {
+  const MotionLanes& m = tile.motion;
+  PlantMotion motion;
+  motion.elongation = m.elongation[lane];
+  motion.omega = m.omega[lane];
+  motion.creep = {m.extension[lane], m.hardening[lane]};
+  motion.creeping = m.creeping[lane] != 0.0;
+  motion.creep_onset_torque = m.creep_onset[lane];
+  motion.hook = m.hook[lane];
+  motion.sliding = m.slide_direction[lane] != 0.0;
+  motion.slide_theta = m.theta[lane];
+  motion.slide_direction = m.slide_direction[lane];
+  motion.breakaway_spring_torque = trial.breakaway_spring_torque;
+  trial.plant->set_motion(motion);
+}
+
+void store_motion(Tile& tile, int lane, LaneTrial& trial) {
+  MotionLanes& m = tile.motion;
+  const PlantMotion motion = trial.plant->motion();
+  m.elongation[lane] = motion.elongation;
+  m.omega[lane] = motion.omega;
+  m.extension[lane] = motion.creep.extension;
+  m.hardening[lane] = motion.creep.hardening;
+  m.creeping[lane] = motion.creeping ? 1.0 : 0.0;
+  m.creep_onset[lane] = motion.creep_onset_torque;
+  m.hook[lane] = motion.hook;
+  m.theta[lane] = motion.slide_theta;
+  m.slide_direction[lane] = motion.sliding ? motion.slide_direction : 0.0;
+  m.turning[lane] = 0.0;
+  trial.breakaway_spring_torque = motion.breakaway_spring_torque;
+  show_branch(tile, lane, trial.plant->spring());
+  show_contact(tile, lane, trial.plant->contact());
+  remember_depth(trial);
+}
+
+void turn(Tile& tile, int lane, LaneTrial& trial) {
+  MotionLanes& m = tile.motion;
+  HystereticSpring& spring = trial.plant->spring();
+  spring.set_direction(static_cast<int>(m.heading[lane]), m.elongation[lane], m.spring_torque[lane]);
+  remember_depth(trial);
+  show_branch(tile, lane, spring);
+  m.softness[lane] =
+      std::exp(-m.branch_softening_rate[lane] * std::abs(m.elongation[lane] - m.branch_elongation[lane]));
+}
+
+void close_loop(Tile& tile, int lane, LaneTrial& trial) {
+  trial.plant->spring().move_on_branch(tile.motion.elongation[lane]);
+  show_branch(tile, lane, trial.plant->spring());
+}
+
+void end_creep(Tile& tile, int lane, LaneTrial& trial) {
+  MotionLanes& m = tile.motion;
+  m.creeping[lane] = 0.0;
+  m.creep_onset[lane] =
+      creep_onset_after_end(trial.plant->contact(), m.hardening[lane] + trial.rest_tolerance,
+                            m.spring_torque[lane], m.elongation[lane]);
+}
+
+void start_slide(Tile& tile, int lane, LaneTrial& trial) {
+  stop_at_next_sample(tile, lane);
+  load_motion(tile, lane, trial);
+  const double motion = tile.motion.omega[lane] != 0.0
+                            ? tile.motion.omega[lane]
+                            : tile.motion.torque[lane] - tile.motion.spring_torque[lane];
+  trial.plant->break_away(motion < 0.0 ? -1.0 : 1.0);
+  ++trial.breakaways;
+  store_motion(tile, lane, trial);
+}
+
+void end_slide(Tile& tile, int lane, LaneTrial& trial) {
+  load_motion(tile, lane, trial);
+  trial.plant->re_stick();
+  store_motion(tile, lane, trial);
+}
+
+void advance_by_reference(Tile& tile, int lane, LaneTrial& trial) {
+  stop_at_next_sample(tile, lane);
+  load_motion(tile, lane, trial);
+  const std::int64_t before = trial.plant->breakaways();
+  trial.plant->forget_deepest();
+  trial.plant->advance(constant_torque(tile.motion.torque[lane]), tile.time.until[lane]);
+  trial.breakaways += trial.plant->breakaways() - before;
+  trial.deepest = std::max(trial.deepest, trial.plant->deepest());
+  store_motion(tile, lane, trial);
+  tile.time.until[lane] = 0.0;
+}
+
+}  // namespace zerocount::batch

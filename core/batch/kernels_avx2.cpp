@@ -1,0 +1,13 @@
+#include "core/batch/kernels.hpp"
+#include "core/batch/sample_kernel.hpp"
+#include "core/batch/slide_kernel.hpp"
+#include "core/batch/stick_kernel.hpp"
+
+namespace zerocount::batch {
+
+using Avx2 = Pack<4, 2>;
+
+const Kernels avx2_kernels{sample_kernel<Avx2>, stick_start_kernel<Avx2>, stick_step_kernel<Avx2, false>,
+                           stick_step_kernel<Avx2, true>, slide_kernel<Avx2>};
+
+}  // namespace zerocount::batch

@@ -1,0 +1,14 @@
+#include "core/batch/kernels.hpp"
+#include "core/batch/sample_kernel.hpp"
+#include "core/batch/slide_kernel.hpp"
+#include "core/batch/stick_kernel.hpp"
+
+namespace zerocount::batch {
+
+using Avx512 = Pack<8, 2>;
+
+const Kernels avx512_kernels{sample_kernel<Avx512>, stick_start_kernel<Avx512>,
+                             stick_step_kernel<Avx512, false>, stick_step_kernel<Avx512, true>,
+                             slide_kernel<Avx512>};
+
+}  // namespace zerocount::batch

@@ -1,0 +1,14 @@
+#include "core/batch/kernels.hpp"
+#include "core/batch/sample_kernel.hpp"
+#include "core/batch/slide_kernel.hpp"
+#include "core/batch/stick_kernel.hpp"
+
+namespace zerocount::batch {
+
+using Portable = Pack<2, 2>;
+
+const Kernels portable_kernels{sample_kernel<Portable>, stick_start_kernel<Portable>,
+                               stick_step_kernel<Portable, false>, stick_step_kernel<Portable, true>,
+                               slide_kernel<Portable>};
+
+}  // namespace zerocount::batch

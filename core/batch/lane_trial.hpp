@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/batch/tile.hpp"
+#include "core/plant/plant.hpp"
+#include "core/trial/outcome.hpp"
+#include "core/trial/parameters.hpp"
+
+namespace zerocount::batch {
+
+/// What a lane has beside its numbers in the tile: its trial, and what the kernels have no use for.
+struct LaneTrial {
+  bool running{false};
+  bool due{false};  ///< a sampling instant has come
+  const TrialParameters* parameters{nullptr};
+  std::size_t number{0};  ///< of the trial in the batch
+  TrialOutcome* outcome{nullptr};
+  std::size_t move{0};
+  std::int64_t first_sample{0};  ///< of the move, from the start of the trial
+
+  /// The contact. Its spring always remembers the reversals of the lane; the rest of it is that of the lane
+  /// only between load() and store().
+  std::optional<Plant> plant;
+  double rest_tolerance{0.0};           ///< MotionTolerance::elongation, rad
+  double breakaway_spring_torque{0.0};  ///< σb of the slide, N m
+
+  std::int64_t breakaways{0};  ///< in this move
+  bool slid_at_start{false};   ///< of this move
+  std::int64_t deepest{0};     ///< in this move
+
+  Jerk jerk;
+  std::int64_t jerk_start{0};
+  std::int64_t jerk_count{0};
+  std::int64_t jerks_up{0};
+  std::int64_t told_jerks{0};  ///< of the trial
+
+  std::vector<double> waiting;  ///< decided torques on their way through the delay, N m
+  std::size_t oldest_waiting{0};
+  std::int64_t waiting_alike{0};  ///< how many of the last decided torques were the same
+};
+
+// The lane's motion from the tile into its plant and back. The spring's branch goes with it.
+void load_motion(const Tile& tile, int lane, LaneTrial& trial);
+void store_motion(Tile& tile, int lane, LaneTrial& trial);
+
+// What happens to the contact, as Plant has it.
+void turn(Tile& tile, int lane, LaneTrial& trial);
+void close_loop(Tile& tile, int lane, LaneTrial& trial);
+void end_creep(Tile& tile, int lane, LaneTrial& trial);
+void start_slide(Tile& tile, int lane, LaneTrial& trial);
+void end_slide(Tile& tile, int lane, LaneTrial& trial);
+/// By Plant::advance to the next stop.
+void advance_by_reference(Tile& tile, int lane, LaneTrial& trial);
+
+/// Puts the lane into its trial's start.
+void start_trial(Tile& tile, int lane, LaneTrial& trial, std::size_t number,
+                 const TrialParameters& parameters, TrialOutcome& outcome);
+void start_move(Tile& tile, int lane, LaneTrial& trial);
+/// The measures of the move that ends here.
+MoveOutcome outcome_of_move(const Tile& tile, int lane, const LaneTrial& trial);
+
+}  // namespace zerocount::batch

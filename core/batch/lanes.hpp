@@ -1,0 +1,183 @@
+#pragma once
+
+#include <cstdint>
+
+/// Packs of doubles for the kernels of the batch engine, by the vector extension of GCC and Clang.
+///
+/// A Pack is `Chains` vectors of `Width` doubles that go through the same operations side by side, so that
+/// the latency of one vector's operation is filled with the others'. All operations are those of IEEE
+/// arithmetic, element by element: what comes of a lane depends neither on width and chains nor on other
+/// lanes.
+///
+/// This header and the kernels are compiled once for each instruction set. They use no inline function of
+/// other headers: the linker keeps one copy of such a function, and it might be one that not every processor
+/// can run.
+namespace zerocount::batch {
+
+#define ZEROCOUNT_ALWAYS_INLINE __attribute__((always_inline)) inline
+
+template <int Width>
+struct VectorOf {
+  typedef double Real __attribute__((vector_size(8 * Width)));
+  typedef std::int64_t Bits __attribute__((vector_size(8 * Width)));
+};
+
+/// Truth by lane: all bits set, or none.
+template <int Width, int Chains>
+struct Mask {
+  using Bits = typename VectorOf<Width>::Bits;
+  Bits part[Chains];
+
+  ZEROCOUNT_ALWAYS_INLINE bool any() const {
+    Bits all = part[0];
+    for (int i = 1; i < Chains; ++i) all |= part[i];
+    std::int64_t found = 0;
+    for (int j = 0; j < Width; ++j) found |= all[j];
+    return found != 0;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Mask operator&(const Mask& a, const Mask& b) {
+    Mask r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] & b.part[i];
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Mask operator|(const Mask& a, const Mask& b) {
+    Mask r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] | b.part[i];
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Mask operator==(const Mask& a, const Mask& b) {
+    Mask r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = ~(a.part[i] ^ b.part[i]);
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Mask operator~(const Mask& a) {
+    Mask r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = ~a.part[i];
+    return r;
+  }
+};
+
+template <int Width, int Chains>
+struct Pack {
+  using Real = typename VectorOf<Width>::Real;
+  using Bits = typename VectorOf<Width>::Bits;
+  using Truth = Mask<Width, Chains>;
+  static constexpr int lanes = Width * Chains;
+  Real part[Chains];
+
+  Pack() = default;
+  ZEROCOUNT_ALWAYS_INLINE Pack(double value) {  // NOLINT(google-explicit-constructor)
+    for (int i = 0; i < Chains; ++i) part[i] = value - Real{};
+  }
+
+  friend ZEROCOUNT_ALWAYS_INLINE Pack operator+(const Pack& a, const Pack& b) {
+    Pack r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] + b.part[i];
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Pack operator-(const Pack& a, const Pack& b) {
+    Pack r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] - b.part[i];
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Pack operator*(const Pack& a, const Pack& b) {
+    Pack r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] * b.part[i];
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Pack operator/(const Pack& a, const Pack& b) {
+    Pack r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] / b.part[i];
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Pack operator-(const Pack& a) {
+    Pack r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = -a.part[i];
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Truth operator<(const Pack& a, const Pack& b) {
+    Truth r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] < b.part[i];
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Truth operator<=(const Pack& a, const Pack& b) {
+    Truth r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] <= b.part[i];
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Truth operator>(const Pack& a, const Pack& b) { return b < a; }
+  friend ZEROCOUNT_ALWAYS_INLINE Truth operator>=(const Pack& a, const Pack& b) { return b <= a; }
+  friend ZEROCOUNT_ALWAYS_INLINE Truth operator==(const Pack& a, const Pack& b) {
+    Truth r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] == b.part[i];
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Truth operator!=(const Pack& a, const Pack& b) { return ~(a == b); }
+
+  /// a where `truth`, else b.
+  friend ZEROCOUNT_ALWAYS_INLINE Pack select(const Truth& truth, const Pack& a, const Pack& b) {
+    Pack r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = truth.part[i] ? a.part[i] : b.part[i];
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Pack magnitude(const Pack& a) {
+    Pack r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = (Real)((Bits)a.part[i] & INT64_MAX);
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE Pack smaller(const Pack& a, const Pack& b) { return select(b < a, b, a); }
+  friend ZEROCOUNT_ALWAYS_INLINE Pack larger(const Pack& a, const Pack& b) { return select(a < b, b, a); }
+  /// −1, 0 or 1.
+  friend ZEROCOUNT_ALWAYS_INLINE Pack sign(const Pack& a) {
+    return select(a > Pack(0.0), Pack(1.0), select(a < Pack(0.0), Pack(-1.0), Pack(0.0)));
+  }
+
+  /// The nearest whole number, half to even. |a| < 2⁵¹.
+  friend ZEROCOUNT_ALWAYS_INLINE Pack nearest_whole(const Pack& a) {
+    const Pack shift(0x1.8p52);
+    return (a + shift) - shift;
+  }
+  /// ⌊a⌋, |a| < 2⁵¹.
+  friend ZEROCOUNT_ALWAYS_INLINE Pack floor_of(const Pack& a) {
+    const Pack nearest = nearest_whole(a);
+    return select(nearest > a, nearest - Pack(1.0), nearest);
+  }
+  /// 2ᵃ, a a whole number from −1022 to 1023.
+  friend ZEROCOUNT_ALWAYS_INLINE Pack two_to(const Pack& a) {
+    const Pack shifted = a + Pack(0x1.8p52);
+    Pack r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = (Real)(((Bits)shifted.part[i] + 1023) << 52);
+    return r;
+  }
+  /// 2 to the power log₂(a)·share, within 7 %, for positive normal a: its bits, taken as a number, are about
+  /// its logarithm.
+  friend ZEROCOUNT_ALWAYS_INLINE Pack rough_power(const Pack& a, double share) {
+    const Pack shift(0x1.8p52);
+    Pack r;
+    for (int i = 0; i < Chains; ++i) {
+      // The upper 32 bits are enough, and are exact as a double.
+      const Bits upper = ((Bits)a.part[i] >> 32);
+      const Real logarithm = (Real)(upper + (Bits)shift.part[i]) - shift.part[i];
+      constexpr double of_one = 1072693248.0;  // upper bits of 1.0
+      const Real power = (logarithm - of_one) * share + of_one;
+      r.part[i] = (Real)((Bits)(power + shift.part[i]) << 32);
+    }
+    return r;
+  }
+};
+
+/// eᵃ for a ≤ 700, to some 2e-16 relative; of a < −700, e⁻⁷⁰⁰.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P exponential(const P& a) {
+  const P x = larger(a, P(-700.0));
+  const P n = nearest_whole(x * P(0x1.71547652b82fep0));                         // x/ln 2
+  const P r = (x - n * P(0x1.62e42fefa3800p-1)) - n * P(0x1.ef35793c76730p-45);  // ln 2 in two parts
+  constexpr double factorials[] = {1.0 / 6227020800.0, 1.0 / 479001600.0, 1.0 / 39916800.0, 1.0 / 3628800.0,
+                                   1.0 / 362880.0,     1.0 / 40320.0,     1.0 / 5040.0,     1.0 / 720.0,
+                                   1.0 / 120.0,        1.0 / 24.0,        1.0 / 6.0,        0.5};
+  P sum(factorials[0]);
+  for (int i = 1; i < 12; ++i) sum = sum * r + P(factorials[i]);
+  return (P(1.0) + (r + (r * r) * sum)) * two_to(n);
+}
+
+}  // namespace zerocount::batch

@@ -1,0 +1,100 @@
+#pragma once
+
+#include "core/batch/lane_group.hpp"
+#include "core/batch/series.hpp"
+
+namespace zerocount::batch {
+
+/// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series carry. Notes
+/// velocity_zero, at_stop, and beyond_kernel where the slide begins at ω = 0. See Plant::slide.
+template <class P>
+void slide_kernel(Tile& tile, LaneList list) {
+  using Truth = typename P::Truth;
+  MotionLanes& m = tile.motion;
+  ContactLanes& c = tile.contact;
+  TimeLanes& time = tile.time;
+  tile.noted_count = 0;
+  const P zero(0.0);
+  const P one(1.0);
+  for (int first = 0; first < list.count; first += P::lanes) {
+    const LaneGroup<P> at(list, first);
+    const P until = at.load(time.until);
+    P h = smaller(at.load(time.next_step), until);
+    h = select((h < until) & (until < P(2.0) * h), until * P(0.5), h);
+    const P omega = at.load(m.omega);
+    const P direction = at.load(m.slide_direction);
+    const P coulomb = at.load(c.coulomb);
+    const P stribeck = direction * (at.load(c.breakaway) - coulomb);
+    const P acceleration = h * h * at.load(c.per_inertia);
+    const P damping = at.load(c.sliding_damping) * h * at.load(c.per_inertia);
+    const P per_step_squared = at.load(c.per_velocity_squared) / (h * h);
+    const P driving = at.load(m.torque) - direction * coulomb;
+
+    P theta[batch_order + 1];
+    P velocity[batch_order + 1];
+    P exponent[batch_order + 1];
+    P slope[batch_order + 1];
+    P lightness[batch_order + 1];
+    theta[0] = at.load(m.theta);
+    velocity[0] = omega * h;
+#pragma GCC unroll 24
+    for (int k = 0; k < batch_order; ++k) {
+      P square = k % 2 == 0 ? velocity[k / 2] * velocity[k / 2] : zero;
+      if (k > 0) {
+        P twice = velocity[0] * velocity[k];
+#pragma GCC unroll 24
+        for (int j = 1; 2 * j < k; ++j) twice = twice + velocity[j] * velocity[k - j];
+        square = k % 2 == 0 ? (twice + twice) + square : twice + twice;
+      }
+      exponent[k] = -per_step_squared * square;
+      if (k > 0) {
+        slope[k - 1] = P(static_cast<double>(k)) * exponent[k];
+        P sum = slope[0] * lightness[k - 1];
+#pragma GCC unroll 24
+        for (int j = 1; j < k; ++j) sum = sum + slope[j] * lightness[k - 1 - j];
+        lightness[k] = sum * P(reciprocals.of[k]);
+      } else {
+        lightness[0] = exponential(exponent[0]);
+      }
+      const P force = k == 0 ? driving - stribeck * lightness[0] : -(stribeck * lightness[k]);
+      theta[k + 1] = velocity[k] * P(reciprocals.of[k + 1]);
+      velocity[k + 1] = (acceleration * force - damping * velocity[k]) * P(reciprocals.of[k + 1]);
+    }
+
+    const P left_out = (magnitude(theta[batch_order - 1]) + magnitude(velocity[batch_order - 1])) +
+                       (magnitude(theta[batch_order]) + magnitude(velocity[batch_order]));
+    const P allowed = at.load(time.tolerance) * (h * at.load(time.sample_rate));
+    P growth = larger(exponent[batch_order - 1], zero);
+    for (int k = batch_order - 2; k >= 1; --k) growth = growth + larger(exponent[k], zero);
+    const Truth inexact = ~(left_out <= allowed);
+    const Truth grows = growth > larger(P(6.0), P(-40.0) - exponent[0]);
+    P velocity_end = velocity[batch_order];
+    for (int k = batch_order - 1; k >= 0; --k) velocity_end = velocity_end + velocity[k];
+    const Truth halts = velocity[0] * velocity_end < zero;
+    const P curvature = curvature_bound(velocity, batch_order);
+    const Truth beyond = omega * direction <= zero;
+    const Truth too_long =
+        (inexact | grows | (~halts & ~cannot_turn(velocity[0], velocity_end, velocity[1], curvature))) &
+        ~beyond;
+    P x = one;
+    if ((halts & ~too_long).any())
+      x = select(halts,
+                 root_between(velocity, batch_order, velocity[0], velocity_end, one, halts & ~too_long), one);
+
+    const Truth done = ~too_long & ~beyond;
+    const Truth stops_here = ~halts & ~(h < until);
+    const P until_then = select(stops_here, zero, until - x * h);
+    const P factor = P(0.9) * rough_power(allowed / left_out, 1.0 / batch_order);
+    const P shorter = select(inexact, h * smaller(larger(factor, P(0.05)), P(0.8)), h * P(0.5));
+    const P longer = h * smaller(larger(factor, P(0.3)), P(4.0));
+    at.store(time.next_step, select(too_long, shorter, select(done, longer, h)));
+    at.store(time.until, select(done, until_then, until));
+    at.store(time.steps, at.load(time.steps) + one);
+    at.store(m.theta, select(done, value_of(theta, batch_order, x), theta[0]));
+    at.store(m.omega, select(done, select(halts, zero, value_of(velocity, batch_order, x) / h), omega));
+    at.note(tile, select(done, noted<P>(halts, velocity_zero) + noted<P>(until_then == zero, at_stop), zero) +
+                      noted<P>(beyond | (at.load(time.steps) > P(most_steps_to_a_stop)), beyond_kernel));
+  }
+}
+
+}  // namespace zerocount::batch

@@ -1,0 +1,379 @@
+#pragma once
+
+#include "core/batch/lane_group.hpp"
+#include "core/batch/series.hpp"
+
+namespace zerocount::batch {
+
+/// What has to be settled before a step of a lane whose hook sticks: evaluates the branch, and notes may_rest
+/// alone, or slides, or any of ends_creep and turns. See Plant::stick.
+template <class P>
+void stick_start_kernel(Tile& tile, LaneList list) {
+  using Truth = typename P::Truth;
+  MotionLanes& m = tile.motion;
+  ContactLanes& c = tile.contact;
+  tile.noted_count = 0;
+  const P zero(0.0);
+  for (int first = 0; first < list.count; first += P::lanes) {
+    const LaneGroup<P> at(list, first);
+    const P elongation = at.load(m.elongation);
+    const P hardening = at.load(m.hardening);
+    const P torque = at.load(m.torque);
+    const P branch_sign = at.load(m.branch_sign);
+    const P damping = at.load(c.damping);
+    const P alpha = at.load(c.alpha);
+    const P per_lambda = at.load(c.per_lambda);
+    const P per_inertia = at.load(c.per_inertia);
+    const P stiffest = at.load(c.stiffest);
+
+    const P travel = branch_sign * (elongation - at.load(m.branch_elongation));
+    const P softness = exponential(-at.load(m.branch_softening_rate) * travel);
+    const P spring_torque =
+        at.load(m.branch_torque) +
+        branch_sign * (at.load(c.k1) * travel + at.load(m.branch_softening_torque) * (P(1.0) - softness));
+    const P torque_sign = select(spring_torque < zero, P(-1.0), P(1.0));
+
+    Truth creeping = truth(at.load(m.creeping)) | (magnitude(spring_torque) >= at.load(m.creep_onset));
+    const P rate = alpha * (spring_torque * spring_torque * per_lambda - hardening);
+    const Truth ends = creeping & ~(rate > zero);
+    creeping = creeping & ~ends;
+    const P extension_rate = select(creeping, torque_sign * rate, zero);
+    const P omega = select(truth(at.load(m.turning)), extension_rate, at.load(m.omega));
+    const P elongation_rate = omega - extension_rate;
+    const P unbalanced = torque - damping * omega - spring_torque;
+    const P acceleration = unbalanced * per_inertia + alpha * extension_rate;
+
+    // Within twice the amplitude of rest, by the leading terms of CreepAtRest: the rest rule decides.
+    const P balance = torque_sign * torque;
+    const P limit_rate = alpha * (torque * torque * per_lambda - hardening);
+    const P slow_rate = select(creeping & (balance > zero) & (limit_rate > zero), limit_rate, zero) /
+                        (P(1.0) + P(2.0) * alpha * magnitude(torque) * per_lambda * damping);
+    const P torque_excess = torque_sign * spring_torque - (balance - damping * slow_rate);
+    const P velocity_excess = torque_sign * omega - slow_rate * (P(1.0) + alpha * damping / stiffest);
+    const P swing = (torque_excess + damping * velocity_excess) * per_inertia;
+    const P per_time_squared = stiffest * per_inertia;
+    const P limit = P(2.0) * at.load(tile.time.rest) * per_time_squared;
+    const Truth rests = swing * swing + per_time_squared * velocity_excess * velocity_excess < limit * limit;
+
+    const P hook_torque = spring_torque + damping * omega;
+    const P motion = select(omega != zero, omega, torque - spring_torque);
+    const Truth loose =
+        ~rests & (magnitude(hook_torque) >= at.load(c.breakaway)) & (hook_torque * motion > zero);
+    const P direction = sign(select(elongation_rate != zero, elongation_rate, acceleration));
+    const Truth held = ~rests & ~loose;
+
+    at.store(m.spring_torque, spring_torque);
+    at.store(m.softness, softness);
+    at.store(m.omega, omega);
+    at.store(m.heading, direction);
+    at.store(m.creeping, number<P>(creeping));
+    at.store(m.turning, number<P>(elongation_rate == zero));
+    at.note(tile, noted<P>(rests, may_rest) + noted<P>(loose, slides) + noted<P>(ends, ends_creep) +
+                      noted<P>(held & (direction != at.load(m.direction)), turns));
+  }
+}
+
+/// The series of a step: xs, ω·h, the hardening with the sign of σ, σ, and the rates of xs and xp times h.
+template <class P>
+struct StickSeries {
+  P elongation[batch_order + 1];
+  P velocity[batch_order + 1];
+  P growth[batch_order + 1];
+  P torque[batch_order + 1];
+  P rate[batch_order + 1];
+  P creep[batch_order + 1];
+};
+
+/// The law of a step in units of h.
+template <class P>
+struct StickLaw {
+  P acceleration;    ///< h²/J
+  P damping;         ///< c·h/J
+  P applied;         ///< u
+  P k1;              ///< N m/rad
+  P softening;       ///< s·softening torque
+  P exponent;        ///< −s·softening rate
+  P creep_limit;     ///< ±α·h/λ, 0 where creep is off
+  P creep_recovery;  ///< α·h, 0 where creep is off
+};
+
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE void expand(const StickLaw<P>& law, const P& softness_at_start,
+                                    const typename P::Truth& turning, bool creeping, StickSeries<P>& s) {
+  P softness[batch_order + 1];
+  P slope[batch_order + 1];
+  softness[0] = softness_at_start;
+#pragma GCC unroll 24
+  for (int k = 0; k <= batch_order; ++k) {
+    if (k > 0) {
+      P sum = slope[0] * softness[k - 1];
+#pragma GCC unroll 24
+      for (int j = 1; j < k; ++j) sum = sum + slope[j] * softness[k - 1 - j];
+      softness[k] = sum * P(reciprocals.of[k]);
+      s.torque[k] = law.k1 * s.elongation[k] - law.softening * softness[k];
+    }
+    if (creeping) {
+      P square = k % 2 == 0 ? s.torque[k / 2] * s.torque[k / 2] : P(0.0);
+      if (k > 0) {
+        P twice = s.torque[0] * s.torque[k];
+#pragma GCC unroll 24
+        for (int j = 1; 2 * j < k; ++j) twice = twice + s.torque[j] * s.torque[k - j];
+        square = k % 2 == 0 ? (twice + twice) + square : twice + twice;
+      }
+      s.creep[k] = law.creep_limit * square - law.creep_recovery * s.growth[k];
+    } else {
+      s.creep[k] = P(0.0);
+    }
+    if (k == batch_order) break;
+    s.rate[k] = s.velocity[k] - s.creep[k];
+    if (k == 0) s.rate[0] = select(turning, P(0.0), s.rate[0]);
+    slope[k] = law.exponent * s.rate[k];
+    const P unbalanced = k == 0 ? law.applied - s.torque[0] : -s.torque[k];
+    s.elongation[k + 1] = s.rate[k] * P(reciprocals.of[k + 1]);
+    s.growth[k + 1] = s.creep[k] * P(reciprocals.of[k + 1]);
+    s.velocity[k + 1] =
+        (law.acceleration * unbalanced - law.damping * s.velocity[k]) * P(reciprocals.of[k + 1]);
+  }
+}
+
+/// One step of each lane whose hook sticks and that stick_start_kernel and its notes have prepared: to the
+/// next stop, to the first event, or as far as the series carry. Notes what happened at its end; nothing of a
+/// lane changes but its next step where the step was too long. A step with events other than a reversal is
+/// not made but noted as meets_event, unless `Events`.
+template <class P, bool Events>
+void stick_step_kernel(Tile& tile, LaneList list) {
+  using Truth = typename P::Truth;
+  MotionLanes& m = tile.motion;
+  ContactLanes& c = tile.contact;
+  TimeLanes& time = tile.time;
+  MeasureLanes& q = tile.measures;
+  LoopLanes& l = tile.loop;
+  tile.noted_count = 0;
+  tile.passed_count = 0;
+  const P zero(0.0);
+  const P one(1.0);
+  for (int first = 0; first < list.count; first += P::lanes) {
+    const LaneGroup<P> at(list, first);
+    const P until = at.load(time.until);
+    P h = smaller(at.load(time.next_step), until);
+    h = select((h < until) & (until < P(2.0) * h), until * P(0.5), h);
+
+    const P per_inertia = at.load(c.per_inertia);
+    const P damping = at.load(c.damping);
+    const P alpha = at.load(c.alpha);
+    const P per_lambda = at.load(c.per_lambda);
+    const P breakaway = at.load(c.breakaway);
+    const P branch_sign = at.load(m.branch_sign);
+    const P softening_rate = at.load(m.branch_softening_rate);
+    const P softness = at.load(m.softness);
+    const P torque_at_start = at.load(m.spring_torque);
+    const P torque_sign = select(torque_at_start < zero, P(-1.0), one);
+    const Truth creeping = truth(at.load(m.creeping));
+    const P extension = at.load(m.extension);
+    const P hardening = at.load(m.hardening);
+    const P elongation = at.load(m.elongation);
+
+    StickLaw<P> law;
+    law.acceleration = h * h * per_inertia;
+    law.damping = damping * h * per_inertia;
+    law.applied = at.load(m.torque);
+    law.k1 = at.load(c.k1);
+    law.softening = branch_sign * at.load(m.branch_softening_torque);
+    law.exponent = -branch_sign * softening_rate;
+    law.creep_recovery = select(creeping, alpha * h, zero);
+    law.creep_limit = torque_sign * law.creep_recovery * per_lambda;
+    StickSeries<P> s;
+    s.elongation[0] = elongation;
+    s.velocity[0] = at.load(m.omega) * h;
+    s.growth[0] = torque_sign * hardening;
+    s.torque[0] = torque_at_start;
+    const Truth turning = truth(at.load(m.turning));
+    expand(law, softness, turning, creeping.any(), s);
+
+    // Where dxs/dt is zero at the start, its next zero is that of (dxs/dt)/t.
+    P g[batch_order];
+    for (int k = 0; k < batch_order; ++k)
+      g[k] = select(turning, k + 1 < batch_order ? s.rate[k + 1] : zero, s.rate[k]);
+    const P curvature = curvature_bound(g, batch_order - 1);
+    P g_end = g[batch_order - 1];
+    for (int k = batch_order - 2; k >= 0; --k) g_end = g_end + g[k];
+    const Truth reverses = g[0] * g_end < zero;
+    const P reach = reach_bound(s.elongation, batch_order);
+
+    // Is the step short enough?
+    const P left_out = (magnitude(s.elongation[batch_order - 1]) + magnitude(s.velocity[batch_order - 1])) +
+                       (magnitude(s.elongation[batch_order]) + magnitude(s.velocity[batch_order]));
+    const P scale = smaller(larger(reach * at.load(time.per_count) * P(1e3), P(1e-3)), one);
+    const P allowed = at.load(time.tolerance) * scale * (h * at.load(time.sample_rate));
+    const P growth = softening_rate * reach;
+    const P exponent = softening_rate * branch_sign * (elongation - at.load(m.branch_elongation));
+    const Truth inexact = ~(left_out <= allowed);
+    const Truth grows = (growth > P(6.0)) & (exponent - growth < P(40.0));
+    const P swing = h * h * at.load(c.stiffest) * per_inertia;
+    // Between zeros of dxs/dt there is half a period of the stiffest spring at least, but for what creep
+    // adds.
+    const P creep_velocity = P(8.0) * alpha * damping / law.k1 * magnitude(s.creep[0]);
+    const Truth turns_once = (smaller(magnitude(g[0]), magnitude(g_end)) > creep_velocity) |
+                             cannot_turn(g[0], g_end, g[1], curvature);
+    Truth too_long = inexact | grows | (swing > P(9.0)) | (~reverses & ~turns_once);
+
+    P x = one;
+    if ((reverses & ~too_long).any())
+      x = select(reverses, root_between(g, batch_order - 1, g[0], g_end, one, reverses & ~too_long), one);
+    P torque = value_of(s.torque, batch_order, x);
+    P end = value_of(s.elongation, batch_order, x);
+    P velocity = value_of(s.velocity, batch_order, x);
+    P signed_hardening = value_of(s.growth, batch_order, x);
+
+    const P direction = at.load(m.direction);
+    const P branch_end = at.load(m.branch_end);
+    const P onset = at.load(m.creep_onset);
+    const P per_step = damping / h;  // of ω·h, N m
+    const P hook_at_start = torque_at_start + per_step * s.velocity[0];
+    P event = noted<P>(reverses, reversal);
+    Truth beyond = magnitude(hook_at_start) >= breakaway;
+    Truth meets = P(1.0) < P(0.0);
+    if constexpr (!Events) {
+      const P creep_left =
+          torque_sign * (law.creep_limit * torque * torque - law.creep_recovery * signed_hardening);
+      const Truth closes = direction * (end - branch_end) >= zero;
+      const Truth stops = creeping & (~(creep_left > zero) | (torque_sign * torque <= zero));
+      const Truth starts = ~creeping & (magnitude(torque) >= onset);
+      const P hook_at_end = torque + per_step * velocity;
+      const Truth near = larger(magnitude(hook_at_start), magnitude(hook_at_end)) > P(0.5) * breakaway;
+      meets = ~too_long & (closes | stops | starts | near);
+      beyond = P(1.0) < P(0.0);
+    } else {
+      // The first of them.
+      for (int round = 0; round < 4; ++round) {
+        const P hook_torque = torque + per_step * velocity;
+        const P creep_left =
+            torque_sign * (law.creep_limit * torque * torque - law.creep_recovery * signed_hardening);
+        const Truth closes = direction * (end - branch_end) >= zero;
+        const Truth stops = creeping & (~(creep_left > zero) | (torque_sign * torque <= zero));
+        const Truth starts = ~creeping & (magnitude(torque) >= onset);
+        const Truth loose = magnitude(hook_torque) >= breakaway;
+        const Truth any = (closes & (event != P(closure))) | (stops & (event != P(creep_ends))) |
+                          (starts & (event != P(creep_sets_in))) | (loose & (event != P(breaks_away)));
+        const Truth open = any & ~too_long & ~beyond;
+        if (!open.any()) break;
+        // One at a time; the next round sees whether another is earlier still.
+        const Truth is_loose = loose & (event != P(breaks_away));
+        const Truth is_closure = ~is_loose & closes & (event != P(closure));
+        const Truth is_start = ~is_loose & ~is_closure & starts & (event != P(creep_sets_in));
+        const P hook_sign = sign(hook_torque);
+        const P start_sign = sign(torque);
+        P f[batch_order + 1];
+        for (int k = 0; k <= batch_order; ++k) {
+          const P of_hook = hook_sign * (s.torque[k] + per_step * s.velocity[k]);
+          f[k] = select(is_loose, of_hook,
+                        select(is_closure, s.elongation[k],
+                               select(is_start, start_sign * s.torque[k], torque_sign * s.creep[k])));
+        }
+        f[0] =
+            f[0] - select(is_loose, breakaway, select(is_closure, branch_end, select(is_start, onset, zero)));
+        const P f_end = value_of(f, batch_order, x);
+        const P found = root_between(f, batch_order, f[0], f_end, x, open);
+        const Truth bracketed = f[0] * f_end <= zero;
+        beyond = beyond | (open & ~bracketed);
+        x = select(open, found, x);
+        event =
+            select(open,
+                   select(is_loose, P(breaks_away),
+                          select(is_closure, P(closure), select(is_start, P(creep_sets_in), P(creep_ends)))),
+                   event);
+        torque = value_of(s.torque, batch_order, x);
+        end = value_of(s.elongation, batch_order, x);
+        velocity = value_of(s.velocity, batch_order, x);
+        signed_hardening = value_of(s.growth, batch_order, x);
+      }
+      // Between the ends the hook's torque may have been larger.
+      const P hook_at_end = torque + per_step * velocity;
+      const P hook_larger = larger(magnitude(hook_at_start), magnitude(hook_at_end));
+      const Truth near = (event != P(breaks_away)) & (hook_larger > P(0.5) * breakaway);
+      if ((near & ~too_long).any()) {
+        P hook[batch_order + 1];
+        for (int k = 0; k <= batch_order; ++k) hook[k] = s.torque[k] + per_step * s.velocity[k];
+        const P bend = curvature_bound(hook, batch_order);
+        const Truth may_slip = hook_larger + bend * P(0.125) >= breakaway;
+        too_long = too_long | (near & may_slip & ~(magnitude(hook[1]) > bend));
+      }
+      const Truth slips = event == P(breaks_away);
+      beyond = beyond | (slips & ~(velocity * hook_at_end > zero));
+      beyond = beyond & ~too_long;
+    }
+
+    // The samples on the way, at which nobody looked: their count is that of both ends.
+    const P used = x * h;
+    const P left = at.load(time.samples_left);
+    const P sample_rate = at.load(time.sample_rate);
+    const Truth stops_here = (event == zero) & ~(h < until);
+    const P until_then = select(stops_here, zero, until - used);
+    const P left_then = select(stops_here, one, larger(-floor_of(P(1e-9) - until_then * sample_rate), one));
+    const P passed = left - left_then;
+    const P extension_then = extension + (signed_hardening - s.growth[0]);
+    const P hook = at.load(m.hook);
+    const P per_count = at.load(time.per_count);
+    const P phase = at.load(l.phase);
+    const P count = at.load(l.count);
+    const P lowest =
+        (hook + smaller(elongation, end) + smaller(extension, extension_then)) * per_count + phase;
+    const P highest =
+        (hook + larger(elongation, end) + larger(extension, extension_then)) * per_count + phase;
+    // Clear of the edges, where rounding has a say.
+    const Truth same_count = (lowest - count > P(1e-9)) & (highest - count < P(1.0 - 1e-9));
+    const Truth counts = (passed > zero) & ~same_count & ~too_long & ~beyond & ~meets;
+    const Truth done = ~too_long & ~beyond & ~counts & ~meets;
+
+    const P factor = P(0.9) * rough_power(allowed / left_out, 1.0 / batch_order);
+    const P shorter = select(inexact, h * smaller(larger(factor, P(0.05)), P(0.8)), h * P(0.5));
+    const P longer = h * smaller(larger(factor, P(0.3)), P(2.5));
+    at.store(time.next_step, select(too_long, shorter, select(done, longer, at.load(time.next_step))));
+    const P sample_time = at.load(time.sample_time);
+    at.store(time.until, select(done, until_then, select(counts, until - (left - one) * sample_time, until)));
+    at.store(time.samples_left, select(done, left_then, select(counts, one, left)));
+    at.store(time.steps, at.load(time.steps) + select(meets, zero, one));
+
+    at.store(m.elongation, select(done, select(event == P(closure), branch_end, end), elongation));
+    at.store(m.omega, select(done, velocity / h, at.load(m.omega)));
+    at.store(m.extension, select(done, extension_then, extension));
+    at.store(m.hardening, select(done, torque_sign * signed_hardening, hardening));
+    at.store(m.turning, select(done, number<P>(event == P(reversal)), number<P>(turning)));
+    at.store(m.spring_torque, select(done, torque, torque_at_start));
+
+    const P taken = at.load(q.taken);
+    const P zeros = at.load(q.zeros_in_a_row);
+    const P passed_now = select(done, passed, zero);
+    const Truth arrived = truth(at.load(q.arrived));
+    const Truth arrives = ~arrived & (passed_now > zero) & (zeros + passed_now >= at.load(q.dwell));
+    at.store(q.arrival, select(arrives, taken - zeros, at.load(q.arrival)));
+    at.store(q.arrived, number<P>(arrived | arrives));
+    at.store(q.zeros_in_a_row, zeros + passed_now);
+    at.store(q.taken, taken + passed_now);
+
+    at.note(tile, select(done, event + noted<P>(until_then == zero, at_stop), zero) +
+                      noted<P>(meets, meets_event) +
+                      noted<P>(beyond | (at.load(time.steps) > P(most_steps_to_a_stop)), beyond_kernel));
+
+    if (tile.passed != nullptr && (passed_now > zero).any()) {
+      constexpr int width = sizeof(h.part[0]) / sizeof(double);
+      for (int i = 0; i < at.used(); ++i) {
+        const int p = i / width;
+        const int j = i % width;
+        if (passed_now.part[p][j] == 0.0) continue;
+        PassedSamples& record = tile.passed[tile.passed_count++];
+        record.lane = at.lane(i);
+        record.samples = passed_now.part[p][j];
+        record.until = until.part[p][j];
+        record.step = h.part[p][j];
+        record.end = x.part[p][j];
+        for (int k = 0; k <= batch_order; ++k) {
+          record.elongation[k] = s.elongation[k].part[p][j];
+          record.growth[k] = s.growth[k].part[p][j];
+        }
+      }
+    }
+  }
+}
+
+}  // namespace zerocount::batch

@@ -1,0 +1,166 @@
+#pragma once
+
+/// The trials that a batch engine has in work, one a lane: plain arrays, one quantity each, so that a kernel
+/// takes the same quantity of many lanes at once. Truths are 0 or 1, whole numbers are exact doubles.
+///
+/// Included by the kernels: see lanes.hpp for what must not be in here.
+namespace zerocount::batch {
+
+inline constexpr int most_lanes = 128;
+/// One slot more, which fills up packs; what is in it is never looked at. Rounded up to a cache line.
+inline constexpr int lane_slots = most_lanes + 8;
+inline constexpr int spare_lane = most_lanes;
+
+inline constexpr int batch_order = 20;  ///< of the Taylor series
+/// A lane that has tried so many steps since its last stop is left to the reference.
+inline constexpr double most_steps_to_a_stop = 500.0;
+
+using Lanes = double[lane_slots];
+
+/// The contact while the hook sticks, and the rotor.
+struct alignas(64) MotionLanes {
+  Lanes elongation;  ///< xs, rad
+  Lanes omega;       ///< ω, rad/s
+  Lanes extension;   ///< xp, rad
+  Lanes hardening;   ///< xh, rad
+  Lanes torque;      ///< u of the motor, N m
+  Lanes hook;        ///< rad
+  Lanes theta;       ///< θ while the hook slides, rad
+
+  Lanes branch_elongation;        ///< xr, rad
+  Lanes branch_torque;            ///< σr, N m
+  Lanes branch_sign;              ///< s
+  Lanes branch_softening_torque;  ///< N m
+  Lanes branch_softening_rate;    ///< 1/rad
+  Lanes branch_end;               ///< where the branch ends ahead, rad; ±infinity where it does not
+  Lanes direction;                ///< of the elongation: −1, 0, 1
+  Lanes heading;                  ///< the direction that it takes now
+  Lanes turning;                  ///< dxs/dt is zero at this instant
+  Lanes creeping;                 ///< the creep law is on
+  Lanes creep_onset;              ///< |σ| at which it sets in, N m
+  Lanes slide_direction;          ///< −1, 1; 0 while the hook sticks
+
+  Lanes spring_torque;  ///< σ at the start of the step, N m
+  Lanes softness;       ///< exp(−y) of the branch at the start of the step
+};
+
+/// What of a trial the motion depends on, the same throughout a contact.
+struct alignas(64) ContactLanes {
+  Lanes per_inertia;           ///< 1/J
+  Lanes damping;               ///< c
+  Lanes sliding_damping;       ///< cs
+  Lanes k1;                    ///< N m/rad
+  Lanes stiffest;              ///< k1 + k2, N m/rad
+  Lanes alpha;                 ///< 1/s
+  Lanes per_lambda;            ///< 1/λ
+  Lanes breakaway;             ///< Fs, N m
+  Lanes coulomb;               ///< Fc, N m
+  Lanes per_velocity_squared;  ///< 1/ωs²
+};
+
+/// The time of a lane, and its steps.
+struct alignas(64) TimeLanes {
+  Lanes until;         ///< left to the next stop, s
+  Lanes samples_left;  ///< up to and with that of the stop
+  Lanes next_step;     ///< the step that accuracy is thought to allow, s
+  Lanes steps;         ///< tried since the last stop
+  Lanes sample_time;   ///< T, s
+  Lanes sample_rate;   ///< 1/T, Hz
+  Lanes tolerance;     ///< of a torque step, rad
+  Lanes per_count;     ///< 1/Δx, 1/rad
+  Lanes rest;          ///< amplitude that counts as rest, rad
+};
+
+/// Encoder, control and converter.
+struct alignas(64) LoopLanes {
+  Lanes resolution;  ///< Δx of the fine encoder, rad
+  Lanes phase;
+  Lanes kp, ki, kd;                         ///< N m/count
+  Lanes lowest_integral, highest_integral;  ///< N m
+  Lanes dac_resolution;                     ///< Δu, N m
+  Lanes lowest_code, highest_code;
+  Lanes target;    ///< counts
+  Lanes integral;  ///< I, N m
+  Lanes error;     ///< of the last sample, counts
+  Lanes count;     ///< of the last sample
+  Lanes counted;   ///< there has been a sample
+  Lanes decided;   ///< torque of the last sample, N m
+  Lanes code;      ///< of the last sample
+  Lanes steady;    ///< the torque will stay as long as the count does
+  Lanes delay;     ///< samples between deciding a torque and applying it
+};
+
+/// The measures of the move so far (see MoveMeasures).
+struct alignas(64) MeasureLanes {
+  Lanes samples, dwell, window;  ///< N, D, W
+  Lanes taken;                   ///< samples so far
+  Lanes zeros_in_a_row;
+  Lanes arrived;
+  Lanes arrival;
+  Lanes largest_since_arrival;
+  Lanes largest_in_window;
+  Lanes overshoot;
+  Lanes move_direction;
+  Lanes peak_torque;
+  Lanes saturated;
+  Lanes in_jerk;
+  Lanes first_error;    ///< of the move, counts
+  Lanes largest_error;  ///< beyond the first |error|, with which the move is ended, counts; infinite: never
+  Lanes theta;          ///< at the last sample, rad
+  Lanes extension;      ///< at the last sample, rad
+};
+
+/// What a kernel says of a lane.
+enum LaneNote : int {
+  no_note = 0,
+  may_rest = 1,
+  slides = 2,
+  ends_creep = 4,
+  turns = 8,
+  reversal = 16,
+  closure = 32,
+  creep_sets_in = 64,
+  creep_ends = 128,
+  breaks_away = 256,
+  velocity_zero = 512,
+  beyond_kernel = 1024,  ///< the reference has to take it to the next stop
+  at_stop = 2048,
+  jerk_changes = 4096,
+  diverges = 16384,
+  meets_event = 32768,  ///< an event other than a reversal lies in the step
+  delayed = 8192        ///< the decided torque has to wait
+};
+
+/// A step that went over sampling instants at which the count and the torque stay: for whoever records them.
+struct PassedSamples {
+  int lane;
+  double samples;                      ///< how many
+  double until;                        ///< TimeLanes::until at the start of the step, s
+  double step;                         ///< s
+  double end;                          ///< of what was made of it, as its share
+  double elongation[batch_order + 1];  ///< rad, by the share of the step
+  double growth[batch_order + 1];      ///< of xp, likewise
+};
+
+struct Tile {
+  MotionLanes motion;
+  ContactLanes contact;
+  TimeLanes time;
+  LoopLanes loop;
+  MeasureLanes measures;
+  int note[lane_slots];
+
+  int noted[most_lanes];  ///< lanes with a note, as the last kernel left them
+  int noted_count;
+
+  PassedSamples* passed;  ///< where to put them; null where nobody records
+  int passed_count;       ///< at most one a lane and kernel call
+};
+
+/// Some lanes, in ascending order.
+struct LaneList {
+  const int* lanes;
+  int count;
+};
+
+}  // namespace zerocount::batch

@@ -15,6 +15,13 @@ namespace zerocount {
 
 enum class Design { monte_carlo, latin_hypercube, sobol };
 
+/// What runs the trials. The numbers of both agree to what core/batch/README.md says, and not to the last
+/// bit.
+enum class Engine {
+  batch,     ///< many trials at a time in vector lanes
+  reference  ///< one after the other
+};
+
 /// One axis of the sweep: the value of one swept key (or the case) at every design point.
 struct SweepAxis {
   enum class Kind { number, text };
@@ -78,6 +85,7 @@ struct Study {
   std::int64_t trials{0};  ///< per design point
   Design design{Design::monte_carlo};
   bool independent_points{false};
+  Engine engine{Engine::batch};  ///< chosen for the run; no part of the manifest
 
   std::string manifest_text;           ///< exact bytes of the manifest
   std::string manifest_sha256;         ///< of manifest_text, lower-case hexadecimal

@@ -41,7 +41,8 @@ ExitCode merge(const Arguments& arguments) {
   const fs::path output = output_place(arguments);
   const std::vector<fs::path> inputs(arguments.operands().begin(), arguments.operands().end());
   const FileHeader header = first_header(inputs);
-  const Study study = parse_study(header.manifest, inputs.front().string() + ":/manifest", header.overrides);
+  Study study = parse_study(header.manifest, inputs.front().string() + ":/manifest", header.overrides);
+  study.engine = header.engine;
   const OutputLock lock(output);
   const std::vector<ShardInfo> parts = merge_inputs(inputs, study);
   require_everything(parts, study);

@@ -76,6 +76,10 @@ bool already_there(const fs::path& output, const Study& study, RowRange wanted) 
   } catch (const Failure& failure) {
     refuse(fmt::format("exists, and is no usable results file ({})", failure.what()));
   }
+  if (header.engine != study.engine) {
+    refuse(fmt::format("holds the results of the {} engine, and this run is for the {} engine",
+                       name_of(header.engine), name_of(study.engine)));
+  }
   if (header.study_sha256 != study.study_sha256) {
     refuse("holds the results of another manifest (or of other --set values)");
   }
@@ -146,7 +150,9 @@ void remove_shards(const fs::path& directory, const std::vector<fs::path>& shard
 
 ExitCode run(const Arguments& arguments) {
   const fs::path output = output_place(arguments);
-  const Study study = load_study(arguments.operands()[0], arguments.values("set"));
+  Study study = load_study(arguments.operands()[0], arguments.values("set"));
+  study.engine =
+      arguments.one_of("engine", {"batch", "reference"}) == "batch" ? Engine::batch : Engine::reference;
   warn(study);
   const std::optional<std::string> part = arguments.value("shard");
   const RowRange wanted = part ? part_of(arguments, *part, study) : all_rows(study);
@@ -202,6 +208,8 @@ Command run_command() {
            1,
            {{"output,o", "FILE", "the results file to make (required)"},
             {"threads", "N", "threads to use; default: all cores"},
+            {"engine", "NAME",
+             "batch (default): many trials at a time in vector lanes; reference: one after the other"},
             {"shard", "I/N", "run only the I-th of N parts, into a part file for 'zerocount merge'"},
             {"set", "KEY=VALUE",
              "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},

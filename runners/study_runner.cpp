@@ -7,12 +7,13 @@
 #include <optional>
 #include <vector>
 
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "core/trial/trial.hpp"
+#include "runners/trial_runner.hpp"
 
 namespace zerocount {
 namespace {
@@ -20,9 +21,13 @@ namespace {
 using Block = std::shared_ptr<std::vector<TrialResult>>;
 
 /// A block takes a fraction of a second, so that an interruption is answered soon and the threads end
-/// together.
-constexpr double samples_per_block = 1e5;
-constexpr std::int64_t most_trials_per_block = 256;
+/// together. The lanes of the batch engine want many trials, because the last of them run alone.
+struct BlockLimits {
+  double samples;
+  std::int64_t trials;
+};
+constexpr BlockLimits reference_block{1e5, 256};
+constexpr BlockLimits batch_block{4e6, 4096};
 
 constexpr std::size_t most_trials_per_shard = 1 << 16;
 constexpr std::size_t most_bytes_per_shard = std::size_t{64} << 20;
@@ -30,10 +35,6 @@ constexpr std::size_t most_bytes_per_shard = std::size_t{64} << 20;
 /// and a long run does not end in thousands of files.
 constexpr std::chrono::duration<double> shortest_wait{0.5};
 constexpr std::chrono::duration<double> longest_wait{20.0};
-
-bool retained(const Study& study, std::int64_t index) {
-  return std::binary_search(study.retained_trials.begin(), study.retained_trials.end(), index);
-}
 
 std::size_t bytes_of(const TrialResult& result) {
   return sizeof result + result.inputs.size() * sizeof(double) +
@@ -64,6 +65,12 @@ class BlockSource {
   std::size_t at_{0};
   std::int64_t used_{0};
 };
+
+std::int64_t rows_in(std::span<const RowRange> ranges) {
+  std::int64_t rows = 0;
+  for (const RowRange& range : ranges) rows += range.count;
+  return rows;
+}
 
 /// Gathers finished trials in order of rows and writes them as shards.
 class ShardWriter {
@@ -114,21 +121,6 @@ class ShardWriter {
 
 }  // namespace
 
-TrialResult run_study_trial(const Study& study, std::int64_t row) {
-  const std::int64_t index = row % study.trials;
-  StudyTrial trial = study_trial(study, row / study.trials, index);
-  TrialResult result;
-  result.row = row;
-  result.inputs = std::move(trial.inputs);
-  TrialObservers observers;
-  observers.jerk = [&](const Jerk& jerk) { result.jerks.push_back(jerk); };
-  if (retained(study, index)) {
-    observers.sample = [&](const SampleRecord& record) { result.trace.push_back(record); };
-  }
-  result.outcome = run_trial(trial.parameters, observers);
-  return result;
-}
-
 double samples_per_trial(const Study& study) {
   double total = 0.0;
   const std::int64_t asked = std::min<std::int64_t>(point_count(study), 64);
@@ -147,9 +139,12 @@ std::vector<ShardInfo> run_trials(const Study& study, std::span<const RowRange> 
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
 
-  const double block_size = samples_per_block / std::max(samples_per_trial(study), 1.0);
-  BlockSource source(
-      ranges, std::clamp(static_cast<std::int64_t>(block_size), std::int64_t{1}, most_trials_per_block));
+  const BlockLimits limits = study.engine == Engine::batch ? batch_block : reference_block;
+  const double block_size = limits.samples / std::max(samples_per_trial(study), 1.0);
+  // A short run is spread over the threads, too.
+  const std::int64_t share = rows_in(ranges) / (4 * threads) + 1;
+  BlockSource source(ranges, std::clamp(static_cast<std::int64_t>(block_size), std::int64_t{1},
+                                        std::min(limits.trials, std::max<std::int64_t>(share, 256))));
   ShardWriter writer(study, directory);
 
   const auto next_block = [&](tbb::flow_control& control) -> RowRange {
@@ -160,12 +155,9 @@ std::vector<ShardInfo> run_trials(const Study& study, std::span<const RowRange> 
     }
     return *block;
   };
+  tbb::enumerable_thread_specific<TrialRunner> runners([&study] { return TrialRunner(study); });
   const auto run_block = [&](RowRange rows) {
-    auto results = std::make_shared<std::vector<TrialResult>>();
-    results->reserve(static_cast<std::size_t>(rows.count));
-    for (std::int64_t row = rows.first; row < rows.end(); ++row)
-      results->push_back(run_study_trial(study, row));
-    return results;
+    return std::make_shared<std::vector<TrialResult>>(runners.local().run(rows));
   };
   const auto write_block = [&](const Block& block) {
     const auto trials = static_cast<std::int64_t>(block->size());

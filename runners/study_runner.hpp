@@ -13,7 +13,8 @@
 
 namespace zerocount {
 
-/// Runs one trial of the study by its global row, and keeps what the results file keeps of it.
+/// Runs one trial of the study by its global row with the reference engine, and keeps what the results file
+/// keeps of it.
 TrialResult run_study_trial(const Study& study, std::int64_t row);
 
 /// Number of samples of a trial: the mean over the first trials of up to 64 points.

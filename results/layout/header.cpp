@@ -68,6 +68,16 @@ std::int64_t read_version(const hdf5::File& file) {
   return version;
 }
 
+/// Files from before there were two have no such attribute.
+Engine read_engine(const hdf5::File& file) {
+  if (!file.has_attribute("engine")) return Engine::reference;
+  const std::string name = file.text("engine");
+  for (const Engine engine : {Engine::batch, Engine::reference}) {
+    if (name == name_of(engine)) return engine;
+  }
+  file.fail(fmt::format("its engine is '{}'; expected 'batch' or 'reference'", name));
+}
+
 void check_numbers(const hdf5::File& file, const FileHeader& header) {
   const bool possible = header.trials > 0 && header.points > 0 && header.rows.first >= 0 &&
                         header.rows.count > 0 && header.rows.end() <= header.trials * header.points;
@@ -86,6 +96,10 @@ void check_numbers(const hdf5::File& file, const FileHeader& header) {
 ForeignFile::ForeignFile(const std::filesystem::path& path, const std::string& what_it_is)
     : Failure(ExitCode::bad_data, fmt::format("{}: {}", path.string(), what_it_is)) {}
 
+std::string_view name_of(Engine engine) {
+  return engine == Engine::batch ? "batch" : "reference";
+}
+
 RowRange all_rows(const Study& study) {
   return {0, trial_count(study)};
 }
@@ -95,6 +109,7 @@ FileHeader make_header(const Study& study, FileKind kind, RowRange rows, Provena
           format_version,
           study.name,
           std::move(provenance),
+          study.engine,
           study.seed,
           study.trials,
           point_count(study),
@@ -116,6 +131,7 @@ void write_header(hdf5::File& file, const FileHeader& header) {
   file.set_text("compiler", header.provenance.compiler);
   file.set_text("cpu", header.provenance.cpu);
   file.set_text("created", header.provenance.created);
+  file.set_text("engine", std::string(name_of(header.engine)));
   file.set_unsigned("seed", header.seed);
   file.set_text("manifest_sha256", header.manifest_sha256);
   file.set_text("study_sha256", header.study_sha256);
@@ -139,6 +155,7 @@ FileHeader read_header(const hdf5::File& file) {
   header.name = file.text("name");
   header.provenance = {file.text("zerocount_version"), file.text("git_commit"), file.text("compiler"),
                        file.text("cpu"), file.text("created")};
+  header.engine = read_engine(file);
   header.seed = file.unsigned_integer("seed");
   header.manifest_sha256 = file.text("manifest_sha256");
   header.study_sha256 = file.text("study_sha256");
@@ -174,6 +191,12 @@ void require_same_study(const std::filesystem::path& path, const FileHeader& hea
                     "of different builds are not mixed; finish with the same build, or start a new output",
                     header.provenance.zerocount_version, header.provenance.git_commit, here.zerocount_version,
                     here.git_commit));
+  }
+  if (header.engine != study.engine) {
+    throw ForeignFile(path,
+                      fmt::format("its trials were run by the {} engine, and this is for the {} engine: "
+                                  "they are not mixed; give --engine {}, or start a new output",
+                                  name_of(header.engine), name_of(study.engine), name_of(header.engine)));
   }
   if (header.version != format_version) {
     throw ForeignFile(path, fmt::format("its format version is {}: such files are read, but not joined with "

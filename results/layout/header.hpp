@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/failure.hpp"
@@ -22,6 +23,7 @@ struct FileHeader {
   std::int64_t version{format_version};  ///< of the layout
   std::string name;
   Provenance provenance;
+  Engine engine{Engine::reference};  ///< that ran the trials
   std::uint64_t seed{0};
   std::int64_t trials{0};  ///< per design point
   std::int64_t points{0};
@@ -42,6 +44,9 @@ class ForeignFile : public Failure {
   ForeignFile(const std::filesystem::path& path, const std::string& what_it_is);
 };
 
+/// "batch" or "reference".
+std::string_view name_of(Engine engine);
+
 /// All rows of a study.
 RowRange all_rows(const Study& study);
 
@@ -56,7 +61,7 @@ void mark_finished(hdf5::File& file);
 FileHeader read_header(const hdf5::File& file);
 
 /// @throws ForeignFile unless `header`, of the file `path`, is of this study, by this build of the program
-/// (see same_build) and of the current version of the layout.
+/// (see same_build) and the study's engine, and of the current version of the layout.
 void require_same_study(const std::filesystem::path& path, const FileHeader& header, const Study& study);
 
 /// Whether a file must have its seal (see seal.hpp) to be opened.

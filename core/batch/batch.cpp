@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/batch/lane_rest.hpp"
@@ -65,7 +66,7 @@ struct BatchEngine::Work {
   void delay_torque(int lane, LaneTrial& trial);
 
   void move_sticking();
-  int end_sticking_steps();
+  void end_sticking_steps();
   void move_sliding();
   LaneTrial& trial_of(int lane) { return lanes[static_cast<std::size_t>(lane)]; }
 
@@ -76,6 +77,8 @@ struct BatchEngine::Work {
   Tile tile{};
   std::array<PassedSamples, most_lanes> passed{};
   std::array<int, most_lanes> list{};
+  std::array<int, most_lanes> waiting{};  ///< lanes with an event in their step
+  int waiting_count{0};
 
   std::span<const TrialParameters* const> trials;
   std::span<TrialOutcome> outcomes;
@@ -293,10 +296,10 @@ void BatchEngine::Work::move_sticking() {
   int count = 0;
   for (int lane = 0; lane < lane_count; ++lane) {
     const LaneTrial& trial = trial_of(lane);
-    if (trial.running && !trial.due && tile.motion.slide_direction[lane] == 0.0)
+    if (trial.running && !trial.due && !trial.waits && tile.motion.slide_direction[lane] == 0.0)
       list[static_cast<std::size_t>(count++)] = lane;
   }
-  if (count == 0) return;
+  if (count + waiting_count == 0) return;
   kernels.stick_start(tile, {list.data(), count});
   bool left = false;
   for (int i = 0; i < tile.noted_count; ++i) {
@@ -339,21 +342,28 @@ void BatchEngine::Work::move_sticking() {
     if (count == 0) return;
   }
   kernels.stick_step(tile, {list.data(), count});
-  const int with_events = end_sticking_steps();
-  if (with_events == 0) return;
-  kernels.stick_event(tile, {list.data(), with_events});
+  end_sticking_steps();
+  // Few lanes at a time meet an event: they wait until there are enough of them, or nothing else to do.
+  constexpr int enough = 8;
+  if (waiting_count == 0 || (waiting_count < enough && count > waiting_count)) return;
+  const int with_events = std::exchange(waiting_count, 0);
+  std::sort(waiting.begin(), waiting.begin() + with_events);
+  for (int i = 0; i < with_events; ++i) trial_of(waiting[static_cast<std::size_t>(i)]).waits = false;
+  kernels.stick_event(tile, {waiting.data(), with_events});
   end_sticking_steps();
 }
 
-/// What the notes of a step ask for. Leaves the lanes that have met an event in the list, and says how many.
-int BatchEngine::Work::end_sticking_steps() {
+/// What the notes of a step ask for.
+void BatchEngine::Work::end_sticking_steps() {
   if (observers->sample) record_passed();
-  int with_events = 0;
   for (int i = 0; i < tile.noted_count; ++i) {
     const int lane = tile.noted[i];
     const int note = tile.note[lane];
     LaneTrial& trial = trial_of(lane);
-    if ((note & meets_event) != 0) list[static_cast<std::size_t>(with_events++)] = lane;
+    if ((note & meets_event) != 0) {
+      trial.waits = true;
+      waiting[static_cast<std::size_t>(waiting_count++)] = lane;
+    }
     if ((note & closure) != 0) close_loop(tile, lane, trial);
     if ((note & creep_sets_in) != 0) tile.motion.creeping[lane] = 1.0;
     if ((note & creep_ends) != 0) end_creep(tile, lane, trial);
@@ -361,7 +371,6 @@ int BatchEngine::Work::end_sticking_steps() {
     if ((note & beyond_kernel) != 0) advance_by_reference(tile, lane, trial);
     if (tile.time.until[lane] == 0.0) trial.due = true;
   }
-  return with_events;
 }
 
 void BatchEngine::Work::move_sliding() {

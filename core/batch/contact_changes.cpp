@@ -26,6 +26,7 @@ void show_contact(Tile& tile, int lane, const FrictionParameters& contact) {
   ContactLanes& c = tile.contact;
   c.k1[lane] = contact.k1;
   c.stiffest[lane] = contact.k1 + contact.k2;
+  tile.time.longest_step[lane] = 1.0 / std::sqrt(c.stiffest[lane] * c.per_inertia[lane]);
   c.alpha[lane] = contact.alpha;
   c.per_lambda[lane] = 1.0 / contact.lambda;
   c.breakaway[lane] = contact.breakaway;

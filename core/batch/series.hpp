@@ -22,6 +22,14 @@ ZEROCOUNT_ALWAYS_INLINE P value_of(const P* c, int order, const P& x) {
   return value;
 }
 
+/// The polynomial at 1: to the bit what value_of says there.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P sum_of(const P* c, int order) {
+  P value = c[order];
+  for (int k = order - 1; k >= 0; --k) value = value + c[k];
+  return value;
+}
+
 /// Σ k(k−1)·|c[k]|, which no second derivative on [0, 1] exceeds.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P curvature_bound(const P* c, int order) {

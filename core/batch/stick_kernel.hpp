@@ -155,8 +155,12 @@ void stick_step_kernel(Tile& tile, LaneList list) {
   for (int first = 0; first < list.count; first += P::lanes) {
     const LaneGroup<P> at(list, first);
     const P until = at.load(time.until);
-    P h = smaller(at.load(time.next_step), until);
-    h = select((h < until) & (until < P(2.0) * h), until * P(0.5), h);
+    const Truth turning = truth(at.load(m.turning));
+    // Half a period of the stiffest spring lies between two zeros of dxs/dt. Of these there must be one at
+    // most.
+    const P longest = at.load(time.longest_step) * select(turning, P(4.5), P(3.0));
+    P h = smaller(smaller(at.load(time.next_step), until), longest);
+    h = select((h < until) & (until < P(1.4) * h), until * P(0.5), h);
 
     const P per_inertia = at.load(c.per_inertia);
     const P damping = at.load(c.damping);
@@ -187,45 +191,74 @@ void stick_step_kernel(Tile& tile, LaneList list) {
     s.velocity[0] = at.load(m.omega) * h;
     s.growth[0] = torque_sign * hardening;
     s.torque[0] = torque_at_start;
-    const Truth turning = truth(at.load(m.turning));
     expand(law, softness, turning, creeping.any(), s);
 
     // Where dxs/dt is zero at the start, its next zero is that of (dxs/dt)/t.
-    P g[batch_order];
-    for (int k = 0; k < batch_order; ++k)
-      g[k] = select(turning, k + 1 < batch_order ? s.rate[k + 1] : zero, s.rate[k]);
-    const P curvature = curvature_bound(g, batch_order - 1);
-    P g_end = g[batch_order - 1];
-    for (int k = batch_order - 2; k >= 0; --k) g_end = g_end + g[k];
-    const Truth reverses = g[0] * g_end < zero;
-    const P reach = reach_bound(s.elongation, batch_order);
-
-    // Is the step short enough?
-    const P left_out = (magnitude(s.elongation[batch_order - 1]) + magnitude(s.velocity[batch_order - 1])) +
-                       (magnitude(s.elongation[batch_order]) + magnitude(s.velocity[batch_order]));
-    const P scale = smaller(larger(reach * at.load(time.per_count) * P(1e3), P(1e-3)), one);
-    const P allowed = at.load(time.tolerance) * scale * (h * at.load(time.sample_rate));
-    const P growth = softening_rate * reach;
-    const P exponent = softening_rate * branch_sign * (elongation - at.load(m.branch_elongation));
-    const Truth inexact = ~(left_out <= allowed);
-    const Truth grows = (growth > P(6.0)) & (exponent - growth < P(40.0));
-    const P swing = h * h * at.load(c.stiffest) * per_inertia;
-    // Between zeros of dxs/dt there is half a period of the stiffest spring at least, but for what creep
-    // adds.
-    const P creep_velocity = P(8.0) * alpha * damping / law.k1 * magnitude(s.creep[0]);
-    const Truth turns_once = (smaller(magnitude(g[0]), magnitude(g_end)) > creep_velocity) |
-                             cannot_turn(g[0], g_end, g[1], curvature);
-    Truth too_long = inexact | grows | (swing > P(9.0)) | (~reverses & ~turns_once);
-
-    P x = one;
-    if ((reverses & ~too_long).any())
-      x = select(reverses, root_between(g, batch_order - 1, g[0], g_end, one, reverses & ~too_long), one);
-    P torque = value_of(s.torque, batch_order, x);
-    P end = value_of(s.elongation, batch_order, x);
-    P velocity = value_of(s.velocity, batch_order, x);
-    P signed_hardening = value_of(s.growth, batch_order, x);
-
+    const P rate_end = sum_of(s.rate, batch_order - 1);
+    const P rate_start = select(turning, s.rate[1], s.rate[0]);
+    const Truth reverses = rate_start * rate_end < zero;
     const P direction = at.load(m.direction);
+
+    // Is the step short enough? A swing of less than 5e-5 count is followed to 2e-8 of its amplitude.
+    const P last_terms = (magnitude(s.elongation[batch_order - 1]) + magnitude(s.velocity[batch_order - 1])) +
+                         (magnitude(s.elongation[batch_order]) + magnitude(s.velocity[batch_order]));
+    const P swings = at.load(time.longest_step) / h;
+    const P amplitude = larger(magnitude(s.rate[0]), magnitude(s.rate[1]) * swings) * swings;
+    const P scale = smaller(larger(amplitude * at.load(time.per_count) * P(2e4), P(1e-3)), one);
+    const P allowed = at.load(time.tolerance) * scale * (h * at.load(time.sample_rate));
+    Truth too_long = P(1.0) < P(0.0);
+    // Inwards along a virgin curve the exponential grows, and must not by many e-folds.
+    const Truth inwards = direction * branch_sign < zero;
+    if (inwards.any()) {
+      const P growth = softening_rate * reach_bound(s.elongation, batch_order);
+      const P exponent = softening_rate * branch_sign * (elongation - at.load(m.branch_elongation));
+      too_long = inwards & (growth > P(6.0)) & (exponent - growth < P(40.0));
+    }
+    // What creep adds to dxs/dt may bring it through zero and back where it is as small.
+    const P creep_velocity = P(8.0) * alpha * damping / law.k1 * magnitude(s.creep[0]);
+    const Truth unsure = ~reverses & (smaller(magnitude(rate_start), magnitude(rate_end)) <= creep_velocity);
+    const Truth seeks = reverses & ~too_long;
+    P x = one;
+    // Up to a reversal the series need not reach farther.
+    P left_out = last_terms;
+    P share = allowed;
+    if ((seeks | unsure).any()) {
+      P g[batch_order];
+      for (int k = 0; k < batch_order - 1; ++k) g[k] = select(turning, s.rate[k + 1], s.rate[k]);
+      g[batch_order - 1] = select(turning, zero, s.rate[batch_order - 1]);
+      if (unsure.any()) {
+        const P curvature = curvature_bound(g, batch_order - 1);
+        too_long = too_long | (unsure & ~cannot_turn(g[0], rate_end, g[1], curvature));
+      }
+      if (seeks.any()) {
+        x = select(seeks, root_between(g, batch_order - 1, g[0], rate_end, one, seeks), one);
+        const P x2 = x * x;
+        const P x4 = x2 * x2;
+        const P x16 = (x4 * x4) * (x4 * x4);
+        static_assert(batch_order == 20);
+        left_out = last_terms * (x16 * x2 * x);
+        share = allowed * x;
+      }
+    }
+    const Truth inexact = ~(left_out <= share);
+    too_long = too_long | inexact;
+
+    P torque;
+    P end;
+    P velocity;
+    P signed_hardening;
+    if (seeks.any()) {
+      torque = value_of(s.torque, batch_order, x);
+      end = value_of(s.elongation, batch_order, x);
+      velocity = value_of(s.velocity, batch_order, x);
+      signed_hardening = value_of(s.growth, batch_order, x);
+    } else {
+      torque = sum_of(s.torque, batch_order);
+      end = sum_of(s.elongation, batch_order);
+      velocity = sum_of(s.velocity, batch_order);
+      signed_hardening = sum_of(s.growth, batch_order);
+    }
+
     const P branch_end = at.load(m.branch_end);
     const P onset = at.load(m.creep_onset);
     const P per_step = damping / h;  // of ω·h, N m
@@ -325,9 +358,11 @@ void stick_step_kernel(Tile& tile, LaneList list) {
     const Truth counts = (passed > zero) & ~same_count & ~too_long & ~beyond & ~meets;
     const Truth done = ~too_long & ~beyond & ~counts & ~meets;
 
-    const P factor = P(0.9) * rough_power(allowed / left_out, 1.0 / batch_order);
+    const P factor = P(0.9) * rough_power(allowed / last_terms, 1.0 / batch_order);
     const P shorter = select(inexact, h * smaller(larger(factor, P(0.05)), P(0.8)), h * P(0.5));
-    const P longer = h * smaller(larger(factor, P(0.3)), P(2.5));
+    // What speeds up will need shorter steps.
+    const P slower = select(reverses, one, smaller(one, magnitude(end - elongation) / magnitude(rate_end)));
+    const P longer = h * smaller(larger(factor * slower, P(0.3)), P(2.5));
     at.store(time.next_step, select(too_long, shorter, select(done, longer, at.load(time.next_step))));
     const P sample_time = at.load(time.sample_time);
     at.store(time.until, select(done, until_then, select(counts, until - (left - one) * sample_time, until)));

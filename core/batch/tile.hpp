@@ -62,6 +62,7 @@ struct alignas(64) ContactLanes {
 struct alignas(64) TimeLanes {
   Lanes until;         ///< left to the next stop, s
   Lanes samples_left;  ///< up to and with that of the stop
+  Lanes longest_step;  ///< 1/ωn with ωn² = (k1 + k2)/J, s
   Lanes next_step;     ///< the step that accuracy is thought to allow, s
   Lanes steps;         ///< tried since the last stop
   Lanes sample_time;   ///< T, s

@@ -16,14 +16,20 @@ struct CreepState {
   double hardening{0.0};  ///< xh, rad
 };
 
+/// |σ|ⁿ, (N m)ⁿ: the usual n = 2 without the cost of a power.
+inline double torque_power(const FrictionParameters& friction, double torque) {
+  return friction.n == 2.0 ? torque * torque : std::pow(std::abs(torque), friction.n);
+}
+
 /// |σ|ⁿ/λ: the hardening (rad) at which creep under the torque σ (N m) ends.
 inline double hardening_limit(const FrictionParameters& friction, double torque) {
-  return std::pow(std::abs(torque), friction.n) / friction.lambda;
+  return torque_power(friction, torque) / friction.lambda;
 }
 
 /// The |σ| (N m) whose hardening limit is `hardening` (rad).
 inline double torque_of_limit(const FrictionParameters& friction, double hardening) {
-  return std::pow(friction.lambda * hardening, 1.0 / friction.n);
+  const double power = friction.lambda * hardening;
+  return friction.n == 2.0 ? std::sqrt(power) : std::pow(power, 1.0 / friction.n);
 }
 
 /// The |σ| (N m) beyond which creep goes on in a contact hardened to `hardening` (rad); infinite where α is

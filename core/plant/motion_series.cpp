@@ -47,7 +47,7 @@ PreslidingSeries presliding_series(const PlantParameters& plant, const FrictionP
   const double per_lambda = 1.0 / contact.lambda;
   const double torque_sign = s.spring_torque[0] < 0.0 ? -1.0 : 1.0;  // creep never lasts until σ = 0
   magnitude[0] = std::abs(s.spring_torque[0]);
-  if (creeping) power[0] = std::pow(magnitude[0], contact.n);
+  if (creeping) power[0] = torque_power(contact, magnitude[0]);
 
   for (std::size_t k = 0; k <= series_order; ++k) {
     if (k > 0) {

@@ -20,6 +20,14 @@ using namespace batch;
 
 constexpr int longest_delay = 64;
 
+enum class LaneState : unsigned char {
+  idle,      ///< without a trial
+  due,       ///< a sampling instant has come
+  sticking,  ///< on its way, the hook sticks
+  waiting,   ///< for company in an event, the hook sticks
+  sliding    ///< on its way, the hook slides
+};
+
 bool ideal(const EncoderErrors& e) {
   return e.eccentricity == 0.0 && e.interpolation == 0.0 && e.noise == 0.0 && e.missed == 0.0;
 }
@@ -55,7 +63,7 @@ struct BatchEngine::Work {
   void refill(int lane);
   void leave_to_reference(const LaneTrial& trial, std::int64_t told_jerks, std::int64_t told_samples);
   void end_move(int lane, LaneTrial& trial);
-  void end_trial(int lane, LaneTrial& trial);
+  void end_trial(int lane);
   void stop_diverged(int lane, LaneTrial& trial);
 
   void take_samples();
@@ -68,12 +76,18 @@ struct BatchEngine::Work {
   void move_sticking();
   void end_sticking_steps();
   void move_sliding();
+  int list_lanes(LaneState wanted);
+  LaneState moving_state(int lane) const {
+    return tile.motion.slide_direction[lane] == 0.0 ? LaneState::sticking : LaneState::sliding;
+  }
+  LaneState& state_of(int lane) { return states[static_cast<std::size_t>(lane)]; }
   LaneTrial& trial_of(int lane) { return lanes[static_cast<std::size_t>(lane)]; }
 
  public:
   const Kernels& kernels;
   int lane_count;
   std::vector<LaneTrial> lanes;
+  std::array<LaneState, most_lanes> states{};
   Tile tile{};
   std::array<PassedSamples, most_lanes> passed{};
   std::array<int, most_lanes> list{};
@@ -115,8 +129,7 @@ void BatchEngine::Work::run() {
 /// Gives the lane the next trial, if there is one; what lanes cannot run is run on the way.
 void BatchEngine::Work::refill(int lane) {
   LaneTrial& trial = trial_of(lane);
-  trial.running = false;
-  trial.due = false;
+  state_of(lane) = LaneState::idle;
   while (next_trial < trials.size()) {
     const std::size_t number = next_trial++;
     trial.parameters = trials[number];
@@ -126,6 +139,7 @@ void BatchEngine::Work::refill(int lane) {
       outcomes[number].moves.clear();
       outcomes[number].moves.reserve(trials[number]->command.targets.size());
       start_trial(tile, lane, trial, number, *trials[number], outcomes[number]);
+      state_of(lane) = LaneState::due;
       ++running;
       return;
     }
@@ -151,8 +165,7 @@ void BatchEngine::Work::leave_to_reference(const LaneTrial& trial, std::int64_t 
   *trial.outcome = run_trial(*trial.parameters, single);
 }
 
-void BatchEngine::Work::end_trial(int lane, LaneTrial& trial) {
-  trial.running = false;
+void BatchEngine::Work::end_trial(int lane) {
   --running;
   refill(lane);
 }
@@ -163,7 +176,7 @@ void BatchEngine::Work::end_move(int lane, LaneTrial& trial) {
   trial.outcome->moves.push_back(outcome_of_move(tile, lane, trial));
   ++trial.move;
   if (trial.move == trial.parameters->command.targets.size()) {
-    end_trial(lane, trial);
+    end_trial(lane);
     return;
   }
   trial.first_sample += static_cast<std::int64_t>(taken);
@@ -177,19 +190,18 @@ void BatchEngine::Work::stop_diverged(int lane, LaneTrial& trial) {
   move.stopped = true;
   trial.outcome->moves.push_back(move);
   trial.outcome->moves.resize(trial.parameters->command.targets.size(), move_not_run());
-  end_trial(lane, trial);
+  end_trial(lane);
 }
 
 void BatchEngine::Work::take_samples() {
   int count = 0;
   for (int lane = 0; lane < lane_count; ++lane) {
-    LaneTrial& trial = trial_of(lane);
-    if (!trial.running || !trial.due) continue;
+    if (state_of(lane) != LaneState::due) continue;
     if (tile.measures.taken[lane] == tile.measures.samples[lane]) {
-      end_move(lane, trial);
-      if (!trial.running) continue;
+      end_move(lane, trial_of(lane));
+      if (state_of(lane) == LaneState::idle) continue;
     }
-    trial.due = false;
+    state_of(lane) = moving_state(lane);
     list[static_cast<std::size_t>(count++)] = lane;
   }
   if (count == 0) return;
@@ -202,7 +214,7 @@ void BatchEngine::Work::take_samples() {
     leave_to_reference(trial, trial.told_jerks,
                        trial.first_sample + static_cast<std::int64_t>(tile.measures.taken[lane]) - 1);
     tile.note[lane] = no_note;
-    end_trial(lane, trial);
+    end_trial(lane);
   }
   if (observers->sample) {
     for (int i = 0; i < count; ++i) {
@@ -292,13 +304,17 @@ void BatchEngine::Work::delay_torque(int lane, LaneTrial& trial) {
   }
 }
 
-void BatchEngine::Work::move_sticking() {
+/// Puts the lanes of a state into the list, and says how many.
+int BatchEngine::Work::list_lanes(LaneState wanted) {
   int count = 0;
   for (int lane = 0; lane < lane_count; ++lane) {
-    const LaneTrial& trial = trial_of(lane);
-    if (trial.running && !trial.due && !trial.waits && tile.motion.slide_direction[lane] == 0.0)
-      list[static_cast<std::size_t>(count++)] = lane;
+    if (state_of(lane) == wanted) list[static_cast<std::size_t>(count++)] = lane;
   }
+  return count;
+}
+
+void BatchEngine::Work::move_sticking() {
+  int count = list_lanes(LaneState::sticking);
   if (count + waiting_count == 0) return;
   kernels.stick_start(tile, {list.data(), count});
   bool left = false;
@@ -319,7 +335,7 @@ void BatchEngine::Work::move_sticking() {
         };
       }
       if (rest(tile, lane, trial, record)) {
-        trial.due = true;
+        state_of(lane) = LaneState::due;
         left = true;
         continue;
       }
@@ -327,6 +343,7 @@ void BatchEngine::Work::move_sticking() {
     }
     if ((note & slides) != 0) {
       start_slide(tile, lane, trial);
+      state_of(lane) = LaneState::sliding;
       left = true;
     }
     if ((note & turns) != 0) turn(tile, lane, trial);
@@ -335,8 +352,7 @@ void BatchEngine::Work::move_sticking() {
     int kept = 0;
     for (int i = 0; i < count; ++i) {
       const int lane = list[static_cast<std::size_t>(i)];
-      if (!trial_of(lane).due && tile.motion.slide_direction[lane] == 0.0)
-        list[static_cast<std::size_t>(kept++)] = lane;
+      if (state_of(lane) == LaneState::sticking) list[static_cast<std::size_t>(kept++)] = lane;
     }
     count = kept;
     if (count == 0) return;
@@ -348,7 +364,7 @@ void BatchEngine::Work::move_sticking() {
   if (waiting_count == 0 || (waiting_count < enough && count > waiting_count)) return;
   const int with_events = std::exchange(waiting_count, 0);
   std::sort(waiting.begin(), waiting.begin() + with_events);
-  for (int i = 0; i < with_events; ++i) trial_of(waiting[static_cast<std::size_t>(i)]).waits = false;
+  for (int i = 0; i < with_events; ++i) state_of(waiting[static_cast<std::size_t>(i)]) = LaneState::sticking;
   kernels.stick_event(tile, {waiting.data(), with_events});
   end_sticking_steps();
 }
@@ -361,25 +377,21 @@ void BatchEngine::Work::end_sticking_steps() {
     const int note = tile.note[lane];
     LaneTrial& trial = trial_of(lane);
     if ((note & meets_event) != 0) {
-      trial.waits = true;
+      state_of(lane) = LaneState::waiting;
       waiting[static_cast<std::size_t>(waiting_count++)] = lane;
+      continue;
     }
     if ((note & closure) != 0) close_loop(tile, lane, trial);
     if ((note & creep_sets_in) != 0) tile.motion.creeping[lane] = 1.0;
     if ((note & creep_ends) != 0) end_creep(tile, lane, trial);
     if ((note & breaks_away) != 0) start_slide(tile, lane, trial);
     if ((note & beyond_kernel) != 0) advance_by_reference(tile, lane, trial);
-    if (tile.time.until[lane] == 0.0) trial.due = true;
+    state_of(lane) = tile.time.until[lane] == 0.0 ? LaneState::due : moving_state(lane);
   }
 }
 
 void BatchEngine::Work::move_sliding() {
-  int count = 0;
-  for (int lane = 0; lane < lane_count; ++lane) {
-    const LaneTrial& trial = trial_of(lane);
-    if (trial.running && !trial.due && tile.motion.slide_direction[lane] != 0.0)
-      list[static_cast<std::size_t>(count++)] = lane;
-  }
+  const int count = list_lanes(LaneState::sliding);
   if (count == 0) return;
   kernels.slide(tile, {list.data(), count});
   for (int i = 0; i < tile.noted_count; ++i) {
@@ -388,7 +400,7 @@ void BatchEngine::Work::move_sliding() {
     LaneTrial& trial = trial_of(lane);
     if ((note & velocity_zero) != 0) end_slide(tile, lane, trial);
     if ((note & beyond_kernel) != 0) advance_by_reference(tile, lane, trial);
-    if (tile.time.until[lane] == 0.0) trial.due = true;
+    state_of(lane) = tile.time.until[lane] == 0.0 ? LaneState::due : moving_state(lane);
   }
 }
 

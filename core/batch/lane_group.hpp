@@ -5,57 +5,104 @@
 
 namespace zerocount::batch {
 
-/// The lanes of one pack: loads and stores whichever they are, faster where they are neighbours.
+/// The lanes of one pack. Where enough of a list's next lanes lie side by side the pack is that stretch of the
+/// tile, with some of its lanes not taking part; otherwise they are collected from wherever they are.
 template <class P>
 class LaneGroup {
  public:
-  /// The lanes from number `first` of the list on, filled up with the spare lane.
+  /// The lanes from number `first` of the list on, as many as go into one pack.
   ZEROCOUNT_ALWAYS_INLINE LaneGroup(const LaneList& list, int first) {
-    const int rest = list.count - first;
-    used_ = rest < P::lanes ? rest : P::lanes;
-    for (int i = 0; i < P::lanes; ++i) lane_[i] = i < used_ ? list.lanes[first + i] : spare_lane;
-    neighbours_ = used_ == P::lanes && lane_[P::lanes - 1] - lane_[0] == P::lanes - 1;
+    constexpr int least_side_by_side = P::lanes / 4 > 1 ? P::lanes / 4 : 1;
+    base_ = list.lanes[first] / P::lanes * P::lanes;
+    used_ = 0;
+    for (int i = 0; i < P::lanes; ++i) takes_part_[i] = 0;
+    while (first + used_ < list.count && list.lanes[first + used_] < base_ + P::lanes) {
+      takes_part_[list.lanes[first + used_] - base_] = -1;
+      ++used_;
+    }
+    stretch_ = used_ >= least_side_by_side;
+    if (stretch_) {
+      for (int i = 0; i < P::lanes; ++i) lane_[i] = base_ + i;
+    } else {
+      const int rest = list.count - first;
+      used_ = rest < P::lanes ? rest : P::lanes;
+      for (int i = 0; i < P::lanes; ++i) {
+        lane_[i] = i < used_ ? list.lanes[first + i] : spare_lane;
+        takes_part_[i] = i < used_ ? -1 : 0;
+      }
+    }
+    all_ = used_ == P::lanes;
+  }
+
+  /// How many lanes of the list these are.
+  ZEROCOUNT_ALWAYS_INLINE int used() const { return used_; }
+
+  ZEROCOUNT_ALWAYS_INLINE typename P::Truth taking_part() const {
+    typename P::Truth truth;
+    __builtin_memcpy(&truth, takes_part_, sizeof truth);
+    return truth;
   }
 
   ZEROCOUNT_ALWAYS_INLINE P load(const double* of) const {
     P r;
-    constexpr int width = sizeof(r.part[0]) / sizeof(double);
-    if (neighbours_) {
-      __builtin_memcpy(&r, of + lane_[0], sizeof r);
+    if (stretch_) {
+      __builtin_memcpy(&r, of + base_, sizeof r);
     } else {
-      for (int i = 0; i < P::lanes; ++i) r.part[i / width][i % width] = of[lane_[i]];
+      gather(of, r);
     }
     return r;
   }
 
   ZEROCOUNT_ALWAYS_INLINE void store(double* to, const P& value) const {
-    constexpr int width = sizeof(value.part[0]) / sizeof(double);
-    if (neighbours_) {
-      __builtin_memcpy(to + lane_[0], &value, sizeof value);
+    if (stretch_) {
+      P kept = value;
+      if (!all_) kept = select(taking_part(), value, load(to));
+      __builtin_memcpy(to + base_, &kept, sizeof kept);
     } else {
-      for (int i = 0; i < P::lanes; ++i) to[lane_[i]] = value.part[i / width][i % width];
+      scatter(to, value);
     }
   }
 
   /// Adds the lanes whose `notes` are not 0 to the tile's.
   ZEROCOUNT_ALWAYS_INLINE void note(Tile& tile, const P& notes) const {
-    if (!(notes != P(0.0)).any()) return;
-    constexpr int width = sizeof(notes.part[0]) / sizeof(double);
-    for (int i = 0; i < used_; ++i) {
-      const double value = notes.part[i / width][i % width];
-      if (value == 0.0) continue;
-      tile.note[lane_[i]] = static_cast<int>(value);
-      tile.noted[tile.noted_count++] = lane_[i];
-    }
+    const typename P::Truth noted = (notes != P(0.0)) & taking_part();
+    if (noted.any()) add_notes(tile, notes, noted);
   }
 
   ZEROCOUNT_ALWAYS_INLINE int lane(int i) const { return lane_[i]; }
-  ZEROCOUNT_ALWAYS_INLINE int used() const { return used_; }
 
  private:
-  int lane_[P::lanes];
+  // Not inlined: the code of dozens of them would push the kernel out of the instruction cache.
+  __attribute__((noinline)) void gather(const double* of, P& to) const {
+    double value[P::lanes];
+    for (int i = 0; i < P::lanes; ++i) value[i] = of[lane_[i]];
+    __builtin_memcpy(&to, value, sizeof value);
+  }
+  __attribute__((noinline)) void scatter(double* to, const P& from) const {
+    double value[P::lanes];
+    __builtin_memcpy(value, &from, sizeof value);
+    for (int i = 0; i < P::lanes; ++i) to[lane_[i]] = value[i];
+  }
+
+  __attribute__((noinline)) void add_notes(Tile& tile, const P& notes, const typename P::Truth& noted) const {
+    constexpr int width = sizeof(notes.part[0]) / sizeof(double);
+    for (int p = 0; p < P::lanes / width; ++p) {
+      const auto part = noted.part[p];
+      for (int j = 0; j < width; ++j) {
+        if (part[j] == 0) continue;
+        const int lane = lane_[p * width + j];
+        tile.note[lane] = static_cast<int>(notes.part[p][j]);
+        tile.noted[tile.noted_count++] = lane;
+      }
+    }
+  }
+
+  int base_;
   int used_;
-  bool neighbours_;
+  bool stretch_;
+  bool all_;
+  int lane_[P::lanes];
+  std::int64_t takes_part_[P::lanes];
 };
 
 /// Truth as 0 or 1, and back.

@@ -55,8 +55,6 @@ void start_time(TimeLanes& time, int lane, const TrialParameters& p, double reso
 void start_trial(Tile& tile, int lane, LaneTrial& trial, std::size_t number,
                  const TrialParameters& parameters, TrialOutcome& outcome) {
   const TrialParameters& p = parameters;
-  trial.running = true;
-  trial.due = true;
   trial.parameters = &parameters;
   trial.number = number;
   trial.outcome = &outcome;

@@ -14,9 +14,6 @@ namespace zerocount::batch {
 
 /// What a lane has beside its numbers in the tile: its trial, and what the kernels have no use for.
 struct LaneTrial {
-  bool running{false};
-  bool due{false};    ///< a sampling instant has come
-  bool waits{false};  ///< for company in an event
   const TrialParameters* parameters{nullptr};
   std::size_t number{0};  ///< of the trial in the batch
   TrialOutcome* outcome{nullptr};

@@ -15,8 +15,9 @@ void sample_kernel(Tile& tile, LaneList list) {
   MeasureLanes& q = tile.measures;
   TimeLanes& time = tile.time;
   tile.noted_count = 0;
-  for (int first = 0; first < list.count; first += P::lanes) {
+  for (int first = 0, next = 0; first < list.count; first = next) {
     const LaneGroup<P> at(list, first);
+    next = first + at.used();
     const P extension = at.load(m.extension);
     const Truth sliding = truth(at.load(m.slide_direction));
     const P theta = select(sliding, at.load(m.theta), at.load(m.hook) + at.load(m.elongation) + extension);

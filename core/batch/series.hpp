@@ -18,6 +18,7 @@ inline constexpr struct Reciprocals {
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P value_of(const P* c, int order, const P& x) {
   P value = c[order];
+#pragma GCC unroll 1
   for (int k = order - 1; k >= 0; --k) value = value * x + c[k];
   return value;
 }
@@ -26,6 +27,7 @@ ZEROCOUNT_ALWAYS_INLINE P value_of(const P* c, int order, const P& x) {
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P sum_of(const P* c, int order) {
   P value = c[order];
+#pragma GCC unroll 1
   for (int k = order - 1; k >= 0; --k) value = value + c[k];
   return value;
 }
@@ -34,6 +36,7 @@ ZEROCOUNT_ALWAYS_INLINE P sum_of(const P* c, int order) {
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P curvature_bound(const P* c, int order) {
   P sum = magnitude(c[order]) * P(static_cast<double>(order * (order - 1)));
+#pragma GCC unroll 1
   for (int k = order - 1; k >= 2; --k) sum = sum + magnitude(c[k]) * P(static_cast<double>(k * (k - 1)));
   return sum;
 }
@@ -42,6 +45,7 @@ ZEROCOUNT_ALWAYS_INLINE P curvature_bound(const P* c, int order) {
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P reach_bound(const P* c, int order) {
   P sum = magnitude(c[order]);
+#pragma GCC unroll 1
   for (int k = order - 1; k >= 1; --k) sum = sum + magnitude(c[k]);
   return sum;
 }
@@ -72,6 +76,7 @@ ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start,
   for (int step = 0; step < most_steps; ++step) {
     P value = c[order];
     P slope(0.0);
+#pragma GCC unroll 1
     for (int k = order - 1; k >= 0; --k) {
       slope = slope * x + value;
       value = value * x + c[k];

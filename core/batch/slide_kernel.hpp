@@ -16,8 +16,9 @@ void slide_kernel(Tile& tile, LaneList list) {
   tile.noted_count = 0;
   const P zero(0.0);
   const P one(1.0);
-  for (int first = 0; first < list.count; first += P::lanes) {
+  for (int first = 0, next = 0; first < list.count; first = next) {
     const LaneGroup<P> at(list, first);
+    next = first + at.used();
     const P until = at.load(time.until);
     P h = smaller(at.load(time.next_step), until);
     h = select((h < until) & (until < P(2.0) * h), until * P(0.5), h);
@@ -77,9 +78,10 @@ void slide_kernel(Tile& tile, LaneList list) {
         (inexact | grows | (~halts & ~cannot_turn(velocity[0], velocity_end, velocity[1], curvature))) &
         ~beyond;
     P x = one;
-    if ((halts & ~too_long).any())
+    const Truth seeks = at.taking_part() & halts & ~too_long;
+    if (seeks.any())
       x = select(halts,
-                 root_between(velocity, batch_order, velocity[0], velocity_end, one, halts & ~too_long), one);
+                 root_between(velocity, batch_order, velocity[0], velocity_end, one, seeks), one);
 
     const Truth done = ~too_long & ~beyond;
     const Truth stops_here = ~halts & ~(h < until);

@@ -14,8 +14,9 @@ void stick_start_kernel(Tile& tile, LaneList list) {
   ContactLanes& c = tile.contact;
   tile.noted_count = 0;
   const P zero(0.0);
-  for (int first = 0; first < list.count; first += P::lanes) {
+  for (int first = 0, next = 0; first < list.count; first = next) {
     const LaneGroup<P> at(list, first);
+    next = first + at.used();
     const P elongation = at.load(m.elongation);
     const P hardening = at.load(m.hardening);
     const P torque = at.load(m.torque);
@@ -97,42 +98,83 @@ struct StickLaw {
   P creep_recovery;  ///< α·h, 0 where creep is off
 };
 
+/// What order k of the series follows from, once the exponential and the square are known there.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE void next_order(const StickLaw<P>& law, int k, const P& square, const P& start_rate,
+                                        StickSeries<P>& s, P* slope) {
+  s.creep[k] = law.creep_limit * square - law.creep_recovery * s.growth[k];
+  if (k == batch_order) return;
+  s.rate[k] = k == 0 ? start_rate : s.velocity[k] - s.creep[k];
+  slope[k] = law.exponent * s.rate[k];
+  const P unbalanced = k == 0 ? law.applied - s.torque[0] : -s.torque[k];
+  const P reciprocal(reciprocals.of[k + 1]);
+  s.elongation[k + 1] = s.rate[k] * reciprocal;
+  s.growth[k + 1] = s.creep[k] * reciprocal;
+  s.velocity[k + 1] = (law.acceleration * unbalanced - law.damping * s.velocity[k]) * reciprocal;
+}
+
+/// σ of order k ≥ 1, from the coefficient of (exponent)′·exp(exponent) before it.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE void next_torque(const StickLaw<P>& law, int k, const P& product, StickSeries<P>& s,
+                                         P* softness) {
+  softness[k] = product * P(reciprocals.of[k]);
+  s.torque[k] = law.k1 * s.elongation[k] - law.softening * softness[k];
+}
+
+/// The series, two orders at a time: the products of both share most of their factors, and what limits this
+/// loop is how fast they come from memory. Rolled up, because the code of it all would not fit the
+/// instruction cache.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void expand(const StickLaw<P>& law, const P& softness_at_start,
                                     const typename P::Truth& turning, bool creeping, StickSeries<P>& s) {
+  static_assert(batch_order % 2 == 0);
   P softness[batch_order + 1];
   P slope[batch_order + 1];
   softness[0] = softness_at_start;
-#pragma GCC unroll 24
-  for (int k = 0; k <= batch_order; ++k) {
-    if (k > 0) {
-      P sum = slope[0] * softness[k - 1];
-#pragma GCC unroll 24
-      for (int j = 1; j < k; ++j) sum = sum + slope[j] * softness[k - 1 - j];
-      softness[k] = sum * P(reciprocals.of[k]);
-      s.torque[k] = law.k1 * s.elongation[k] - law.softening * softness[k];
+  const P zero(0.0);
+  const P creep_start = creeping ? law.creep_limit * (s.torque[0] * s.torque[0]) - law.creep_recovery * s.growth[0] : zero;
+  const P start_rate = select(turning, zero, s.velocity[0] - creep_start);
+  next_order(law, 0, s.torque[0] * s.torque[0], start_rate, s, slope);
+#pragma GCC unroll 1
+  for (int k = 1; k < batch_order; k += 2) {
+    // Of order k: Σ slope[j]·softness[k−1−j], j = 0 … k−1. Of the next: Σ slope[j]·softness[k−j], j = 1 … k−1.
+    P above = softness[k - 1];
+    P product = slope[0] * above;
+    P next_product = zero;
+#pragma GCC unroll 1
+    for (int j = 1; j < k; ++j) {
+      const P below = softness[k - 1 - j];
+      const P factor = slope[j];
+      product = product + factor * below;
+      next_product = next_product + factor * above;
+      above = below;
     }
+    next_torque(law, k, product, s, softness);
+    // σ² of order k, which is odd: 2·Σ σ[j]·σ[k−j], j = 0 … (k−1)/2; and what of the next is known.
+    P half = zero;
+    P next_half = zero;
     if (creeping) {
-      P square = k % 2 == 0 ? s.torque[k / 2] * s.torque[k / 2] : P(0.0);
-      if (k > 0) {
-        P twice = s.torque[0] * s.torque[k];
-#pragma GCC unroll 24
-        for (int j = 1; 2 * j < k; ++j) twice = twice + s.torque[j] * s.torque[k - j];
-        square = k % 2 == 0 ? (twice + twice) + square : twice + twice;
+      P later = s.torque[k];
+      half = s.torque[0] * later;
+#pragma GCC unroll 1
+      for (int j = 1; 2 * j < k; ++j) {
+        const P earlier = s.torque[k - j];
+        const P factor = s.torque[j];
+        half = half + factor * earlier;
+        next_half = next_half + factor * later;
+        later = earlier;
       }
-      s.creep[k] = law.creep_limit * square - law.creep_recovery * s.growth[k];
-    } else {
-      s.creep[k] = P(0.0);
     }
-    if (k == batch_order) break;
-    s.rate[k] = s.velocity[k] - s.creep[k];
-    if (k == 0) s.rate[0] = select(turning, P(0.0), s.rate[0]);
-    slope[k] = law.exponent * s.rate[k];
-    const P unbalanced = k == 0 ? law.applied - s.torque[0] : -s.torque[k];
-    s.elongation[k + 1] = s.rate[k] * P(reciprocals.of[k + 1]);
-    s.growth[k + 1] = s.creep[k] * P(reciprocals.of[k + 1]);
-    s.velocity[k + 1] =
-        (law.acceleration * unbalanced - law.damping * s.velocity[k]) * P(reciprocals.of[k + 1]);
+    next_order(law, k, half + half, zero, s, slope);
+    next_product = (next_product + slope[0] * softness[k]) + slope[k] * softness[0];
+    next_torque(law, k + 1, next_product, s, softness);
+    P square = zero;
+    if (creeping) {
+      const P middle = s.torque[(k + 1) / 2];
+      next_half = next_half + s.torque[0] * s.torque[k + 1];
+      square = (next_half + next_half) + middle * middle;
+    }
+    next_order(law, k + 1, square, zero, s, slope);
   }
 }
 
@@ -152,8 +194,9 @@ void stick_step_kernel(Tile& tile, LaneList list) {
   tile.passed_count = 0;
   const P zero(0.0);
   const P one(1.0);
-  for (int first = 0; first < list.count; first += P::lanes) {
+  for (int first = 0, next = 0; first < list.count; first = next) {
     const LaneGroup<P> at(list, first);
+    next = first + at.used();
     const P until = at.load(time.until);
     const Truth turning = truth(at.load(m.turning));
     // Half a period of the stiffest spring lies between two zeros of dxs/dt. Of these there must be one at
@@ -191,7 +234,7 @@ void stick_step_kernel(Tile& tile, LaneList list) {
     s.velocity[0] = at.load(m.omega) * h;
     s.growth[0] = torque_sign * hardening;
     s.torque[0] = torque_at_start;
-    expand(law, softness, turning, creeping.any(), s);
+    expand(law, softness, turning, (creeping & at.taking_part()).any(), s);
 
     // Where dxs/dt is zero at the start, its next zero is that of (dxs/dt)/t.
     const P rate_end = sum_of(s.rate, batch_order - 1);
@@ -199,25 +242,26 @@ void stick_step_kernel(Tile& tile, LaneList list) {
     const Truth reverses = rate_start * rate_end < zero;
     const P direction = at.load(m.direction);
 
-    // Is the step short enough? A swing of less than 5e-5 count is followed to 2e-8 of its amplitude.
+    // Is the step short enough? A swing of less than 5e-6 count is followed to 2e-6 of its amplitude.
     const P last_terms = (magnitude(s.elongation[batch_order - 1]) + magnitude(s.velocity[batch_order - 1])) +
                          (magnitude(s.elongation[batch_order]) + magnitude(s.velocity[batch_order]));
     const P swings = at.load(time.longest_step) / h;
     const P amplitude = larger(magnitude(s.rate[0]), magnitude(s.rate[1]) * swings) * swings;
-    const P scale = smaller(larger(amplitude * at.load(time.per_count) * P(2e4), P(1e-3)), one);
+    const P scale = smaller(larger(amplitude * at.load(time.per_count) * P(2e5), P(1e-3)), one);
     const P allowed = at.load(time.tolerance) * scale * (h * at.load(time.sample_rate));
     Truth too_long = P(1.0) < P(0.0);
     // Inwards along a virgin curve the exponential grows, and must not by many e-folds.
     const Truth inwards = direction * branch_sign < zero;
-    if (inwards.any()) {
+    if ((inwards & at.taking_part()).any()) {
       const P growth = softening_rate * reach_bound(s.elongation, batch_order);
       const P exponent = softening_rate * branch_sign * (elongation - at.load(m.branch_elongation));
       too_long = inwards & (growth > P(6.0)) & (exponent - growth < P(40.0));
     }
     // What creep adds to dxs/dt may bring it through zero and back where it is as small.
     const P creep_velocity = P(8.0) * alpha * damping / law.k1 * magnitude(s.creep[0]);
-    const Truth unsure = ~reverses & (smaller(magnitude(rate_start), magnitude(rate_end)) <= creep_velocity);
-    const Truth seeks = reverses & ~too_long;
+    const Truth unsure = at.taking_part() & ~reverses & (smaller(magnitude(rate_start), magnitude(rate_end)) <= creep_velocity);
+    const Truth here = at.taking_part();
+    const Truth seeks = here & reverses & ~too_long;
     P x = one;
     // Up to a reversal the series need not reach farther.
     P left_out = last_terms;
@@ -288,7 +332,7 @@ void stick_step_kernel(Tile& tile, LaneList list) {
         const Truth loose = magnitude(hook_torque) >= breakaway;
         const Truth any = (closes & (event != P(closure))) | (stops & (event != P(creep_ends))) |
                           (starts & (event != P(creep_sets_in))) | (loose & (event != P(breaks_away)));
-        const Truth open = any & ~too_long & ~beyond;
+        const Truth open = here & any & ~too_long & ~beyond;
         if (!open.any()) break;
         // One at a time; the next round sees whether another is earlier still.
         const Truth is_loose = loose & (event != P(breaks_away));
@@ -390,12 +434,12 @@ void stick_step_kernel(Tile& tile, LaneList list) {
                       noted<P>(meets, meets_event) +
                       noted<P>(beyond | (at.load(time.steps) > P(most_steps_to_a_stop)), beyond_kernel));
 
-    if (tile.passed != nullptr && (passed_now > zero).any()) {
+    if (tile.passed != nullptr && ((passed_now > zero) & here).any()) {
       constexpr int width = sizeof(h.part[0]) / sizeof(double);
-      for (int i = 0; i < at.used(); ++i) {
+      for (int i = 0; i < P::lanes; ++i) {
         const int p = i / width;
         const int j = i % width;
-        if (passed_now.part[p][j] == 0.0) continue;
+        if (passed_now.part[p][j] == 0.0 || here.part[p][j] == 0) continue;
         PassedSamples& record = tile.passed[tile.passed_count++];
         record.lane = at.lane(i);
         record.samples = passed_now.part[p][j];

@@ -5,8 +5,8 @@
 
 namespace zerocount::batch {
 
-/// The lanes of one pack. Where enough of a list's next lanes lie side by side the pack is that stretch of the
-/// tile, with some of its lanes not taking part; otherwise they are collected from wherever they are.
+/// The lanes of one pack. Where enough of a list's next lanes lie side by side the pack is that stretch of
+/// the tile, with some of its lanes not taking part; otherwise they are collected from wherever they are.
 template <class P>
 class LaneGroup {
  public:

@@ -132,6 +132,15 @@ struct Pack {
     return select(a > Pack(0.0), Pack(1.0), select(a < Pack(0.0), Pack(-1.0), Pack(0.0)));
   }
 
+  /// √a.
+  friend ZEROCOUNT_ALWAYS_INLINE Pack root_of(const Pack& a) {
+    Pack r;
+    for (int i = 0; i < Chains; ++i) {
+      for (int j = 0; j < Width; ++j) r.part[i][j] = __builtin_sqrt(a.part[i][j]);
+    }
+    return r;
+  }
+
   /// The nearest whole number, half to even. |a| < 2⁵¹.
   friend ZEROCOUNT_ALWAYS_INLINE Pack nearest_whole(const Pack& a) {
     const Pack shift(0x1.8p52);

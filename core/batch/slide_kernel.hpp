@@ -20,16 +20,40 @@ void slide_kernel(Tile& tile, LaneList list) {
     const LaneGroup<P> at(list, first);
     next = first + at.used();
     const P until = at.load(time.until);
-    P h = smaller(at.load(time.next_step), until);
-    h = select((h < until) & (until < P(2.0) * h), until * P(0.5), h);
     const P omega = at.load(m.omega);
     const P direction = at.load(m.slide_direction);
     const P coulomb = at.load(c.coulomb);
-    const P stribeck = direction * (at.load(c.breakaway) - coulomb);
-    const P acceleration = h * h * at.load(c.per_inertia);
-    const P damping = at.load(c.sliding_damping) * h * at.load(c.per_inertia);
-    const P per_step_squared = at.load(c.per_velocity_squared) / (h * h);
-    const P driving = at.load(m.torque) - direction * coulomb;
+    const P breakaway = at.load(c.breakaway);
+    const P stribeck = direction * (breakaway - coulomb);
+    const P per_inertia = at.load(c.per_inertia);
+    const P damping = at.load(c.sliding_damping);
+    const P per_velocity_squared = at.load(c.per_velocity_squared);
+    const P torque = at.load(m.torque);
+    const P driving = torque - direction * coulomb;
+
+    // Far above the Stribeck velocity, as long as (ω/ωs)² > 42 and exp(−42) = 6e-19, friction is that of
+    // Coulomb.
+    const P stribeck_velocity = one / root_of(per_velocity_squared);
+    const P speed = magnitude(omega);
+    const P above = speed - P(6.5) * stribeck_velocity;
+    const P slowing = larger(breakaway - direction * torque + damping * speed, zero) * per_inertia;
+    const Truth fast = above > P(1.5) * stribeck_velocity;
+    const P fast_step = select(slowing * until > above, above / slowing, until);
+    P lightness_start = zero;
+    P longest = until;
+    const Truth slow = at.taking_part() & ~fast;
+    if (slow.any()) {
+      lightness_start = select(fast, zero, exponential(-per_velocity_squared * omega * omega));
+      // (ω/ωs)² may change by some 4.
+      const P acceleration = magnitude(driving - stribeck * lightness_start - damping * omega) * per_inertia;
+      const P changing = acceleration * (speed + P(2.0) * stribeck_velocity) * per_velocity_squared;
+      longest = P(4.0) / changing;
+    }
+    P h = select(fast, fast_step, smaller(smaller(at.load(time.next_step), longest), until));
+    h = select(~fast & (h < until) & (until < P(1.4) * h), until * P(0.5), h);
+    const P force_scale = h * h * per_inertia;
+    const P damping_scale = damping * h * per_inertia;
+    const P per_step_squared = per_velocity_squared / (h * h);
 
     P theta[batch_order + 1];
     P velocity[batch_order + 1];
@@ -38,50 +62,53 @@ void slide_kernel(Tile& tile, LaneList list) {
     P lightness[batch_order + 1];
     theta[0] = at.load(m.theta);
     velocity[0] = omega * h;
-#pragma GCC unroll 24
+    lightness[0] = lightness_start;
+    const bool with_stribeck = slow.any();
+#pragma GCC unroll 1
     for (int k = 0; k < batch_order; ++k) {
-      P square = k % 2 == 0 ? velocity[k / 2] * velocity[k / 2] : zero;
-      if (k > 0) {
-        P twice = velocity[0] * velocity[k];
-#pragma GCC unroll 24
-        for (int j = 1; 2 * j < k; ++j) twice = twice + velocity[j] * velocity[k - j];
-        square = k % 2 == 0 ? (twice + twice) + square : twice + twice;
+      P force = k == 0 ? driving : zero;
+      if (with_stribeck) {
+        P square = zero;
+#pragma GCC unroll 1
+        for (int j = 0; 2 * j < k; ++j) square = square + velocity[j] * velocity[k - j];
+        square = square + square;
+        if (k % 2 == 0) square = square + velocity[k / 2] * velocity[k / 2];
+        exponent[k] = -per_step_squared * square;
+        if (k > 0) {
+          slope[k - 1] = P(static_cast<double>(k)) * exponent[k];
+          P sum = zero;
+#pragma GCC unroll 1
+          for (int j = 0; j < k; ++j) sum = sum + slope[j] * lightness[k - 1 - j];
+          lightness[k] = select(fast, zero, sum * P(reciprocals.of[k]));
+        }
+        force = force - stribeck * lightness[k];
       }
-      exponent[k] = -per_step_squared * square;
-      if (k > 0) {
-        slope[k - 1] = P(static_cast<double>(k)) * exponent[k];
-        P sum = slope[0] * lightness[k - 1];
-#pragma GCC unroll 24
-        for (int j = 1; j < k; ++j) sum = sum + slope[j] * lightness[k - 1 - j];
-        lightness[k] = sum * P(reciprocals.of[k]);
-      } else {
-        lightness[0] = exponential(exponent[0]);
-      }
-      const P force = k == 0 ? driving - stribeck * lightness[0] : -(stribeck * lightness[k]);
       theta[k + 1] = velocity[k] * P(reciprocals.of[k + 1]);
-      velocity[k + 1] = (acceleration * force - damping * velocity[k]) * P(reciprocals.of[k + 1]);
+      velocity[k + 1] = (force_scale * force - damping_scale * velocity[k]) * P(reciprocals.of[k + 1]);
     }
 
     const P left_out = (magnitude(theta[batch_order - 1]) + magnitude(velocity[batch_order - 1])) +
                        (magnitude(theta[batch_order]) + magnitude(velocity[batch_order]));
     const P allowed = at.load(time.tolerance) * (h * at.load(time.sample_rate));
-    P growth = larger(exponent[batch_order - 1], zero);
-    for (int k = batch_order - 2; k >= 1; --k) growth = growth + larger(exponent[k], zero);
     const Truth inexact = ~(left_out <= allowed);
-    const Truth grows = growth > larger(P(6.0), P(-40.0) - exponent[0]);
-    P velocity_end = velocity[batch_order];
-    for (int k = batch_order - 1; k >= 0; --k) velocity_end = velocity_end + velocity[k];
+    const P velocity_end = sum_of(velocity, batch_order);
     const Truth halts = velocity[0] * velocity_end < zero;
-    const P curvature = curvature_bound(velocity, batch_order);
+    Truth unfit = one < zero;
+    if (with_stribeck) {
+      P growth = larger(exponent[batch_order - 1], zero);
+#pragma GCC unroll 1
+      for (int k = batch_order - 2; k >= 1; --k) growth = growth + larger(exponent[k], zero);
+      const Truth grows = growth > larger(P(6.0), P(-40.0) - exponent[0]);
+      const P curvature = curvature_bound(velocity, batch_order);
+      // A fast slide does not come near ω = 0.
+      unfit = ~fast & (grows | (~halts & ~cannot_turn(velocity[0], velocity_end, velocity[1], curvature)));
+    }
     const Truth beyond = omega * direction <= zero;
-    const Truth too_long =
-        (inexact | grows | (~halts & ~cannot_turn(velocity[0], velocity_end, velocity[1], curvature))) &
-        ~beyond;
+    const Truth too_long = (inexact | unfit) & ~beyond;
     P x = one;
     const Truth seeks = at.taking_part() & halts & ~too_long;
     if (seeks.any())
-      x = select(halts,
-                 root_between(velocity, batch_order, velocity[0], velocity_end, one, seeks), one);
+      x = select(halts, root_between(velocity, batch_order, velocity[0], velocity_end, one, seeks), one);
 
     const Truth done = ~too_long & ~beyond;
     const Truth stops_here = ~halts & ~(h < until);

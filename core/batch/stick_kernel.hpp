@@ -132,12 +132,14 @@ ZEROCOUNT_ALWAYS_INLINE void expand(const StickLaw<P>& law, const P& softness_at
   P slope[batch_order + 1];
   softness[0] = softness_at_start;
   const P zero(0.0);
-  const P creep_start = creeping ? law.creep_limit * (s.torque[0] * s.torque[0]) - law.creep_recovery * s.growth[0] : zero;
+  const P creep_start =
+      creeping ? law.creep_limit * (s.torque[0] * s.torque[0]) - law.creep_recovery * s.growth[0] : zero;
   const P start_rate = select(turning, zero, s.velocity[0] - creep_start);
   next_order(law, 0, s.torque[0] * s.torque[0], start_rate, s, slope);
 #pragma GCC unroll 1
   for (int k = 1; k < batch_order; k += 2) {
-    // Of order k: Σ slope[j]·softness[k−1−j], j = 0 … k−1. Of the next: Σ slope[j]·softness[k−j], j = 1 … k−1.
+    // Of order k: Σ slope[j]·softness[k−1−j], j = 0 … k−1. Of the next: Σ slope[j]·softness[k−j], j = 1 …
+    // k−1.
     P above = softness[k - 1];
     P product = slope[0] * above;
     P next_product = zero;
@@ -259,7 +261,8 @@ void stick_step_kernel(Tile& tile, LaneList list) {
     }
     // What creep adds to dxs/dt may bring it through zero and back where it is as small.
     const P creep_velocity = P(8.0) * alpha * damping / law.k1 * magnitude(s.creep[0]);
-    const Truth unsure = at.taking_part() & ~reverses & (smaller(magnitude(rate_start), magnitude(rate_end)) <= creep_velocity);
+    const Truth unsure = at.taking_part() & ~reverses &
+                         (smaller(magnitude(rate_start), magnitude(rate_end)) <= creep_velocity);
     const Truth here = at.taking_part();
     const Truth seeks = here & reverses & ~too_long;
     P x = one;
@@ -349,10 +352,21 @@ void stick_step_kernel(Tile& tile, LaneList list) {
         }
         f[0] =
             f[0] - select(is_loose, breakaway, select(is_closure, branch_end, select(is_start, onset, zero)));
-        const P f_end = value_of(f, batch_order, x);
-        const P found = root_between(f, batch_order, f[0], f_end, x, open);
-        const Truth bracketed = f[0] * f_end <= zero;
-        beyond = beyond | (open & ~bracketed);
+        // Creep ends before σ is zero, beyond which the series of its rate, in σ², would rise again.
+        P last = x;
+        const Truth crosses = open & ~is_loose & ~is_closure & ~is_start & (torque_sign * torque <= zero);
+        if (crosses.any()) {
+          P torque_left[batch_order + 1];
+          for (int k = 0; k <= batch_order; ++k) torque_left[k] = torque_sign * s.torque[k];
+          last = select(
+              crosses,
+              root_between(torque_left, batch_order, torque_left[0], torque_sign * torque, x, crosses), x);
+        }
+        const P f_end = value_of(f, batch_order, last);
+        const Truth bracketed = f[0] * f_end < zero;
+        const P found =
+            select(bracketed, root_between(f, batch_order, f[0], f_end, last, open & bracketed), last);
+        beyond = beyond | (open & ~bracketed & ~crosses & (f_end != zero));
         x = select(open, found, x);
         event =
             select(open,

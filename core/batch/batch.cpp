@@ -76,6 +76,7 @@ struct BatchEngine::Work {
   void move_sticking();
   void end_sticking_steps();
   void move_sliding();
+  void end_sliding_steps();
   int list_lanes(LaneState wanted);
   LaneState moving_state(int lane) const {
     return tile.motion.slide_direction[lane] == 0.0 ? LaneState::sticking : LaneState::sliding;
@@ -91,6 +92,7 @@ struct BatchEngine::Work {
   Tile tile{};
   std::array<PassedSamples, most_lanes> passed{};
   std::array<int, most_lanes> list{};
+  std::array<int, most_lanes> slow_list{};
   std::array<int, most_lanes> waiting{};  ///< lanes with an event in their step
   int waiting_count{0};
 
@@ -391,9 +393,22 @@ void BatchEngine::Work::end_sticking_steps() {
 }
 
 void BatchEngine::Work::move_sliding() {
-  const int count = list_lanes(LaneState::sliding);
-  if (count == 0) return;
-  kernels.slide(tile, {list.data(), count});
+  const int sliding = list_lanes(LaneState::sliding);
+  if (sliding == 0) return;
+  int fast = 0;
+  int slow = 0;
+  for (int i = 0; i < sliding; ++i) {
+    const int lane = list[static_cast<std::size_t>(i)];
+    const bool is_fast = std::abs(tile.motion.omega[lane]) > tile.contact.fast_velocity[lane];
+    (is_fast ? list[static_cast<std::size_t>(fast++)] : slow_list[static_cast<std::size_t>(slow++)]) = lane;
+  }
+  kernels.slide_fast(tile, {list.data(), fast});
+  end_sliding_steps();
+  kernels.slide_slow(tile, {slow_list.data(), slow});
+  end_sliding_steps();
+}
+
+void BatchEngine::Work::end_sliding_steps() {
   for (int i = 0; i < tile.noted_count; ++i) {
     const int lane = tile.noted[i];
     const int note = tile.note[lane];

@@ -31,6 +31,7 @@ void show_contact(Tile& tile, int lane, const FrictionParameters& contact) {
   c.per_lambda[lane] = 1.0 / contact.lambda;
   c.breakaway[lane] = contact.breakaway;
   c.coulomb[lane] = contact.coulomb_ratio * contact.breakaway;
+  c.fast_velocity[lane] = 8.0 * contact.stribeck_velocity;
   c.per_velocity_squared[lane] = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
 }
 

@@ -10,7 +10,8 @@ struct Kernels {
   void (*stick_start)(Tile&, LaneList);
   void (*stick_step)(Tile&, LaneList);
   void (*stick_event)(Tile&, LaneList);  ///< a step that may have events
-  void (*slide)(Tile&, LaneList);
+  void (*slide_fast)(Tile&, LaneList);
+  void (*slide_slow)(Tile&, LaneList);
 };
 
 extern const Kernels portable_kernels;

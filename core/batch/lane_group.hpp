@@ -12,7 +12,7 @@ class LaneGroup {
  public:
   /// The lanes from number `first` of the list on, as many as go into one pack.
   ZEROCOUNT_ALWAYS_INLINE LaneGroup(const LaneList& list, int first) {
-    constexpr int least_side_by_side = P::lanes / 4 > 1 ? P::lanes / 4 : 1;
+    constexpr int least_side_by_side = P::lanes / 2 > 1 ? P::lanes / 2 : 1;
     base_ = list.lanes[first] / P::lanes * P::lanes;
     used_ = 0;
     for (int i = 0; i < P::lanes; ++i) takes_part_[i] = 0;

@@ -7,7 +7,10 @@ namespace zerocount::batch {
 
 /// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series carry. Notes
 /// velocity_zero, at_stop, and beyond_kernel where the slide begins at ω = 0. See Plant::slide.
-template <class P>
+///
+/// Far above the Stribeck velocity, where (ω/ωs)² > 64, friction is that of Coulomb to the last bit; those
+/// lanes go apart, with `Fast`, and step until (ω/ωs)² is down to 42: exp(−42) = 6e-19.
+template <class P, bool Fast>
 void slide_kernel(Tile& tile, LaneList list) {
   using Truth = typename P::Truth;
   MotionLanes& m = tile.motion;
@@ -31,26 +34,22 @@ void slide_kernel(Tile& tile, LaneList list) {
     const P torque = at.load(m.torque);
     const P driving = torque - direction * coulomb;
 
-    // Far above the Stribeck velocity, as long as (ω/ωs)² > 42 and exp(−42) = 6e-19, friction is that of
-    // Coulomb.
     const P stribeck_velocity = one / root_of(per_velocity_squared);
     const P speed = magnitude(omega);
-    const P above = speed - P(6.5) * stribeck_velocity;
-    const P slowing = larger(breakaway - direction * torque + damping * speed, zero) * per_inertia;
-    const Truth fast = above > P(1.5) * stribeck_velocity;
-    const P fast_step = select(slowing * until > above, above / slowing, until);
     P lightness_start = zero;
-    P longest = until;
-    const Truth slow = at.taking_part() & ~fast;
-    if (slow.any()) {
-      lightness_start = select(fast, zero, exponential(-per_velocity_squared * omega * omega));
+    P h = until;
+    if constexpr (Fast) {
+      const P above = speed - P(6.5) * stribeck_velocity;
+      const P slowing = larger(breakaway - direction * torque + damping * speed, zero) * per_inertia;
+      h = select(slowing * until > above, above / slowing, until);
+    } else {
+      lightness_start = exponential(-per_velocity_squared * omega * omega);
       // (ω/ωs)² may change by some 4.
       const P acceleration = magnitude(driving - stribeck * lightness_start - damping * omega) * per_inertia;
       const P changing = acceleration * (speed + P(2.0) * stribeck_velocity) * per_velocity_squared;
-      longest = P(4.0) / changing;
+      h = smaller(smaller(at.load(time.next_step), P(4.0) / changing), until);
+      h = select((h < until) & (until < P(1.4) * h), until * P(0.5), h);
     }
-    P h = select(fast, fast_step, smaller(smaller(at.load(time.next_step), longest), until));
-    h = select(~fast & (h < until) & (until < P(1.4) * h), until * P(0.5), h);
     const P force_scale = h * h * per_inertia;
     const P damping_scale = damping * h * per_inertia;
     const P per_step_squared = per_velocity_squared / (h * h);
@@ -63,11 +62,10 @@ void slide_kernel(Tile& tile, LaneList list) {
     theta[0] = at.load(m.theta);
     velocity[0] = omega * h;
     lightness[0] = lightness_start;
-    const bool with_stribeck = slow.any();
 #pragma GCC unroll 1
     for (int k = 0; k < batch_order; ++k) {
       P force = k == 0 ? driving : zero;
-      if (with_stribeck) {
+      if constexpr (!Fast) {
         P square = zero;
 #pragma GCC unroll 1
         for (int j = 0; 2 * j < k; ++j) square = square + velocity[j] * velocity[k - j];
@@ -79,7 +77,7 @@ void slide_kernel(Tile& tile, LaneList list) {
           P sum = zero;
 #pragma GCC unroll 1
           for (int j = 0; j < k; ++j) sum = sum + slope[j] * lightness[k - 1 - j];
-          lightness[k] = select(fast, zero, sum * P(reciprocals.of[k]));
+          lightness[k] = sum * P(reciprocals.of[k]);
         }
         force = force - stribeck * lightness[k];
       }
@@ -94,14 +92,13 @@ void slide_kernel(Tile& tile, LaneList list) {
     const P velocity_end = sum_of(velocity, batch_order);
     const Truth halts = velocity[0] * velocity_end < zero;
     Truth unfit = one < zero;
-    if (with_stribeck) {
+    if constexpr (!Fast) {
       P growth = larger(exponent[batch_order - 1], zero);
 #pragma GCC unroll 1
       for (int k = batch_order - 2; k >= 1; --k) growth = growth + larger(exponent[k], zero);
       const Truth grows = growth > larger(P(6.0), P(-40.0) - exponent[0]);
       const P curvature = curvature_bound(velocity, batch_order);
-      // A fast slide does not come near ω = 0.
-      unfit = ~fast & (grows | (~halts & ~cannot_turn(velocity[0], velocity_end, velocity[1], curvature)));
+      unfit = grows | (~halts & ~cannot_turn(velocity[0], velocity_end, velocity[1], curvature));
     }
     const Truth beyond = omega * direction <= zero;
     const Truth too_long = (inexact | unfit) & ~beyond;

@@ -56,6 +56,7 @@ struct alignas(64) ContactLanes {
   Lanes breakaway;             ///< Fs, N m
   Lanes coulomb;               ///< Fc, N m
   Lanes per_velocity_squared;  ///< 1/ωs²
+  Lanes fast_velocity;         ///< 8ωs, rad/s: beyond it friction is that of Coulomb
 };
 
 /// The time of a lane, and its steps.

@@ -23,6 +23,23 @@ ZEROCOUNT_ALWAYS_INLINE P value_of(const P* c, int order, const P& x) {
   return value;
 }
 
+/// Four polynomials at x, of which each goes as value_of has it.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE void values_of(const P* a, const P* b, const P* c, const P* d, int order, const P& x,
+                                       P (&value)[4]) {
+  value[0] = a[order];
+  value[1] = b[order];
+  value[2] = c[order];
+  value[3] = d[order];
+#pragma GCC unroll 1
+  for (int k = order - 1; k >= 0; --k) {
+    value[0] = value[0] * x + a[k];
+    value[1] = value[1] * x + b[k];
+    value[2] = value[2] * x + c[k];
+    value[3] = value[3] * x + d[k];
+  }
+}
+
 /// The polynomial at 1: to the bit what value_of says there.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P sum_of(const P* c, int order) {
@@ -74,13 +91,27 @@ ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start,
   P last_change = end;
   typename P::Truth open = wanted;
   for (int step = 0; step < most_steps; ++step) {
-    P value = c[order];
-    P slope(0.0);
+    // The even and the odd powers apart, and their derivatives: four chains of additions in place of two.
+    const P square = x * x;
+    P even(0.0);
+    P odd(0.0);
+    P even_slope(0.0);
+    P odd_slope(0.0);
 #pragma GCC unroll 1
-    for (int k = order - 1; k >= 0; --k) {
-      slope = slope * x + value;
-      value = value * x + c[k];
+    for (int k = order; k >= 1; k -= 2) {
+      const int even_power = order % 2 == 0 ? k : k - 1;
+      const int odd_power = order % 2 == 0 ? k - 1 : k;
+      even_slope = even_slope * square + even;
+      odd_slope = odd_slope * square + odd;
+      even = even * square + c[even_power];
+      odd = odd * square + c[odd_power];
     }
+    if (order % 2 == 0) {
+      even_slope = even_slope * square + even;
+      even = even * square + c[0];
+    }
+    const P value = even + x * odd;
+    const P slope = odd + P(2.0) * x * (even_slope + x * odd_slope);
     const typename P::Truth before = (value > P(0.0)) == (at_start > P(0.0));
     low = select(before, x, low);
     high = select(before, high, x);

@@ -279,11 +279,9 @@ void stick_step_kernel(Tile& tile, LaneList list) {
       }
       if (seeks.any()) {
         x = select(seeks, root_between(g, batch_order - 1, g[0], rate_end, one, seeks), one);
-        const P x2 = x * x;
-        const P x4 = x2 * x2;
-        const P x16 = (x4 * x4) * (x4 * x4);
-        static_assert(batch_order == 20);
-        left_out = last_terms * (x16 * x2 * x);
+        left_out = last_terms;
+#pragma GCC unroll 1
+        for (int k = 1; k < batch_order; ++k) left_out = left_out * x;
         share = allowed * x;
       }
     }
@@ -295,10 +293,12 @@ void stick_step_kernel(Tile& tile, LaneList list) {
     P velocity;
     P signed_hardening;
     if (seeks.any()) {
-      torque = value_of(s.torque, batch_order, x);
-      end = value_of(s.elongation, batch_order, x);
-      velocity = value_of(s.velocity, batch_order, x);
-      signed_hardening = value_of(s.growth, batch_order, x);
+      P value[4];
+      values_of(s.torque, s.elongation, s.velocity, s.growth, batch_order, x, value);
+      torque = value[0];
+      end = value[1];
+      velocity = value[2];
+      signed_hardening = value[3];
     } else {
       torque = sum_of(s.torque, batch_order);
       end = sum_of(s.elongation, batch_order);

@@ -8,7 +8,7 @@ namespace zerocount::hdf5 {
 namespace {
 
 /// Level of deflate: the inputs of trials are random digits, which higher levels only spend time on.
-constexpr unsigned deflate_level = 4;
+constexpr unsigned deflate_level = 1;
 
 /// No text of the library on stderr, and no work of its own at exit, where it would retry writes that have
 /// failed.

@@ -161,7 +161,7 @@ void BatchEngine::Work::leave_to_reference(const LaneTrial& trial, std::int64_t 
   }
   if (observers->sample) {
     single.sample = [&](const SampleRecord& r) {
-      if (r.k >= told_samples) observers->sample({trial.number, r.k, r.count, r.code, r.theta, r.xp});
+      if (r.k >= told_samples) observers->sample({trial.number, r.k, r.count, r.code, r.theta, r.xp, r.xh});
     };
   }
   *trial.outcome = run_trial(*trial.parameters, single);
@@ -238,7 +238,7 @@ void BatchEngine::Work::record_sample(int lane, const LaneTrial& trial) {
   const auto k = static_cast<std::int64_t>(tile.measures.taken[lane]) - 1;
   observers->sample({trial.number, trial.first_sample + k, static_cast<std::int64_t>(tile.loop.count[lane]),
                      static_cast<std::int64_t>(tile.loop.code[lane]), tile.measures.theta[lane],
-                     tile.measures.extension[lane]});
+                     tile.measures.extension[lane], tile.motion.hardening[lane]});
 }
 
 /// The samples that steps have gone over, from their series.
@@ -258,7 +258,8 @@ void BatchEngine::Work::record_passed() {
       observers->sample({trial.number, trial.first_sample + taken + j,
                          static_cast<std::int64_t>(tile.loop.count[p.lane]),
                          static_cast<std::int64_t>(tile.loop.code[p.lane]),
-                         tile.motion.hook[p.lane] + value_at(p.elongation, x) + extension, extension});
+                         tile.motion.hook[p.lane] + value_at(p.elongation, x) + extension, extension,
+                         std::abs(value_at(p.growth, x))});
     }
   }
 }
@@ -329,11 +330,11 @@ void BatchEngine::Work::move_sticking() {
       PassedSample record;
       if (observers->sample) {
         record = [&, before = static_cast<std::int64_t>(tile.measures.taken[lane])](
-                     double sample, double theta, double extension) {
-          observers->sample({trial.number,
-                             trial.first_sample + before - 1 + static_cast<std::int64_t>(sample),
-                             static_cast<std::int64_t>(tile.loop.count[lane]),
-                             static_cast<std::int64_t>(tile.loop.code[lane]), theta, extension});
+                     double sample, double theta, const CreepState& creep) {
+          observers->sample(
+              {trial.number, trial.first_sample + before - 1 + static_cast<std::int64_t>(sample),
+               static_cast<std::int64_t>(tile.loop.count[lane]),
+               static_cast<std::int64_t>(tile.loop.code[lane]), theta, creep.extension, creep.hardening});
         };
       }
       if (rest(tile, lane, trial, record)) {

@@ -20,6 +20,7 @@ struct BatchSample {
   std::int64_t code{0};   ///< DAC code
   double theta{0.0};      ///< rotor angle, rad
   double xp{0.0};         ///< plastic extension, rad
+  double xh{0.0};         ///< hardening, rad
 };
 
 /// Who is told of the trials of a batch while they run; an empty function is not called. The trials run side

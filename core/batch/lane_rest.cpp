@@ -83,7 +83,7 @@ bool rest(Tile& tile, int lane, LaneTrial& trial, const PassedSample& passed) {
   if (passed) {
     for (double j = 1.0; j < i; j += 1.0) {
       before.advance(constant_torque(torque), j == 1.0 ? to_first : sample_time);
-      passed(j, before.theta(), before.creep().extension);
+      passed(j, before.theta(), before.creep());
     }
   }
   pass_samples(tile, lane, i - 1.0);

@@ -420,7 +420,9 @@ void stick_step_kernel(Tile& tile, LaneList list) {
     const P shorter = select(inexact, h * smaller(larger(factor, P(0.05)), P(0.8)), h * P(0.5));
     // What speeds up will need shorter steps.
     const P slower = select(reverses, one, smaller(one, magnitude(end - elongation) / magnitude(rate_end)));
-    const P longer = h * smaller(larger(factor * slower, P(0.3)), P(2.5));
+    // From one reversal to the next it takes about as long as from the one before.
+    const P half_swing = select(turning & reverses & (P(4.0) * left_out <= share), P(1.25) * x * h, zero);
+    const P longer = larger(h * smaller(larger(factor * slower, P(0.3)), P(2.5)), half_swing);
     at.store(time.next_step, select(too_long, shorter, select(done, longer, at.load(time.next_step))));
     const P sample_time = at.load(time.sample_time);
     at.store(time.until, select(done, until_then, select(counts, until - (left - one) * sample_time, until)));

@@ -40,7 +40,7 @@ std::optional<CreepAtRest> creep_at_rest(const PlantParameters& plant, const Fri
   r.g1 = alpha;
   r.s1 = damping;
   double last_g1 = 0.0;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < rounds && (round < 3 || last_g1 != r.g1); ++round) {
     last_g1 = r.g1;
     r.w1 = 1.0 + r.g1 * r.s1 / stiffness;
     r.w2 = (r.g2 * r.s1 + 2.0 * r.g1 * r.s2) / stiffness;

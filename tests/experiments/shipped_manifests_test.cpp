@@ -1,6 +1,8 @@
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -13,17 +15,41 @@ Study shipped(const std::string& name) {
   return load_study(std::filesystem::path(ZEROCOUNT_MANIFESTS) / (name + ".yaml"));
 }
 
+/// The work that benchmarks time: beside the studies that one would start from, not among them.
+std::filesystem::path benchmark_folder() {
+  return std::filesystem::path(ZEROCOUNT_MANIFESTS).parent_path();
+}
+
+Study benchmark_study(const std::string& name) {
+  return load_study(benchmark_folder() / (name + ".yaml"));
+}
+
+void expect_understood(const std::filesystem::path& manifest) {
+  const Study study = load_study(manifest);
+  EXPECT_EQ(study.name, manifest.stem().string());
+  EXPECT_TRUE(study.warnings.empty()) << manifest;
+  EXPECT_FALSE(study.description.empty()) << manifest;
+  EXPECT_EQ(study.manifest_text.rfind("# ", 0), 0u) << manifest << " is explained in its own comments";
+}
+
 TEST(ShippedManifests, AllAreUnderstoodWithoutWarningsAndNamedLikeTheirFiles) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(ZEROCOUNT_MANIFESTS)) {
-    const Study study = load_study(entry.path());
-    EXPECT_EQ(study.name, entry.path().stem().string());
-    EXPECT_TRUE(study.warnings.empty());
-    EXPECT_FALSE(study.description.empty());
-    EXPECT_EQ(study.manifest_text.rfind("# ", 0), 0u) << "explained in its own comments";
+    expect_understood(entry.path());
     ++count;
   }
   EXPECT_GE(count, 6);
+}
+
+TEST(ShippedManifests, SoAreThoseOfTheBenchmarks) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(benchmark_folder())) {
+    if (entry.path().extension() != ".yaml") continue;
+    expect_understood(entry.path());
+    names.insert(entry.path().stem().string());
+  }
+  EXPECT_EQ(names,
+            (std::set<std::string>{"bench-creep", "bench-marginal", "bench-million", "bench-transient"}));
 }
 
 TEST(ShippedManifests, Figure7HasTheTenTargetsAnd300Samples) {
@@ -57,6 +83,58 @@ TEST(ShippedManifests, TheGainsAreThoseOfThePaperWithWhatItSaw) {
   }
   EXPECT_GT(study_trial(study, 4, 0).parameters.controller.ki, 3.01e-4);
   for (const std::string& label : study.point_labels) EXPECT_EQ(study.observed.count(label), 1u) << label;
+}
+
+// Samples, gain and targets of the work that benchmarks time.
+TEST(ShippedManifests, TheBenchmarksHaveTheWorkThatTheyAreNamedFor) {
+  struct Work {
+    std::string name;
+    std::int64_t samples;
+    double ki;
+    std::int64_t lowest_target;
+    std::int64_t highest_target;
+  };
+  const std::vector<Work> works{{"bench-transient", 300, 3.85e-5, 1, 10},
+                                {"bench-creep", 15000, 3.85e-5, 30, 30},
+                                {"bench-marginal", 1500, 9.45e-5, 1, 30},
+                                {"bench-million", 300, 3.85e-5, 1, 10}};
+  for (const Work& work : works) {
+    const Study study = benchmark_study(work.name);
+    ASSERT_EQ(point_count(study), 1) << work.name;
+    std::set<std::int64_t> targets;
+    for (std::int64_t index = 0; index < 500; ++index) {
+      const TrialParameters p = study_trial(study, 0, index).parameters;
+      EXPECT_EQ(samples_of_trial(p), work.samples) << work.name;
+      EXPECT_EQ(p.controller.ki, work.ki) << work.name;
+      EXPECT_EQ(p.command.targets.size(), 1u) << work.name;
+      targets.insert(p.command.targets.begin(), p.command.targets.end());
+    }
+    EXPECT_EQ(*targets.begin(), work.lowest_target) << work.name;
+    EXPECT_EQ(*targets.rbegin(), work.highest_target) << work.name;
+    EXPECT_EQ(static_cast<std::int64_t>(targets.size()), work.highest_target - work.lowest_target + 1);
+  }
+  EXPECT_EQ(benchmark_study("bench-million").trials, 1000000);
+}
+
+// What friction may be is not known of any trial, and no two are alike.
+TEST(ShippedManifests, TheBenchmarksLeaveAllFrictionToChance) {
+  for (const std::string name : {"bench-transient", "bench-creep", "bench-marginal", "bench-million"}) {
+    std::set<std::string> random;
+    for (const InputColumn& column : benchmark_study(name).input_columns) random.insert(column.name);
+    for (const std::string parameter : {"friction.k1", "friction.k2", "friction.beta", "friction.alpha",
+                                        "friction.lambda", "initial.encoder_phase"}) {
+      EXPECT_EQ(random.count(parameter), 1u) << name << ": " << parameter;
+    }
+  }
+}
+
+// A million of the very trials that bench-transient has.
+TEST(ShippedManifests, TheMillionIsOfTheTransientBenchmark) {
+  const Study few = benchmark_study("bench-transient");
+  const Study million = benchmark_study("bench-million");
+  for (const std::int64_t index : {0, 1, 99999}) {
+    EXPECT_EQ(study_trial(few, 0, index).inputs, study_trial(million, 0, index).inputs);
+  }
 }
 
 TEST(ShippedManifests, TheStabilityMapIsAGrid) {

@@ -1,0 +1,89 @@
+#include "tests/benchmarks/engines.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <benchmark/benchmark.h>
+
+#include "core/batch/batch.hpp"
+#include "core/loop/encoder.hpp"
+#include "tests/benchmarks/peers/peers.hpp"
+
+namespace zerocount::testing {
+
+TimedEngine engine_of(const Peer& peer) {
+  const auto simulate = [run = peer.run](const Workload& workload) {
+    for (const TrialParameters& trial : workload.trials) benchmark::DoNotOptimize(run(trial));
+  };
+  return {peer.name, simulate, peer.record, 1};
+}
+
+namespace {
+
+constexpr int copies_of_batch = 8;
+
+void simulate_batch(BatchEngine& engine, const Workload& workload) {
+  std::vector<const TrialParameters*> trials;
+  for (int copy = 0; copy < copies_of_batch; ++copy) {
+    for (const TrialParameters& trial : workload.trials) trials.push_back(&trial);
+  }
+  std::vector<TrialOutcome> outcomes(trials.size());
+  engine.run(trials, outcomes);
+  benchmark::DoNotOptimize(outcomes.data());
+}
+
+/// Up to a breakaway, which is as far as it is compared.
+std::vector<SampleRecord> batch_records(BatchEngine& engine, const TrialParameters& trial) {
+  const Encoder coarse = make_encoder(trial.encoder.coarse, trial.initial.encoder_phase);
+  const std::int64_t target = trial.command.targets.front();
+  std::vector<SampleRecord> records;
+  BatchObservers observers;
+  observers.sample = [&](const BatchSample& sample) {
+    SampleRecord record;
+    record.k = sample.k;
+    record.t = static_cast<double>(sample.k) / trial.controller.sample_rate;
+    record.torque = static_cast<double>(sample.code) * trial.dac.resolution;
+    record.drive_torque = record.torque;
+    record.target = target;
+    record.count = sample.count;
+    record.coarse_count = read_count(coarse, sample.theta);
+    record.error = target - sample.count;
+    record.code = sample.code;
+    record.theta = sample.theta;
+    record.xp = sample.xp;
+    record.xh = sample.xh;
+    records.push_back(record);
+  };
+  const TrialParameters* const trials[] = {&trial};
+  TrialOutcome outcome;
+  engine.run(trials, std::span(&outcome, 1), observers);
+  return records;
+}
+
+TimedEngine batch_engine(InstructionSet instructions, const std::string& name) {
+  const auto engine = std::make_shared<BatchEngine>(BatchSettings{.instructions = instructions});
+  return {name, [engine](const Workload& workload) { simulate_batch(*engine, workload); },
+          [engine](const TrialParameters& trial) { return batch_records(*engine, trial); }, copies_of_batch};
+}
+
+}  // namespace
+
+std::vector<TimedEngine> all_engines() {
+  std::vector<TimedEngine> engines;
+  for (const InstructionSet set : {InstructionSet::avx512, InstructionSet::avx2, InstructionSet::portable}) {
+    if (is_available(set)) engines.push_back(batch_engine(set, "batch " + std::string(name_of(set))));
+  }
+  engines.push_back({"reference",
+                     [](const Workload& workload) {
+                       for (const TrialParameters& trial : workload.trials) {
+                         benchmark::DoNotOptimize(run_trial(trial));
+                       }
+                     },
+                     {},
+                     1});
+  for (const Peer& peer : all_peers()) engines.push_back(engine_of(peer));
+  return engines;
+}
+
+}  // namespace zerocount::testing

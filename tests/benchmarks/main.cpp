@@ -1,0 +1,39 @@
+// The executable `benchmarks`: see README.md in this folder.
+#include <benchmark/benchmark.h>
+
+#include "results/layout/build_info.hpp"
+#include "tests/benchmarks/registration.hpp"
+
+namespace {
+
+/// What the compiler was allowed to use.
+const char* instruction_set() {
+#if defined(__AVX512F__)
+  return "AVX-512";
+#elif defined(__AVX2__)
+  return "AVX2";
+#elif defined(__x86_64__)
+  return "SSE2";
+#else
+  return "not x86-64";
+#endif
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace zerocount::testing;
+  const zerocount::Provenance build = zerocount::current_provenance();
+  benchmark::AddCustomContext("cpu", build.cpu);
+  benchmark::AddCustomContext("compiler", build.compiler);
+  benchmark::AddCustomContext("instruction_set", instruction_set());
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  BenchmarkRun run{all_workloads()};
+  register_engine_benchmarks(run);
+  register_settings_benchmarks(run);
+  register_runner_benchmarks(run);
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return run.failed ? 1 : 0;
+}

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/trial/trial.hpp"
+#include "experiments/study.hpp"
+#include "tests/support/agreement.hpp"
+
+namespace zerocount::testing {
+
+using TrialRecorder = std::function<std::vector<SampleRecord>(const TrialParameters&)>;
+
+/// All samples of a trial by the scalar reference.
+std::vector<SampleRecord> reference_records(const TrialParameters& parameters);
+
+/// How an engine agrees with the scalar reference on the trials of a study.
+struct EngineAgreement {
+  Agreement samples;              ///< up to the first breakaway of each trial
+  std::int64_t calm_trials{0};    ///< compared that never break away
+  std::int64_t broken_trials{0};  ///< compared up to where they do
+
+  bool holds() const;        ///< no failure, and at most one trial in fifty cut short on an encoder edge
+  std::string text() const;  ///< one line of figures, and one for each failure
+};
+
+/// Compares an engine with the reference on the first trials of the study (of one design point) until `calm`
+/// of them that never break away have been compared, and of the others no more than that: counts, codes and
+/// modes equal at every sample, θ within 1e-6 count. A trial that breaks away is compared up to there: after
+/// it, rounding decides.
+EngineAgreement agreement_with_reference(const TrialRecorder& record, const Study& study, std::int64_t calm);
+
+}  // namespace zerocount::testing

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "tests/benchmarks/workloads.hpp"
+
+namespace zerocount::testing {
+
+/// What the benchmarks of one run share.
+struct BenchmarkRun {
+  std::vector<Workload> workloads;
+  bool failed{false};  ///< an engine does not agree with the reference
+};
+
+/// The figure of a benchmark, its counter per_sample: time per sample of a trial, over `samples` of them.
+inline void count_samples(benchmark::State& state, double samples) {
+  state.counters["per_sample"] =
+      benchmark::Counter(samples, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+/// engine/<workload>/<engine>: whole trials on one thread, drawn beforehand. Every engine is checked against
+/// the reference before it is timed; where it does not agree it is not timed, and the run has failed.
+void register_engine_benchmarks(BenchmarkRun& run);
+
+/// settings/<workload>/<peer>: what the settings of the peers were chosen from. The counter failures has the
+/// trials that do not agree with the reference, and theta_error the largest distance of θ from it (counts) in
+/// those that do, before a breakaway.
+void register_settings_benchmarks(BenchmarkRun& run);
+
+/// run/…, threads/…, length/…, trials/…, random/…: what a run adds to its trials, and how its cost grows.
+void register_runner_benchmarks(BenchmarkRun& run);
+
+}  // namespace zerocount::testing

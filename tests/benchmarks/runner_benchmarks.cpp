@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <fmt/core.h>
+
+#include "runners/study_runner.hpp"
+#include "tests/benchmarks/registration.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+constexpr std::int64_t trials_per_run = 4000;      // of bench-transient, unless the number is what varies
+constexpr std::int64_t samples_per_run = 1200000;  // the same in samples, where the trial's length varies
+
+/// What is not random takes these values.
+constexpr std::array fixed_values{"friction.k1=110",    "friction.k2=750",    "friction.beta=2.0e5",
+                                  "friction.alpha=0.5", "friction.lambda=10", "initial.encoder_phase=0.5",
+                                  "command.targets.0=5"};
+
+/// A run but for its last step, joining the shards: drawing, the trials with their measures, writing.
+void time_run(benchmark::State& state, const Study& study, int threads) {
+  const RowRange rows{0, trial_count(study)};
+  double samples = 0.0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    const TemporaryFolder folder;
+    state.ResumeTiming();
+    run_trials(study, {&rows, 1}, folder.path(), {threads, {}}, {});
+    samples += samples_per_trial(study) * static_cast<double>(rows.count);
+  }
+  count_samples(state, samples);
+}
+
+/// Drawing the parameters of the trials of a run.
+void time_drawing(benchmark::State& state, const Study& study) {
+  const std::int64_t trials = trial_count(study);
+  double samples = 0.0;
+  for (auto _ : state) {
+    for (std::int64_t index = 0; index < trials; ++index) {
+      benchmark::DoNotOptimize(study_trial(study, 0, index));
+    }
+    samples += samples_per_trial(study) * static_cast<double>(trials);
+  }
+  count_samples(state, samples);
+}
+
+template <class Time>
+benchmark::internal::Benchmark* register_timing(const std::string& name, const Study& study, Time time) {
+  const auto shared = std::make_shared<const Study>(study);
+  return benchmark::RegisterBenchmark(name.c_str(),
+                                      [shared, time](benchmark::State& state) { time(state, *shared); })
+      ->Unit(benchmark::kMillisecond)
+      ->MeasureProcessCPUTime();
+}
+
+void time_run_on_one_thread(benchmark::State& state, const Study& study) {
+  time_run(state, study, 1);
+}
+
+std::string trials_override(std::int64_t trials) {
+  return fmt::format("trials={}", trials);
+}
+
+void register_parts(const Workload& workload, const std::string& manifest) {
+  const auto trials = static_cast<std::int64_t>(workload.trials.size());
+  const Study study = workload_study(manifest, {trials_override(trials)});
+  register_timing("run/" + workload.name, study, time_run_on_one_thread);
+  register_timing("draw/" + workload.name, study, time_drawing);
+}
+
+}  // namespace
+
+void register_runner_benchmarks(BenchmarkRun& run) {
+  for (const Workload& workload : run.workloads) register_parts(workload, workload.study.name);
+  const auto transient = [](std::int64_t trials, std::vector<std::string> overrides) {
+    overrides.push_back(trials_override(trials));
+    return workload_study("bench-transient", overrides);
+  };
+  for (const int threads : {1, 2}) {
+    const auto time = [threads](benchmark::State& state, const Study& study) {
+      time_run(state, study, threads);
+    };
+    register_timing(fmt::format("threads/{}", threads), transient(trials_per_run, {}), time)->UseRealTime();
+  }
+  for (const std::int64_t samples : {100, 300, 1000, 3000, 10000}) {
+    const std::string hold = fmt::format("command.hold={}", static_cast<double>(samples) / 2000.0);
+    register_timing(fmt::format("length/{}", samples), transient(samples_per_run / samples, {hold}),
+                    time_run_on_one_thread);
+  }
+  for (const std::int64_t trials : {10, 100, 1000, 10000}) {
+    register_timing(fmt::format("trials/{}", trials), transient(trials, {}), time_run_on_one_thread);
+  }
+  std::vector<std::string> fixed;
+  for (std::size_t random = fixed_values.size() + 1; random-- > 0;) {
+    const Study study = transient(trials_per_run, fixed);
+    register_timing(fmt::format("random/{}", random), study, time_run_on_one_thread);
+    register_timing(fmt::format("drawing/{}", random), study, time_drawing);
+    if (random > 0) fixed.emplace_back(fixed_values[random - 1]);
+  }
+}
+
+}  // namespace zerocount::testing

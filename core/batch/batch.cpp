@@ -22,10 +22,9 @@ constexpr int longest_delay = 64;
 
 enum class LaneState : unsigned char {
   idle,      ///< without a trial
-  due,       ///< a sampling instant has come
-  sticking,  ///< on its way, the hook sticks
+  sticking,  ///< the hook sticks
   waiting,   ///< for company in an event, the hook sticks
-  sliding    ///< on its way, the hook slides
+  sliding    ///< the hook slides
 };
 
 bool ideal(const EncoderErrors& e) {
@@ -77,6 +76,7 @@ struct BatchEngine::Work {
   void end_sticking_steps();
   void move_sliding();
   void end_sliding_steps();
+  int list_due_lanes();
   int list_lanes(LaneState wanted);
   LaneState moving_state(int lane) const {
     return tile.motion.slide_direction[lane] == 0.0 ? LaneState::sticking : LaneState::sliding;
@@ -91,7 +91,7 @@ struct BatchEngine::Work {
   std::array<LaneState, most_lanes> states{};
   Tile tile{};
   std::array<PassedSamples, most_lanes> passed{};
-  std::array<int, most_lanes> list{};
+  std::array<int, most_lanes + 1> list{};
   std::array<int, most_lanes> slow_list{};
   std::array<int, most_lanes> waiting{};  ///< lanes with an event in their step
   int waiting_count{0};
@@ -141,7 +141,7 @@ void BatchEngine::Work::refill(int lane) {
       outcomes[number].moves.clear();
       outcomes[number].moves.reserve(trials[number]->command.targets.size());
       start_trial(tile, lane, trial, number, *trials[number], outcomes[number]);
-      state_of(lane) = LaneState::due;
+      state_of(lane) = moving_state(lane);
       ++running;
       return;
     }
@@ -196,14 +196,14 @@ void BatchEngine::Work::stop_diverged(int lane, LaneTrial& trial) {
 }
 
 void BatchEngine::Work::take_samples() {
+  const int due = list_due_lanes();
   int count = 0;
-  for (int lane = 0; lane < lane_count; ++lane) {
-    if (state_of(lane) != LaneState::due) continue;
+  for (int i = 0; i < due; ++i) {
+    const int lane = list[static_cast<std::size_t>(i)];
     if (tile.measures.taken[lane] == tile.measures.samples[lane]) {
       end_move(lane, trial_of(lane));
       if (state_of(lane) == LaneState::idle) continue;
     }
-    state_of(lane) = moving_state(lane);
     list[static_cast<std::size_t>(count++)] = lane;
   }
   if (count == 0) return;
@@ -307,11 +307,23 @@ void BatchEngine::Work::delay_torque(int lane, LaneTrial& trial) {
   }
 }
 
-/// Puts the lanes of a state into the list, and says how many.
+/// Puts the lanes at a sampling instant into the list, and says how many.
+int BatchEngine::Work::list_due_lanes() {
+  int count = 0;
+  for (int lane = 0; lane < lane_count; ++lane) {
+    list[static_cast<std::size_t>(count)] = lane;
+    count +=
+        tile.time.until[lane] == 0.0 && states[static_cast<std::size_t>(lane)] != LaneState::idle ? 1 : 0;
+  }
+  return count;
+}
+
+/// Puts the lanes of a state that are on their way into the list, and says how many.
 int BatchEngine::Work::list_lanes(LaneState wanted) {
   int count = 0;
   for (int lane = 0; lane < lane_count; ++lane) {
-    if (state_of(lane) == wanted) list[static_cast<std::size_t>(count++)] = lane;
+    list[static_cast<std::size_t>(count)] = lane;
+    count += tile.time.until[lane] != 0.0 && states[static_cast<std::size_t>(lane)] == wanted ? 1 : 0;
   }
   return count;
 }
@@ -338,7 +350,6 @@ void BatchEngine::Work::move_sticking() {
         };
       }
       if (rest(tile, lane, trial, record)) {
-        state_of(lane) = LaneState::due;
         left = true;
         continue;
       }
@@ -355,7 +366,8 @@ void BatchEngine::Work::move_sticking() {
     int kept = 0;
     for (int i = 0; i < count; ++i) {
       const int lane = list[static_cast<std::size_t>(i)];
-      if (state_of(lane) == LaneState::sticking) list[static_cast<std::size_t>(kept++)] = lane;
+      if (state_of(lane) == LaneState::sticking && tile.time.until[lane] != 0.0)
+        list[static_cast<std::size_t>(kept++)] = lane;
     }
     count = kept;
     if (count == 0) return;
@@ -389,7 +401,7 @@ void BatchEngine::Work::end_sticking_steps() {
     if ((note & creep_ends) != 0) end_creep(tile, lane, trial);
     if ((note & breaks_away) != 0) start_slide(tile, lane, trial);
     if ((note & beyond_kernel) != 0) advance_by_reference(tile, lane, trial);
-    state_of(lane) = tile.time.until[lane] == 0.0 ? LaneState::due : moving_state(lane);
+    state_of(lane) = moving_state(lane);
   }
 }
 
@@ -416,7 +428,7 @@ void BatchEngine::Work::end_sliding_steps() {
     LaneTrial& trial = trial_of(lane);
     if ((note & velocity_zero) != 0) end_slide(tile, lane, trial);
     if ((note & beyond_kernel) != 0) advance_by_reference(tile, lane, trial);
-    state_of(lane) = tile.time.until[lane] == 0.0 ? LaneState::due : moving_state(lane);
+    state_of(lane) = moving_state(lane);
   }
 }
 

@@ -118,7 +118,7 @@ void slide_kernel(Tile& tile, LaneList list) {
     at.store(time.steps, at.load(time.steps) + one);
     at.store(m.theta, select(done, value_of(theta, batch_order, x), theta[0]));
     at.store(m.omega, select(done, select(halts, zero, value_of(velocity, batch_order, x) / h), omega));
-    at.note(tile, select(done, noted<P>(halts, velocity_zero) + noted<P>(until_then == zero, at_stop), zero) +
+    at.note(tile, noted<P>(done & halts, velocity_zero) +
                       noted<P>(beyond | (at.load(time.steps) > P(most_steps_to_a_stop)), beyond_kernel));
   }
 }

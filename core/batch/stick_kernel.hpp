@@ -446,8 +446,7 @@ void stick_step_kernel(Tile& tile, LaneList list) {
     at.store(q.zeros_in_a_row, zeros + passed_now);
     at.store(q.taken, taken + passed_now);
 
-    at.note(tile, select(done, event + noted<P>(until_then == zero, at_stop), zero) +
-                      noted<P>(meets, meets_event) +
+    at.note(tile, select(done, event, zero) + noted<P>(meets, meets_event) +
                       noted<P>(beyond | (at.load(time.steps) > P(most_steps_to_a_stop)), beyond_kernel));
 
     if (tile.passed != nullptr && ((passed_now > zero) & here).any()) {

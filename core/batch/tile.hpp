@@ -126,7 +126,6 @@ enum LaneNote : int {
   breaks_away = 256,
   velocity_zero = 512,
   beyond_kernel = 1024,  ///< the reference has to take it to the next stop
-  at_stop = 2048,
   jerk_changes = 4096,
   diverges = 16384,
   meets_event = 32768,  ///< an event other than a reversal lies in the step

@@ -40,7 +40,12 @@ bool runs_in_lanes(const TrialParameters& p) {
                           p.controller.delay <= longest_delay;
   const bool plain_devices = ideal(p.encoder.fine_errors) && ideal(p.encoder.coarse_errors) &&
                              !has_errors(p.dac) && p.amplifier.bandwidth == 0.0;
-  const bool plain_friction = p.friction.model != FrictionModel::coulomb && p.friction.uniform.n == 2.0;
+  const auto is_exponent = [](const ProfiledParameter& entry) {
+    return entry.parameter == &FrictionParameters::n;
+  };
+  const bool square_law = p.friction.uniform.n == 2.0 &&
+                          std::none_of(p.friction.profiled.begin(), p.friction.profiled.end(), is_exponent);
+  const bool plain_friction = p.friction.model != FrictionModel::coulomb && square_law;
   return plain_loop && plain_devices && plain_friction && samples_of_move(p, 0) > 0;
 }
 
@@ -62,6 +67,7 @@ struct BatchEngine::Work {
   void refill(int lane);
   void leave_to_reference(const LaneTrial& trial, std::int64_t told_jerks, std::int64_t told_samples);
   void end_move(int lane, LaneTrial& trial);
+  void give_up(int lane);
   void end_trial(int lane);
   void stop_diverged(int lane, LaneTrial& trial);
 
@@ -167,6 +173,15 @@ void BatchEngine::Work::leave_to_reference(const LaneTrial& trial, std::int64_t 
   *trial.outcome = run_trial(*trial.parameters, single);
 }
 
+/// A motion that cannot be followed, or that has left what encoders can count: run_trial has the words for
+/// it.
+void BatchEngine::Work::give_up(int lane) {
+  const LaneTrial& trial = trial_of(lane);
+  leave_to_reference(trial, trial.told_jerks,
+                     trial.first_sample + static_cast<std::int64_t>(tile.measures.taken[lane]));
+  end_trial(lane);
+}
+
 void BatchEngine::Work::end_trial(int lane) {
   --running;
   refill(lane);
@@ -211,17 +226,15 @@ void BatchEngine::Work::take_samples() {
   for (int i = 0; i < tile.noted_count; ++i) {
     const int lane = tile.noted[i];
     if ((tile.note[lane] & beyond_kernel) == 0) continue;
-    // The motion has left what encoders can count: run_trial has the words for it.
-    LaneTrial& trial = trial_of(lane);
-    leave_to_reference(trial, trial.told_jerks,
-                       trial.first_sample + static_cast<std::int64_t>(tile.measures.taken[lane]) - 1);
     tile.note[lane] = no_note;
-    end_trial(lane);
+    tile.measures.taken[lane] -= 1.0;  // no encoder could count that
+    give_up(lane);
   }
   if (observers->sample) {
     for (int i = 0; i < count; ++i) {
       const int lane = list[static_cast<std::size_t>(i)];
-      if (tile.measures.taken[lane] > 0.0) record_sample(lane, trial_of(lane));
+      const bool given_up = state_of(lane) == LaneState::idle || tile.measures.taken[lane] == 0.0;
+      if (!given_up) record_sample(lane, trial_of(lane));
     }
   }
   for (int i = 0; i < tile.noted_count; ++i) {
@@ -400,7 +413,10 @@ void BatchEngine::Work::end_sticking_steps() {
     if ((note & creep_sets_in) != 0) tile.motion.creeping[lane] = 1.0;
     if ((note & creep_ends) != 0) end_creep(tile, lane, trial);
     if ((note & breaks_away) != 0) start_slide(tile, lane, trial);
-    if ((note & beyond_kernel) != 0) advance_by_reference(tile, lane, trial);
+    if ((note & beyond_kernel) != 0 && !advance_by_reference(tile, lane, trial)) {
+      give_up(lane);
+      continue;
+    }
     state_of(lane) = moving_state(lane);
   }
 }
@@ -427,7 +443,10 @@ void BatchEngine::Work::end_sliding_steps() {
     const int note = tile.note[lane];
     LaneTrial& trial = trial_of(lane);
     if ((note & velocity_zero) != 0) end_slide(tile, lane, trial);
-    if ((note & beyond_kernel) != 0) advance_by_reference(tile, lane, trial);
+    if ((note & beyond_kernel) != 0 && !advance_by_reference(tile, lane, trial)) {
+      give_up(lane);
+      continue;
+    }
     state_of(lane) = moving_state(lane);
   }
 }

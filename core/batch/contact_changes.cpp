@@ -123,7 +123,7 @@ void end_slide(Tile& tile, int lane, LaneTrial& trial) {
   store_motion(tile, lane, trial);
 }
 
-void advance_by_reference(Tile& tile, int lane, LaneTrial& trial) {
+bool advance_by_reference(Tile& tile, int lane, LaneTrial& trial) {
   stop_at_next_sample(tile, lane);
   load_motion(tile, lane, trial);
   const std::int64_t before = trial.plant->breakaways();
@@ -133,6 +133,7 @@ void advance_by_reference(Tile& tile, int lane, LaneTrial& trial) {
   trial.deepest = std::max(trial.deepest, trial.plant->deepest());
   store_motion(tile, lane, trial);
   tile.time.until[lane] = 0.0;
+  return trial.plant->finite();
 }
 
 }  // namespace zerocount::batch

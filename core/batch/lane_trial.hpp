@@ -52,7 +52,8 @@ void end_creep(Tile& tile, int lane, LaneTrial& trial);
 void start_slide(Tile& tile, int lane, LaneTrial& trial);
 void end_slide(Tile& tile, int lane, LaneTrial& trial);
 /// By Plant::advance to the next stop.
-void advance_by_reference(Tile& tile, int lane, LaneTrial& trial);
+/// @returns whether the motion could be followed.
+bool advance_by_reference(Tile& tile, int lane, LaneTrial& trial);
 
 /// Puts the lane into its trial's start.
 void start_trial(Tile& tile, int lane, LaneTrial& trial, std::size_t number,

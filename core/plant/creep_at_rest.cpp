@@ -57,15 +57,29 @@ std::optional<CreepAtRest> creep_at_rest(const PlantParameters& plant, const Fri
 
 double error_of_creep_at_rest(const CreepAtRest& rest, const PlantParameters& plant,
                               const FrictionParameters& contact, double stiffness, double last_stiffness) {
+  const CreepAtRest& r = rest;
   const double n = contact.n;
-  const double defect = rest.s1 * rest.rate / rest.balance;  // of S, as a share of U
-  const double per_torque = contact.alpha * n * hardening_limit(contact, rest.balance) / rest.balance;
-  const double coupling = per_torque * rest.s1 / rest.g1;
-  const double cubic =
-      (coupling * std::abs((n - 1.0) * (n - 2.0)) + (n * n + 1.0) * coupling * coupling) * defect * defect;
-  const double torque =
-      plant.presliding_damping * rest.g1 * rest.s1 * rest.rate * (1.0 / last_stiffness - 1.0 / stiffness);
-  return rest.rate / rest.g1 * cubic + torque * (1.0 / last_stiffness + per_torque / rest.g1);
+  const double per_torque = contact.alpha * n * hardening_limit(contact, r.balance) / r.balance;
+  // The coefficients of p³ as those of p and p² follow: of dS/dt first, then of w, S and dp/dt.
+  const double first = r.g1 * r.s1;
+  const double second = 2.0 * r.g1 * r.s2 + r.g2 * r.s1;
+  const double curved = (n - 1.0) / r.balance * (r.s1 * second + r.s2 * first) -
+                        0.5 * (n - 1.0) * (n - 2.0) * r.s1 * r.s1 / (r.balance * r.balance) * first;
+  double s3 = 0.0;
+  double g3 = 0.0;
+  for (int round = 0; round < rounds; ++round) {
+    const double third = 3.0 * r.g1 * s3 + 2.0 * r.g2 * r.s2 + g3 * r.s1;
+    const double w3 = third / stiffness;
+    s3 = plant.presliding_damping * w3 - plant.inertia * (3.0 * r.g1 * w3 + 2.0 * r.g2 * r.w2 + g3 * r.w1);
+    g3 = -per_torque * (third - curved);
+  }
+  const double cube = r.rate * r.rate * r.rate;
+  // What the spring's softening changes in dS/dt over k, and with it in S.
+  const double softened =
+      plant.presliding_damping * first * r.rate * (1.0 / last_stiffness - 1.0 / stiffness);
+  const double of_torque = std::abs(s3) * cube + softened;
+  const double of_rate = std::abs(g3) * cube / (r.g1 * r.g1);
+  return 2.0 * (of_rate + of_torque * (1.0 / last_stiffness + per_torque / r.g1));
 }
 
 double creep_rate_after(const CreepAtRest& rest, double t) {

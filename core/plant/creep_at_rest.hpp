@@ -43,8 +43,9 @@ struct CreepAtRest {
 std::optional<CreepAtRest> creep_at_rest(const PlantParameters& plant, const FrictionParameters& contact,
                                          double torque, double sign, double stiffness, double hardening);
 
-/// Bound of what θ (rad) may differ from the exact motion: by the third powers of p that are left out, and by
-/// the change of the tangent stiffness from k to `last_stiffness` (N m/rad, not above k) while S goes to U.
+/// Bound of what θ (rad) may differ from the exact motion: twice what the third powers of p, the first that
+/// are left out, and the change of the tangent stiffness from k to `last_stiffness` (N m/rad, not above k)
+/// while S goes to U would add.
 double error_of_creep_at_rest(const CreepAtRest& rest, const PlantParameters& plant,
                               const FrictionParameters& contact, double stiffness, double last_stiffness);
 

@@ -27,7 +27,7 @@ struct BlockLimits {
   std::int64_t trials;
 };
 constexpr BlockLimits reference_block{1e5, 256};
-constexpr BlockLimits batch_block{4e6, 4096};
+constexpr BlockLimits batch_block{1e7, 4096};
 
 constexpr std::size_t most_trials_per_shard = 1 << 16;
 constexpr std::size_t most_bytes_per_shard = std::size_t{64} << 20;
@@ -142,7 +142,7 @@ std::vector<ShardInfo> run_trials(const Study& study, std::span<const RowRange> 
   const BlockLimits limits = study.engine == Engine::batch ? batch_block : reference_block;
   const double block_size = limits.samples / std::max(samples_per_trial(study), 1.0);
   // A short run is spread over the threads, too.
-  const std::int64_t share = rows_in(ranges) / (4 * threads) + 1;
+  const std::int64_t share = rows_in(ranges) / (std::int64_t{4} * threads) + 1;
   BlockSource source(ranges, std::clamp(static_cast<std::int64_t>(block_size), std::int64_t{1},
                                         std::min(limits.trials, std::max<std::int64_t>(share, 256))));
   ShardWriter writer(study, directory);

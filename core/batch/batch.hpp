@@ -12,6 +12,10 @@
 
 namespace zerocount {
 
+namespace batch {
+class LaneWork;
+}
+
 /// One sampling instant of a trial in a batch, as SampleRecord has it.
 struct BatchSample {
   std::size_t trial{0};   ///< number in the batch
@@ -58,8 +62,7 @@ class BatchEngine {
            const BatchObservers& observers = {});
 
  private:
-  struct Work;
-  std::unique_ptr<Work> work_;
+  std::unique_ptr<batch::LaneWork> work_;
 };
 
 }  // namespace zerocount

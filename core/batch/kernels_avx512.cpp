@@ -1,7 +1,8 @@
 #include "core/batch/kernels.hpp"
 #include "core/batch/sample_kernel.hpp"
 #include "core/batch/slide_kernel.hpp"
-#include "core/batch/stick_kernel.hpp"
+#include "core/batch/stick_start_kernel.hpp"
+#include "core/batch/stick_step_kernel.hpp"
 
 namespace zerocount::batch {
 

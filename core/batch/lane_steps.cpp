@@ -1,0 +1,133 @@
+// The way of the lanes from one sampling instant to the next.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/batch/lane_rest.hpp"
+#include "core/batch/lane_work.hpp"
+
+namespace zerocount::batch {
+
+/// Puts the lanes of a state that are on their way into the list, and says how many.
+int LaneWork::list_lanes(LaneState wanted) {
+  int count = 0;
+  for (int lane = 0; lane < lane_count_; ++lane) {
+    list_[count] = lane;
+    count += tile_.time.until[lane] != 0.0 && states_[lane] == wanted ? 1 : 0;
+  }
+  return count;
+}
+
+void LaneWork::move_sticking() {
+  int count = list_lanes(LaneState::sticking);
+  if (count + waiting_count_ == 0) return;
+  kernels_.stick_start(tile_, {list_, count});
+  count = prepare_steps(count);
+  kernels_.stick_step(tile_, {list_, count});
+  end_sticking_steps();
+  // Few lanes at a time meet an event: they wait until there are enough of them, or nothing else to do.
+  constexpr int enough = 8;
+  if (waiting_count_ == 0 || (waiting_count_ < enough && count > waiting_count_)) return;
+  const int with_events = std::exchange(waiting_count_, 0);
+  std::sort(waiting_, waiting_ + with_events);
+  for (int i = 0; i < with_events; ++i) state_of(waiting_[i]) = LaneState::sticking;
+  kernels_.stick_event(tile_, {waiting_, with_events});
+  end_sticking_steps();
+}
+
+/// What the notes at the start of a step ask for. Of the `count` lanes in the list, those that still want the
+/// step stay; says how many.
+int LaneWork::prepare_steps(int count) {
+  bool others = false;
+  for (int i = 0; i < tile_.noted_count; ++i) {
+    const int lane = tile_.noted[i];
+    const int note = tile_.note[lane];
+    LaneTrial& trial = trial_of(lane);
+    if ((note & ends_creep) != 0) end_creep(tile_, lane, trial);
+    if ((note & may_rest) != 0 && come_to_rest(lane)) {
+      others = true;
+    } else if ((note & slides) != 0) {
+      start_slide(tile_, lane, trial);
+      state_of(lane) = LaneState::sliding;
+      others = true;
+    } else if (tile_.motion.heading[lane] != tile_.motion.direction[lane]) {
+      turn(tile_, lane, trial);
+    }
+  }
+  if (!others) return count;
+  int kept = 0;
+  for (int i = 0; i < count; ++i) {
+    const int lane = list_[i];
+    if (state_of(lane) == LaneState::sticking && tile_.time.until[lane] != 0.0) list_[kept++] = lane;
+  }
+  return kept;
+}
+
+/// @returns whether the lane was at rest, and has gone on to a sampling instant.
+bool LaneWork::come_to_rest(int lane) {
+  LaneTrial& trial = trial_of(lane);
+  if (!observers_->sample) return rest(tile_, lane, trial, {});
+  const auto taken = static_cast<std::int64_t>(tile_.measures.taken[lane]);
+  return rest(tile_, lane, trial, [&](double passed, double theta, const CreepState& creep) {
+    const std::int64_t k = trial.first_sample + taken - 1 + static_cast<std::int64_t>(passed);
+    observers_->sample({trial.number, k, static_cast<std::int64_t>(tile_.loop.count[lane]),
+                        static_cast<std::int64_t>(tile_.loop.code[lane]), theta, creep.extension,
+                        creep.hardening});
+  });
+}
+
+/// What the notes of a step ask for.
+void LaneWork::end_sticking_steps() {
+  if (observers_->sample) record_passed();
+  for (int i = 0; i < tile_.noted_count; ++i) {
+    const int lane = tile_.noted[i];
+    const int note = tile_.note[lane];
+    LaneTrial& trial = trial_of(lane);
+    if ((note & meets_event) != 0) {
+      state_of(lane) = LaneState::waiting;
+      waiting_[waiting_count_++] = lane;
+      continue;
+    }
+    if ((note & closure) != 0) close_loop(tile_, lane, trial);
+    if ((note & creep_sets_in) != 0) tile_.motion.creeping[lane] = 1.0;
+    if ((note & creep_ends) != 0) end_creep(tile_, lane, trial);
+    if ((note & breaks_away) != 0) start_slide(tile_, lane, trial);
+    if ((note & beyond_kernel) != 0 && !advance_by_reference(tile_, lane, trial)) {
+      give_up(lane);
+      continue;
+    }
+    state_of(lane) = moving_state(lane);
+  }
+}
+
+void LaneWork::move_sliding() {
+  const int sliding = list_lanes(LaneState::sliding);
+  if (sliding == 0) return;
+  int fast = 0;
+  int slow = 0;
+  for (int i = 0; i < sliding; ++i) {
+    const int lane = list_[i];
+    const bool is_fast = std::abs(tile_.motion.omega[lane]) > tile_.contact.fast_velocity[lane];
+    (is_fast ? list_[fast++] : slow_list_[slow++]) = lane;
+  }
+  kernels_.slide_fast(tile_, {list_, fast});
+  end_sliding_steps();
+  kernels_.slide_slow(tile_, {slow_list_, slow});
+  end_sliding_steps();
+}
+
+void LaneWork::end_sliding_steps() {
+  for (int i = 0; i < tile_.noted_count; ++i) {
+    const int lane = tile_.noted[i];
+    const int note = tile_.note[lane];
+    LaneTrial& trial = trial_of(lane);
+    if ((note & velocity_zero) != 0) end_slide(tile_, lane, trial);
+    if ((note & beyond_kernel) != 0 && !advance_by_reference(tile_, lane, trial)) {
+      give_up(lane);
+      continue;
+    }
+    state_of(lane) = moving_state(lane);
+  }
+}
+
+}  // namespace zerocount::batch

@@ -1,0 +1,120 @@
+// How trials come into lanes and leave them.
+#include "core/batch/lane_work.hpp"
+
+#include <algorithm>
+
+#include "core/trial/divergence.hpp"
+#include "core/trial/trial.hpp"
+
+namespace zerocount::batch {
+
+LaneWork::LaneWork(const BatchSettings& settings)
+    : kernels_(kernels_of(settings.instructions)),
+      lane_count_(std::clamp(settings.lanes, 1, most_lanes)),
+      lanes_(static_cast<std::size_t>(lane_count_)) {
+  fill_spare_lane();
+}
+
+void LaneWork::fill_spare_lane() {
+  // Anything finite will do: a trial of the defaults.
+  TrialParameters parameters;
+  parameters.command.targets = {0};
+  LaneTrial spare;
+  TrialOutcome outcome;
+  start_trial(tile_, spare_lane, spare, 0, parameters, outcome);
+  tile_.time.until[spare_lane] = tile_.time.sample_time[spare_lane];
+}
+
+void LaneWork::run(std::span<const TrialParameters* const> trials, std::span<TrialOutcome> outcomes,
+                   const BatchObservers& observers) {
+  trials_ = trials;
+  outcomes_ = outcomes;
+  observers_ = &observers;
+  next_trial_ = 0;
+  running_ = 0;
+  tile_.passed = observers.sample ? passed_ : nullptr;
+  for (int lane = 0; lane < lane_count_; ++lane) refill(lane);
+  while (running_ > 0) {
+    take_samples();
+    move_sticking();
+    move_sliding();
+  }
+}
+
+/// Gives the lane the next trial, if there is one; what lanes cannot run is run on the way.
+void LaneWork::refill(int lane) {
+  LaneTrial& trial = trial_of(lane);
+  state_of(lane) = LaneState::idle;
+  while (next_trial_ < trials_.size()) {
+    const std::size_t number = next_trial_++;
+    trial.parameters = trials_[number];
+    trial.number = number;
+    trial.outcome = &outcomes_[number];
+    if (runs_in_lanes(*trials_[number])) {
+      outcomes_[number].moves.clear();
+      outcomes_[number].moves.reserve(trials_[number]->command.targets.size());
+      start_trial(tile_, lane, trial, number, *trials_[number], outcomes_[number]);
+      state_of(lane) = moving_state(lane);
+      ++running_;
+      return;
+    }
+    leave_to_reference(trial, 0, 0);
+  }
+}
+
+/// The whole trial by run_trial. Of its jerks and samples, the first so many have been told already.
+void LaneWork::leave_to_reference(const LaneTrial& trial, std::int64_t told_jerks,
+                                  std::int64_t told_samples) {
+  TrialObservers single;
+  std::int64_t jerks = 0;
+  if (observers_->jerk) {
+    single.jerk = [&](const Jerk& jerk) {
+      if (jerks++ >= told_jerks) observers_->jerk(trial.number, jerk);
+    };
+  }
+  if (observers_->sample) {
+    single.sample = [&](const SampleRecord& r) {
+      if (r.k >= told_samples) observers_->sample({trial.number, r.k, r.count, r.code, r.theta, r.xp, r.xh});
+    };
+  }
+  *trial.outcome = run_trial(*trial.parameters, single);
+}
+
+/// A motion that cannot be followed, or that has left what encoders can count: run_trial has the words for
+/// it.
+void LaneWork::give_up(int lane) {
+  const LaneTrial& trial = trial_of(lane);
+  leave_to_reference(trial, trial.told_jerks,
+                     trial.first_sample + static_cast<std::int64_t>(tile_.measures.taken[lane]));
+  end_trial(lane);
+}
+
+void LaneWork::end_trial(int lane) {
+  --running_;
+  refill(lane);
+}
+
+void LaneWork::end_move(int lane, LaneTrial& trial) {
+  const double taken = tile_.measures.taken[lane];
+  if (tile_.measures.in_jerk[lane] != 0.0) end_jerk(lane, trial, taken);
+  trial.outcome->moves.push_back(outcome_of_move(tile_, lane, trial));
+  ++trial.move;
+  if (trial.move == trial.parameters->command.targets.size()) {
+    end_trial(lane);
+    return;
+  }
+  trial.first_sample += static_cast<std::int64_t>(taken);
+  start_move(tile_, lane, trial);
+}
+
+void LaneWork::stop_diverged(int lane, LaneTrial& trial) {
+  if (tile_.measures.in_jerk[lane] != 0.0) end_jerk(lane, trial, tile_.measures.taken[lane]);
+  MoveOutcome move = outcome_of_move(tile_, lane, trial);
+  move.outcome = Outcome::oscillating;
+  move.stopped = true;
+  trial.outcome->moves.push_back(move);
+  trial.outcome->moves.resize(trial.parameters->command.targets.size(), move_not_run());
+  end_trial(lane);
+}
+
+}  // namespace zerocount::batch

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/batch/batch.hpp"
+#include "core/batch/lane_trial.hpp"
+
+namespace zerocount::batch {
+
+enum class LaneState : unsigned char {
+  idle,      ///< without a trial
+  sticking,  ///< the hook sticks
+  waiting,   ///< for company in an event, the hook sticks
+  sliding    ///< the hook slides
+};
+
+/// The lanes of a BatchEngine, and their way through a batch of trials.
+class LaneWork {
+ public:
+  explicit LaneWork(const BatchSettings& settings);
+
+  /// See BatchEngine::run.
+  void run(std::span<const TrialParameters* const> trials, std::span<TrialOutcome> outcomes,
+           const BatchObservers& observers);
+
+ private:
+  // Trials come and go (lane_work.cpp).
+  void fill_spare_lane();
+  void refill(int lane);
+  void leave_to_reference(const LaneTrial& trial, std::int64_t told_jerks, std::int64_t told_samples);
+  void give_up(int lane);
+  void end_trial(int lane);
+  void end_move(int lane, LaneTrial& trial);
+  void stop_diverged(int lane, LaneTrial& trial);
+
+  // Sampling instants (lane_samples.cpp).
+  int list_due_lanes();
+  void take_samples();
+  void record_sample(int lane, const LaneTrial& trial);
+  void record_passed();
+  void track_jerk(int lane, LaneTrial& trial);
+  void end_jerk(int lane, LaneTrial& trial, double taken);
+  void delay_torque(int lane, LaneTrial& trial);
+
+  // The way from one to the next (lane_steps.cpp).
+  int list_lanes(LaneState wanted);
+  void move_sticking();
+  int prepare_steps(int count);
+  bool come_to_rest(int lane);
+  void end_sticking_steps();
+  void move_sliding();
+  void end_sliding_steps();
+
+  LaneState moving_state(int lane) const {
+    return tile_.motion.slide_direction[lane] == 0.0 ? LaneState::sticking : LaneState::sliding;
+  }
+  LaneState& state_of(int lane) { return states_[lane]; }
+  LaneTrial& trial_of(int lane) { return lanes_[static_cast<std::size_t>(lane)]; }
+
+  const Kernels& kernels_;
+  int lane_count_;
+  std::vector<LaneTrial> lanes_;
+  Tile tile_{};
+  LaneState states_[most_lanes]{};
+  PassedSamples passed_[most_lanes]{};
+  int list_[most_lanes + 1]{};  ///< of lanes; one more, because a list is made by writing before counting
+  int slow_list_[most_lanes]{};
+  int waiting_[most_lanes]{};  ///< lanes with an event in their step
+  int waiting_count_{0};
+
+  std::span<const TrialParameters* const> trials_;
+  std::span<TrialOutcome> outcomes_;
+  const BatchObservers* observers_{nullptr};
+  std::size_t next_trial_{0};
+  int running_{0};
+};
+
+}  // namespace zerocount::batch

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "core/batch/lane_group.hpp"
+
+namespace zerocount::batch {
+
+/// What has to be settled before a step of a lane whose hook sticks: evaluates the branch, and notes may_rest
+/// alone, or slides, or any of ends_creep and turns. See Plant::stick.
+template <class P>
+void stick_start_kernel(Tile& tile, LaneList list) {
+  using Truth = typename P::Truth;
+  MotionLanes& m = tile.motion;
+  ContactLanes& c = tile.contact;
+  tile.noted_count = 0;
+  const P zero(0.0);
+  for (int first = 0, next = 0; first < list.count; first = next) {
+    const LaneGroup<P> at(list, first);
+    next = first + at.used();
+    const P elongation = at.load(m.elongation);
+    const P hardening = at.load(m.hardening);
+    const P torque = at.load(m.torque);
+    const P branch_sign = at.load(m.branch_sign);
+    const P damping = at.load(c.damping);
+    const P alpha = at.load(c.alpha);
+    const P per_lambda = at.load(c.per_lambda);
+    const P per_inertia = at.load(c.per_inertia);
+    const P stiffest = at.load(c.stiffest);
+
+    const P travel = branch_sign * (elongation - at.load(m.branch_elongation));
+    const P softness = exponential(-at.load(m.branch_softening_rate) * travel);
+    const P spring_torque =
+        at.load(m.branch_torque) +
+        branch_sign * (at.load(c.k1) * travel + at.load(m.branch_softening_torque) * (P(1.0) - softness));
+    const P torque_sign = select(spring_torque < zero, P(-1.0), P(1.0));
+
+    Truth creeping = truth(at.load(m.creeping)) | (magnitude(spring_torque) >= at.load(m.creep_onset));
+    const P rate = alpha * (spring_torque * spring_torque * per_lambda - hardening);
+    const Truth ends = creeping & ~(rate > zero);
+    creeping = creeping & ~ends;
+    const P extension_rate = select(creeping, torque_sign * rate, zero);
+    const P omega = select(truth(at.load(m.turning)), extension_rate, at.load(m.omega));
+    const P elongation_rate = omega - extension_rate;
+    const P unbalanced = torque - damping * omega - spring_torque;
+    const P acceleration = unbalanced * per_inertia + alpha * extension_rate;
+
+    // Within twice the amplitude of rest, by the leading terms of CreepAtRest: the rest rule decides.
+    const P balance = torque_sign * torque;
+    const P limit_rate = alpha * (torque * torque * per_lambda - hardening);
+    const P slow_rate = select(creeping & (balance > zero) & (limit_rate > zero), limit_rate, zero) /
+                        (P(1.0) + P(2.0) * alpha * magnitude(torque) * per_lambda * damping);
+    const P torque_excess = torque_sign * spring_torque - (balance - damping * slow_rate);
+    const P velocity_excess = torque_sign * omega - slow_rate * (P(1.0) + alpha * damping / stiffest);
+    const P swing = (torque_excess + damping * velocity_excess) * per_inertia;
+    const P per_time_squared = stiffest * per_inertia;
+    const P limit = P(2.0) * at.load(tile.time.rest) * per_time_squared;
+    const Truth rests = swing * swing + per_time_squared * velocity_excess * velocity_excess < limit * limit;
+
+    const P hook_torque = spring_torque + damping * omega;
+    const P motion = select(omega != zero, omega, torque - spring_torque);
+    const Truth loose =
+        ~rests & (magnitude(hook_torque) >= at.load(c.breakaway)) & (hook_torque * motion > zero);
+    const P direction = sign(select(elongation_rate != zero, elongation_rate, acceleration));
+    const Truth held = ~rests & ~loose;
+
+    at.store(m.spring_torque, spring_torque);
+    at.store(m.softness, softness);
+    at.store(m.omega, omega);
+    at.store(m.heading, direction);
+    at.store(m.creeping, number<P>(creeping));
+    at.store(m.turning, number<P>(elongation_rate == zero));
+    at.note(tile, noted<P>(rests, may_rest) + noted<P>(loose, slides) + noted<P>(ends, ends_creep) +
+                      noted<P>(held & (direction != at.load(m.direction)), turns));
+  }
+}
+
+}  // namespace zerocount::batch

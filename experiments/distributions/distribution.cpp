@@ -10,12 +10,6 @@
 namespace zerocount {
 namespace {
 
-/// In the precision of a double, which is what is kept: the library's own way by way of long double takes three
-/// times as long.
-using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
-using NormalDistribution = boost::math::normal_distribution<double, InDouble>;
-using LognormalDistribution = boost::math::lognormal_distribution<double, InDouble>;
-
 template <class... Cases>
 struct Overload : Cases... {
   using Cases::operator()...;
@@ -41,11 +35,11 @@ double quantile_of(const LogUniform& d, double u) {
 }
 
 double quantile_of(const Normal& d, double u) {
-  return boost::math::quantile(NormalDistribution(d.mean, d.sd), u);
+  return boost::math::quantile(boost::math::normal(d.mean, d.sd), u);
 }
 
 double quantile_of(const TruncatedNormal& d, double u) {
-  const NormalDistribution standard;
+  const boost::math::normal standard;
   double low = (d.low - d.mean) / d.sd;
   double high = (d.high - d.mean) / d.sd;
   // The probabilities of an upper tail are differences of numbers near 1; those of its mirror image are not.
@@ -62,7 +56,7 @@ double quantile_of(const TruncatedNormal& d, double u) {
 }
 
 double quantile_of(const Lognormal& d, double u) {
-  return boost::math::quantile(LognormalDistribution(std::log(d.median), std::sqrt(std::log1p(d.cv * d.cv))),
+  return boost::math::quantile(boost::math::lognormal(std::log(d.median), std::sqrt(std::log1p(d.cv * d.cv))),
                                u);
 }
 

@@ -1,0 +1,116 @@
+// The lanes do not allocate while they run.
+#include <iostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/batch/batch.hpp"
+#include "tests/core/batch/allocation_count.hpp"
+#include "tests/core/batch/bench_trials.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+class BatchAllocation : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!allocations_are_counted()) GTEST_SKIP() << "the sanitizer has its own malloc";
+  }
+};
+
+/// Trials, with a place for their outcomes.
+struct Batch {
+  explicit Batch(std::vector<TrialParameters> all) : trials(std::move(all)), outcomes(trials.size()) {
+    for (const TrialParameters& trial : trials) pointers.push_back(&trial);
+  }
+
+  std::vector<TrialParameters> trials;
+  std::vector<TrialOutcome> outcomes;
+  std::vector<const TrialParameters*> pointers;
+};
+
+/// How often a run of the batch allocates.
+std::int64_t allocations_in(BatchEngine& engine, Batch& batch, const BatchObservers& observers = {}) {
+  const std::int64_t before = allocations_so_far();
+  engine.run(batch.pointers, batch.outcomes, observers);
+  return allocations_so_far() - before;
+}
+
+std::string hold_of(double samples) {
+  return "command.hold=" + std::to_string(samples / 2000.0);
+}
+
+TEST_F(BatchAllocation, IsCounted) {
+  const std::int64_t before = allocations_so_far();
+  std::vector<int> numbers(100);
+  EXPECT_EQ(allocations_so_far() - before, 1) << numbers.size();
+}
+
+TEST_F(BatchAllocation, DoesNotHappenOnceTheOutcomesHaveTheirPlace) {
+  for (const char* name : {"bench-transient", "bench-marginal", "bench-creep"}) {
+    Batch batch(bench_trials(name, 0, 400, {hold_of(600)}));
+    BatchEngine engine;
+    const std::int64_t first = allocations_in(engine, batch);
+    const std::int64_t second = allocations_in(engine, batch);
+    std::cout << name << ": " << first << " allocations in the first run of 400 trials, " << second
+              << " in the second\n";
+    EXPECT_EQ(second, 0) << name;
+  }
+}
+
+TEST_F(BatchAllocation, IsOneATrialWhereItsOutcomeHasNoPlace) {
+  Batch warm(bench_trials("bench-transient", 0, 400));
+  BatchEngine engine;
+  allocations_in(engine, warm);
+  Batch fresh(bench_trials("bench-transient", 400, 1000));
+  EXPECT_LE(allocations_in(engine, fresh), 1000);
+}
+
+/// Trials whose springs remember more than there is room for in a spring.
+std::int64_t long_memories(const Batch& batch) {
+  std::int64_t trials = 0;
+  for (const TrialOutcome& outcome : batch.outcomes) trials += outcome.moves.front().reversal_depth > 48;
+  return trials;
+}
+
+TEST_F(BatchAllocation, DoesNotGrowWithTheNumberOfSamplesButForLongMemories) {
+  for (const char* name : {"bench-transient", "bench-creep"}) {
+    for (const double samples : {300.0, 1200.0, 4800.0}) {
+      Batch batch(bench_trials(name, 0, 300, {hold_of(samples)}));
+      BatchEngine engine;
+      const std::int64_t allocations = allocations_in(engine, batch);
+      std::cout << name << ", " << samples << " samples: " << allocations << " allocations in 300 trials, "
+                << long_memories(batch) << " of them with long memories\n";
+      EXPECT_LE(allocations, 300 + 2 * long_memories(batch));
+    }
+  }
+}
+
+TEST_F(BatchAllocation, DoesNotComeWithTheJerks) {
+  Batch batch(bench_trials("bench-creep", 0, 50));
+  BatchEngine engine;
+  std::int64_t jerks = 0;
+  BatchObservers observers;
+  observers.jerk = [&jerks](std::size_t, const Jerk&) { ++jerks; };
+  allocations_in(engine, batch, observers);
+  EXPECT_EQ(allocations_in(engine, batch, observers), 0);
+  EXPECT_GT(jerks, 100);
+}
+
+TEST_F(BatchAllocation, IsLessThanOneASampleWithSamplesObserved) {
+  Batch batch(bench_trials("bench-creep", 0, 50));
+  BatchEngine engine;
+  std::int64_t samples = 0;
+  BatchObservers observers;
+  observers.sample = [&samples](const BatchSample&) { ++samples; };
+  allocations_in(engine, batch, observers);
+  samples = 0;
+  const std::int64_t allocations = allocations_in(engine, batch, observers);
+  std::cout << allocations << " allocations with " << samples << " samples observed\n";
+  EXPECT_LT(allocations, samples / 20);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

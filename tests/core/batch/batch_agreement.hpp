@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/trial/trial.hpp"
+#include "tests/core/batch/batched_trials.hpp"
+
+namespace zerocount::testing {
+
+/// How the trials of the batch engine agree with run_trial.
+///
+/// A trial slides where the hook does in the reference. From there on rounding may grow until it decides a
+/// count, and the two part: then what is compared are its samples before the first slide, and the moves that
+/// end before it.
+struct BatchAgreement {
+  std::int64_t trials{0};
+  std::int64_t in_lanes{0};  ///< of them, those that runs_in_lanes() accepts
+  std::int64_t slides{0};    ///< of them, those that slide
+  std::int64_t samples{0};   ///< compared
+
+  // Trials, each in one of these at most: by what is found first.
+  std::int64_t on_edge{0};       ///< θ on an encoder edge within 1e-6 count is read differently
+  std::int64_t other_counts{0};  ///< another count or code
+  std::int64_t other_depth{0};   ///< another reversal_depth, and nothing else
+  /// The same, of a trial whose reversal_depth changes with the steps of the reference, too (see
+  /// reversal_depths.hpp).
+  std::int64_t depth_by_steps{0};
+  std::int64_t other_measures{0};  ///< another discrete measure, or another jerk
+
+  double theta{0.0};     ///< largest difference of θ before a slide, counts
+  double floating{0.0};  ///< the same of the floating measures, counts
+
+  // Of the trials that slide.
+  std::int64_t part{0};     ///< a count or a code of the two differs, some time after the slide
+  std::int64_t stray{0};    ///< θ differs by more than promised after the slide, before or when a count does
+  double theta_after{0.0};  ///< largest difference of θ after the slide in those that do not part, counts
+  double share_after{0.0};  ///< the same over the accuracy promised there, 1e-3 count + 1e-7 of the travel
+  std::vector<std::string> failures{};  ///< a line on each trial of other_counts to other_measures, or stray
+
+  void add(const BatchAgreement& other);
+  std::string figures() const;  ///< one line
+};
+
+/// One trial.
+BatchAgreement compare_with_reference(const TrialParameters& parameters, const BatchedTrial& batched,
+                                      const std::string& name);
+
+/// All of them, run as one batch.
+BatchAgreement agreement_of(const std::vector<TrialParameters>& trials, const std::string& name,
+                            const BatchSettings& settings = {});
+
+}  // namespace zerocount::testing

@@ -1,0 +1,148 @@
+#include "tests/core/batch/batched_trials.hpp"
+
+#include <bit>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "core/trial/trial.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+std::vector<const TrialParameters*> pointers_to(const std::vector<TrialParameters>& trials) {
+  std::vector<const TrialParameters*> pointers;
+  pointers.reserve(trials.size());
+  for (const TrialParameters& trial : trials) pointers.push_back(&trial);
+  return pointers;
+}
+
+/// Collects the names of what differs.
+class Differences {
+ public:
+  void expect_same(const char* name, double a, double b) {
+    if (std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b)) return;
+    if (std::isnan(a) && std::isnan(b)) return;
+    text += fmt::format(" {} {:.17g} and {:.17g};", name, a, b);
+  }
+  void expect_same(const char* name, std::int64_t a, std::int64_t b) {
+    if (a != b) text += fmt::format(" {} {} and {};", name, a, b);
+  }
+  void expect_same_size(const char* name, std::size_t a, std::size_t b) {
+    if (a != b) text += fmt::format(" {} {} and {};", name, a, b);
+  }
+
+  std::string text;
+};
+
+void compare(Differences& d, const MoveOutcome& a, const MoveOutcome& b) {
+  d.expect_same("outcome", static_cast<std::int64_t>(a.outcome), static_cast<std::int64_t>(b.outcome));
+  d.expect_same("arrived", std::int64_t{a.arrived}, std::int64_t{b.arrived});
+  d.expect_same("stable", std::int64_t{a.stable}, std::int64_t{b.stable});
+  d.expect_same("broke_away", std::int64_t{a.broke_away}, std::int64_t{b.broke_away});
+  d.expect_same("saturated", std::int64_t{a.saturated}, std::int64_t{b.saturated});
+  d.expect_same("stopped", std::int64_t{a.stopped}, std::int64_t{b.stopped});
+  d.expect_same("arrival", a.arrival, b.arrival);
+  d.expect_same("settling_time", a.settling_time, b.settling_time);
+  d.expect_same("travel_time", a.travel_time, b.travel_time);
+  d.expect_same("overshoot", a.overshoot, b.overshoot);
+  d.expect_same("final_error", a.final_error, b.final_error);
+  d.expect_same("true_error", a.true_error, b.true_error);
+  d.expect_same("final_position", a.final_position, b.final_position);
+  d.expect_same("holding_torque", a.holding_torque, b.holding_torque);
+  d.expect_same("peak_torque", a.peak_torque, b.peak_torque);
+  d.expect_same("creep", a.creep, b.creep);
+  d.expect_same("reversal_depth", a.reversal_depth, b.reversal_depth);
+  d.expect_same("phase_changes", a.phase_changes, b.phase_changes);
+  d.expect_same("encoder_disagreement", a.encoder_disagreement, b.encoder_disagreement);
+  d.expect_same("jerk_count", a.jerk_count, b.jerk_count);
+  d.expect_same("jerk_agreement", a.jerk_agreement, b.jerk_agreement);
+}
+
+void compare(Differences& d, const Jerk& a, const Jerk& b) {
+  d.expect_same("jerk's move", a.move, b.move);
+  d.expect_same("onset", a.onset, b.onset);
+  d.expect_same("duration", a.duration, b.duration);
+  d.expect_same("magnitude", a.magnitude, b.magnitude);
+  d.expect_same("direction", std::int64_t{a.direction}, std::int64_t{b.direction});
+}
+
+void compare(Differences& d, const BatchSample& a, const BatchSample& b) {
+  d.expect_same("k", a.k, b.k);
+  d.expect_same("count", a.count, b.count);
+  d.expect_same("code", a.code, b.code);
+  d.expect_same("theta", a.theta, b.theta);
+  d.expect_same("xp", a.xp, b.xp);
+}
+
+/// Of two lists, up to the first pair that differs.
+template <class T>
+void compare_all(Differences& d, const char* what, const std::vector<T>& a, const std::vector<T>& b) {
+  d.expect_same_size(what, a.size(), b.size());
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()) && d.text.empty(); ++i) {
+    compare(d, a[i], b[i]);
+    if (!d.text.empty()) d.text = fmt::format("{} {}:{}", what, i, d.text);
+  }
+}
+
+}  // namespace
+
+std::vector<BatchedTrial> run_batch(const std::vector<TrialParameters>& trials, const BatchSettings& settings,
+                                    Observed observed) {
+  BatchEngine engine(settings);
+  return run_batch(engine, trials, observed);
+}
+
+std::vector<BatchedTrial> run_batch(BatchEngine& engine, const std::vector<TrialParameters>& trials,
+                                    Observed observed) {
+  std::vector<BatchedTrial> results(trials.size());
+  std::vector<TrialOutcome> outcomes(trials.size());
+  BatchObservers observers;
+  observers.jerk = [&](std::size_t trial, const Jerk& jerk) { results.at(trial).jerks.push_back(jerk); };
+  if (observed == Observed::samples_and_jerks) {
+    observers.sample = [&](const BatchSample& s) { results.at(s.trial).samples.push_back(s); };
+  }
+  engine.run(pointers_to(trials), outcomes, observers);
+  for (std::size_t i = 0; i < trials.size(); ++i) results[i].outcome = std::move(outcomes[i]);
+  return results;
+}
+
+std::string difference_in_bits(const BatchedTrial& one, const BatchedTrial& other) {
+  Differences d;
+  if (!one.samples.empty() && !other.samples.empty()) compare_all(d, "sample", one.samples, other.samples);
+  if (d.text.empty()) compare_all(d, "jerk", one.jerks, other.jerks);
+  if (d.text.empty()) compare_all(d, "move", one.outcome.moves, other.outcome.moves);
+  return d.text;
+}
+
+BatchedTrial run_by_reference(const TrialParameters& parameters) {
+  BatchedTrial trial;
+  TrialObservers observers;
+  observers.jerk = [&](const Jerk& jerk) { trial.jerks.push_back(jerk); };
+  observers.sample = [&](const SampleRecord& r) {
+    trial.samples.push_back({0, r.k, r.count, r.code, r.theta, r.xp});
+  };
+  trial.outcome = run_trial(parameters, observers);
+  return trial;
+}
+
+std::vector<InstructionSet> available_instruction_sets() {
+  std::vector<InstructionSet> sets;
+  for (const InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
+    if (is_available(set)) sets.push_back(set);
+  }
+  return sets;
+}
+
+TrialParameters trial_for_lanes(TrialKind kind, std::uint64_t index) {
+  TrialParameters p = random_trial(kind, index);
+  FrictionParameters& f = p.friction.uniform;
+  constexpr double torque = 0.02;  // N m
+  f.lambda = torque * torque / (std::pow(torque, f.n) / f.lambda);
+  f.n = 2.0;
+  p.amplifier = {};
+  if (p.friction.model == FrictionModel::coulomb) p.friction.model = FrictionModel::presliding;
+  return p;
+}
+
+}  // namespace zerocount::testing

@@ -1,0 +1,71 @@
+// The batch engine against the reference, over random trials of every kind.
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/core/batch/expect_agreement.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+struct NamedKind {
+  const char* name;
+  TrialKind kind;
+};
+
+void PrintTo(const NamedKind& kind, std::ostream* out) {
+  *out << kind.name;
+}
+
+class BatchEquality : public ::testing::TestWithParam<NamedKind> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Random, BatchEquality,
+    ::testing::Values(NamedKind{"calm", TrialKind::calm}, NamedKind{"ringing", TrialKind::ringing},
+                      NamedKind{"breaking_away", TrialKind::breaking_away},
+                      NamedKind{"unlike_the_paper", TrialKind::unlike_the_paper},
+                      NamedKind{"spring_alone", TrialKind::spring_alone},
+                      NamedKind{"coulomb", TrialKind::coulomb}, NamedKind{"amplified", TrialKind::amplified},
+                      NamedKind{"arriving", TrialKind::arriving},
+                      NamedKind{"remembering", TrialKind::remembering}),
+    [](const ::testing::TestParamInfo<NamedKind>& kind) { return std::string(kind.param.name); });
+
+/// Random trials as they are: some run in lanes, and others go to the reference by themselves.
+TEST_P(BatchEquality, OfRandomTrials) {
+  std::vector<TrialParameters> trials;
+  for (std::uint64_t i = 0; i < 200; ++i) trials.push_back(random_trial(GetParam().kind, 20000 + i));
+  expect_agreement(trials, GetParam().name);
+}
+
+TEST_P(BatchEquality, OfRandomTrialsThatRunInLanes) {
+  std::vector<TrialParameters> trials;
+  for (std::uint64_t i = 0; i < 250; ++i) trials.push_back(trial_for_lanes(GetParam().kind, 30000 + i));
+  expect_agreement_in_lanes(trials, GetParam().name);
+}
+
+TEST_P(BatchEquality, TrialsThatDoNotRunInLanesAreTheReferencesToTheLastBit) {
+  std::vector<TrialParameters> trials;
+  for (std::uint64_t i = 0; i < 100; ++i) trials.push_back(random_trial(GetParam().kind, 40000 + i));
+  const std::vector<BatchedTrial> batched = run_batch(trials);
+  int others = 0;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (runs_in_lanes(trials[i])) continue;
+    ++others;
+    EXPECT_EQ(difference_in_bits(batched[i], run_by_reference(trials[i])), "") << GetParam().name << i;
+  }
+  EXPECT_GT(others, GetParam().kind == TrialKind::spring_alone ? 0 : 40);
+}
+
+/// Trials in which something happens at an awkward moment.
+TEST(BatchEqualityInHardTrials, HoldsToo) {
+  const std::vector<TrialParameters> trials = {
+      trial_for_lanes(TrialKind::arriving, 30208),  // a reversal in the sample that begins with another
+      trial_for_lanes(TrialKind::arriving,
+                      413654),  // a move ends as the last swing falls below rest, and a loop closes
+  };
+  for (const TrialParameters& trial : trials) expect_agreement_in_lanes({trial}, "hard trial");
+}
+
+}  // namespace
+}  // namespace zerocount::testing

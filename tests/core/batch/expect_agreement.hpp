@@ -1,0 +1,35 @@
+#pragma once
+
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/core/batch/batch_agreement.hpp"
+
+namespace zerocount::testing {
+
+/// Expects that the batch engine agrees with the reference on these trials, and prints how well.
+inline BatchAgreement expect_agreement(const std::vector<TrialParameters>& trials, const std::string& name) {
+  const BatchAgreement agreement = agreement_of(trials, name);
+  std::cout << name << ": " << agreement.figures() << "\n";
+  for (const std::string& failure : agreement.failures) ADD_FAILURE() << failure;
+  // What rounding may decide, and that it does so rarely.
+  EXPECT_LE(agreement.on_edge, 1 + agreement.trials / 1000);
+  EXPECT_LE(agreement.depth_by_steps, 1 + agreement.trials / 100);
+  EXPECT_LE(agreement.part, 1 + agreement.slides / 20);
+  EXPECT_LT(agreement.theta, 1e-7);
+  EXPECT_LT(agreement.share_after, 0.1);
+  return agreement;
+}
+
+/// The same of trials that lanes run.
+inline BatchAgreement expect_agreement_in_lanes(const std::vector<TrialParameters>& trials,
+                                                const std::string& name) {
+  const BatchAgreement agreement = expect_agreement(trials, name);
+  EXPECT_EQ(agreement.in_lanes, agreement.trials);
+  return agreement;
+}
+
+}  // namespace zerocount::testing

@@ -1,0 +1,201 @@
+// The rotor that comes to rest under a constant torque: against Boost.odeint, which follows every swing and
+// all of the creep, and in pieces of any length.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/plant/plant.hpp"
+#include "core/trial/rig.hpp"
+#include "core/trial/trial.hpp"
+#include "tests/support/odeint_motion.hpp"
+#include "tests/support/random_trials.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+class Draws {
+ public:
+  explicit Draws(std::uint64_t seed) : engine_(seed) {}
+  double uniform(double low, double high) {
+    return low + (high - low) * std::ldexp(static_cast<double>(engine_() >> 11), -53);
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+double count_of(const TrialParameters& rig) {
+  return 2.0 * std::numbers::pi / rig.encoder.fine;
+}
+
+/// A rig at the start of a trial, with the tolerances of one.
+Plant plant_of(const TrialParameters& rig) {
+  return {rig.plant, rig.friction, plant_start(rig), motion_tolerance(count_of(rig))};
+}
+
+struct Hold {
+  double torque;    ///< N m
+  double duration;  ///< s
+};
+
+/// Torques that the hook withstands, each held until nothing swings any more.
+std::vector<Hold> random_holds(Draws& draws, const TrialParameters& rig) {
+  std::vector<Hold> holds;
+  const double breakaway = friction_at(rig.friction, rig.initial.position).breakaway;
+  for (int i = 0; i < 3; ++i) {
+    holds.push_back({0.3 * breakaway * draws.uniform(-1.0, 1.0), draws.uniform(0.2, 0.5)});
+  }
+  return holds;
+}
+
+void hold(Plant& plant, double torque, double duration) {
+  plant.advance(constant_torque(torque), duration);
+}
+
+/// Rigs like the paper's, with creep of every exponent and without.
+TrialParameters rig_number(std::uint64_t index) {
+  return random_trial(index % 4 == 0 ? TrialKind::spring_alone : TrialKind::calm, 9000 + index);
+}
+
+TEST(PlantAtRest, IsWhereTheFullEquationsHaveIt) {
+  double worst = 0.0;
+  int rests = 0;
+  for (std::uint64_t index = 0; index < 40; ++index) {
+    const TrialParameters rig = rig_number(index);
+    Draws draws(index);
+    Plant plant = plant_of(rig);
+    OdeintMotion judge(rig);
+    for (const Hold& h : random_holds(draws, rig)) {
+      for (double left = h.duration; left > 0.0;) {
+        const double piece = std::min(left, draws.uniform(0.0, 0.05));
+        hold(plant, h.torque, piece);
+        judge.advance(h.torque, piece);
+        left -= piece;
+        worst = std::max(worst, std::abs(static_cast<double>(plant.theta() - judge.theta())) / count_of(rig));
+      }
+      rests += plant.come_to_rest(h.torque).has_value();
+    }
+    ASSERT_FALSE(plant.sliding() || judge.sliding()) << index;
+  }
+  std::cout << rests << " rests: theta within " << worst << " count\n";
+  EXPECT_GT(rests, 60);
+  EXPECT_LT(worst, 3e-8);
+}
+
+/// For as long as the creep lasts: the closed form goes on from one rest, and the judge integrates.
+TEST(PlantAtRest, StaysWithTheFullEquationsForSeconds) {
+  double worst = 0.0;
+  for (std::uint64_t index = 0; index < 6; ++index) {
+    TrialParameters rig = rig_number(4 * index + 1);
+    rig.friction.uniform.alpha = 0.3 + static_cast<double>(index);
+    rig.initial.preload = rig.initial.hardening = 0.0;
+    Plant plant = plant_of(rig);
+    OdeintMotion judge(rig);
+    const double torque = 0.012 + 0.002 * static_cast<double>(index);
+    double moved = 0.0;
+    for (int i = 0; i < 30; ++i) {
+      hold(plant, torque, 0.1);
+      judge.advance(torque, 0.1);
+      const double difference = std::abs(static_cast<double>(plant.theta() - judge.theta()));
+      worst = std::max(worst, difference / count_of(rig));
+      moved = plant.creep().extension / count_of(rig);
+    }
+    EXPECT_GT(moved, 0.1) << index;
+  }
+  std::cout << "theta within " << worst << " count\n";
+  EXPECT_LT(worst, 3e-8);
+}
+
+/// Which reversal is the last one to be remembered does not depend on when it is asked.
+TEST(PlantAtRest, RemembersTheSameReversalsInPiecesOfAnyLength) {
+  int holds = 0;
+  std::int64_t deepest = 0;
+  for (std::uint64_t index = 0; index < 120; ++index) {
+    const TrialParameters rig = rig_number(1000 + index);
+    Draws draws(2000 + index);
+    Plant whole = plant_of(rig);
+    Plant samples = plant_of(rig);
+    Plant pieces = plant_of(rig);
+    for (const Hold& h : random_holds(draws, rig)) {
+      const int steps = static_cast<int>(h.duration / 5e-4);
+      for (Plant* plant : {&whole, &samples, &pieces}) plant->forget_deepest();
+      hold(whole, h.torque, 5e-4 * steps);
+      for (int k = 0; k < steps; ++k) {
+        hold(samples, h.torque, 5e-4);
+        const double part = draws.uniform(0.0, 5e-4);
+        hold(pieces, h.torque, part);
+        hold(pieces, h.torque, 5e-4 - part);
+      }
+      for (const Plant* plant : {&samples, &pieces}) {
+        EXPECT_EQ(plant->spring().depth(), whole.spring().depth()) << index;
+        EXPECT_EQ(plant->deepest(), whole.deepest()) << index;
+        EXPECT_NEAR(plant->theta(), whole.theta(), 3e-8 * count_of(rig)) << index;
+      }
+      deepest = std::max(deepest, whole.deepest());
+      ++holds;
+    }
+  }
+  std::cout << holds << " holds, up to " << deepest << " reversals\n";
+  EXPECT_GT(deepest, 20);
+}
+
+TEST(PlantAtRest, IsNotWhileItSwings) {
+  for (const double alpha : {0.0, 0.5}) {
+    TrialParameters rig;
+    rig.friction.uniform.alpha = alpha;
+    Plant plant = plant_of(rig);
+    EXPECT_FALSE(plant.come_to_rest(0.012));
+    hold(plant, 0.012, 5e-4);
+    EXPECT_FALSE(plant.come_to_rest(0.012));
+    hold(plant, 0.012, 0.5);
+    EXPECT_TRUE(plant.come_to_rest(0.012)) << alpha;
+    EXPECT_FALSE(plant.come_to_rest(0.012 + 2.4e-4));
+    EXPECT_FALSE(plant.come_to_rest(-0.012));
+  }
+}
+
+TEST(PlantAtRest, CreepsInOneDirection) {
+  for (std::uint64_t index = 0; index < 20; ++index) {
+    TrialParameters rig = rig_number(4 * index + 1);
+    Draws draws(index);
+    Plant plant = plant_of(rig);
+    const double torque = 0.02 * draws.uniform(0.3, 1.0) * (index % 2 == 0 ? 1.0 : -1.0);
+    hold(plant, torque, 0.5);
+    if (!plant.come_to_rest(torque)) continue;
+    double theta = plant.theta();
+    for (int k = 0; k < 2000; ++k) {
+      hold(plant, torque, 5e-4);
+      ASSERT_GE((plant.theta() - theta) * torque, 0.0) << index << " sample " << k;
+      theta = plant.theta();
+    }
+  }
+}
+
+/// Creep as fast as the swings die out: no slow motion is left when they have, and yet rounding must not
+/// make the spring reverse for ever.
+TEST(PlantAtRest, IsReachedHoweverFastItCreeps) {
+  std::vector<std::uint64_t> indices{500366, 501150};  // found among thousands
+  for (std::uint64_t index = 0; index < 150; ++index) indices.push_back(510000 + index);
+  for (const std::uint64_t index : indices) {
+    TrialParameters p = random_trial(TrialKind::calm, index);
+    FrictionParameters& f = p.friction.uniform;
+    f.lambda = 4e-4 / hardening_limit(f, 0.02);
+    f.n = 2.0;
+    p.friction.profiled.clear();
+    const auto i = static_cast<double>(index % 200);
+    f.alpha = std::exp(3.0 + 0.015 * i);  // 20 to 400 /s
+    f.lambda *= std::exp(0.02 * std::fmod(37.0 * i, 200.0) - 2.0);
+    for (const MoveOutcome& move : run_trial(p).moves) {
+      EXPECT_NE(move.outcome, Outcome::nonfinite) << index;
+      EXPECT_LT(move.reversal_depth, 200) << index;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

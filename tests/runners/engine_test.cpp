@@ -1,0 +1,234 @@
+// The engine of a run: the same integers from both on a stable study, the choice recorded in the file, and
+// trials of the two never mixed.
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "results/reading/study_file.hpp"
+#include "tests/runners/program.hpp"
+#include "tests/support/raw_hdf5.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Moves that all settle, with jerks, at gains that keep the hook still; two moves a trial and a swept gain.
+const char* const stable_manifest =
+    "zerocount: 1\nname: stable\nseed: 77\ntrials: 120\n"
+    "friction:\n"
+    "  k1: {truncated_normal: {mean: 110, sd: 15, low: 90, high: 130}}\n"
+    "  k2: {profile: {mean: 750, cv: 0.1, correlation_length: 0.3, marginal: lognormal}}\n"
+    "  beta: {lognormal: {median: 2.0e5, cv: 0.2}}\n"
+    "  alpha: {log_uniform: [0.25, 1.0]}\n"
+    "  lambda: {log_uniform: [0.5, 5]}\n"
+    "command: {targets: [{integers: [1, 30]}, {integers: [-30, 30]}], hold: 0.5}\n"
+    "initial: {encoder_phase: {uniform: [0, 1]}, position: {uniform: [0, 6.283185307179586]}}\n"
+    "verdict: {dwell: 0.02, window: 0.02}\n"
+    "sweep: {grid: {controller.ki: [2.0e-5, 3.0e-5]}}\n";
+
+class EngineOption : public ::testing::Test {
+ protected:
+  ProgramResult run(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+  fs::path at(const std::string& name) const { return folder_.path() / name; }
+
+  void complete(const std::string& manifest, const std::string& output,
+                const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"run", manifest, "-o", output};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = run(words);
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+
+  void expect_same_datasets(const std::string& one, const std::string& other) const {
+    const auto left = stored_datasets(at(one));
+    const auto right = stored_datasets(at(other));
+    ASSERT_EQ(left.size(), right.size());
+    for (const auto& [path, bytes] : left) EXPECT_TRUE(right.at(path) == bytes) << path;
+  }
+
+  TemporaryFolder folder_;
+};
+
+bool same(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+void expect_same_inputs(const StudyFile& a, const StudyFile& b) {
+  ASSERT_EQ(a.rows().count, b.rows().count);
+  ASSERT_EQ(a.input_columns().size(), b.input_columns().size());
+  for (std::size_t column = 0; column < a.input_columns().size(); ++column) {
+    EXPECT_EQ(a.input(column, a.rows()), b.input(column, b.rows())) << a.input_columns()[column].name;
+  }
+}
+
+TEST_F(EngineOption, GivesTheSameIntegersOnAStableStudy) {
+  folder_.write("study.yaml", stable_manifest);
+  complete("study.yaml", "batch.h5", {"--engine", "batch"});
+  complete("study.yaml", "reference.h5", {"--engine", "reference"});
+  const StudyFile batch(at("batch.h5"));
+  const StudyFile reference(at("reference.h5"));
+  expect_same_inputs(batch, reference);
+
+  constexpr double counts = 1620000.0 / (2.0 * std::numbers::pi);  // a radian
+  for (const RecordField<MoveOutcome>& field : reference.measures()) {
+    const std::string& name = field.column.name;
+    const bool angle = name == "final_position" || name == "creep";
+    const double allowed = angle ? 1e-6 / counts : name == "true_error" ? 1e-6 : 0.0;
+    const std::vector<double> a = batch.measure(name, batch.rows());
+    const std::vector<double> b = reference.measure(name, reference.rows());
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_TRUE(same(a[i], b[i]) || std::abs(a[i] - b[i]) <= allowed)
+          << name << " of row " << i << ": " << a[i] << " and " << b[i];
+    }
+  }
+  EXPECT_EQ(reference.measure("broke_away", reference.rows()), std::vector<double>(480, 0.0));
+
+  ASSERT_EQ(batch.jerk_count(), reference.jerk_count());
+  EXPECT_GT(reference.jerk_count(), 100);
+  const std::vector<JerkRecord> ours = batch.jerks_at(0, batch.jerk_count());
+  const std::vector<JerkRecord> theirs = reference.jerks_at(0, reference.jerk_count());
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    EXPECT_EQ(ours[i].trial, theirs[i].trial) << i;
+    EXPECT_EQ(ours[i].move, theirs[i].move) << i;
+    EXPECT_EQ(ours[i].onset, theirs[i].onset) << i;
+    EXPECT_EQ(ours[i].duration, theirs[i].duration) << i;
+    EXPECT_EQ(ours[i].magnitude, theirs[i].magnitude) << i;
+    EXPECT_EQ(ours[i].direction, theirs[i].direction) << i;
+  }
+}
+
+TEST_F(EngineOption, IsBatchUnlessSaidOtherwiseAndIsRecorded) {
+  folder_.write("study.yaml", small_manifest(5));
+  complete("study.yaml", "default.h5");
+  complete("study.yaml", "batch.h5", {"--engine", "batch"});
+  complete("study.yaml", "reference.h5", {"--engine", "reference"});
+  EXPECT_EQ(StudyFile(at("default.h5")).header().engine, Engine::batch);
+  EXPECT_EQ(StudyFile(at("reference.h5")).header().engine, Engine::reference);
+  EXPECT_EQ(StudyFile(at("default.h5")).root().text("engine"), "batch");
+  EXPECT_EQ(StudyFile(at("reference.h5")).root().text("engine"), "reference");
+  expect_same_datasets("default.h5", "batch.h5");
+
+  const ProgramResult unknown = run({"run", "study.yaml", "-o", "x.h5", "--engine", "steam"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("steam"), std::string::npos) << unknown.err;
+  EXPECT_NE(unknown.err.find("reference"), std::string::npos) << unknown.err;
+  EXPECT_FALSE(fs::exists(at("x.h5")));
+}
+
+/// The engine is the reference's in files from before there were two.
+TEST_F(EngineOption, IsTheReferenceOfFilesThatDoNotSay) {
+  folder_.write("study.yaml", small_manifest(3));
+  complete("study.yaml", "old.h5", {"--engine", "reference"});
+  remove_attribute(at("old.h5"), "engine");
+  EXPECT_EQ(StudyFile(at("old.h5")).header().engine, Engine::reference);
+  complete("study.yaml", "odd.h5");
+  replace_attribute(at("odd.h5"), "engine", "steam");
+  const ProgramResult odd = run({"summary", "odd.h5"});
+  EXPECT_EQ(odd.code, 4);
+  EXPECT_NE(odd.err.find("steam"), std::string::npos) << odd.err;
+}
+
+TEST_F(EngineOption, OfAFinishedFileIsNotOverruled) {
+  folder_.write("study.yaml", small_manifest(3));
+  complete("study.yaml", "out.h5");
+  const std::string bytes = folder_.read("out.h5");
+  const ProgramResult other = run({"run", "study.yaml", "-o", "out.h5", "--engine", "reference"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("engine"), std::string::npos) << other.err;
+  EXPECT_EQ(folder_.read("out.h5"), bytes);
+  EXPECT_EQ(run({"run", "study.yaml", "-o", "out.h5", "--engine", "batch"}).code, 0);
+}
+
+/// As with the shards of another study.
+TEST_F(EngineOption, OfAnUnfinishedRunIsNotOverruled) {
+  folder_.write("study.yaml", small_manifest(20));
+  for (const char* engine : {"batch", "reference"}) {
+    const std::string other = engine == std::string("batch") ? "reference" : "batch";
+    const std::string part = std::string(engine) + "-part.h5";
+    const std::string output = std::string("from-") + engine + ".h5";
+    complete("study.yaml", part, {"--shard", "1/2", "--engine", engine});
+    fs::create_directory(at(output + ".shards"));
+    fs::copy(at(part), at(output + ".shards") / "part.h5");
+    const ProgramResult refused = run({"run", "study.yaml", "-o", output, "--engine", other});
+    EXPECT_EQ(refused.code, 2) << refused.err;
+    EXPECT_NE(refused.err.find(engine), std::string::npos) << refused.err;
+    EXPECT_FALSE(fs::exists(at(output)));
+    EXPECT_TRUE(fs::exists(at(output + ".shards") / "part.h5"));
+    complete("study.yaml", output, {"--engine", engine});
+    complete("study.yaml", std::string("whole-") + engine + ".h5", {"--engine", engine});
+    expect_same_datasets(output, std::string("whole-") + engine + ".h5");
+  }
+}
+
+TEST_F(EngineOption, IsTheSameInAllPartsOfAMerge) {
+  folder_.write("study.yaml", small_manifest(21));
+  complete("study.yaml", "b1.h5", {"--shard", "1/2"});
+  complete("study.yaml", "b2.h5", {"--shard", "2/2"});
+  complete("study.yaml", "r1.h5", {"--shard", "1/2", "--engine", "reference"});
+  complete("study.yaml", "r2.h5", {"--shard", "2/2", "--engine", "reference"});
+  for (const auto& [one, two] : {std::pair{"b1.h5", "r2.h5"}, std::pair{"r1.h5", "b2.h5"}}) {
+    const ProgramResult mixed = run({"merge", one, two, "-o", "mixed.h5"});
+    EXPECT_EQ(mixed.code, 4) << mixed.err;
+    EXPECT_NE(mixed.err.find("engine"), std::string::npos) << mixed.err;
+    EXPECT_FALSE(fs::exists(at("mixed.h5")));
+  }
+  for (const char* engine : {"batch", "reference"}) {
+    const std::string initial(1, engine[0]);
+    const std::string merged = "merged-" + initial + ".h5";
+    ASSERT_EQ(run({"merge", initial + "2.h5", initial + "1.h5", "-o", merged}).code, 0);
+    EXPECT_EQ(StudyFile(at(merged)).root().text("engine"), engine);
+    complete("study.yaml", "whole-" + initial + ".h5", {"--engine", engine});
+    expect_same_datasets(merged, "whole-" + initial + ".h5");
+  }
+}
+
+/// Threads, parts and shards decide which trials share lanes.
+TEST_F(EngineOption, GivesTheSameBytesHoweverTheTrialsShareTheLanes) {
+  folder_.write("study.yaml", small_manifest(700));
+  complete("study.yaml", "one.h5", {"--threads", "1"});
+  for (const char* threads : {"2", "7"}) {
+    complete("study.yaml", std::string(threads) + ".h5", {"--threads", threads});
+    expect_same_datasets("one.h5", std::string(threads) + ".h5");
+  }
+  std::vector<std::string> merge{"merge"};
+  for (int part = 1; part <= 5; ++part) {
+    const std::string name = "part" + std::to_string(part) + ".h5";
+    complete("study.yaml", name, {"--shard", std::to_string(part) + "/5", "--threads", "1"});
+    merge.push_back(name);
+  }
+  merge.insert(merge.end(), {"-o", "merged.h5"});
+  ASSERT_EQ(run(merge).code, 0);
+  expect_same_datasets("one.h5", "merged.h5");
+}
+
+/// Records and replays are the reference's, whichever engine ran the study.
+TEST_F(EngineOption, LeavesRecordsAndReplaysToTheReference) {
+  folder_.write("study.yaml", std::string(stable_manifest) + "retain: {trials: [2]}\n");
+  complete("study.yaml", "batch.h5", {"--set", "trials=4"});
+  complete("study.yaml", "reference.h5", {"--set", "trials=4", "--engine", "reference"});
+  const StudyFile batch(at("batch.h5"));
+  const StudyFile reference(at("reference.h5"));
+  ASSERT_EQ(batch.trace_count(), reference.trace_count());
+  const std::vector<TraceRecord> ours = batch.trace_at(0, batch.trace_count());
+  const std::vector<TraceRecord> theirs = reference.trace_at(0, reference.trace_count());
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    ASSERT_EQ(ours[i].count, theirs[i].count) << i;
+    ASSERT_EQ(ours[i].theta, theirs[i].theta) << i;
+  }
+  for (const char* trial : {"0", "2", "3"}) {
+    const ProgramResult replay = run({"trace", "batch.h5", "--point", "1", "--trial", trial});
+    EXPECT_EQ(replay.code, 0) << replay.err;
+    EXPECT_EQ(replay.out, run({"trace", "reference.h5", "--point", "1", "--trial", trial}).out) << trial;
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

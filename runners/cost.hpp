@@ -13,8 +13,8 @@ struct StudyCost {
   double seconds() const { return samples * seconds_per_sample / cores; }  ///< with all cores
 };
 
-/// Measures the cost on some trials spread over the study, for at most about a third of a second (or one
-/// trial, cut at 200 000 samples).
+/// Measures the cost on some trials spread over the study, by the batch engine, for about a third of a second
+/// (or one block of a million samples; trials are cut at 200 000 samples).
 StudyCost measure_cost(const Study& study);
 
 }  // namespace zerocount

@@ -31,10 +31,15 @@ bool Plant::begin_rest(double torque, const Elongation& elongation) {
 
   const double sign = spring_torque < 0.0 ? -1.0 : 1.0;
   CreepAtRest creep{.balance = sign * torque, .sign = sign};
-  if (creeping_ && sign * torque > 0.0 && hardening_limit(contact_, torque) > creep_.hardening) {
-    const std::optional<CreepAtRest> found = slow_motion(torque, sign);
-    if (!found) return false;
-    creep = *found;
+  const double left_to_creep =
+      sign * torque > 0.0 ? hardening_limit(contact_, torque) - creep_.hardening : 0.0;
+  if (creeping_ && left_to_creep > 0.0) {
+    // Creep that dies out as fast as the swings do is waited for.
+    if (const std::optional<CreepAtRest> found = slow_motion(torque, sign)) {
+      creep = *found;
+    } else if (left_to_creep > 0.1 * amplitude) {
+      return false;
+    }
   } else if (!creeping_ && std::abs(torque) > creep_onset_torque_) {
     return false;  // creep is about to set in
   }
@@ -52,7 +57,11 @@ bool Plant::begin_rest(double torque, const Elongation& elongation) {
   if (std::abs(torque_excess) > tolerance_.elongation * stiffest) {
     spring_.settle_at_torque(sign * torque_at_rest);
   }
-  if (creep.rate > 0.0) spring_.set_direction(static_cast<int>(sign));
+  if (creep.rate > 0.0) {
+    spring_.set_direction(static_cast<int>(sign));
+  } else if (creeping_) {
+    end_creep();
+  }
   deepest_ = std::max(deepest_, static_cast<std::int64_t>(spring_.depth()));
   rest_ = Rest{torque, creep, creep_, 0.0};
   return true;

@@ -59,6 +59,7 @@ StudyCost measure_cost(const Study& study) {
       samples += static_cast<double>(samples_of_trial(trials.back()));
     }
     std::vector<const TrialParameters*> places;
+    places.reserve(trials.size());
     for (const TrialParameters& trial : trials) places.push_back(&trial);
     std::vector<TrialOutcome> outcomes(trials.size());
     engine.run(places, outcomes);

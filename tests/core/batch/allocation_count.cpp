@@ -2,6 +2,10 @@
 
 #include <cstddef>
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define ZEROCOUNT_SANITIZED
+#endif
+
 namespace zerocount::testing {
 namespace {
 
@@ -13,21 +17,17 @@ std::int64_t allocations_so_far() {
   return allocations;
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-
 bool allocations_are_counted() {
+#ifdef ZEROCOUNT_SANITIZED
   return false;
-}
-
-}  // namespace zerocount::testing
-
 #else
-
-bool allocations_are_counted() {
   return true;
+#endif
 }
 
 }  // namespace zerocount::testing
+
+#ifndef ZEROCOUNT_SANITIZED
 
 // The functions behind malloc and the like, which the GNU C library keeps for those who replace them.
 // NOLINTBEGIN(bugprone-reserved-identifier)

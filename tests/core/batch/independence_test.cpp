@@ -68,6 +68,7 @@ TEST_F(BatchIndependence, OfTheOrder) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::shuffle(order.begin(), order.end(), random);
     std::vector<TrialParameters> shuffled;
+    shuffled.reserve(trials.size());
     for (const std::size_t i : order) shuffled.push_back(trials[i]);
     const std::vector<BatchedTrial> results = run_batch(shuffled);
     std::vector<BatchedTrial> sorted(trials.size());
@@ -79,6 +80,7 @@ TEST_F(BatchIndependence, OfTheOrder) {
 TEST_F(BatchIndependence, OfThereBeingOthers) {
   for (const InstructionSet instructions : available_instruction_sets()) {
     std::vector<BatchedTrial> alone;
+    alone.reserve(trials.size());
     for (const TrialParameters& trial : trials) {
       alone.push_back(run_batch({trial}, {.instructions = instructions}).front());
     }
@@ -110,6 +112,7 @@ TEST_F(BatchIndependence, OfWhetherSamplesAreObserved) {
   }
   BatchEngine engine;
   std::vector<const TrialParameters*> pointers;
+  pointers.reserve(trials.size());
   for (const TrialParameters& trial : trials) pointers.push_back(&trial);
   std::vector<TrialOutcome> outcomes(trials.size());
   engine.run(pointers, outcomes);

@@ -36,7 +36,12 @@ INSTANTIATE_TEST_SUITE_P(Bench, WorkloadEquality,
                          ::testing::Values(BenchManifest{"bench-transient", 0, 2000},
                                            BenchManifest{"bench-creep", 0, 80},
                                            BenchManifest{"bench-marginal", 0, 600},
-                                           BenchManifest{"bench-million", 999000, 1000}));
+                                           BenchManifest{"bench-million", 999000, 1000}),
+                         [](const ::testing::TestParamInfo<BenchManifest>& manifest) {
+                           std::string name = manifest.param.name;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST_P(WorkloadEquality, SampleBySample) {
   expect_agreement_in_lanes(trials(), GetParam().name);

@@ -46,6 +46,7 @@ struct Hold {
 /// Torques that the hook withstands, each held until nothing swings any more.
 std::vector<Hold> random_holds(Draws& draws, const TrialParameters& rig) {
   std::vector<Hold> holds;
+  holds.reserve(3);
   const double breakaway = friction_at(rig.friction, rig.initial.position).breakaway;
   for (int i = 0; i < 3; ++i) {
     holds.push_back({0.3 * breakaway * draws.uniform(-1.0, 1.0), draws.uniform(0.2, 0.5)});

@@ -32,6 +32,7 @@ void show_contact(Tile& tile, int lane, const FrictionParameters& contact) {
   c.breakaway[lane] = contact.breakaway;
   c.coulomb[lane] = contact.coulomb_ratio * contact.breakaway;
   c.fast_velocity[lane] = 8.0 * contact.stribeck_velocity;
+  c.largest_swing[lane] = std::max(tile.time.rest[lane], std::sqrt(tile.time.rest[lane] / contact.beta));
   c.per_velocity_squared[lane] = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
 }
 
@@ -77,6 +78,7 @@ void store_motion(Tile& tile, int lane, LaneTrial& trial) {
   m.theta[lane] = motion.slide_theta;
   m.slide_direction[lane] = motion.sliding ? motion.slide_direction : 0.0;
   m.turning[lane] = 0.0;
+  m.rest_torque[lane] = std::numeric_limits<double>::quiet_NaN();
   trial.breakaway_spring_torque = motion.breakaway_spring_torque;
   show_branch(tile, lane, trial.plant->spring());
   show_contact(tile, lane, trial.plant->contact());

@@ -23,18 +23,45 @@ double count_at(const Tile& tile, int lane, double theta) {
   return std::floor(theta / tile.loop.resolution[lane] + tile.loop.phase[lane]);
 }
 
-/// The number of samples, from the last processed one, after which the count is likely to be another.
-double samples_to_edge(const Tile& tile, int lane, const CreepAtRest& creep, const Plant& plant,
-                       double to_first) {
+/// Rest as it goes on from now.
+struct RestAhead {
+  CreepAtRest creep;
+  Swing swing;
+  double elapsed;  ///< of the swing, s
+};
+
+RestAhead rest_ahead(const Plant::Rest& rest) {
+  RestAhead ahead{rest.creep, rest.swing, rest.time};
+  if (ahead.creep.rate > 0.0) ahead.creep.rate = creep_rate_after(rest.creep, rest.time);
+  return ahead;
+}
+
+/// The time (s) for which the count surely stays: until creep, with whatever swings then, comes to its edge.
+/// Zero where what swings could come to an edge by itself.
+double time_within_count(const Tile& tile, int lane, const RestAhead& rest, const Plant& plant) {
   const LoopLanes& l = tile.loop;
-  const double most = tile.time.samples_left[lane];
-  if (creep.rate <= 0.0) return most;
-  const double edge = (l.count[lane] + (creep.sign > 0.0 ? 1.0 : 0.0) - l.phase[lane]) * l.resolution[lane];
-  const double distance = creep.sign * (edge - plant.theta());
+  const double low = (l.count[lane] - l.phase[lane]) * l.resolution[lane];
+  const double slow_theta = plant.theta() - swing_at(rest.swing, rest.elapsed).elongation;
+  const double above = low + l.resolution[lane] - slow_theta;
+  const double below = slow_theta - low;
+  double swings = swing_bound(rest.swing, rest.elapsed);
+  if (!(std::min(above, below) > swings)) return 0.0;
+  if (rest.creep.rate <= 0.0) return HUGE_VAL;
+  const double distance = rest.creep.sign > 0.0 ? above : below;
   const double stiffness = stiffness_on(plant.spring().branch(), plant.spring().elongation());
-  const double time = distance > 0.0 ? time_to_creep(creep, distance, stiffness) : 0.0;
-  const double after_first = std::ceil((time - to_first) * tile.time.sample_rate[lane]);
-  return std::clamp(1.0 + after_first, 1.0, most);
+  double time = time_to_creep(rest.creep, distance - swings, stiffness);
+  if (swings > 0.0) {
+    swings = swing_bound(rest.swing, rest.elapsed + time);
+    time = time_to_creep(rest.creep, distance - swings, stiffness);
+  }
+  return time;
+}
+
+/// The number of samples, from the last processed one, at which the count is likely to be the same still.
+double samples_within_count(const Tile& tile, int lane, const Plant& plant, double to_first) {
+  const double time = time_within_count(tile, lane, rest_ahead(*plant.rest()), plant);
+  if (time == HUGE_VAL) return tile.time.samples_left[lane];
+  return std::max(std::ceil((time - to_first) * tile.time.sample_rate[lane]), 0.0);
 }
 
 }  // namespace
@@ -51,15 +78,16 @@ void pass_samples(Tile& tile, int lane, double samples) {
 
 bool rest(Tile& tile, int lane, LaneTrial& trial, const PassedSample& passed) {
   TimeLanes& time = tile.time;
-  load_motion(tile, lane, trial);
   Plant& plant = *trial.plant;
   const double torque = tile.motion.torque[lane];
-  plant.forget_deepest();
-  const std::optional<CreepAtRest> creep = plant.come_to_rest(torque);
-  if (!creep) return false;
-  trial.deepest = std::max(trial.deepest, plant.deepest());
-  const PlantMotion start = plant.motion();
-  Plant before = passed ? plant : Plant({}, {}, {}, {});
+  if (tile.motion.rest_torque[lane] != torque) {
+    load_motion(tile, lane, trial);
+    plant.forget_deepest();
+    if (!plant.come_to_rest(torque, tile.motion.turning[lane] != 0.0)) return false;
+    trial.deepest = std::max(trial.deepest, plant.deepest());
+  }
+  std::optional<Plant> before;
+  if (passed) before = plant;
 
   const double most = time.samples_left[lane];
   const double sample_time = time.sample_time[lane];
@@ -67,27 +95,26 @@ bool rest(Tile& tile, int lane, LaneTrial& trial, const PassedSample& passed) {
   const double count = tile.loop.count[lane];
   // Sample i, counted from 1: most of the way at once, and the last steps one by one, as the encoder sees
   // them.
-  double i = std::max(samples_to_edge(tile, lane, *creep, plant, to_first) - 1.0, 1.0);
-  plant.advance(constant_torque(torque), to_first + (i - 1.0) * sample_time);
-  if (i > 1.0 && count_at(tile, lane, plant.theta()) != count) {
-    // Nearer than thought: once more, sample by sample.
-    plant.set_motion(start);
-    plant.come_to_rest(torque);
-    i = 1.0;
-    plant.advance(constant_torque(torque), to_first);
+  double i = std::clamp(samples_within_count(tile, lane, plant, to_first), 1.0, most);
+  const auto theta_at = [&](double sample) {
+    return plant.theta_at_rest(to_first + (sample - 1.0) * sample_time);
+  };
+  // The edge may be nearer than thought.
+  for (double back = 1.0; i > 1.0 && count_at(tile, lane, theta_at(i)) != count; back *= 2.0) {
+    i = std::max(1.0, i - back);
   }
+  plant.advance(constant_torque(torque), to_first + (i - 1.0) * sample_time);
   while (i < most && count_at(tile, lane, plant.theta()) == count) {
     i += 1.0;
     plant.advance(constant_torque(torque), sample_time);
   }
-  if (passed) {
-    for (double j = 1.0; j < i; j += 1.0) {
-      before.advance(constant_torque(torque), j == 1.0 ? to_first : sample_time);
-      passed(j, before.theta(), before.creep());
-    }
+  for (double j = 1.0; passed && j < i; j += 1.0) {
+    before->advance(constant_torque(torque), j == 1.0 ? to_first : sample_time);
+    passed(j, before->theta(), before->creep());
   }
   pass_samples(tile, lane, i - 1.0);
   store_motion(tile, lane, trial);
+  tile.motion.rest_torque[lane] = torque;
   time.until[lane] = 0.0;
   time.samples_left[lane] = 1.0;
   return true;

@@ -13,6 +13,7 @@ void stick_start_kernel(Tile& tile, LaneList list) {
   ContactLanes& c = tile.contact;
   tile.noted_count = 0;
   const P zero(0.0);
+  constexpr double none = __builtin_nan("");  // no header of others may be in here
   for (int first = 0, next = 0; first < list.count; first = next) {
     const LaneGroup<P> at(list, first);
     next = first + at.used();
@@ -43,7 +44,7 @@ void stick_start_kernel(Tile& tile, LaneList list) {
     const P unbalanced = torque - damping * omega - spring_torque;
     const P acceleration = unbalanced * per_inertia + alpha * extension_rate;
 
-    // Within twice the amplitude of rest, by the leading terms of CreepAtRest: the rest rule decides.
+    // Within twice the amplitude of rest, or of what may swing about it after a reversal, by the leading terms of CreepAtRest: the rest rule decides.
     const P balance = torque_sign * torque;
     const P limit_rate = alpha * (torque * torque * per_lambda - hardening);
     const P slow_rate = select(creeping & (balance > zero) & (limit_rate > zero), limit_rate, zero) /
@@ -52,8 +53,12 @@ void stick_start_kernel(Tile& tile, LaneList list) {
     const P velocity_excess = torque_sign * omega - slow_rate * (P(1.0) + alpha * damping / stiffest);
     const P swing = (torque_excess + damping * velocity_excess) * per_inertia;
     const P per_time_squared = stiffest * per_inertia;
-    const P limit = P(2.0) * at.load(tile.time.rest) * per_time_squared;
-    const Truth rests = swing * swing + per_time_squared * velocity_excess * velocity_excess < limit * limit;
+    const Truth turning = elongation_rate == zero;
+    const P amplitude = select(turning, at.load(c.largest_swing), at.load(tile.time.rest));
+    const P limit = P(2.0) * amplitude * per_time_squared;
+    const Truth at_rest = torque == at.load(m.rest_torque);
+    const Truth rests =
+        at_rest | (swing * swing + per_time_squared * velocity_excess * velocity_excess < limit * limit);
 
     const P hook_torque = spring_torque + damping * omega;
     const P motion = select(omega != zero, omega, torque - spring_torque);
@@ -66,8 +71,9 @@ void stick_start_kernel(Tile& tile, LaneList list) {
     at.store(m.softness, softness);
     at.store(m.omega, omega);
     at.store(m.heading, direction);
+    at.store(m.rest_torque, select(at_rest, torque, P(none)));
     at.store(m.creeping, number<P>(creeping));
-    at.store(m.turning, number<P>(elongation_rate == zero));
+    at.store(m.turning, number<P>(turning));
     at.note(tile, noted<P>(rests, may_rest) + noted<P>(loose, slides) + noted<P>(ends, ends_creep) +
                       noted<P>(held & (direction != at.load(m.direction)), turns));
   }

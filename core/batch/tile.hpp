@@ -39,6 +39,7 @@ struct alignas(64) MotionLanes {
   Lanes creeping;                 ///< the creep law is on
   Lanes creep_onset;              ///< |σ| at which it sets in, N m
   Lanes slide_direction;          ///< −1, 1; 0 while the hook sticks
+  Lanes rest_torque;              ///< under which the lane's plant has come to rest, N m; NaN: it has not
 
   Lanes spring_torque;  ///< σ at the start of the step, N m
   Lanes softness;       ///< exp(−y) of the branch at the start of the step
@@ -57,6 +58,7 @@ struct alignas(64) ContactLanes {
   Lanes coulomb;               ///< Fc, N m
   Lanes per_velocity_squared;  ///< 1/ωs²
   Lanes fast_velocity;         ///< 8ωs, rad/s: beyond it friction is that of Coulomb
+  Lanes largest_swing;         ///< that may count as rest at a reversal, rad
 };
 
 /// The time of a lane, and its steps.

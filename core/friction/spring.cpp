@@ -135,7 +135,7 @@ void HystereticSpring::settle_at_torque(double torque) {
   move_on_branch(elongation_ + (torque - this->torque()) / stiffness_on(branch_, elongation_));
 }
 
-double HystereticSpring::stiffness_at_torque(double torque) const {
+HystereticSpring::PointOnBranch HystereticSpring::point_at_torque(double torque) const {
   const ReversalPoint here{elongation_, this->torque()};
   const int direction = torque > here.torque ? 1 : -1;
   const bool turns = direction_ != 0 && direction != direction_;
@@ -146,8 +146,9 @@ double HystereticSpring::stiffness_at_torque(double torque) const {
   const SpringBranch branch =
       depth > 0 ? branch_from(friction_, point(depth - 1).elongation, point(depth - 1).torque, direction)
                 : virgin_branch(friction_, torque < 0.0 ? -1.0 : 1.0);
-  return stiffness_on(
-      branch, branch.elongation + branch.sign * travel_at(branch, branch.sign * (torque - branch.torque)));
+  const double x =
+      branch.elongation + branch.sign * travel_at(branch, branch.sign * (torque - branch.torque));
+  return {x, stiffness_on(branch, x)};
 }
 
 /// σ at branch_end(), N m.

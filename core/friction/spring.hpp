@@ -97,8 +97,13 @@ class HystereticSpring {
   /// `torque` (N m), which is next to the present one.
   void settle_at_torque(double torque);
 
-  /// Tangent stiffness (N m/rad) at `torque` (N m), other than the present one, if the spring moved there.
-  double stiffness_at_torque(double torque) const;
+  struct PointOnBranch {
+    double elongation;  ///< rad
+    double stiffness;   ///< of the tangent, N m/rad
+  };
+
+  /// What it would come to if it moved to `torque` (N m), other than the present one.
+  PointOnBranch point_at_torque(double torque) const;
 
  private:
   double branch_end_torque() const;

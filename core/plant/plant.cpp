@@ -76,7 +76,7 @@ void Plant::advance(const TorqueCourse& torque, double duration) {
 }
 
 PlantMotion Plant::motion() const {
-  return {spring_.elongation(),
+  return {elongation(),
           omega_,
           creep_,
           creeping_,
@@ -90,6 +90,7 @@ PlantMotion Plant::motion() const {
 
 void Plant::set_motion(const PlantMotion& motion) {
   rest_.reset();
+  swing_ = {0.0, 0.0};
   spring_.place(motion.elongation);
   omega_ = motion.omega;
   creep_ = motion.creep;

@@ -10,6 +10,7 @@
 #include "core/plant/events.hpp"
 #include "core/plant/parameters.hpp"
 #include "core/plant/plant_start.hpp"
+#include "core/plant/swing.hpp"
 #include "core/plant/torque_course.hpp"
 
 namespace zerocount {
@@ -19,7 +20,9 @@ struct MotionTolerance {
   /// Elongation (rad) that a Taylor step may leave out, and by which hardening must be exceeded before creep
   /// starts. A trial uses 1e-11 of a fine count.
   double elongation{4e-16};
-  /// Amplitude (rad) below which an oscillation counts as rest. A trial uses 1e-8 of a fine count.
+  /// Elongation (rad) that may be left out where the rotor comes to rest: an oscillation of that amplitude
+  /// counts as rest, and a loop of the spring that is open by no more counts as closed. A trial uses 1e-8 of a
+  /// fine count.
   double rest{4e-14};
 };
 
@@ -45,16 +48,21 @@ struct PlantMotion {
 ///
 /// Rest rule. Without one, an oscillation would die out for ever, and rounding would make the elongation rate
 /// flip its sign in the end. Let δσ and δω be what σ and ω differ by from those of a rotor that only creep
-/// moves under the present torque (CreepAtRest; without creep σ = u and ω = 0), ε = MotionTolerance::rest and
-/// ωn² = (k1 + k2)/J. Where
+/// moves under the present torque (CreepAtRest; without creep σ = u and ω = 0), ε = MotionTolerance::rest,
+/// ωn² = (k1 + k2)/J, and A the amplitude with
 ///
-///   ((δσ + c·δω)/J)² + (ωn·δω)² < (ε·ωn²)²,   |δσ| < 2ε·dσ/dxs
+///   ((δσ + c·δω)/J)² + (ωn·δω)² = (A·ωn²)².
 ///
-/// σ and ω are set to those, and the rotor follows CreepAtRest for as long as the torque stays. What is left
-/// out is an oscillation of amplitude ε. It would have died out around the same σ, and leaves xs where it is
-/// but for some β·ε², because that is how much a loop of the spring of that size is open. The first condition
-/// is on the energy of the oscillation, which only falls: so which reversal is the last one to be remembered
-/// does not depend on when it is asked.
+/// Where A < ε and |δσ| < 2ε·dσ/dxs, σ and ω are set to those of the creeping rotor, which follows CreepAtRest
+/// for as long as the torque stays. What is left out is an oscillation of amplitude ε.
+///
+/// At a reversal this happens earlier already, where β·A² < ε. A loop of the spring of the size A is open by
+/// some β·A², so the spring of what is left of the oscillation is the straight line of stiffness k1 + k2: it is
+/// a Swing about CreepAtRest, whose reversals are not remembered but for the first. (Not where creep or the
+/// hook would notice: where within twice the amplitude creep sets in or ends, or the hook breaks away.)
+///
+/// Both conditions are on the energy of the oscillation, which only falls, and the second is asked at reversals
+/// only: so which reversal is the last one to be remembered does not depend on where steps end.
 ///
 /// Where the torque moves, the elongation is held while |dxs/dt| < ε·ωn and |d²xs/dt²| < ε·ωn², with ε =
 /// MotionTolerance::elongation, from half of that acceleration until the torque has brought it to the whole;
@@ -79,14 +87,28 @@ class Plant {
   void break_away(double direction);
   /// The hook sticks, where the slide has come to ω = 0.
   void re_stick();
+  /// At rest under a constant torque: since when, and how it began.
+  struct Rest {
+    double torque;      ///< u, N m
+    CreepAtRest creep;  ///< from then on
+    CreepState start;   ///< of creep, then
+    Swing swing;        ///< about it
+    double time;        ///< since then, s
+  };
+
   /// By the rest rule, under the constant torque `torque` (N m). Where true, `advance` with that torque
-  /// follows CreepAtRest in one step.
-  /// @returns the motion from now on, or none where the rotor is not at rest.
-  std::optional<CreepAtRest> come_to_rest(double torque);
+  /// follows it in one step.
+  /// @param at_reversal dxs/dt is zero now, exactly.
+  bool come_to_rest(double torque, bool at_reversal);
+  /// None while the rotor is not at rest.
+  const std::optional<Rest>& rest() const { return rest_; }
+  /// θ (rad) at rest, after another `time` (s) of it.
+  double theta_at_rest(double time) const;
+  /// At rest, its elongation is that of the creeping rotor, without what swings about it.
   HystereticSpring& spring() { return spring_; }
 
   /// θ, rad.
-  double theta() const { return sliding_ ? slide_theta_ : hook_ + spring_.elongation() + creep_.extension; }
+  double theta() const { return sliding_ ? slide_theta_ : hook_ + elongation() + creep_.extension; }
   /// ω, rad/s.
   double omega() const { return omega_; }
   /// Of the present contact, or of the last one while sliding.
@@ -111,12 +133,12 @@ class Plant {
     double acceleration;
   };
 
-  /// At rest under a constant torque: since when, and how it began.
-  struct Rest {
-    double torque;      ///< u, N m
-    CreepAtRest creep;  ///< from then on
-    CreepState start;   ///< of creep, then
-    double time;        ///< since then, s
+  /// What of the motion is not that of a rotor that only creep moves.
+  struct Excess {
+    CreepAtRest creep;  ///< the motion of such a rotor
+    double torque;      ///< δσ, N m
+    double velocity;    ///< δω, rad/s
+    double amplitude;   ///< A, rad
   };
 
   // Each returns the time used, at most `duration`.
@@ -126,7 +148,13 @@ class Plant {
 
   Elongation elongation_under(double torque, double creep_rate_now) const;
   bool begin_rest(double torque, const Elongation& elongation);
+  std::optional<Excess> excess_over_rest(double torque, const Elongation& elongation, double largest) const;
+  bool swings_freely(double torque, const Excess& excess) const;
+  Swing begin_swing(const Excess& excess);
+  void settle(const Excess& excess);
   std::optional<CreepAtRest> slow_motion(double torque, double sign) const;
+  double elongation() const { return spring_.elongation() + swing_.elongation; }
+  void leave_rest();
   void go_on_at_rest(double duration);
   bool at_rest(const Elongation& elongation) const;
   double time_at_rest(const Elongation& elongation, const TorqueCourse& torque, double duration) const;
@@ -151,6 +179,7 @@ class Plant {
   double hook_{0.0};
   double omega_{0.0};
   std::optional<Rest> rest_;
+  Swing::State swing_{0.0, 0.0};  // not zero at rest only
 
   bool sliding_{false};
   double slide_theta_{0.0};

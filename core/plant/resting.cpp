@@ -6,28 +6,65 @@
 
 namespace zerocount {
 
-std::optional<CreepAtRest> Plant::come_to_rest(double torque) {
+bool Plant::come_to_rest(double torque, bool at_reversal) {
+  leave_rest();
+  if (at_reversal) omega_ = creep_rate();
+  return begin_rest(torque, elongation_under(torque, creep_rate()));
+}
+
+void Plant::leave_rest() {
+  if (!rest_) return;
+  spring_.place(elongation());
+  swing_ = {0.0, 0.0};
   rest_.reset();
-  if (!begin_rest(torque, elongation_under(torque, creep_rate()))) return std::nullopt;
-  return rest_->creep;
 }
 
 /// Whether the rotor is at rest under the constant torque `torque` (N m); if so, puts it there.
 bool Plant::begin_rest(double torque, const Elongation& elongation) {
+  const bool turns = elongation.rate == 0.0;
+  const double largest = turns ? std::sqrt(tolerance_.rest / contact_.beta) : 0.0;
+  const std::optional<Excess> excess =
+      excess_over_rest(torque, elongation, std::max(largest, tolerance_.rest));
+  if (!excess) return false;
+  const double stiffness = stiffness_on(spring_.branch(), spring_.elongation());
+  Swing swing;
+  if (excess->amplitude < tolerance_.rest && std::abs(excess->torque) < 2.0 * tolerance_.rest * stiffness) {
+    settle(*excess);
+  } else if (turns && excess->amplitude < largest && swings_freely(torque, *excess)) {
+    swing = begin_swing(*excess);
+  } else {
+    return false;
+  }
+  const CreepAtRest& creep = excess->creep;
+  if (creep.rate > 0.0) {
+    spring_.set_direction(static_cast<int>(creep.sign));
+  } else if (creeping_) {
+    end_creep();
+  }
+  deepest_ = std::max(deepest_, static_cast<std::int64_t>(spring_.depth()));
+  swing_ = swing_at(swing, 0.0);
+  rest_ = Rest{torque, creep, creep_, swing, 0.0};
+  return true;
+}
+
+/// None where the amplitude is above `largest` (rad), or creep as fast as the swings.
+std::optional<Plant::Excess> Plant::excess_over_rest(double torque, const Elongation& elongation,
+                                                     double largest) const {
   const double inertia = plant_.inertia;
   const double damping = plant_.presliding_damping;
   const double stiffest = contact_.k1 + contact_.k2;
   const double per_time_squared = stiffest / inertia;
-  const double amplitude = tolerance_.rest;
   const double spring_torque = spring_.torque();
   const double creep_now = std::abs(creep_rate());
   // Creep decelerates by α·p, and the spring stretches by the damper's part of that. Most of the time all
   // else is far beyond.
   const double slow_velocity = 2.0 * contact_.alpha * damping * creep_now / contact_.k1;
   const double slow_torque = 2.0 * inertia * contact_.alpha * creep_now;
-  if (std::abs(elongation.rate) > amplitude * std::sqrt(per_time_squared) + slow_velocity) return false;
-  if (std::abs(torque - damping * omega_ - spring_torque) > amplitude * stiffest + slow_torque) return false;
-  if (!(std::abs(torque) + slow_torque < contact_.breakaway)) return false;
+  if (std::abs(elongation.rate) > largest * std::sqrt(per_time_squared) + slow_velocity) return std::nullopt;
+  if (std::abs(torque - damping * omega_ - spring_torque) > largest * stiffest + slow_torque) {
+    return std::nullopt;
+  }
+  if (!(std::abs(torque) + slow_torque < contact_.breakaway)) return std::nullopt;
 
   const double sign = spring_torque < 0.0 ? -1.0 : 1.0;
   CreepAtRest creep{.balance = sign * torque, .sign = sign};
@@ -37,34 +74,54 @@ bool Plant::begin_rest(double torque, const Elongation& elongation) {
     // Creep that dies out as fast as the swings do is waited for.
     if (const std::optional<CreepAtRest> found = slow_motion(torque, sign)) {
       creep = *found;
-    } else if (left_to_creep > 0.1 * amplitude) {
-      return false;
+    } else if (left_to_creep > 0.1 * tolerance_.rest) {
+      return std::nullopt;
     }
   } else if (!creeping_ && std::abs(torque) > creep_onset_torque_) {
-    return false;  // creep is about to set in
+    return std::nullopt;  // creep is about to set in
   }
-  const double torque_at_rest = spring_torque_at_rate(creep, creep.rate);
-  const double torque_excess = sign * spring_torque - torque_at_rest;
-  const double velocity_excess = sign * omega_ - velocity_at_rate(creep, creep.rate);
+  const double torque_excess = spring_torque - sign * spring_torque_at_rate(creep, creep.rate);
+  const double velocity_excess = omega_ - sign * velocity_at_rate(creep, creep.rate);
   const double acceleration = (torque_excess + damping * velocity_excess) / inertia;
-  const double limit = amplitude * per_time_squared;
   const double energy = acceleration * acceleration + per_time_squared * velocity_excess * velocity_excess;
-  if (!(energy < limit * limit)) return false;
-  const double stiffness = stiffness_on(spring_.branch(), spring_.elongation());
-  if (!(std::abs(torque_excess) < 2.0 * amplitude * stiffness)) return false;
+  return Excess{creep, torque_excess, velocity_excess, std::sqrt(energy) / per_time_squared};
+}
 
-  // A rotor that is off by rounding alone stays: it may stand on the edge of a count.
-  if (std::abs(torque_excess) > tolerance_.elongation * stiffest) {
-    spring_.settle_at_torque(sign * torque_at_rest);
+/// A rotor that is off by rounding alone stays: it may stand on the edge of a count.
+void Plant::settle(const Excess& excess) {
+  if (std::abs(excess.torque) > tolerance_.elongation * (contact_.k1 + contact_.k2)) {
+    spring_.settle_at_torque(excess.creep.sign * spring_torque_at_rate(excess.creep, excess.creep.rate));
   }
-  if (creep.rate > 0.0) {
-    spring_.set_direction(static_cast<int>(sign));
-  } else if (creeping_) {
-    end_creep();
-  }
-  deepest_ = std::max(deepest_, static_cast<std::int64_t>(spring_.depth()));
-  rest_ = Rest{torque, creep, creep_, 0.0};
-  return true;
+}
+
+/// Whether nothing but the spring, as stiff as it is at a reversal, and the damper will have a say in the
+/// swings that are left. Asked at a reversal.
+bool Plant::swings_freely(double torque, const Excess& excess) const {
+  const double stiffest = contact_.k1 + contact_.k2;
+  const double margin = 2.0 * excess.amplitude;
+  const double torque_margin = margin * stiffest;
+  const double decay = plant_.presliding_damping / (2.0 * plant_.inertia);
+  if (!(decay > 0.0 && decay * decay < 0.99 * stiffest / plant_.inertia)) return false;
+  if (!(std::abs(torque) + torque_margin < contact_.breakaway)) return false;
+  const bool turns_back = spring_.direction() * excess.torque > 0.0;
+  if (!turns_back || !(std::abs(spring_.elongation() - spring_.branch().elongation) > margin)) return false;
+  if (!creeping_) return std::abs(torque) + torque_margin < creep_onset_torque_;
+  const double balance = excess.creep.balance;
+  if (!(excess.creep.rate > 0.0 && balance > torque_margin)) return false;
+  const double rate_by_torque = contact_.alpha * contact_.n * hardening_limit(contact_, torque) / balance;
+  return excess.creep.rate > rate_by_torque * torque_margin;
+}
+
+/// Makes the present elongation a reversal, and puts the spring to where the swings from it will end.
+Swing Plant::begin_swing(const Excess& excess) {
+  const CreepAtRest& creep = excess.creep;
+  const double from = spring_.elongation();
+  spring_.set_direction(-spring_.direction());
+  spring_.move_on_to_torque(creep.sign * spring_torque_at_rate(creep, creep.rate));
+  const double decay = plant_.presliding_damping / (2.0 * plant_.inertia);
+  const double stiffest = contact_.k1 + contact_.k2;
+  const double frequency = std::sqrt(stiffest / plant_.inertia - decay * decay);
+  return swing_from(from - spring_.elongation(), excess.velocity, decay, frequency, tolerance_.elongation);
 }
 
 /// The motion by creep alone, where it describes the coming motion to a tenth of the rest rule's amplitude.
@@ -77,9 +134,23 @@ std::optional<CreepAtRest> Plant::slow_motion(double torque, double sign) const 
   if (!creep) return std::nullopt;
   // The spring softens on the way: on each branch, and from a closed loop to the one around it.
   const double last =
-      sign * (torque - spring_.torque()) > 0.0 ? spring_.stiffness_at_torque(torque) : stiffness;
+      sign * (torque - spring_.torque()) > 0.0 ? spring_.point_at_torque(torque).stiffness : stiffness;
   const double error = error_of_creep_at_rest(*creep, plant_, contact_, stiffness, std::min(last, stiffness));
   return error < 0.1 * tolerance_.rest ? creep : std::nullopt;
+}
+
+double Plant::theta_at_rest(double time) const {
+  const CreepAtRest& creep = rest_->creep;
+  const double later = rest_->time + time;
+  double slow = hook_ + spring_.elongation() + creep_.extension;
+  if (creep.rate > 0.0 && creeping_) {
+    const double rate = creep_rate_after(creep, later);
+    const double torque = creep.sign * spring_torque_at_rate(creep, rate);
+    const bool moves = creep.sign * (torque - spring_.torque()) > 0.0;
+    const double elongation = moves ? spring_.point_at_torque(torque).elongation : spring_.elongation();
+    slow = hook_ + elongation + rest_->start.extension + creep.sign * creep_until_rate(creep, rate);
+  }
+  return slow + swing_at(rest_->swing, later).elongation;
 }
 
 void Plant::go_on_at_rest(double duration) {
@@ -96,7 +167,8 @@ void Plant::go_on_at_rest(double duration) {
       rate = 0.0;
     }
   }
-  omega_ = creep.sign * velocity_at_rate(creep, rate);
+  swing_ = swing_at(rest_->swing, rest_->time);
+  omega_ = creep.sign * velocity_at_rate(creep, rate) + swing_.velocity;
 }
 
 }  // namespace zerocount

@@ -16,7 +16,7 @@ double Plant::stick(const TorqueCourse& torque, double duration) {
     go_on_at_rest(duration);
     return duration;
   }
-  rest_.reset();
+  leave_rest();
   if (!creeping_ && std::abs(spring_.torque()) >= creep_onset_torque_) creeping_ = true;
   double creep_rate_now = creep_rate();
   // The end of creep can lie closer to σ = 0 than the series of |σ|ⁿ sees, if n is no whole number.

@@ -79,7 +79,7 @@ TEST(PlantAtRest, IsWhereTheFullEquationsHaveIt) {
         left -= piece;
         worst = std::max(worst, std::abs(static_cast<double>(plant.theta() - judge.theta())) / count_of(rig));
       }
-      rests += plant.come_to_rest(h.torque).has_value();
+      rests += plant.come_to_rest(h.torque, false);
     }
     ASSERT_FALSE(plant.sliding() || judge.sliding()) << index;
   }
@@ -150,13 +150,13 @@ TEST(PlantAtRest, IsNotWhileItSwings) {
     TrialParameters rig;
     rig.friction.uniform.alpha = alpha;
     Plant plant = plant_of(rig);
-    EXPECT_FALSE(plant.come_to_rest(0.012));
+    EXPECT_FALSE(plant.come_to_rest(0.012, false));
     hold(plant, 0.012, 5e-4);
-    EXPECT_FALSE(plant.come_to_rest(0.012));
+    EXPECT_FALSE(plant.come_to_rest(0.012, false));
     hold(plant, 0.012, 0.5);
-    EXPECT_TRUE(plant.come_to_rest(0.012)) << alpha;
-    EXPECT_FALSE(plant.come_to_rest(0.012 + 2.4e-4));
-    EXPECT_FALSE(plant.come_to_rest(-0.012));
+    EXPECT_TRUE(plant.come_to_rest(0.012, false)) << alpha;
+    EXPECT_FALSE(plant.come_to_rest(0.012 + 2.4e-4, false));
+    EXPECT_FALSE(plant.come_to_rest(-0.012, false));
   }
 }
 
@@ -167,7 +167,7 @@ TEST(PlantAtRest, CreepsInOneDirection) {
     Plant plant = plant_of(rig);
     const double torque = 0.02 * draws.uniform(0.3, 1.0) * (index % 2 == 0 ? 1.0 : -1.0);
     hold(plant, torque, 0.5);
-    if (!plant.come_to_rest(torque)) continue;
+    if (!plant.come_to_rest(torque, false)) continue;
     double theta = plant.theta();
     for (int k = 0; k < 2000; ++k) {
       hold(plant, torque, 5e-4);

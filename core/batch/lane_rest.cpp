@@ -41,7 +41,8 @@ RestAhead rest_ahead(const Plant::Rest& rest) {
 double time_within_count(const Tile& tile, int lane, const RestAhead& rest, const Plant& plant) {
   const LoopLanes& l = tile.loop;
   const double low = (l.count[lane] - l.phase[lane]) * l.resolution[lane];
-  const double slow_theta = plant.theta() - swing_at(rest.swing, rest.elapsed).elongation;
+  const Swing::State swing = swing_at(rest.swing, rest.elapsed);
+  const double slow_theta = plant.theta() - swing.elongation - swing.extension;
   const double above = low + l.resolution[lane] - slow_theta;
   const double below = slow_theta - low;
   double swings = swing_bound(rest.swing, rest.elapsed);

@@ -44,7 +44,8 @@ void stick_start_kernel(Tile& tile, LaneList list) {
     const P unbalanced = torque - damping * omega - spring_torque;
     const P acceleration = unbalanced * per_inertia + alpha * extension_rate;
 
-    // Within twice the amplitude of rest, or of what may swing about it after a reversal, by the leading terms of CreepAtRest: the rest rule decides.
+    // Within twice the amplitude of rest, or of what may swing about it after a reversal, by the leading
+    // terms of CreepAtRest: the rest rule decides.
     const P balance = torque_sign * torque;
     const P limit_rate = alpha * (torque * torque * per_lambda - hardening);
     const P slow_rate = select(creeping & (balance > zero) & (limit_rate > zero), limit_rate, zero) /

@@ -76,21 +76,13 @@ void Plant::advance(const TorqueCourse& torque, double duration) {
 }
 
 PlantMotion Plant::motion() const {
-  return {elongation(),
-          omega_,
-          creep_,
-          creeping_,
-          creep_onset_torque_,
-          hook_,
-          sliding_,
-          slide_theta_,
-          slide_direction_,
-          breakaway_spring_torque_};
+  return {elongation(), omega_,   creep_,       creeping_,        creep_onset_torque_,
+          hook_,        sliding_, slide_theta_, slide_direction_, breakaway_spring_torque_};
 }
 
 void Plant::set_motion(const PlantMotion& motion) {
   rest_.reset();
-  swing_ = {0.0, 0.0};
+  swing_ = {0.0, 0.0, 0.0};
   spring_.place(motion.elongation);
   omega_ = motion.omega;
   creep_ = motion.creep;

@@ -21,8 +21,8 @@ struct MotionTolerance {
   /// starts. A trial uses 1e-11 of a fine count.
   double elongation{4e-16};
   /// Elongation (rad) that may be left out where the rotor comes to rest: an oscillation of that amplitude
-  /// counts as rest, and a loop of the spring that is open by no more counts as closed. A trial uses 1e-8 of a
-  /// fine count.
+  /// counts as rest, and a loop of the spring that is open by no more counts as closed. A trial uses 1e-8 of
+  /// a fine count.
   double rest{4e-14};
 };
 
@@ -53,16 +53,16 @@ struct PlantMotion {
 ///
 ///   ((δσ + c·δω)/J)² + (ωn·δω)² = (A·ωn²)².
 ///
-/// Where A < ε and |δσ| < 2ε·dσ/dxs, σ and ω are set to those of the creeping rotor, which follows CreepAtRest
-/// for as long as the torque stays. What is left out is an oscillation of amplitude ε.
+/// Where A < ε and |δσ| < 2ε·dσ/dxs, σ and ω are set to those of the creeping rotor, which follows
+/// CreepAtRest for as long as the torque stays. What is left out is an oscillation of amplitude ε.
 ///
 /// At a reversal this happens earlier already, where β·A² < ε. A loop of the spring of the size A is open by
-/// some β·A², so the spring of what is left of the oscillation is the straight line of stiffness k1 + k2: it is
-/// a Swing about CreepAtRest, whose reversals are not remembered but for the first. (Not where creep or the
-/// hook would notice: where within twice the amplitude creep sets in or ends, or the hook breaks away.)
+/// some β·A², so the spring of what is left of the oscillation is the straight line of stiffness k1 + k2: it
+/// is a Swing about CreepAtRest, whose reversals are not remembered but for the first. (Not where creep or
+/// the hook would notice: where within twice the amplitude creep sets in or ends, or the hook breaks away.)
 ///
-/// Both conditions are on the energy of the oscillation, which only falls, and the second is asked at reversals
-/// only: so which reversal is the last one to be remembered does not depend on where steps end.
+/// Both conditions are on the energy of the oscillation, which only falls, and the second is asked at
+/// reversals only: so which reversal is the last one to be remembered does not depend on where steps end.
 ///
 /// Where the torque moves, the elongation is held while |dxs/dt| < ε·ωn and |d²xs/dt²| < ε·ωn², with ε =
 /// MotionTolerance::elongation, from half of that acceleration until the torque has brought it to the whole;
@@ -91,7 +91,7 @@ class Plant {
   struct Rest {
     double torque;      ///< u, N m
     CreepAtRest creep;  ///< from then on
-    CreepState start;   ///< of creep, then
+    CreepState start;   ///< of such creep, then
     Swing swing;        ///< about it
     double time;        ///< since then, s
   };
@@ -150,7 +150,9 @@ class Plant {
   bool begin_rest(double torque, const Elongation& elongation);
   std::optional<Excess> excess_over_rest(double torque, const Elongation& elongation, double largest) const;
   bool swings_freely(double torque, const Excess& excess) const;
+  SwingLaw swing_law(const Excess& excess) const;
   Swing begin_swing(const Excess& excess);
+  CreepState slow_creep(double sign) const;
   void settle(const Excess& excess);
   std::optional<CreepAtRest> slow_motion(double torque, double sign) const;
   double elongation() const { return spring_.elongation() + swing_.elongation; }
@@ -179,7 +181,7 @@ class Plant {
   double hook_{0.0};
   double omega_{0.0};
   std::optional<Rest> rest_;
-  Swing::State swing_{0.0, 0.0};  // not zero at rest only
+  Swing::State swing_{0.0, 0.0, 0.0};  // not zero at rest only
 
   bool sliding_{false};
   double slide_theta_{0.0};

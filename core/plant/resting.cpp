@@ -15,7 +15,7 @@ bool Plant::come_to_rest(double torque, bool at_reversal) {
 void Plant::leave_rest() {
   if (!rest_) return;
   spring_.place(elongation());
-  swing_ = {0.0, 0.0};
+  swing_ = {0.0, 0.0, 0.0};
   rest_.reset();
 }
 
@@ -43,8 +43,15 @@ bool Plant::begin_rest(double torque, const Elongation& elongation) {
   }
   deepest_ = std::max(deepest_, static_cast<std::int64_t>(spring_.depth()));
   swing_ = swing_at(swing, 0.0);
-  rest_ = Rest{torque, creep, creep_, swing, 0.0};
+  CreepAtRest slow = creep;
+  slow.rate += creep.g1 * creep.sign * swing_.extension;
+  rest_ = Rest{torque, slow, slow_creep(creep.sign), swing, 0.0};
   return true;
+}
+
+/// What creep comes to without the present swing.
+CreepState Plant::slow_creep(double sign) const {
+  return {creep_.extension - swing_.extension, creep_.hardening - sign * swing_.extension};
 }
 
 /// None where the amplitude is above `largest` (rad), or creep as fast as the swings.
@@ -94,22 +101,33 @@ void Plant::settle(const Excess& excess) {
   }
 }
 
-/// Whether nothing but the spring, as stiff as it is at a reversal, and the damper will have a say in the
-/// swings that are left. Asked at a reversal.
+/// Whether nothing but the spring, as stiff as it is at a reversal, the damper and some creep will have a say
+/// in the swings that are left. Asked at a reversal.
 bool Plant::swings_freely(double torque, const Excess& excess) const {
-  const double stiffest = contact_.k1 + contact_.k2;
   const double margin = 2.0 * excess.amplitude;
-  const double torque_margin = margin * stiffest;
-  const double decay = plant_.presliding_damping / (2.0 * plant_.inertia);
-  if (!(decay > 0.0 && decay * decay < 0.99 * stiffest / plant_.inertia)) return false;
+  const double torque_margin = margin * (contact_.k1 + contact_.k2);
   if (!(std::abs(torque) + torque_margin < contact_.breakaway)) return false;
   const bool turns_back = spring_.direction() * excess.torque > 0.0;
   if (!turns_back || !(std::abs(spring_.elongation() - spring_.branch().elongation) > margin)) return false;
+  const SwingLaw law = swing_law(excess);
+  if (!(law.decay > 0.0 && law.frequency > law.decay)) return false;
   if (!creeping_) return std::abs(torque) + torque_margin < creep_onset_torque_;
-  const double balance = excess.creep.balance;
-  if (!(excess.creep.rate > 0.0 && balance > torque_margin)) return false;
-  const double rate_by_torque = contact_.alpha * contact_.n * hardening_limit(contact_, torque) / balance;
-  return excess.creep.rate > rate_by_torque * torque_margin;
+  if (!(excess.creep.rate > 0.0 && excess.creep.balance > torque_margin)) return false;
+  return law.creep < 0.05 * law.frequency && excess.creep.rate > law.creep * margin;
+}
+
+SwingLaw Plant::swing_law(const Excess& excess) const {
+  const double stiffest = contact_.k1 + contact_.k2;
+  const double per_time = plant_.presliding_damping / plant_.inertia;
+  SwingLaw law{0.0, 0.0, 0.0, contact_.k2 * contact_.beta / stiffest};
+  if (excess.creep.rate > 0.0) {
+    const double limit = hardening_limit(contact_, excess.creep.balance);
+    law.creep = stiffest * contact_.alpha * contact_.n * limit / excess.creep.balance;
+  }
+  law.decay = 0.5 * (per_time + law.creep);
+  const double per_time_squared = stiffest / plant_.inertia + per_time * law.creep;
+  law.frequency = std::sqrt(std::max(per_time_squared - law.decay * law.decay, 0.0));
+  return law;
 }
 
 /// Makes the present elongation a reversal, and puts the spring to where the swings from it will end.
@@ -118,10 +136,7 @@ Swing Plant::begin_swing(const Excess& excess) {
   const double from = spring_.elongation();
   spring_.set_direction(-spring_.direction());
   spring_.move_on_to_torque(creep.sign * spring_torque_at_rate(creep, creep.rate));
-  const double decay = plant_.presliding_damping / (2.0 * plant_.inertia);
-  const double stiffest = contact_.k1 + contact_.k2;
-  const double frequency = std::sqrt(stiffest / plant_.inertia - decay * decay);
-  return swing_from(from - spring_.elongation(), excess.velocity, decay, frequency, tolerance_.elongation);
+  return swing_from(swing_law(excess), from - spring_.elongation(), excess.velocity, tolerance_.elongation);
 }
 
 /// The motion by creep alone, where it describes the coming motion to a tenth of the rest rule's amplitude.
@@ -142,7 +157,7 @@ std::optional<CreepAtRest> Plant::slow_motion(double torque, double sign) const 
 double Plant::theta_at_rest(double time) const {
   const CreepAtRest& creep = rest_->creep;
   const double later = rest_->time + time;
-  double slow = hook_ + spring_.elongation() + creep_.extension;
+  double slow = hook_ + spring_.elongation() + slow_creep(creep.sign).extension;
   if (creep.rate > 0.0 && creeping_) {
     const double rate = creep_rate_after(creep, later);
     const double torque = creep.sign * spring_torque_at_rate(creep, rate);
@@ -150,12 +165,14 @@ double Plant::theta_at_rest(double time) const {
     const double elongation = moves ? spring_.point_at_torque(torque).elongation : spring_.elongation();
     slow = hook_ + elongation + rest_->start.extension + creep.sign * creep_until_rate(creep, rate);
   }
-  return slow + swing_at(rest_->swing, later).elongation;
+  const Swing::State swing = swing_at(rest_->swing, later);
+  return slow + swing.elongation + swing.extension;
 }
 
 void Plant::go_on_at_rest(double duration) {
   rest_->time += duration;
   const CreepAtRest& creep = rest_->creep;
+  creep_ = slow_creep(creep.sign);
   double rate = 0.0;
   if (creep.rate > 0.0 && creeping_) {
     rate = creep_rate_after(creep, rest_->time);
@@ -168,6 +185,7 @@ void Plant::go_on_at_rest(double duration) {
     }
   }
   swing_ = swing_at(rest_->swing, rest_->time);
+  creep_ = {creep_.extension + swing_.extension, creep_.hardening + creep.sign * swing_.extension};
   omega_ = creep.sign * velocity_at_rate(creep, rate) + swing_.velocity;
 }
 

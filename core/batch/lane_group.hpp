@@ -74,9 +74,22 @@ class LaneGroup {
  private:
   // Not inlined: the code of dozens of them would push the kernel out of the instruction cache.
   __attribute__((noinline)) void gather(const double* of, P& to) const {
-    double value[P::lanes];
-    for (int i = 0; i < P::lanes; ++i) value[i] = of[lane_[i]];
-    __builtin_memcpy(&to, value, sizeof value);
+    constexpr int width = sizeof(to.part[0]) / sizeof(double);
+    for (int p = 0; p < P::lanes / width; ++p) to.part[p] = collect<width>(of, lane_ + p * width);
+  }
+  /// Not by way of memory: a vector read where single numbers have just been written waits for them.
+  template <int Width>
+  static ZEROCOUNT_ALWAYS_INLINE auto collect(const double* of, const int* lane) {
+    using Real = typename VectorOf<Width>::Real;
+    if constexpr (Width == 8) {
+      return Real{of[lane[0]], of[lane[1]], of[lane[2]], of[lane[3]],
+                  of[lane[4]], of[lane[5]], of[lane[6]], of[lane[7]]};
+    } else if constexpr (Width == 4) {
+      return Real{of[lane[0]], of[lane[1]], of[lane[2]], of[lane[3]]};
+    } else {
+      static_assert(Width == 2);
+      return Real{of[lane[0]], of[lane[1]]};
+    }
   }
   __attribute__((noinline)) void scatter(double* to, const P& from) const {
     double value[P::lanes];

@@ -5,6 +5,17 @@
 
 namespace zerocount::batch {
 
+/// Whether the hook's torque may reach `breakaway` (N m) between the ends of a step, of which the larger
+/// torque is `at_ends` (N m). @param per_step c/h, N m s/rad.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE typename P::Truth may_slip_within(const StickSeries<P>& s, const P& per_step,
+                                                          const P& at_ends, const P& breakaway) {
+  P hook[batch_order + 1];
+  for (int k = 0; k <= batch_order; ++k) hook[k] = s.torque[k] + per_step * s.velocity[k];
+  const P bend = curvature_bound(hook, batch_order);
+  return (at_ends + bend * P(0.125) >= breakaway) & ~(magnitude(hook[1]) > bend);
+}
+
 /// One step of each lane whose hook sticks and that stick_start_kernel and its notes have prepared: to the
 /// next stop, to the first event, or as far as the series carry. Notes what happened at its end; nothing of a
 /// lane changes but its next step where the step was too long. A step with events other than a reversal is
@@ -144,9 +155,11 @@ void stick_step_kernel(Tile& tile, LaneList list) {
       const Truth closes = direction * (end - branch_end) >= zero;
       const Truth stops = creeping & (~(creep_left > zero) | (torque_sign * torque <= zero));
       const Truth starts = ~creeping & (magnitude(torque) >= onset);
-      const P hook_at_end = torque + per_step * velocity;
-      const Truth near = larger(magnitude(hook_at_start), magnitude(hook_at_end)) > P(0.5) * breakaway;
-      meets = ~too_long & (closes | stops | starts | near);
+      const P hook_larger = larger(magnitude(hook_at_start), magnitude(torque + per_step * velocity));
+      Truth slips = hook_larger >= breakaway;
+      const Truth near = ~too_long & (hook_larger > P(0.5) * breakaway);
+      if ((near & here).any()) slips = slips | (near & may_slip_within(s, per_step, hook_larger, breakaway));
+      meets = ~too_long & (closes | stops | starts | slips);
       beyond = P(1.0) < P(0.0);
     } else {
       // The first of them.
@@ -208,11 +221,7 @@ void stick_step_kernel(Tile& tile, LaneList list) {
       const P hook_larger = larger(magnitude(hook_at_start), magnitude(hook_at_end));
       const Truth near = (event != P(breaks_away)) & (hook_larger > P(0.5) * breakaway);
       if ((near & ~too_long).any()) {
-        P hook[batch_order + 1];
-        for (int k = 0; k <= batch_order; ++k) hook[k] = s.torque[k] + per_step * s.velocity[k];
-        const P bend = curvature_bound(hook, batch_order);
-        const Truth may_slip = hook_larger + bend * P(0.125) >= breakaway;
-        too_long = too_long | (near & may_slip & ~(magnitude(hook[1]) > bend));
+        too_long = too_long | (near & may_slip_within(s, per_step, hook_larger, breakaway));
       }
       const Truth slips = event == P(breaks_away);
       beyond = beyond | (slips & ~(velocity * hook_at_end > zero));

@@ -89,11 +89,15 @@ class Object {
 };
 
 /// How a new dataset is stored.
+/// Shuffled and deflated, or as it is. What is not compressed is written faster and takes more room.
+enum class Compression { deflate, none };
+
 struct Storage {
   Element element{Element::float64};
   std::vector<hsize_t> extent;  ///< empty: a scalar
   std::vector<hsize_t> chunk;   ///< as many as extent, each at least 1
   bool extendible{false};       ///< the first dimension can grow
+  Compression compression{Compression::deflate};
 };
 
 class Dataset : public Object {

@@ -61,8 +61,10 @@ Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
     space = own(H5Screate_simple(rank, storage.extent.data(), limit.data()), H5Sclose, problem);
     require(H5Pset_chunk(properties.get(), rank, storage.chunk.data()), problem);
     if (storage.element != Element::text) {  // the library has no filters for variable-length elements
-      require(H5Pset_shuffle(properties.get()), problem);
-      require(H5Pset_deflate(properties.get(), deflate_level), problem);
+      if (storage.compression == Compression::deflate) {
+        require(H5Pset_shuffle(properties.get()), problem);
+        require(H5Pset_deflate(properties.get(), deflate_level), problem);
+      }
       require(H5Pset_fletcher32(properties.get()), problem);
     }
   }

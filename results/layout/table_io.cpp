@@ -64,12 +64,14 @@ std::int64_t chunk_rows(std::int64_t width) {
   return std::max<std::int64_t>(1, chunk_elements / width);
 }
 
-TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t width) {
+TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t width,
+                        hdf5::Compression compression) {
   hdf5::Group group = make_group(root, table.group);
   hdf5::Dataset scale = make_scale(group, table.rows, rows);
   TableIo io(std::move(group), std::move(scale));
   io.rows_ = rows;
   io.width_ = width;
+  io.compression_ = compression;
   if (table.second) {
     io.second_scale_ = make_scale(io.group_, *table.second, width);
     write_numbers(*io.second_scale_, width, 0);
@@ -108,7 +110,8 @@ hdf5::Storage TableIo::storage_of(const Column& column) const {
       column.element,
       {static_cast<hsize_t>(rows_)},
       {static_cast<hsize_t>(empty ? chunk_rows(width_) : std::min(rows_, chunk_rows(width_)))},
-      empty};
+      empty,
+      compression_};
   if (second_scale_) {
     storage.extent.push_back(static_cast<hsize_t>(width_));
     storage.chunk.push_back(static_cast<hsize_t>(std::min(width_, chunk_elements)));

@@ -17,6 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Shards are read once more and gone.
+constexpr hdf5::Compression compression = hdf5::Compression::none;
+
 void require_fit(const Study& study, std::int64_t first_row, std::span<const TrialResult> results) {
   if (results.empty() || first_row < 0 || first_row + std::ssize(results) > trial_count(study)) {
     throw std::invalid_argument("a shard needs trials of its study");
@@ -32,7 +35,7 @@ void require_fit(const Study& study, std::int64_t first_row, std::span<const Tri
 
 void write_trials(hdf5::File& file, const Study& study, std::span<const TrialResult> results) {
   const std::int64_t rows = std::ssize(results);
-  TableIo io = TableIo::create(file, trial_table(study.input_columns), rows, 1);
+  TableIo io = TableIo::create(file, trial_table(study.input_columns), rows, 1, compression);
   io.number_rows(results.front().row);
   std::vector<std::int64_t> point(results.size());
   std::vector<std::int64_t> index(results.size());
@@ -56,7 +59,8 @@ void write_outcomes(hdf5::File& file, const Study& study, std::span<const TrialR
     moves.insert(moves.end(), result.outcome.moves.begin(), result.outcome.moves.end());
   }
   const OutcomeExtras& extras = study.outcome_extras;
-  TableIo io = TableIo::create(file, outcome_table(format_version, extras), std::ssize(results), study.moves);
+  TableIo io = TableIo::create(file, outcome_table(format_version, extras), std::ssize(results), study.moves,
+                               compression);
   io.number_rows(results.front().row);
   write_records(io, outcome_fields(format_version, extras), 0, std::span<const MoveOutcome>(moves));
 }
@@ -66,7 +70,7 @@ void write_jerks(hdf5::File& file, std::span<const TrialResult> results) {
   for (const TrialResult& result : results) {
     for (const Jerk& jerk : result.jerks) jerks.push_back({jerk, result.row});
   }
-  TableIo io = TableIo::create(file, jerk_table(), std::ssize(jerks), 1);
+  TableIo io = TableIo::create(file, jerk_table(), std::ssize(jerks), 1, compression);
   io.number_rows(0);
   write_records(io, jerk_fields(), 0, std::span<const JerkRecord>(jerks));
 }
@@ -76,7 +80,7 @@ void write_trace(hdf5::File& file, const TraceExtras& extras, std::span<const Tr
   for (const TrialResult& result : results) {
     for (const SampleRecord& record : result.trace) records.push_back({record, result.row});
   }
-  TableIo io = TableIo::create(file, trace_table(extras), std::ssize(records), 1);
+  TableIo io = TableIo::create(file, trace_table(extras), std::ssize(records), 1, compression);
   io.number_rows(0);
   write_records(io, trace_fields(extras), 0, std::span<const TraceRecord>(records));
 }

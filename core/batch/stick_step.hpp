@@ -1,0 +1,189 @@
+#pragma once
+
+#include "core/batch/lane_group.hpp"
+#include "core/batch/stick_series.hpp"
+
+namespace zerocount::batch {
+
+/// A step of the lanes of one pack: where it begins, its series, and what is made of it.
+template <class P>
+struct StickStep {
+  using Truth = typename P::Truth;
+
+  Truth here;  ///< the lanes that take part
+  P h;         ///< length, s
+  P until;     ///< left to the next stop, s
+
+  // The start.
+  Truth turning;  ///< dxs/dt is zero
+  Truth creeping;
+  P torque_sign;  ///< of σ
+  P direction;    ///< of the elongation
+  P per_step;     ///< c/h: damper's torque by ω·h, N m/rad
+  P breakaway;    ///< N m
+  P hook_torque;  ///< σ + c·ω, N m
+  StickLaw<P> law;
+  StickSeries<P> series;
+
+  // How far it is good.
+  Truth reverses;      ///< dxs/dt changes its sign
+  Truth reverses_too;  ///< of them, those whose reversal is to be found
+  Truth too_long;
+  Truth inexact;  ///< too long, because of the terms left out
+  P last_terms;   ///< of elongation and velocity, rad
+  P allowed;      ///< of them, rad
+  P left_out;     ///< the same at the share that is used
+  P share;        ///< likewise of what is allowed
+  P rate_end;     ///< of dxs/dt·h at the whole step, rad
+
+  // What is made of it.
+  P x;          ///< the share of it that is used
+  P event;      ///< LaneNote at its end
+  Truth meets;  ///< it has an event that this kernel does not look for
+  Truth beyond;
+  P torque, elongation, velocity, growth;  ///< σ, xs, ω·h and xh·sgn(σ) at its end
+};
+
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE typename P::Truth nowhere() {
+  return P(1.0) < P(0.0);
+}
+
+/// The step that is thought to be good, at most to the next stop.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE void begin_step(const Tile& tile, const LaneGroup<P>& at, StickStep<P>& step) {
+  const TimeLanes& time = tile.time;
+  step.here = at.taking_part();
+  step.until = at.load(time.until);
+  step.turning = truth(at.load(tile.motion.turning));
+  // Half a period of the stiffest spring lies between two zeros of dxs/dt. Of these there must be one at
+  // most.
+  const P longest = at.load(time.longest_step) * select(step.turning, P(4.5), P(3.0));
+  const P h = smaller(smaller(at.load(time.next_step), step.until), longest);
+  step.h = select((h < step.until) & (step.until < P(1.4) * h), step.until * P(0.5), h);
+}
+
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE void expand_step(const Tile& tile, const LaneGroup<P>& at, StickStep<P>& step) {
+  const MotionLanes& m = tile.motion;
+  const ContactLanes& c = tile.contact;
+  const P zero(0.0);
+  const P h = step.h;
+  const P per_inertia = at.load(c.per_inertia);
+  const P damping = at.load(c.damping);
+  const P torque = at.load(m.spring_torque);
+  const P branch_sign = at.load(m.branch_sign);
+  step.torque_sign = select(torque < zero, P(-1.0), P(1.0));
+  step.creeping = truth(at.load(m.creeping));
+  step.direction = at.load(m.direction);
+
+  StickLaw<P>& law = step.law;
+  law.acceleration = h * h * per_inertia;
+  law.damping = damping * h * per_inertia;
+  law.applied = at.load(m.torque);
+  law.k1 = at.load(c.k1);
+  law.softening = branch_sign * at.load(m.branch_softening_torque);
+  law.exponent = -branch_sign * at.load(m.branch_softening_rate);
+  law.creep_recovery = select(step.creeping, at.load(c.alpha) * h, zero);
+  law.creep_limit = step.torque_sign * law.creep_recovery * at.load(c.per_lambda);
+  StickSeries<P>& s = step.series;
+  s.elongation[0] = at.load(m.elongation);
+  s.velocity[0] = at.load(m.omega) * h;
+  s.growth[0] = step.torque_sign * at.load(m.hardening);
+  s.torque[0] = torque;
+  expand(law, at.load(m.softness), step.turning, (step.creeping & step.here).any(), s);
+
+  step.breakaway = at.load(c.breakaway);
+  step.per_step = damping / h;
+  step.hook_torque = torque + step.per_step * s.velocity[0];
+}
+
+/// Inwards along a virgin curve the exponential grows, and must not by many e-folds.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE typename P::Truth grows_too_much(const Tile& tile, const LaneGroup<P>& at,
+                                                         const StickStep<P>& step) {
+  const MotionLanes& m = tile.motion;
+  const P branch_sign = at.load(m.branch_sign);
+  const typename P::Truth inwards = step.direction * branch_sign < P(0.0);
+  if (!(inwards & step.here).any()) return nowhere<P>();
+  const P softening_rate = at.load(m.branch_softening_rate);
+  const P growth = softening_rate * reach_bound(step.series.elongation, batch_order);
+  const P travelled = branch_sign * (step.series.elongation[0] - at.load(m.branch_elongation));
+  return inwards & (growth > P(6.0)) & (softening_rate * travelled - growth < P(40.0));
+}
+
+/// What the terms left out may come to. A swing of less than 5e-6 count is followed to 2e-6 of its amplitude.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P allowed_error(const Tile& tile, const LaneGroup<P>& at, const StickStep<P>& step) {
+  const TimeLanes& time = tile.time;
+  const StickSeries<P>& s = step.series;
+  const P swings = at.load(time.longest_step) / step.h;
+  const P amplitude = larger(magnitude(s.rate[0]), magnitude(s.rate[1]) * swings) * swings;
+  const P scale = smaller(larger(amplitude * at.load(time.per_count) * P(2e5), P(1e-3)), P(1.0));
+  return at.load(time.tolerance) * scale * (step.h * at.load(time.sample_rate));
+}
+
+/// Finds the reversal, if there is one, and whether the step is short enough for the series to tell.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE void find_reversal(const Tile& tile, const LaneGroup<P>& at, StickStep<P>& step) {
+  using Truth = typename P::Truth;
+  const StickSeries<P>& s = step.series;
+  const P zero(0.0);
+  // Where dxs/dt is zero at the start, its next zero is that of (dxs/dt)/t.
+  step.rate_end = sum_of(s.rate, batch_order - 1);
+  const P rate_start = select(step.turning, s.rate[1], s.rate[0]);
+  step.reverses = rate_start * step.rate_end < zero;
+  step.last_terms = (magnitude(s.elongation[batch_order - 1]) + magnitude(s.velocity[batch_order - 1])) +
+                    (magnitude(s.elongation[batch_order]) + magnitude(s.velocity[batch_order]));
+  step.allowed = allowed_error(tile, at, step);
+  step.too_long = grows_too_much(tile, at, step);
+  // What creep adds to dxs/dt may bring it through zero and back where it is as small.
+  const P creep_velocity = P(8.0) * at.load(tile.contact.alpha) * at.load(tile.contact.damping) /
+                           step.law.k1 * magnitude(s.creep[0]);
+  const Truth unsure = step.here & ~step.reverses &
+                       (smaller(magnitude(rate_start), magnitude(step.rate_end)) <= creep_velocity);
+  const Truth seeks = step.here & step.reverses & ~step.too_long;
+  step.x = P(1.0);
+  // Up to a reversal the series need not reach farther.
+  step.left_out = step.last_terms;
+  step.share = step.allowed;
+  if ((seeks | unsure).any()) {
+    P g[batch_order];
+    for (int k = 0; k < batch_order - 1; ++k) g[k] = select(step.turning, s.rate[k + 1], s.rate[k]);
+    g[batch_order - 1] = select(step.turning, zero, s.rate[batch_order - 1]);
+    if (unsure.any()) {
+      const P curvature = curvature_bound(g, batch_order - 1);
+      step.too_long = step.too_long | (unsure & ~cannot_turn(g[0], step.rate_end, g[1], curvature));
+    }
+    if (seeks.any()) {
+      step.x = select(seeks, root_between(g, batch_order - 1, g[0], step.rate_end, P(1.0), seeks), P(1.0));
+#pragma GCC unroll 1
+      for (int k = 1; k < batch_order; ++k) step.left_out = step.left_out * step.x;
+      step.share = step.allowed * step.x;
+    }
+  }
+  step.reverses_too = seeks;
+  step.inexact = ~(step.left_out <= step.share);
+  step.too_long = step.too_long | step.inexact;
+}
+
+/// The motion at the share that is used.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE void evaluate_end(StickStep<P>& step) {
+  const StickSeries<P>& s = step.series;
+  if (step.reverses_too.any()) {
+    P value[4];
+    values_of(s.torque, s.elongation, s.velocity, s.growth, batch_order, step.x, value);
+    step.torque = value[0];
+    step.elongation = value[1];
+    step.velocity = value[2];
+    step.growth = value[3];
+  } else {
+    step.torque = sum_of(s.torque, batch_order);
+    step.elongation = sum_of(s.elongation, batch_order);
+    step.velocity = sum_of(s.velocity, batch_order);
+    step.growth = sum_of(s.growth, batch_order);
+  }
+}
+
+}  // namespace zerocount::batch

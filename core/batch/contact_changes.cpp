@@ -134,6 +134,7 @@ bool advance_by_reference(Tile& tile, int lane, LaneTrial& trial) {
   trial.breakaways += trial.plant->breakaways() - before;
   trial.deepest = std::max(trial.deepest, trial.plant->deepest());
   store_motion(tile, lane, trial);
+  if (trial.plant->rest()) tile.motion.rest_torque[lane] = tile.motion.torque[lane];
   tile.time.until[lane] = 0.0;
   return trial.plant->finite();
 }

@@ -57,14 +57,18 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(Tile& tile, const LaneGroup<P>& at, cons
   const P h = step.h;
   const P factor = P(0.9) * rough_power(step.allowed / step.last_terms, 1.0 / batch_order);
   const P shorter = select(step.inexact, h * smaller(larger(factor, P(0.05)), P(0.8)), h * P(0.5));
-  // What speeds up will need shorter steps.
+  // What speeds up will need shorter steps. (A way that is lost in rounding tells nothing.)
   const P moved = magnitude(step.elongation - step.series.elongation[0]);
-  const P slower = select(step.reverses, one, smaller(one, moved / magnitude(step.rate_end)));
+  const P slower =
+      select(step.reverses | (moved == zero), one, smaller(one, moved / magnitude(step.rate_end)));
   // From one reversal to the next it takes about as long as from the one before.
   const P half_swing = select(step.turning & step.reverses & (P(4.0) * step.left_out <= step.share),
                               P(1.25) * step.x * h, zero);
   const P longer = larger(h * smaller(larger(factor * slower, P(0.3)), P(2.5)), half_swing);
-  at.store(time.next_step, select(step.too_long, shorter, select(done, longer, at.load(time.next_step))));
+  // A step that a stop has cut short does not shorten the one after it.
+  const P before = at.load(time.next_step);
+  const P kept = select(~(h < step.until) & (factor > one), larger(longer, before), longer);
+  at.store(time.next_step, select(step.too_long, shorter, select(done, kept, before)));
   const P to_next_sample = step.until - (t.samples_left - one) * at.load(time.sample_time);
   at.store(time.until, select(done, t.until_then, select(t.counts, to_next_sample, step.until)));
   at.store(time.samples_left, select(done, t.left_then, select(t.counts, one, t.samples_left)));

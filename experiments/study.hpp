@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,11 @@
 
 namespace zerocount {
 
-enum class Design { monte_carlo, latin_hypercube, sobol };
+enum class Design { monte_carlo, latin_hypercube, sobol, saltelli };
+
+/// Name of the factor that stands for all random numbers that trials draw while they run: their noise, their
+/// missed counts, the levels of their histories.
+inline constexpr std::string_view within_trial_factor = "within_trial";
 
 /// What runs the trials. The numbers of both agree to what core/batch/README.md says, and not to the last
 /// bit.
@@ -75,6 +80,16 @@ struct LoopExtras {
   bool lasting_errors{false};
 };
 
+/// When a study has trials enough (`stop`): looks after each block of trials, and ends where the success rate
+/// of every point is known well enough, however often it has looked.
+struct StoppingRule {
+  double success_rate_halfwidth{0.1};  ///< half the width of the bounds (see analysis/anytime_bounds.hpp)
+  double confidence{0.95};             ///< of the bounds of one point
+  std::int64_t block{1};               ///< trials at a point between two looks
+  std::int64_t min_trials{1};          ///< at a point, before it may end
+  std::int64_t max_trials{1};          ///< at a point, with which it ends in any case
+};
+
 struct StudyPlan;  // compiled form of the manifest, private to this folder
 
 /// One manifest, understood: everything that determines its trials.
@@ -82,8 +97,10 @@ struct Study {
   std::string name;
   std::string description;
   std::uint64_t seed{0};
-  std::int64_t trials{0};  ///< per design point
+  std::int64_t trials{0};            ///< per design point; the most that there may be, if `stop` decides
+  std::optional<StoppingRule> stop;  ///< where the number of trials is decided while it runs
   Design design{Design::monte_carlo};
+  std::vector<std::string> factors;  ///< of the design saltelli, in its order; otherwise empty
   bool independent_points{false};
   Engine engine{Engine::batch};  ///< chosen for the run; no part of the manifest
 

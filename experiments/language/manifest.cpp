@@ -6,10 +6,14 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "experiments/designs/saltelli.hpp"
 #include "experiments/language/checks.hpp"
+#include "experiments/language/factors.hpp"
 #include "experiments/language/manifest_keys.hpp"
 #include "experiments/language/sections.hpp"
+#include "experiments/language/stopping.hpp"
 #include "experiments/language/sweep.hpp"
 #include "experiments/language/values.hpp"
 #include "experiments/plan/study_assembly.hpp"
@@ -81,7 +85,7 @@ void read_design(Manifest& m) {
   } else {
     m.problems().add(field->node->place, field->path,
                      fmt::format("{} is no design", in_quotes(flow_text(*field->node))),
-                     "monte_carlo, latin_hypercube or sobol");
+                     "monte_carlo, latin_hypercube, sobol or saltelli");
   }
 }
 
@@ -115,6 +119,32 @@ void check_trial_count(Manifest& m) {
                      fmt::format("{} trials at {} points are too many", m.study.trials, points),
                      fmt::format("at most {} trials in all", most_trials));
   }
+}
+
+std::string nearest_trial_counts(std::int64_t trials, std::int64_t row) {
+  const std::int64_t below = trials / row * row;
+  return below == 0 ? std::to_string(row) : fmt::format("{} or {}", below, below + row);
+}
+
+// Of the design saltelli: whole rows, of as many trials as there are factors and two more.
+void check_rows(Manifest& m) {
+  const auto field = find_field(m, "trials");
+  if (m.study.design != Design::saltelli || !field || m.study.trials == 0) return;
+  const std::vector<std::string> names = factor_names(m.plan());
+  if (names.empty()) {
+    const Field design = find_field(m, "design").value();
+    m.problems().add(design.node->place, design.path, "nothing is drawn in this study",
+                     "a distribution for one parameter at least");
+    return;
+  }
+  const auto row = static_cast<std::int64_t>(saltelli_row_length(names.size()));
+  if (m.study.trials % row == 0) return;
+  m.problems().add(
+      field->node->place, field->path,
+      fmt::format("{} trials are no whole number of the rows of {} that the design saltelli has for {} "
+                  "factor{} ({})",
+                  m.study.trials, row, names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", ")),
+      fmt::format("a multiple of {}, such as {}", row, nearest_trial_counts(m.study.trials, row)));
 }
 
 void read_retained(Manifest& m) {
@@ -199,12 +229,14 @@ Study read_manifest(const YamlNode& root, Problems& problems) {
   read_design(m);
   read_sections(m.root, m.reading, m.places);
   read_axes(m);
-  check_trial_count(m);
   read_retained(m);
+  if (const auto field = find_field(m, "stop")) read_stop(*field, most_trials, m.study, problems);
+  check_trial_count(m);
   read_observed(m);
   realise_profiles(m.reading.profiles, m.study.seed, *plan);
   check_profiles(m.reading);
   check_points(m.places, m.reading);
+  if (problems.empty()) check_rows(m);
   if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, m.study);
   m.study.warnings = std::move(m.reading.warnings);
   m.study.plan = std::move(plan);

@@ -33,17 +33,22 @@ std::vector<std::string_view> value_paths() {
 }  // namespace
 
 std::span<const GeneralKey> general_keys() {
-  static constexpr std::array<GeneralKey, 12> keys{{
+  static constexpr std::array<GeneralKey, 13> keys{{
       {"zerocount", "version of the manifest's format: 1", true},
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
       {"seed", "seed of all random numbers, 0 to 2^64 - 1", true},
       {"trials", "trials at each design point", true},
-      {"design", "how the trials are spread: monte_carlo (default), latin_hypercube or sobol", false},
+      {"design", "how the trials are spread: monte_carlo (default), latin_hypercube, sobol or saltelli",
+       false},
       {"independent_points",
        "true: every design point has its own random numbers; false (default): all share those of trial i",
        false},
       {"retain", "trials whose sample-by-sample records are kept: {trials: [0, 1]}", false},
+      {"stop",
+       "trials are added, a block of `trials` at a time, until the success rate of every point is known: "
+       "{success_rate_halfwidth: 0.005, confidence: 0.95, min_trials: 1000, max_trials: 100000}",
+       false},
       {"observed", "what was observed on the real rig, by case or point label", false},
       {"sweep", "design points: grid (product of lists), cases (named), or both (product)", false},
       {"command.sequence.cycles", "how often a sequence goes to its targets (default 5)", false},
@@ -87,7 +92,8 @@ bool is_section(std::string_view path) {
 }
 
 std::span<const std::string_view> design_words() {
-  static constexpr std::array<std::string_view, 3> words{"monte_carlo", "latin_hypercube", "sobol"};
+  static constexpr std::array<std::string_view, 4> words{"monte_carlo", "latin_hypercube", "sobol",
+                                                         "saltelli"};
   return words;
 }
 

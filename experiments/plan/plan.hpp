@@ -55,6 +55,17 @@ struct SlotRandomness {
   SobolDirections directions{};  ///< used by the design `sobol`
 };
 
+/// What is drawn anew in each trial. Factor f below the number of slots is the value of slot slots[f]; the
+/// one after them, where there is one, is all that trials draw while they run.
+struct TrialFactors {
+  std::vector<std::uint32_t> slots;
+  bool within_trial{false};
+};
+
+inline std::size_t factor_count(const TrialFactors& factors) {
+  return factors.slots.size() + (factors.within_trial ? 1 : 0);
+}
+
 struct StudyPlan {
   ListedValues list;
   bool open_loop{false};                  ///< the list is one of torque levels
@@ -65,6 +76,8 @@ struct StudyPlan {
   std::vector<std::shared_ptr<const Profile>> profiles;
   std::vector<SlotRandomness> randomness;  ///< [slot]
   std::vector<std::uint32_t> input_slots;  ///< [input column]: those that are not the same in all trials
+  TrialFactors factors;                    ///< used by the design `saltelli`
+  std::vector<std::uint32_t> factor_of;    ///< [slot] its factor, likewise
   TrialParameters common;                  ///< a trial's, all but the input slots in their places
   std::vector<double> numbers;             ///< [slot] the numbers of the base; of an input slot, any
 };

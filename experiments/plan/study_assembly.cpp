@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiments/designs/random_key.hpp"
+#include "experiments/language/factors.hpp"
 #include "experiments/language/loop_extras.hpp"
 #include "experiments/language/outcome_extras.hpp"
 #include "experiments/language/slots.hpp"
@@ -35,6 +36,16 @@ void derive_randomness(const Study& study, StudyPlan& plan) {
   for (std::size_t i = 0; i < plan.input_slots.size(); ++i) {
     const std::uint32_t slot = plan.input_slots[i];
     plan.randomness[slot] = {random_key(study.seed, slot_name(slot, plan.list)), directions[i]};
+  }
+}
+
+void number_factors(StudyPlan& plan, Study& study) {
+  if (study.design != Design::saltelli) return;
+  plan.factors = find_factors(plan);
+  study.factors = factor_names(plan);
+  plan.factor_of.resize(plan.base.size());
+  for (std::size_t f = 0; f < plan.factors.slots.size(); ++f) {
+    plan.factor_of[plan.factors.slots[f]] = static_cast<std::uint32_t>(f);
   }
 }
 
@@ -128,6 +139,7 @@ void assemble_study(const std::vector<ProfileRequest>& requests, const std::vect
   const std::vector<bool> swept = swept_slots(plan);
   list_input_columns(swept, plan, study);
   derive_randomness(study, plan);
+  number_factors(plan, study);
   set_common_parameters(study, plan);
   list_profiles(requests, swept, plan, study);
 }

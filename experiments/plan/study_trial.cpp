@@ -4,6 +4,7 @@
 
 #include "core/failure.hpp"
 #include "experiments/designs/latin_hypercube.hpp"
+#include "experiments/designs/saltelli.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/study.hpp"
@@ -11,8 +12,10 @@
 namespace zerocount {
 namespace {
 
-double design_uniform(const Study& study, const SlotRandomness& randomness, std::uint32_t stream_word,
+double design_uniform(const Study& study, std::uint32_t slot, std::uint32_t stream_word,
                       std::uint64_t index) {
+  const StudyPlan& plan = *study.plan;
+  const SlotRandomness& randomness = plan.randomness[slot];
   const RandomStream stream{.key = randomness.key, .stream = stream_word};
   switch (study.design) {
     case Design::monte_carlo:
@@ -21,8 +24,18 @@ double design_uniform(const Study& study, const SlotRandomness& randomness, std:
       return latin_uniform(index, static_cast<std::uint64_t>(study.trials), stream);
     case Design::sobol:
       return sobol_uniform(index, randomness.directions, stream);
+    case Design::saltelli:
+      index = saltelli_source(index, plan.factor_of[slot], factor_count(plan.factors));
+      break;
   }
   return open_uniform(random_bits(stream, index, Draw::trial));
+}
+
+// Which trial's the numbers are that it draws while it runs.
+std::uint64_t numbers_within_trial(const Study& study, std::uint64_t index) {
+  if (study.design != Design::saltelli) return index;
+  const TrialFactors& factors = study.plan->factors;
+  return saltelli_source(index, factors.slots.size(), factor_count(factors));
 }
 
 void set_sequence_targets(const Study& study, const std::vector<double>& numbers, StudyTrial& trial) {
@@ -55,7 +68,7 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
   std::vector<double> numbers = plan.numbers;
 
   StudyTrial trial{.parameters = plan.common, .inputs = {}};
-  trial.parameters.randomness.trial = static_cast<std::uint64_t>(index);
+  trial.parameters.randomness.trial = numbers_within_trial(study, static_cast<std::uint64_t>(index));
   trial.parameters.randomness.stream = stream;
   const auto set = [&](std::size_t slot, double number) {
     numbers[slot] = number;
@@ -66,8 +79,7 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
     if (value.kind == Value::Kind::number) {
       set(slot, value.number);
     } else if (value.kind == Value::Kind::distribution) {
-      const double u =
-          design_uniform(study, plan.randomness[slot], stream, static_cast<std::uint64_t>(index));
+      const double u = design_uniform(study, slot, stream, static_cast<std::uint64_t>(index));
       set(slot, quantile(plan.distributions[value.index], u));
     }
   }

@@ -64,7 +64,7 @@ Json randomness_json(const TrialRandomness& r) {
 // number.
 Json draws() {
   Json all = Json::array();
-  for (const char* design : {"monte_carlo", "latin_hypercube", "sobol"}) {
+  for (const char* design : {"monte_carlo", "latin_hypercube", "sobol", "saltelli"}) {
     for (const char* independent : {"false", "true"}) {
       const Study study = study_of(
           minimal_manifest("friction: {k1: {uniform: [1, 2]}}\ninitial: {position: {uniform: [1, 2]}}\n"),

@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
              "alpha, lambda, n, breakaway, coulomb_ratio, stribeck_velocity"},
         Case{"frictoin: {k1: 1}",
              "m.yaml:6:1: frictoin: unknown key, nearest known: friction; expected one of zerocount, name, "
-             "description, seed, trials, design, independent_points, retain, observed, sweep, plant, "
+             "description, seed, trials, design, independent_points, retain, stop, observed, sweep, plant, "
              "friction, "
              "encoder, dac, amplifier, controller, command, initial, verdict"},
         Case{"friction: {k1: {unifrom: [1, 2]}}",
@@ -94,7 +94,8 @@ INSTANTIATE_TEST_SUITE_P(
             "controller: {anti_windup: klamp}",
             "m.yaml:6:27: controller.anti_windup: 'klamp' is none of its words; expected one of clamp, none"},
         Case{"design: random",
-             "m.yaml:6:9: design: 'random' is no design; expected monte_carlo, latin_hypercube or sobol"},
+             "m.yaml:6:9: design: 'random' is no design; expected monte_carlo, latin_hypercube, sobol or "
+             "saltelli"},
         Case{"independent_points: 1",
              "m.yaml:6:21: independent_points: '1' is not a truth value; expected true or false"},
         Case{"independent_points: \"true\"",
@@ -324,10 +325,11 @@ TEST(ManifestErrors, EveryRequiredKeyIsMissed) {
 }
 
 TEST(ManifestErrors, AMergeKeyIsAKeyLikeAnyOther) {
-  EXPECT_EQ(failure_of(minimal_manifest("<<: {name: x}")),
-            "m.yaml:6:1: <<: unknown key, nearest known: dac; expected one of zerocount, name, description, "
-            "seed, trials, design, independent_points, retain, observed, sweep, plant, friction, encoder, "
-            "dac, amplifier, controller, command, initial, verdict");
+  EXPECT_EQ(
+      failure_of(minimal_manifest("<<: {name: x}")),
+      "m.yaml:6:1: <<: unknown key, nearest known: dac; expected one of zerocount, name, description, "
+      "seed, trials, design, independent_points, retain, stop, observed, sweep, plant, friction, encoder, "
+      "dac, amplifier, controller, command, initial, verdict");
 }
 
 TEST(ManifestErrors, ANewerManifestSaysSo) {
@@ -379,7 +381,7 @@ TEST(ManifestErrors, AllErrorsAreToldInTheOrderOfTheFile) {
       "m.yaml:8:13: dac.bits: '0' is out of range; expected a whole number from 1 to 32\n"
       "m.yaml:9:1: sead: unknown key, nearest known: seed; expected one of zerocount, name, description, "
       "seed, "
-      "trials, design, independent_points, retain, observed, sweep, plant, friction, encoder, dac, "
+      "trials, design, independent_points, retain, stop, observed, sweep, plant, friction, encoder, dac, "
       "amplifier, controller, "
       "command, initial, verdict\n"
       "m.yaml:10:32: sweep.grid.controller.ki.0: '-1' is out of range; expected a number at least 0 and at "

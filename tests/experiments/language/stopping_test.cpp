@@ -1,0 +1,84 @@
+// `stop` in a manifest: what is read, and what is refused.
+#include <gtest/gtest.h>
+
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount {
+namespace {
+
+TEST(Stop, MakesTrialsTheSizeOfABlock) {
+  const Study study = study_of(minimal_manifest(
+      "stop: {success_rate_halfwidth: 0.02, confidence: 0.9, min_trials: 20, max_trials: 500}"));
+  const std::int64_t stated = study_of(minimal_manifest()).trials;
+  ASSERT_TRUE(study.stop);
+  EXPECT_EQ(study.stop->block, stated);
+  EXPECT_EQ(study.stop->success_rate_halfwidth, 0.02);
+  EXPECT_EQ(study.stop->confidence, 0.9);
+  EXPECT_EQ(study.stop->min_trials, 20);
+  EXPECT_EQ(study.trials, 500);
+}
+
+TEST(Stop, HasADefaultForTheConfidenceAndNoLeastNumber) {
+  const Study study = study_of(minimal_manifest("stop: {success_rate_halfwidth: 0.02, max_trials: 500}"));
+  ASSERT_TRUE(study.stop);
+  EXPECT_EQ(study.stop->confidence, 0.95);
+  EXPECT_EQ(study.stop->min_trials, 1);
+  EXPECT_FALSE(study_of(minimal_manifest()).stop);
+}
+
+TEST(Stop, LeavesTheDrawsOfATrialAsTheyAre) {
+  const std::string random = "friction: {k1: {uniform: [90, 130]}}\n";
+  const Study plain = study_of(minimal_manifest(random));
+  const Study stopping =
+      study_of(minimal_manifest(random + "stop: {success_rate_halfwidth: 0.02, max_trials: 500}"));
+  EXPECT_EQ(study_trial(plain, 0, 3).inputs, study_trial(stopping, 0, 3).inputs);
+}
+
+TEST(Stop, CanBeChangedByOverrides) {
+  const Study study = study_of(minimal_manifest("stop: {success_rate_halfwidth: 0.02, max_trials: 500}"),
+                               {"stop.max_trials=40"});
+  EXPECT_EQ(study.trials, 40);
+}
+
+struct Refusal {
+  const char* line;
+  const char* message;
+};
+
+class RefusedStop : public testing::TestWithParam<Refusal> {};
+
+TEST_P(RefusedStop, SaysWhy) {
+  EXPECT_EQ(refusal_of(minimal_manifest(GetParam().line)), GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , RefusedStop,
+    testing::Values(
+        Refusal{"stop: 3",
+                "m.yaml:6:7: stop: the single value '3' stands here; expected stop: {success_rate_halfwidth: "
+                "0.005, max_trials: 100000}"},
+        Refusal{
+            "stop: {max_trials: 500}",
+            "m.yaml:6:7: stop.success_rate_halfwidth: the key is missing; expected half the width that the "
+            "bounds of the success rate may have, 0 to 0.5"},
+        Refusal{
+            "stop: {success_rate_halfwidth: 0.02}",
+            "m.yaml:6:7: stop.max_trials: the key is missing; expected the number of trials at a point at "
+            "which the study ends in any case"},
+        Refusal{"stop: {success_rate_halfwidth: 0.02, max_trails: 500, max_trials: 500}",
+                "m.yaml:6:38: stop.max_trails: unknown key, nearest known: max_trials; expected one of "
+                "success_rate_halfwidth, confidence, min_trials, max_trials"},
+        Refusal{"stop: {success_rate_halfwidth: 0.5, max_trials: 500}",
+                "m.yaml:6:32: stop.success_rate_halfwidth: '0.5' is out of range; expected a number greater "
+                "than 0 and less than 0.5"},
+        Refusal{"stop: {success_rate_halfwidth: 0.1, max_trials: 5}",
+                "m.yaml:6:49: stop.max_trials: 5 trials are fewer than a block, which is the 10 of `trials`; "
+                "expected at least 10"},
+        Refusal{"stop: {success_rate_halfwidth: 0.1, max_trials: 50, min_trials: 60}",
+                "m.yaml:6:65: stop.min_trials: 60 trials are more than max_trials, 50; expected at most 50"},
+        Refusal{"design: sobol\nstop: {success_rate_halfwidth: 0.1, max_trials: 50}",
+                "m.yaml:7:7: stop: trials can be added one block after the other only where each is drawn by "
+                "itself; expected design: monte_carlo"}));
+
+}  // namespace
+}  // namespace zerocount

@@ -136,7 +136,8 @@ class Group : public Object {
   Dataset create_dataset(const std::string& name, const Storage& storage);
   Dataset open_dataset(const std::string& name) const;
   bool contains(const std::string& name) const;
-  std::vector<std::string> children() const;  ///< names, in order of creation
+  bool is_group(const std::string& name) const;  ///< of a member: a group, and no dataset
+  std::vector<std::string> children() const;     ///< names, in order of creation
 
  protected:
   Group(Handle handle, std::shared_ptr<const Origin> origin, std::string path)

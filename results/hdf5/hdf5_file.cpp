@@ -86,6 +86,12 @@ bool Group::contains(const std::string& name) const {
   return H5Lexists(id(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
+bool Group::is_group(const std::string& name) const {
+  H5O_info_t info;
+  require(H5Oget_info_by_name2(id(), name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT), "a member of it");
+  return info.type == H5O_TYPE_GROUP;
+}
+
 std::vector<std::string> Group::children() const {
   std::vector<std::string> names;
   const auto visit = [](hid_t, const char* name, const H5L_info_t*, void* found) -> herr_t {

@@ -27,6 +27,10 @@ std::string csv_field(std::string_view text) {
   return quoted + '"';
 }
 
+std::string head_with_unit(std::string_view name, std::string_view unit) {
+  return unit.empty() || unit == "1" ? std::string(name) : fmt::format("{} [{}]", name, unit);
+}
+
 CsvFile::CsvFile(const std::filesystem::path& path)
     : path_(path),
       part_(path),

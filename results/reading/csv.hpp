@@ -16,6 +16,10 @@ std::string number_text(double value);
 /// A field of CSV (RFC 4180): quoted where it holds a comma, a quote or a line break.
 std::string csv_field(std::string_view text);
 
+/// The name of a column with its unit, such as "settling_time [s]"; the name alone where it has none ("1" or
+/// nothing).
+std::string head_with_unit(std::string_view name, std::string_view unit);
+
 /// A table in the form of RFC 4180, but with lines that end in a single line feed. It stands at PATH.part
 /// until publish(), and is removed if that never comes.
 /// @throws Failure (machine_failed) with the path and the reason, from every function.

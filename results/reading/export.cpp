@@ -28,7 +28,8 @@ void for_each_block(std::int64_t first, std::int64_t end, std::int64_t size,
 
 template <class Record>
 void add_names(CsvFile& csv, const std::vector<RecordField<Record>>& fields) {
-  for (const RecordField<Record>& field : fields) csv.add(field.column.name);
+  for (const RecordField<Record>& field : fields)
+    csv.add(head_with_unit(field.column.name, field.column.unit));
 }
 
 template <class Record>
@@ -55,8 +56,8 @@ void export_points(const StudyFile& file, CsvFile& csv) {
   const std::vector<PointColumn> statistics = file.statistics();
   csv.add("point");
   csv.add("label");
-  for (const SweepAxis& axis : axes) csv.add(axis.name);
-  for (const PointColumn& statistic : statistics) csv.add(statistic.name);
+  for (const SweepAxis& axis : axes) csv.add(head_with_unit(axis.name, axis.unit));
+  for (const PointColumn& statistic : statistics) csv.add(head_with_unit(statistic.name, statistic.unit));
   csv.end_row();
   for (std::size_t point = 0; point < labels.size(); ++point) {
     csv.add(static_cast<std::int64_t>(point));
@@ -75,7 +76,7 @@ void export_points(const StudyFile& file, CsvFile& csv) {
 
 void export_trials(const StudyFile& file, CsvFile& csv) {
   for (const char* name : {"trial", "point", "index"}) csv.add(name);
-  for (const InputColumn& input : file.input_columns()) csv.add(input.name);
+  for (const InputColumn& input : file.input_columns()) csv.add(head_with_unit(input.name, input.unit));
   csv.end_row();
   for_each_block(file.rows().first, file.rows().end(), chunk_elements,
                  [&](std::int64_t first, std::int64_t count) {
@@ -125,13 +126,14 @@ void export_jerks(const StudyFile& file, CsvFile& csv) {
 }
 
 void export_profiles(const StudyFile& file, CsvFile& csv) {
-  for (const char* name : {"profile", "theta", "value"}) csv.add(name);
+  for (const char* head : {"profile", "theta [rad]", "value", "unit of value"}) csv.add(head);
   csv.end_row();
   for (const StoredProfile& profile : file.profiles()) {
     for (std::size_t i = 0; i < profile.theta.size(); ++i) {
       csv.add(profile.name);
       csv.add(profile.theta[i]);
       csv.add(profile.value.at(i));
+      csv.add(profile.unit);
       csv.end_row();
     }
   }
@@ -153,7 +155,7 @@ void export_trace(const StudyFile& file, CsvFile& csv) {
 void export_statistics(const StatisticTable& table, CsvFile& csv) {
   csv.add("point");
   csv.add(table.group->dimension);
-  for (const PointColumn& column : table.columns) csv.add(column.name);
+  for (const PointColumn& column : table.columns) csv.add(head_with_unit(column.name, column.unit));
   csv.end_row();
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();
   for (std::size_t row = 0; row < rows; ++row) {

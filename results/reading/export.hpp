@@ -19,8 +19,10 @@ struct ExportedTable {
 /// Writes the tables of a results file as CSV into `directory`, which is made if need be: points.csv,
 /// trials.csv, outcomes.csv (one row per move), jerks.csv, profiles.csv where there are profiles, trace.csv
 /// where trials are retained, and the CSV files of those statistic_groups() that there are; then `further`
-/// ones. Columns have the names of the datasets (inputs without "input/"); enumerations are written as their
-/// words. Memory is bounded. The files get their names when all of them are whole.
+/// ones. Columns have the names of the datasets (inputs without "input/"), with the unit in brackets where
+/// there is one, such as "settling_time [s]"; the values of profiles.csv have theirs in a column, for it
+/// differs from profile to profile. Enumerations are written as their words. Memory is bounded. The files get
+/// their names when all of them are whole.
 /// @return the files, in that order
 /// @throws Failure: bad_input where one of the files exists, bad_data where the results are damaged,
 /// machine_failed where a file cannot be written.

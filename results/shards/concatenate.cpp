@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <vector>
 
@@ -48,10 +49,22 @@ void read_share(const Table& table, const Source& source, RowRange wanted, std::
   }
 }
 
+void renumber_trials(const Table& table, const Renumbering& renumber, Block& block) {
+  for (std::size_t index = 0; index < table.columns.size(); ++index) {
+    if (table.columns[index].name != "trial") continue;
+    for (std::size_t at = 0; at < block[index].size(); at += sizeof(std::int64_t)) {
+      std::int64_t row = 0;
+      std::memcpy(&row, block[index].data() + at, sizeof row);
+      row = renumber(row);
+      std::memcpy(block[index].data() + at, &row, sizeof row);
+    }
+  }
+}
+
 }  // namespace
 
 void concatenate(hdf5::File& file, const Table& table, std::span<const ShardInfo> shards, std::int64_t width,
-                 std::int64_t first_number) {
+                 std::int64_t first_number, const Renumbering& renumber) {
   const std::vector<Source> sources = find_sources(table, shards, width);
   const std::int64_t rows = sources.empty() ? 0 : sources.back().rows.end();
   TableIo out = TableIo::create(file, table, rows, width);
@@ -69,6 +82,7 @@ void concatenate(hdf5::File& file, const Table& table, std::span<const ShardInfo
          ++source) {
       read_share(table, sources[source], wanted, width, block);
     }
+    if (renumber) renumber_trials(table, renumber, block);
     for (std::size_t index = 0; index < block.size(); ++index) {
       out.column(index).write(wanted.first, wanted.count, block[index].data());
     }

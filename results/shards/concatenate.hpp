@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "results/hdf5/hdf5.hpp"
@@ -9,13 +10,17 @@
 
 namespace zerocount {
 
+/// The row of a trial in the file written, by its row in the shards; empty where they are the same.
+using Renumbering = std::function<std::int64_t(std::int64_t row)>;
+
 /// Creates `table` in `file` and fills it with that table of the shards, one after the other.
 ///
 /// It goes by blocks of the table written, each one chunk of every column, so that memory is bounded and the
 /// order of writing does not depend on how the rows are divided among the shards.
 /// @param width        size of the second dimension, 1 where the table has none
 /// @param first_number first value of the scale of the rows
+/// @param renumber     applied to the column `trial` of a table that has one
 void concatenate(hdf5::File& file, const Table& table, std::span<const ShardInfo> shards, std::int64_t width,
-                 std::int64_t first_number);
+                 std::int64_t first_number, const Renumbering& renumber = {});
 
 }  // namespace zerocount

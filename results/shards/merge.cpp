@@ -113,15 +113,17 @@ void write_profiles(hdf5::File& file, const Study& study) {
 
 /// Writes everything but the statistics and the mark that the file is finished.
 void write_trials_of(std::span<const ShardInfo> shards, const Study& study, const fs::path& part,
-                     RowRange rows, const Provenance& provenance) {
+                     RowRange rows, const Provenance& provenance, const Renumbering& renumber) {
   hdf5::File file = hdf5::File::create(part);
   write_header(file, make_header(study, FileKind::study, rows, provenance));
   write_points(file, study);
   concatenate(file, trial_table(study.input_columns), shards, 1, rows.first);
   concatenate(file, outcome_table(format_version, study.outcome_extras), shards, study.moves, rows.first);
-  concatenate(file, jerk_table(), shards, 1, 0);
+  concatenate(file, jerk_table(), shards, 1, 0, renumber);
   write_profiles(file, study);
-  if (!study.retained_trials.empty()) concatenate(file, trace_table(study.trace_extras), shards, 1, 0);
+  if (!study.retained_trials.empty()) {
+    concatenate(file, trace_table(study.trace_extras), shards, 1, 0, renumber);
+  }
   file.close();
 }
 
@@ -158,7 +160,8 @@ FileHeader first_header(std::span<const fs::path> inputs) {
 }
 
 void merge_shards(std::span<const ShardInfo> shards, const Study& study, const fs::path& output,
-                  RowRange rows, const StatisticsOfPoints& statistics, const Provenance& provenance) {
+                  RowRange rows, const StatisticsOfPoints& statistics, const Provenance& provenance,
+                  const Renumbering& renumber) {
   std::vector<ShardInfo> ordered(shards.begin(), shards.end());
   std::sort(ordered.begin(), ordered.end(),
             [](const ShardInfo& left, const ShardInfo& right) { return left.rows.first < right.rows.first; });
@@ -167,7 +170,7 @@ void merge_shards(std::span<const ShardInfo> shards, const Study& study, const f
   if (fs::exists(output, error))
     fail(ExitCode::bad_input, output, "exists already; remove it or name another output");
   const UnfinishedFile part(output);
-  write_trials_of(ordered, study, part.path(), rows, of_all(ordered, provenance));
+  write_trials_of(ordered, study, part.path(), rows, of_all(ordered, provenance), renumber);
   StoredStatistics stored;
   if (statistics && rows == all_rows(study)) stored = statistics(StudyFile(part.path(), Require::unfinished));
   write_statistics(part.path(), study, stored);

@@ -10,6 +10,7 @@
 #include "results/layout/layout.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/reading/study_file.hpp"
+#include "results/shards/concatenate.hpp"
 #include "results/shards/shard.hpp"
 
 namespace zerocount {
@@ -33,10 +34,12 @@ FileHeader first_header(std::span<const std::filesystem::path> inputs);
 /// whatever their number; the bytes of every dataset depend on the study and `rows` alone. `statistics` is
 /// called once, where the file is the whole study. The file gets its name only when it is whole on the disk.
 /// Its git_commit is that of `provenance`, or of a shard whose build had changes that were not committed.
+/// `renumber` is for shards that were written under other rows: the rows in ShardInfo are those of the file,
+/// and it turns the rows that stand in the shards into those.
 /// @throws Failure: bad_data for gaps, overlaps and damaged shards; bad_input where `output` exists;
 /// machine_failed with the path and the reason where it cannot be written.
 void merge_shards(std::span<const ShardInfo> shards, const Study& study, const std::filesystem::path& output,
                   RowRange rows, const StatisticsOfPoints& statistics,
-                  const Provenance& provenance = current_provenance());
+                  const Provenance& provenance = current_provenance(), const Renumbering& renumber = {});
 
 }  // namespace zerocount

@@ -71,6 +71,17 @@ void write_all(const fs::path& path, const FileDescriptor& file, std::string_vie
   }
 }
 
+void replace_file(const fs::path& path, std::string_view bytes) {
+  const UnfinishedFile unfinished(path);
+  {
+    const FileDescriptor file(
+        ::open(unfinished.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (!file.valid()) fail_with(path, "write", errno);
+    write_all(path, file, bytes);
+  }
+  publish(path);
+}
+
 void make_directory(const fs::path& path) {
   if (::mkdir(path.c_str(), 0777) != 0) {
     if (errno == ENOENT && path.has_parent_path() && path.parent_path() != path) {

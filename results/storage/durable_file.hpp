@@ -38,6 +38,10 @@ void publish(const std::filesystem::path& path);
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void write_all(const std::filesystem::path& path, const FileDescriptor& file, std::string_view text);
 
+/// Writes a file that appears whole or not at all; what had its name before is replaced.
+/// @throws Failure (machine_failed) with the path and the system's reason.
+void replace_file(const std::filesystem::path& path, std::string_view bytes);
+
 /// Makes the directory and those above it, durably.
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void make_directory(const std::filesystem::path& path);

@@ -58,5 +58,12 @@ TEST(CsvFile, QuotesWhatNeedsQuotes) {
             "plain text,\"a,b\",\"say \"\"no\"\"\",\"two\nlines\",\n0.5,-7\n");
 }
 
+TEST(Csv, AColumnHasItsUnitInBrackets) {
+  EXPECT_EQ(head_with_unit("settling_time", "s"), "settling_time [s]");
+  EXPECT_EQ(head_with_unit("friction.k1", "N m/rad"), "friction.k1 [N m/rad]");
+  EXPECT_EQ(head_with_unit("success_rate", "1"), "success_rate");
+  EXPECT_EQ(head_with_unit("case", ""), "case");
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -57,8 +57,8 @@ TEST_F(Export, WritesEveryTable) {
 TEST_F(Export, PointsHaveTheirAxesAndStatistics) {
   const auto rows = read_table(out / "points.csv");
   ASSERT_EQ(rows.size(), 4U);
-  EXPECT_EQ(rows[0], (std::vector<std::string>{"point", "label", "controller.ki", "case", "trials",
-                                               "settling_time_mean"}));
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"point", "label", "controller.ki [N m/count]", "case",
+                                               "trials", "settling_time_mean [s]"}));
   EXPECT_EQ(rows[1][2], "nan");
   EXPECT_EQ(rows[3][0], "2");
   EXPECT_EQ(rows[3][1], study.point_labels[2]);
@@ -69,8 +69,8 @@ TEST_F(Export, PointsHaveTheirAxesAndStatistics) {
 TEST_F(Export, TrialsHaveTheirInputs) {
   const auto rows = read_table(out / "trials.csv");
   ASSERT_EQ(rows.size(), 121U);
-  EXPECT_EQ(rows[0],
-            (std::vector<std::string>{"trial", "point", "index", "friction.k1", "command.targets.0"}));
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"trial", "point", "index", "friction.k1 [N m/rad]",
+                                               "command.targets.0 [count]"}));
   for (std::int64_t row = 0; row < 120; ++row) {
     const std::vector<double> inputs = sample_result(study, row).inputs;
     EXPECT_EQ(
@@ -97,14 +97,16 @@ TEST_F(Export, OutcomesHaveOneRowPerMoveAndWordsForVerdicts) {
 TEST_F(Export, JerksProfilesAndTraceAreWhole) {
   const auto jerks = read_table(out / "jerks.csv");
   EXPECT_EQ(std::ssize(jerks), file.jerk_count() + 1);
-  EXPECT_EQ(jerks[0],
-            (std::vector<std::string>{"trial", "move", "onset", "duration", "magnitude", "direction"}));
+  EXPECT_EQ(jerks[0], (std::vector<std::string>{"trial", "move", "onset [s]", "duration [s]",
+                                                "magnitude [count]", "direction"}));
   const auto profiles = read_table(out / "profiles.csv");
   EXPECT_EQ(std::ssize(profiles), profile_angles + 1);
+  EXPECT_EQ(profiles[0], (std::vector<std::string>{"profile", "theta [rad]", "value", "unit of value"}));
   EXPECT_EQ(profiles[1][0], "friction.k1");
+  EXPECT_EQ(profiles[1][3], "N m/rad");
   const auto trace = read_table(out / "trace.csv");
   ASSERT_EQ(std::ssize(trace), file.trace_count() + 1);
-  const std::vector<std::string> last{"mode", "reference", "phase", "drive_torque"};
+  const std::vector<std::string> last{"mode", "reference [count]", "phase", "drive_torque [N m]"};
   EXPECT_EQ((std::vector<std::string>(trace[0].end() - 4, trace[0].end())), last);
   EXPECT_EQ(trace[6][14], "stick");
   EXPECT_EQ(trace[7][14], "slide");
@@ -115,7 +117,7 @@ TEST_F(Export, JerksProfilesAndTraceAreWhole) {
 TEST_F(Export, TablesOfStatisticsHaveOneRowPerPointAndIndex) {
   const auto levels = read_table(out / "levels.csv");
   ASSERT_EQ(levels.size(), 7U);
-  EXPECT_EQ(levels[0], (std::vector<std::string>{"point", "move", "torque_max"}));
+  EXPECT_EQ(levels[0], (std::vector<std::string>{"point", "move", "torque_max [N m]"}));
   const std::vector<double> expected = sample_table(file).columns[0].values;
   for (std::size_t row = 0; row < 6; ++row) {
     EXPECT_EQ(levels[row + 1], (std::vector<std::string>{std::to_string(row / 2), std::to_string(row % 2),

@@ -1,14 +1,18 @@
 #include "analysis/point_accumulator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <string_view>
 
 #include <fmt/format.h>
 
+#include "analysis/bootstrap.hpp"
 #include "core/failure.hpp"
 #include "core/numerics/sign.hpp"
 #include "core/trial/divergence.hpp"
+#include "experiments/designs/random_key.hpp"
 
 namespace zerocount {
 namespace {
@@ -19,9 +23,31 @@ double rounded_interval(double seconds) {
   return std::round(seconds * 1e12) / 1e12;
 }
 
-RateWithBounds rate_with_bounds(std::int64_t successes, std::int64_t trials) {
+RateWithBounds rate_with_bounds(std::int64_t successes, std::int64_t trials, double confidence) {
   if (trials == 0) return {};
-  return {rate(successes, trials), clopper_pearson(successes, trials), wilson(successes, trials)};
+  return {rate(successes, trials), clopper_pearson(successes, trials, confidence),
+          wilson(successes, trials, confidence)};
+}
+
+/// The trials that are not in `times` never settled. No limit is known for trials whose number was decided by
+/// their outcomes.
+auto tolerance_limits(const Tally<double>& times, std::int64_t trials, const StatisticsOptions& options) {
+  std::array<ToleranceLimit, std::size(tolerance_contents)> limits{};
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    limits[i].content = tolerance_contents[i];
+    if (options.stopped_by_outcomes) continue;
+    limits[i].within = order_statistic(times, tolerance_rank(trials, limits[i].content, options.confidence));
+  }
+  return limits;
+}
+
+/// The bootstrap of one statistic of a point.
+template <typename Value>
+ConfidenceInterval mean_bounds(const Tally<Value>& tally, const StatisticsOptions& options,
+                               std::string_view name) {
+  if (!options.bootstrap) return {std::nan(""), std::nan("")};
+  const RandomStream stream{random_key(options.bootstrap->seed, name), options.bootstrap->stream};
+  return bca_mean(weighted_sample(tally), stream, options.confidence);
 }
 
 void require_move_count(std::size_t moves, std::int64_t trials, std::size_t expected) {
@@ -96,6 +122,7 @@ void PointAccumulator::add_moves(const TrialOutcome& trial) {
   ++counted_.trials;
   counted_.moves += static_cast<std::int64_t>(moves.size());
   ++(counted_.outcomes.*counter_of(worst_outcome(moves)));
+  add_slowest(moves);
   counted_.stable += std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.stable; });
   counted_.arrived += std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.arrived; });
   counted_.broke_away +=
@@ -105,6 +132,15 @@ void PointAccumulator::add_moves(const TrialOutcome& trial) {
   counted_.stopped += std::any_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.stopped; });
   counted_.phase_changes.add(sum_of(moves, &MoveOutcome::phase_changes));
   counted_.encoder_disagreement.add(sum_of(moves, &MoveOutcome::encoder_disagreement));
+}
+
+void PointAccumulator::add_slowest(const std::vector<MoveOutcome>& moves) {
+  double slowest = 0.0;
+  for (const MoveOutcome& move : moves) {
+    if (!move.arrived) return;
+    slowest = std::max(slowest, move.settling_time);
+  }
+  slowest_times_.add(slowest);
 }
 
 void PointAccumulator::add_measures(const MoveOutcome& move) {
@@ -148,20 +184,35 @@ void PointAccumulator::add_jerks(const MoveOutcome& move, std::span<const Jerk> 
   counted_.jerk_slowing.quickening += trend.rising < trend.falling;
 }
 
-PointSummary PointAccumulator::statistics() const {
+PointSummary PointAccumulator::statistics(const StatisticsOptions& options) const {
+  const double confidence = options.confidence;
   PointSummary result = counted_;
+  result.confidence = confidence;
+  for (LevelStatistics& level : result.levels) level.confidence = confidence;
   result.judged = kind_.open_loop ? 0 : result.trials;
-  result.success_rate = rate_with_bounds(result.outcomes.zero_count, result.judged);
-  result.stable_rate = rate_with_bounds(result.stable, result.judged);
+  result.success_rate = rate_with_bounds(result.outcomes.zero_count, result.judged, confidence);
+  result.stable_rate = rate_with_bounds(result.stable, result.judged, confidence);
+  const std::int64_t successes = result.judged > 0 ? result.outcomes.zero_count : 0;
+  result.claim = options.stopped_by_outcomes ? success_claim_at_any_time(successes, result.judged, confidence)
+                                             : success_claim(successes, result.judged, confidence);
 
   const Tally<double>& times = settling_times_;
-  result.settling_time = {times.size,           mean(times),           smallest(times),
-                          largest(times),       quantile(times, 0.05), quantile(times, 0.25),
-                          quantile(times, 0.5), quantile(times, 0.75), quantile(times, 0.95)};
+  const auto settling = [&](double probability) { return quantile(times, probability, confidence); };
+  result.settling_time = {times.size,
+                          mean(times),
+                          smallest(times),
+                          largest(times),
+                          settling(0.05),
+                          settling(0.25),
+                          settling(0.5),
+                          settling(0.75),
+                          settling(0.95),
+                          mean_bounds(times, options, "bootstrap/settling_time.mean"),
+                          tolerance_limits(slowest_times_, result.trials, options)};
 
   const Tally<std::int64_t>& errors = final_errors_;
-  result.final_error = {errors.size, mean(errors), largest(errors), quantile(errors, 0.5),
-                        quantile(errors, 0.95)};
+  result.final_error = {errors.size, mean(errors), largest(errors), quantile(errors, 0.5, confidence),
+                        quantile(errors, 0.95, confidence)};
 
   const Tally<std::int64_t>& jerks = jerk_counts_;
   const std::int64_t jerk_total = total(jerks);
@@ -171,7 +222,8 @@ PointSummary PointAccumulator::statistics() const {
                        quantile(jerks, 0.5).value,
                        quantile(jerks, 0.95).value,
                        largest(jerks),
-                       jerk_total};
+                       jerk_total,
+                       mean_bounds(jerks, options, "bootstrap/jerk_count.mean")};
   result.jerk_interval = {jerk_intervals_.size, mean(jerk_intervals_), quantile(jerk_intervals_, 0.5).value};
   result.jerk_slowing.share = rate(result.jerk_slowing.slowing, result.jerk_slowing.moves);
   result.jerk_slowing.tau = kendall_tau(interval_trend_);

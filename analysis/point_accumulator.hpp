@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "analysis/point_statistics.hpp"
+#include "analysis/statistics_options.hpp"
 #include "analysis/tally.hpp"
 #include "core/trial/outcome.hpp"
 
@@ -31,16 +33,19 @@ class PointAccumulator {
   void add(const TrialOutcome& trial, std::span<const Jerk> jerks);
 
   /// The statistics of the trials added so far.
-  PointSummary statistics() const;
+  /// @throws Failure (bad_input) for a confidence outside (0, 1).
+  PointSummary statistics(const StatisticsOptions& options = {}) const;
 
  private:
   void add_moves(const TrialOutcome& trial);
+  void add_slowest(const std::vector<MoveOutcome>& moves);
   void add_measures(const MoveOutcome& move);
   void add_jerks(const MoveOutcome& move, std::span<const Jerk> jerks);
 
   MoveKind kind_;
   PointSummary counted_;  ///< the fields that are plain counts and moments
   Tally<double> settling_times_;
+  Tally<double> slowest_times_;  ///< of the trials all of whose moves arrived: of the move that took longest
   Tally<std::int64_t> final_errors_;
   Tally<std::int64_t> jerk_counts_;
   Tally<double> jerk_intervals_;

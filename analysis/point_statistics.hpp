@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -10,10 +11,12 @@
 #include "analysis/outcome_counts.hpp"
 #include "analysis/proportion.hpp"
 #include "analysis/quantile.hpp"
+#include "analysis/tolerance.hpp"
 #include "analysis/trend.hpp"
 
-/// What is reported of a design point. Every share and mean names what it is a share or mean of: "of trials"
-/// is of all trials of the point, "of moves" of all moves of all its trials. No trial is left out of either.
+/// What is reported of a design point. All bounds have the confidence of the summary. Every share and mean
+/// names what it is a share or mean of: "of trials" is of all trials of the point, "of moves" of all moves of
+/// all its trials. No trial is left out of either.
 namespace zerocount {
 
 /// The trials by one of their moves: all trials of the point have it.
@@ -26,7 +29,7 @@ struct MoveCounts {
   std::int64_t stopped{0};  ///< ended in it or before it
 };
 
-/// Share of trials with 95 % bounds; NaN where there are none that could be a part of it.
+/// Share of trials with bounds; NaN where there are none that could be a part of it.
 struct RateWithBounds {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double value{unknown};
@@ -40,7 +43,12 @@ struct SettlingStatistics {
   double mean{std::numeric_limits<double>::quiet_NaN()};
   double min{std::numeric_limits<double>::quiet_NaN()};
   double max{std::numeric_limits<double>::quiet_NaN()};
-  Quantile p05, p25, median, p75, p95;  ///< with 95 % order-statistic bounds
+  Quantile p05, p25, median, p75, p95;  ///< with order-statistic bounds
+  ConfidenceInterval mean_bounds{std::numeric_limits<double>::quiet_NaN(),
+                                 std::numeric_limits<double>::quiet_NaN()};  ///< BCa; NaN unless asked for
+  /// Of the slowest move of a trial, with the contents of tolerance_contents; a move that never arrives is
+  /// beyond every limit.
+  std::array<ToleranceLimit, std::size(tolerance_contents)> tolerance{};
 };
 
 /// Distance from the target at the last sample of a move, |target − count|, counts.
@@ -48,7 +56,7 @@ struct FinalErrorStatistics {
   std::int64_t n{0};  ///< moves whose distance is known and whose motion was not lost
   double mean{std::numeric_limits<double>::quiet_NaN()};
   double max{std::numeric_limits<double>::quiet_NaN()};
-  Quantile median, p95;  ///< with 95 % order-statistic bounds
+  Quantile median, p95;  ///< with order-statistic bounds
 };
 
 /// Something that happens a number of times in a trial, over all its moves.
@@ -73,6 +81,8 @@ struct JerkCountStatistics {
   double p95{std::numeric_limits<double>::quiet_NaN()};
   double max{std::numeric_limits<double>::quiet_NaN()};
   std::int64_t total{0};  ///< jerks of the point
+  ConfidenceInterval mean_bounds{std::numeric_limits<double>::quiet_NaN(),
+                                 std::numeric_limits<double>::quiet_NaN()};  ///< BCa; NaN unless asked for
 };
 
 /// Time between the onsets of successive jerks of a move, s.
@@ -98,6 +108,7 @@ struct JerkSlowing {
 
 /// Everything that is reported of a design point.
 struct PointSummary {
+  double confidence{summary_confidence};  ///< of all bounds
   std::int64_t trials{0};
   std::int64_t moves{0};  ///< moves of all trials
 
@@ -111,6 +122,7 @@ struct PointSummary {
   std::int64_t stopped{0};          ///< trials that were ended early, because a move had diverged
   RateWithBounds success_rate;      ///< zero_count / judged
   RateWithBounds stable_rate;       ///< stable / judged
+  SuccessClaim claim;  ///< what zero_count of judged shows of all axes; none of an open-loop study
 
   SettlingStatistics settling_time;
   JerkCountStatistics jerk_count;

@@ -18,13 +18,16 @@ void require_proportion(std::int64_t successes, std::int64_t trials, double conf
     throw Failure(ExitCode::bad_data,
                   fmt::format("a rate of {} in {}; expected 0 ≤ successes ≤ trials", successes, trials));
   }
-  if (!(confidence > 0.0 && confidence < 1.0)) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("a confidence of {}; expected a number between 0 and 1", confidence));
-  }
+  require_confidence(confidence);
 }
 
 }  // namespace
+
+void require_confidence(double confidence) {
+  if (confidence > 0.0 && confidence < 1.0) return;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("a confidence of {}; expected a number between 0 and 1", confidence));
+}
 
 double rate(std::int64_t successes, std::int64_t trials) {
   if (trials == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -39,6 +42,20 @@ ConfidenceInterval clopper_pearson(std::int64_t successes, std::int64_t trials, 
   const double tail = 0.5 * (1.0 - confidence);
   return {successes == 0 ? 0.0 : Binomial::find_lower_bound_on_p(n, k, tail),
           successes == trials ? 1.0 : Binomial::find_upper_bound_on_p(n, k, tail)};
+}
+
+double proportion_at_least(std::int64_t successes, std::int64_t trials, double confidence) {
+  require_proportion(successes, trials, confidence);
+  if (successes == 0) return 0.0;
+  return boost::math::binomial_distribution<double>::find_lower_bound_on_p(
+      static_cast<double>(trials), static_cast<double>(successes), 1.0 - confidence);
+}
+
+double proportion_at_most(std::int64_t successes, std::int64_t trials, double confidence) {
+  require_proportion(successes, trials, confidence);
+  if (successes == trials) return 1.0;
+  return boost::math::binomial_distribution<double>::find_upper_bound_on_p(
+      static_cast<double>(trials), static_cast<double>(successes), 1.0 - confidence);
 }
 
 ConfidenceInterval wilson(std::int64_t successes, std::int64_t trials, double confidence) {

@@ -10,8 +10,12 @@ struct ConfidenceInterval {
   double high{0.0};
 };
 
-/// The confidence of every bound that a summary states.
+/// The confidence of the bounds that a summary states where no other is asked for, and of all that a results
+/// file holds.
 inline constexpr double summary_confidence = 0.95;
+
+/// @throws Failure (bad_input) unless 0 < confidence < 1.
+void require_confidence(double confidence);
 
 /// k successes of n: k/n, NaN where n is 0.
 double rate(std::int64_t successes, std::int64_t trials);
@@ -24,6 +28,19 @@ double rate(std::int64_t successes, std::int64_t trials);
 /// Pearson (1934).
 ConfidenceInterval clopper_pearson(std::int64_t successes, std::int64_t trials,
                                    double confidence = summary_confidence);
+
+/// The largest p of which a proportion is at least, with the stated confidence: the one-sided Clopper–Pearson
+/// bound, the p for which `successes` or more of `trials` have the probability 1 − confidence. 0 where
+/// successes = 0.
+///
+/// With it stands a tolerance statement after Wilks (1941), "at least the share p of all succeed": without a
+/// failure p = (1 − confidence)^(1/n), so that the failures are at most 1 − p ≈ −ln(1 − confidence)/n, 3/n at
+/// 95 % (the rule of three; Hanley and Lippman-Hand 1983).
+double proportion_at_least(std::int64_t successes, std::int64_t trials, double confidence);
+
+/// The smallest p of which a proportion is at most, with the stated confidence: 1 less proportion_at_least of
+/// the others, without the rounding of that where it is small.
+double proportion_at_most(std::int64_t successes, std::int64_t trials, double confidence);
 
 /// Wilson score interval of a proportion: with z the normal quantile of (1 + confidence)/2 and p = k/n,
 ///

@@ -35,7 +35,7 @@ void export_table(const hdf5::Group& root, const Table& table, CsvFile& csv) {
   for (const Column& column : table.columns) {
     std::string name = column.name;
     std::replace(name.begin(), name.end(), '/', '_');
-    csv.add(name);
+    csv.add(head_with_unit(name, column.unit));
   }
   csv.end_row();
   for (std::int64_t first = 0; first < io.rows(); first += chunk_rows(io.width())) {

@@ -18,9 +18,11 @@ void write_repeatability(hdf5::File& file, const Study& study);
 
 /// The statistics of every design point from the values of the trials in the file.
 /// @throws Failure (bad_data) where they are not there or not those of the study.
-RepeatabilitySummary read_repeatability(const hdf5::Group& root, const Study& study);
+RepeatabilitySummary read_repeatability(const hdf5::Group& root, const Study& study,
+                                        double confidence = summary_confidence);
 
 /// As read_repeatability, of a complete results file.
-RepeatabilitySummary study_repeatability(const StudyFile& file, const Study& study);
+RepeatabilitySummary study_repeatability(const StudyFile& file, const Study& study,
+                                         double confidence = summary_confidence);
 
 }  // namespace zerocount

@@ -52,17 +52,18 @@ class PointReader {
   std::int64_t trials_;
 };
 
-SourceRepeatability source_statistics(const PointReader& reader, std::size_t source, std::size_t targets) {
+SourceRepeatability source_statistics(const PointReader& reader, std::size_t source, std::size_t targets,
+                                      double confidence) {
   SourceRepeatability result;
   for (std::size_t field = 0; field < axis_fields().size(); ++field) {
-    result.axis.push_back(statistics_of(reader.axis(source, field)));
+    result.axis.push_back(statistics_of(reader.axis(source, field), confidence));
   }
   result.targets.resize(targets);
   for (std::size_t field = 0; field < target_fields().size(); ++field) {
     std::vector<std::vector<double>> values =
         reader.target_column(1 + source * target_fields().size() + field);
     for (std::size_t target = 0; target < targets; ++target) {
-      result.targets[target].push_back(statistics_of(std::move(values[target])));
+      result.targets[target].push_back(statistics_of(std::move(values[target]), confidence));
     }
   }
   return result;
@@ -80,7 +81,7 @@ std::size_t overall_repeatability(const SequenceShape& shape) {
 }
 
 PointRepeatability point_statistics(const PointReader& reader, const SequenceShape& shape,
-                                    std::int64_t trials) {
+                                    std::int64_t trials, double confidence) {
   const auto targets = static_cast<std::size_t>(shape.targets);
   constexpr std::size_t encoder = 1;  // of deviation_sources()
   PointRepeatability point;
@@ -91,37 +92,37 @@ PointRepeatability point_statistics(const PointReader& reader, const SequenceSha
     const std::int64_t zero = std::count(values.begin(), values.end(), 0.0);
     point.zero_repeatability = zero;
     point.zero_rate = rate(zero, trials);
-    point.zero_bounds = clopper_pearson(zero, trials);
+    point.zero_bounds = clopper_pearson(zero, trials, confidence);
   }
   for (const std::vector<double>& positions : reader.target_column(0)) {
     Moments& moments = point.positions.emplace_back();
     for (const double position : positions) moments.add(position);
   }
   for (std::size_t source = 0; source < deviation_sources().size(); ++source) {
-    point.sources.push_back(source_statistics(reader, source, targets));
+    point.sources.push_back(source_statistics(reader, source, targets, confidence));
   }
   return point;
 }
 
 }  // namespace
 
-RepeatabilitySummary read_repeatability(const hdf5::Group& root, const Study& study) {
+RepeatabilitySummary read_repeatability(const hdf5::Group& root, const Study& study, double confidence) {
   const TableIo axis = TableIo::open(root, trial_table_of_axis());
   const TableIo targets = TableIo::open(root, trial_table_of_targets());
-  RepeatabilitySummary summary{shape_of(study.sequence), {}};
+  RepeatabilitySummary summary{confidence, shape_of(study.sequence), {}};
   require_rows(axis, trial_count(study));
   require_rows(targets, trial_count(study));
   if (targets.width() != summary.shape.targets)
     targets.row_scale().fail("it is of another number of targets");
   for (std::int64_t point = 0; point < point_count(study); ++point) {
     const PointReader reader(axis, targets, point * study.trials, study.trials);
-    summary.points.push_back(point_statistics(reader, summary.shape, study.trials));
+    summary.points.push_back(point_statistics(reader, summary.shape, study.trials, confidence));
   }
   return summary;
 }
 
-RepeatabilitySummary study_repeatability(const StudyFile& file, const Study& study) {
-  return read_repeatability(hdf5::File::open_to_read(file.path()), study);
+RepeatabilitySummary study_repeatability(const StudyFile& file, const Study& study, double confidence) {
+  return read_repeatability(hdf5::File::open_to_read(file.path()), study, confidence);
 }
 
 }  // namespace zerocount

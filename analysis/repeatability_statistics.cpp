@@ -22,23 +22,23 @@ double at_rank(std::span<const double> sorted, std::int64_t rank) {
 }
 
 /// As quantile() of a Tally.
-Quantile sorted_quantile(std::span<const double> sorted, double probability) {
+Quantile sorted_quantile(std::span<const double> sorted, double probability, double confidence) {
   const std::int64_t n = std::ssize(sorted);
-  const RankBounds bounds = quantile_rank_bounds(n, probability);
+  const RankBounds bounds = quantile_rank_bounds(n, probability, confidence);
   return {at_rank(sorted, quantile_rank(n, probability)), at_rank(sorted, bounds.low),
           at_rank(sorted, bounds.high)};
 }
 
 }  // namespace
 
-ValueStatistics statistics_of(std::vector<double> values) {
+ValueStatistics statistics_of(std::vector<double> values, double confidence) {
   std::erase_if(values, [](double value) { return std::isnan(value); });
   // Sorted before they are summed: the same mean in whatever order the trials come.
   std::sort(values.begin(), values.end());
   ValueStatistics result;
   result.n = std::ssize(values);
-  result.median = sorted_quantile(values, 0.5);
-  result.p95 = sorted_quantile(values, 0.95);
+  result.median = sorted_quantile(values, 0.5, confidence);
+  result.p95 = sorted_quantile(values, 0.95, confidence);
   if (values.empty()) return result;
   result.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   result.max = values.back();

@@ -21,12 +21,12 @@ struct ValueStatistics {
   std::int64_t n{0};  ///< those trials
   double mean{std::numeric_limits<double>::quiet_NaN()};
   double max{std::numeric_limits<double>::quiet_NaN()};
-  Quantile median;  ///< with 95 % order-statistic bounds
+  Quantile median;  ///< with order-statistic bounds
   Quantile p95;     ///< likewise
 };
 
 /// Of values in any order; those that are NaN are left out.
-ValueStatistics statistics_of(std::vector<double> values);
+ValueStatistics statistics_of(std::vector<double> values, double confidence = summary_confidence);
 
 /// One number of ValueStatistics as it is reported, under "<value>_<name>" where there are no groups.
 struct ValueStatisticField {
@@ -62,6 +62,7 @@ std::span<const ReportField<PointRepeatability>> point_repeatability_fields();
 
 /// What the summary of a study with a sequence says of it.
 struct RepeatabilitySummary {
+  double confidence{summary_confidence};  ///< of all bounds
   SequenceShape shape;
   std::vector<PointRepeatability> points;  ///< [point]
 };

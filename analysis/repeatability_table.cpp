@@ -9,9 +9,11 @@
 
 #include <fmt/format.h>
 
+#include "analysis/proportion.hpp"
 #include "analysis/repeatability_fields.hpp"
 #include "analysis/repeatability_summary.hpp"
 #include "analysis/text.hpp"
+#include "analysis/tolerance.hpp"
 
 namespace zerocount {
 namespace {
@@ -126,7 +128,8 @@ std::string table_of_axis(const RepeatabilitySummary& summary, const std::vector
   add_values(columns, axis_fields(), shown, summary.shape, rows,
              [](Row row) { return std::span(row.point.sources[row.source].axis); });
   columns.push_back(column_of("zero", true, rows, zero_share));
-  columns.push_back(column_of("95 % bounds", true, rows, zero_bounds));
+  columns.push_back(
+      column_of(fmt::format("{:.6g} % bounds", 100.0 * summary.confidence), true, rows, zero_bounds));
   return aligned_table(columns);
 }
 
@@ -162,6 +165,21 @@ std::string title(const SequenceShape& shape) {
                      shape.cycles == 1 ? "cycle" : "cycles");
 }
 
+/// A line for each point at which all trials repeat exactly: what 100 % is worth.
+std::string exact_points(const RepeatabilitySummary& summary, const std::vector<std::string>& labels) {
+  std::string lines;
+  for (std::size_t i = 0; i < summary.points.size(); ++i) {
+    const PointRepeatability& point = summary.points[i];
+    if (point.zero_repeatability != point.trials) continue;
+    lines += fmt::format(
+        "{}: all {} trials repeat exactly: not 100 %, but at most {} of axes do not, with {:.6g} % "
+        "confidence\n",
+        printable(labels[i]), point.trials,
+        percent_at_most(proportion_at_most(0, point.trials, summary.confidence)), 100.0 * summary.confidence);
+  }
+  return lines;
+}
+
 constexpr std::string_view legend =
     "median (95 % quantile) over the trials without a nonfinite move; deviations by the true position are "
     "from "
@@ -179,7 +197,7 @@ constexpr std::string_view legend =
 std::string repeatability_tables(const RepeatabilitySummary& summary,
                                  const std::vector<std::string>& labels) {
   return title(summary.shape) + "\n\n" + table_of_axis(summary, labels) + "\n" +
-         table_of_targets(summary, labels) + "\n" + std::string(legend);
+         table_of_targets(summary, labels) + "\n" + exact_points(summary, labels) + std::string(legend);
 }
 
 }  // namespace zerocount

@@ -1,5 +1,6 @@
 #include "analysis/statistic_fields.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -127,6 +128,20 @@ std::vector<StatisticField> fields_of_all_studies() {
 }
 
 }  // namespace
+
+std::span<const StatisticField> mean_bound_fields() {
+  static constexpr std::array<StatisticField, 4> fields{{
+      {"settling_time", "mean_low", "s", "lower BCa bootstrap bound of the mean settling time", false,
+       [](S s) { return s.settling_time.mean_bounds.low; }},
+      {"settling_time", "mean_high", "s", "upper BCa bootstrap bound of the mean settling time", false,
+       [](S s) { return s.settling_time.mean_bounds.high; }},
+      {"jerk_count", "mean_low", "1", "lower BCa bootstrap bound of the mean number of jerks per trial",
+       false, [](S s) { return s.jerk_count.mean_bounds.low; }},
+      {"jerk_count", "mean_high", "1", "upper BCa bootstrap bound of the mean number of jerks per trial",
+       false, [](S s) { return s.jerk_count.mean_bounds.high; }},
+  }};
+  return fields;
+}
 
 std::span<const StatisticField> statistic_fields(const StudyFeatures& features) {
   static const std::vector<StatisticField> fields = [] {

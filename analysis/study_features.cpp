@@ -10,6 +10,7 @@ StudyFeatures study_features(const Study& study) {
   features.encoder_errors = study.loop_extras.encoder_errors;
   features.final_error = features.travel || features.phases || study.loop_extras.lasting_errors;
   features.stopping = study.outcome_extras.stopped;
+  features.dependent_trials = study.design == Design::saltelli;
   return features;
 }
 

@@ -16,6 +16,9 @@ struct StudyFeatures {
   /// pre-sliding motion, or moves that are long.
   bool final_error{false};
   bool stopping{false};  ///< at some point, a trial is ended where a move diverges
+  /// The design is saltelli: the trials of a row share most of their numbers, and bounds that take trials for
+  /// independent are too narrow.
+  bool dependent_trials{false};
 };
 
 StudyFeatures study_features(const Study& study);

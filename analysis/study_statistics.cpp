@@ -9,11 +9,13 @@
 
 #include <fmt/format.h>
 
+#include "analysis/assurance_section.hpp"
 #include "analysis/level_statistics.hpp"
 #include "analysis/point_accumulator.hpp"
 #include "analysis/point_columns.hpp"
 #include "analysis/repeatability_file.hpp"
 #include "analysis/repeatability_summary.hpp"
+#include "analysis/stopping_section.hpp"
 #include "analysis/study_features.hpp"
 #include "core/failure.hpp"
 #include "results/layout/table_io.hpp"
@@ -88,7 +90,9 @@ void require_all_trials(const StudyFile& file) {
 
 }  // namespace
 
-std::vector<PointSummary> study_statistics(const StudyFile& file, const Study& study) {
+std::vector<PointSummary> study_statistics(const StudyFile& file, const Study& study, double confidence,
+                                           bool bootstrap) {
+  require_confidence(confidence);
   require_all_trials(file);
   const std::int64_t trials = file.header().trials;
   const std::int64_t moves = file.moves();
@@ -105,8 +109,10 @@ std::vector<PointSummary> study_statistics(const StudyFile& file, const Study& s
       const auto begin = outcomes.begin() + (row - block.first) * moves;
       trial.moves.assign(begin, begin + moves);
       add_trial(point, file, row, trial, jerks);
-      if ((row + 1) % trials == 0)
-        points.push_back(std::exchange(point, PointAccumulator(kind)).statistics());
+      if ((row + 1) % trials != 0) continue;
+      StatisticsOptions options{confidence, {}, study.stop.has_value()};
+      if (bootstrap) options.bootstrap = {study.seed, static_cast<std::uint32_t>(points.size())};
+      points.push_back(std::exchange(point, PointAccumulator(kind)).statistics(options));
     }
   }
   if (!jerks.at_end()) fail(file, "jerks are recorded beyond those that the trials counted");
@@ -138,7 +144,7 @@ StoredStatistics stored_statistics(const StudyFile& file, const Study& study) {
   return stored;
 }
 
-StudySummary summarise(const StudyFile& file) {
+StudySummary summarise(const StudyFile& file, double confidence, bool bootstrap) {
   const FileHeader& header = file.header();
   const Study study = parse_study(header.manifest, file.path().string() + ":/manifest", header.overrides);
   StudySummary summary;
@@ -146,11 +152,20 @@ StudySummary summarise(const StudyFile& file) {
   summary.labels = file.point_labels();
   summary.axes = file.axes();
   summary.observed = study.observed;
-  summary.points = study_statistics(file, study);
+  summary.confidence = confidence;
+  summary.points = study_statistics(file, study, confidence, bootstrap);
   summary.predictions = predictions_of(file.statistics(), header.trials, file.path());
   summary.features = study_features(study);
   if (!study.sequence.empty()) {
-    summary.sections.push_back(repeatability_section(study_repeatability(file, study), summary.labels));
+    summary.sections.push_back(
+        repeatability_section(study_repeatability(file, study, confidence), summary.labels));
+  }
+  if (study.stop) {
+    summary.sections.push_back(stopping_section(summary.points, summary.labels, *study.stop));
+  }
+  // It counts independent trials.
+  if (!study.open_loop && !summary.features.dependent_trials) {
+    summary.sections.push_back(assurance_section(summary.points, summary.labels));
   }
   return summary;
 }

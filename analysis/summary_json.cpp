@@ -59,6 +59,7 @@ nlohmann::ordered_json summary_json(const StudySummary& summary) {
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     nlohmann::ordered_json point{{"point", i}, {"label", summary.labels[i]}, {"axes", axes_json(summary, i)}};
     add_fields(point, statistic_fields(summary.features), summary.points[i]);
+    add_fields(point, mean_bound_fields(), summary.points[i]);
     point["moves"] = moves_json(summary.points[i], summary.features);
     if (summary.features.open_loop) point["levels"] = levels_json(summary.points[i]);
     if (!summary.predictions.empty()) point["prediction"] = prediction_json(summary.predictions[i]);
@@ -68,7 +69,7 @@ nlohmann::ordered_json summary_json(const StudySummary& summary) {
     for (const SummarySection& section : summary.sections) point[section.key] = section.json[i];
     points.push_back(std::move(point));
   }
-  return {{"name", summary.name}, {"points", std::move(points)}};
+  return {{"name", summary.name}, {"confidence", summary.confidence}, {"points", std::move(points)}};
 }
 
 std::string summary_json_text(const StudySummary& summary) {

@@ -26,12 +26,12 @@ std::string bounded_number(double value, double uncertainty) {
 }
 
 std::string position_text(const LevelStatistics& level) {
-  const ConfidenceInterval bounds = student_t(level.position);
+  const ConfidenceInterval bounds = student_t(level.position, level.confidence);
   return bounded_number(micro * level.position.mean, 0.5 * micro * (bounds.high - bounds.low));
 }
 
 std::string bounds_text(const LevelStatistics& level) {
-  const ConfidenceInterval bounds = student_t(level.position);
+  const ConfidenceInterval bounds = student_t(level.position, level.confidence);
   if (std::isnan(bounds.low)) return "–";
   const double uncertainty = 0.5 * micro * (bounds.high - bounds.low);
   return fmt::format("[{}, {}]", bounded_number(micro * bounds.low, uncertainty),
@@ -43,7 +43,7 @@ std::string bounds_text(const LevelStatistics& level) {
 std::vector<TextColumn> level_columns(const StudySummary& summary) {
   std::vector<TextColumn> columns{{"point", false, {}},          {"level", true, {}},
                                   {"torque (N m)", true, {}},    {"trials", true, {}},
-                                  {"position (µrad)", true, {}}, {"95 % bounds", true, {}},
+                                  {"position (µrad)", true, {}}, {bounds_head(summary), true, {}},
                                   {"sd (µrad)", true, {}},       {"creep (µrad)", true, {}},
                                   {"depth", true, {}},           {"broke away", true, {}}};
   const std::vector<std::string> observed = observations(summary);

@@ -23,7 +23,7 @@ void add_outcomes(std::vector<TextColumn>& columns, const StudySummary& summary)
   columns.push_back(by_point(summary, "stable", [](Point p) { return percentage(p.stable, p.judged); }));
   columns.push_back(
       by_point(summary, "zero-count", [](Point p) { return percentage(p.outcomes.zero_count, p.judged); }));
-  columns.push_back(by_point(summary, "95 % bounds",
+  columns.push_back(by_point(summary, bounds_head(summary),
                              [](Point p) { return interval_in_percent(p.success_rate.clopper_pearson); }));
   columns.push_back(
       by_point(summary, "median (s)", [](Point p) { return short_number(p.settling_time.median.value); }));
@@ -106,6 +106,11 @@ std::string loop_legend(const StudySummary& summary) {
         "stopped: share of trials that were ended where a move had diverged; they count as oscillating, and "
         "what is\n"
         "measured of their moves is up to there\n";
+  }
+  if (features.dependent_trials) {
+    legend +=
+        "The trials of a saltelli design are not independent: all bounds here are too narrow. They are for\n"
+        "'zerocount sensitivity'\n";
   }
   if (features.travel) legend += "travel: mean time that the reference takes to its target\n";
   if (features.final_error) legend += "|e|: error at the last sample of the moves, in counts\n";

@@ -10,6 +10,9 @@
 /// Parts of the summary of a study, which summary_table, summary_json and summary_csv put together.
 namespace zerocount {
 
+/// "95 % bounds", with the confidence of the summary: the head of a column of them.
+std::string bounds_head(const StudySummary& summary);
+
 /// The table of a study with targets, and what its columns mean.
 std::vector<TextColumn> loop_columns(const StudySummary& summary);
 std::string loop_legend(const StudySummary& summary);

@@ -25,6 +25,10 @@ std::string nonfinite_notes(const StudySummary& summary) {
 
 }  // namespace
 
+std::string bounds_head(const StudySummary& summary) {
+  return fmt::format("{:.6g} % bounds", 100.0 * summary.confidence);
+}
+
 std::vector<std::string> observations(const StudySummary& summary) {
   std::vector<std::string> texts;
   bool any = false;

@@ -6,9 +6,9 @@
 namespace zerocount {
 
 void assemble(std::span<const ShardInfo> shards, const Study& study, const std::filesystem::path& output,
-              RowRange rows) {
+              RowRange rows, const Renumbering& renumber) {
   const auto statistics = [&](const StudyFile& file) { return stored_statistics(file, study); };
-  merge_shards(shards, study, output, rows, statistics);
+  merge_shards(shards, study, output, rows, statistics, current_provenance(), renumber);
 }
 
 }  // namespace zerocount

@@ -5,6 +5,7 @@
 
 #include "experiments/study.hpp"
 #include "results/layout/row_range.hpp"
+#include "results/shards/concatenate.hpp"
 #include "results/shards/shard.hpp"
 
 namespace zerocount {
@@ -13,6 +14,6 @@ namespace zerocount {
 /// whole study.
 /// @throws Failure; see merge_shards.
 void assemble(std::span<const ShardInfo> shards, const Study& study, const std::filesystem::path& output,
-              RowRange rows);
+              RowRange rows, const Renumbering& renumber = {});
 
 }  // namespace zerocount

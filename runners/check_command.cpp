@@ -128,6 +128,11 @@ void print_plan(const Study& study) {
   fmt::print("  {} design point{} × {} trials = {} trials, {} move{} each\n", point_count(study),
              point_count(study) == 1 ? "" : "s", study.trials, trial_count(study), study.moves,
              study.moves == 1 ? "" : "s");
+  if (study.stop) {
+    fmt::print(
+        "  or fewer: after every {} at each point it ends where all success rates are known to ± {:.4g}\n",
+        study.stop->block, study.stop->success_rate_halfwidth);
+  }
   fmt::print("  {:.4g} samples at {:.0f} ns: about {} on {} core{}\n", cost.samples,
              1e9 * cost.seconds_per_sample, duration_text(cost.seconds()), cost.cores,
              cost.cores == 1 ? "" : "s");

@@ -23,7 +23,14 @@ Command summary_command();
 Command trace_command();
 Command merge_command();
 Command export_command();
+Command compare_command();
+Command baseline_command();
+Command jerks_command();
+Command plan_command();
 Command identify_command();
+Command sensitivity_command();
+Command report_command();
+Command plot_command();
 Command parameters_command();
 Command schema_command();
 

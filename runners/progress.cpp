@@ -29,7 +29,8 @@ Progress::Progress(std::int64_t total, std::int64_t kept, double samples, bool q
 
 std::string Progress::line(std::int64_t done, double elapsed) const {
   const double share = total_ > 0 ? 100.0 * static_cast<double>(done) / static_cast<double>(total_) : 100.0;
-  std::string text = fmt::format("{} of {} trials ({:.1f} %)", done, total_, share);
+  std::string text =
+      fmt::format("{} of {}{} trials ({:.1f} %)", done, projected_ ? "about " : "", total_, share);
   if (kept_ > 0) text += fmt::format(", {} of them from before", kept_);
   const double rate = elapsed > 0.0 ? static_cast<double>(done - kept_) / elapsed : 0.0;
   if (rate > 0.0) {
@@ -37,6 +38,11 @@ std::string Progress::line(std::int64_t done, double elapsed) const {
     if (done < total_) text += ", " + duration_text(static_cast<double>(total_ - done) / rate) + " to go";
   }
   return text;
+}
+
+void Progress::project(std::int64_t total) {
+  total_ = total;
+  projected_ = true;
 }
 
 void Progress::update(std::int64_t done) {

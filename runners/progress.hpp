@@ -14,6 +14,8 @@ class Progress {
   /// rate.
   Progress(std::int64_t total, std::int64_t kept, double samples, bool quiet);
 
+  /// From now on the total is a projection, and may change again.
+  void project(std::int64_t total);
   /// `done` trials of the total are finished.
   void update(std::int64_t done);
   void finish(std::int64_t done);
@@ -23,6 +25,7 @@ class Progress {
   std::string line(std::int64_t done, double elapsed) const;
 
   std::int64_t total_;
+  bool projected_{false};
   std::int64_t kept_;
   double samples_;
   bool quiet_;

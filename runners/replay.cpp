@@ -17,9 +17,11 @@ bool same(double a, double b, double allowed = 0.0) {
   return std::abs(a - b) <= std::max(allowed, 1e-9 * std::max(std::abs(a), std::abs(b)));
 }
 
-/// What a value of this column may differ by however small it is: a position in counts is the difference of
-/// large numbers, and known as well as θ is.
+/// What a value of this column may differ by however small it is. A position in counts is the difference of
+/// large numbers, and known as well as θ is; θ itself is promised to 1e-6 count, which is more than this
+/// of any encoder of up to six million counts a revolution.
 double allowed_in(const Column& column) {
+  if (column.unit == "rad") return 1e-12;
   return column.unit == "count" ? 1e-3 : 0.0;
 }
 

@@ -16,9 +16,11 @@
 #include "results/storage/output_lock.hpp"
 #include "runners/assemble.hpp"
 #include "runners/commands.hpp"
+#include "runners/earlier_shards.hpp"
 #include "runners/interruption.hpp"
 #include "runners/output_place.hpp"
 #include "runners/progress.hpp"
+#include "runners/stopping_run.hpp"
 #include "runners/study_runner.hpp"
 #include "runners/warnings.hpp"
 
@@ -90,62 +92,10 @@ bool already_there(const fs::path& output, const Study& study, RowRange wanted) 
   return true;
 }
 
-/// Ending of the name of a damaged shard that was set aside.
-constexpr const char* set_aside = ".damaged";
-
-/// What earlier runs left in the folder of shards.
-struct EarlierShards {
-  std::vector<ShardInfo> usable;           ///< in order of rows, none overlapping another
-  std::vector<std::filesystem::path> all;  ///< every sound shard of the study
-};
-
-/// Shards of a run of other parts may reach beyond this one's, or overlap: what is left out is run again.
-EarlierShards choose_shards(const std::vector<ShardInfo>& sound, RowRange wanted) {
-  EarlierShards shards;
-  std::int64_t covered = wanted.first;
-  for (const ShardInfo& shard : sound) {
-    shards.all.push_back(shard.path);
-    if (shard.rows.first < covered || shard.rows.end() > wanted.end()) continue;
-    covered = shard.rows.end();
-    shards.usable.push_back(shard);
-  }
-  return shards;
-}
-
-/// The shards of earlier runs. Damaged ones are set aside, and run again.
-EarlierShards earlier_shards(const fs::path& directory, const Study& study, RowRange wanted) {
-  ShardSurvey survey = list_shards(directory, study);
-  for (const ShardProblem& bad : survey.problems) {
-    if (bad.kind == ShardProblem::Kind::foreign) {
-      throw Failure(
-          ExitCode::bad_input,
-          fmt::format("{}: holds another unfinished run, which this one must not touch ({}); finish that run "
-                      "first, give another name with -o, or remove the folder",
-                      directory.string(), bad.problem));
-    }
-    fs::path aside = bad.path;
-    aside += set_aside;
-    std::error_code error;
-    fs::rename(bad.path, aside, error);
-    fmt::print(stderr, "warning: {}; its trials are run again{}\n", bad.problem,
-               error ? "" : fmt::format(", and the file is kept as {}", aside.filename().string()));
-  }
-  remove_unfinished(survey);
-  return choose_shards(survey.shards, wanted);
-}
-
 std::int64_t rows_in(const std::vector<RowRange>& ranges) {
   std::int64_t rows = 0;
   for (const RowRange& range : ranges) rows += range.count;
   return rows;
-}
-
-/// Removes the shards, whose trials the finished file holds or another run can make again, and their folder
-/// if nothing else is in it.
-void remove_shards(const fs::path& directory, const std::vector<fs::path>& shards) {
-  std::error_code error;
-  for (const fs::path& shard : shards) fs::remove(shard, error);
-  fs::remove(directory, error);
 }
 
 ExitCode run(const Arguments& arguments) {
@@ -159,8 +109,14 @@ ExitCode run(const Arguments& arguments) {
   const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   const bool quiet = arguments.has("quiet");
 
+  if (study.stop && part) {
+    arguments.refuse(
+        "option '--shard': how many trials a study with `stop` takes can only be decided in one run");
+  }
+
   const InterruptionWatch interruption;
   const OutputLock lock(output);
+  if (study.stop) return run_until_sure(study, output, {threads, quiet}, interruption.token());
   const fs::path directory = shards_directory(output);
   if (already_there(output, study, wanted)) {
     // Left by a run that died at its very end; what is not of this study stays.

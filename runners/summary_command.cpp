@@ -4,6 +4,7 @@
 #include "analysis/summary.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/commands.hpp"
+#include "runners/option_values.hpp"
 
 namespace zerocount {
 namespace {
@@ -12,14 +13,17 @@ constexpr const char* help =
     "Prints a row per design point: how many trials were stable and ended at zero counts of\n"
     "error (with 95 % bounds), how long they took to settle, how often they jerked, what the\n"
     "criteria (6) and (7) of the paper predict, and what was seen on the real rig where the\n"
-    "manifest says so; of an open-loop study, a row per design point and torque level. json\n"
-    "and csv hold more than the table.\n"
+    "manifest says so; of an open-loop study, a row per design point and torque level. Below the\n"
+    "table stands what the trials show of all axes that the manifest describes. json and csv hold\n"
+    "more than the table. What is stored in the file has 95 % bounds; other ones are found anew.\n"
     "\n"
     "Example: zerocount summary gains.h5 --format json\n";
 
 ExitCode summarise_file(const Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"table", "json", "csv"});
-  const StudySummary summary = summarise(StudyFile(arguments.operands()[0]));
+  const double confidence = probability_option(arguments, "confidence").value_or(summary_confidence);
+  const bool with_means = format != "table";  // the table shows no bounds of means
+  const StudySummary summary = summarise(StudyFile(arguments.operands()[0]), confidence, with_means);
   if (format == "table") fmt::print("{}", summary_table(summary));
   if (format == "json") fmt::print("{}", summary_json_text(summary));
   if (format == "csv") fmt::print("{}", summary_csv(summary));
@@ -29,7 +33,12 @@ ExitCode summarise_file(const Arguments& arguments) {
 }  // namespace
 
 Command summary_command() {
-  return {{"summary", "FILE", 1, 1, {{"format", "FORMAT", "table (default), json or csv"}}},
+  return {{"summary",
+           "FILE",
+           1,
+           1,
+           {{"format", "FORMAT", "table (default), json or csv"},
+            {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"}}},
           "print the statistics of a results file",
           help,
           summarise_file};

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "analysis/mean_bounds.hpp"
 #include "analysis/point_accumulator.hpp"
 #include "analysis/point_columns.hpp"
 #include "analysis/study_statistics.hpp"
@@ -58,6 +59,22 @@ TEST(Levels, AreOfTheTrialsWhoseMotionWasNotLost) {
   EXPECT_EQ(statistics.levels[1].position.n, 1);
   EXPECT_EQ(statistics.levels[1].position.mean, 3e-4);
   EXPECT_EQ(statistics.levels[1].nonfinite, 1);
+}
+
+TEST(Levels, HaveBoundsOfTheConfidenceAskedFor) {
+  PointAccumulator point({.open_loop = true});
+  for (int i = 0; i < 5; ++i) point.add({{level_that(0.1, 1e-4 + 1e-6 * i)}}, {});
+  const LevelStatistics wide = point.statistics({.confidence = 0.99}).levels[0];
+  const LevelStatistics usual = point.statistics().levels[0];
+  for (const LevelField& field : level_fields()) {
+    if (flat_name(field) == "position_low") {
+      EXPECT_EQ(field.value(wide), student_t(wide.position, 0.99).low);
+      EXPECT_EQ(field.value(usual), student_t(usual.position, 0.95).low);
+    }
+    if (flat_name(field) == "position_mean") {
+      EXPECT_EQ(field.value(wide), field.value(usual));
+    }
+  }
 }
 
 TEST(Levels, OfNoTrialAreNotKnown) {

@@ -149,11 +149,11 @@ TEST(RepeatabilityFile, IsExportedAsCsv) {
   ASSERT_EQ(paths.size(), 8U);
   const std::vector<std::string> trials = lines_of(folder.read("csv/repeatability_trials.csv"));
   ASSERT_EQ(trials.size(), 7U);
-  EXPECT_EQ(trials[0].rfind("trial,evaluated,true_reversal,true_mean_reversal,", 0), 0U);
+  EXPECT_EQ(trials[0].rfind("trial,evaluated,true_reversal [rad],true_mean_reversal [rad],", 0), 0U);
   EXPECT_EQ(trials[6].rfind("5,1,", 0), 0U);
   const std::vector<std::string> targets = lines_of(folder.read("csv/repeatability_trial_targets.csv"));
   ASSERT_EQ(targets.size(), 1U + 6U * 3U);
-  EXPECT_EQ(targets[0].rfind("trial,target,position,true_mean_positive,", 0), 0U);
+  EXPECT_EQ(targets[0].rfind("trial,target,position [count],true_mean_positive [rad],", 0), 0U);
   double value = 0.0;
   hdf5::File::open_to_read(folder / "study.h5")
       .open_dataset("repeatability/trial/true/reversal")
@@ -170,7 +170,8 @@ TEST(RepeatabilityFile, AStudyWithoutSequenceHasNone) {
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, testing::sequence_results(study));
   EXPECT_FALSE(hdf5::File::open_to_read(folder / "study.h5").contains("repeatability"));
-  EXPECT_TRUE(summarise(StudyFile(folder / "study.h5")).sections.empty());
+  for (const SummarySection& section : summarise(StudyFile(folder / "study.h5")).sections)
+    EXPECT_NE(section.key, "repeatability");
   EXPECT_TRUE(repeatability_exports(StudyFile(folder / "study.h5")).empty());
 }
 

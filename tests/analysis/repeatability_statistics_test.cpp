@@ -40,6 +40,19 @@ TEST(ValueStatistics, AreThoseOfATally) {
   }
 }
 
+TEST(ValueStatistics, HaveBoundsOfTheConfidenceAskedFor) {
+  std::vector<double> values;
+  Tally<double> tally;
+  for (int i = 0; i < 90; ++i) {
+    values.push_back(i * i % 97);
+    tally.add(values.back());
+  }
+  const ValueStatistics result = statistics_of(values, 0.5);
+  EXPECT_EQ(result.median.low, quantile(tally, 0.5, 0.5).low);
+  EXPECT_EQ(result.p95.high, quantile(tally, 0.95, 0.5).high);
+  EXPECT_GT(result.median.low, statistics_of(values).median.low);
+}
+
 TEST(ValueStatistics, LeaveOutWhatIsNotDefined) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const ValueStatistics result = statistics_of({none, 3.0, none, 1.0, 2.0});

@@ -66,7 +66,8 @@ TEST(RepeatabilitySummary, TellsOfTheAxisInArcsecAndCounts) {
   EXPECT_NE(text.find("\nrepeatability after ISO 230-2: 3 targets approached from both sides in 3 cycles\n"),
             std::string::npos);
   const auto rows = rows_of(text, "fine");
-  ASSERT_EQ(rows.size(), 1U + 2U + 6U);  // the usual table, the axis, three targets
+  ASSERT_EQ(rows.size(),
+            1U + 2U + 6U + 1U);  // the usual table, the axis, three targets, what is shown of all axes
   // A count is 0.8 arcsec: point, from, (unit), trials, then B, R↑, R↓, R, E, M, A as median (p95).
   const std::vector<std::string> truly(rows[1].begin() + 3, rows[1].begin() + 6);
   EXPECT_EQ(truly, (std::vector<std::string>{"80", "0.8", "(0.8)"}));
@@ -98,6 +99,12 @@ TEST(RepeatabilitySummary, OfASequenceFromOneSideHasItsValuesOnly) {
   const auto rows = rows_of(text, "fine");
   EXPECT_EQ(rows[2], (std::vector<std::string>{"fine", "encoder", "(count)", "80", "0", "(0)", "0", "(0)",
                                                "0", "(0)", "100", "%", "[95.5,", "100.0]"}));
+  EXPECT_NE(
+      text.find(
+          "\nfine: all 80 trials repeat exactly: not 100 %, but at most 3.7 % of axes do not, with 95 % "
+          "confidence\n"),  // 1 − 0.05^(1/80) = 0.0368
+      std::string::npos)
+      << text;
 }
 
 TEST(RepeatabilitySummary, OfASingleCycleHasNoRepeatability) {

@@ -26,7 +26,7 @@ bool has_final_error(const std::string& more, int seed = 5) {
 TEST(StudyFeatures, OfThePapersLoopAreNone) {
   const StudyFeatures none = features_with("");
   EXPECT_FALSE(none.open_loop || none.travel || none.phases || none.encoder_errors || none.final_error ||
-               none.stopping);
+               none.stopping || none.dependent_trials);
 }
 
 TEST(StudyFeatures, EncoderErrorsAreThoseOfEitherEncoder) {
@@ -54,6 +54,12 @@ TEST(StudyFeatures, StoppingIsThatOfAnyPoint) {
   EXPECT_TRUE(features_with("verdict: {stop: true}").stopping);
   EXPECT_FALSE(features_with("verdict: {stop: false}").stopping);
   EXPECT_TRUE(features_with("sweep: {grid: {verdict.stop: [false, true]}}").stopping);
+}
+
+TEST(StudyFeatures, TrialsOfASaltelliDesignAreDependent) {
+  const std::string drawn = "friction: {k1: {uniform: [100, 120]}}\n";
+  EXPECT_TRUE(features_with(drawn + "design: saltelli").dependent_trials);
+  EXPECT_FALSE(features_with(drawn + "design: sobol").dependent_trials);
 }
 
 // One seed draws an error in the first trial, another does not: the columns are the same.

@@ -216,6 +216,14 @@ TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {
   }
 }
 
+TEST(Summary, SaysThatTheBoundsOfASaltelliDesignAreTooNarrow) {
+  StudySummary summary = two_cases();
+  EXPECT_EQ(summary_table(summary).find("too narrow"), std::string::npos);
+  summary.features.dependent_trials = true;
+  EXPECT_NE(summary_table(summary).find("not independent: all bounds here are too narrow"),
+            std::string::npos);
+}
+
 TEST(Summary, SaysHowManyTrialsWereStoppedWhereAStudyCanStopThem) {
   StudySummary summary = two_cases();
   summary.points[1].stopped = summary.points[1].by_move[0].stopped = 5;

@@ -1,0 +1,97 @@
+#include "analysis/comparison/baseline.hpp"
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/comparison/compare_studies.hpp"
+#include "analysis/comparison/comparison_report.hpp"
+#include "core/failure.hpp"
+#include "experiments/designs/sha256.hpp"
+#include "results/storage/durable_file.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The bytes of a file; empty where there is none.
+std::string bytes_of(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return {};
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file.is_open() || file.bad()) fail_with(path, "read", errno);
+  return bytes;
+}
+
+/// A text as YAML: JSON's strings are YAML's double-quoted ones.
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string comparison_with(const fs::path& before, const fs::path& now) {
+  try {
+    return verdict_sentence(compare_files(before, now));
+  } catch (const Failure& failure) {
+    return fmt::format("cannot be compared: {}", failure.what());
+  }
+}
+
+std::string log_entry(const FileHeader& header, const std::string& sha256, const std::string& reason,
+                      const std::string& replaced, const std::string& comparison) {
+  const Provenance& build = header.provenance;
+  std::string entry = fmt::format(
+      "- date: {}\n  reason: {}\n  sha256: {}\n  study: {}\n  overrides: {}\n  trials: {}\n  points: {}\n  "
+      "seed: {}\n"
+      "  zerocount_version: {}\n  git_commit: {}\n  engine: {}\n",
+      quoted(current_provenance().created), quoted(reason), quoted(sha256), quoted(header.name),
+      nlohmann::json(header.overrides).dump(), header.trials, header.points, header.seed,
+      quoted(build.zerocount_version), quoted(build.git_commit), name_of(header.engine));
+  if (!replaced.empty())
+    entry += fmt::format("  replaces: {}\n  comparison: {}\n", quoted(replaced), quoted(comparison));
+  return entry;
+}
+
+}  // namespace
+
+fs::path baseline_log(const fs::path& baseline) {
+  fs::path log = baseline;
+  log += ".log.yaml";
+  return log;
+}
+
+BaselineUpdate update_baseline(const fs::path& file, const fs::path& output, const std::string& reason) {
+  const FileHeader header = StudyFile(file).header();
+  const std::string bytes = bytes_of(file);
+  const std::string before = bytes_of(output);
+  BaselineUpdate update;
+  if (bytes == before) return {false, {}, {}};
+  const std::string log = bytes_of(baseline_log(output));
+  std::string replaced;
+  if (!before.empty()) {
+    replaced = sha256_hex(before);
+    update.comparison = comparison_with(output, file);
+    if (log.find(replaced) == std::string::npos) {
+      update.warnings.push_back(
+          fmt::format("{} is not the file that its log speaks of last: it was changed without a record",
+                      output.string()));
+    }
+  }
+  if (is_dirty(header.provenance)) {
+    update.warnings.push_back(fmt::format(
+        "{} was made by a build with changes that were not committed: nobody else can make it again",
+        file.string()));
+  }
+  replace_file(baseline_log(output),
+               log + log_entry(header, sha256_hex(bytes), reason, replaced, update.comparison));
+  replace_file(output, bytes);
+  return update;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,224 @@
+#include "analysis/comparison/compare_studies.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/comparison/manifest_differences.hpp"
+#include "analysis/comparison/margins_file.hpp"
+#include "analysis/comparison/matching.hpp"
+#include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/comparison/point_trials.hpp"
+#include "analysis/comparison/requirements.hpp"
+#include "core/failure.hpp"
+#include "results/reading/first_difference.hpp"
+
+namespace zerocount {
+namespace {
+
+ComparedFile described(const StudyFile& file) {
+  const FileHeader& header = file.header();
+  return {file.path().string(),
+          header.name,
+          header.provenance.zerocount_version,
+          header.provenance.git_commit,
+          std::string(name_of(header.engine)),
+          header.provenance.created,
+          header.seed,
+          header.trials};
+}
+
+/// Why the datasets of the two need not be equal to the bit; empty where they must be.
+std::string why_bits_may_differ(const FileHeader& one, const FileHeader& other) {
+  if (one.study_sha256 != other.study_sha256) return "the manifests or overrides differ";
+  if (one.engine != other.engine) return "they are of different engines";
+  if (!same_build(one.provenance, other.provenance)) return "they are of different builds";
+  if (one.provenance.compiler != other.provenance.compiler) return "they are of different compilers";
+  if (one.version != other.version) return "they are of different versions of the layout";
+  if (is_dirty(one.provenance) || is_dirty(other.provenance)) {
+    return "a build had changes that were not committed, and need not be that of the other";
+  }
+  if (one.provenance.git_commit == "unknown") return "the commits they were built from are unknown";
+  return {};
+}
+
+/// Finds the layer, and compares the datasets where that can be decisive.
+void find_layer(StudyComparison& result, const StudyFile& baseline, const StudyFile& current) {
+  const std::string different = why_bits_may_differ(baseline.header(), current.header());
+  if (baseline.header().study_sha256 == current.header().study_sha256) {
+    result.first_difference = first_difference(baseline.root(), current.root()).value_or("");
+    result.equal_to_the_bit = result.first_difference.empty();
+  }
+  if (different.empty() || result.equal_to_the_bit) {
+    result.layer = ComparisonLayer::bits;
+    result.layer_reason = different.empty() ? "one study by one build: every dataset must be equal to the bit"
+                                            : different + ", and yet every dataset is equal to the bit";
+    return;
+  }
+  result.layer_reason = different;
+}
+
+void require_same_kind(const StudyFile& baseline, const StudyFile& current, const ManifestValues& old_values,
+                       const ManifestValues& new_values) {
+  const auto open_loop = [](const ManifestValues& values) {
+    return std::any_of(values.begin(), values.end(),
+                       [](const auto& value) { return value.first.starts_with("command.torque."); });
+  };
+  if (open_loop(old_values) == open_loop(new_values)) return;
+  throw Failure(ExitCode::bad_data,
+                fmt::format("{} and {} cannot be compared: one has targets, the other torque levels",
+                            baseline.path().string(), current.path().string()));
+}
+
+/// Every test here takes trials for independent, and those of a saltelli design share most of their numbers.
+void require_independent_trials(const StudyFile& file, const ManifestValues& values) {
+  const auto design = values.find("design");
+  if (design == values.end() || design->second != "saltelli") return;
+  throw Failure(ExitCode::bad_data,
+                fmt::format("{}: cannot be compared: the trials of `design: saltelli` are not independent; "
+                            "expected a study of another design",
+                            file.path().string()));
+}
+
+PointComparison compare_point(const StudyComparison& comparison, const GateRules& rules,
+                              const MatchedPoint& point, const PointTrials& baseline,
+                              const PointTrials& current) {
+  PointComparison result;
+  result.label = point.label;
+  result.baseline_point = point.baseline;
+  result.current_point = point.current;
+  result.baseline_trials = baseline.trials;
+  result.current_trials = current.trials;
+  const bool paired = comparison.layer != ComparisonLayer::two_samples;
+  if (paired) result.pairs = std::min(baseline.trials, current.trials);
+  result.measures = paired ? compare_measures(rules, point.label, first_trials(baseline, result.pairs),
+                                              first_trials(current, result.pairs), true)
+                           : compare_measures(rules, point.label, baseline, current, false);
+  return result;
+}
+
+std::int64_t count_requirements(const GateRules& rules, const std::vector<MatchedPoint>& points) {
+  std::int64_t count = 0;
+  for (const MatchedPoint& point : points) count += std::ssize(requirements_of(rules, point.label));
+  return count;
+}
+
+/// An open-loop study has moves, but none that could be judged.
+bool judges_nothing(const StudyFile& file) {
+  const std::vector<double> outcomes = file.measure("outcome", file.rows());
+  return std::all_of(outcomes.begin(), outcomes.end(),
+                     [](double outcome) { return outcome == static_cast<double>(Outcome::open_loop); });
+}
+
+void compare_points(StudyComparison& result, const GateRules& rules, const StudyFile& baseline,
+                    const StudyFile& current, const std::vector<MatchedPoint>& points) {
+  const double failing = failing_confidence(rules.confidence, count_requirements(rules, points));
+  const bool nothing = judges_nothing(current) || judges_nothing(baseline);
+  for (const MatchedPoint& point : points) {
+    const PointTrials before = read_point_trials(baseline, point.baseline);
+    const PointTrials after = read_point_trials(current, point.current);
+    result.points.push_back(compare_point(result, rules, point, before, after));
+    PointComparison& compared = result.points.back();
+    if (nothing) compared.measures.clear();
+    for (const Requirement& requirement : requirements_of(rules, point.label)) {
+      compared.requirements.push_back(judge_requirement(requirement, after, rules.confidence, failing));
+    }
+  }
+  result.tests = decide(result.points, rules);
+  if (nothing)
+    result.notes.push_back("the moves have torque levels and no targets: no measure of the gate applies");
+}
+
+/// Equal data need no statistics: no measure can be worse.
+void pass_equal_data(StudyComparison& result) {
+  for (PointComparison& point : result.points) {
+    for (MeasureComparison& measure : point.measures) {
+      measure.test = "equal to the bit";
+      measure.trials_to_decide.reset();
+      if (measure.verdict == GateVerdict::inconclusive) measure.note.clear();
+      if (measure.verdict != GateVerdict::not_measured) measure.verdict = GateVerdict::passed;
+    }
+  }
+}
+
+GateVerdict verdict_at(const PointComparison& point, bool equal) {
+  std::vector<GateVerdict> verdicts;
+  for (const MeasureComparison& measure : point.measures) verdicts.push_back(measure.verdict);
+  for (const RequirementResult& requirement : point.requirements) verdicts.push_back(requirement.verdict);
+  if (equal) verdicts.push_back(GateVerdict::passed);
+  return worst_of(verdicts);
+}
+
+/// A point of which nothing was measured leaves the whole undecided.
+GateVerdict verdict_of(StudyComparison& result) {
+  std::vector<GateVerdict> verdicts;
+  for (PointComparison& point : result.points) {
+    point.verdict = verdict_at(point, result.equal_to_the_bit);
+    verdicts.push_back(point.verdict == GateVerdict::not_measured ? GateVerdict::inconclusive
+                                                                  : point.verdict);
+  }
+  if (result.layer == ComparisonLayer::bits && !result.equal_to_the_bit)
+    verdicts.push_back(GateVerdict::regression);
+  const GateVerdict worst = worst_of(verdicts);
+  return worst == GateVerdict::not_measured ? GateVerdict::inconclusive : worst;
+}
+
+void note_unpaired_trials(StudyComparison& result) {
+  const std::int64_t before = result.baseline.trials;
+  const std::int64_t after = result.current.trials;
+  if (result.layer != ComparisonLayer::paired || before == after) return;
+  result.notes.push_back(fmt::format(
+      "compared are the first {} trials of each point: of the {} in {}, the others have no partner",
+      std::min(before, after), std::max(before, after),
+      before > after ? result.baseline.path : result.current.path));
+}
+
+}  // namespace
+
+StudyComparison compare_studies(const StudyFile& baseline, const StudyFile& current, const GateRules& rules) {
+  const std::vector<MatchedPoint> points = match_points(baseline, current);
+  const ManifestValues old_values = manifest_values(baseline.header(), baseline.path().string());
+  const ManifestValues new_values = manifest_values(current.header(), current.path().string());
+  require_same_kind(baseline, current, old_values, new_values);
+
+  StudyComparison result;
+  result.baseline = described(baseline);
+  result.current = described(current);
+  result.confidence = rules.confidence;
+  result.false_discovery_rate = rules.false_discovery_rate;
+  result.manifest_differences = manifest_differences(old_values, new_values);
+  find_layer(result, baseline, current);
+  if (result.layer != ComparisonLayer::bits) {
+    require_independent_trials(baseline, old_values);
+    require_independent_trials(current, new_values);
+    DrawComparison draws = compare_draws(baseline, current, old_values, new_values, points);
+    result.layer = draws.same ? ComparisonLayer::paired : ComparisonLayer::two_samples;
+    result.layer_reason += "; " + draws.reason;
+    result.changed_inputs = std::move(draws.changed_inputs);
+  }
+  note_unpaired_trials(result);
+  compare_points(result, rules, baseline, current, points);
+  if (result.equal_to_the_bit) pass_equal_data(result);
+  result.verdict = verdict_of(result);
+  return result;
+}
+
+StudyComparison compare_files(const std::filesystem::path& baseline, const std::filesystem::path& current,
+                              const std::optional<std::filesystem::path>& margins) {
+  const StudyFile before(baseline);
+  const StudyFile after(current);
+  const GateRules rules = margins ? read_gate_rules(*margins, after.point_labels()) : GateRules{};
+  StudyComparison result = compare_studies(before, after, rules);
+  std::error_code error;
+  if (std::filesystem::equivalent(baseline, current, error)) {
+    result.notes.push_back("both names are of one file: this shows nothing of the program");
+  }
+  return result;
+}
+
+}  // namespace zerocount

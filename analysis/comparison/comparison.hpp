@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/proportion.hpp"
+
+/// What the comparison of a results file with a baseline found: see README.md of this folder for the method.
+namespace zerocount {
+
+/// How much the two files have in common, which decides how they can be compared.
+enum class ComparisonLayer {
+  bits,        ///< one study by one build: every dataset must be equal to the bit
+  paired,      ///< trial i drew the same random numbers in both: trials are compared one by one
+  two_samples  ///< different draws: distributions are compared
+};
+
+/// What is said of a measure, a point, a requirement, or of all of it.
+enum class GateVerdict {
+  passed,        ///< shown: no worse than the margin allows, or the requirement is met
+  regression,    ///< shown: worse by more than the margin, or the requirement is not met
+  inconclusive,  ///< neither is shown
+  not_measured   ///< too few trials have a value at all; counts neither way
+};
+
+/// One measure at one design point in the two files. An effect counts as positive where it is for the worse.
+struct MeasureComparison {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  std::string measure;         ///< name, of gate_measures()
+  std::string unit;            ///< of every value here
+  std::string test;            ///< that gave p
+  std::int64_t baseline_n{0};  ///< trials with a value
+  std::int64_t current_n{0};   ///< trials with a value; the number of pairs in both where they are paired
+  double baseline{unknown};    ///< share or mean
+  double current{unknown};     ///< share or mean
+  double effect{unknown};      ///< how much worse the current file is
+  ConfidenceInterval bounds{unknown, unknown};  ///< of the effect: each holds by itself with the confidence
+  double margin{unknown};                       ///< effect that is still accepted
+  bool both_ways{false};                        ///< a change for the better beyond the margin fails too
+  double p{unknown};              ///< of no difference, against a change for the worse (either, if both_ways)
+  double adjusted_p{unknown};     ///< after control of the false discoveries
+  double improvement_p{unknown};  ///< of no difference, against a change for the better
+  double adjusted_improvement_p{unknown};  ///< after control of the false discoveries
+  GateVerdict verdict{GateVerdict::not_measured};
+  bool improved{false};                    ///< better: significantly, and by more than the margin
+  std::optional<double> trials_to_decide;  ///< per design point; of an inconclusive measure, where known
+  std::string note;                        ///< why, where there is more to say; otherwise empty
+};
+
+/// An absolute requirement on one quantity at one design point of the current file.
+struct RequirementResult {
+  std::string text;      ///< as it was given, "success_rate ≥ 0.995"
+  std::string quantity;  ///< such as "success_rate" or "settling_time.p95"
+  std::string unit;
+  bool at_least{true};  ///< ≥; otherwise ≤
+  double limit{0.0};
+  std::int64_t n{0};  ///< trials or moves that the value is of
+  double value{MeasureComparison::unknown};
+  /// One-sided bounds: the one against the limit at the confidence, the other stricter (see README.md).
+  ConfidenceInterval bounds{MeasureComparison::unknown, MeasureComparison::unknown};
+  GateVerdict verdict{GateVerdict::inconclusive};
+  std::optional<double> trials_to_decide;  ///< per design point, where known
+};
+
+/// One design point in the two files.
+struct PointComparison {
+  std::string label;
+  std::int64_t baseline_point{0};
+  std::int64_t current_point{0};
+  std::int64_t baseline_trials{0};
+  std::int64_t current_trials{0};
+  std::int64_t pairs{0};  ///< trials that were compared one by one; 0 where they were not
+  GateVerdict verdict{GateVerdict::not_measured};
+  std::vector<MeasureComparison> measures;
+  std::vector<RequirementResult> requirements;
+};
+
+/// One key that the two manifests do not have in common, or not with the same value.
+struct ManifestDifference {
+  std::string key;       ///< dotted path
+  std::string baseline;  ///< YAML on one line; empty where the key is missing
+  std::string current;
+};
+
+/// Who made one of the files.
+struct ComparedFile {
+  std::string path;
+  std::string name;  ///< of the study
+  std::string version;
+  std::string commit;
+  std::string engine;
+  std::string created;
+  std::uint64_t seed{0};
+  std::int64_t trials{0};  ///< per design point
+};
+
+/// Everything that a comparison found.
+struct StudyComparison {
+  ComparedFile baseline;
+  ComparedFile current;
+  ComparisonLayer layer{ComparisonLayer::two_samples};
+  std::string layer_reason;  ///< why this layer, one line
+  bool equal_to_the_bit{false};
+  std::string
+      first_difference;  ///< first dataset that differs, with the place; empty where none was looked for
+  std::vector<ManifestDifference> manifest_differences;
+  std::vector<std::string> changed_inputs;  ///< drawn parameters whose values differ on the same draws
+  double confidence{0.95};                  ///< of each bound
+  double false_discovery_rate{0.05};
+  std::int64_t tests{0};  ///< over which the false discoveries are controlled
+  std::vector<PointComparison> points;
+  GateVerdict verdict{GateVerdict::inconclusive};  ///< never not_measured
+  std::vector<std::string> notes;                  ///< what else the reader should know, a line each
+};
+
+}  // namespace zerocount

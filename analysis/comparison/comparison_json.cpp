@@ -1,0 +1,112 @@
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/comparison/comparison_report.hpp"
+
+namespace zerocount {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json trials_json(const std::optional<double>& trials) {
+  return trials ? Json(static_cast<std::int64_t>(*trials)) : Json(nullptr);
+}
+
+Json interval_json(const ConfidenceInterval& bounds) {
+  return Json::array({bounds.low, bounds.high});
+}
+
+Json file_json(const ComparedFile& file) {
+  return {{"path", file.path},         {"name", file.name},     {"zerocount_version", file.version},
+          {"git_commit", file.commit}, {"engine", file.engine}, {"created", file.created},
+          {"seed", file.seed},         {"trials", file.trials}};
+}
+
+Json measure_json(const MeasureComparison& measure) {
+  return {{"measure", measure.measure},
+          {"unit", measure.unit},
+          {"verdict", word_of(measure.verdict)},
+          {"improved", measure.improved},
+          {"baseline", measure.baseline},
+          {"current", measure.current},
+          {"baseline_n", measure.baseline_n},
+          {"current_n", measure.current_n},
+          {"effect", measure.effect},
+          {"effect_bounds", interval_json(measure.bounds)},
+          {"margin", measure.margin},
+          {"both_ways", measure.both_ways},
+          {"test", measure.test},
+          {"p", measure.p},
+          {"adjusted_p", measure.adjusted_p},
+          {"improvement_p", measure.improvement_p},
+          {"adjusted_improvement_p", measure.adjusted_improvement_p},
+          {"trials_to_decide", trials_json(measure.trials_to_decide)},
+          {"note", measure.note}};
+}
+
+Json requirement_json(const RequirementResult& requirement) {
+  return {{"require", requirement.text},
+          {"quantity", requirement.quantity},
+          {"unit", requirement.unit},
+          {"verdict", word_of(requirement.verdict)},
+          {"limit", requirement.limit},
+          {"value", requirement.value},
+          {"n", requirement.n},
+          {"bounds", interval_json(requirement.bounds)},
+          {"trials_to_decide", trials_json(requirement.trials_to_decide)}};
+}
+
+Json point_json(const PointComparison& point) {
+  Json json{{"label", point.label},
+            {"verdict", word_of(point.verdict)},
+            {"baseline_point", point.baseline_point},
+            {"current_point", point.current_point},
+            {"baseline_trials", point.baseline_trials},
+            {"current_trials", point.current_trials},
+            {"pairs", point.pairs},
+            {"measures", Json::array()},
+            {"requirements", Json::array()}};
+  for (const MeasureComparison& measure : point.measures) json["measures"].push_back(measure_json(measure));
+  for (const RequirementResult& one : point.requirements)
+    json["requirements"].push_back(requirement_json(one));
+  return json;
+}
+
+}  // namespace
+
+std::string comparison_json(const StudyComparison& comparison) {
+  const VerdictCounts counts = count_verdicts(comparison);
+  Json json{{"verdict", word_of(comparison.verdict)},
+            {"sentence", verdict_sentence(comparison)},
+            {"baseline", file_json(comparison.baseline)},
+            {"current", file_json(comparison.current)},
+            {"layer", word_of(comparison.layer)},
+            {"layer_reason", comparison.layer_reason},
+            {"equal_to_the_bit", comparison.equal_to_the_bit},
+            {"first_difference", comparison.first_difference},
+            {"manifest_differences", Json::array()},
+            {"changed_inputs", comparison.changed_inputs},
+            {"confidence", comparison.confidence},
+            {"false_discovery_rate", comparison.false_discovery_rate},
+            {"tests", comparison.tests},
+            {"counts",
+             {{"passed", counts.passed},
+              {"regression", counts.regressions},
+              {"inconclusive", counts.inconclusive},
+              {"not_measured", counts.not_measured},
+              {"improved", counts.improved}}},
+            {"trials_to_decide", trials_json(trials_to_decide(comparison))},
+            {"notes", comparison.notes},
+            {"points", Json::array()}};
+  for (const ManifestDifference& one : comparison.manifest_differences) {
+    json["manifest_differences"].push_back(
+        {{"key", one.key}, {"baseline", one.baseline}, {"current", one.current}});
+  }
+  for (const PointComparison& point : comparison.points) json["points"].push_back(point_json(point));
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace zerocount

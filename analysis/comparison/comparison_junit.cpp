@@ -1,0 +1,92 @@
+#include <cstdint>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "analysis/comparison/comparison_report.hpp"
+#include "analysis/comparison/comparison_rows.hpp"
+#include "analysis/text.hpp"
+
+namespace zerocount {
+namespace {
+
+/// As text or an attribute of XML; what XML cannot hold is replaced.
+std::string xml(std::string_view text) {
+  std::string escaped;
+  for (const char c : printable(text)) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+/// What the case holds beside its name.
+std::string element_of(std::string_view verdict, const std::string& message) {
+  if (verdict == word_of(GateVerdict::regression)) {
+    return fmt::format("<failure type=\"regression\" message=\"{}\"/>", xml(message));
+  }
+  if (verdict == word_of(GateVerdict::inconclusive)) {
+    return fmt::format("<error type=\"inconclusive\" message=\"{}\"/>", xml(message));
+  }
+  if (verdict == word_of(GateVerdict::not_measured))
+    return fmt::format("<skipped message=\"{}\"/>", xml(message));
+  return fmt::format("<system-out>{}</system-out>", xml(message));
+}
+
+std::string case_of(const std::string& suite, const std::string& name, std::string_view verdict,
+                    const std::string& message) {
+  return fmt::format("    <testcase classname=\"{}\" name=\"{}\">{}</testcase>\n", xml(suite), xml(name),
+                     element_of(verdict, message));
+}
+
+std::string message_of(const ComparisonRow& row) {
+  const std::string note = row.note.empty() ? "" : "; " + row.note;
+  return fmt::format("baseline {}, file {}, worse by {} {}, margin {}, p {}{}", row.baseline, row.current,
+                     row.worse_by, row.bounds, row.margin, row.p, note);
+}
+
+}  // namespace
+
+std::string comparison_junit(const StudyComparison& comparison) {
+  const std::string suite = comparison.current.name;
+  VerdictCounts counts = count_verdicts(comparison);
+  std::string cases;
+  for (const ComparisonRow& row : comparison_rows(comparison)) {
+    cases += case_of(suite, fmt::format("{}: {}", row.point, row.measure), row.verdict, message_of(row));
+  }
+  std::int64_t tests = counts.passed + counts.regressions + counts.inconclusive + counts.not_measured;
+  // A verdict that no single case gives: unequal data, or nothing measured.
+  const bool unequal = comparison.layer == ComparisonLayer::bits && !comparison.equal_to_the_bit;
+  const bool silent = comparison.verdict == GateVerdict::inconclusive && counts.inconclusive == 0;
+  if (comparison.layer == ComparisonLayer::bits || silent) {
+    ++tests;
+    counts.regressions += unequal;
+    counts.inconclusive += silent;
+    const GateVerdict verdict = unequal  ? GateVerdict::regression
+                                : silent ? GateVerdict::inconclusive
+                                         : GateVerdict::passed;
+    cases += case_of(suite, "the data", word_of(verdict), verdict_sentence(comparison));
+  }
+  const std::string numbers = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\"", tests,
+                                          counts.regressions, counts.inconclusive, counts.not_measured);
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"zerocount compare\" {0}>\n"
+      "  <testsuite name=\"{1}\" {0}>\n{2}  </testsuite>\n</testsuites>\n",
+      numbers, xml(suite), cases);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "analysis/comparison/comparison.hpp"
+
+/// A comparison as text for people and for machines.
+namespace zerocount {
+
+/// "passed", "regression", "inconclusive" or "not measured".
+std::string_view word_of(GateVerdict verdict);
+
+/// "bits", "paired" or "two_samples".
+std::string_view word_of(ComparisonLayer layer);
+
+/// Measures and requirements by their verdicts.
+struct VerdictCounts {
+  std::int64_t passed{0};
+  std::int64_t regressions{0};
+  std::int64_t inconclusive{0};
+  std::int64_t not_measured{0};
+  std::int64_t improved{0};
+};
+
+VerdictCounts count_verdicts(const StudyComparison& comparison);
+
+/// The verdict in a sentence.
+std::string verdict_sentence(const StudyComparison& comparison);
+
+/// Trials per design point that would decide everything that is inconclusive; nothing where that is unknown
+/// of some of it, or nothing is inconclusive.
+std::optional<double> trials_to_decide(const StudyComparison& comparison);
+
+/// A value of a measure or requirement with its unit: shares in per cent.
+std::string value_text(double value, std::string_view quantity, std::string_view unit);
+
+/// A number of trials to two digits, rounded up.
+std::string trials_text(double trials);
+
+/// For a terminal. Of many rows only those that did not simply pass are shown, and it is said how many are
+/// not.
+std::string comparison_table(const StudyComparison& comparison);
+
+/// Everything, as an object; numbers that are not known are null.
+std::string comparison_json(const StudyComparison& comparison);
+
+/// JUnit XML: a test suite with one case per point and measure or requirement. A regression is a failure;
+/// what is inconclusive is an error; what was not measured is skipped.
+std::string comparison_junit(const StudyComparison& comparison);
+
+/// A summary for a pull request or a job's page.
+std::string comparison_markdown(const StudyComparison& comparison);
+
+}  // namespace zerocount

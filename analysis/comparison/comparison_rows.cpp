@@ -1,0 +1,110 @@
+#include "analysis/comparison/comparison_rows.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/comparison/comparison_report.hpp"
+#include "analysis/text.hpp"
+
+namespace zerocount {
+namespace {
+
+std::string interval_text(const ConfidenceInterval& bounds, std::string_view quantity,
+                          std::string_view unit) {
+  if (std::isnan(bounds.low)) return "–";
+  return fmt::format("[{}, {}]", value_text(bounds.low, quantity, unit),
+                     value_text(bounds.high, quantity, unit));
+}
+
+std::string p_text(double p) {
+  if (std::isnan(p)) return "–";
+  return p < 1e-4 ? "< 1e-4" : fmt::format("{:.2g}", p);
+}
+
+/// The note, what would decide, and whether it is better.
+std::string remarks(std::string note, const std::optional<double>& trials, bool improved) {
+  const auto add = [&](const std::string& remark) { note += (note.empty() ? "" : "; ") + remark; };
+  if (improved) add("improved");
+  if (trials) add(fmt::format("{} trials would decide", trials_text(*trials)));
+  return note;
+}
+
+ComparisonRow row_of(const PointComparison& point, const MeasureComparison& measure) {
+  const auto text = [&](double value) { return value_text(value, measure.measure, measure.unit); };
+  ComparisonRow row;
+  row.point = printable(point.label);
+  row.measure = measure.measure;
+  row.baseline = text(measure.baseline);
+  row.current = text(measure.current);
+  row.worse_by = text(measure.effect);
+  row.bounds = interval_text(measure.bounds, measure.measure, measure.unit);
+  row.margin = (measure.both_ways ? "± " : "") + text(measure.margin);
+  row.p = p_text(measure.adjusted_p);
+  row.verdict = word_of(measure.verdict);
+  row.note = remarks(measure.note, measure.trials_to_decide, measure.improved);
+  row.noteworthy = measure.verdict != GateVerdict::passed || measure.improved;
+  return row;
+}
+
+ComparisonRow row_of(const PointComparison& point, const RequirementResult& requirement) {
+  const auto text = [&](double value) { return value_text(value, requirement.quantity, requirement.unit); };
+  ComparisonRow row;
+  row.point = printable(point.label);
+  row.measure = "require " + requirement.quantity;
+  row.baseline = "–";
+  row.current = text(requirement.value);
+  row.worse_by = "–";
+  const bool quantile = requirement.quantity.starts_with("settling_time.");
+  row.bounds = quantile ? fmt::format("{} within", interval_text(requirement.bounds, "_rate", "1"))
+                        : interval_text(requirement.bounds, requirement.quantity, requirement.unit);
+  row.margin = fmt::format("{} {}", requirement.at_least ? "≥" : "≤", text(requirement.limit));
+  row.p = "–";
+  row.verdict = word_of(requirement.verdict);
+  row.note = remarks("", requirement.trials_to_decide, false);
+  row.noteworthy = requirement.verdict != GateVerdict::passed;
+  return row;
+}
+
+std::string file_text(const ComparedFile& file, std::size_t points) {
+  return printable(fmt::format(
+      "{}: study {}, seed {}, {} trials at {} points, zerocount {} ({}), {} engine, {}", file.path, file.name,
+      file.seed, file.trials, points, file.version, file.commit, file.engine, file.created));
+}
+
+}  // namespace
+
+std::vector<ComparisonRow> comparison_rows(const StudyComparison& comparison) {
+  std::vector<ComparisonRow> rows;
+  for (const PointComparison& point : comparison.points) {
+    for (const MeasureComparison& measure : point.measures) rows.push_back(row_of(point, measure));
+    for (const RequirementResult& requirement : point.requirements)
+      rows.push_back(row_of(point, requirement));
+  }
+  return rows;
+}
+
+std::vector<std::pair<std::string, std::string>> comparison_facts(const StudyComparison& comparison) {
+  std::vector<std::pair<std::string, std::string>> facts;
+  facts.emplace_back("baseline", file_text(comparison.baseline, comparison.points.size()));
+  facts.emplace_back("file", file_text(comparison.current, comparison.points.size()));
+  facts.emplace_back("compared", fmt::format("{}: {}", word_of(comparison.layer), comparison.layer_reason));
+  if (!comparison.first_difference.empty())
+    facts.emplace_back("first difference", comparison.first_difference);
+  for (const ManifestDifference& difference : comparison.manifest_differences) {
+    const auto shown = [](const std::string& value) {
+      return value.empty() ? std::string("(absent)") : printable(value);
+    };
+    facts.emplace_back("manifest", fmt::format("{}: {} → {}", printable(difference.key),
+                                               shown(difference.baseline), shown(difference.current)));
+  }
+  if (!comparison.changed_inputs.empty()) {
+    facts.emplace_back("changed inputs", fmt::format("{}", fmt::join(comparison.changed_inputs, ", ")));
+  }
+  for (const std::string& note : comparison.notes) facts.emplace_back("note", note);
+  return facts;
+}
+
+}  // namespace zerocount

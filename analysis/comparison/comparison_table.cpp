@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/comparison/comparison_report.hpp"
+#include "analysis/comparison/comparison_rows.hpp"
+#include "analysis/text.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::size_t most_rows = 60;
+
+/// As the text of a Markdown table's cell.
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (std::string_view("|\\`*_<").find(c) != std::string_view::npos) escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+std::string head_of(const StudyComparison& comparison) {
+  std::string text;
+  for (const auto& [name, value] : comparison_facts(comparison))
+    text += fmt::format("{:<17} {}\n", name, value);
+  return text;
+}
+
+}  // namespace
+
+std::string comparison_table(const StudyComparison& comparison) {
+  std::vector<ComparisonRow> rows = comparison_rows(comparison);
+  std::string omitted;
+  if (rows.size() > most_rows) {
+    const std::size_t all = rows.size();
+    std::erase_if(rows, [](const ComparisonRow& row) { return !row.noteworthy; });
+    omitted = fmt::format("({} rows that simply passed are not shown)\n", all - rows.size());
+  }
+  std::vector<std::vector<std::string>> cells{
+      {"point", "measure", "baseline", "file", "worse by", "bounds", "margin", "p", "verdict", "note"}};
+  for (const ComparisonRow& row : rows) {
+    cells.push_back({row.point, row.measure, row.baseline, row.current, row.worse_by, row.bounds, row.margin,
+                     row.p, row.verdict, row.note});
+  }
+  const std::vector<bool> numeric{false, false, true, true, true, true, true, true, false, false};
+  const std::string table = rows.empty() ? "" : aligned_table(cells, numeric);
+  return fmt::format(
+      "{}\n{}{}\nBounds: {:.6g} % each. p: of {} tests, adjusted for a false discovery rate of {:.6g} "
+      "%.\n{}\n",
+      head_of(comparison), table, omitted, 100.0 * comparison.confidence, comparison.tests,
+      100.0 * comparison.false_discovery_rate, verdict_sentence(comparison));
+}
+
+std::string comparison_markdown(const StudyComparison& comparison) {
+  const std::string_view mark = comparison.verdict == GateVerdict::passed       ? "✅"
+                                : comparison.verdict == GateVerdict::regression ? "❌"
+                                                                                : "❓";
+  std::string text = fmt::format("## {} {}: {}\n\n", mark, cell(printable(comparison.current.name)),
+                                 cell(verdict_sentence(comparison)));
+  for (const auto& [name, value] : comparison_facts(comparison))
+    text += fmt::format("- {}: {}\n", name, cell(value));
+  std::vector<ComparisonRow> rows = comparison_rows(comparison);
+  const std::size_t all = rows.size();
+  std::erase_if(rows, [](const ComparisonRow& row) { return !row.noteworthy; });
+  if (!rows.empty()) {
+    text +=
+        "\n| point | measure | baseline | file | worse by | bounds | margin | p | verdict | note |\n"
+        "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | --- | --- |\n";
+  }
+  for (const ComparisonRow& row : rows) {
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(row.point),
+                        cell(row.measure), cell(row.baseline), cell(row.current), cell(row.worse_by),
+                        cell(row.bounds), cell(row.margin), cell(row.p),
+                        row.verdict == "regression" ? "**regression**" : row.verdict, cell(row.note));
+  }
+  return text + fmt::format(
+                    "\n{} of {} judgements passed and are not listed. Bounds: {:.6g} % each; false discovery "
+                    "rate {:.6g} %.\n",
+                    all - rows.size(), all, 100.0 * comparison.confidence,
+                    100.0 * comparison.false_discovery_rate);
+}
+
+}  // namespace zerocount

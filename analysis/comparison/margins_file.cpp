@@ -1,0 +1,235 @@
+#include "analysis/comparison/margins_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <regex>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/failure.hpp"
+#include "experiments/parameters/interval.hpp"
+#include "experiments/yaml/nearest_name.hpp"
+#include "experiments/yaml/scalars.hpp"
+#include "experiments/yaml/unknown_key.hpp"
+#include "experiments/yaml/yaml_tree.hpp"
+
+namespace zerocount {
+namespace {
+
+const std::vector<std::string> top_keys{
+    "confidence", "false_discovery_rate", "measures", "margins", "require", "points"};
+const std::vector<std::string> margin_keys{"absolute", "relative", "both_ways"};
+
+template <class Named>
+std::vector<std::string> names_of(std::span<const Named> all) {
+  std::vector<std::string> names;
+  std::transform(all.begin(), all.end(), std::back_inserter(names),
+                 [](const Named& one) { return std::string(one.name); });
+  return names;
+}
+
+/// A number by itself is the absolute margin.
+std::optional<GateMargin> read_margin(const Field& field, Problems& problems) {
+  GateMargin margin;
+  if (field.node->kind == YamlNode::Kind::scalar) {
+    const std::optional<double> absolute = read_real(field, at_least(0.0), problems);
+    if (absolute) margin.absolute = *absolute;
+    return absolute ? std::optional(margin) : std::nullopt;
+  }
+  if (!check_map(field, "a number, or a map with absolute, relative, both_ways", problems))
+    return std::nullopt;
+  bool sized = false;
+  for (const YamlEntry& entry : field.node->entries) {
+    const Field value = entry_of(field, entry);
+    if (entry.key == "absolute") {
+      margin.absolute = read_real(value, at_least(0.0), problems).value_or(0.0);
+      sized = true;
+    } else if (entry.key == "relative") {
+      margin.relative = read_real(value, at_least(0.0), problems).value_or(0.0);
+      sized = true;
+    } else if (entry.key == "both_ways") {
+      margin.both_ways = read_truth(value, problems).value_or(false);
+    } else {
+      add_unknown_key(field, entry, margin_keys, problems);
+    }
+  }
+  if (!sized)
+    problems.add(field.node->place, field.path, "the margin has no size", "absolute or relative, or both");
+  return margin;
+}
+
+void read_margin_of(const Field& map, const YamlEntry& entry, std::map<std::string, GateMargin>& margins,
+                    Problems& problems) {
+  if (find_gate_measure(entry.key) == nullptr) {
+    add_unknown_key(map, entry, names_of(gate_measures()), problems);
+    return;
+  }
+  if (const std::optional<GateMargin> margin = read_margin(entry_of(map, entry), problems)) {
+    margins[entry.key] = *margin;
+  }
+}
+
+void read_margins(const Field& field, std::map<std::string, GateMargin>& margins, Problems& problems) {
+  if (!check_map(field, "a map from measures to margins", problems)) return;
+  for (const YamlEntry& entry : field.node->entries) read_margin_of(field, entry, margins, problems);
+}
+
+const char* const requirement_form = "a text such as 'success_rate ≥ 0.995' (or >=, ≤, <=)";
+
+std::optional<Requirement> read_requirement(const Field& field, Problems& problems) {
+  const std::optional<std::string> text = read_text(field, problems);
+  if (!text) return std::nullopt;
+  static const std::regex form(R"(\s*([a-z_.0-9]+)\s*(≥|>=|≤|<=)\s*(\S+)\s*)");
+  std::smatch match;
+  Requirement requirement{*text, nullptr, true, 0.0};
+  const auto refuse = [&](const std::string& what, const std::string& expected) {
+    problems.add(field.node->place, field.path, what, expected);
+    return std::nullopt;
+  };
+  if (!std::regex_match(*text, match, form)) {
+    return refuse(fmt::format("{} cannot be understood", in_quotes(*text)), requirement_form);
+  }
+  requirement.quantity = find_requirable(match[1].str());
+  requirement.at_least = match[2] == "≥" || match[2] == ">=";
+  const std::string number = match[3];
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), requirement.limit);
+  if (requirement.quantity == nullptr) {
+    return refuse(fmt::format("{} cannot be required", in_quotes(match[1].str())),
+                  fmt::format("one of {}", fmt::join(names_of(requirable_quantities()), ", ")));
+  }
+  if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(requirement.limit)) {
+    return refuse(fmt::format("{} is not a number", in_quotes(number)), requirement_form);
+  }
+  const bool share = requirement.quantity->kind == RequirementKind::share;
+  if (share && (requirement.limit < 0.0 || requirement.limit > 1.0)) {
+    return refuse(fmt::format("{} is no share", number), "a number from 0 to 1");
+  }
+  if (!share && requirement.at_least) {
+    return refuse(fmt::format("a least {} is asked for", requirement.quantity->name), "≤ and a limit");
+  }
+  return requirement;
+}
+
+/// One requirement, or a list of them.
+void read_requirements(const Field& field, std::vector<Requirement>& requirements, Problems& problems) {
+  const auto add = [&](const Field& one) {
+    if (auto requirement = read_requirement(one, problems)) requirements.push_back(*std::move(requirement));
+  };
+  if (field.node->kind != YamlNode::Kind::list) return add(field);
+  for (std::size_t i = 0; i < field.node->items.size(); ++i) add(item_of(field, i));
+}
+
+void read_points(const Field& field, std::span<const std::string> labels, GateRules& rules,
+                 Problems& problems) {
+  if (!check_map(field, "a map from labels of design points to margins and requirements", problems)) return;
+  for (const YamlEntry& entry : field.node->entries) {
+    const Field point = entry_of(field, entry);
+    if (std::find(labels.begin(), labels.end(), entry.key) == labels.end()) {
+      problems.add(entry.place, point.path, "no design point of the files has this label",
+                   fmt::format("one of theirs, such as {}", in_quotes(nearest_name(entry.key, labels))));
+      continue;
+    }
+    if (!check_map(point, "a map from measures to margins, and require", problems)) continue;
+    for (const YamlEntry& own : point.node->entries) {
+      if (own.key == "require") {
+        read_requirements(entry_of(point, own), rules.requirements_at[entry.key], problems);
+      } else {
+        read_margin_of(point, own, rules.margins_at[entry.key], problems);
+      }
+    }
+  }
+}
+
+void read_measures(const Field& field, std::vector<std::string>& measures, Problems& problems) {
+  const std::vector<std::string> known = names_of(gate_measures());
+  const std::string expected = fmt::format("a list of some of {}", fmt::join(known, ", "));
+  if (!check_list(field, expected, problems)) return;
+  if (field.node->items.empty()) problems.add(field.node->place, field.path, "the list is empty", expected);
+  for (std::size_t i = 0; i < field.node->items.size(); ++i) {
+    const Field item = item_of(field, i);
+    const std::optional<std::string> name = read_text(item, problems);
+    if (!name) continue;
+    if (find_gate_measure(*name) == nullptr) {
+      problems.add(
+          item.node->place, item.path,
+          fmt::format("{} is no measure, nearest known: {}", in_quotes(*name), nearest_name(*name, known)),
+          expected);
+    }
+    measures.push_back(*name);
+  }
+}
+
+GateRules read_rules(const Field& top, std::span<const std::string> labels, Problems& problems) {
+  GateRules rules;
+  if (!check_map(top, fmt::format("a map with some of {}", fmt::join(top_keys, ", ")), problems))
+    return rules;
+  for (const YamlEntry& entry : top.node->entries) {
+    const Field field = entry_of(top, entry);
+    if (entry.key == "confidence") {
+      rules.confidence = read_real(field, closed(0.5, 0.999999), problems).value_or(rules.confidence);
+    } else if (entry.key == "false_discovery_rate") {
+      rules.false_discovery_rate =
+          read_real(field, closed(1e-6, 0.5), problems).value_or(rules.false_discovery_rate);
+    } else if (entry.key == "measures") {
+      read_measures(field, rules.measures, problems);
+    } else if (entry.key == "margins") {
+      read_margins(field, rules.margins, problems);
+    } else if (entry.key == "require") {
+      read_requirements(field, rules.requirements, problems);
+    } else if (entry.key == "points") {
+      read_points(field, labels, rules, problems);
+    } else {
+      add_unknown_key(top, entry, top_keys, problems);
+    }
+  }
+  return rules;
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: there is no such file; expected margins in YAML", path.string()));
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string text(largest_manifest + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!file.is_open() || file.bad()) {
+    throw Failure(ExitCode::machine_failed, fmt::format("{}: cannot be read", path.string()));
+  }
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+}  // namespace
+
+GateRules parse_gate_rules(const std::string& text, std::string_view source,
+                           std::span<const std::string> labels) {
+  Problems problems;
+  if (text.size() > largest_manifest) {
+    problems.add({source, 1, 1}, "margins", "the file is too large",
+                 fmt::format("at most {} bytes", largest_manifest));
+    problems.raise_if_any();
+  }
+  const YamlPointer root = parse_yaml(text, source, false, problems);
+  if (!root && problems.empty()) {
+    problems.add({source, 1, 1}, "margins", "the file is empty",
+                 fmt::format("a map with some of {}", fmt::join(top_keys, ", ")));
+  }
+  GateRules rules;
+  if (root) rules = read_rules({root.get(), ""}, labels, problems);
+  problems.raise_if_any();
+  return rules;
+}
+
+GateRules read_gate_rules(const std::filesystem::path& path, std::span<const std::string> labels) {
+  return parse_gate_rules(text_of(path), path.string(), labels);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,170 @@
+#include "analysis/comparison/matching.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::size_t most_named = 8;
+
+std::string some_of(const std::vector<std::string>& names) {
+  const std::size_t shown = std::min(names.size(), most_named);
+  const std::string text =
+      fmt::format("'{}'", fmt::join(names.begin(), names.begin() + std::ptrdiff_t(shown), "', '"));
+  return names.size() > shown ? fmt::format("{} and {} more", text, names.size() - shown) : text;
+}
+
+std::map<std::string, std::int64_t> points_by_label(const StudyFile& file) {
+  std::map<std::string, std::int64_t> points;
+  const std::vector<std::string> labels = file.point_labels();
+  for (std::size_t point = 0; point < labels.size(); ++point) {
+    if (!points.emplace(labels[point], static_cast<std::int64_t>(point)).second) {
+      throw Failure(ExitCode::bad_data, fmt::format("{}: two design points have the label '{}'",
+                                                    file.path().string(), labels[point]));
+    }
+  }
+  return points;
+}
+
+std::vector<std::string> without_partner(const StudyFile& file,
+                                         const std::map<std::string, std::int64_t>& others) {
+  std::vector<std::string> lonely = file.point_labels();
+  std::erase_if(lonely, [&](const std::string& label) { return others.contains(label); });
+  return lonely;
+}
+
+bool has_cases(const std::vector<SweepAxis>& axes) {
+  return std::any_of(axes.begin(), axes.end(), [](const SweepAxis& axis) { return axis.name == "case"; });
+}
+
+/// A number so that it reads back to the same; two NaN agree, whatever their signs.
+std::string exact_text(double value) {
+  return std::isnan(value) ? "drawn" : fmt::format("{}", value);
+}
+
+std::string value_at(const std::vector<SweepAxis>& axes, const std::string& name, std::int64_t point) {
+  const auto at = static_cast<std::size_t>(point);
+  for (const SweepAxis& axis : axes) {
+    if (axis.name != name) continue;
+    return axis.kind == SweepAxis::Kind::text ? axis.texts.at(at) : exact_text(axis.numbers.at(at));
+  }
+  return "missing";
+}
+
+void require_equal_axes(const StudyFile& baseline, const StudyFile& current,
+                        const std::vector<MatchedPoint>& points) {
+  const std::vector<SweepAxis> before = baseline.axes();
+  const std::vector<SweepAxis> after = current.axes();
+  if (has_cases(before) && has_cases(after)) return;
+  std::set<std::string> names;
+  for (const SweepAxis& axis : before) names.insert(axis.name);
+  for (const SweepAxis& axis : after) names.insert(axis.name);
+  for (const MatchedPoint& point : points) {
+    for (const std::string& name : names) {
+      const std::string one = value_at(before, name, point.baseline);
+      const std::string two = value_at(after, name, point.current);
+      if (one == two) continue;
+      throw Failure(
+          ExitCode::bad_data,
+          fmt::format("{}: its design point '{}' is not that of {}: the axis {} is {} there and {} here",
+                      current.path().string(), point.label, baseline.path().string(), name, one, two));
+    }
+  }
+}
+
+/// How the values of one drawn parameter in two files are related.
+enum class InputRelation { equal, same_order, different };
+
+InputRelation relation_of(const std::vector<double>& before, const std::vector<double>& after) {
+  if (before == after) return InputRelation::equal;
+  std::vector<std::size_t> order(before.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return before[a] != before[b] ? before[a] < before[b] : after[a] < after[b];
+  });
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (after[order[i]] < after[order[i - 1]]) return InputRelation::different;
+  }
+  return InputRelation::same_order;
+}
+
+const InputColumn* find_input(const StudyFile& file, const std::string& name) {
+  const std::vector<InputColumn>& inputs = file.input_columns();
+  const auto found =
+      std::find_if(inputs.begin(), inputs.end(), [&](const InputColumn& one) { return one.name == name; });
+  return found == inputs.end() ? nullptr : &*found;
+}
+
+/// The worst relation of one parameter over all points.
+InputRelation relation_over_points(const StudyFile& baseline, const StudyFile& current,
+                                   std::size_t old_column, std::size_t new_column,
+                                   const std::vector<MatchedPoint>& points) {
+  const std::int64_t trials = std::min(baseline.header().trials, current.header().trials);
+  InputRelation worst = InputRelation::equal;
+  for (const MatchedPoint& point : points) {
+    const InputRelation relation =
+        relation_of(baseline.input(old_column, {point.baseline * baseline.header().trials, trials}),
+                    current.input(new_column, {point.current * current.header().trials, trials}));
+    worst = std::max(worst, relation);
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::vector<MatchedPoint> match_points(const StudyFile& baseline, const StudyFile& current) {
+  const std::map<std::string, std::int64_t> old_points = points_by_label(baseline);
+  const std::map<std::string, std::int64_t> new_points = points_by_label(current);
+  std::string problem;
+  if (const auto lonely = without_partner(baseline, new_points); !lonely.empty()) {
+    problem += fmt::format("; only {} has {}", baseline.path().string(), some_of(lonely));
+  }
+  if (const auto lonely = without_partner(current, old_points); !lonely.empty()) {
+    problem += fmt::format("; only {} has {}", current.path().string(), some_of(lonely));
+  }
+  if (!problem.empty()) {
+    throw Failure(ExitCode::bad_data, "the files cannot be compared: not the same design points" + problem);
+  }
+  std::vector<MatchedPoint> points;
+  for (const std::string& label : baseline.point_labels()) {
+    points.push_back({label, old_points.at(label), new_points.at(label)});
+  }
+  require_equal_axes(baseline, current, points);
+  return points;
+}
+
+DrawComparison compare_draws(const StudyFile& baseline, const StudyFile& current,
+                             const ManifestValues& old_values, const ManifestValues& new_values,
+                             const std::vector<MatchedPoint>& points) {
+  if (baseline.header().seed != current.header().seed) return {false, "the seeds differ", {}};
+  for (const auto& [key, absent] :
+       {std::pair<std::string, std::string>{"design", "monte_carlo"}, {"independent_points", "false"}}) {
+    if (value_or(old_values, key, absent) != value_or(new_values, key, absent)) {
+      return {false, fmt::format("the manifests differ in {}", key), {}};
+    }
+  }
+  DrawComparison result{true, "trial i drew the same random numbers in both", {}};
+  for (std::size_t column = 0; column < baseline.input_columns().size(); ++column) {
+    const std::string& name = baseline.input_columns()[column].name;
+    const InputColumn* const partner = find_input(current, name);
+    if (partner == nullptr) continue;
+    const auto new_column = static_cast<std::size_t>(partner - current.input_columns().data());
+    const InputRelation relation = relation_over_points(baseline, current, column, new_column, points);
+    if (relation == InputRelation::different) {
+      return {false, fmt::format("trial i has other values of {}", name), {}};
+    }
+    if (relation == InputRelation::same_order) result.changed_inputs.push_back(name);
+  }
+  return result;
+}
+
+}  // namespace zerocount

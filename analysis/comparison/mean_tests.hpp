@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "analysis/proportion.hpp"
+
+/// Tests and bounds of a difference of means by Student's t. A positive difference is for the worse.
+namespace zerocount {
+
+/// Difference of the means, and what its bounds come from.
+struct MeanDifference {
+  double value{0.0};
+  double standard_error{0.0};
+  double degrees_of_freedom{0.0};
+};
+
+/// Of pairs: the mean of their differences.
+/// @param differences two or more
+MeanDifference mean_difference(std::span<const double> differences);
+
+/// Of two independent samples with variances of their own (Welch, Biometrika 34 (1947), 28): current −
+/// baseline.
+/// @param baseline two or more, @param current two or more
+MeanDifference mean_difference(std::span<const double> baseline, std::span<const double> current);
+
+/// P(t ≥ value/standard error): one-sided, against a difference for the worse. Without any spread 0, ½ or 1.
+double p_of(const MeanDifference& difference);
+
+/// Bounds of the difference, each by itself with `confidence`, with what was not seen in mind: for each bound
+/// one more trial is counted, `unit` beyond the mean on the side of that bound. Where nearly all differences
+/// are 0 the spread that is seen says little; in n trials that all agree, the upper bound is so
+/// about 2.7·unit/n, where the rule of three has 3/n for the share of trials that might differ.
+/// @param unit what one trial may well differ by, greater than 0
+ConfidenceInterval cautious_bounds(std::span<const double> differences, double unit, double confidence);
+ConfidenceInterval cautious_bounds(std::span<const double> baseline, std::span<const double> current,
+                                   double unit, double confidence);
+
+}  // namespace zerocount

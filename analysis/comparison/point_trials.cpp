@@ -1,0 +1,77 @@
+#include "analysis/comparison/point_trials.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace zerocount {
+
+PointTrials gather_trials(std::span<const MoveOutcome> outcomes, std::int64_t moves) {
+  PointTrials result{std::ssize(outcomes) / moves, moves, {}, {}, {}, {}, {}};
+  for (auto move = outcomes.begin(); move != outcomes.end(); move += moves) {
+    const auto all = [&](auto quality) { return std::all_of(move, move + moves, quality); };
+    result.zero_count.push_back(all([](const MoveOutcome& m) { return m.outcome == Outcome::zero_count; }));
+    result.arrived.push_back(all([](const MoveOutcome& m) { return m.arrived; }));
+    result.stable.push_back(all([](const MoveOutcome& m) { return m.stable; }));
+    double jerks = 0.0;
+    for (auto one = move; one != move + moves; ++one) {
+      result.settling_time.push_back(one->arrived ? one->settling_time
+                                                  : std::numeric_limits<double>::quiet_NaN());
+      jerks += static_cast<double>(one->jerk_count);
+    }
+    result.jerks.push_back(jerks);
+  }
+  return result;
+}
+
+PointTrials read_point_trials(const StudyFile& file, std::int64_t point) {
+  const std::int64_t trials = file.header().trials;
+  return gather_trials(file.outcomes({point * trials, trials}), file.moves());
+}
+
+PointTrials first_trials(const PointTrials& all, std::int64_t trials) {
+  PointTrials some = all;
+  some.trials = std::min(trials, all.trials);
+  const auto count = static_cast<std::size_t>(some.trials);
+  some.zero_count.resize(count);
+  some.arrived.resize(count);
+  some.stable.resize(count);
+  some.settling_time.resize(count * static_cast<std::size_t>(all.moves));
+  some.jerks.resize(count);
+  return some;
+}
+
+const std::vector<bool>& qualities(const PointTrials& trials, GateQuantity share) {
+  if (share == GateQuantity::arrival) return trials.arrived;
+  return share == GateQuantity::stability ? trials.stable : trials.zero_count;
+}
+
+std::vector<double> settling_times(const PointTrials& trials) {
+  std::vector<double> means;
+  for (auto move = trials.settling_time.begin(); move != trials.settling_time.end(); move += trials.moves) {
+    double sum = 0.0;
+    int count = 0;
+    std::for_each(move, move + trials.moves, [&](double time) {
+      if (std::isnan(time)) return;
+      sum += time;
+      ++count;
+    });
+    if (count > 0) means.push_back(sum / count);
+  }
+  return means;
+}
+
+std::vector<double> slowest_settling_times(const PointTrials& trials) {
+  std::vector<double> slowest;
+  for (auto move = trials.settling_time.begin(); move != trials.settling_time.end(); move += trials.moves) {
+    double most = 0.0;
+    std::for_each(move, move + trials.moves, [&](double time) {
+      most = std::isnan(time) ? std::numeric_limits<double>::infinity() : std::max(most, time);
+    });
+    slowest.push_back(most);
+  }
+  return slowest;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,139 @@
+#include "analysis/comparison/rank_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <boost/math/distributions/normal.hpp>
+
+namespace zerocount {
+namespace {
+
+constexpr std::size_t most_exact_ranks = 200;
+constexpr std::int64_t most_exact_lattice = 4'000'000;
+
+double upper_normal(double z) {
+  return boost::math::cdf(boost::math::complement(boost::math::normal_distribution<double>(), z));
+}
+
+/// Twice the mean ranks of the sizes of these differences, which are whole.
+struct DoubledRanks {
+  std::vector<std::int64_t> ranks;
+  std::int64_t positive{0};  ///< their sum over the positive differences
+};
+
+DoubledRanks doubled_ranks(std::span<const double> differences) {
+  std::vector<double> sorted;
+  std::copy_if(differences.begin(), differences.end(), std::back_inserter(sorted),
+               [](double difference) { return difference != 0.0; });
+  std::sort(sorted.begin(), sorted.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  DoubledRanks result;
+  for (std::size_t first = 0; first < sorted.size();) {
+    std::size_t end = first;
+    while (end < sorted.size() && std::abs(sorted[end]) == std::abs(sorted[first])) ++end;
+    const auto rank = static_cast<std::int64_t>(first + 1 + end);
+    for (; first < end; ++first) {
+      result.ranks.push_back(rank);
+      if (sorted[first] > 0.0) result.positive += rank;
+    }
+  }
+  return result;
+}
+
+/// P(sum ≥ positive) where every rank is in the sum or not with probability ½.
+double exact_tail(const DoubledRanks& doubled) {
+  std::int64_t total = 0;
+  std::vector<double> probability{1.0};
+  for (const std::int64_t rank : doubled.ranks) {
+    total += rank;
+    probability.resize(static_cast<std::size_t>(total) + 1, 0.0);
+    for (std::int64_t sum = total; sum >= 0; --sum) {
+      const auto at = static_cast<std::size_t>(sum);
+      const double with = sum >= rank ? probability[at - static_cast<std::size_t>(rank)] : 0.0;
+      probability[at] = 0.5 * (probability[at] + with);
+    }
+  }
+  double tail = 0.0;
+  for (std::int64_t sum = total; sum >= doubled.positive; --sum)
+    tail += probability[static_cast<std::size_t>(sum)];
+  return std::min(tail, 1.0);
+}
+
+double normal_tail(const DoubledRanks& doubled) {
+  double mean = 0.0;
+  double variance = 0.0;
+  for (const std::int64_t rank : doubled.ranks) {
+    mean += 0.5 * static_cast<double>(rank);
+    variance += 0.25 * static_cast<double>(rank) * static_cast<double>(rank);
+  }
+  return upper_normal((static_cast<double>(doubled.positive) - mean - 1.0) / std::sqrt(variance));
+}
+
+/// How the pooled samples rise: the sizes of the groups of equal values, as where they end, and the largest
+/// excess of the baseline over the current sample there, in units of 1/(n₁n₂).
+struct PooledGroups {
+  std::vector<bool> ends;  ///< [number of pooled values]: a group ends there
+  std::int64_t excess{0};
+};
+
+PooledGroups pooled_groups(std::span<const double> baseline, std::span<const double> current) {
+  std::vector<double> one(baseline.begin(), baseline.end());
+  std::vector<double> two(current.begin(), current.end());
+  std::sort(one.begin(), one.end());
+  std::sort(two.begin(), two.end());
+  PooledGroups groups{std::vector<bool>(one.size() + two.size() + 1, false), 0};
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < one.size() || j < two.size()) {
+    const double value = j == two.size() || (i < one.size() && one[i] <= two[j]) ? one[i] : two[j];
+    while (i < one.size() && one[i] == value) ++i;
+    while (j < two.size() && two[j] == value) ++j;
+    groups.ends[i + j] = true;
+    groups.excess = std::max(
+        groups.excess, static_cast<std::int64_t>(i * two.size()) - static_cast<std::int64_t>(j * one.size()));
+  }
+  return groups;
+}
+
+/// The share of the lattice paths to (n₁, n₂) that reach the excess at the end of a group.
+double share_of_paths(const PooledGroups& groups, std::int64_t n1, std::int64_t n2) {
+  std::vector<double> share(static_cast<std::size_t>(n2) + 1, 0.0);
+  for (std::int64_t i = 0; i <= n1; ++i) {
+    for (std::int64_t j = 0; j <= n2; ++j) {
+      double& here = share[static_cast<std::size_t>(j)];
+      if (groups.ends[static_cast<std::size_t>(i + j)] && i * n2 - j * n1 >= groups.excess) {
+        here = 1.0;
+        continue;
+      }
+      const double all = static_cast<double>(i + j);
+      const double below = i > 0 ? here * static_cast<double>(i) : 0.0;
+      const double left = j > 0 ? share[static_cast<std::size_t>(j - 1)] * static_cast<double>(j) : 0.0;
+      here = i + j > 0 ? (below + left) / all : 0.0;
+    }
+  }
+  return share.back();
+}
+
+}  // namespace
+
+double signed_rank(std::span<const double> differences) {
+  const DoubledRanks doubled = doubled_ranks(differences);
+  if (doubled.ranks.empty()) return 1.0;
+  return doubled.ranks.size() <= most_exact_ranks ? exact_tail(doubled) : normal_tail(doubled);
+}
+
+double smirnov(std::span<const double> baseline, std::span<const double> current) {
+  if (baseline.empty() || current.empty()) return 1.0;
+  const auto n1 = static_cast<std::int64_t>(baseline.size());
+  const auto n2 = static_cast<std::int64_t>(current.size());
+  const PooledGroups groups = pooled_groups(baseline, current);
+  if (groups.excess <= 0) return 1.0;
+  if (n1 <= most_exact_lattice / n2) return share_of_paths(groups, n1, n2);
+  const double product = static_cast<double>(n1) * static_cast<double>(n2);
+  const double distance = static_cast<double>(groups.excess) / product;
+  return std::exp(-2.0 * distance * distance * product / static_cast<double>(n1 + n2));
+}
+
+}  // namespace zerocount

@@ -1,0 +1,137 @@
+#include "analysis/comparison/requirements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+
+#include "analysis/comparison/mean_tests.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::int64_t most_planned = 1'000'000'000;
+
+/// k of n, and the limit it is held against.
+struct ShareClaim {
+  std::int64_t successes{0};
+  std::int64_t trials{0};
+  double limit{0.0};
+  bool at_least{true};
+};
+
+/// One-sided bounds: `low` with one confidence, `high` with another.
+ConfidenceInterval one_sided(const ShareClaim& claim, double low_confidence, double high_confidence) {
+  return {clopper_pearson(claim.successes, claim.trials, 2.0 * low_confidence - 1.0).low,
+          clopper_pearson(claim.successes, claim.trials, 2.0 * high_confidence - 1.0).high};
+}
+
+ConfidenceInterval bounds_of(const ShareClaim& claim, double confidence, double failing) {
+  return claim.at_least ? one_sided(claim, confidence, failing) : one_sided(claim, failing, confidence);
+}
+
+GateVerdict verdict_of(const ConfidenceInterval& bounds, double limit, bool at_least) {
+  const bool shown = at_least ? bounds.low >= limit : bounds.high <= limit;
+  const bool contradicted = at_least ? bounds.high < limit : bounds.low > limit;
+  if (shown) return GateVerdict::passed;
+  return contradicted ? GateVerdict::regression : GateVerdict::inconclusive;
+}
+
+/// The fewest trials that decide, if the share in them is the one that was seen.
+std::optional<double> trials_to_decide(const ShareClaim& claim, double confidence, double failing) {
+  const double share = rate(claim.successes, claim.trials);
+  const auto decides = [&](std::int64_t trials) {
+    const auto successes = std::llround(share * static_cast<double>(trials));
+    const ShareClaim more{successes, trials, claim.limit, claim.at_least};
+    return verdict_of(bounds_of(more, confidence, failing), claim.limit, claim.at_least) !=
+           GateVerdict::inconclusive;
+  };
+  std::int64_t few = claim.trials;
+  std::int64_t enough = few;
+  while (enough < most_planned && !decides(enough)) {
+    few = enough;
+    enough *= 2;
+  }
+  if (enough >= most_planned) return std::nullopt;
+  while (enough - few > 1) {
+    const std::int64_t middle = few + (enough - few) / 2;
+    (decides(middle) ? enough : few) = middle;
+  }
+  return static_cast<double>(enough);
+}
+
+void judge_share(RequirementResult& result, const ShareClaim& claim, double confidence, double failing) {
+  result.n = claim.trials;
+  result.bounds = bounds_of(claim, confidence, failing);
+  result.verdict = verdict_of(result.bounds, claim.limit, claim.at_least);
+  if (result.verdict == GateVerdict::inconclusive) {
+    result.trials_to_decide = trials_to_decide(claim, confidence, failing);
+  }
+}
+
+void judge_quality(RequirementResult& result, const std::vector<bool>& quality, double confidence,
+                   double failing) {
+  const ShareClaim claim{std::count(quality.begin(), quality.end(), true), std::ssize(quality), result.limit,
+                         result.at_least};
+  result.value = rate(claim.successes, claim.trials);
+  judge_share(result, claim, confidence, failing);
+}
+
+void judge_quantile(RequirementResult& result, std::vector<double> times, double probability,
+                    double confidence, double failing) {
+  std::sort(times.begin(), times.end());
+  const auto n = static_cast<double>(times.size());
+  const auto position = static_cast<std::size_t>(std::ceil(probability * n));
+  result.value = times[std::max<std::size_t>(position, 1) - 1];
+  const auto within = std::upper_bound(times.begin(), times.end(), result.limit) - times.begin();
+  judge_share(result, {within, std::ssize(times), probability, true}, confidence, failing);
+}
+
+void judge_mean(RequirementResult& result, const std::vector<double>& values, double confidence,
+                double failing) {
+  result.n = std::ssize(values);
+  if (result.n < 2) return;
+  const MeanDifference mean = mean_difference(values);
+  result.value = mean.value;
+  result.bounds = {cautious_bounds(values, 1.0, failing).low, cautious_bounds(values, 1.0, confidence).high};
+  result.verdict = verdict_of(result.bounds, result.limit, result.at_least);
+  if (result.verdict != GateVerdict::inconclusive || mean.value == result.limit) return;
+  const double reach =
+      mean.value < result.limit ? result.bounds.high - mean.value : mean.value - result.bounds.low;
+  const double times = reach / std::abs(result.limit - mean.value);
+  const double needed = std::ceil(static_cast<double>(result.n) * times * times) + 1.0;
+  if (needed < static_cast<double>(most_planned)) result.trials_to_decide = needed;
+}
+
+}  // namespace
+
+RequirementResult judge_requirement(const Requirement& requirement, const PointTrials& trials,
+                                    double confidence, double failing_confidence) {
+  const RequirableQuantity& quantity = *requirement.quantity;
+  RequirementResult result;
+  result.text = requirement.text;
+  result.quantity = quantity.name;
+  result.unit = quantity.unit;
+  result.at_least = requirement.at_least;
+  result.limit = requirement.limit;
+  switch (quantity.kind) {
+    case RequirementKind::share:
+      judge_quality(result, qualities(trials, quantity.quantity), confidence, failing_confidence);
+      break;
+    case RequirementKind::quantile:
+      judge_quantile(result, slowest_settling_times(trials), quantity.probability, confidence,
+                     failing_confidence);
+      break;
+    case RequirementKind::mean:
+      judge_mean(result, trials.jerks, confidence, failing_confidence);
+      break;
+  }
+  return result;
+}
+
+double failing_confidence(double confidence, std::int64_t count) {
+  return 1.0 - (1.0 - confidence) / static_cast<double>(std::max<std::int64_t>(count, 1));
+}
+
+}  // namespace zerocount

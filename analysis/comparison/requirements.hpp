@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/comparison/gate_rules.hpp"
+#include "analysis/comparison/point_trials.hpp"
+
+namespace zerocount {
+
+/// Judges a requirement at one point by one-sided bounds: it passes where the bound against the limit, at
+/// `confidence`, meets it; it fails where the other bound, at `failing_confidence`, contradicts it; otherwise
+/// it is inconclusive.
+///
+/// Shares have Clopper–Pearson bounds. A quantile of the settling time (of the slowest move of each trial;
+/// infinite where one did not arrive) is judged as the share of trials that settle within the limit: q_p ≤ L
+/// holds where that share is at least p; its bounds are those of this share. The mean of the jerks has the
+/// bounds of cautious_bounds.
+RequirementResult judge_requirement(const Requirement& requirement, const PointTrials& trials,
+                                    double confidence, double failing_confidence);
+
+/// The confidence with which each of `count` requirements must be contradicted, so that with this confidence
+/// none of those that are met fails (Bonferroni): 1 − (1 − confidence)/count.
+double failing_confidence(double confidence, std::int64_t count);
+
+}  // namespace zerocount

@@ -1,0 +1,85 @@
+#include "analysis/comparison/share_tests.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/complement.hpp>
+#include <boost/math/distributions/hypergeometric.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/tools/roots.hpp>
+
+namespace zerocount {
+namespace {
+
+double normal_quantile(double probability) {
+  return boost::math::quantile(boost::math::normal_distribution<double>(), probability);
+}
+
+/// Tango's statistic Z(λ).
+double score(const PairedFailures& failures, double difference) {
+  const double n = static_cast<double>(failures.pairs);
+  const double b = static_cast<double>(failures.only_current);
+  const double c = static_cast<double>(failures.only_baseline);
+  const double linear = -b - c + (2.0 * n - b + c) * difference;
+  const double constant = -c * difference * (1.0 - difference);
+  const double root = std::sqrt(std::max(0.0, linear * linear - 8.0 * n * constant));
+  // Of the two forms of the positive root, the one that does not cancel.
+  const double share = linear > 0.0 ? -2.0 * constant / (root + linear) : (root - linear) / (4.0 * n);
+  const double variance = n * (2.0 * share + difference * (1.0 - difference));
+  const double distance = b - c - n * difference;
+  if (variance > 0.0) return distance / std::sqrt(variance);
+  return distance == 0.0 ? 0.0 : std::copysign(1e300, distance);
+}
+
+/// The λ at which Z, which falls with λ, crosses `level`.
+double crossing(const PairedFailures& failures, double level, double low, double high) {
+  const auto above = [&](double difference) { return score(failures, difference) - level; };
+  if (above(low) <= 0.0) return low;
+  if (above(high) >= 0.0) return high;
+  const auto near = [](double a, double b) { return std::abs(b - a) <= 1e-14; };
+  const auto [left, right] = boost::math::tools::bisect(above, low, high, near);
+  return 0.5 * (left + right);
+}
+
+}  // namespace
+
+double mcnemar(const PairedFailures& failures) {
+  if (failures.only_current == 0) return 1.0;
+  const auto differing = static_cast<double>(failures.only_current + failures.only_baseline);
+  return boost::math::cdf(boost::math::complement(boost::math::binomial_distribution<double>(differing, 0.5),
+                                                  static_cast<double>(failures.only_current - 1)));
+}
+
+ConfidenceInterval tango(const PairedFailures& failures, double confidence) {
+  if (failures.pairs == 0) return {-1.0, 1.0};
+  const double z = normal_quantile(confidence);
+  const double difference = static_cast<double>(failures.only_current - failures.only_baseline) /
+                            static_cast<double>(failures.pairs);
+  return {crossing(failures, z, -1.0, difference), crossing(failures, -z, difference, 1.0)};
+}
+
+double fisher(const FailureCounts& failures) {
+  if (failures.current_failures == 0) return 1.0;
+  const auto unsigned_of = [](std::int64_t count) { return static_cast<unsigned>(count); };
+  const boost::math::hypergeometric_distribution<double> law(
+      unsigned_of(failures.baseline_failures + failures.current_failures),
+      unsigned_of(failures.current_trials), unsigned_of(failures.baseline_trials + failures.current_trials));
+  // All failures that there can be in the current sample, and the law knows no fewer.
+  if (failures.current_failures <= boost::math::range(law).first) return 1.0;
+  return boost::math::cdf(boost::math::complement(law, unsigned_of(failures.current_failures - 1)));
+}
+
+ConfidenceInterval newcombe(const FailureCounts& failures, double confidence) {
+  if (failures.baseline_trials == 0 || failures.current_trials == 0) return {-1.0, 1.0};
+  const double two_sided = 2.0 * confidence - 1.0;
+  const ConfidenceInterval one = wilson(failures.baseline_failures, failures.baseline_trials, two_sided);
+  const ConfidenceInterval two = wilson(failures.current_failures, failures.current_trials, two_sided);
+  const double p1 = rate(failures.baseline_failures, failures.baseline_trials);
+  const double p2 = rate(failures.current_failures, failures.current_trials);
+  return {p2 - p1 - std::hypot(p2 - two.low, one.high - p1),
+          p2 - p1 + std::hypot(two.high - p2, p1 - one.low)};
+}
+
+}  // namespace zerocount

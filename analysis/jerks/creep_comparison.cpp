@@ -1,0 +1,162 @@
+#include "analysis/jerks/creep_comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+
+#include "core/friction/creep.hpp"
+#include "core/trial/trial.hpp"
+
+namespace zerocount {
+namespace {
+
+bool has_errors(const EncoderErrors& errors) {
+  return errors.eccentricity != 0.0 || errors.interpolation != 0.0 || errors.noise != 0.0 ||
+         errors.missed != 0.0;
+}
+
+bool creep_is_profiled(const FrictionAlongRotor& friction) {
+  return std::any_of(friction.profiled.begin(), friction.profiled.end(), [](const ProfiledParameter& entry) {
+    return entry.parameter == &FrictionParameters::alpha || entry.parameter == &FrictionParameters::lambda ||
+           entry.parameter == &FrictionParameters::n;
+  });
+}
+
+std::string why_not(const TrialParameters& parameters) {
+  if (parameters.friction.model != FrictionModel::presliding || parameters.friction.uniform.alpha == 0.0)
+    return "the friction does not creep";
+  if (creep_is_profiled(parameters.friction)) return "a creep parameter varies along the rotor";
+  if (parameters.dac.noise != 0.0) return "the converter has noise";
+  if (has_errors(parameters.encoder.fine_errors)) return "the encoder has errors";
+  if (parameters.controller.encoder != EncoderChoice::fine) return "the coarse encoder closes the loop";
+  return {};
+}
+
+/// The time (s) after `state` at which a jerk begins; infinite where none does.
+double time_to_edge(const TrialParameters& parameters, const SampleRecord& state) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const FrictionParameters& friction = parameters.friction.uniform;
+  const double torque = state.drive_torque;
+  const double room = hardening_limit(friction, torque) - state.xh;
+  if (!(room > 0.0)) return never;
+  const double count = 2.0 * std::numbers::pi / parameters.encoder.fine;
+  const double edges_passed = static_cast<double>(state.target) + (torque > 0.0 ? 1.0 : 0.0);
+  const double distance = std::abs((edges_passed - parameters.initial.encoder_phase) * count - state.theta);
+  return distance < room ? -std::log1p(-distance / room) / friction.alpha : never;
+}
+
+/// Follows the samples of a trial and notes its waits.
+class WaitFollower {
+ public:
+  WaitFollower(const TrialParameters& parameters, std::int64_t trial, CreepComparison& comparison)
+      : parameters_(parameters),
+        trial_(trial),
+        comparison_(comparison),
+        rate_(parameters.controller.sample_rate),
+        dwell_(samples_in(parameters.verdict.dwell, rate_)),
+        move_end_(samples_of_move(parameters, 0)) {}
+
+  void take(const SampleRecord& sample) {
+    if (sample.k == move_end_) next_move();
+    last_ = sample.k;
+    const std::int64_t k = sample.k - move_start_;
+    if (sample.error != 0) {
+      if (arrived_) close(k, true);
+      zeros_ = 0;
+      return;
+    }
+    ++zeros_;
+    if (zeros_ == dwell_ && !arrived_) {
+      arrived_ = true;
+      first_ = true;
+    }
+    // One sample beyond the dwell: the torque of the sample before has acted.
+    if (arrived_ && zeros_ == dwell_ + 1) state_ = sample;
+    const bool constant =
+        state_ && sample.drive_torque == state_->drive_torque && sample.mode == HookMode::stick;
+    if (state_ && !constant) steady_ = false;
+  }
+
+  /// Of the move at hand, which ends with the last sample that was taken.
+  void finish() {
+    if (arrived_) close(last_ + 1 - move_start_, false);
+  }
+
+ private:
+  void next_move() {
+    finish();
+    ++move_;
+    move_start_ = move_end_;
+    move_end_ += samples_of_move(parameters_, static_cast<std::size_t>(move_));
+    zeros_ = 0;
+    arrived_ = false;
+  }
+
+  /// Ends the wait at sample k of the move, if there is one.
+  void close(std::int64_t k, bool by_jerk) {
+    if (zeros_ > 0 && !state_) ++comparison_.too_short;
+    if (state_ && !steady_) ++comparison_.unsteady;
+    if (state_ && steady_) {
+      CreepWait wait{.trial = trial_, .move = move_, .first = first_};
+      wait.since = static_cast<double>(state_->k - move_start_) / rate_;
+      wait.end = static_cast<double>(k) / rate_;
+      if (by_jerk) wait.onset = wait.end;
+      wait.predicted = wait.since + time_to_edge(parameters_, *state_);
+      comparison_.waits.push_back(wait);
+    }
+    state_.reset();
+    steady_ = true;
+    first_ = false;
+  }
+
+  const TrialParameters& parameters_;
+  std::int64_t trial_;
+  CreepComparison& comparison_;
+  double rate_;
+  std::int64_t dwell_;
+  std::int64_t move_start_{0}, move_end_, move_{0};
+  std::int64_t zeros_{0}, last_{-1};
+  bool arrived_{false}, first_{false}, steady_{true};
+  std::optional<SampleRecord> state_;
+};
+
+}  // namespace
+
+CreepComparison compare_with_creep(const Study& study, std::int64_t point, std::int64_t trials) {
+  CreepComparison comparison;
+  for (std::int64_t index = 0; index < std::min(trials, study.trials); ++index) {
+    const TrialParameters parameters = study_trial(study, point, index).parameters;
+    comparison.not_applicable = why_not(parameters);
+    if (!comparison.not_applicable.empty()) return comparison;
+    WaitFollower follower(parameters, index, comparison);
+    run_trial(parameters, {.sample = [&](const SampleRecord& sample) { follower.take(sample); }, .jerk = {}});
+    follower.finish();
+    ++comparison.trials;
+  }
+  return comparison;
+}
+
+CreepAgreement agreement_of(const CreepComparison& comparison, double sample_time) {
+  CreepAgreement agreement;
+  std::vector<double> deviations;
+  for (const CreepWait& wait : comparison.waits) {
+    const double allowed = 2.0 * sample_time + 0.01 * (wait.end - wait.since);
+    if (std::isnan(wait.onset)) {
+      ++agreement.lasting;
+      agreement.lasting_foretold += wait.predicted > wait.end - allowed;
+    } else {
+      ++agreement.ended;
+      deviations.push_back(std::abs(wait.onset - wait.predicted));
+      agreement.foretold += deviations.back() <= allowed;
+    }
+  }
+  if (deviations.empty()) return agreement;
+  std::sort(deviations.begin(), deviations.end());
+  agreement.median_deviation = deviations[(deviations.size() - 1) / 2];
+  agreement.largest_deviation = deviations.back();
+  return agreement;
+}
+
+}  // namespace zerocount

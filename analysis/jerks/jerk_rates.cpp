@@ -1,0 +1,106 @@
+#include "analysis/jerks/jerk_rates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/jerks/poisson_bounds.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr double per_decade = 5.0;
+
+double range_begin(std::int64_t j) {
+  return std::pow(10.0, static_cast<double>(j) / per_decade);
+}
+
+/// The first sample that is not before the range.
+std::int64_t first_sample(std::int64_t j, double sample_time) {
+  constexpr double rounding = 1e-12;
+  return static_cast<std::int64_t>(std::ceil(range_begin(j) / sample_time * (1.0 - rounding)));
+}
+
+/// The range that a sample is in.
+std::int64_t range_of(std::int64_t sample, double sample_time) {
+  auto j = static_cast<std::int64_t>(
+      std::floor(per_decade * std::log10(static_cast<double>(sample) * sample_time)));
+  while (sample < first_sample(j, sample_time)) --j;
+  while (sample >= first_sample(j + 1, sample_time)) ++j;
+  return j;
+}
+
+}  // namespace
+
+void JerkRates::Range::close_trial() {
+  trials += trial_exposure > 0.0;
+  jerks_squared += trial_jerks * trial_jerks;
+  jerks_by_exposure += trial_jerks * trial_exposure;
+  exposure_squared += trial_exposure * trial_exposure;
+  trial_jerks = trial_exposure = 0.0;
+}
+
+JerkRates::Range& JerkRates::range_at(std::int64_t j, const ObservedMove& move) {
+  Range& range = ranges_[j];
+  if (range.trial != move.trial) {
+    range.close_trial();
+    range.trial = move.trial;
+  }
+  range.moves += range.move != moves_;
+  range.move = moves_;
+  return range;
+}
+
+void JerkRates::add_exposure(const ObservedMove& move, std::int64_t first, std::int64_t end) {
+  for (std::int64_t j = range_of(first, move.sample_time); first < end; ++j) {
+    const std::int64_t next = std::min(end, first_sample(j + 1, move.sample_time));
+    const double exposure = static_cast<double>(next - first) * move.sample_time;
+    Range& range = range_at(j, move);
+    range.exposure += exposure;
+    range.trial_exposure += exposure;
+    first = next;
+  }
+}
+
+void JerkRates::add(const ObservedMove& move) {
+  ++moves_;
+  earliest_ = std::min(earliest_, static_cast<double>(move.dwell) * move.sample_time);
+  latest_ = std::max(latest_, static_cast<double>(move.end) * move.sample_time);
+  for_each_run_at_risk(move, [&](std::int64_t first, std::int64_t end) { add_exposure(move, first, end); });
+  for (const SampledJerk& jerk : move.jerks) {
+    Range& range = range_at(range_of(jerk.onset, move.sample_time), move);
+    ++range.jerks;
+    range.trial_jerks += 1.0;
+  }
+}
+
+std::vector<JerkRate> JerkRates::rates(double confidence) const {
+  require_confidence(confidence);
+  std::vector<JerkRate> rates;
+  for (const auto& [j, counted] : ranges_) {
+    Range range = counted;
+    range.close_trial();
+    const auto jerks = static_cast<double>(range.jerks);
+    const auto trials = static_cast<double>(range.trials);
+    JerkRate rate{.from = std::max(range_begin(j), earliest_), .to = std::min(range_begin(j + 1), latest_)};
+    rate.moves = range.moves;
+    rate.exposure = range.exposure;
+    rate.jerks = range.jerks;
+    rate.rate = jerks / range.exposure;
+    if (range.jerks > 0 && range.trials > 1) {
+      const double squares = range.jerks_squared - 2.0 * rate.rate * range.jerks_by_exposure +
+                             rate.rate * rate.rate * range.exposure_squared;
+      rate.dispersion = trials / (trials - 1.0) * std::max(0.0, squares) / jerks;
+    }
+    const auto scaled_bounds = [&](double divisor) {
+      const ConfidenceInterval mean = poisson_bounds(jerks / divisor, confidence);
+      const double exposure = range.exposure / divisor;
+      return ConfidenceInterval{mean.low / exposure, mean.high / exposure};
+    };
+    rate.poisson = scaled_bounds(1.0);
+    rate.bounds = scaled_bounds(std::max(1.0, rate.dispersion));
+    rates.push_back(rate);
+  }
+  return rates;
+}
+
+}  // namespace zerocount

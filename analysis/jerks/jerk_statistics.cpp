@@ -1,0 +1,191 @@
+#include "analysis/jerks/jerk_statistics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "analysis/jerks/jerk_rates.hpp"
+#include "analysis/jerks/observed_move.hpp"
+#include "analysis/tally.hpp"
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::size_t magnitude_classes = 3;  // one count, two, and more
+
+/// Time between onsets, s, to the picosecond: equal numbers of samples are equal times.
+double interval_before(const ObservedMove& move, std::size_t jerk) {
+  const auto samples = static_cast<double>(move.jerks[jerk].onset - move.jerks[jerk - 1].onset);
+  return std::round(samples * move.sample_time * 1e12) / 1e12;
+}
+
+/// Of the jerks after the first one: their numbers among the samples after it at which they could begin.
+LaplaceTerm trend_after_first(const ObservedMove& move) {
+  if (move.jerks.empty()) return {};
+  std::vector<std::int64_t> numbers;
+  std::int64_t at_risk = 0;
+  std::size_t runs = 0;
+  for_each_run_at_risk(move, [&](std::int64_t first, std::int64_t end) {
+    if (runs > 0) at_risk += end - first;
+    if (runs > 0 && runs < move.jerks.size()) numbers.push_back(at_risk);
+    ++runs;
+  });
+  return laplace_term(numbers, at_risk);
+}
+
+/// Hits and events of the trial at hand, given to the sums when the next one begins.
+class TrialSums {
+ public:
+  void add(std::int64_t trial, bool hit) {
+    if (trial != trial_) close();
+    trial_ = trial;
+    hits_ += hit;
+    ++events_;
+  }
+  const ClusterSums& sums() {
+    close();
+    return sums_;
+  }
+
+ private:
+  void close() {
+    sums_.add(hits_, events_);
+    hits_ = events_ = 0;
+  }
+  ClusterSums sums_;
+  std::int64_t trial_{-1}, hits_{0}, events_{0};
+};
+
+/// The first pass over the moves of a point: everything but the bounds of the intervals.
+class JerkCollector {
+ public:
+  explicit JerkCollector(double confidence) : confidence_(confidence), laplace_(confidence) {}
+
+  void add(const ObservedMove& move) {
+    ++found_.moves;
+    if (!move.arrived) return;
+    ++found_.arrived;
+    if (move.lost) {
+      ++found_.lost;
+      return;
+    }
+    rates_.add(move);
+    laplace_.add(trend_after_first(move));
+    for (std::size_t i = 0; i < move.jerks.size(); ++i) {
+      if (i > 0) intervals_.add(interval_before(move, i));
+      add_jerk(move.trial, move.sample_time, move.jerks[i]);
+    }
+  }
+
+  JerkStatistics statistics() {
+    JerkStatistics result = found_;
+    result.confidence = confidence_;
+    result.rates = rates_.rates(confidence_);
+    result.slowing = laplace_.summary();
+    result.agreement = agreeing_.sums().share(confidence_);
+    result.intervals.n = intervals_.size;
+    result.intervals.mean = mean(intervals_);
+    JerkMagnitudes& magnitudes = result.magnitudes;
+    magnitudes.one_count = one_count_.sums().share(confidence_);
+    magnitudes.counts.assign(magnitude_counts_.begin(), magnitude_counts_.end());
+    magnitudes.mean = mean(magnitudes_);
+    magnitudes.max = magnitudes_.size > 0 ? magnitudes_.counts.rbegin()->first : 0;
+    magnitudes.median_duration = quantile(durations_, 0.5, confidence_).value;
+    magnitudes.longest_duration = largest(durations_);
+    return result;
+  }
+  const Tally<double>& intervals() const { return intervals_; }
+
+ private:
+  void add_jerk(std::int64_t trial, double sample_time, const SampledJerk& jerk) {
+    ++found_.jerks;
+    found_.with_jerks += trial != last_with_jerks_;
+    last_with_jerks_ = trial;
+    agreeing_.add(trial, jerk.agrees);
+    one_count_.add(trial, jerk.magnitude == 1);
+    magnitudes_.add(jerk.magnitude);
+    durations_.add(std::round(static_cast<double>(jerk.length) * sample_time * 1e12) / 1e12);
+    const auto last = static_cast<std::int64_t>(magnitude_classes);
+    ++magnitude_counts_[static_cast<std::size_t>(std::clamp<std::int64_t>(jerk.magnitude, 1, last) - 1)];
+  }
+
+  double confidence_;
+  JerkStatistics found_;
+  JerkRates rates_;
+  LaplaceSum laplace_;
+  TrialSums agreeing_, one_count_;
+  Tally<double> intervals_, durations_;
+  Tally<std::int64_t> magnitudes_;
+  std::array<std::int64_t, magnitude_classes> magnitude_counts_{};
+  std::int64_t last_with_jerks_{-1};
+};
+
+/// Of the intervals: order-statistic bounds for `independent` observations, whose ranks are taken to those of
+/// all n (Woodruff 1952).
+Quantile quantile_of_clusters(const Tally<double>& tally, double probability, double independent,
+                              double confidence) {
+  const double value = order_statistic(tally, quantile_rank(tally.size, probability));
+  const auto whole = std::max<std::int64_t>(1, static_cast<std::int64_t>(independent));
+  const RankBounds ranks = quantile_rank_bounds(whole, probability, confidence);
+  const double scale = static_cast<double>(tally.size) / static_cast<double>(whole);
+  const auto low = static_cast<std::int64_t>(std::floor(static_cast<double>(ranks.low) * scale));
+  const auto high = static_cast<std::int64_t>(std::ceil(static_cast<double>(ranks.high) * scale));
+  return {value, order_statistic(tally, low), order_statistic(tally, ranks.high > whole ? 0 : high)};
+}
+
+/// The second pass: how much the intervals of a trial are alike.
+void add_interval_quantiles(JerkIntervals& intervals, const Tally<double>& tally, const StudyFile& file,
+                            const Study& study, std::int64_t point, double confidence) {
+  constexpr std::size_t count = std::size(jerk_interval_probabilities);
+  std::array<double, count> values{};
+  for (std::size_t q = 0; q < count; ++q)
+    values[q] = order_statistic(tally, quantile_rank(tally.size, jerk_interval_probabilities[q]));
+  std::array<TrialSums, count> sums;
+  if (tally.size > 0) {
+    for_each_move(file, study, point, [&](const ObservedMove& move) {
+      if (!move.arrived || move.lost) return;
+      for (std::size_t i = 1; i < move.jerks.size(); ++i) {
+        const double interval = interval_before(move, i);
+        for (std::size_t q = 0; q < count; ++q) sums[q].add(move.trial, interval <= values[q]);
+      }
+    });
+  }
+  for (std::size_t q = 0; q < count; ++q) {
+    const double independent = sums[q].sums().independent_events();
+    intervals.independent.push_back(independent);
+    intervals.quantiles.push_back(
+        quantile_of_clusters(tally, jerk_interval_probabilities[q], independent, confidence));
+  }
+}
+
+void require_jerks(const StudyFile& file, const Study& study, std::int64_t point) {
+  if (study.open_loop) {
+    throw Failure(ExitCode::bad_data, fmt::format("{}: an open-loop study has no targets, and so no jerks",
+                                                  file.path().string()));
+  }
+  if (point < 0 || point >= point_count(study)) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("point {}; the study has points 0 to {}", point, point_count(study) - 1));
+  }
+}
+
+}  // namespace
+
+JerkStatistics jerk_statistics(const StudyFile& file, const Study& study, std::int64_t point,
+                               double confidence) {
+  require_jerks(file, study, point);
+  require_confidence(confidence);
+  JerkCollector collector(confidence);
+  for_each_move(file, study, point, [&](const ObservedMove& move) { collector.add(move); });
+  JerkStatistics result = collector.statistics();
+  result.trials = file.header().trials;
+  add_interval_quantiles(result.intervals, collector.intervals(), file, study, point, confidence);
+  return result;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,113 @@
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "analysis/jerks/jerk_report.hpp"
+#include "analysis/text.hpp"
+
+namespace zerocount {
+namespace {
+
+std::string bounds_text(const ConfidenceInterval& bounds) {
+  return fmt::format("[{}, {}]", short_number(bounds.low), short_number(bounds.high));
+}
+
+std::string rate_table(const std::vector<JerkRate>& rates, const std::string& level) {
+  std::vector<TextColumn> columns{{"since arrival (s)", true, {}}, {"moves", true, {}},
+                                  {"watched (s)", true, {}},       {"jerks", true, {}},
+                                  {"rate (1/s)", true, {}},        {level + " bounds", true, {}},
+                                  {"dispersion", true, {}}};
+  for (const JerkRate& rate : rates) {
+    const std::string cells[] = {fmt::format("{} to {}", short_number(rate.from), short_number(rate.to)),
+                                 std::to_string(rate.moves),
+                                 short_number(rate.exposure),
+                                 std::to_string(rate.jerks),
+                                 short_number(rate.rate),
+                                 bounds_text(rate.bounds),
+                                 short_number(rate.dispersion)};
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].cells.push_back(cells[i]);
+  }
+  return aligned_table(columns);
+}
+
+std::string share_text(const ClusteredShare& share) {
+  return fmt::format("{} of {}, bounds [{:.1f}, {:.1f}] %", percentage(share.hits, share.events),
+                     share.events, 100.0 * share.bounds.low, 100.0 * share.bounds.high);
+}
+
+std::string intervals_text(const JerkIntervals& intervals) {
+  std::string text = fmt::format("intervals: {}", intervals.n);
+  if (intervals.n == 0) return text + "\n";
+  for (std::size_t i = 0; i < intervals.quantiles.size(); ++i) {
+    const Quantile& quantile = intervals.quantiles[i];
+    text +=
+        fmt::format("; {:.0f} % below {} s [{}, {}]", 100.0 * jerk_interval_probabilities[i],
+                    short_number(quantile.value), short_number(quantile.low), short_number(quantile.high));
+  }
+  return text + "\n";
+}
+
+std::string slowing_text(const LaplaceSummary& slowing, const std::string& level) {
+  if (slowing.moves == 0) return {};
+  return fmt::format(
+      "slowing down, from the first jerk on: score {:.2f} over {} moves (p = {:.2g}); of {} moves with {} or "
+      "more, "
+      "{} slow down and {} quicken ({} one-sided)\n",
+      slowing.summed, slowing.moves, slowing.p_slowing, slowing.tested, laplace_least_events, slowing.slowing,
+      slowing.quickening, level);
+}
+
+std::string creep_text(const CreepComparison& creep, const CreepAgreement& agreement) {
+  if (!creep.not_applicable.empty())
+    return fmt::format("creep at constant torque: does not apply: {}\n", creep.not_applicable);
+  if (creep.trials == 0) return {};
+  std::string text = fmt::format(
+      "creep at constant torque: in {} trials run again it foretells {} of {} jerks, and {} of {} waits "
+      "without "
+      "one",
+      creep.trials, agreement.foretold, agreement.ended, agreement.lasting_foretold, agreement.lasting);
+  if (agreement.ended > 0)
+    text += fmt::format("; median deviation {:.2g} ms", 1e3 * agreement.median_deviation);
+  return text + "\n";
+}
+
+std::string point_text(const PointJerks& point, const std::string& level) {
+  const JerkStatistics& jerks = point.statistics;
+  std::string text =
+      fmt::format("{}\n{} jerks in {} of {} trials; {} of {} moves arrived", printable(point.label),
+                  jerks.jerks, jerks.with_jerks, jerks.trials, jerks.arrived, jerks.moves);
+  if (jerks.lost > 0) text += fmt::format(", the motion of {} was lost then: left out", jerks.lost);
+  text += "\n\n";
+  if (!jerks.rates.empty()) text += rate_table(jerks.rates, level) + "\n";
+  text += intervals_text(jerks.intervals) + slowing_text(jerks.slowing, level);
+  if (jerks.jerks > 0) {
+    text += fmt::format("in the direction of the holding torque: {}\n", share_text(jerks.agreement));
+    text += fmt::format("of one count: {}; largest {} counts; median duration {} s\n",
+                        share_text(jerks.magnitudes.one_count), jerks.magnitudes.max,
+                        short_number(jerks.magnitudes.median_duration));
+  }
+  return text + creep_text(point.creep, point.creep_agreement) + "\n";
+}
+
+constexpr const char* legend =
+    "watched: the time of all moves together in which a jerk could have begun\n"
+    "rate: jerks that began per second watched; bounds after Garwood, widened by the dispersion: how much "
+    "more "
+    "the\n"
+    "jerks of a trial vary than independent ones would (1)\n"
+    "score: Laplace's, standard normal without a trend, negative where jerks slow down\n"
+    "creep at constant torque: from the state a dwell after the error became 0, when the next jerk has to "
+    "come\n";
+
+}  // namespace
+
+std::string jerk_text(const JerkReport& report) {
+  const std::string level = fmt::format("{:.6g} %", 100.0 * report.confidence);
+  std::string text = printable(report.name) + "\n\n";
+  for (const PointJerks& point : report.points) text += point_text(point, level);
+  return text + legend;
+}
+
+}  // namespace zerocount

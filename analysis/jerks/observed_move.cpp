@@ -1,0 +1,127 @@
+#include "analysis/jerks/observed_move.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/failure.hpp"
+#include "core/numerics/sign.hpp"
+#include "core/trial/divergence.hpp"
+#include "results/layout/table_io.hpp"
+
+namespace zerocount {
+namespace {
+
+[[noreturn]] void fail(const StudyFile& file, std::int64_t row, const std::string& what) {
+  throw Failure(ExitCode::bad_data, fmt::format("{}: trial {}: {}", file.path().string(), row, what));
+}
+
+/// The parameters of the trials of a point as far as they say when their samples are: drawn once where they
+/// are the same in all trials.
+class Timings {
+ public:
+  Timings(const Study& study, std::int64_t point) : study_(study), point_(point) {
+    const std::vector<InputColumn>& inputs = study.input_columns;
+    vary_ = std::any_of(inputs.begin(), inputs.end(), [](const InputColumn& input) {
+      return input.name == "controller.sample_rate" || input.name == "command.hold" ||
+             input.name == "verdict.dwell";
+    });
+    parameters_ = study_trial(study, point, 0).parameters;
+  }
+
+  const TrialParameters& of(std::int64_t index) {
+    if (vary_) parameters_ = study_trial(study_, point_, index).parameters;
+    return parameters_;
+  }
+
+ private:
+  const Study& study_;
+  std::int64_t point_;
+  bool vary_{false};
+  TrialParameters parameters_;
+};
+
+SampledJerk sampled(const Jerk& jerk, const MoveOutcome& move, double sample_rate) {
+  return {std::llround(jerk.onset * sample_rate) - move.arrival, std::llround(jerk.duration * sample_rate),
+          jerk.magnitude, jerk.direction == sign_of(move.holding_torque)};
+}
+
+/// A move that was ended early had diverged, which is a jerk that lasted to its end.
+std::int64_t observed_end(const ObservedMove& observed, const MoveOutcome& move, std::int64_t samples) {
+  if (!move.stopped || observed.jerks.empty()) return samples - move.arrival;
+  return observed.jerks.back().onset + observed.jerks.back().length;
+}
+
+bool in_order(const ObservedMove& move) {
+  std::int64_t at_risk = move.dwell;
+  for (const SampledJerk& jerk : move.jerks) {
+    if (jerk.onset < at_risk || jerk.length < 1 || jerk.onset + jerk.length > move.end) return false;
+    at_risk = jerk.onset + jerk.length + 1;
+  }
+  return true;
+}
+
+ObservedMove observe(const TrialParameters& parameters, std::size_t index, const MoveOutcome& move,
+                     std::span<const JerkRecord> jerks) {
+  const double rate = parameters.controller.sample_rate;
+  ObservedMove observed;
+  observed.arrived = move.arrived;
+  observed.lost = move.outcome == Outcome::nonfinite;
+  observed.sample_time = 1.0 / rate;
+  observed.dwell = samples_in(parameters.verdict.dwell, rate);
+  for (const JerkRecord& jerk : jerks) observed.jerks.push_back(sampled(jerk, move, rate));
+  observed.end = observed_end(observed, move, samples_of_move(parameters, index));
+  return observed;
+}
+
+}  // namespace
+
+void for_each_run_at_risk(const ObservedMove& move,
+                          const std::function<void(std::int64_t, std::int64_t)>& take) {
+  std::int64_t first = move.dwell;
+  for (const SampledJerk& jerk : move.jerks) {
+    take(first, jerk.onset + 1);
+    first = jerk.onset + jerk.length + 1;
+  }
+  if (first < move.end) take(first, move.end);
+}
+
+void for_each_move(const StudyFile& file, const Study& study, std::int64_t point,
+                   const std::function<void(const ObservedMove&)>& take) {
+  const std::int64_t moves = file.moves();
+  const std::int64_t trials = file.header().trials;
+  const std::int64_t begin = point * trials;
+  const std::int64_t end = begin + trials;
+  Timings timings(study, point);
+  for (std::int64_t first = begin; first < end; first += chunk_rows(moves)) {
+    const RowRange block{first, std::min(chunk_rows(moves), end - first)};
+    const std::vector<MoveOutcome> outcomes = file.outcomes(block);
+    const std::vector<JerkRecord> jerks = file.jerks(block);
+    std::size_t next = 0;
+    for (std::int64_t i = 0; i < block.count * moves; ++i) {
+      const std::int64_t row = block.first + i / moves;
+      const MoveOutcome& move = outcomes[static_cast<std::size_t>(i)];
+      const std::size_t start = next;
+      while (next < jerks.size() && jerks[next].trial == row && jerks[next].move == i % moves) ++next;
+      const std::span<const JerkRecord> own = std::span(jerks).subspan(start, next - start);
+      if (std::ssize(own) != move.jerk_count) {
+        fail(file, row,
+             fmt::format("{} jerks recorded of a move that counted {}", own.size(), move.jerk_count));
+      }
+      ObservedMove observed =
+          observe(timings.of(row - begin), static_cast<std::size_t>(i % moves), move, own);
+      observed.trial = row;
+      if (observed.arrived && !observed.lost && !in_order(observed)) {
+        fail(file, row, "jerks that are not in order, or outside the time of their move");
+      }
+      take(observed);
+    }
+    if (next != jerks.size()) fail(file, jerks[next].trial, "jerks beyond those that its moves counted");
+  }
+}
+
+}  // namespace zerocount

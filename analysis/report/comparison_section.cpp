@@ -1,0 +1,163 @@
+#include "analysis/report/comparison_section.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "analysis/comparison/comparison_report.hpp"
+#include "analysis/comparison/gate_rules.hpp"
+#include "analysis/report/escaping.hpp"
+#include "analysis/report/html_table.hpp"
+#include "analysis/text.hpp"
+
+namespace zerocount {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t most_rows = 200;
+constexpr std::size_t most_bars = 60;
+
+/// A measure at a point.
+struct ComparedMeasure {
+  const PointComparison* point{nullptr};
+  const MeasureComparison* measure{nullptr};
+};
+
+int severity(GateVerdict verdict) {
+  switch (verdict) {
+    case GateVerdict::regression:
+      return 0;
+    case GateVerdict::inconclusive:
+      return 1;
+    case GateVerdict::passed:
+      return 2;
+    case GateVerdict::not_measured:
+      break;
+  }
+  return 3;
+}
+
+std::vector<ComparedMeasure> worst_first(const StudyComparison& comparison) {
+  std::vector<ComparedMeasure> all;
+  for (const PointComparison& point : comparison.points) {
+    for (const MeasureComparison& measure : point.measures) all.push_back({&point, &measure});
+  }
+  std::stable_sort(all.begin(), all.end(), [](const ComparedMeasure& a, const ComparedMeasure& b) {
+    return severity(a.measure->verdict) < severity(b.measure->verdict);
+  });
+  return all;
+}
+
+std::string table_of(const std::vector<ComparedMeasure>& measures) {
+  HtmlColumn point{"point", "", true, {}}, measure{"measure", "", true, {}},
+      baseline{"baseline", "", false, {}}, current{"now", "", false, {}}, effect{"worse by", "", false, {}},
+      bounds{"bounds", "", false, {}}, margin{"margin", "", false, {}}, p{"adjusted p", "", false, {}},
+      verdict{"verdict", "", true, {}};
+  for (std::size_t i = 0; i < std::min(measures.size(), most_rows); ++i) {
+    const MeasureComparison& one = *measures[i].measure;
+    const auto text = [&](double value) { return value_text(value, one.measure, one.unit); };
+    point.cells.push_back(measures[i].point->label);
+    measure.cells.push_back(one.measure);
+    baseline.cells.push_back(text(one.baseline));
+    current.cells.push_back(text(one.current));
+    effect.cells.push_back(text(one.effect));
+    bounds.cells.push_back(fmt::format("{} … {}", text(one.bounds.low), text(one.bounds.high)));
+    margin.cells.push_back(text(one.margin));
+    p.cells.push_back(short_number(one.adjusted_p));
+    verdict.cells.push_back(fmt::format("{}{}", word_of(one.verdict), one.improved ? ", improved" : ""));
+  }
+  std::string html = html_table({point, measure, baseline, current, effect, bounds, margin, p, verdict});
+  if (measures.size() > most_rows) {
+    html += fmt::format(
+        "<p class=\"note\">The first {} of {} rows, the failed ones first; all are told by "
+        "<code>zerocount compare</code>.</p>\n",
+        most_rows, measures.size());
+  }
+  return html;
+}
+
+std::string requirements_table(const StudyComparison& comparison) {
+  HtmlColumn point{"point", "", true, {}}, text{"requirement", "", true, {}}, value{"value", "", false, {}},
+      verdict{"verdict", "", true, {}};
+  for (const PointComparison& compared : comparison.points) {
+    for (const RequirementResult& requirement : compared.requirements) {
+      point.cells.push_back(compared.label);
+      text.cells.push_back(requirement.text);
+      value.cells.push_back(value_text(requirement.value, requirement.quantity, requirement.unit));
+      verdict.cells.push_back(std::string(word_of(requirement.verdict)));
+    }
+  }
+  if (point.cells.empty()) return "";
+  return "<h3>Requirements</h3>\n" + html_table({point, text, value, verdict});
+}
+
+std::string differences_table(const StudyComparison& comparison) {
+  if (comparison.manifest_differences.empty()) return "<p>The manifests are the same.</p>\n";
+  HtmlColumn key{"key", "", true, {}}, before{"baseline", "", true, {}}, now{"now", "", true, {}};
+  for (const ManifestDifference& difference : comparison.manifest_differences) {
+    key.cells.push_back(difference.key);
+    before.cells.push_back(difference.baseline.empty() ? "–" : difference.baseline);
+    now.cells.push_back(difference.current.empty() ? "–" : difference.current);
+  }
+  return "<h3>What differs in the manifests</h3>\n" + html_table({key, before, now});
+}
+
+std::string file_text(const ComparedFile& file) {
+  return fmt::format("{}: {}, made {} by zerocount {} ({}), {} trials per point", file.path, file.name,
+                     file.created, file.version, file.commit, file.trials);
+}
+
+/// The change of the success rate, point by point.
+Figure success_change(const StudyComparison& comparison, const std::vector<ComparedMeasure>& measures) {
+  FigureData data{"changes",
+                  {{"label", "point", ""},
+                   {"change", "change", "percentage points"},
+                   {"low", "lower bound", "percentage points"},
+                   {"high", "upper bound", "percentage points"},
+                   {"verdict", "verdict", ""},
+                   {"margin", "margin", "percentage points"}}};
+  for (const ComparedMeasure& one : measures) {
+    if (one.measure->measure != gate_measures().front().name || data.rows.size() == most_bars) continue;
+    data.rows.push_back(ordered_json::array(
+        {one.point->label, datum(-100.0 * one.measure->effect), datum(-100.0 * one.measure->bounds.high),
+         datum(-100.0 * one.measure->bounds.low), std::string(word_of(one.measure->verdict)),
+         datum(-100.0 * one.measure->margin)}));
+  }
+  std::string caption = fmt::format(
+      "Change of the success rate since the baseline, with {:.0f} % bounds; the tick is the margin that is "
+      "still accepted. A "
+      "point whose bounds lie right of its tick is shown to be no worse than that. ",
+      100.0 * comparison.confidence);
+  if (comparison.points.size() > most_bars)
+    caption +=
+        fmt::format("The {} of {} points with the gravest verdicts. ", most_bars, comparison.points.size());
+  Figure figure = figure_of("success-change", "success-change", "Success against the baseline", caption);
+  set_rows(figure, data.rows.size(), 24);
+  figure.data.push_back(std::move(data));
+  return figure;
+}
+
+}  // namespace
+
+PageSection comparison_section(const StudyComparison& comparison) {
+  const std::vector<ComparedMeasure> measures = worst_first(comparison);
+  PageSection section{"baseline", "Against the baseline", "", {}};
+  section.html = fmt::format("<div class=\"verdict\"><p class=\"headline\">{}</p><p>{}</p></div>\n",
+                             html_prose(verdict_sentence(comparison)), html_text(comparison.layer_reason)) +
+                 html_facts({{"Baseline", file_text(comparison.baseline)},
+                             {"This study", file_text(comparison.current)}});
+  for (const std::string& note : comparison.notes)
+    section.html += fmt::format("<p>{}</p>\n", html_text(note));
+  section.html += differences_table(comparison);
+  if (!measures.empty()) {
+    section.html += "<h3>Measures</h3>\n" + table_of(measures);
+    Figure figure = success_change(comparison, measures);
+    if (!figure.data.front().rows.empty()) section.figures.push_back(std::move(figure));
+  }
+  section.html += requirements_table(comparison);
+  return section;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,130 @@
+#include "analysis/report/criterion_curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+#include "analysis/report/reported_study.hpp"
+#include "analysis/theory_prediction.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::int64_t most_trials = 200;
+constexpr int curve_points = 64;
+constexpr int search_steps = 48;
+constexpr int bisections = 40;
+
+struct Criterion {
+  const char* name;
+  double IntegralGainBounds::*bound;
+  bool first;  ///< of all trials, the one that meets it at the lowest gain; otherwise the last
+};
+
+constexpr Criterion criteria[] = {
+    {"(6)", &IntegralGainBounds::stable_below, true},
+    {"(6)", &IntegralGainBounds::stable_below, false},
+    {"(7)", &IntegralGainBounds::unstable_above, true},
+    {"(7)", &IntegralGainBounds::unstable_above, false},
+};
+
+/// The trials at which the criteria are looked at, with two parameters that are changed at will.
+class CriterionTrials {
+ public:
+  CriterionTrials(const Study& study, std::int64_t point, const CriterionPlane& plane) {
+    const auto x = find_parameter(plane.x);
+    const auto y = find_parameter(plane.y);
+    if (!x || !y) return;
+    set_x_ = parameter_table()[*x].set;
+    set_y_ = parameter_table()[*y].set;
+    if (set_x_ == nullptr || set_y_ == nullptr) return;
+    for (const std::int64_t index : spread_over(study.trials, most_trials)) {
+      TrialParameters parameters = study_trial(study, point, index).parameters;
+      if (predict(parameters).applies) trials_.push_back(std::move(parameters));
+    }
+  }
+
+  bool empty() const { return trials_.empty(); }
+
+  /// ki over its bound, of the trial for which that is greatest (first) or least; 1 on the curve.
+  double gain_over_bound(const Criterion& criterion, double x, double y) {
+    double extreme = criterion.first ? 0.0 : std::numeric_limits<double>::infinity();
+    for (TrialParameters& trial : trials_) {
+      set_x_(trial, x);
+      set_y_(trial, y);
+      const double ratio = trial.controller.ki / (predict(trial).bounds.*criterion.bound);
+      extreme = criterion.first ? std::max(extreme, ratio) : std::min(extreme, ratio);
+    }
+    return extreme;
+  }
+
+ private:
+  std::vector<TrialParameters> trials_;
+  void (*set_x_)(TrialParameters&, double){nullptr};
+  void (*set_y_)(TrialParameters&, double){nullptr};
+};
+
+double between(double low, double high, double share, bool by_ratio) {
+  return by_ratio ? low * std::pow(high / low, share) : low + share * (high - low);
+}
+
+/// The lowest share in [0, 1] at which `excess` changes its sign, none where it does not.
+std::optional<double> crossing(const std::function<double(double)>& excess) {
+  double low = 0.0;
+  double at_low = excess(low);
+  for (int step = 1; step <= search_steps; ++step) {
+    double high = static_cast<double>(step) / search_steps;
+    const double at_high = excess(high);
+    if ((at_low < 0.0) != (at_high < 0.0)) {
+      for (int i = 0; i < bisections; ++i) {
+        const double middle = 0.5 * (low + high);
+        ((excess(middle) < 0.0) == (at_low < 0.0) ? low : high) = middle;
+      }
+      return 0.5 * (low + high);
+    }
+    low = high;
+    at_low = at_high;
+  }
+  return std::nullopt;
+}
+
+/// The curve, searched along x at each y, or along y at each x.
+std::vector<CurvePoint> curve(CriterionTrials& trials, const Criterion& criterion,
+                              const CriterionPlane& plane, bool along_x) {
+  std::vector<CurvePoint> points;
+  for (int i = 0; i < curve_points; ++i) {
+    const double fixed = static_cast<double>(i) / (curve_points - 1);
+    const auto place = [&](double share) {
+      return CurvePoint{between(plane.x_low, plane.x_high, along_x ? share : fixed, plane.x_by_ratio),
+                        between(plane.y_low, plane.y_high, along_x ? fixed : share, plane.y_by_ratio)};
+    };
+    const std::optional<double> found = crossing([&](double share) {
+      const CurvePoint at = place(share);
+      return trials.gain_over_bound(criterion, at.x, at.y) - 1.0;
+    });
+    if (found) points.push_back(place(*found));
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<CriterionCurve> criterion_curves(const Study& study, std::int64_t point,
+                                             const CriterionPlane& plane) {
+  CriterionTrials trials(study, point, plane);
+  std::vector<CriterionCurve> curves;
+  if (trials.empty()) return curves;
+  const bool along_x = plane.y != "controller.ki";
+  for (const Criterion& criterion : criteria) {
+    std::vector<CurvePoint> points = curve(trials, criterion, plane, along_x);
+    std::vector<CurvePoint> other = curve(trials, criterion, plane, !along_x);
+    if (points.size() < 2) points = std::move(other);
+    if (points.size() >= 2) curves.push_back({criterion.name, criterion.first, std::move(points)});
+  }
+  return curves;
+}
+
+}  // namespace zerocount

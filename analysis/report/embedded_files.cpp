@@ -1,0 +1,30 @@
+#include "analysis/report/embedded_files.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/failure.hpp"
+
+namespace zerocount {
+
+std::string_view embedded_file(std::string_view name) {
+  const std::span<const EmbeddedFile> files = embedded_files();
+  const auto found =
+      std::find_if(files.begin(), files.end(), [&](const EmbeddedFile& file) { return file.name == name; });
+  if (found != files.end()) return found->bytes;
+  throw Failure(
+      ExitCode::machine_failed,
+      fmt::format("this zerocount was built without {}, which draws the figures; in its sources, run "
+                  "'npm ci --prefix analysis/report' (./quickstart does), then cmake and the build again",
+                  name));
+}
+
+std::span<const std::string_view> drawing_libraries() {
+  static constexpr std::array<std::string_view, 3> names{"vega.min.js", "vega-lite.min.js",
+                                                         "vega-embed.min.js"};
+  return names;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "analysis/jerks/jerk_statistics.hpp"
+#include "analysis/report/report_figures.hpp"
+
+namespace zerocount {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::int64_t most_rows = 50;
+constexpr std::int64_t most_jerks_of_a_row = 120;
+
+/// A move with jerks.
+struct JerkingMove {
+  std::int64_t row{0};
+  std::int64_t move{0};
+  MoveOutcome outcome;
+};
+
+/// The moves with jerks of a point, as many as are shown.
+struct ShownMoves {
+  std::int64_t all{0};
+  std::vector<JerkingMove> shown;
+};
+
+std::int64_t point_with_most_jerks(const std::vector<PointSummary>& points) {
+  std::size_t most = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].jerk_count.total > points[most].jerk_count.total) most = i;
+  }
+  return static_cast<std::int64_t>(most);
+}
+
+ShownMoves shown_moves(const ReportedStudy& reported, std::int64_t point) {
+  ShownMoves moves;
+  const RowRange rows = rows_of(reported, point);
+  const auto visit_jerking = [&](const auto& act) {
+    std::int64_t index = 0;
+    visit_trials(reported.file, rows, [&](std::int64_t row, std::span<const MoveOutcome> outcomes) {
+      for (std::size_t move = 0; move < outcomes.size(); ++move) {
+        if (outcomes[move].jerk_count > 0)
+          act(index++, JerkingMove{row, static_cast<std::int64_t>(move), outcomes[move]});
+      }
+    });
+  };
+  visit_jerking([&](std::int64_t, const JerkingMove&) { ++moves.all; });
+  const std::vector<std::int64_t> chosen = spread_over(moves.all, most_rows);
+  visit_jerking([&](std::int64_t index, const JerkingMove& move) {
+    if (std::binary_search(chosen.begin(), chosen.end(), index)) moves.shown.push_back(move);
+  });
+  return moves;
+}
+
+int sign(double value) {
+  return (value > 0.0) - (value < 0.0);
+}
+
+std::int64_t add_jerks(FigureData& data, const StudyFile& file, const JerkingMove& move,
+                       std::int64_t number) {
+  std::int64_t left_out = 0;
+  std::int64_t added = 0;
+  for (const JerkRecord& jerk : file.jerks({move.row, 1})) {
+    if (jerk.move != move.move) continue;
+    if (added == most_jerks_of_a_row) {
+      ++left_out;
+      continue;
+    }
+    ++added;
+    const bool towards = jerk.direction == sign(move.outcome.holding_torque);
+    data.rows.push_back(ordered_json::array(
+        {number, move.row % file.header().trials, move.move, datum(jerk.onset - move.outcome.settling_time),
+         datum(jerk.duration), jerk.magnitude, towards ? "towards the holding torque" : "against it"}));
+  }
+  return left_out;
+}
+
+Figure raster(const ReportedStudy& reported, std::int64_t point) {
+  const ShownMoves moves = shown_moves(reported, point);
+  FigureData data{"jerks",
+                  {{"row", "", "1"},
+                   {"trial", "trial of the point", "1"},
+                   {"move", "move", "1"},
+                   {"since_arrival", "time since arrival", "s"},
+                   {"duration", "duration", "s"},
+                   {"magnitude", "magnitude", "count"},
+                   {"towards", "direction", ""}}};
+  std::int64_t left_out = 0;
+  std::int64_t number = 0;
+  for (const JerkingMove& move : moves.shown) left_out += add_jerks(data, reported.file, move, number++);
+  std::string caption = fmt::format(
+      "Every mark is the onset of a jerk, every row a move of point {}, from its arrival on. Creep under the "
+      "holding "
+      "torque makes the rotor jerk in one direction, and ever less often: marks should thin out to the right "
+      "and be "
+      "of one colour. ",
+      reported.summary.labels[static_cast<std::size_t>(point)]);
+  if (std::ssize(moves.shown) < moves.all) {
+    caption += fmt::format("A sample: {} of the {} moves with jerks, an even spread in their order. ",
+                           moves.shown.size(), moves.all);
+  }
+  if (left_out > 0) {
+    caption += fmt::format("Of each move at most {} jerks are shown; {} later ones are left out. ",
+                           most_jerks_of_a_row, left_out);
+  }
+  Figure figure = figure_of("jerk-raster", "jerk-raster", "Jerks, move by move", caption);
+  set_rows(figure, std::max<std::size_t>(moves.shown.size(), 12), 6);
+  figure.data.push_back(std::move(data));
+  return figure;
+}
+
+std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point) {
+  const JerkStatistics jerks = jerk_statistics(reported.file, reported.study, point);
+  if (jerks.rates.size() < 2) return std::nullopt;
+  FigureData data{"rates",
+                  {{"from", "time since arrival from", "s"},
+                   {"to", "to", "s"},
+                   {"rate", "jerk rate", "1/s"},
+                   {"low", "lower 95 % bound", "1/s"},
+                   {"high", "upper 95 % bound", "1/s"},
+                   {"jerks", "jerks", "1"},
+                   {"moves", "moves", "1"},
+                   {"exposure", "exposure", "s"}}};
+  for (const JerkRate& part : jerks.rates) {
+    data.rows.push_back(
+        ordered_json::array({datum(part.from), datum(part.to), datum(part.rate), datum(part.bounds.low),
+                             datum(part.bounds.high), part.jerks, part.moves, datum(part.exposure)}));
+  }
+  Figure figure = figure_of(
+      "jerk-rate", "jerk-rate", "How often it jerks",
+      fmt::format(
+          "Jerks per second at point {} against the time since arrival, over all its moves that arrived. A "
+          "rate that falls is creep that runs out as the contact hardens. The boxes are 95 % bounds of the "
+          "rate "
+          "in each range (Garwood, widened where trials differ), each by itself.",
+          reported.summary.labels[static_cast<std::size_t>(point)]));
+  ordered_json& x = figure.specification["encoding"]["x"];
+  const double first = jerks.rates.front().from > 0.0 ? jerks.rates.front().from : jerks.rates.front().to;
+  x["axis"]["values"] = round_numbers(jerks.rates.front().from, jerks.rates.back().to, first);
+  if (jerks.rates.front().from == 0.0) {  // the logarithm has no place for it
+    x["scale"]["type"] = "symlog";
+    x["scale"]["constant"] = first;
+  }
+  figure.data.push_back(std::move(data));
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> jerk_figures(const ReportedStudy& reported) {
+  const std::vector<PointSummary>& points = reported.summary.points;
+  const std::int64_t point = point_with_most_jerks(points);
+  if (points[static_cast<std::size_t>(point)].jerk_count.total == 0) return {};
+  std::vector<Figure> figures{raster(reported, point)};
+  if (std::optional<Figure> rates = rate(reported, point)) figures.push_back(std::move(*rates));
+  return figures;
+}
+
+}  // namespace zerocount

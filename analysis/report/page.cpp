@@ -1,0 +1,123 @@
+#include "analysis/report/page.hpp"
+
+#include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "analysis/report/embedded_files.hpp"
+#include "analysis/report/escaping.hpp"
+
+namespace zerocount {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json colours() {
+  return ordered_json::parse(embedded_file("colours.json"));
+}
+
+std::string css_variables(const ordered_json& values) {
+  std::string text;
+  for (const auto& [name, value] : values.items())
+    text += fmt::format("{}:{};", name, value.get<std::string>());
+  return text;
+}
+
+/// The colours as CSS: light, dark where the reader's system is dark, and always light on paper.
+std::string css_colours() {
+  const ordered_json all = colours();
+  return fmt::format(
+      ":root{{color-scheme:light dark;{}}}\n@media screen and (prefers-color-scheme:dark){{:root{{{}}}}}\n",
+      css_variables(all["light"]), css_variables(all["dark"]));
+}
+
+std::string scripts() {
+  std::string text;
+  for (const std::string_view library : drawing_libraries())
+    text += fmt::format("<script>{}</script>\n", script_source(embedded_file(library)));
+  return text;
+}
+
+ordered_json data_json(const FigureData& data) {
+  ordered_json columns = ordered_json::array();
+  for (const FigureColumn& column : data.columns)
+    columns.push_back({column.field, column.title, column.unit});
+  ordered_json rows = ordered_json::array();
+  for (const ordered_json& row : data.rows) rows.push_back(row);
+  return {{"name", data.name}, {"columns", columns}, {"rows", rows}};
+}
+
+ordered_json figures_json(const ReportPage& page) {
+  ordered_json figures = ordered_json::array();
+  for (const PageSection& section : page.sections) {
+    for (const Figure& figure : section.figures) {
+      ordered_json data = ordered_json::array();
+      for (const FigureData& part : figure.data) data.push_back(data_json(part));
+      figures.push_back({{"name", figure.name}, {"specification", figure.specification}, {"data", data}});
+    }
+  }
+  return {{"theme", figure_theme()}, {"figures", figures}};
+}
+
+std::string figure_html(const Figure& figure) {
+  return fmt::format(
+      "<figure id=\"figure-{0}\"><h3>{1}</h3><div class=\"plot\" role=\"img\" aria-label=\"{1}\"></div>"
+      "<figcaption>{2}</figcaption><details class=\"data\"><summary>Data of this figure</summary>"
+      "<div class=\"scroll\"></div></details></figure>\n",
+      html_text(figure.name), html_text(figure.title), html_prose(figure.caption));
+}
+
+std::string section_html(const PageSection& section) {
+  std::string text = fmt::format("<section id=\"{}\"><h2>{}</h2>\n{}\n", html_text(section.name),
+                                 html_text(section.title), section.html);
+  for (const Figure& figure : section.figures) text += figure_html(figure);
+  return text + "</section>\n";
+}
+
+std::string contents_html(const ReportPage& page) {
+  std::string text;
+  for (const PageSection& section : page.sections)
+    text += fmt::format("<a href=\"#{}\">{}</a>\n", html_text(section.name), html_text(section.title));
+  return text;
+}
+
+/// The template with each {{name}} replaced, in one pass: what is put in is not looked at again.
+std::string filled(std::string_view pattern, const std::map<std::string_view, std::string>& values) {
+  std::string text;
+  while (true) {
+    const std::size_t begin = pattern.find("{{");
+    if (begin == std::string_view::npos) return text += pattern;
+    const std::size_t end = pattern.find("}}", begin);
+    text += pattern.substr(0, begin);
+    text += values.at(pattern.substr(begin + 2, end - begin - 2));
+    pattern.remove_prefix(end + 2);
+  }
+}
+
+}  // namespace
+
+ordered_json figure_theme() {
+  return ordered_json::parse(embedded_file("theme.json"));
+}
+
+ordered_json light_colours() {
+  return colours()["light"];
+}
+
+std::string html_page(const ReportPage& page) {
+  std::string sections;
+  for (const PageSection& section : page.sections) sections += section_html(section);
+  return filled(embedded_file("page.html"), {{"title", html_text(page.title)},
+                                             {"subtitle", html_text(page.subtitle)},
+                                             {"footer", html_text(page.footer)},
+                                             {"colours", css_colours()},
+                                             {"style", std::string(embedded_file("page.css"))},
+                                             {"contents", contents_html(page)},
+                                             {"sections", sections},
+                                             {"figures", script_json(figures_json(page))},
+                                             {"libraries", scripts()},
+                                             {"program", script_source(embedded_file("page.js"))}});
+}
+
+}  // namespace zerocount

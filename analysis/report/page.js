@@ -1,0 +1,103 @@
+// Draws the figures of the page from the data in it, again where the width changes, and makes the table behind a figure
+// when it is opened.
+"use strict";
+(() => {
+  const report = JSON.parse(document.getElementById("figures").textContent);
+
+  const objects = data => data.rows.map(row => Object.fromEntries(data.columns.map(([field], i) => [field, row[i]])));
+
+  // Parts of a composed figure cannot follow their container by themselves: "container" becomes a number everywhere.
+  function withWidth(specification, width) {
+    const composed = specification.vconcat !== undefined;
+    const inner = composed ? width - (specification.usermeta?.margin ?? 80) : width;
+    const set = part => {
+      if (part === null || typeof part !== "object") return part;
+      if (Array.isArray(part)) return part.map(set);
+      return Object.fromEntries(
+        Object.entries(part).map(([key, value]) => [key, key === "width" && value === "container" ? inner : set(value)]));
+    };
+    const sized = set(specification);
+    if (!composed) sized.autosize = {type: "fit-x", contains: "padding"};
+    return sized;
+  }
+
+  // As many legend entries side by side as the longest leaves room for.
+  function legendFor(figure, width) {
+    const [data] = figure.data;
+    const names = ["label", "series"].map(name => data.columns.findIndex(([field]) => field === name)).filter(i => i >= 0);
+    const longest = Math.max(8, ...data.rows.flatMap(row => names.map(i => String(row[i]).length)));
+    const columns = Math.max(1, Math.floor((width - 60) / (6.4 * longest + 32)));
+    return {columns: Math.min(columns, 8), labelLimit: width - 80};
+  }
+
+  async function draw(figure) {
+    const place = document.querySelector(`#figure-${CSS.escape(figure.name)} .plot`);
+    const width = Math.floor(place.getBoundingClientRect().width);
+    if (width === figure.width) return;
+    figure.width = width;
+    const specification = withWidth(figure.specification, width);
+    specification.datasets = Object.fromEntries(figure.data.map(data => [data.name, objects(data)]));
+    await vegaEmbed(place, specification, {
+      config: vega.mergeConfig({}, report.theme, {legend: legendFor(figure, width)}), renderer: "svg", actions: false, defaultStyle: true, logLevel: vega.Warn,
+    });
+    place.dataset.drawn = "yes";
+  }
+
+  const number = value => {
+    if (typeof value !== "number") return value ?? "–";
+    if (value === 0 || Number.isInteger(value) && Math.abs(value) < 1e7) return String(value);
+    const size = Math.abs(value);
+    return size < 1e-3 || size >= 1e7 ? value.toExponential(3) : String(Number(value.toPrecision(5)));
+  };
+
+  function table(data) {
+    const shown = data.columns.map((column, i) => [column, i]).filter(([[, title]]) => title !== "");
+    const element = document.createElement("table");
+    const head = element.createTHead().insertRow();
+    for (const [[, title, unit]] of shown) {
+      const cell = document.createElement("th");
+      cell.textContent = title;
+      if (unit === "") cell.className = "text";
+      if (unit !== "" && unit !== "1") {
+        const small = document.createElement("span");
+        small.className = "unit";
+        small.textContent = unit;
+        cell.append(small);
+      }
+      head.append(cell);
+    }
+    const body = element.createTBody();
+    for (const row of data.rows) {
+      const line = body.insertRow();
+      for (const [[, , unit], i] of shown) {
+        const cell = line.insertCell();
+        cell.textContent = number(row[i]);
+        if (unit === "") cell.className = "text";
+      }
+    }
+    return element;
+  }
+
+  for (const figure of report.figures) {
+    const details = document.querySelector(`#figure-${CSS.escape(figure.name)} details`);
+    details.addEventListener("toggle", () => {
+      const place = details.querySelector(".scroll");
+      if (details.open && !place.hasChildNodes()) place.append(table(figure.data[0]));
+    });
+  }
+
+  let drawing = Promise.resolve();
+  const drawAll = () => {
+    drawing = drawing.then(async () => {
+      for (const figure of report.figures) await draw(figure);
+      document.documentElement.dataset.drawn = "yes";
+    });
+    return drawing;
+  };
+  let waiting;
+  addEventListener("resize", () => {
+    clearTimeout(waiting);
+    waiting = setTimeout(drawAll, 150);
+  });
+  drawAll();
+})();

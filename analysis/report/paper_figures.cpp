@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "analysis/report/report_figures.hpp"
+#include "analysis/report/sweep_numbers.hpp"
+
+namespace zerocount {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* targets_axis = "command.targets.0";
+
+/// Fig. 7: one move each to different targets, and nothing else differs.
+bool shows_targets(const ReportedStudy& reported) {
+  const std::vector<SweepAxis>& axes = reported.summary.axes;
+  return axes.size() == 1 && axes[0].name == targets_axis && reported.file.moves() == 1 &&
+         !numeric_axes(reported, 3).empty() && axes[0].numbers.size() <= 30;
+}
+
+/// Fig. 8: one point with one move, and jerks in most trials.
+bool shows_jerks(const ReportedStudy& reported) {
+  const PointSummary& point = reported.summary.points.front();
+  return reported.summary.points.size() == 1 && reported.file.moves() == 1 && point.jerk_count.median >= 1.0;
+}
+
+SampleTrial first_trial(std::int64_t point) {
+  return {"first", "first trial", point, 0};
+}
+
+/// The trial with the median number of jerks.
+SampleTrial typical_trial(const ReportedStudy& reported) {
+  SampleTrial typical = first_trial(0);
+  bool found = false;
+  visit_trials(reported.file, rows_of(reported, 0),
+               [&](std::int64_t row, std::span<const MoveOutcome> moves) {
+                 const auto jerks = static_cast<double>(moves.front().jerk_count);
+                 if (found || jerks != reported.summary.points.front().jerk_count.median) return;
+                 found = true;
+                 typical.index = row;
+               });
+  return typical;
+}
+
+Figure step_responses(const std::vector<ReplayedTrial>& replayed) {
+  Figure figure =
+      figure_of("step-responses", "paper-fig7", "Moves to different targets (Fig. 7 of the paper)",
+                "Position over time of one trial for each target, from rest. In the paper all ten settle on "
+                "their target within "
+                "300 samples of 0.5 ms: every curve should end flat, on the count that it was sent to.");
+  FigureData data{"samples",
+                  {{"target", "target", "count"}, {"time", "time", "s"}, {"count", "position", "count"}}};
+  for (const ReplayedTrial& trial : replayed) {
+    for (const SampleRecord& sample : trial.samples)
+      data.rows.push_back(ordered_json::array({sample.target, datum(sample.t), sample.count}));
+  }
+  figure.data.push_back(std::move(data));
+  return figure;
+}
+
+Figure jerks_in_time(const ReplayedTrial& trial) {
+  Figure figure = figure_of(
+      "jerks-in-time", "paper-fig8", "Jerks by creep (Fig. 8 of the paper)",
+      fmt::format(
+          "Position and torque of trial {}, which has the median number of jerks. After the move the "
+          "position "
+          "leaves the target by one count, always towards the holding torque, and is brought back at once; "
+          "the jerks come ever less often as the contact hardens.",
+          trial.result.row));
+  FigureData data{"samples",
+                  {{"time", "time", "s"}, {"count", "position", "count"}, {"torque", "torque", "N m"}}};
+  for (const SampleRecord& sample : trial.samples)
+    data.rows.push_back(ordered_json::array({datum(sample.t), sample.count, datum(sample.torque)}));
+  figure.data.push_back(std::move(data));
+  return figure;
+}
+
+std::string level_name(std::size_t level) {
+  return fmt::format("{}", level + 1);
+}
+
+/// The ends of the torque levels; levels that end at the same place share a row.
+FigureData level_ends(const ReplayedTrial& trial, const char* field, const char* title, bool creep) {
+  FigureData data{"levels", {{"levels", "levels", ""}, {field, title, "µrad"}, {"torque", "torque", "N m"}}};
+  double reach = 0.0;
+  for (const MoveOutcome& move : trial.result.outcome.moves)
+    reach = std::max(reach, std::abs(1e6 * (creep ? move.creep : move.final_position)));
+  for (std::size_t i = 0; i < trial.result.outcome.moves.size(); ++i) {
+    const MoveOutcome& move = trial.result.outcome.moves[i];
+    const double place = 1e6 * (creep ? move.creep : move.final_position);
+    bool shared = false;
+    for (ordered_json& row : data.rows) {
+      if (std::abs(row[1].get<double>() - place) > 0.01 * reach ||
+          std::abs(row[2].get<double>() - move.holding_torque) > 1e-6) {
+        continue;
+      }
+      row[0] = row[0].get<std::string>() + ", " + level_name(i);
+      shared = true;
+      break;
+    }
+    if (!shared)
+      data.rows.push_back(ordered_json::array({level_name(i), datum(place), datum(move.holding_torque)}));
+  }
+  return data;
+}
+
+Figure hysteresis(const ReplayedTrial& trial) {
+  Figure figure = figure_of(
+      "hysteresis", "paper-fig4", "Torque over angle (Fig. 4 of the paper)",
+      fmt::format(
+          "Trial {}, loaded and unloaded; the numbers are the torque levels in their order, where each ends. "
+          "The spring remembers where it was reversed: loops over the same torques are equally wide, and one "
+          "that has closed leaves no trace, so that levels of equal torque fall on one point.",
+          trial.result.row));
+  FigureData data{"samples",
+                  {{"time", "time", "s"}, {"angle", "rotor angle", "µrad"}, {"torque", "torque", "N m"}}};
+  for (const SampleRecord& sample : trial.samples)
+    data.rows.push_back(
+        ordered_json::array({datum(sample.t), datum(1e6 * sample.theta), datum(sample.drive_torque)}));
+  figure.data = {std::move(data), level_ends(trial, "angle", "rotor angle", false)};
+  return figure;
+}
+
+Figure plastic_extension(const ReplayedTrial& trial) {
+  Figure figure = figure_of(
+      "creep", "paper-fig6", "Torque over plastic extension (Fig. 6 of the paper)",
+      fmt::format(
+          "Trial {}; the numbers are the torque levels in their order, where each ends. Under a held torque "
+          "the "
+          "contact creeps along a level line until it has hardened. The same torque again, or a smaller one, "
+          "in either direction, adds nothing.",
+          trial.result.row));
+  FigureData data{
+      "samples",
+      {{"time", "time", "s"}, {"extension", "plastic extension", "µrad"}, {"torque", "torque", "N m"}}};
+  for (const SampleRecord& sample : trial.samples)
+    data.rows.push_back(
+        ordered_json::array({datum(sample.t), datum(1e6 * sample.xp), datum(sample.drive_torque)}));
+  figure.data = {std::move(data), level_ends(trial, "extension", "plastic extension", true)};
+  return figure;
+}
+
+/// Whether the contact of the first trial creeps at all.
+bool creeps(const ReportedStudy& reported) {
+  const TrialParameters parameters = study_trial(reported.study, 0, 0).parameters;
+  return parameters.friction.model == FrictionModel::presliding &&
+         friction_at(parameters.friction, parameters.initial.position).alpha > 0.0;
+}
+
+}  // namespace
+
+std::vector<PaperFigure> paper_figures(const ReportedStudy& reported) {
+  if (reported.study.open_loop) {
+    SampleTrial trial = first_trial(0);
+    trial.buckets = 2000;
+    return {{creeps(reported) ? "paper-fig6" : "paper-fig4", {trial}}};
+  }
+  if (shows_targets(reported)) {
+    PaperFigure figure{"paper-fig7"};
+    for (std::size_t point = 0; point < reported.summary.points.size(); ++point)
+      figure.trials.push_back(first_trial(static_cast<std::int64_t>(point)));
+    return {figure};
+  }
+  if (shows_jerks(reported)) return {{"paper-fig8", {typical_trial(reported)}}};
+  return {};
+}
+
+Figure paper_figure(const PaperFigure& wanted, const std::vector<ReplayedTrial>& replayed) {
+  if (wanted.name == "paper-fig7") return step_responses(replayed);
+  if (wanted.name == "paper-fig8") return jerks_in_time(replayed.front());
+  return wanted.name == "paper-fig4" ? hysteresis(replayed.front()) : plastic_extension(replayed.front());
+}
+
+}  // namespace zerocount

@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "analysis/report/escaping.hpp"
+#include "analysis/report/html_table.hpp"
+#include "analysis/report/report_texts.hpp"
+#include "analysis/text.hpp"
+#include "analysis/tolerance.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::size_t most_rows = 400;
+
+std::string bounds_text(double low, double high) {
+  if (std::isnan(low) && std::isnan(high)) return "–";
+  return fmt::format("{} … {}", short_number(low), short_number(high));
+}
+
+/// A column of the table of points, and how its cells are made of a point.
+struct PointCell {
+  const char* head;
+  const char* unit;
+  std::string (*text)(const PointSummary& point, const TheoryPrediction& prediction);
+  std::string (*below)(const PointSummary& point, const ConfidenceInterval& success){nullptr};
+};
+
+std::string counted(std::int64_t number) {
+  return fmt::format("{}", number);
+}
+
+constexpr PointCell point_cells[] = {
+    {"trials", "", [](const PointSummary& point, const TheoryPrediction&) { return counted(point.trials); }},
+    {"zero-count", "95 % bounds",
+     [](const PointSummary& point, const TheoryPrediction&) {
+       return percentage(point.outcomes.zero_count, point.trials);
+     },
+     [](const PointSummary&, const ConfidenceInterval& rate) {
+       return fmt::format("{:.1f} … {:.1f}", 100.0 * rate.low, 100.0 * rate.high);
+     }},
+    {"failures at most", "at 95 %",
+     [](const PointSummary& point, const TheoryPrediction&) {
+       return percent_at_most(point.claim.failure_at_most);
+     }},
+    {"one count", "",
+     [](const PointSummary& point, const TheoryPrediction&) { return counted(point.outcomes.one_count); }},
+    {"oscil\u00adlating", "",
+     [](const PointSummary& point, const TheoryPrediction&) { return counted(point.outcomes.oscillating); }},
+    {"lost", "",
+     [](const PointSummary& point, const TheoryPrediction&) { return counted(point.outcomes.nonfinite); }},
+    {"stable", "",
+     [](const PointSummary& point, const TheoryPrediction&) {
+       return percentage(point.stable, point.trials);
+     }},
+    {"settling, median", "s",
+     [](const PointSummary& point, const TheoryPrediction&) {
+       return short_number(point.settling_time.median.value);
+     },
+     [](const PointSummary& point, const ConfidenceInterval&) {
+       return bounds_text(point.settling_time.median.low, point.settling_time.median.high);
+     }},
+    {"settling, 95 %", "s",
+     [](const PointSummary& point, const TheoryPrediction&) {
+       return short_number(point.settling_time.p95.value);
+     },
+     [](const PointSummary& point, const ConfidenceInterval&) {
+       return bounds_text(point.settling_time.p95.low, point.settling_time.p95.high);
+     }},
+    {"jerks per trial", "",
+     [](const PointSummary& point, const TheoryPrediction&) { return short_number(point.jerk_count.mean); }},
+    {"(6) holds", "",
+     [](const PointSummary&, const TheoryPrediction& prediction) {
+       return percentage(prediction.stable, predicted_trials(prediction));
+     }},
+    {"(7) ex\u00adceeded", "",
+     [](const PointSummary&, const TheoryPrediction& prediction) {
+       return percentage(prediction.unstable, predicted_trials(prediction));
+     }},
+};
+
+std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
+  const StudySummary& summary = reported.summary;
+  HtmlColumn label{"point", "", true, {}};
+  HtmlColumn observed{"observed on the rig", "", true, {}};
+  for (std::size_t i = 0; i < rows; ++i) {
+    label.cells.push_back(summary.labels[i]);
+    observed.cells.push_back(observed_at(summary, static_cast<std::int64_t>(i)));
+  }
+  std::vector<HtmlColumn> columns{label};
+  for (const PointCell& cell : point_cells) {
+    HtmlColumn column{cell.head, cell.unit, false, {}};
+    for (std::size_t i = 0; i < rows; ++i) {
+      const TheoryPrediction prediction =
+          summary.predictions.empty() ? TheoryPrediction{} : summary.predictions[i];
+      column.cells.push_back(cell.text(summary.points[i], prediction));
+      if (cell.below != nullptr)
+        column.below.push_back(cell.below(summary.points[i], reported.success_bounds[i]));
+    }
+    columns.push_back(std::move(column));
+  }
+  if (!summary.observed.empty()) columns.push_back(observed);
+  return html_table(columns) +
+         fmt::format(
+             "<p class=\"note\">zero-count: trials all of whose moves ended at zero error, with {}. failures "
+             "at "
+             "most: the failure probability that the trials leave, one-sided. one count, oscillating, lost: "
+             "trials by their worst move. Settling times are of the moves that arrived, with order-statistic "
+             "bounds.</p>\n",
+             reported.bounds_name);
+}
+
+/// "Repeatability" for "repeatability".
+std::string title_of(std::string key) {
+  if (!key.empty() && key.front() >= 'a' && key.front() <= 'z')
+    key.front() = static_cast<char>(key.front() - 'a' + 'A');
+  std::replace(key.begin(), key.end(), '_', ' ');
+  return key;
+}
+
+std::string level_table_html(const StudySummary& summary, std::size_t rows) {
+  std::vector<HtmlColumn> columns{{"point", "", true, {}}, {"level", "", false, {}}};
+  for (const LevelField& field : level_fields())
+    columns.push_back(
+        {std::string(field.long_name), field.unit == "1" ? "" : std::string(field.unit), false, {}});
+  std::size_t written = 0;
+  for (std::size_t point = 0; point < summary.points.size(); ++point) {
+    for (std::size_t level = 0; level < summary.points[point].levels.size() && written < rows;
+         ++level, ++written) {
+      columns[0].cells.push_back(summary.labels[point]);
+      columns[1].cells.push_back(fmt::format("{}", level + 1));
+      std::size_t column = 2;
+      for (const LevelField& field : level_fields())
+        columns[column++].cells.push_back(short_number(field.value(summary.points[point].levels[level])));
+    }
+  }
+  return html_table(columns);
+}
+
+}  // namespace
+
+std::string points_html(const ReportedStudy& reported) {
+  const StudySummary& summary = reported.summary;
+  std::size_t all = summary.points.size();
+  if (reported.study.open_loop) all *= static_cast<std::size_t>(reported.file.moves());
+  const std::size_t rows = std::min(all, most_rows);
+  std::string html = reported.study.open_loop ? level_table_html(summary, rows) : loop_table(reported, rows);
+  if (rows < all) {
+    html += fmt::format(
+        "<p class=\"note\">The first {} of {} rows; all are printed by <code>zerocount summary</code>.</p>\n",
+        rows, all);
+  }
+  for (const SummarySection& section : summary.sections)
+    html += html_folded(title_of(section.key), section.text);
+  return html;
+}
+
+}  // namespace zerocount

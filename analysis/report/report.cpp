@@ -1,0 +1,164 @@
+#include "analysis/report/report.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "analysis/report/comparison_section.hpp"
+#include "analysis/report/embedded_files.hpp"
+#include "analysis/report/escaping.hpp"
+#include "analysis/report/report_figures.hpp"
+#include "analysis/report/report_texts.hpp"
+#include "analysis/report/sensitivity_section.hpp"
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+/// Runs trials again, and collects what the check says of them.
+class Replays {
+ public:
+  Replays(const ReportedStudy& reported, const ReportOptions& options)
+      : reported_(reported), options_(options) {}
+
+  ReplayedTrial run(const SampleTrial& trial) {
+    ReplayedTrial replayed = replay_trial(reported_.study, trial.point, trial.index, trial.buckets);
+    replayed.result.row = rows_of(reported_, trial.point).first + trial.index;
+    if (!options_.check) return replayed;
+    const std::vector<std::string> different = options_.check(replayed);
+    if (different.empty()) return replayed;
+    warnings_.push_back(fmt::format(
+        "point {}, trial {}: run again, it is not the recorded trial: {}{}", trial.point, trial.index,
+        different.front(), different.size() > 1 ? fmt::format("; and {} more", different.size() - 1) : ""));
+    return replayed;
+  }
+
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  const ReportedStudy& reported_;
+  const ReportOptions& options_;
+  std::vector<std::string> warnings_;
+};
+
+std::vector<Figure> figures_of_paper(const ReportedStudy& reported, Replays& replays) {
+  std::vector<Figure> figures;
+  for (const PaperFigure& wanted : paper_figures(reported)) {
+    std::vector<ReplayedTrial> trials;
+    for (const SampleTrial& trial : wanted.trials) trials.push_back(replays.run(trial));
+    figures.push_back(paper_figure(wanted, trials));
+  }
+  return figures;
+}
+
+std::vector<Figure> traces(const ReportedStudy& reported, Replays& replays) {
+  std::vector<Figure> figures;
+  for (const SampleTrial& trial : sample_trials(reported))
+    figures.push_back(trace_figure(reported, trial, replays.run(trial)));
+  return figures;
+}
+
+std::string warnings_html(const std::vector<std::string>& warnings) {
+  std::string html;
+  for (const std::string& warning : warnings)
+    html += fmt::format("<p class=\"warning\">{}</p>\n", html_text(warning));
+  return html;
+}
+
+void add(ReportPage& page, PageSection section) {
+  if (!section.html.empty() || !section.figures.empty()) page.sections.push_back(std::move(section));
+}
+
+PageSection success_section(const ReportedStudy& reported) {
+  PageSection section{
+      "points", reported.study.open_loop ? "Torque levels" : "Success", points_html(reported), {}};
+  if (std::optional<Figure> success = success_figure(reported))
+    section.figures.push_back(std::move(*success));
+  for (Figure& map : stability_maps(reported)) section.figures.push_back(std::move(map));
+  return section;
+}
+
+}  // namespace
+
+StudyReport study_report(const StudyFile& file, const ReportOptions& options) {
+  ReportedStudy reported = reported_study(file);
+  if (options.focus) {
+    if (*options.focus < 0 || *options.focus >= file.header().points) {
+      throw Failure(ExitCode::bad_input,
+                    fmt::format("{}: there is no design point {}; expected 0 to {}", file.path().string(),
+                                *options.focus, file.header().points - 1));
+    }
+    reported.focus = *options.focus;
+  }
+  Replays replays(reported, options);
+  StudyReport report;
+  ReportPage& page = report.page;
+  page.title = reported.summary.name;
+  page.subtitle = reported.study.description;
+  const Provenance& made = file.header().provenance;
+  page.footer = fmt::format(
+      "zerocount {} ({}), study of {}. This page holds all that it shows and asks for nothing from "
+      "anywhere.",
+      made.zerocount_version, made.git_commit, made.created);
+  add(page, {"verdict", "Verdict", verdict_html(reported), {}});
+  if (options.comparison) add(page, comparison_section(*options.comparison));
+  add(page, success_section(reported));
+  if (std::optional<Figure> settling = settling_figure(reported))
+    add(page, {"settling", "Settling time", "", {std::move(*settling)}});
+  add(page,
+      {"jerks", "Jerks", "", reported.study.open_loop ? std::vector<Figure>{} : jerk_figures(reported)});
+  if (std::optional<PageSection> sensitivity = sensitivity_section(reported))
+    add(page, std::move(*sensitivity));
+  add(page, {"rotor", "Along the rotor", "", rotor_figures(reported)});
+  add(page, {"traces", "Single trials", "", traces(reported, replays)});
+  add(page, {"paper", "The paper's figures", "", figures_of_paper(reported, replays)});
+  add(page, {"run", "What was run", run_html(reported), {}});
+  report.warnings = replays.warnings();
+  page.sections.front().html = warnings_html(report.warnings) + page.sections.front().html;
+  return report;
+}
+
+std::vector<std::string> figure_names(const ReportPage& page) {
+  std::vector<std::string> names;
+  for (const PageSection& section : page.sections) {
+    for (const Figure& figure : section.figures) names.push_back(figure.name);
+  }
+  return names;
+}
+
+const Figure& find_figure(const ReportPage& page, const std::string& name) {
+  for (const PageSection& section : page.sections) {
+    for (const Figure& figure : section.figures) {
+      if (figure.name == name) return figure;
+    }
+  }
+  std::string known;
+  for (const std::string& other : figure_names(page)) known += (known.empty() ? "" : ", ") + other;
+  throw Failure(ExitCode::bad_input, fmt::format("there is no figure '{}' of this study; there are: {}", name,
+                                                 known.empty() ? "none" : known));
+}
+
+std::string drawing_program(const Figure& figure) {
+  nlohmann::ordered_json data = nlohmann::ordered_json::array();
+  for (const FigureData& part : figure.data) {
+    nlohmann::ordered_json columns = nlohmann::ordered_json::array();
+    for (const FigureColumn& column : part.columns)
+      columns.push_back({column.field, column.title, column.unit});
+    data.push_back({{"name", part.name}, {"columns", columns}, {"rows", part.rows}});
+  }
+  const nlohmann::ordered_json input{{"specification", figure.specification},
+                                     {"theme", figure_theme()},
+                                     {"colours", light_colours()},
+                                     {"data", data}};
+  const auto quoted = [](std::string_view text) { return nlohmann::ordered_json(std::string(text)).dump(); };
+  return fmt::format(
+      // The libraries must not take node for a loader of modules.
+      "const run = require('vm').runInThisContext;\n"
+      "for (const name of ['exports', 'module', 'require']) delete globalThis[name];\n"
+      "run({});\nrun({});\nconst figure = {};\n{}",
+      quoted(embedded_file("vega.min.js")), quoted(embedded_file("vega-lite.min.js")), script_json(input),
+      embedded_file("render.js"));
+}
+
+}  // namespace zerocount

@@ -1,0 +1,103 @@
+#include "analysis/report/reported_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "analysis/anytime_bounds.hpp"
+#include "analysis/study_statistics.hpp"
+#include "results/layout/table_io.hpp"
+
+namespace zerocount {
+namespace {
+
+bool better(const PointSummary& one, const PointSummary& other) {
+  if (one.outcomes.zero_count != other.outcomes.zero_count)
+    return static_cast<double>(one.outcomes.zero_count) * static_cast<double>(other.trials) >
+           static_cast<double>(other.outcomes.zero_count) * static_cast<double>(one.trials);
+  return one.settling_time.median.value < other.settling_time.median.value;
+}
+
+/// Where the outcomes decided how many trials there are, the bounds must hold for any number of them.
+ConfidenceInterval success_bounds_of(const PointSummary& point, bool stopped_by_outcomes) {
+  if (!stopped_by_outcomes) return point.success_rate.clopper_pearson;
+  return anytime_bounds(point.outcomes.zero_count, point.judged, summary_confidence);
+}
+
+}  // namespace
+
+ReportedStudy reported_study(const StudyFile& file) {
+  const FileHeader& header = file.header();
+  ReportedStudy reported{file,
+                         parse_study(header.manifest, file.path().string() + ":/manifest", header.overrides),
+                         summarise(file)};
+  reported.bounds_name =
+      reported.study.stop ? "bounds that hold at whatever trial one stops" : "Clopper-Pearson bounds";
+  for (const PointSummary& point : reported.summary.points)
+    reported.success_bounds.push_back(success_bounds_of(point, reported.study.stop.has_value()));
+  reported.focus = best_point(reported.summary.points);
+  return reported;
+}
+
+std::int64_t best_point(const std::vector<PointSummary>& points) {
+  std::size_t best = 0;
+  for (std::size_t point = 1; point < points.size(); ++point) {
+    if (better(points[point], points[best])) best = point;
+  }
+  return static_cast<std::int64_t>(best);
+}
+
+std::int64_t most_telling_point(const std::vector<PointSummary>& points) {
+  const auto distance = [](const PointSummary& point) { return std::abs(point.success_rate.value - 0.5); };
+  return std::min_element(points.begin(), points.end(),
+                          [&](const auto& a, const auto& b) { return distance(a) < distance(b); }) -
+         points.begin();
+}
+
+RowRange rows_of(const ReportedStudy& reported, std::int64_t point) {
+  const std::int64_t trials = reported.file.header().trials;
+  return {point * trials, trials};
+}
+
+void visit_trials(const StudyFile& file, RowRange rows, const TrialVisitor& visit) {
+  const std::int64_t moves = file.moves();
+  const std::int64_t at_once = chunk_rows(moves);
+  for (std::int64_t first = rows.first; first < rows.end(); first += at_once) {
+    const RowRange block{first, std::min(at_once, rows.end() - first)};
+    const std::vector<MoveOutcome> outcomes = file.outcomes(block);
+    for (std::int64_t row = block.first; row < block.end(); ++row) {
+      visit(row, std::span(outcomes).subspan(static_cast<std::size_t>((row - block.first) * moves),
+                                             static_cast<std::size_t>(moves)));
+    }
+  }
+}
+
+Outcome worst_outcome(std::span<const MoveOutcome> moves) {
+  Outcome worst = Outcome::zero_count;
+  for (const MoveOutcome& move : moves) worst = std::max(worst, move.outcome);
+  return worst;
+}
+
+std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t most) {
+  const std::int64_t count = std::min(size, most);
+  std::vector<std::int64_t> indices;
+  for (std::int64_t i = 0; i < count; ++i) indices.push_back(count == 1 ? 0 : i * (size - 1) / (count - 1));
+  return indices;
+}
+
+std::string axis_title(const SweepAxis& axis) {
+  if (axis.unit.empty() || axis.unit == "1") return axis.name;
+  return fmt::format("{} ({})", axis.name, axis.unit);
+}
+
+std::string share_text(double share) {
+  if (share == 1.0) return "100 %";
+  const double distance = std::min(share, 1.0 - share);
+  const int digits =
+      distance > 0.0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(distance))) - 1, 1, 9) : 0;
+  return fmt::format("{:.{}f} %", 100.0 * share, digits);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "analysis/report/report_figures.hpp"
+
+namespace zerocount {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::int64_t most_profiles = 4;
+constexpr std::int64_t profile_points = 512;
+constexpr std::int64_t most_failures = 250;
+constexpr double revolution = 2.0 * std::numbers::pi;
+
+const char* word_of(Outcome outcome) {
+  if (outcome == Outcome::one_count) return "one_count";
+  return outcome == Outcome::oscillating ? "oscillating" : "nonfinite";
+}
+
+/// Where a trial ended on the rotor, and how.
+struct EndOnRotor {
+  std::int64_t trial{0};  ///< of the point
+  double angle{0.0};      ///< rad, in [0, 2π)
+  Outcome outcome{Outcome::zero_count};
+};
+
+double on_rotor(double angle) {
+  const double within = std::fmod(angle, revolution);
+  return within < 0.0 ? within + revolution : within;
+}
+
+/// The input column with the place where each trial starts.
+std::optional<std::size_t> position_column(const StudyFile& file) {
+  const std::vector<InputColumn>& inputs = file.input_columns();
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].name == "initial.position") return i;
+  }
+  return std::nullopt;
+}
+
+/// The trials of a point, a place of the rotor at a time; those whose motion was lost have none.
+template <class Visit>
+void visit_ends(const ReportedStudy& reported, std::int64_t point, std::size_t column, const Visit& visit) {
+  const RowRange rows = rows_of(reported, point);
+  const std::vector<double> starts = reported.file.input(column, rows);
+  visit_trials(reported.file, rows, [&](std::int64_t row, std::span<const MoveOutcome> moves) {
+    const double end = starts[static_cast<std::size_t>(row - rows.first)] + moves.back().final_position;
+    const double start = starts[static_cast<std::size_t>(row - rows.first)];
+    visit(EndOnRotor{row - rows.first, on_rotor(std::isfinite(end) ? end : start), worst_outcome(moves)});
+  });
+}
+
+/// A profile's point: the one in its name, or else the one that tells most.
+std::int64_t point_of(const ReportedStudy& reported, const std::string& profile) {
+  const std::size_t at = profile.find('@');
+  return at == std::string::npos ? most_telling_point(reported.summary.points)
+                                 : std::stoll(profile.substr(at + 1));
+}
+
+double value_at(const StoredProfile& profile, double angle) {
+  const double size = static_cast<double>(profile.value.size());
+  const double place = angle / revolution * size;
+  const auto before = static_cast<std::size_t>(place) % profile.value.size();
+  const double share = place - std::floor(place);
+  return (1.0 - share) * profile.value[before] + share * profile.value[(before + 1) % profile.value.size()];
+}
+
+FigureData profile_data(const StoredProfile& profile) {
+  FigureData data{"profile", {{"theta", "rotor angle", "rad"}, {"value", profile.name, profile.unit}}};
+  for (const std::int64_t i : spread_over(std::ssize(profile.theta), profile_points)) {
+    const auto at = static_cast<std::size_t>(i);
+    data.rows.push_back(ordered_json::array({datum(profile.theta[at]), datum(profile.value[at])}));
+  }
+  return data;
+}
+
+/// Success by place: equal parts of the rotor.
+struct Sectors {
+  std::vector<std::int64_t> trials, successes;
+
+  explicit Sectors(std::size_t count) : trials(count), successes(count) {}
+  void add(const EndOnRotor& end) {
+    const auto sector = static_cast<std::size_t>(end.angle / revolution * static_cast<double>(trials.size()));
+    ++trials[std::min(sector, trials.size() - 1)];
+    successes[std::min(sector, trials.size() - 1)] += end.outcome == Outcome::zero_count;
+  }
+};
+
+FigureData sector_data(const Sectors& sectors) {
+  FigureData data{"sectors",
+                  {{"from", "from", "rad"},
+                   {"to", "to", "rad"},
+                   {"rate", "success rate", "1"},
+                   {"low", "lower 95 % bound", "1"},
+                   {"high", "upper 95 % bound", "1"},
+                   {"successes", "successes", "1"},
+                   {"trials", "trials", "1"}}};
+  const double width = revolution / static_cast<double>(sectors.trials.size());
+  for (std::size_t i = 0; i < sectors.trials.size(); ++i) {
+    if (sectors.trials[i] == 0) continue;
+    const ConfidenceInterval bounds = clopper_pearson(sectors.successes[i], sectors.trials[i]);
+    data.rows.push_back(
+        ordered_json::array({datum(width * static_cast<double>(i)), datum(width * static_cast<double>(i + 1)),
+                             datum(rate(sectors.successes[i], sectors.trials[i])), datum(bounds.low),
+                             datum(bounds.high), sectors.successes[i], sectors.trials[i]}));
+  }
+  return data;
+}
+
+Figure rotor_figure(const ReportedStudy& reported, const StoredProfile& profile, std::size_t column) {
+  const std::int64_t point = point_of(reported, profile.name);
+  Sectors sectors(reported.file.header().trials >= 480 ? 24 : 12);
+  std::vector<EndOnRotor> failures;
+  visit_ends(reported, point, column, [&](const EndOnRotor& end) {
+    sectors.add(end);
+    if (end.outcome != Outcome::zero_count) failures.push_back(end);
+  });
+  FigureData trials{"trials",
+                    {{"trial", "trial of the point", "1"},
+                     {"theta", "rotor angle at the end", "rad"},
+                     {"value", profile.name, profile.unit},
+                     {"outcome", "outcome", ""}}};
+  for (const std::int64_t i : spread_over(std::ssize(failures), most_failures)) {
+    const EndOnRotor& end = failures[static_cast<std::size_t>(i)];
+    trials.rows.push_back(ordered_json::array(
+        {end.trial, datum(end.angle), datum(value_at(profile, end.angle)), word_of(end.outcome)}));
+  }
+  const std::string parameter = profile.name.substr(0, profile.name.find('@'));
+  const std::string& label = reported.summary.labels[static_cast<std::size_t>(point)];
+  std::string caption = fmt::format("The line is {} along the rotor, the same in all trials. ", parameter);
+  caption += failures.empty()
+                 ? fmt::format("No trial of point {} failed. ", label)
+                 : fmt::format("The marks are trials of point {} that failed, where they ended. ", label);
+  caption +=
+      "Below, the share of trials that succeeded in each part of the rotor, with 95 % Clopper-Pearson "
+      "bounds. Where "
+      "success follows the line, the lowest value decides, as the paper's practical issue 1 has it of k1.";
+  if (std::ssize(failures) > most_failures) {
+    caption += fmt::format(" {} of {} failures are shown, an even spread.", most_failures, failures.size());
+  }
+  Figure figure = figure_of(
+      "rotor", fmt::format("rotor-{}", profile.name),
+      fmt::format("{} along the rotor{}", parameter, failures.empty() ? "" : ", and the trials that failed"),
+      caption);
+  figure.specification["vconcat"][0]["layer"][0]["encoding"]["y"]["title"] =
+      profile.unit == "1" ? parameter : fmt::format("{} ({})", parameter, profile.unit);
+  if (trials.rows.empty()) figure.specification["vconcat"][0]["layer"].erase(1);
+  figure.data = {std::move(trials), profile_data(profile), sector_data(sectors)};
+  if (figure.data.front().rows.empty())
+    std::rotate(figure.data.begin(), figure.data.begin() + 2, figure.data.end());
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> rotor_figures(const ReportedStudy& reported) {
+  std::vector<Figure> figures;
+  const std::optional<std::size_t> column = position_column(reported.file);
+  if (reported.study.open_loop || !column || !reported.file.has_profiles()) return figures;
+  const std::vector<StoredProfile> profiles = reported.file.profiles();
+  for (const std::int64_t i : spread_over(std::ssize(profiles), most_profiles))
+    figures.push_back(rotor_figure(reported, profiles[static_cast<std::size_t>(i)], *column));
+  return figures;
+}
+
+}  // namespace zerocount

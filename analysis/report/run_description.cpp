@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "analysis/moments.hpp"
+#include "analysis/report/escaping.hpp"
+#include "analysis/report/html_table.hpp"
+#include "analysis/report/report_texts.hpp"
+#include "analysis/report/sweep_numbers.hpp"
+#include "analysis/text.hpp"
+#include "results/layout/table_io.hpp"
+
+namespace zerocount {
+namespace {
+
+std::string design_text(const Study& study) {
+  std::string text;
+  switch (study.design) {
+    case Design::monte_carlo:
+      text = "Monte Carlo";
+      break;
+    case Design::latin_hypercube:
+      text = "Latin hypercube";
+      break;
+    case Design::sobol:
+      text = "Sobol' sequence";
+      break;
+    case Design::saltelli:
+      text = "Saltelli's, for Sobol' indices";
+      break;
+  }
+  return text + (study.independent_points ? ", drawn anew at each point"
+                                          : "; all points share the draws of a trial");
+}
+
+/// The range that an input of the trials has in the file.
+Moments moments_of(const StudyFile& file, std::size_t column) {
+  Moments moments;
+  const std::int64_t at_once = chunk_rows(1);
+  for (std::int64_t first = 0; first < file.rows().end(); first += at_once) {
+    for (const double value : file.input(column, {first, std::min(at_once, file.rows().end() - first)}))
+      moments.add(value);
+  }
+  return moments;
+}
+
+std::string inputs_table(const StudyFile& file) {
+  HtmlColumn name{"parameter", "", true, {}};
+  HtmlColumn meaning{"meaning", "", true, {}};
+  HtmlColumn unit{"unit", "", true, {}};
+  HtmlColumn low{"smallest", "", false, {}};
+  HtmlColumn mean{"mean", "", false, {}};
+  HtmlColumn high{"largest", "", false, {}};
+  for (std::size_t i = 0; i < file.input_columns().size(); ++i) {
+    const InputColumn& input = file.input_columns()[i];
+    const Moments values = moments_of(file, i);
+    name.cells.push_back(input.name);
+    meaning.cells.push_back(input.meaning);
+    unit.cells.push_back(input.unit);
+    low.cells.push_back(short_number(values.min));
+    mean.cells.push_back(short_number(values.mean));
+    high.cells.push_back(short_number(values.max));
+  }
+  if (name.cells.empty()) return "<p>All trials have the same parameters.</p>\n";
+  return "<h3>Parameters that differ between trials</h3>\n" +
+         html_table({name, meaning, unit, low, mean, high});
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all;
+}
+
+/// What is swept: the range of each number of the grid, and the cases.
+std::vector<HtmlFact> sweep_facts(const ReportedStudy& reported) {
+  std::vector<HtmlFact> facts;
+  for (const std::size_t i : numeric_axes(reported, 2)) {
+    const SweepAxis& axis = reported.summary.axes[i];
+    const std::vector<double> values = values_of(axis);
+    facts.push_back({"Swept", fmt::format("{}, {} values from {} to {}{}", axis.name, values.size(),
+                                          short_number(values.front()), short_number(values.back()),
+                                          axis.unit == "1" ? "" : " " + axis.unit)});
+  }
+  for (const SweepAxis& axis : reported.summary.axes) {
+    if (axis.name != "case") continue;
+    std::vector<std::string> names;
+    for (const std::string& name : axis.texts) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    facts.push_back({"Cases", joined(names)});
+  }
+  return facts;
+}
+
+std::vector<HtmlFact> facts_of(const ReportedStudy& reported) {
+  const FileHeader& header = reported.file.header();
+  const Provenance& made = header.provenance;
+  std::vector<HtmlFact> facts{
+      {"Trials", fmt::format("{} at each of {} design point{}, {} move{} each: {} trials", header.trials,
+                             header.points, header.points == 1 ? "" : "s", reported.file.moves(),
+                             reported.file.moves() == 1 ? "" : "s", header.points * header.trials)},
+      {"Design", design_text(reported.study)},
+      {"Seed", fmt::format("{}", header.seed)},
+      {"Made", fmt::format("{}, by zerocount {} ({}), {} engine", made.created, made.zerocount_version,
+                           made.git_commit, name_of(header.engine))},
+      {"Compiler, processor", fmt::format("{}; {}", made.compiler, made.cpu)},
+      {"SHA-256 of the manifest", header.manifest_sha256},
+      {"File", reported.file.path().filename().string()}};
+  if (!header.overrides.empty())
+    facts.insert(facts.begin() + 2, {"Set on the command line", joined(header.overrides)});
+  std::vector<HtmlFact> swept = sweep_facts(reported);
+  facts.insert(facts.begin() + 1, swept.begin(), swept.end());
+  return facts;
+}
+
+}  // namespace
+
+std::string run_html(const ReportedStudy& reported) {
+  std::string html;
+  if (!reported.study.description.empty())
+    html += fmt::format("<p>{}</p>\n", html_text(reported.study.description));
+  if (is_dirty(reported.file.header().provenance)) {
+    html +=
+        "<p class=\"warning\">The program that ran this had changes that are in no commit: it cannot be "
+        "built again from "
+        "its history.</p>\n";
+  }
+  html += html_facts(facts_of(reported));
+  html += inputs_table(reported.file);
+  return html + html_folded("The manifest", reported.file.header().manifest);
+}
+
+}  // namespace zerocount

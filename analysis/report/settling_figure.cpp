@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "analysis/report/report_figures.hpp"
+#include "analysis/tally.hpp"
+
+namespace zerocount {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::int64_t most_curves = 6;
+constexpr std::int64_t most_steps = 160;  ///< of a curve
+
+/// Half width of the band that holds a whole distribution function with the confidence of summaries:
+/// √(ln(2M/α)/2n) for n independent trials of M moves each, whose moves are not independent of each other.
+/// (Dvoretzky, Kiefer and Wolfowitz 1956 with the constant of Massart 1990, for each of the M moves at the
+/// level α/M; the mean of M functions that are each within the band is so too.)
+double band(std::int64_t trials, std::int64_t moves) {
+  const double alpha = 1.0 - summary_confidence;
+  return std::sqrt(std::log(2.0 * static_cast<double>(moves) / alpha) / (2.0 * static_cast<double>(trials)));
+}
+
+Tally<double> settling_times(const ReportedStudy& reported, std::int64_t point) {
+  Tally<double> times;
+  visit_trials(reported.file, rows_of(reported, point),
+               [&](std::int64_t, std::span<const MoveOutcome> moves) {
+                 for (const MoveOutcome& move : moves) {
+                   if (move.arrived) times.add(move.settling_time);
+                 }
+               });
+  return times;
+}
+
+/// The points with arrivals; where there are too many, an even spread from the best to the worst.
+std::vector<std::int64_t> shown_points(const ReportedStudy& reported) {
+  std::vector<std::int64_t> with_arrivals;
+  const auto& points = reported.summary.points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].settling_time.n > 0) with_arrivals.push_back(static_cast<std::int64_t>(i));
+  }
+  if (std::ssize(with_arrivals) <= most_curves) return with_arrivals;
+  std::stable_sort(with_arrivals.begin(), with_arrivals.end(), [&](std::int64_t a, std::int64_t b) {
+    return points[static_cast<std::size_t>(a)].settling_time.n >
+           points[static_cast<std::size_t>(b)].settling_time.n;
+  });
+  std::vector<std::int64_t> shown;
+  for (const std::int64_t i : spread_over(std::ssize(with_arrivals), most_curves))
+    shown.push_back(with_arrivals[static_cast<std::size_t>(i)]);
+  std::sort(shown.begin(), shown.end());
+  return shown;
+}
+
+void add_curve(FigureData& data, const std::string& label, const Tally<double>& times, std::int64_t moves,
+               double half_width, double end) {
+  const auto row = [&](double time, std::int64_t arrived) {
+    const double share = static_cast<double>(arrived) / static_cast<double>(moves);
+    data.rows.push_back(
+        ordered_json::array({label, datum(time), datum(share), datum(std::max(0.0, share - half_width)),
+                             datum(std::min(1.0, share + half_width))}));
+  };
+  row(0.0, 0);
+  std::int64_t arrived = 0;
+  std::int64_t shown = 0;
+  for (const auto& [time, count] : times.counts) {
+    arrived += count;
+    const bool last = arrived == times.size;
+    if (last || (arrived - shown) * most_steps >= times.size) {
+      row(time, arrived);
+      shown = arrived;
+    }
+  }
+  if (largest(times) < end) row(end, arrived);
+}
+
+}  // namespace
+
+std::optional<Figure> settling_figure(const ReportedStudy& reported) {
+  const std::vector<std::int64_t> shown = shown_points(reported);
+  if (shown.empty()) return std::nullopt;
+  const auto& points = reported.summary.points;
+  const std::int64_t moves_per_trial = reported.file.moves();
+  std::string caption = fmt::format(
+      "Share of all moves that have arrived, for good or not, within a time; a curve that ends below 100 % "
+      "never got "
+      "further. The bands hold the whole curve of a point with 95 % confidence (Dvoretzky-Kiefer-Wolfowitz, "
+      "n = {} trials{}). ",
+      points.front().trials, moves_per_trial > 1 ? fmt::format(" of {} moves each", moves_per_trial) : "");
+  const auto arriving = std::count_if(points.begin(), points.end(),
+                                      [](const PointSummary& point) { return point.settling_time.n > 0; });
+  if (std::ssize(shown) < arriving) {
+    caption +=
+        fmt::format("Shown are {} of {} points, from the one with most arrivals to the one with fewest. ",
+                    shown.size(), arriving);
+  }
+  if (arriving < std::ssize(points))
+    caption +=
+        fmt::format("At {} of the {} points no move arrived. ", std::ssize(points) - arriving, points.size());
+  Figure figure = figure_of("settling-time", "settling-time", "How long it takes to settle", caption);
+  FigureData data{"steps",
+                  {{"label", "point", ""},
+                   {"time", "settled within", "s"},
+                   {"share", "share of moves", "1"},
+                   {"low", "lower 95 % bound", "1"},
+                   {"high", "upper 95 % bound", "1"}}};
+  double end = 0.0;
+  double start = std::numeric_limits<double>::infinity();
+  for (const std::int64_t point : shown) {
+    end = std::max(end, points[static_cast<std::size_t>(point)].settling_time.max);
+    start = std::min(start, points[static_cast<std::size_t>(point)].settling_time.median.value);
+  }
+  for (const std::int64_t point : shown) {
+    const auto at = static_cast<std::size_t>(point);
+    add_curve(data, reported.summary.labels[at], settling_times(reported, point), points[at].moves,
+              band(points[at].trials, moves_per_trial), end);
+  }
+  ordered_json& x = figure.specification["encoding"]["x"];
+  if (end > 12.0 * start) {  // a few late arrivals would press all others against the axis
+    x["scale"]["type"] = "symlog";
+    x["scale"]["constant"] = start / 4.0;
+    x["axis"]["format"] = "~g";
+    x["axis"]["values"] = round_numbers(0.0, end, start / 4.0);
+    figure.caption += "The time axis is linear near zero and logarithmic beyond.";
+  }
+  if (shown.size() == 1) figure.specification["encoding"]["color"]["legend"] = nullptr;
+  figure.data.push_back(std::move(data));
+  return figure;
+}
+
+}  // namespace zerocount

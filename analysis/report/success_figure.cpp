@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "analysis/report/report_figures.hpp"
+#include "analysis/report/sweep_numbers.hpp"
+
+namespace zerocount {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::int64_t most_lines = 60;  ///< points that have a line of their own
+constexpr std::int64_t most_series = 8;  ///< as many as there are colours
+
+std::string bounds_note(const ReportedStudy& reported) {
+  return fmt::format("95 % {}, each point by itself. All trials of a point count, whatever became of them.",
+                     reported.bounds_name);
+}
+
+std::vector<FigureColumn> common_columns() {
+  return {{"label", "point", ""},           {"rate", "success rate", "1"},
+          {"low", "lower 95 % bound", "1"}, {"high", "upper 95 % bound", "1"},
+          {"successes", "successes", "1"},  {"trials", "trials", "1"}};
+}
+
+ordered_json row_of(const ReportedStudy& reported, std::int64_t point) {
+  const PointSummary& summary = reported.summary.points[static_cast<std::size_t>(point)];
+  const RateWithBounds& rate = summary.success_rate;
+  const ConfidenceInterval& bounds = reported.success_bounds[static_cast<std::size_t>(point)];
+  return ordered_json::array({reported.summary.labels[static_cast<std::size_t>(point)], datum(rate.value),
+                              datum(bounds.low), datum(bounds.high), summary.outcomes.zero_count,
+                              summary.trials});
+}
+
+/// The points by falling success, where not all can be shown: an even spread over that order.
+std::vector<std::int64_t> shown_points(const ReportedStudy& reported) {
+  const auto& points = reported.summary.points;
+  std::vector<std::int64_t> order(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int64_t>(i);
+  if (std::ssize(order) <= most_lines) return order;
+  std::stable_sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
+    return points[static_cast<std::size_t>(a)].success_rate.value >
+           points[static_cast<std::size_t>(b)].success_rate.value;
+  });
+  std::vector<std::int64_t> shown;
+  for (const std::int64_t i : spread_over(std::ssize(order), most_lines))
+    shown.push_back(order[static_cast<std::size_t>(i)]);
+  return shown;
+}
+
+Figure line_per_point(const ReportedStudy& reported) {
+  const std::vector<std::int64_t> shown = shown_points(reported);
+  std::string caption =
+      "Share of the trials that end at zero counts. Where bounds do not overlap, points differ by more than "
+      "chance; a dot at "
+      "100 % leaves the failures that its lower bound allows. ";
+  if (std::ssize(shown) < std::ssize(reported.summary.points)) {
+    caption += fmt::format("Shown are {} of {} points, an even spread from the best to the worst. ",
+                           shown.size(), reported.summary.points.size());
+  }
+  Figure figure = figure_of("success", "success", "Success at each point", caption + bounds_note(reported));
+  FigureData data{"points", common_columns()};
+  double lowest = 1.0;
+  for (const std::int64_t point : shown) {
+    data.rows.push_back(row_of(reported, point));
+    lowest = std::min(lowest, reported.success_bounds[static_cast<std::size_t>(point)].low);
+  }
+  const double from = lowest > 0.9 ? std::floor(lowest * 100.0) / 100.0 : 0.0;
+  figure.specification["layer"][0]["encoding"]["x"]["scale"]["domain"] = {from, 1};
+  set_rows(figure, data.rows.size(), 24);
+  figure.data.push_back(std::move(data));
+  return figure;
+}
+
+Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
+  const SweepAxis& swept = reported.summary.axes[axis];
+  const std::vector<PointGroup> groups = groups_along(reported, {axis});
+  std::string caption = fmt::format(
+      "Share of the trials that end at zero counts, over {}. The bands are the bounds. ", axis_title(swept));
+  if (std::ssize(groups) > most_series) {
+    caption += fmt::format("Shown are {} of {} lines, an even spread. ", most_series, groups.size());
+  }
+  Figure figure = figure_of("success-along", "success", fmt::format("Success over {}", swept.name),
+                            caption + bounds_note(reported));
+  FigureData data{"points", common_columns()};
+  data.columns.push_back({"x", swept.name, swept.unit});
+  data.columns.push_back({"series", "", ""});
+  for (const std::int64_t group : spread_over(std::ssize(groups), most_series)) {
+    for (const std::int64_t point : groups[static_cast<std::size_t>(group)].points) {
+      ordered_json row = row_of(reported, point);
+      row.push_back(swept.numbers[static_cast<std::size_t>(point)]);
+      row.push_back(groups[static_cast<std::size_t>(group)].label);
+      data.rows.push_back(std::move(row));
+    }
+  }
+  ordered_json& encoding = figure.specification["encoding"];
+  encoding["x"]["title"] = axis_title(swept);
+  set_number_format(encoding["x"]["axis"], values_of(swept).back());
+  if (spaced_by_ratio(values_of(swept))) encoding["x"]["scale"]["type"] = "log";
+  encoding["x"]["scale"]["domain"] = {values_of(swept).front(), values_of(swept).back()};
+  if (groups.size() == 1) encoding["color"]["legend"] = nullptr;
+  figure.data.push_back(std::move(data));
+  return figure;
+}
+
+}  // namespace
+
+std::optional<Figure> success_figure(const ReportedStudy& reported) {
+  if (reported.study.open_loop) return std::nullopt;
+  const std::vector<std::size_t> numeric = numeric_axes(reported, 3);
+  return numeric.empty() ? line_per_point(reported) : along_axis(reported, numeric.front());
+}
+
+}  // namespace zerocount

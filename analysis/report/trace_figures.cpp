@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "analysis/report/report_figures.hpp"
+
+namespace zerocount {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// A trial by how it went: the greater, the worse.
+struct TrialRank {
+  Outcome outcome{Outcome::zero_count};
+  std::int64_t final_error{0};  ///< largest magnitude of its moves, counts
+  double settling_time{0.0};    ///< longest of its moves, s; infinite where one never arrived
+
+  bool operator<(const TrialRank& other) const {
+    if (outcome != other.outcome) return outcome < other.outcome;
+    if (final_error != other.final_error) return final_error < other.final_error;
+    return settling_time < other.settling_time;
+  }
+};
+
+TrialRank rank_of(std::span<const MoveOutcome> moves) {
+  TrialRank rank{worst_outcome(moves), 0, 0.0};
+  for (const MoveOutcome& move : moves) {
+    rank.final_error = std::max(rank.final_error, std::abs(move.final_error));
+    rank.settling_time = std::max(
+        rank.settling_time, move.arrived ? move.settling_time : std::numeric_limits<double>::infinity());
+  }
+  return rank;
+}
+
+/// The rows of a point that a report shows; −1 where there is none.
+struct RowsOfPoint {
+  std::int64_t median{-1};
+  std::int64_t worst{-1};
+  std::int64_t first_failure{-1};
+};
+
+RowsOfPoint rows_to_show(const ReportedStudy& reported) {
+  RowsOfPoint rows;
+  TrialRank worst;
+  const double median =
+      reported.summary.points[static_cast<std::size_t>(reported.focus)].settling_time.median.value;
+  visit_trials(reported.file, rows_of(reported, reported.focus),
+               [&](std::int64_t row, std::span<const MoveOutcome> moves) {
+                 const TrialRank rank = rank_of(moves);
+                 if (rows.worst < 0 || worst < rank) {
+                   worst = rank;
+                   rows.worst = row;
+                 }
+                 const bool failed = rank.outcome != Outcome::zero_count;
+                 if (failed && rows.first_failure < 0) rows.first_failure = row;
+                 const bool typical = std::any_of(moves.begin(), moves.end(), [&](const MoveOutcome& move) {
+                   return move.arrived && move.settling_time == median;
+                 });
+                 if (!failed && typical && rows.median < 0) rows.median = row;
+               });
+  return rows;
+}
+
+const char* ending_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::zero_count:
+      return "it ends at zero counts";
+    case Outcome::one_count:
+      return "it ends within one count of the target";
+    case Outcome::oscillating:
+      return "it ends more than a count away or swinging";
+    case Outcome::nonfinite:
+      return "its motion was lost";
+    case Outcome::open_loop:
+      break;
+  }
+  return "it has no target";
+}
+
+std::int64_t first_failure_of_study(const ReportedStudy& reported) {
+  std::int64_t first = -1;
+  for (std::size_t point = 0; point < reported.summary.points.size() && first < 0; ++point) {
+    const PointSummary& summary = reported.summary.points[point];
+    if (summary.outcomes.zero_count == summary.trials) continue;
+    visit_trials(reported.file, rows_of(reported, static_cast<std::int64_t>(point)),
+                 [&](std::int64_t row, std::span<const MoveOutcome> moves) {
+                   if (first < 0 && worst_outcome(moves) != Outcome::zero_count) first = row;
+                 });
+  }
+  return first;
+}
+
+}  // namespace
+
+std::vector<SampleTrial> sample_trials(const ReportedStudy& reported) {
+  std::vector<SampleTrial> trials;
+  if (reported.study.open_loop) return trials;
+  RowsOfPoint rows = rows_to_show(reported);
+  const bool elsewhere = rows.first_failure < 0;
+  if (elsewhere) rows.first_failure = first_failure_of_study(reported);
+  const auto add = [&](const char* name, std::string title, std::int64_t row) {
+    if (row < 0) return;
+    const std::int64_t point = row / reported.file.header().trials;
+    const std::int64_t index = row % reported.file.header().trials;
+    for (SampleTrial& other : trials) {
+      if (other.point != point || other.index != index) continue;
+      other.title += ", and " + title;
+      return;
+    }
+    trials.push_back({name, std::move(title), point, index});
+  };
+  add("median", "the median trial", rows.median);
+  add("worst", "the worst trial", rows.worst);
+  add("first-failure", elsewhere ? "the first trial of the study that failed" : "the first trial that failed",
+      rows.first_failure);
+  for (SampleTrial& trial : trials) trial.title.front() = 'T';
+  return trials;
+}
+
+Figure trace_figure(const ReportedStudy& reported, const SampleTrial& trial, const ReplayedTrial& replayed) {
+  const Outcome outcome = worst_outcome(replayed.result.outcome.moves);
+  const MoveOutcome& first = replayed.result.outcome.moves.front();
+  const std::string settled =
+      first.arrived ? fmt::format("arrives after {:.4g} s", first.settling_time) : "never arrives";
+  std::string caption = fmt::format(
+      "Trial {} of point {}, run again: {}; {}. The error should come to the dashed line and "
+      "stay. The scale is linear within one count and logarithmic beyond; of the samples, those are drawn "
+      "that keep "
+      "every extreme.",
+      trial.index, reported.summary.labels[static_cast<std::size_t>(trial.point)],
+      replayed.result.outcome.moves.size() == 1 ? settled : "the first move " + settled, ending_of(outcome));
+  Figure figure = figure_of("trace", "trace-" + trial.name, trial.title, caption);
+  FigureData data{"samples",
+                  {{"time", "time", "s"},
+                   {"error", "error", "count"},
+                   {"torque", "torque", "N m"},
+                   {"target", "target", "count"}}};
+  for (const SampleRecord& sample : replayed.samples) {
+    data.rows.push_back(
+        ordered_json::array({datum(sample.t, 9), sample.error, datum(sample.torque), sample.target}));
+  }
+  figure.data.push_back(std::move(data));
+  return figure;
+}
+
+}  // namespace zerocount

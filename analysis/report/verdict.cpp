@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/report/escaping.hpp"
+#include "analysis/report/report_texts.hpp"
+#include "analysis/sample_size.hpp"
+#include "analysis/text.hpp"
+#include "analysis/tolerance.hpp"
+
+namespace zerocount {
+namespace {
+
+std::string bounds_text(const ConfidenceInterval& bounds) {
+  return fmt::format("95 % bounds {} to {}", share_text(bounds.low), share_text(bounds.high));
+}
+
+std::string of_all(std::int64_t successes, std::int64_t trials) {
+  return fmt::format("{} of {} trials", successes, trials);
+}
+
+/// What flawless trials prove, and what they do not.
+std::string flawless_text(const SuccessClaim& claim) {
+  return fmt::format(
+      "No failure in {} trials is not 100 % repeatability: it bounds the probability of a failure, which is "
+      "at most {} "
+      "with 95 % confidence. To put it below 0.1 % would take {} trials without a failure.",
+      claim.trials, percent_at_most(claim.failure_at_most), trials_for_claim(0.999, claim.confidence, 0));
+}
+
+std::string label_of(const ReportedStudy& reported, std::int64_t point) {
+  return reported.summary.labels[static_cast<std::size_t>(point)];
+}
+
+const PointSummary& point_of(const ReportedStudy& reported, std::int64_t point) {
+  return reported.summary.points[static_cast<std::size_t>(point)];
+}
+
+std::string headline(const ReportedStudy& reported, std::int64_t best) {
+  std::string claim = claim_sentence(point_of(reported, best).claim);
+  if (reported.summary.points.size() == 1) return claim;
+  return fmt::format("Best point, {}: {}", label_of(reported, best), claim);
+}
+
+void add_success(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
+  const PointSummary& point = point_of(reported, best);
+  lines.push_back(fmt::format("{} ended at zero counts ({}).",
+                              of_all(point.outcomes.zero_count, point.trials),
+                              bounds_text(reported.success_bounds[static_cast<std::size_t>(best)])));
+  if (point.outcomes.zero_count == point.trials) lines.push_back(flawless_text(point.claim));
+  const OutcomeCounts& outcomes = point.outcomes;
+  if (outcomes.zero_count < point.trials) {
+    lines.push_back(
+        fmt::format("Of the others, {} ended within one count, {} further away or swinging, {} with the "
+                    "motion lost.",
+                    outcomes.one_count, outcomes.oscillating, outcomes.nonfinite));
+  }
+}
+
+void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported) {
+  const std::vector<PointSummary>& points = reported.summary.points;
+  if (points.size() == 1) return;
+  const auto flawless = std::count_if(
+      points.begin(), points.end(), [](const PointSummary& p) { return p.outcomes.zero_count == p.trials; });
+  const auto worst =
+      std::min_element(points.begin(), points.end(), [](const PointSummary& a, const PointSummary& b) {
+        return a.success_rate.value < b.success_rate.value;
+      });
+  const std::string share = flawless == 0 ? fmt::format("None of the {} points is", points.size())
+                                          : fmt::format("{} of the {} points {}", flawless, points.size(),
+                                                        flawless == 1 ? "is" : "are");
+  lines.push_back(fmt::format(
+      "{} without a failure. The worst, {}, succeeded in {} ({}).", share,
+      label_of(reported, worst - points.begin()), of_all(worst->outcomes.zero_count, worst->trials),
+      bounds_text(reported.success_bounds[static_cast<std::size_t>(worst - points.begin())])));
+}
+
+/// " at b", where there are several points.
+std::string at_point(const ReportedStudy& reported, std::int64_t point) {
+  return reported.summary.points.size() == 1 ? "" : " at " + label_of(reported, point);
+}
+
+void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
+  const PointSummary& point = point_of(reported, best);
+  const SettlingStatistics& settling = point.settling_time;
+  if (settling.n == 0) return;
+  lines.push_back(fmt::format(
+      "{} of the moves arrived{}: half of those within {} s (95 % bounds {} to {} s), 95 % of them "
+      "within {} s.",
+      percentage(settling.n, point.moves), at_point(reported, best), short_number(settling.median.value),
+      short_number(settling.median.low), short_number(settling.median.high),
+      short_number(settling.p95.value)));
+  if (point.jerk_count.total == 0) {
+    lines.push_back("No move was disturbed by a jerk after it arrived.");
+    return;
+  }
+  lines.push_back(
+      fmt::format("After arrival there were {} jerks per trial; {} of them went in the direction of the "
+                  "holding torque, {} were of "
+                  "one count.",
+                  short_number(point.jerk_count.mean), share_text(point.jerk_agreement),
+                  share_text(point.jerk_one_count_share)));
+}
+
+void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) {
+  std::int64_t stable_points = 0;
+  std::int64_t stable_trials = 0;
+  std::int64_t stable_of = 0;
+  std::int64_t beyond_points = 0;
+  std::int64_t beyond_stable = 0;
+  std::int64_t beyond_of = 0;
+  for (std::size_t i = 0; i < reported.summary.predictions.size(); ++i) {
+    const TheoryPrediction& prediction = reported.summary.predictions[i];
+    const PointSummary& point = reported.summary.points[i];
+    if (predicted_trials(prediction) == 0) continue;
+    if (prediction.stable == prediction.trials) {
+      ++stable_points;
+      stable_trials += point.stable;
+      stable_of += point.trials;
+    }
+    if (prediction.unstable == prediction.trials) {
+      ++beyond_points;
+      beyond_stable += point.stable;
+      beyond_of += point.trials;
+    }
+  }
+  if (stable_points > 0) {
+    lines.push_back(
+        fmt::format("Criterion (6) of the paper holds in every trial of {} point{}; {} there were stable.",
+                    stable_points, stable_points == 1 ? "" : "s", of_all(stable_trials, stable_of)));
+  }
+  if (beyond_points > 0) {
+    lines.push_back(fmt::format(
+        "Criterion (7) is exceeded in every trial of {} point{}; {} there were stable all the same.",
+        beyond_points, beyond_points == 1 ? "" : "s", of_all(beyond_stable, beyond_of)));
+  }
+}
+
+std::string as_html(const std::string& headline, const std::vector<std::string>& lines) {
+  std::string html =
+      fmt::format("<div class=\"verdict\"><p class=\"headline\">{}</p>\n", html_prose(headline));
+  for (const std::string& line : lines) html += fmt::format("<p>{}</p>\n", html_prose(line));
+  return html + "</div>\n";
+}
+
+std::string open_loop_verdict(const ReportedStudy& reported) {
+  std::int64_t lost = 0;
+  std::int64_t broke_away = 0;
+  std::int64_t trials = 0;
+  for (const PointSummary& point : reported.summary.points) {
+    lost += point.outcomes.nonfinite;
+    broke_away += point.broke_away;
+    trials += point.trials;
+  }
+  return as_html(
+      "A material test: the rotor was loaded by torques, and there was no target to succeed at.",
+      {fmt::format("In {} of {} trials the contact broke away into sliding; in {} the motion was lost. The "
+                   "table below says how far each level moved the rotor and how much of that was creep.",
+                   broke_away, trials, lost)});
+}
+
+}  // namespace
+
+std::string verdict_html(const ReportedStudy& reported) {
+  if (reported.study.open_loop) return open_loop_verdict(reported);
+  const std::int64_t best = best_point(reported.summary.points);
+  std::vector<std::string> lines;
+  add_success(lines, reported, best);
+  add_times(lines, reported, best);
+  add_spread(lines, reported);
+  add_theory(lines, reported);
+  return as_html(headline(reported, best), lines);
+}
+
+}  // namespace zerocount

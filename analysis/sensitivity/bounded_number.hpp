@@ -1,0 +1,23 @@
+#pragma once
+
+#include <limits>
+
+namespace zerocount {
+
+/// A number with its confidence bounds; NaN where there is none.
+struct BoundedNumber {
+  double value{std::numeric_limits<double>::quiet_NaN()};
+  double low{std::numeric_limits<double>::quiet_NaN()};
+  double high{std::numeric_limits<double>::quiet_NaN()};
+};
+
+/// Whether 0 is outside the bounds. Not where there are none.
+inline bool excludes_zero(const BoundedNumber& number) {
+  return number.low > 0.0 || number.high < 0.0;
+}
+
+/// Quantile of the standard normal at (1 + confidence)/2.
+/// @throws Failure (bad_input) for a confidence outside (0, 1).
+double two_sided_normal_quantile(double confidence);
+
+}  // namespace zerocount

@@ -1,0 +1,197 @@
+#include "analysis/sensitivity/output_sensitivity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/moments.hpp"
+#include "analysis/sensitivity/given_data_index.hpp"
+#include "analysis/sensitivity/logistic_fit.hpp"
+#include "analysis/sensitivity/partial_rank_correlation.hpp"
+#include "analysis/sensitivity/rank_correlation.hpp"
+#include "analysis/sensitivity/saltelli_indices.hpp"
+#include "analysis/sensitivity/used_trials.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::size_t fewest_rows = 10;
+constexpr std::int64_t fewest_of_a_kind = 10;
+
+bool is_constant(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
+}
+
+// The inputs that vary among the trials used, and the factors that none of them is.
+struct Varying {
+  std::vector<std::string> names;
+  Eigen::MatrixXd values;  // [trial used, input]
+};
+
+Varying varying_inputs(const PointInputs& point, const UsedTrials& used, OutputSensitivity& result) {
+  std::vector<std::vector<double>> columns;
+  Varying varying;
+  for (const InputValues& input : point.inputs) {
+    std::vector<double> values = picked(input.values, used.independent);
+    if (is_constant(values)) {
+      result.left_out.push_back({input.name, "the same in all trials of the point"});
+    } else {
+      varying.names.push_back(input.name);
+      columns.push_back(std::move(values));
+    }
+  }
+  varying.values.resize(static_cast<Eigen::Index>(used.independent.size()),
+                        static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    varying.values.col(static_cast<Eigen::Index>(j)) =
+        Eigen::VectorXd::Map(columns[j].data(), varying.values.rows());
+  }
+  return varying;
+}
+
+FactorSensitivity& row_of(OutputSensitivity& result, const std::string& name) {
+  const auto found = std::find_if(result.factors.begin(), result.factors.end(),
+                                  [&](const FactorSensitivity& factor) { return factor.name == name; });
+  if (found != result.factors.end()) return *found;
+  result.factors.emplace_back().name = name;
+  return result.factors.back();
+}
+
+void add_design_indices(const PointInputs& point, const std::vector<double>& values, const UsedTrials& used,
+                        double confidence, const RandomStream& bootstrap, OutputSensitivity& result) {
+  if (used.row_starts.size() < fewest_rows) {
+    result.notes.push_back(fmt::format("{} rows of the design: Sobol' indices need {} at least",
+                                       used.row_starts.size(), fewest_rows));
+    return;
+  }
+  const std::vector<SobolIndices> indices =
+      saltelli_indices(saltelli_sample(point, values, used), confidence, bootstrap);
+  for (std::size_t j = 0; j < indices.size(); ++j) {
+    const std::string& name = point.factors[j];
+    const bool constant = std::any_of(result.left_out.begin(), result.left_out.end(),
+                                      [&](const FactorLeftOut& left_out) { return left_out.name == name; });
+    if (constant) continue;
+    FactorSensitivity& factor = row_of(result, name);
+    factor.first_order = indices[j].first_order;
+    factor.total = indices[j].total;
+  }
+}
+
+void add_correlations(const Varying& varying, const std::vector<double>& y, bool first_orders,
+                      double confidence, OutputSensitivity& result) {
+  const std::vector<BoundedNumber> partial = partial_rank_correlations(varying.values, y, confidence);
+  for (std::size_t j = 0; j < varying.names.size(); ++j) {
+    const auto column = varying.values.col(static_cast<Eigen::Index>(j));
+    const std::span<const double> x(column.data(), y.size());
+    FactorSensitivity& factor = row_of(result, varying.names[j]);
+    factor.rank_correlation = rank_correlation(x, y, confidence);
+    factor.partial_rank_correlation = partial[j];
+    if (first_orders) factor.first_order = given_data_first_order(x, y, confidence);
+  }
+}
+
+void add_log_odds(const Varying& varying, const std::vector<double>& y, double confidence,
+                  OutputSensitivity& result) {
+  const Eigen::VectorXd yes = Eigen::VectorXd::Map(y.data(), static_cast<Eigen::Index>(y.size()));
+  const LogisticFit fit = logistic_fit(varying.values, yes, confidence);
+  for (std::size_t j = 0; j < varying.names.size(); ++j) {
+    row_of(result, varying.names[j]).log_odds = fit.slopes[j];
+  }
+  if (fit.status == LogisticFit::Status::separated) {
+    result.notes.emplace_back(
+        "a combination of the factors separates the trials that say yes from those that say no: a logistic "
+        "fit has no finite coefficients");
+  }
+  const auto said_yes = static_cast<std::int64_t>(std::llround(yes.sum()));
+  const std::int64_t fewer = std::min(said_yes, static_cast<std::int64_t>(y.size()) - said_yes);
+  if (fewer < fewest_of_a_kind) {
+    result.notes.push_back(
+        fmt::format("only {} of {} trials differ from the others: the bounds are rough", fewer, y.size()));
+  }
+}
+
+void add_notes(const PointInputs& point, const TrialOutputs& trials, const UsedTrials& used,
+               OutputSensitivity& result) {
+  const std::size_t all = trials.values.size();
+  if (used.left_out > 0) {
+    result.notes.push_back(
+        fmt::format("{} of {} trials are left out{}: some trials have no value, because their "
+                    "motion was lost, was stopped, or is not in the file",
+                    used.left_out, all, point.design == Design::saltelli ? ", in whole rows" : ""));
+  }
+  if (trials.never_arrived > 0) {
+    result.notes.push_back(
+        fmt::format("{} of {} trials have a move that never arrived; it counts with its "
+                    "duration",
+                    trials.never_arrived, all));
+  }
+  if (point.design == Design::latin_hypercube || point.design == Design::sobol) {
+    result.notes.emplace_back(
+        "the bounds are those of independent trials; with this design they are, as a rule, too wide");
+  }
+}
+
+// The strongest first: by total indices; without a saltelli design those that explain some variance alone, by
+// its share, and then the others by their partial rank correlation.
+bool is_stronger(const FactorSensitivity& a, const FactorSensitivity& b, bool from_saltelli) {
+  const auto key = [&](const FactorSensitivity& factor) {
+    const double share = from_saltelli ? factor.total.value : factor.first_order.value;
+    const bool counts = from_saltelli ? !std::isnan(share) : factor.first_order.low > 0.0;
+    const double correlation = std::abs(factor.partial_rank_correlation.value);
+    return std::pair(counts ? share : -1.0, std::isnan(correlation) ? -1.0 : correlation);
+  };
+  return key(a) > key(b);
+}
+
+void rank_factors(bool from_saltelli, OutputSensitivity& result) {
+  for (FactorSensitivity& factor : result.factors) {
+    factor.matters = from_saltelli
+                         ? factor.total.low > 0.0
+                         : factor.first_order.low > 0.0 || excludes_zero(factor.partial_rank_correlation);
+  }
+  std::stable_sort(result.factors.begin(), result.factors.end(),
+                   [&](const FactorSensitivity& a, const FactorSensitivity& b) {
+                     return is_stronger(a, b, from_saltelli);
+                   });
+  result.estimated = std::any_of(result.factors.begin(), result.factors.end(), [](const auto& factor) {
+    return !std::isnan(factor.first_order.value) || !std::isnan(factor.rank_correlation.value);
+  });
+}
+
+void describe_sample(const std::vector<double>& y, OutputSensitivity& result) {
+  Moments moments;
+  for (const double value : y) moments.add(value);
+  result.mean = moments.mean;
+  result.standard_deviation = moments.sd();
+}
+
+}  // namespace
+
+OutputSensitivity output_sensitivity(const PointInputs& inputs, const SensitivityOutput& output,
+                                     const TrialOutputs& trials, double confidence,
+                                     const RandomStream& bootstrap) {
+  OutputSensitivity result;
+  result.output = output.name;
+  result.unit = output.unit;
+  result.meaning = output.meaning;
+  const bool from_saltelli = inputs.design == Design::saltelli;
+  const UsedTrials used = used_trials(inputs, trials.values);
+  const std::vector<double> y = picked(trials.values, used.independent);
+  result.trials = static_cast<std::int64_t>(trials.values.size()) - used.left_out;
+  describe_sample(y, result);
+  add_notes(inputs, trials, used, result);
+  if (!y.empty() && !is_constant(y)) {
+    const Varying varying = varying_inputs(inputs, used, result);
+    if (from_saltelli) add_design_indices(inputs, trials.values, used, confidence, bootstrap, result);
+    add_correlations(varying, y, !from_saltelli, confidence, result);
+    if (output.yes_or_no) add_log_odds(varying, y, confidence, result);
+    rank_factors(from_saltelli, result);
+  }
+  result.conclusion = sensitivity_conclusion(result, from_saltelli, confidence);
+  return result;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,111 @@
+#include "analysis/sensitivity/rank_correlation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace zerocount {
+namespace {
+
+constexpr std::size_t fewest_values = 10;
+
+std::vector<std::size_t> ascending_order(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return values[i] < values[j]; });
+  return order;
+}
+
+// Calls visit(first, last) for each run of equal values in the order.
+template <class Visit>
+void visit_ties(std::span<const double> values, const std::vector<std::size_t>& order, const Visit& visit) {
+  for (std::size_t first = 0; first < order.size();) {
+    std::size_t last = first + 1;
+    while (last < order.size() && values[order[last]] == values[order[first]]) ++last;
+    visit(first, last);
+    first = last;
+  }
+}
+
+// [i]: 1/n Σ_l m(x_i, x_l) weight_l.
+std::vector<double> mean_above(std::span<const double> x, std::span<const double> weight) {
+  const std::vector<std::size_t> order = ascending_order(x);
+  std::vector<double> means(x.size());
+  double above = std::accumulate(weight.begin(), weight.end(), 0.0);
+  visit_ties(x, order, [&](std::size_t first, std::size_t last) {
+    double tied = 0.0;
+    for (std::size_t place = first; place < last; ++place) tied += weight[order[place]];
+    above -= tied;
+    for (std::size_t place = first; place < last; ++place) {
+      means[order[place]] = (above + 0.5 * tied) / static_cast<double>(x.size());
+    }
+  });
+  return means;
+}
+
+// E[F·G] − ¼ of two mid-distributions, with its influence function.
+struct CoMoment {
+  double value{0.0};
+  std::vector<double> influence;
+};
+
+CoMoment co_moment(std::span<const double> f, std::span<const double> g) {
+  const double n = static_cast<double>(f.size());
+  const double product = std::inner_product(f.begin(), f.end(), g.begin(), 0.0) / n;
+  const std::vector<double> along_f = mean_above(f, g);
+  const std::vector<double> along_g = mean_above(g, f);
+  CoMoment moment{product - 0.25, std::vector<double>(f.size())};
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    moment.influence[i] = f[i] * g[i] + along_f[i] + along_g[i] - 3.0 * product;
+  }
+  return moment;
+}
+
+bool is_constant(std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
+}
+
+}  // namespace
+
+std::vector<double> mid_distribution(std::span<const double> values) {
+  std::vector<double> result(values.size());
+  const std::vector<std::size_t> order = ascending_order(values);
+  visit_ties(values, order, [&](std::size_t first, std::size_t last) {
+    const double middle = 0.5 * static_cast<double>(first + last) / static_cast<double>(values.size());
+    for (std::size_t place = first; place < last; ++place) result[order[place]] = middle;
+  });
+  return result;
+}
+
+BoundedNumber fisher_bounds(double correlation, double standard_error, double confidence) {
+  const double slope = 1.0 - correlation * correlation;
+  if (!(slope > 0.0)) return {correlation, correlation, correlation};
+  const double half = two_sided_normal_quantile(confidence) * standard_error / slope;
+  const double middle = std::atanh(correlation);
+  return {correlation, std::tanh(middle - half), std::tanh(middle + half)};
+}
+
+BoundedNumber rank_correlation(std::span<const double> x, std::span<const double> y, double confidence) {
+  if (x.size() < fewest_values) return {};
+  const std::vector<double> f = mid_distribution(x);
+  const std::vector<double> g = mid_distribution(y);
+  if (is_constant(f) || is_constant(g)) return {};
+  const CoMoment together = co_moment(f, g);
+  const CoMoment of_x = co_moment(f, f);
+  const CoMoment of_y = co_moment(g, g);
+  const double scale = std::sqrt(of_x.value * of_y.value);
+  const double correlation = std::clamp(together.value / scale, -1.0, 1.0);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double influence =
+        together.influence[i] / scale -
+        0.5 * correlation * (of_x.influence[i] / of_x.value + of_y.influence[i] / of_y.value);
+    squares += influence * influence;
+  }
+  const double n = static_cast<double>(x.size());
+  return fisher_bounds(correlation, std::sqrt(squares / (n * (n - 3.0))), confidence);
+}
+
+}  // namespace zerocount

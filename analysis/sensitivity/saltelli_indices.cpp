@@ -1,0 +1,156 @@
+#include "analysis/sensitivity/saltelli_indices.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+namespace zerocount {
+namespace {
+
+constexpr Eigen::Index most_groups = 4096;
+
+// The estimates are functions of sums over the rows: of the first ones, and for each factor of c, c², bc, (a
+// − c)².
+enum CommonSum : Eigen::Index { of_rows, of_a, of_b, of_a_squared, of_b_squared, of_ab, common_sums };
+enum FactorSum : Eigen::Index { of_c, of_c_squared, of_bc, of_difference_squared, sums_per_factor };
+
+Eigen::MatrixXd sums_by_group(const SaltelliSample& sample, double origin) {
+  const auto rows = static_cast<Eigen::Index>(sample.a.size());
+  const auto factors = static_cast<Eigen::Index>(sample.c.size());
+  const Eigen::Index groups = std::min(rows, most_groups);
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(common_sums + sums_per_factor * factors, groups);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const auto r = static_cast<std::size_t>(row);
+    auto column = sums.col(row * groups / rows);
+    const double a = sample.a[r] - origin;
+    const double b = sample.b[r] - origin;
+    column.head<common_sums>() += Eigen::Vector<double, common_sums>{1.0, a, b, a * a, b * b, a * b};
+    for (Eigen::Index j = 0; j < factors; ++j) {
+      const double c = sample.c[static_cast<std::size_t>(j)][r] - origin;
+      column.segment<sums_per_factor>(common_sums + sums_per_factor * j) +=
+          Eigen::Vector<double, sums_per_factor>{c, c * c, b * c, (a - c) * (a - c)};
+    }
+  }
+  return sums;
+}
+
+struct IndexValues {
+  double first_order;
+  double total;
+};
+
+double variance_of_both(double sum, double squares, double rows) {
+  const double mean = sum / (2.0 * rows);
+  return squares / (2.0 * rows) - mean * mean;
+}
+
+IndexValues index_values(const Eigen::VectorXd& sums, Eigen::Index factor, double control) {
+  const double rows = sums(of_rows);
+  const auto own = sums.segment<sums_per_factor>(common_sums + sums_per_factor * factor);
+  const double mean_bc = (sums(of_b) + own(of_c)) / (2.0 * rows);
+  const double covariance_ab = sums(of_ab) / rows - sums(of_a) * sums(of_b) / (rows * rows);
+  const double alone = own(of_bc) / rows - mean_bc * mean_bc - control * covariance_ab;
+  const double variance_bc =
+      variance_of_both(sums(of_b) + own(of_c), sums(of_b_squared) + own(of_c_squared), rows);
+  const double variance_ac =
+      variance_of_both(sums(of_a) + own(of_c), sums(of_a_squared) + own(of_c_squared), rows);
+  return {own(of_difference_squared) == 0.0 ? 0.0 : alone / variance_bc,
+          own(of_difference_squared) / (2.0 * rows * variance_ac)};
+}
+
+// λ of a factor. @param without S of the factor with λ = 0.
+double control_coefficient(const SaltelliSample& sample, std::size_t factor, double without, double origin) {
+  const auto rows = static_cast<Eigen::Index>(sample.a.size());
+  const auto centred = [&](const std::vector<double>& values) -> Eigen::ArrayXd {
+    return Eigen::ArrayXd::Map(values.data(), rows) - origin;
+  };
+  const Eigen::ArrayXd b = centred(sample.b);
+  const Eigen::ArrayXd c = centred(sample.c[factor]);
+  const Eigen::ArrayXd control = centred(sample.a) * b;
+  const Eigen::ArrayXd influence = b * c - 0.5 * without * (b.square() + c.square());
+  const Eigen::ArrayXd about_mean = control - control.mean();
+  const double squares = about_mean.square().sum();
+  return squares > 0.0 ? (influence * about_mean).sum() / squares : 0.0;
+}
+
+// How often each group is in the sample drawn anew.
+Eigen::VectorXd draw_groups(Eigen::Index groups, std::int64_t replicate, const RandomStream& randomness) {
+  Eigen::VectorXd times = Eigen::VectorXd::Zero(groups);
+  for (Eigen::Index i = 0; i < groups; ++i) {
+    const auto index = static_cast<std::uint64_t>(replicate * groups + i);
+    const double u = open_uniform(random_bits(randomness, index, Draw::trial));
+    times(std::min(static_cast<Eigen::Index>(u * static_cast<double>(groups)), groups - 1)) += 1.0;
+  }
+  return times;
+}
+
+// The percentiles at (1 ∓ confidence)/2 of the finite values: those with the ranks that leave as many beyond.
+void set_bounds(std::vector<double> values, double confidence, BoundedNumber& number) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }),
+               values.end());
+  if (values.empty()) return;
+  std::sort(values.begin(), values.end());
+  const double last = static_cast<double>(values.size() - 1);
+  const double beyond = 0.5 * (1.0 - confidence) * last;
+  number.low = values[static_cast<std::size_t>(std::floor(beyond))];
+  number.high = values[static_cast<std::size_t>(std::ceil(last - beyond))];
+}
+
+bool has_variance(const SaltelliSample& sample) {
+  const auto differs = [&](double value) { return value != sample.a.front(); };
+  return std::any_of(sample.a.begin(), sample.a.end(), differs) ||
+         std::any_of(sample.b.begin(), sample.b.end(), differs);
+}
+
+double mean_of(const SaltelliSample& sample) {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < sample.a.size(); ++r) sum += sample.a[r] + sample.b[r];
+  return sum / (2.0 * static_cast<double>(sample.a.size()));
+}
+
+}  // namespace
+
+std::int64_t bootstrap_replicates(double confidence) {
+  constexpr double beyond_each_bound = 25.0;
+  return std::max<std::int64_t>(1000,
+                                std::llround(std::ceil(beyond_each_bound / (0.5 * (1.0 - confidence)))));
+}
+
+std::vector<SobolIndices> saltelli_indices(const SaltelliSample& sample, double confidence,
+                                           const RandomStream& randomness) {
+  const std::size_t factors = sample.c.size();
+  std::vector<SobolIndices> indices(factors);
+  if (sample.a.size() < 2 || !has_variance(sample)) return indices;
+  const double origin = mean_of(sample);
+  const Eigen::MatrixXd sums = sums_by_group(sample, origin);
+  const Eigen::VectorXd all = sums.rowwise().sum();
+  std::vector<double> controls;
+  for (std::size_t j = 0; j < factors; ++j) {
+    const double without = index_values(all, static_cast<Eigen::Index>(j), 0.0).first_order;
+    controls.push_back(control_coefficient(sample, j, without, origin));
+    const IndexValues values = index_values(all, static_cast<Eigen::Index>(j), controls[j]);
+    indices[j].first_order.value = values.first_order;
+    indices[j].total.value = values.total;
+  }
+
+  std::vector<std::vector<double>> first_orders(factors);
+  std::vector<std::vector<double>> totals(factors);
+  const std::int64_t replicates = bootstrap_replicates(confidence);
+  for (std::int64_t replicate = 0; replicate < replicates; ++replicate) {
+    const Eigen::VectorXd drawn = sums * draw_groups(sums.cols(), replicate, randomness);
+    for (std::size_t j = 0; j < factors; ++j) {
+      const IndexValues values = index_values(drawn, static_cast<Eigen::Index>(j), controls[j]);
+      first_orders[j].push_back(values.first_order);
+      totals[j].push_back(values.total);
+    }
+  }
+  for (std::size_t j = 0; j < factors; ++j) {
+    set_bounds(std::move(first_orders[j]), confidence, indices[j].first_order);
+    set_bounds(std::move(totals[j]), confidence, indices[j].total);
+  }
+  return indices;
+}
+
+}  // namespace zerocount

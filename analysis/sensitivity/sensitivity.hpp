@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/proportion.hpp"
+#include "analysis/sensitivity/bounded_number.hpp"
+#include "results/reading/study_file.hpp"
+
+/// Which of the random parameters of a study drive what its trials do. Methods, formulas and sources:
+/// README.md of this folder.
+namespace zerocount {
+
+/// One factor: something that is drawn anew in every trial. All indices are dimensionless.
+struct FactorSensitivity {
+  std::string name;  ///< dotted path of the parameter, or within_trial_factor
+  /// Share of the output's variance that this factor explains alone.
+  BoundedNumber first_order;
+  /// Share that this factor has a part in, alone or together with others; only from a saltelli design.
+  BoundedNumber total;
+  BoundedNumber rank_correlation;          ///< Spearman's; in [−1, 1]
+  BoundedNumber partial_rank_correlation;  ///< with the other factors' part taken out; in [−1, 1]
+  /// Change of ln(p/(1 − p)) over one standard deviation of the factor, the others held; only of outputs that
+  /// are yes or no.
+  BoundedNumber log_odds;
+  /// The bounds of total exclude 0; where the design is not saltelli, those of first_order or of
+  /// partial_rank_correlation do.
+  bool matters{false};
+};
+
+/// A factor that has no row, and why.
+struct FactorLeftOut {
+  std::string name;
+  std::string reason;
+};
+
+/// What drives one output of the trials at one design point.
+struct OutputSensitivity {
+  std::string output;  ///< as sensitivity_outputs() has it
+  std::string unit;
+  std::string meaning;     ///< one line, with what was done about trials that have no value
+  std::int64_t trials{0};  ///< used
+  double mean{std::numeric_limits<double>::quiet_NaN()};                ///< of the output, in its unit
+  double standard_deviation{std::numeric_limits<double>::quiet_NaN()};  ///< likewise
+  std::vector<FactorSensitivity> factors;                               ///< strongest first
+  std::vector<FactorLeftOut> left_out;
+  std::vector<std::string> notes;  ///< what limits these numbers, a sentence each
+  std::string conclusion;          ///< one sentence: which factors matter
+  bool estimated{false};           ///< there is something in `factors`
+};
+
+/// All outputs asked for, at one design point.
+struct PointSensitivity {
+  std::int64_t point{0};
+  std::string label;
+  std::vector<OutputSensitivity> outputs;
+};
+
+/// What drives the trials of a study.
+struct StudySensitivity {
+  std::string name;           ///< of the study
+  bool from_saltelli{false};  ///< its design is saltelli, and the factors have total indices
+  double confidence{0.0};     ///< of all bounds, each by itself
+  std::vector<PointSensitivity> points;
+};
+
+/// Something of a trial that can be asked about.
+struct SensitivityOutput {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view meaning;
+  bool yes_or_no{false};
+};
+
+/// All of them, in the order of the help. The first two are asked about unless told otherwise.
+std::span<const SensitivityOutput> sensitivity_outputs();
+
+/// What to ask of a file.
+struct SensitivityQuestion {
+  std::vector<std::int64_t> points{};     ///< empty: all
+  std::vector<std::string> outputs{};     ///< of sensitivity_outputs(); empty: success and settling_time
+  double confidence{summary_confidence};  ///< in (0, 0.999]
+};
+
+/// Answers from a complete results file. Deterministic: the resampling is seeded by the study's seed.
+/// @throws Failure: bad_input for a point or an output that there is not, or a confidence outside (0, 0.999];
+/// bad_data where the file is damaged.
+StudySensitivity study_sensitivity(const StudyFile& file, const SensitivityQuestion& question = {});
+
+/// Whether at least one output at one point could be estimated.
+bool any_estimated(const StudySensitivity& sensitivity);
+
+/// A table per point and output for people, UTF-8.
+std::string sensitivity_table(const StudySensitivity& sensitivity);
+/// The same as one JSON object, indented; numbers read back to the same double, null where there is none.
+std::string sensitivity_json(const StudySensitivity& sensitivity);
+/// A line per point, output and factor. RFC 4180 with \n; NaN is `nan`.
+std::string sensitivity_csv(const StudySensitivity& sensitivity);
+
+}  // namespace zerocount

@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/sensitivity/output_sensitivity.hpp"
+#include "analysis/text.hpp"
+
+namespace zerocount {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  if (words.size() < 2) return words.empty() ? "" : words.front();
+  const std::vector<std::string> first(words.begin(), words.end() - 1);
+  return fmt::format("{} and {}", fmt::join(first, ", "), words.back());
+}
+
+std::string share_text(double share) {
+  return share < 0.005 ? "< 1 %" : fmt::format("{:.0f} %", 100.0 * std::min(share, 1.0));
+}
+
+std::string why_nothing(const OutputSensitivity& sensitivity) {
+  if (sensitivity.trials == 0) return fmt::format("No trial has a value of {}.", sensitivity.output);
+  if (sensitivity.standard_deviation > 0.0) {
+    return fmt::format(
+        "There are too few trials, or nothing varies in them: nothing can be said of what drives {}.",
+        sensitivity.output);
+  }
+  return fmt::format(
+      "{} is {} in all {} trials: it has no variance, and nothing can be said of what drives it.",
+      sensitivity.output, short_number(sensitivity.mean), sensitivity.trials);
+}
+
+}  // namespace
+
+std::string sensitivity_conclusion(const OutputSensitivity& sensitivity, bool from_saltelli,
+                                   double confidence) {
+  if (!sensitivity.estimated) return why_nothing(sensitivity);
+  std::vector<std::string> shares;
+  std::vector<std::string> correlations;
+  std::vector<std::string> others;
+  for (const FactorSensitivity& factor : sensitivity.factors) {
+    const BoundedNumber& share = from_saltelli ? factor.total : factor.first_order;
+    if (factor.matters && share.low > 0.0) {
+      shares.push_back(fmt::format("{} ({})", factor.name, share_text(share.value)));
+    } else if (factor.matters) {
+      correlations.push_back(fmt::format("{} ({:+.2f})", factor.name, factor.partial_rank_correlation.value));
+    } else if (!std::isnan(share.value)) {
+      others.push_back(factor.name);
+    }
+  }
+  std::vector<std::string> parts;
+  if (!shares.empty()) {
+    parts.push_back(fmt::format("what drives {}, with the share of its variance that it {}: {}",
+                                sensitivity.output, from_saltelli ? "has a part in" : "explains alone",
+                                joined(shares)));
+  }
+  if (!correlations.empty()) {
+    parts.push_back(fmt::format("too little for that, but shown by the partial rank correlation: {}",
+                                joined(correlations)));
+  }
+  if (parts.empty()) parts.push_back(fmt::format("nothing is shown to drive {}", sensitivity.output));
+  if (!others.empty()) parts.push_back(fmt::format("no influence shows of {}", joined(others)));
+  return fmt::format("By {:g} % bounds, each by itself: {}.", 100.0 * confidence, fmt::join(parts, "; "));
+}
+
+}  // namespace zerocount

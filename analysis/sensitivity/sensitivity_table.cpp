@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/sensitivity/sensitivity.hpp"
+#include "analysis/text.hpp"
+
+namespace zerocount {
+namespace {
+
+std::string with_bounds(const BoundedNumber& number) {
+  if (std::isnan(number.value)) return "–";
+  if (std::isnan(number.low)) return fmt::format("{:.3f}", number.value);
+  return fmt::format("{:.3f} [{:.3f}, {:.3f}]", number.value, number.low, number.high);
+}
+
+struct Measure {
+  const char* head;
+  BoundedNumber FactorSensitivity::*number;
+};
+
+// Those that some factor has.
+std::vector<Measure> measures_of(const OutputSensitivity& output, bool from_saltelli) {
+  std::vector<Measure> all{{"total", &FactorSensitivity::total},
+                           {from_saltelli ? "first order" : "alone", &FactorSensitivity::first_order},
+                           {"rank corr.", &FactorSensitivity::rank_correlation},
+                           {"partial rank corr.", &FactorSensitivity::partial_rank_correlation},
+                           {"log odds per sd", &FactorSensitivity::log_odds}};
+  const auto is_missing = [&](const Measure& measure) {
+    return std::all_of(output.factors.begin(), output.factors.end(), [&](const FactorSensitivity& factor) {
+      return std::isnan((factor.*measure.number).value);
+    });
+  };
+  all.erase(std::remove_if(all.begin(), all.end(), is_missing), all.end());
+  return all;
+}
+
+std::string factor_table(const OutputSensitivity& output, bool from_saltelli) {
+  std::vector<TextColumn> columns{{"factor", false, {}}, {"matters", false, {}}};
+  for (const FactorSensitivity& factor : output.factors) {
+    columns[0].cells.push_back(printable(factor.name));
+    columns[1].cells.emplace_back(factor.matters ? "yes" : "");
+  }
+  for (const Measure& measure : measures_of(output, from_saltelli)) {
+    TextColumn column{measure.head, false, {}};
+    for (const FactorSensitivity& factor : output.factors) {
+      column.cells.push_back(with_bounds(factor.*measure.number));
+    }
+    columns.push_back(std::move(column));
+  }
+  return aligned_table(columns);
+}
+
+std::string left_out_line(const OutputSensitivity& output) {
+  std::string names;
+  for (const FactorLeftOut& factor : output.left_out) {
+    names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", printable(factor.name), factor.reason);
+  }
+  return names.empty() ? "" : fmt::format("  left out: {}\n", names);
+}
+
+std::string output_text(const OutputSensitivity& output, bool from_saltelli) {
+  std::string text = fmt::format("{}{}: {}\n", output.output,
+                                 output.unit == "1" ? "" : fmt::format(" ({})", output.unit), output.meaning);
+  text += fmt::format("  {} trials, mean {}, standard deviation {}\n", output.trials,
+                      short_number(output.mean), short_number(output.standard_deviation));
+  text += fmt::format("  {}\n", output.conclusion);
+  for (const std::string& note : output.notes) text += fmt::format("  note: {}\n", note);
+  text += left_out_line(output);
+  if (output.estimated) text += fmt::format("\n{}", factor_table(output, from_saltelli));
+  return text + "\n";
+}
+
+std::string legend(const StudySensitivity& sensitivity) {
+  const std::string bounds = fmt::format(
+      "[,]: {:g} % confidence bounds, each by itself. matters: those of {} exclude 0.\n",
+      100.0 * sensitivity.confidence, sensitivity.from_saltelli ? "total" : "alone or partial rank corr.");
+  const std::string shares =
+      sensitivity.from_saltelli
+          ? "total, first order: shares of the variance (Sobol' indices) in which the factor has a part, and "
+            "that\n"
+            "it explains alone.\n"
+          : "alone: share of the variance that the factor explains alone (first-order Sobol' index); what it "
+            "does\n"
+            "only together with others does not show here, but does with design: saltelli.\n";
+  return bounds + shares +
+         "rank corr.: whether the output rises (+) or falls (-) with the factor; partial rank corr.: with "
+         "the part\n"
+         "of the other factors taken out. log odds per sd: what a standard deviation of the factor adds to\n"
+         "ln(p/(1 - p)), p the share of yes.\n";
+}
+
+}  // namespace
+
+std::string sensitivity_table(const StudySensitivity& sensitivity) {
+  std::string text = printable(sensitivity.name) + "\n\n";
+  for (const PointSensitivity& point : sensitivity.points) {
+    text += fmt::format("Point {}: {}\n\n", point.point, printable(point.label));
+    for (const OutputSensitivity& output : point.outputs) {
+      text += output_text(output, sensitivity.from_saltelli);
+    }
+  }
+  return text + legend(sensitivity);
+}
+
+}  // namespace zerocount

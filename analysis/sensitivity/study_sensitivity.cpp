@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "analysis/sensitivity/output_sensitivity.hpp"
+#include "analysis/sensitivity/sensitivity.hpp"
+#include "analysis/sensitivity/trial_outputs.hpp"
+#include "core/failure.hpp"
+#include "experiments/designs/random_key.hpp"
+
+namespace zerocount {
+namespace {
+
+std::vector<std::int64_t> points_asked(const StudyFile& file, const SensitivityQuestion& question) {
+  const std::int64_t count = file.header().points;
+  for (const std::int64_t point : question.points) {
+    if (point < 0 || point >= count) {
+      throw Failure(ExitCode::bad_input, fmt::format("{}: there is no design point {}; expected 0 to {}",
+                                                     file.path().string(), point, count - 1));
+    }
+  }
+  if (!question.points.empty()) return question.points;
+  std::vector<std::int64_t> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), std::int64_t{0});
+  return all;
+}
+
+std::vector<SensitivityOutput> outputs_asked(const SensitivityQuestion& question) {
+  std::vector<SensitivityOutput> outputs;
+  for (const std::string& name : question.outputs) outputs.push_back(find_sensitivity_output(name));
+  if (outputs.empty()) {
+    outputs = {find_sensitivity_output("success"), find_sensitivity_output("settling_time")};
+  }
+  return outputs;
+}
+
+// Beyond the highest, resampling would have to go on for minutes to find the bounds.
+void check_confidence(double confidence) {
+  constexpr double highest = 0.999;
+  if (confidence > 0.0 && confidence <= highest) return;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("a confidence of {}; expected one above 0 and at most {}", confidence, highest));
+}
+
+PointInputs point_inputs(const StudyFile& file, const Study& study, std::int64_t point) {
+  PointInputs inputs{.design = study.design, .factors = study.factors, .inputs = {}};
+  const RowRange rows{point * file.header().trials, file.header().trials};
+  for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
+    inputs.inputs.push_back({file.input_columns()[column].name, file.input(column, rows)});
+  }
+  return inputs;
+}
+
+}  // namespace
+
+StudySensitivity study_sensitivity(const StudyFile& file, const SensitivityQuestion& question) {
+  check_confidence(question.confidence);
+  const FileHeader& header = file.header();
+  const Study study = parse_study(header.manifest, file.path().string() + ":/manifest", header.overrides);
+  const std::vector<SensitivityOutput> outputs = outputs_asked(question);
+  const std::vector<std::string> labels = file.point_labels();
+  // The resampling is the same for all outputs and points, as the trials are.
+  const RandomStream bootstrap{random_key(header.seed, "sensitivity/bootstrap"), 0};
+
+  StudySensitivity sensitivity{.name = header.name,
+                               .from_saltelli = study.design == Design::saltelli,
+                               .confidence = question.confidence,
+                               .points = {}};
+  for (const std::int64_t point : points_asked(file, question)) {
+    PointSensitivity at_point{point, labels.at(static_cast<std::size_t>(point)), {}};
+    const PointInputs inputs = point_inputs(file, study, point);
+    for (const SensitivityOutput& output : outputs) {
+      at_point.outputs.push_back(output_sensitivity(inputs, output, trial_outputs(file, study, point, output),
+                                                    question.confidence, bootstrap));
+    }
+    sensitivity.points.push_back(std::move(at_point));
+  }
+  return sensitivity;
+}
+
+bool any_estimated(const StudySensitivity& sensitivity) {
+  return std::any_of(sensitivity.points.begin(), sensitivity.points.end(), [](const auto& point) {
+    return std::any_of(point.outputs.begin(), point.outputs.end(),
+                       [](const OutputSensitivity& output) { return output.estimated; });
+  });
+}
+
+}  // namespace zerocount

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "analysis/sensitivity/sensitivity.hpp"
+#include "experiments/study.hpp"
+#include "results/reading/study_file.hpp"
+
+namespace zerocount {
+
+/// One output of the trials of a design point.
+struct TrialOutputs {
+  std::vector<double> values;     ///< [trial of the point], in the output's unit; NaN where there is none
+  std::int64_t never_arrived{0};  ///< of settling_time: trials with a move that counts with its duration
+};
+
+/// The output with this name.
+/// @throws Failure (bad_input) where there is none; the message lists them.
+const SensitivityOutput& find_sensitivity_output(std::string_view name);
+
+/// @param study of the file. @param output of sensitivity_outputs().
+TrialOutputs trial_outputs(const StudyFile& file, const Study& study, std::int64_t point,
+                           const SensitivityOutput& output);
+
+/// Duration of a move of this trial, a whole number of samples, s; of a closed loop.
+double move_duration(const TrialParameters& trial);
+
+}  // namespace zerocount

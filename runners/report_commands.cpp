@@ -1,0 +1,157 @@
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include "analysis/comparison/compare_studies.hpp"
+#include "analysis/report/report.hpp"
+#include "core/failure.hpp"
+#include "results/reading/study_file.hpp"
+#include "results/storage/durable_file.hpp"
+#include "runners/child_process.hpp"
+#include "runners/commands.hpp"
+#include "runners/output_place.hpp"
+#include "runners/replay.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr const char* report_help =
+    "Writes one HTML page on a results file: the verdict in words, success at every point\n"
+    "with bounds, stability maps with the criteria (6) and (7), settling times, jerks, what\n"
+    "matters, single trials that are run again, the figures of the paper that the study can\n"
+    "show, and what was run. The page holds everything and asks for nothing from anywhere;\n"
+    "it prints, and is read on a phone, by day and by night. An existing page is replaced.\n"
+    "\n"
+    "With a baseline, the page also has what 'zerocount compare' would say. The exit code\n"
+    "does not: for that there is 'compare'.\n"
+    "\n"
+    "Example: zerocount report gains.h5 -o gains.html\n";
+
+constexpr const char* plot_help =
+    "Draws one figure of the report by itself, for a paper. It is drawn by node, and made a\n"
+    "PNG by rsvg-convert (Debian: nodejs, librsvg2-bin). Without --figure the names of the\n"
+    "figures that this study has are printed. An existing picture is replaced.\n"
+    "\n"
+    "Example: zerocount plot gains.h5 --figure success -o success.svg\n";
+
+/// What of a trial that was run again is not as the file has it.
+std::vector<std::string> check(const StudyFile& file, const ReplayedTrial& replayed) {
+  const RowRange row{replayed.result.row, 1};
+  TrialResult recorded;
+  recorded.row = row.first;
+  recorded.inputs = file.inputs_of(row.first);
+  recorded.outcome.moves = file.outcomes(row);
+  for (const JerkRecord& jerk : file.jerks(row)) recorded.jerks.push_back(jerk);
+  return differences(file.input_columns(), recorded, replayed.result, file.measures());
+}
+
+StudyReport report_of(const Arguments& arguments, const StudyFile& file) {
+  ReportOptions options;
+  options.focus = arguments.whole_number("point", 0, std::int64_t{1} << 53);
+  if (const auto baseline = arguments.value("baseline"))
+    options.comparison = compare_studies(StudyFile(*baseline), file);
+  options.check = [&file](const ReplayedTrial& replayed) { return check(file, replayed); };
+  StudyReport report = study_report(file, options);
+  for (const std::string& warning : report.warnings) fmt::print(stderr, "zerocount: warning: {}\n", warning);
+  return report;
+}
+
+/// A file that has its name only when it is whole.
+void write_file(const std::filesystem::path& path, std::string_view content) {
+  const UnfinishedFile unfinished(path);
+  {
+    const FileDescriptor file(
+        ::open(unfinished.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (!file.valid()) fail_with(path, "write", errno);
+    write_all(path, file, content);
+  }
+  publish(path);
+}
+
+ExitCode write_report(const Arguments& arguments) {
+  const std::filesystem::path output = output_place(arguments);
+  const StudyFile file(arguments.operands()[0]);
+  write_file(output, html_page(report_of(arguments, file).page));
+  return ExitCode::success;
+}
+
+/// What a program made of `input`.
+std::string output_of(const std::vector<std::string>& words, std::string_view input,
+                      std::string_view package) {
+  const std::optional<ChildResult> result = run_child(words, input);
+  if (!result) {
+    throw Failure(
+        ExitCode::machine_failed,
+        fmt::format(
+            "zerocount plot: there is no {} here, which draws the figure; install it (Debian: apt-get "
+            "install {})",
+            words.front(), package));
+  }
+  if (result->code == 0 && !result->out.empty()) return result->out;
+  throw Failure(
+      ExitCode::machine_failed,
+      fmt::format("zerocount plot: {} failed with exit code {}; expected nodejs 18 or later and librsvg 2.50 "
+                  "or later",
+                  words.front(), result->code));
+}
+
+std::string picture(const Figure& figure, bool png) {
+  const std::string svg = output_of({"node", "-"}, drawing_program(figure), "nodejs");
+  // Three pixels to a point of the figure: 300 to the inch at a width of 140 mm.
+  return png ? output_of({"rsvg-convert", "--format", "png", "--zoom", "3"}, svg, "librsvg2-bin") : svg;
+}
+
+ExitCode plot(const Arguments& arguments) {
+  const std::string input = arguments.operands()[0];
+  if (!arguments.has("figure")) {
+    if (arguments.has("output")) arguments.refuse("option '--output' needs '--figure'");
+    const StudyFile file(input);
+    for (const std::string& name : figure_names(report_of(arguments, file).page)) fmt::print("{}\n", name);
+    return ExitCode::success;
+  }
+  const std::filesystem::path output = output_place(arguments);
+  const std::string extension = output.extension().string();
+  if (extension != ".svg" && extension != ".png") {
+    arguments.refuse(fmt::format("option '--output': '{}' is neither .svg nor .png", output.string()));
+  }
+  const StudyFile file(input);
+  const StudyReport report = report_of(arguments, file);
+  write_file(output, picture(find_figure(report.page, arguments.required("figure")), extension == ".png"));
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Command report_command() {
+  return {{"report",
+           "FILE",
+           1,
+           1,
+           {{"output,o", "PAGE", "the page, such as report.html (required)"},
+            {"baseline", "FILE", "compare with these results"},
+            {"point", "P", "design point whose trials are shown one by one (default: the best)"}}},
+          "write one HTML page on a results file",
+          report_help,
+          write_report};
+}
+
+Command plot_command() {
+  return {{"plot",
+           "FILE",
+           1,
+           1,
+           {{"figure", "NAME", "which figure"},
+            {"output,o", "PICTURE", "where to: a name that ends in .svg or .png"},
+            {"baseline", "FILE", "compare with these results"},
+            {"point", "P", "design point whose trials are shown one by one (default: the best)"}}},
+          "draw one figure of the report as SVG or PNG",
+          plot_help,
+          plot};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,252 @@
+// Two results files: what they have in common, which points belong together, and what comes of it.
+#include "analysis/comparison/compare_studies.hpp"
+
+#include <cstdlib>
+#include <functional>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "analysis/comparison/matching.hpp"
+#include "core/failure.hpp"
+#include "experiments/designs/sha256.hpp"
+#include "results/storage/seal.hpp"
+#include "tests/analysis/study_files.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+constexpr std::int64_t trials = 120;
+
+/// A study of two points whose manifest says what `more` does.
+Study study_of(const std::string& more = "", std::uint64_t seed = 1, std::int64_t count = trials) {
+  Study study = plain_study(2, count, 1);
+  study.seed = seed;
+  study.manifest_text = "zerocount: 1\nname: plain\nseed: " + std::to_string(seed) + "\n" + more;
+  study.manifest_sha256 = sha256_hex(study.manifest_text);
+  study.study_sha256 = study.manifest_sha256;
+  study.input_columns = {{"friction.k1", "N m/rad", "stiffness"}};
+  return study;
+}
+
+/// A trial that arrives after `samples`, and ends in zero counts where `success` says so.
+TrialRecord trial_of(bool success, int samples) {
+  MoveOutcome move;
+  move.outcome = success ? Outcome::zero_count : Outcome::one_count;
+  move.arrived = move.stable = true;
+  move.arrival = samples;
+  move.settling_time = samples * 0.0005;
+  return {{{move}}, {}};
+}
+
+std::vector<TrialRecord> good_trials(std::int64_t count = trials) {
+  std::vector<TrialRecord> all;
+  for (std::int64_t row = 0; row < 2 * count; ++row)
+    all.push_back(trial_of(row % 10 != 0, 40 + int(row * 7 % 23)));
+  return all;
+}
+
+class ComparedStudies : public ::testing::Test {
+ protected:
+  StudyFile write(const std::string& name, const Study& study, const std::vector<TrialRecord>& records) {
+    write_study_file(folder_ / name, study, records);
+    return StudyFile(folder_ / name);
+  }
+
+  std::string fault(const StudyFile& one, const StudyFile& other) {
+    try {
+      compare_studies(one, other);
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), ExitCode::bad_data);
+      return failure.what();
+    }
+    return "no fault";
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ComparedStudies, EqualDataPass) {
+  const StudyComparison result =
+      compare_studies(write("a.h5", study_of(), good_trials()), write("b.h5", study_of(), good_trials()));
+  EXPECT_EQ(result.layer, ComparisonLayer::bits);
+  EXPECT_TRUE(result.equal_to_the_bit);
+  EXPECT_EQ(result.verdict, GateVerdict::passed);
+  EXPECT_TRUE(result.manifest_differences.empty());
+  ASSERT_EQ(result.points.size(), 2u);
+  EXPECT_EQ(result.points[0].measures[0].test, "equal to the bit");
+}
+
+TEST_F(ComparedStudies, OneBitIsFoundAndNamed) {
+  std::vector<TrialRecord> changed = good_trials();
+  changed[17].outcome.moves[0].creep = 1e-300;
+  const StudyComparison result =
+      compare_studies(write("a.h5", study_of(), good_trials()), write("b.h5", study_of(), changed));
+  EXPECT_EQ(result.first_difference, "/outcome/creep: differs from row 17 on");
+  EXPECT_FALSE(result.equal_to_the_bit);
+  // By a clean build this is a regression by itself; one with uncommitted changes may be another.
+  if (result.layer == ComparisonLayer::bits) {
+    EXPECT_EQ(result.verdict, GateVerdict::regression);
+  } else {
+    EXPECT_EQ(result.layer, ComparisonLayer::paired);
+    EXPECT_EQ(result.points[0].pairs, trials);
+  }
+}
+
+/// Makes the file one of a build of this commit, without uncommitted changes.
+void give_commit(const std::filesystem::path& path, const std::string& commit) {
+  const std::string command = fmt::format(
+      "{} -c 'import h5py, sys; h5py.File(sys.argv[1], \"r+\").attrs.modify(\"git_commit\", sys.argv[2])' {} "
+      "{}",
+      ZEROCOUNT_PYTHON, path.string(), commit);
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  seal(path);
+}
+
+TEST_F(ComparedStudies, OneBuildMustMakeOneResult) {
+  std::vector<TrialRecord> changed = good_trials();
+  changed[17].outcome.moves[0].creep = 1e-300;
+  write("a.h5", study_of(), good_trials());
+  write("b.h5", study_of(), changed);
+  give_commit(folder_ / "a.h5", "c0ffee");
+  give_commit(folder_ / "b.h5", "c0ffee");
+  const StudyComparison result = compare_files(folder_ / "a.h5", folder_ / "b.h5");
+  EXPECT_EQ(result.layer, ComparisonLayer::bits);
+  EXPECT_EQ(result.verdict, GateVerdict::regression);
+  EXPECT_EQ(result.first_difference, "/outcome/creep: differs from row 17 on");
+
+  give_commit(folder_ / "b.h5", "decade");  // another build may
+  EXPECT_EQ(compare_files(folder_ / "a.h5", folder_ / "b.h5").layer, ComparisonLayer::paired);
+}
+
+TEST_F(ComparedStudies, AnotherManifestOnTheSameDrawsIsComparedTrialByTrial) {
+  std::vector<TrialRecord> worse = good_trials();
+  for (std::int64_t row = 0; row < trials; row += 3)
+    worse[static_cast<std::size_t>(row)] = trial_of(false, 60);
+  const StudyComparison result =
+      compare_studies(write("a.h5", study_of("controller: {ki: 1.0e-5}\n"), good_trials()),
+                      write("b.h5", study_of("controller: {ki: 2.0e-5}\n"), worse));
+  EXPECT_EQ(result.layer, ComparisonLayer::paired);
+  ASSERT_EQ(result.manifest_differences.size(), 1u);
+  EXPECT_EQ(result.manifest_differences[0].key, "controller.ki");
+  EXPECT_EQ(result.manifest_differences[0].baseline, "1.0e-5");
+  EXPECT_EQ(result.manifest_differences[0].current, "2.0e-5");
+  EXPECT_EQ(result.points[0].verdict, GateVerdict::regression);
+  EXPECT_EQ(result.points[0].measures[0].verdict, GateVerdict::regression);
+  EXPECT_NE(result.points[1].verdict, GateVerdict::regression);
+  EXPECT_EQ(result.verdict, GateVerdict::regression);
+}
+
+TEST_F(ComparedStudies, AnotherSeedIsAnotherSample) {
+  const StudyComparison result = compare_studies(write("a.h5", study_of(), good_trials()),
+                                                 write("b.h5", study_of("", 2), good_trials()));
+  EXPECT_EQ(result.layer, ComparisonLayer::two_samples);
+  EXPECT_EQ(result.points[0].pairs, 0);
+  EXPECT_EQ(result.points[0].measures[0].test, "Fisher, exact");
+  EXPECT_EQ(result.verdict, GateVerdict::inconclusive);  // 120 trials do not show 2 %
+}
+
+TEST_F(ComparedStudies, MoreTrialsOfTheSameDrawsAreComparedAsFarAsTheyGo) {
+  const StudyComparison result = compare_studies(write("a.h5", study_of("x: 1\n"), good_trials()),
+                                                 write("b.h5", study_of("x: 2\n", 1, 200), good_trials(200)));
+  EXPECT_EQ(result.layer, ComparisonLayer::paired);
+  EXPECT_EQ(result.points[0].pairs, trials);
+  ASSERT_EQ(result.notes.size(), 1u);
+  EXPECT_NE(result.notes[0].find("have no partner"), std::string::npos);
+}
+
+TEST_F(ComparedStudies, PointsWithoutAPartnerAreNeverIgnored) {
+  Study other = study_of("x: 1\n");
+  other.point_labels[1] = "point 7";
+  EXPECT_EQ(fault(write("a.h5", study_of(), good_trials()), write("b.h5", other, good_trials())),
+            "the files cannot be compared: not the same design points; only " + (folder_ / "a.h5").string() +
+                " has 'point 1'; only " + (folder_ / "b.h5").string() + " has 'point 7'");
+}
+
+TEST_F(ComparedStudies, EqualLabelsOfOtherAxesAreNoPartners) {
+  Study other = study_of("x: 1\n");
+  other.axes[0].numbers[1] = 9.0;
+  const std::string what =
+      fault(write("a.h5", study_of(), good_trials()), write("b.h5", other, good_trials()));
+  EXPECT_NE(what.find("the axis controller.ki is 2e-05 there and 9 here"), std::string::npos) << what;
+}
+
+TEST_F(ComparedStudies, ACaseMayBeGivenAnotherGain) {
+  Study before = study_of();
+  before.axes.insert(before.axes.begin(),
+                     SweepAxis{"case", "", "name", SweepAxis::Kind::text, {}, before.point_labels});
+  Study after = before;
+  after.axes[1].numbers[1] = 9.0;
+  after.study_sha256 = std::string(64, '0');
+  const auto a = write("a.h5", before, good_trials());
+  EXPECT_EQ(compare_studies(a, write("b.h5", after, good_trials())).layer, ComparisonLayer::paired);
+}
+
+TEST_F(ComparedStudies, TorqueLevelsAreNotComparedWithTargets) {
+  const std::string what = fault(write("a.h5", study_of("command: {torque: {levels: [1]}}\n"), good_trials()),
+                                 write("b.h5", study_of("command: {targets: [1]}\n"), good_trials()));
+  EXPECT_NE(what.find("one has targets, the other torque levels"), std::string::npos) << what;
+}
+
+TEST_F(ComparedStudies, TrialsThatAreNotIndependentAreNotTested) {
+  const std::string what = fault(write("a.h5", study_of("design: saltelli\nx: 1\n"), good_trials()),
+                                 write("b.h5", study_of("design: saltelli\nx: 2\n"), good_trials()));
+  EXPECT_NE(what.find("a.h5: cannot be compared: the trials of `design: saltelli` are not independent"),
+            std::string::npos)
+      << what;
+}
+
+TEST_F(ComparedStudies, WhatMeasuresNothingNeverPasses) {
+  std::vector<TrialRecord> open;
+  for (std::int64_t row = 0; row < 2 * trials; ++row) {
+    TrialRecord record = trial_of(true, 10);
+    record.outcome.moves[0].outcome = Outcome::open_loop;
+    open.push_back(record);
+  }
+  const StudyComparison result =
+      compare_studies(write("a.h5", study_of("x: 1\n"), open), write("b.h5", study_of("x: 2\n"), open));
+  EXPECT_EQ(result.verdict, GateVerdict::inconclusive);
+  EXPECT_EQ(result.tests, 0);
+  EXPECT_EQ(result.points[0].verdict, GateVerdict::not_measured);
+}
+
+TEST_F(ComparedStudies, ADriftingBaselineDoesNotCarryARequirementAway) {
+  GateRules rules;
+  rules.requirements = {{"success_rate ≥ 0.995", find_requirable("success_rate"), true, 0.995}};
+  const auto a = write("a.h5", study_of(), good_trials());
+  const StudyComparison result = compare_studies(a, a, rules);
+  EXPECT_TRUE(result.equal_to_the_bit);
+  EXPECT_EQ(result.verdict, GateVerdict::regression);  // 90 % in both
+  EXPECT_EQ(result.points[0].requirements[0].verdict, GateVerdict::regression);
+}
+
+TEST(Draws, RiseInTheSameOrderThroughAnotherDistribution) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, const std::function<double(std::int64_t)>& k1) {
+    const Study study = study_of("distribution: " + name + "\n");
+    std::vector<TrialResult> results(2 * trials);
+    for (std::int64_t row = 0; row < 2 * trials; ++row) {
+      results[static_cast<std::size_t>(row)] = {row, {k1(row)}, trial_of(true, 10).outcome, {}, {}};
+    }
+    write_shard(folder / (name + ".shard"), study, 0, results);
+    const std::vector<ShardInfo> shards{{folder / (name + ".shard"), {0, 2 * trials}}};
+    merge_shards(shards, study, folder / name, {0, 2 * trials}, {});
+    return StudyFile(folder / name);
+  };
+  const auto draw = [](std::int64_t row) { return static_cast<double>((row * 37 + 11) % 101); };
+  const StudyFile before = write("a.h5", draw);
+  const StudyFile scaled = write("b.h5", [&](std::int64_t row) { return 0.95 * draw(row); });
+  const StudyFile other = write("c.h5", [&](std::int64_t row) { return draw(row + 1); });
+  const auto points = match_points(before, scaled);
+  const DrawComparison same = compare_draws(before, scaled, {}, {}, points);
+  EXPECT_TRUE(same.same);
+  EXPECT_EQ(same.changed_inputs, std::vector<std::string>{"friction.k1"});
+  const DrawComparison different = compare_draws(before, other, {}, {}, points);
+  EXPECT_FALSE(different.same);
+  EXPECT_EQ(different.reason, "trial i has other values of friction.k1");
+  EXPECT_FALSE(compare_draws(before, scaled, {}, {{"design", "sobol"}}, points).same);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

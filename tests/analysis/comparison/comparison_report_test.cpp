@@ -1,0 +1,124 @@
+// A comparison in words, as JSON, as JUnit XML and as Markdown.
+#include "analysis/comparison/comparison_report.hpp"
+
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+MeasureComparison measure(const std::string& name, GateVerdict verdict) {
+  MeasureComparison one;
+  one.measure = name;
+  one.unit.assign(1, name == "settling_time" ? 's' : '1');
+  one.verdict = verdict;
+  if (verdict == GateVerdict::not_measured) return one;
+  one.baseline = 0.9;
+  one.current = 0.85;
+  one.effect = 0.05;
+  one.bounds = {0.01, 0.09};
+  one.margin = 0.02;
+  one.p = one.adjusted_p = 1e-9;
+  return one;
+}
+
+StudyComparison sample() {
+  StudyComparison comparison;
+  comparison.baseline.path = "old.h5";
+  comparison.current.name = "gains & <more>";
+  comparison.layer = ComparisonLayer::paired;
+  comparison.layer_reason = "they are of different builds";
+  comparison.manifest_differences = {{"controller.ki", "1e-5", ""}};
+  PointComparison point;
+  point.label = "a | \"b\"";
+  point.measures = {
+      measure("success_rate", GateVerdict::regression), measure("settling_time", GateVerdict::inconclusive),
+      measure("jerk_count", GateVerdict::not_measured), measure("stable_rate", GateVerdict::passed)};
+  point.measures[1].trials_to_decide = 1234.0;
+  RequirementResult requirement;
+  requirement.text = "success_rate ≥ 0.8";
+  requirement.quantity = "success_rate";
+  requirement.unit = "1";
+  requirement.verdict = GateVerdict::passed;
+  point.requirements = {requirement};
+  comparison.points = {point};
+  comparison.verdict = GateVerdict::regression;
+  return comparison;
+}
+
+TEST(ComparisonReport, TheTableHoldsAllThatWasJudged) {
+  const std::string table = comparison_table(sample());
+  for (const char* part : {"success_rate", "90 %", "85 %", "[1 %, 9 %]", "< 1e-4", "regression",
+                           "1300 trials would decide", "not measured", "require success_rate",
+                           "controller.ki: 1e-5 → (absent)", "regression: 1 of 4 judgements failed"}) {
+    EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
+  }
+}
+
+TEST(ComparisonReport, OfManyRowsOnlyTheNoteworthyAreShown) {
+  StudyComparison comparison = sample();
+  comparison.points.assign(30, comparison.points[0]);
+  const std::string table = comparison_table(comparison);
+  EXPECT_EQ(table.find("stable_rate"), std::string::npos);
+  EXPECT_NE(table.find("(60 rows that simply passed are not shown)"), std::string::npos) << table;
+}
+
+TEST(ComparisonReport, TheJsonReadsBack) {
+  const auto json = nlohmann::json::parse(comparison_json(sample()));
+  EXPECT_EQ(json["verdict"], "regression");
+  EXPECT_EQ(json["layer"], "paired");
+  EXPECT_EQ(json["counts"]["inconclusive"], 1);
+  EXPECT_EQ(json["points"][0]["measures"][0]["effect_bounds"][1], 0.09);
+  EXPECT_EQ(json["points"][0]["measures"][1]["trials_to_decide"], 1234);
+  EXPECT_TRUE(json["points"][0]["measures"][2]["p"].is_null());
+  EXPECT_EQ(json["points"][0]["requirements"][0]["require"], "success_rate ≥ 0.8");
+}
+
+TEST(ComparisonReport, JUnitCountsFailuresErrorsAndWhatWasSkipped) {
+  const TemporaryFolder folder;
+  folder.write("r.xml", comparison_junit(sample()));
+  const std::string command = fmt::format(
+      "cd {} && {} -c 'import xml.etree.ElementTree as t; s=t.parse(\"r.xml\").getroot()[0]; "
+      "print(s.get(\"name\"), len(s), s.get(\"tests\"), s.get(\"failures\"), len(s.findall(\"*/failure\")), "
+      "s.get(\"errors\"), "
+      "len(s.findall(\"*/error\")), len(s.findall(\"*/skipped\")), s[0].get(\"name\"))' > out 2>&1",
+      folder.path().string(), ZEROCOUNT_PYTHON);
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(folder.read("out"), "gains & <more> 5 5 1 1 1 1 1 a | \"b\": success_rate\n");
+}
+
+// What no single case tells must be a case of its own, or a runner of tests would see all green.
+TEST(ComparisonReport, JUnitIsNotGreenWhereNothingWasMeasured) {
+  StudyComparison nothing;
+  nothing.verdict = GateVerdict::inconclusive;
+  EXPECT_NE(comparison_junit(nothing).find("errors=\"1\""), std::string::npos);
+  StudyComparison unequal;
+  unequal.layer = ComparisonLayer::bits;
+  unequal.first_difference = "/outcome/creep: differs from row 3 on";
+  unequal.verdict = GateVerdict::regression;
+  EXPECT_NE(comparison_junit(unequal).find("failures=\"1\""), std::string::npos);
+  EXPECT_NE(verdict_sentence(unequal).find("/outcome/creep"), std::string::npos);
+  EXPECT_EQ(verdict_sentence(nothing), "inconclusive: nothing was measured");
+}
+
+TEST(ComparisonReport, TheMarkdownEscapesItsCells) {
+  const std::string markdown = comparison_markdown(sample());
+  EXPECT_NE(markdown.find("| a \\| \"b\" | success\\_rate | 90 % | 85 % |"), std::string::npos) << markdown;
+  EXPECT_NE(markdown.find("**regression**"), std::string::npos);
+  EXPECT_EQ(markdown.find("stable"), std::string::npos);
+}
+
+TEST(ComparisonReport, NumbersOfTrialsAreRoundedUp) {
+  EXPECT_EQ(trials_text(7.0), "7");
+  EXPECT_EQ(trials_text(1201.0), "1300");
+  EXPECT_EQ(trials_text(1200.0), "1200");
+  EXPECT_EQ(trials_text(999.0), "1000");
+}
+
+}  // namespace
+}  // namespace zerocount::testing

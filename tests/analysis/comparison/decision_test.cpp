@@ -1,0 +1,149 @@
+// Verdicts from numbers that are made up.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "analysis/comparison/measure_comparison.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+MeasureComparison measure(double effect, ConfidenceInterval bounds, double p) {
+  MeasureComparison one;
+  one.measure = "success_rate";
+  one.effect = effect;
+  one.bounds = bounds;
+  one.margin = 0.02;
+  one.p = p;
+  one.improvement_p = 1.0 - p;
+  return one;
+}
+
+MeasureComparison decided(const MeasureComparison& one) {
+  PointComparison point;
+  point.baseline_trials = point.current_trials = 1000;
+  point.measures = {one};
+  decide({&point, 1}, {});
+  return point.measures.front();
+}
+
+TEST(Verdict, PassesWhereTheBoundIsWithinTheMargin) {
+  EXPECT_EQ(decided(measure(0.0, {-0.01, 0.01}, 0.5)).verdict, GateVerdict::passed);
+  EXPECT_EQ(decided(measure(0.015, {0.011, 0.019}, 1e-9)).verdict,
+            GateVerdict::passed);  // significant, but small
+  EXPECT_EQ(decided(measure(-0.5, {-0.6, -0.4}, 1.0)).verdict, GateVerdict::passed);
+}
+
+TEST(Verdict, FailsWhereTheChangeIsSignificantAndBeyondTheMargin) {
+  EXPECT_EQ(decided(measure(0.05, {0.03, 0.07}, 1e-6)).verdict, GateVerdict::regression);
+  EXPECT_EQ(decided(measure(0.05, {-0.01, 0.12}, 0.2)).verdict, GateVerdict::inconclusive);
+  EXPECT_EQ(decided(measure(0.018, {0.01, 0.026}, 1e-6)).verdict, GateVerdict::inconclusive);
+}
+
+TEST(Verdict, BothWaysAnImprovementFailsToo) {
+  MeasureComparison better = measure(-0.05, {-0.07, -0.03}, 1e-6);
+  EXPECT_EQ(decided(better).verdict, GateVerdict::passed);
+  better.both_ways = true;
+  EXPECT_EQ(decided(better).verdict, GateVerdict::regression);
+  MeasureComparison open = measure(-0.015, {-0.03, 0.0}, 0.2);
+  open.both_ways = true;
+  EXPECT_EQ(decided(open).verdict, GateVerdict::inconclusive);
+}
+
+TEST(Verdict, OneSmallValueAmongManyTestsIsNoDiscovery) {
+  PointComparison point;
+  point.measures.assign(50, measure(0.0, {-0.01, 0.01}, 0.5));
+  point.measures[7] = measure(0.03, {0.002, 0.06}, 0.01);
+  const std::int64_t tests = decide({&point, 1}, {});
+  EXPECT_EQ(tests, 50);
+  EXPECT_EQ(point.measures[7].verdict, GateVerdict::inconclusive);
+  EXPECT_EQ(decided(measure(0.03, {0.002, 0.06}, 0.01)).verdict, GateVerdict::regression);  // by itself it is
+}
+
+TEST(Verdict, WhatWasNotMeasuredCountsNeitherWay) {
+  MeasureComparison nothing;
+  EXPECT_EQ(decided(nothing).verdict, GateVerdict::not_measured);
+  const std::vector<GateVerdict> both{GateVerdict::not_measured, GateVerdict::passed};
+  EXPECT_EQ(worst_of(both), GateVerdict::passed);
+  EXPECT_EQ(worst_of({}), GateVerdict::not_measured);
+}
+
+TEST(Verdict, AtTheMarginNoNumberOfTrialsDecides) {
+  const MeasureComparison one = decided(measure(0.02, {0.01, 0.03}, 1e-3));
+  EXPECT_EQ(one.verdict, GateVerdict::inconclusive);
+  EXPECT_FALSE(one.trials_to_decide.has_value());
+  EXPECT_NE(one.note, "");
+}
+
+// Bounds 0 ± 0.04 of 1000 trials: for ± 0.02 with power, s·(1.645 + 0.842) must fall to 0.02.
+TEST(Verdict, TheNumberOfTrialsFollowsFromTheStandardError) {
+  const MeasureComparison one = decided(measure(0.0, {-0.04, 0.04}, 0.5));
+  ASSERT_TRUE(one.trials_to_decide.has_value());
+  const double error = 0.04 / 1.6448536;
+  const double times = (1.6448536 + 0.8416212) * error / 0.02;
+  EXPECT_NEAR(*one.trials_to_decide, 1000.0 * times * times, 3.0);
+}
+
+PointTrials agreeing(std::int64_t trials) {
+  PointTrials all;
+  all.trials = trials;
+  all.moves = 1;
+  const auto count = static_cast<std::size_t>(trials);
+  all.zero_count.assign(count, true);
+  all.arrived.assign(count, true);
+  all.stable.assign(count, true);
+  all.settling_time.assign(count, 0.03);
+  all.jerks.assign(count, 0.0);
+  return all;
+}
+
+GateVerdict verdict_on(const PointTrials& before, const PointTrials& after, bool paired) {
+  PointComparison point;
+  point.baseline_trials = before.trials;
+  point.current_trials = after.trials;
+  point.measures = compare_measures({}, "", before, after, paired);
+  decide({&point, 1}, {});
+  std::vector<GateVerdict> verdicts;
+  for (const MeasureComparison& one : point.measures) verdicts.push_back(one.verdict);
+  return worst_of(verdicts);
+}
+
+TEST(Evidence, AFewTrialsThatAgreeShowNothing) {
+  for (const bool paired : {false, true}) {
+    for (const std::int64_t trials : {1, 5, 19, 50}) {
+      EXPECT_EQ(verdict_on(agreeing(trials), agreeing(trials), paired), GateVerdict::inconclusive) << trials;
+    }
+    EXPECT_EQ(verdict_on(agreeing(500), agreeing(500), paired), GateVerdict::passed);
+  }
+}
+
+TEST(Evidence, TrialsThatNoLongerArriveFailByTheirArrivalAndNotByTheirTimes) {
+  PointTrials after = agreeing(500);
+  std::fill(after.arrived.begin(), after.arrived.end(), false);
+  std::fill(after.settling_time.begin(), after.settling_time.end(), std::nan(""));
+  for (const bool paired : {false, true}) {
+    const auto measures = compare_measures({}, "", agreeing(500), after, paired);
+    EXPECT_TRUE(std::isnan(measures[3].p));
+    EXPECT_EQ(verdict_on(agreeing(500), after, paired), GateVerdict::regression);
+  }
+}
+
+// A trial of several moves is one trial, whose moves that arrived in both are compared.
+TEST(Evidence, MovesAreComparedWithTheirPartners) {
+  PointTrials before = agreeing(100);
+  before.moves = 2;
+  before.settling_time.clear();
+  PointTrials after = before;
+  for (int trial = 0; trial < 100; ++trial) {
+    before.settling_time.insert(before.settling_time.end(), {0.01, 0.5});
+    after.settling_time.insert(after.settling_time.end(), {0.02, std::nan("")});
+  }
+  const auto measures = compare_measures({}, "", before, after, true);
+  EXPECT_NEAR(measures[3].effect, 0.01, 1e-15);
+  EXPECT_EQ(measures[3].baseline_n, 100);
+  EXPECT_NEAR(measures[3].baseline, 0.01, 1e-15);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,0 +1,162 @@
+// How often a comparison is wrong, and how often it sees what there is, by simulation.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "analysis/comparison/measure_comparison.hpp"
+#include "tests/analysis/comparison/synthetic_trials.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+constexpr std::int64_t trials = 150;
+constexpr std::array<SyntheticPoint, 5> points{
+    {{0.95, 0.02, 0.1}, {0.7, 0.03, 0.5}, {0.5, 0.05, 1.0}, {0.15, 0.01, 0.2}, {1.0, 0.03, 0.0}}};
+
+/// Compares studies of all points; `change` makes the points of the second study of those of the first.
+std::vector<PointComparison> compare_once(std::mt19937_64& random, bool paired, const GateRules& rules,
+                                          const std::function<SyntheticPoint(SyntheticPoint)>& change,
+                                          std::int64_t count = trials) {
+  const TrialChances before = draw_chances(random, count);
+  const TrialChances after = paired ? redraw_some(random, before, 0.2) : draw_chances(random, count);
+  std::vector<PointComparison> compared;
+  for (const SyntheticPoint& point : points) {
+    PointComparison one;
+    one.baseline_trials = one.current_trials = count;
+    one.measures = compare_measures(rules, "", synthetic_trials(point, before),
+                                    synthetic_trials(change(point), after), paired);
+    compared.push_back(std::move(one));
+  }
+  decide(compared, rules);
+  return compared;
+}
+
+bool any(const std::vector<PointComparison>& compared,
+         const std::function<bool(const MeasureComparison&)>& is) {
+  return std::any_of(compared.begin(), compared.end(), [&](const PointComparison& point) {
+    return std::any_of(point.measures.begin(), point.measures.end(), is);
+  });
+}
+
+bool failed(const MeasureComparison& measure) {
+  return measure.verdict == GateVerdict::regression;
+}
+
+SyntheticPoint unchanged(SyntheticPoint point) {
+  return point;
+}
+
+/// Rules whose margins are all 0: what is left to protect from false alarms is the control of false
+/// discoveries alone.
+GateRules without_margins(double rate) {
+  GateRules rules;
+  rules.false_discovery_rate = rate;
+  for (const GateMeasure& measure : gate_measures()) rules.margins[std::string(measure.name)] = {};
+  return rules;
+}
+
+class NullComparisons : public ::testing::TestWithParam<bool> {};
+
+TEST_P(NullComparisons, RaiseFalseAlarmsNoMoreOftenThanStated) {
+  std::mt19937_64 random(41);
+  const GateRules rules = without_margins(0.2);  // so that there is something to count
+  constexpr int comparisons = 600;
+  int alarms = 0;
+  int improvements = 0;
+  for (int i = 0; i < comparisons; ++i) {
+    const auto compared = compare_once(random, GetParam(), rules, unchanged);
+    alarms += any(compared, failed);
+    improvements += any(compared, [](const MeasureComparison& m) { return m.improved; });
+  }
+  RecordProperty("alarms", alarms);
+  EXPECT_LE(alarms, comparisons * 0.2);
+  EXPECT_LE(improvements, comparisons * 0.2);
+  EXPECT_GT(alarms, 0);  // the level is used, not only kept
+}
+
+TEST_P(NullComparisons, RaiseHardlyAnyAtTheDefaults) {
+  std::mt19937_64 random(43);
+  constexpr int comparisons = 600;
+  int alarms = 0;
+  for (int i = 0; i < comparisons; ++i)
+    alarms += any(compare_once(random, GetParam(), {}, unchanged), failed);
+  RecordProperty("alarms", alarms);
+  EXPECT_LE(alarms, comparisons * 0.05);
+}
+
+// A change of exactly the margin must not pass as none more often than the bounds allow.
+TEST_P(NullComparisons, PassAChangeOfTheMarginNoMoreOftenThanStated) {
+  std::mt19937_64 random(47);
+  constexpr int comparisons = 400;
+  GateRules rules;
+  rules.margins["success_rate"] = {0.05, 0.0, false};
+  rules.margins["settling_time"] = {0.2 * points[1].settling, 0.0, false};
+  rules.margins["jerk_count"] = {0.0, 0.0, false};
+  std::array<int, 2> passed{};  // of success and settling time, at the second point
+  for (int i = 0; i < comparisons; ++i) {
+    const auto compared = compare_once(random, GetParam(), rules, [](SyntheticPoint point) {
+      return SyntheticPoint{point.success - 0.05, 1.2 * point.settling, point.jerks};
+    });
+    passed[0] += compared[1].measures[0].verdict == GateVerdict::passed;
+    passed[1] += compared[1].measures[3].verdict == GateVerdict::passed;
+  }
+  const double allowed = 0.05 + 2.5 * std::sqrt(0.05 * 0.95 / comparisons);
+  RecordProperty("passed_success", passed[0]);
+  RecordProperty("passed_settling", passed[1]);
+  EXPECT_LE(passed[0], comparisons * allowed);
+  EXPECT_LE(passed[1], comparisons * allowed);
+}
+
+TEST_P(NullComparisons, FailWhereAllIsMuchWorse) {
+  std::mt19937_64 random(53);
+  int seen = 0;
+  for (int i = 0; i < 20; ++i) {
+    seen += any(compare_once(
+                    random, GetParam(), {},
+                    [](SyntheticPoint point) {
+                      return SyntheticPoint{point.success - 0.15, 1.5 * point.settling, point.jerks};
+                    },
+                    400),
+                failed);
+  }
+  EXPECT_EQ(seen, 20);
+}
+
+TEST_P(NullComparisons, AnImprovementIsReportedAndNoFailure) {
+  std::mt19937_64 random(59);
+  const auto compared = compare_once(
+      random, GetParam(), {},
+      [](SyntheticPoint point) {
+        return SyntheticPoint{std::min(1.0, point.success + 0.3), point.settling, 0.0};
+      },
+      1000);
+  EXPECT_FALSE(any(compared, failed));
+  EXPECT_TRUE(compared[2].measures[0].improved);
+  EXPECT_EQ(compared[2].measures[0].verdict, GateVerdict::passed);
+}
+
+// The number of trials that would decide does decide, about as often as planned.
+TEST_P(NullComparisons, TheStatedNumberOfTrialsDecides) {
+  std::mt19937_64 random(61);
+  const auto few = compare_once(random, GetParam(), {}, unchanged);
+  const MeasureComparison& open = few[1].measures[0];
+  ASSERT_EQ(open.verdict, GateVerdict::inconclusive);
+  ASSERT_TRUE(open.trials_to_decide.has_value());
+  const auto needed = static_cast<std::int64_t>(*open.trials_to_decide);
+  EXPECT_GT(needed, trials);
+  int decided = 0;
+  for (int i = 0; i < 30; ++i) {
+    decided +=
+        compare_once(random, GetParam(), {}, unchanged, needed)[1].measures[0].verdict == GateVerdict::passed;
+  }
+  EXPECT_GE(decided, 18) << needed;
+}
+
+INSTANTIATE_TEST_SUITE_P(Layers, NullComparisons, ::testing::Bool(),
+                         [](const auto& layer) { return layer.param ? "Paired" : "TwoSamples"; });
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,0 +1,109 @@
+// The YAML file of margins and requirements, and what it says of mistakes.
+#include "analysis/comparison/margins_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/failure.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+const std::vector<std::string> labels{"a", "b-with-kp"};
+
+GateRules read(const std::string& text) {
+  return parse_gate_rules(text, "gate.yaml", labels);
+}
+
+std::string fault(const std::string& text) {
+  try {
+    read(text);
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::bad_input);
+    return failure.what();
+  }
+  return "no fault";
+}
+
+TEST(MarginsFile, SaysWhatTheRulesAre) {
+  const GateRules rules = read(R"(
+confidence: 0.99
+false_discovery_rate: 0.01
+measures: [success_rate, settling_time]
+margins:
+  success_rate: 0.005
+  settling_time: {relative: 0.1, absolute: 2.0e-3, both_ways: true}
+require: success_rate ≥ 0.9
+points:
+  b-with-kp:
+    success_rate: 0.05
+    require: [success_rate >= 0.5, settling_time.p95 <= 0.2]
+)");
+  EXPECT_EQ(rules.confidence, 0.99);
+  EXPECT_EQ(rules.false_discovery_rate, 0.01);
+  const GateMeasure& success = *find_gate_measure("success_rate");
+  const GateMeasure& settling = *find_gate_measure("settling_time");
+  EXPECT_EQ(margin_of(rules, "a", success).absolute, 0.005);
+  EXPECT_EQ(margin_of(rules, "b-with-kp", success).absolute, 0.05);
+  EXPECT_EQ(margin_of(rules, "b-with-kp", settling).relative, 0.1);
+  EXPECT_TRUE(margin_of(rules, "a", settling).both_ways);
+  EXPECT_TRUE(is_judged(rules, settling));
+  EXPECT_FALSE(is_judged(rules, *find_gate_measure("jerk_count")));
+  ASSERT_EQ(requirements_of(rules, "a").size(), 1u);
+  ASSERT_EQ(requirements_of(rules, "b-with-kp").size(), 3u);
+  EXPECT_EQ(requirements_of(rules, "b-with-kp")[2].limit, 0.2);
+  EXPECT_FALSE(requirements_of(rules, "b-with-kp")[2].at_least);
+}
+
+TEST(MarginsFile, LeavesTheDefaultsToWhatItDoesNotName) {
+  const GateRules rules = read("margins: {success_rate: 0.1}\n");
+  const GateMeasure& stable = *find_gate_measure("stable_rate");
+  EXPECT_EQ(margin_of(rules, "a", stable).absolute, stable.margin.absolute);
+  EXPECT_EQ(rules.confidence, GateRules{}.confidence);
+  EXPECT_TRUE(rules.requirements.empty());
+}
+
+TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
+  EXPECT_EQ(fault("margin: {}\n"),
+            "gate.yaml:1:1: margin: unknown key, nearest known: margins; expected one of confidence, "
+            "false_discovery_rate, measures, margins, require, points");
+  EXPECT_EQ(fault("margins: {sucess_rate: 0.1}\n"),
+            "gate.yaml:1:11: margins.sucess_rate: unknown key, nearest known: success_rate; expected one of "
+            "success_rate, arrival_rate, stable_rate, settling_time, jerk_count");
+  EXPECT_EQ(
+      fault("margins: {success_rate: {}}\n"),
+      "gate.yaml:1:25: margins.success_rate: the margin has no size; expected absolute or relative, or both");
+  EXPECT_EQ(fault("points: {c: {success_rate: 0.1}}\n"),
+            "gate.yaml:1:10: points.c: no design point of the files has this label; expected one of theirs, "
+            "such as "
+            "'a'");
+  EXPECT_EQ(fault("require: success_rate = 1\n"),
+            "gate.yaml:1:10: require: 'success_rate = 1' cannot be understood; expected a text such as "
+            "'success_rate "
+            "≥ 0.995' (or >=, ≤, <=)");
+  EXPECT_EQ(fault("require: [success_rate ≥ 99.5]\n"),
+            "gate.yaml:1:11: require.0: 99.5 is no share; expected a number from 0 to 1");
+  EXPECT_EQ(fault("require: settling_time.p95 ≥ 0.1\n"),
+            "gate.yaml:1:10: require: a least settling_time.p95 is asked for; expected ≤ and a limit");
+  EXPECT_EQ(
+      fault("measures: []\n"),
+      "gate.yaml:1:11: measures: the list is empty; expected a list of some of success_rate, arrival_rate, "
+      "stable_rate, settling_time, jerk_count");
+  const std::string both = fault("margins: {success_rate: -1, jerk_count: no}\nconfidence: 2\n");
+  EXPECT_NE(both.find("gate.yaml:1:25: margins.success_rate: "), std::string::npos) << both;
+  EXPECT_NE(both.find("gate.yaml:1:41: margins.jerk_count: 'no' is a truth value; "), std::string::npos)
+      << both;
+  EXPECT_NE(both.find("gate.yaml:2:13: confidence: "), std::string::npos) << both;
+  EXPECT_NE(fault("require: speed ≥ 1\n").find("'speed' cannot be required; expected one of success_rate"),
+            std::string::npos);
+}
+
+TEST(MarginsFile, MustBeThereAndHoldSomething) {
+  EXPECT_NE(fault("").find("the file is empty"), std::string::npos);
+  const TemporaryFolder folder;
+  EXPECT_THROW(read_gate_rules(folder / "none.yaml", labels), Failure);
+  EXPECT_EQ(read_gate_rules(folder.write("m.yaml", "confidence: 0.9\n"), labels).confidence, 0.9);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

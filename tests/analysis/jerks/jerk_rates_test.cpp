@@ -1,0 +1,145 @@
+#include "analysis/jerks/jerk_rates.hpp"
+
+#include <cmath>
+#include <map>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+/// A move in which each sample at risk begins a jerk with the chance rate(s since arrival)·T.
+template <typename Rate>
+ObservedMove random_move(std::int64_t trial, std::int64_t end, std::mt19937_64& random, const Rate& rate) {
+  std::uniform_real_distribution<double> uniform;
+  ObservedMove move{.trial = trial,
+                    .arrived = true,
+                    .lost = false,
+                    .sample_time = 1e-3,
+                    .dwell = 50,
+                    .end = end,
+                    .jerks = {}};
+  for (std::int64_t k = move.dwell; k < end; ++k) {
+    if (uniform(random) >= rate(1e-3 * static_cast<double>(k)) * move.sample_time) continue;
+    const std::int64_t length = std::min<std::int64_t>(1 + static_cast<std::int64_t>(random() % 5), end - k);
+    move.jerks.push_back({k, length, 1, true});
+    k += length;  // the sample after the jerk has no error, and could not begin one
+  }
+  return move;
+}
+
+/// Whether each sample could begin a jerk, sample by sample.
+std::vector<bool> risk_by_sample(const ObservedMove& move) {
+  std::vector<bool> error(static_cast<std::size_t>(move.end) + 1, false), at_risk(error.size(), false);
+  for (const SampledJerk& jerk : move.jerks) {
+    for (std::int64_t k = jerk.onset; k < jerk.onset + jerk.length; ++k)
+      error[static_cast<std::size_t>(k)] = true;
+  }
+  for (std::int64_t k = move.dwell; k < move.end; ++k)
+    at_risk[static_cast<std::size_t>(k)] = !error[static_cast<std::size_t>(k) - 1];
+  return at_risk;
+}
+
+TEST(JerkRates, CountEveryJerkAndEverySampleAtRiskInItsRange) {
+  std::mt19937_64 random(111);
+  JerkRates rates;
+  std::map<std::int64_t, std::pair<double, std::int64_t>> expected;  // exposure (s) and jerks by range
+  double exposure = 0.0;
+  std::int64_t jerks = 0;
+  for (std::int64_t trial = 0; trial < 40; ++trial) {
+    const ObservedMove move = random_move(trial, 51 + static_cast<std::int64_t>(random() % 3000), random,
+                                          [](double) { return 9.0; });
+    rates.add(move);
+    const std::vector<bool> at_risk = risk_by_sample(move);
+    for (std::size_t k = 0; k < at_risk.size(); ++k) {
+      if (!at_risk[k]) continue;
+      // A tenth of a sample later, so that rounding at an edge does not matter: 0.1 s and 1 s are samples.
+      const auto range = static_cast<std::int64_t>(
+          std::floor(5.0 * std::log10(move.sample_time * (static_cast<double>(k) + 1e-6))));
+      expected[range].first += move.sample_time;
+      exposure += move.sample_time;
+    }
+    for (const SampledJerk& jerk : move.jerks) {
+      const auto range = static_cast<std::int64_t>(
+          std::floor(5.0 * std::log10(move.sample_time * (static_cast<double>(jerk.onset) + 1e-6))));
+      ++expected[range].second;
+      ++jerks;
+    }
+  }
+  const std::vector<JerkRate> found = rates.rates(0.95);
+  ASSERT_EQ(found.size(), expected.size());
+  auto wanted = expected.begin();
+  for (const JerkRate& rate : found) {
+    EXPECT_NEAR(rate.exposure, wanted->second.first, 1e-9);
+    EXPECT_EQ(rate.jerks, wanted->second.second);
+    EXPECT_NEAR(rate.rate, static_cast<double>(rate.jerks) / rate.exposure, 1e-12);
+    exposure -= rate.exposure;
+    jerks -= rate.jerks;
+    ++wanted;
+  }
+  EXPECT_NEAR(exposure, 0.0, 1e-9);
+  EXPECT_EQ(jerks, 0);
+  EXPECT_EQ(found.front().from, 0.05);
+  EXPECT_EQ(found.front().moves, 40);
+  for (std::size_t i = 1; i < found.size(); ++i) EXPECT_EQ(found[i].from, found[i - 1].to);
+}
+
+/// How often the bounds of the range from 0.25 s to 0.4 s enclose the true rate: those after Garwood and
+/// those to report.
+struct RateCoverage {
+  double poisson{0.0}, reported{0.0};
+};
+
+template <typename TrialRate>
+RateCoverage coverage(double truth, const TrialRate& trial_rate) {
+  std::mt19937_64 random(112);
+  constexpr int rounds = 600;
+  RateCoverage covered;
+  for (int round = 0; round < rounds; ++round) {
+    JerkRates rates;
+    for (std::int64_t trial = 0; trial < 40; ++trial) {
+      const double own = trial_rate(random);
+      rates.add(random_move(trial, 400, random, [own](double) { return own; }));
+    }
+    const std::vector<JerkRate> all = rates.rates(0.95);
+    const JerkRate& rate = all.at(all.size() - 2);  // the last one, to 0.4 s, has two samples
+    covered.poisson += rate.poisson.low <= truth && truth <= rate.poisson.high;
+    covered.reported += rate.bounds.low <= truth && truth <= rate.bounds.high;
+  }
+  return {covered.poisson / rounds, covered.reported / rounds};
+}
+
+TEST(JerkRates, BoundsCoverTheRateOfTrialsThatAreAlike) {
+  const RateCoverage covered = coverage(5.0, [](auto&) { return 5.0; });
+  EXPECT_GE(covered.poisson, 0.95 - 0.027);  // three standard errors
+  EXPECT_GE(covered.reported, covered.poisson);
+}
+
+TEST(JerkRates, BoundsCoverTheMeanRateOfTrialsThatDiffer) {
+  // Half the trials jerk, the others never do, as with creep that is strong or weak.
+  const RateCoverage covered = coverage(10.0, [](auto& random) { return random() % 2 == 0 ? 20.0 : 0.0; });
+  EXPECT_LT(covered.poisson, 0.9);
+  EXPECT_GE(covered.reported, 0.925);
+}
+
+TEST(JerkRates, WithoutAJerkThereIsAnUpperBound) {
+  JerkRates rates;
+  ObservedMove still{
+      .trial = 0, .arrived = true, .lost = false, .sample_time = 1e-3, .dwell = 50, .end = 1000, .jerks = {}};
+  for (; still.trial < 10; ++still.trial) rates.add(still);
+  for (const JerkRate& rate : rates.rates(0.95)) {
+    EXPECT_EQ(rate.rate, 0.0);
+    EXPECT_EQ(rate.bounds.low, 0.0);
+    EXPECT_NEAR(rate.bounds.high, 3.6888794541139354 / rate.exposure, 1e-9 * rate.bounds.high);
+    EXPECT_EQ(rate.dispersion, 1.0);
+  }
+  EXPECT_TRUE(JerkRates().rates(0.95).empty());
+  EXPECT_THROW(rates.rates(1.0), Failure);
+}
+
+}  // namespace
+}  // namespace zerocount

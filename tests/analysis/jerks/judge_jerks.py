@@ -1,0 +1,181 @@
+"""What `zerocount jerks` says of a study, found again from its file, sample by sample, with NumPy and SciPy.
+
+usage: judge_jerks.py ZEROCOUNT
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy
+from scipy import stats
+
+manifest = """\
+zerocount: 1
+name: jerking
+seed: 11
+trials: 80
+friction:
+  k1: {uniform: [90, 130]}
+  k2: {uniform: [600, 900]}
+  alpha: {log_uniform: [0.25, 2.0]}
+  lambda: {log_uniform: [3, 20]}
+command: {targets: [{integers: [5, 30]}, {integers: [-30, 30]}], hold: 1.5}
+initial: {encoder_phase: {uniform: [0, 1]}}
+sweep:
+  cases: {low: {controller.ki: 3.85e-5}, high: {controller.ki: 9.45e-5, controller.kp: 6.21e-4}}
+"""
+
+confidence = 0.9
+tail = 0.5 * (1 - confidence)
+rate, samples, dwell = 2000, 3000, 100
+
+
+def close(found, expected, place):
+    if expected is None or numpy.isnan(expected):
+        assert found is None, f"{place}: {found}; expected none"
+    else:
+        assert abs(found - expected) <= 1e-9 * max(1.0, abs(expected)), f"{place}: {found}; expected {expected}"
+
+
+def garwood(k, exposure):
+    low = stats.gamma.ppf(tail, k) if k > 0 else 0.0
+    return low / exposure, stats.gamma.isf(tail, k + 1) / exposure
+
+
+def independent(hits, events):
+    """Events that clustered ones are worth; arrays by trial."""
+    hits, events = hits[events > 0].astype(float), events[events > 0].astype(float)
+    n, m = events.sum(), len(events)
+    p = hits.sum() / n
+    if p in (0.0, 1.0) or m == 1:
+        return n**2 / (events**2).sum()
+    deff = m / (m - 1) * ((hits - p * events) ** 2).sum() / n**2 / (p * (1 - p) / n)
+    return max(1.0, n / max(1.0, deff))
+
+
+def judge_share(found, hits, events, place):
+    n = independent(hits, events)
+    p = hits.sum() / events.sum()
+    close(found["share"], p, place)
+    close(found["independent"], n, place)
+    close(found["share_low"], stats.beta.ppf(tail, p * n, n - p * n + 1) if p > 0 else 0.0, place)
+    close(found["share_high"], stats.beta.isf(tail, p * n + 1, n - p * n) if p < 1 else 1.0, place)
+
+
+def judge_point(found, file, point):
+    rows = numpy.flatnonzero(file["trial/point"][:] == point)
+    arrival = file["outcome/arrival"][rows]
+    arrived = file["outcome/arrived"][rows].astype(bool) & (file["outcome/outcome"][rows] != 3)
+    holding = numpy.sign(file["outcome/holding_torque"][rows])
+    jerk = {name: file["jerk/" + name][:] for name in ("trial", "move", "onset", "duration", "magnitude", "direction")}
+    trials = len(rows)
+    edges = 10.0 ** (numpy.arange(-30, 20) / 5.0)
+    exposure, onsets = numpy.zeros((trials, len(edges))), numpy.zeros((trials, len(edges)))
+    intervals, owners = [], []
+    agreeing, one_count, jerks = numpy.zeros(trials), numpy.zeros(trials), numpy.zeros(trials)
+    excess = variance = 0.0
+    scores = []
+    for i, row in enumerate(rows):
+        for move in range(arrival.shape[1]):
+            if not arrived[i, move]:
+                continue
+            own = (jerk["trial"] == row) & (jerk["move"] == move)
+            onset = numpy.rint(jerk["onset"][own] * rate).astype(int)
+            length = numpy.rint(jerk["duration"][own] * rate).astype(int)
+            error = numpy.zeros(samples, bool)
+            for first, count in zip(onset, length):
+                error[first:first + count] = True
+            k = numpy.arange(arrival[i, move] + dwell, samples)
+            k = k[~error[k - 1]]
+            since = (k - arrival[i, move]) / rate
+            place = numpy.searchsorted(edges, since * (1 + 1e-12), side="right") - 1
+            numpy.add.at(exposure[i], place, 1.0 / rate)
+            begins = error[k]
+            numpy.add.at(onsets[i], place[begins], 1.0)
+            assert begins.sum() == len(onset)
+            jerks[i] += len(onset)
+            agreeing[i] += (jerk["direction"][own] == holding[i, move]).sum()
+            one_count[i] += (jerk["magnitude"][own] == 1).sum()
+            intervals += list(numpy.diff(onset) / rate)
+            owners += [i] * max(0, len(onset) - 1)
+            if len(onset) > 1:
+                numbers = numpy.flatnonzero(begins)
+                later = numbers[1:] - numbers[0]
+                size = len(k) - numbers[0] - 1
+                # A rank sum: the numbers of the later jerks among all later instants at which one could begin.
+                expected = len(later) * (size + 1) / 2
+                spread = len(later) * (size - len(later)) * (size + 1) / 12
+                excess += later.sum() - expected
+                variance += spread
+                scores.append((later.sum() - expected) / numpy.sqrt(spread))
+    assert found["jerks"] == jerks.sum() and found["arrived"] == arrived.sum()
+    assert found["trials_with_jerks"] == (jerks > 0).sum()
+
+    used = numpy.flatnonzero(exposure.sum(axis=0) > 0)
+    assert len(used) == len(found["rates"])
+    for j, told in zip(used, found["rates"]):
+        place = f"point {point}, rate from {told['from']}"
+        total, k = exposure[:, j].sum(), onsets[:, j].sum()
+        m = (exposure[:, j] > 0).sum()
+        close(told["exposure"], total, place)
+        assert told["jerks"] == k, place
+        close(told["rate"], k / total, place)
+        dispersion = 1.0
+        if k > 0 and m > 1:
+            dispersion = m / (m - 1) * ((onsets[:, j] - k / total * exposure[:, j]) ** 2).sum() / k
+        close(told["dispersion"], dispersion, place)
+        for name, scale in (("poisson", 1.0), ("rate", max(1.0, dispersion))):
+            low, high = garwood(k / scale, total / scale)
+            close(told[name + "_low"], low, place)
+            close(told[name + "_high"], high, place)
+
+    intervals, owners = numpy.round(intervals, 12), numpy.array(owners)
+    assert found["interval"]["n"] == len(intervals)
+    close(found["interval"]["mean"], intervals.mean(), "mean interval")
+    ordered = numpy.sort(intervals)
+    per_trial = numpy.bincount(owners, minlength=trials)
+    for name, p in (("p05", 0.05), ("p50", 0.5), ("p95", 0.95)):
+        value = numpy.quantile(intervals, p, method="inverted_cdf")
+        close(found["interval"][name], value, name)
+        n = int(independent(numpy.bincount(owners, intervals <= value, minlength=trials), per_trial))
+        low = int(stats.binom.ppf(tail, n, p))
+        high = int(stats.binom.ppf(1 - tail, n, p)) + 1
+        low_rank, high_rank = int(numpy.floor(low * len(ordered) / n)), int(numpy.ceil(high * len(ordered) / n))
+        close(found["interval"][name + "_low"], ordered[low_rank - 1] if low_rank >= 1 else numpy.nan, name)
+        close(found["interval"][name + "_high"], ordered[high_rank - 1] if high <= n else numpy.nan, name)
+
+    slowing = found["slowing"]
+    assert slowing["moves"] == len(scores)
+    close(slowing["score"], excess / numpy.sqrt(variance), "score")
+    close(slowing["stouffer"], numpy.sum(scores) / numpy.sqrt(len(scores)), "stouffer")
+    close(slowing["p_value"], stats.norm.cdf(excess / numpy.sqrt(variance)), "p_value")
+    judge_share(found["agreement"], agreeing, jerks, "agreement")
+    judge_share(found["magnitude"]["one_count"], one_count, jerks, "one count")
+    return int(jerks.sum())
+
+
+def main():
+    zerocount = os.path.abspath(sys.argv[1])
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        pathlib.Path("study.yaml").write_text(manifest, encoding="utf-8")
+        subprocess.run([zerocount, "run", "study.yaml", "-o", "study.h5"], check=True, stderr=subprocess.DEVNULL)
+        words = [zerocount, "jerks", "study.h5", "--format", "json", "--confidence", str(confidence), "--creep-trials", "5"]
+        report = json.loads(subprocess.check_output(words, text=True))
+        assert report["name"] == "jerking" and report["confidence"] == confidence
+        with h5py.File("study.h5") as file:
+            counts = [judge_point(found, file, found["point"]) for found in report["points"]]
+        os.chdir("/")
+    assert len(counts) == 2 and min(counts) > 30, counts
+    for found in report["points"]:
+        creep = found["creep"]
+        assert creep["foretold"] == creep["ended"] and creep["lasting_foretold"] == creep["lasting"], creep
+    print(f"{counts} jerks agree")
+
+
+main()

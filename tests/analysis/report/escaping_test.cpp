@@ -1,0 +1,48 @@
+#include "analysis/report/escaping.hpp"
+
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace zerocount {
+namespace {
+
+const std::string hostile = "</script><script>alert('x')</script><!-- & \"quoted\" \xff\x01";
+
+TEST(Escaping, TextHoldsNoMarkup) {
+  const std::string text = html_text(hostile);
+  EXPECT_EQ(text.find_first_of("<>\"'"), std::string::npos) << text;
+  EXPECT_EQ(html_text("a < b & c"), "a &lt; b &amp; c");
+  EXPECT_EQ(html_text("µrad\n\tnext"), "µrad\n\tnext");
+}
+
+TEST(Escaping, WhatIsNotTextIsReplaced) {
+  EXPECT_EQ(html_text("a\xff"), "a\xEF\xBF\xBD");
+  EXPECT_EQ(html_text(std::string("a\0b", 3)),
+            "a\xEF\xBF\xBD"
+            "b");
+}
+
+TEST(Escaping, NoLineBreaksBeforeAPercentSign) {
+  EXPECT_EQ(html_prose("95 % of < 3"), "95&nbsp;% of &lt; 3");
+}
+
+TEST(Escaping, JsonCannotEndItsScriptAndReadsBack) {
+  const std::string valid = hostile.substr(0, hostile.size() - 2);
+  const nlohmann::ordered_json json{{"text", valid}, {"nan", std::nan("")}};
+  const std::string text = script_json(json);
+  EXPECT_EQ(text.find('<'), std::string::npos);
+  const auto read = nlohmann::ordered_json::parse(text);
+  EXPECT_EQ(read["text"], valid);
+  EXPECT_TRUE(read["nan"].is_null());
+  EXPECT_NO_THROW(script_json({{"text", hostile}}));
+}
+
+TEST(Escaping, ScriptsDoNotEndThemselves) {
+  const std::string source = script_source("a = '</script>' + '<!--';");
+  EXPECT_EQ(source, "a = '<\\/script>' + '<\\!--';");
+}
+
+}  // namespace
+}  // namespace zerocount

@@ -1,0 +1,151 @@
+// Writes reports and opens them in a browser without a window: nothing in the console, no request to anywhere, marks in every
+// figure, a value at the pointer, a table behind every figure, nothing wider than the screen, by day, by night, on a phone and on
+// paper. Leaves screenshots.
+//
+// usage: node open_in_browser.mjs ZEROCOUNT ROOT CHROMIUM SCREENSHOTS
+import {execFileSync} from "node:child_process";
+import {mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
+import {createRequire} from "node:module";
+import {tmpdir} from "node:os";
+import {join} from "node:path";
+import {pathToFileURL} from "node:url";
+
+const [zerocount, root, chromiumPath, screenshots] = process.argv.slice(2);
+const {chromium} = createRequire(join(root, "analysis/report/package.json"))("playwright-core");
+const folder = mkdtempSync(join(tmpdir(), "zerocount-report-"));
+let failures = 0;
+let checks = 0;
+
+function expect(condition, what) {
+  ++checks;
+  if (condition) return;
+  ++failures;
+  console.error(`FAILED: ${what}`);
+}
+
+const hostile = "</script><script>window.broken = true</script><!-- <img src=x onerror=\"window.broken = true\">";
+const rich = `zerocount: 1
+name: ${JSON.stringify("rich " + hostile)}
+description: ${JSON.stringify(hostile)}
+seed: 7
+trials: 100
+friction:
+  k1: {profile: {mean: 110, cv: 0.15, correlation_length: 0.3, marginal: lognormal}}
+  k2: {uniform: [600, 900]}
+  lambda: 0.5
+command: {targets: [{integers: [1, 10]}], hold: 0.15}
+initial: {encoder_phase: {uniform: [0, 1]}, position: {uniform: [0, 6.283185307179586]}}
+verdict: {dwell: 0.02, window: 0.02}
+sweep: {grid: {controller.kp: [0, 2.0e-4, 4.0e-4], controller.ki: {logspace: [2.0e-5, 3.0e-4, 6]}}}
+`;
+
+function report(name, manifest, more = []) {
+  writeFileSync(join(folder, `${name}.yaml`), manifest);
+  execFileSync(zerocount, ["run", `${name}.yaml`, "-o", `${name}.h5`], {cwd: folder, stdio: "pipe"});
+  execFileSync(zerocount, ["report", `${name}.h5`, "-o", `${name}.html`, ...more], {cwd: folder, stdio: "pipe"});
+  return join(folder, `${name}.html`);
+}
+
+const shipped = (name, trials) =>
+  readFileSync(join(root, `experiments/manifests/${name}.yaml`), "utf8").replace(/^trials: \d+/m, `trials: ${trials}`);
+
+async function open(browser, path, {scheme = "light", width = 1000, phone = false} = {}) {
+  const context = await browser.newContext({colorScheme: scheme, viewport: {width, height: 900}, isMobile: phone, hasTouch: phone});
+  const page = await context.newPage();
+  const said = [];
+  const requests = [];
+  page.on("console", message => said.push(message.text()));
+  page.on("pageerror", error => said.push(error.message));
+  page.on("request", request => requests.push(request.url()));
+  await page.goto(pathToFileURL(path).href);
+  await page.waitForFunction(() => document.documentElement.dataset.drawn === "yes", null, {timeout: 30000});
+  return {context, page, said, requests, name: `${path.split("/").pop()} ${scheme} ${width}`};
+}
+
+/// What must hold of every page, however it is opened.
+async function checkPage({page, said, requests, name}) {
+  expect(said.length === 0, `${name}: the console is empty: ${said.join("; ")}`);
+  expect(requests.length === 1, `${name}: only the page itself is asked for: ${requests.join(" ")}`);
+  expect(!(await page.evaluate(() => window.broken)), `${name}: nothing of the manifest is run`);
+  const [content, screen] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+  expect(content <= screen, `${name}: ${content} pixels fit into ${screen}`);
+  const figures = await page.evaluate(() => [...document.querySelectorAll("figure")].map(figure => {
+    const plot = figure.querySelector(".plot").getBoundingClientRect();
+    const svg = figure.querySelector(".plot svg");
+    const marks = [...figure.querySelectorAll(".plot svg .role-mark path, .plot svg .role-mark rect, .plot svg .role-mark line")];
+    const drawn = marks.filter(mark => mark.getBoundingClientRect().width + mark.getBoundingClientRect().height > 1);
+    return {name: figure.id, marks: drawn.length, fits: !!svg && svg.getBoundingClientRect().right <= plot.right + 1,
+            titles: figure.querySelectorAll(".plot svg .role-axis-title").length, caption: figure.querySelector("figcaption").textContent.length};
+  }));
+  expect(figures.length > 0, `${name}: there are figures`);
+  for (const figure of figures) {
+    expect(figure.marks > 0, `${name}: ${figure.name} has marks`);
+    expect(figure.fits, `${name}: ${figure.name} fits its place`);
+    expect(figure.titles > 0, `${name}: ${figure.name} names its axes`);
+    expect(figure.caption > 60, `${name}: ${figure.name} has a caption`);
+  }
+  return figures.length;
+}
+
+async function checkTables({page, name}) {
+  for (const details of await page.locator("figure details").all()) {
+    await details.locator("summary").click();
+    await details.locator("table").waitFor({timeout: 5000}).catch(() => {});
+    const rows = await details.locator("tbody tr").count();
+    const heads = await details.locator("th").count();
+    expect(rows > 0 && heads > 1, `${name}: a table of ${rows} rows and ${heads} columns`);
+    await details.locator("summary").click();
+  }
+}
+
+/// The pointer goes over the marks of a figure until one tells its values.
+async function checkHover({page, name}, figure, words) {
+  const plot = page.locator(`#figure-${figure} .plot`);
+  await plot.scrollIntoViewIfNeeded();
+  const marks = await plot.locator(".mark-symbol path, .mark-rect path").all();
+  for (const mark of marks.slice(0, 10)) {
+    await mark.hover({force: true}).catch(() => {});
+    const tooltip = page.locator("#vg-tooltip-element.visible");
+    if (await tooltip.waitFor({timeout: 1000}).then(() => true, () => false)) {
+      const text = await tooltip.textContent();
+      expect(text.includes(words) && /\d/.test(text), `${name}: the pointer over ${figure} shows ${words} and a value: ${text}`);
+      return;
+    }
+  }
+  expect(false, `${name}: the pointer over ${figure} shows a value`);
+}
+
+const options = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+  "--disable-component-update", "--disable-sync"];
+let browser;
+try {
+  mkdirSync(screenshots, {recursive: true});
+  const main = report("rich", rich);
+  const others = [["paper-fig4", 5], ["paper-fig6", 5], ["paper-fig7", 20], ["paper-fig8", 20]].map(
+    ([name, trials]) => [name, report(name, shipped(name, trials))]);
+  browser = await chromium.launch({executablePath: chromiumPath, args: options});
+  for (const [scheme, width] of [["light", 1000], ["dark", 1000], ["light", 390]]) {
+    const opened = await open(browser, main, {scheme, width, phone: width < 500});
+    const figures = await checkPage(opened);
+    expect(figures >= 10, `${opened.name}: ${figures} figures`);
+    await opened.page.screenshot({path: join(screenshots, `${scheme}-${width}.png`), fullPage: true});
+    if (scheme === "light" && width === 1000) {
+      await checkTables(opened);
+      await checkHover(opened, "stability-map", "success rate");
+      await checkHover(opened, "settling-time", "settled within");
+      await opened.page.pdf({path: join(screenshots, "printed.pdf"), format: "A4", printBackground: true});
+    }
+    await opened.context.close();
+  }
+  for (const [name, path] of others) {
+    const opened = await open(browser, path);
+    await checkPage(opened);
+    expect(await opened.page.locator(`#figure-${name}`).count() === 1, `${name}: the figure of the paper is there`);
+    await opened.context.close();
+  }
+} finally {
+  await browser?.close();
+  rmSync(folder, {recursive: true, force: true});
+}
+console.log(`${checks} checks, ${failures} failed; screenshots in ${screenshots}`);
+process.exit(failures > 0 || checks === 0 ? 1 : 0);

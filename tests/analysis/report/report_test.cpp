@@ -1,0 +1,311 @@
+#include "analysis/report/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "analysis/comparison/compare_studies.hpp"
+#include "analysis/report/report_figures.hpp"
+#include "analysis/study_statistics.hpp"
+#include "tests/analysis/report/run_studies.hpp"
+#include "tests/analysis/study_files.hpp"
+#include "tests/results/failures.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount {
+namespace {
+
+using testing::TemporaryFolder;
+
+std::size_t times_in(const std::string& text, const std::string& what) {
+  std::size_t times = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++times;
+  return times;
+}
+
+/// The column of a figure's data, as numbers.
+std::vector<double> column(const FigureData& data, const std::string& field) {
+  std::size_t place = 0;
+  while (data.columns.at(place).field != field) ++place;
+  std::vector<double> values;
+  for (const auto& row : data.rows)
+    values.push_back(row[place].is_null() ? std::nan("") : row[place].get<double>());
+  return values;
+}
+
+class Report : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new TemporaryFolder;
+    testing::run_study_file(*folder / "rich.h5", testing::rich_manifest(40));
+  }
+  static void TearDownTestSuite() { delete folder; }
+
+  static TemporaryFolder* folder;
+  StudyFile file{*folder / "rich.h5"};
+};
+
+TemporaryFolder* Report::folder = nullptr;
+
+TEST_F(Report, HasAFigureForAllThatTheStudyHas) {
+  const std::vector<std::string> names = figure_names(study_report(file).page);
+  for (const char* name : {"success", "stability-map", "settling-time", "jerk-raster", "rotor-friction.k1",
+                           "trace-median", "trace-worst"}) {
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+  }
+  for (const std::string& name : names) EXPECT_EQ(name.find("paper"), std::string::npos) << name;
+}
+
+TEST_F(Report, EveryFigureHasACaptionAndUnitsAndATable) {
+  const StudyReport report = study_report(file);
+  for (const std::string& name : figure_names(report.page)) {
+    const Figure& figure = find_figure(report.page, name);
+    EXPECT_GT(figure.caption.size(), 60U) << name;
+    ASSERT_FALSE(figure.data.empty()) << name;
+    EXPECT_FALSE(figure.data.front().rows.empty()) << name;
+    bool shown = false;
+    for (const FigureColumn& column : figure.data.front().columns) shown = shown || !column.title.empty();
+    EXPECT_TRUE(shown) << name;
+    for (const FigureData& data : figure.data) {
+      for (const auto& row : data.rows) ASSERT_EQ(row.size(), data.columns.size()) << name;
+    }
+  }
+}
+
+TEST_F(Report, TheFigureOfSuccessHasTheNumbersOfTheSummary) {
+  const StudySummary summary = summarise(file);
+  const FigureData data = find_figure(study_report(file).page, "success").data.front();
+  ASSERT_EQ(data.rows.size(), summary.points.size());
+  for (const auto& row : data.rows) {
+    const auto label = row[0].get<std::string>();
+    const auto at = static_cast<std::size_t>(std::find(summary.labels.begin(), summary.labels.end(), label) -
+                                             summary.labels.begin());
+    EXPECT_NEAR(row[1].get<double>(), summary.points[at].success_rate.value, 1e-6);
+    EXPECT_NEAR(row[2].get<double>(), summary.points[at].success_rate.clopper_pearson.low, 1e-6);
+    EXPECT_NEAR(row[3].get<double>(), summary.points[at].success_rate.clopper_pearson.high, 1e-6);
+  }
+}
+
+/// The distribution functions are made again from the settling times, the band from its formula.
+TEST_F(Report, TheSettlingCurvesAreDistributionFunctionsInTheirBands) {
+  const FigureData data = find_figure(study_report(file).page, "settling-time").data.front();
+  const double half_width = std::sqrt(std::log(2.0 / 0.05) / (2.0 * 40.0));
+  std::map<std::string, std::vector<double>> times;
+  const std::vector<std::string> labels = file.point_labels();
+  const std::vector<double> all = file.measure("settling_time", file.rows());
+  for (std::size_t row = 0; row < all.size(); ++row) times[labels[row / 40]].push_back(all[row]);
+  const std::vector<double> at = column(data, "time");
+  const std::vector<double> share = column(data, "share");
+  const std::vector<double> low = column(data, "low");
+  const std::vector<double> high = column(data, "high");
+  for (std::size_t i = 0; i < data.rows.size(); ++i) {
+    const std::vector<double>& settled = times.at(data.rows[i][0].get<std::string>());
+    const auto arrived =
+        std::count_if(settled.begin(), settled.end(), [&](double t) { return t <= at[i] + 1e-9; });
+    if (at[i] > 0.0) {
+      EXPECT_NEAR(share[i], static_cast<double>(arrived) / 40.0, 1e-6);
+    }
+    EXPECT_NEAR(low[i], std::max(0.0, share[i] - half_width), 2e-6);
+    EXPECT_NEAR(high[i], std::min(1.0, share[i] + half_width), 2e-6);
+  }
+}
+
+TEST_F(Report, TheSampleTrialsAreWhatTheySay) {
+  const ReportedStudy reported = reported_study(file);
+  const std::vector<SampleTrial> trials = sample_trials(reported);
+  const std::vector<MoveOutcome> outcomes = file.outcomes(file.rows());
+  const auto of = [&](const SampleTrial& trial) {
+    return outcomes[static_cast<std::size_t>(trial.point * 40 + trial.index)];
+  };
+  ASSERT_FALSE(trials.empty());
+  const double median =
+      reported.summary.points[static_cast<std::size_t>(reported.focus)].settling_time.median.value;
+  for (const SampleTrial& trial : trials) {
+    if (trial.name == "median") {
+      EXPECT_EQ(of(trial).settling_time, median);
+      EXPECT_EQ(of(trial).outcome, Outcome::zero_count);
+    }
+    if (trial.name == "worst") {
+      for (std::int64_t index = 0; index < 40; ++index)
+        EXPECT_GE(of(trial).outcome, of(SampleTrial{"", "", reported.focus, index}).outcome);
+    }
+    if (trial.name == "first-failure") {
+      EXPECT_NE(of(trial).outcome, Outcome::zero_count);
+    }
+  }
+}
+
+TEST_F(Report, TracesAreTheRecordedTrials) {
+  ReportOptions options;
+  int checked = 0;
+  options.check = [&](const ReplayedTrial& replayed) -> std::vector<std::string> {
+    ++checked;
+    const MoveOutcome recorded = file.outcomes({replayed.result.row, 1}).front();
+    EXPECT_EQ(replayed.result.outcome.moves.front().final_position, recorded.final_position);
+    return checked == 1 ? std::vector<std::string>{"a <difference>"} : std::vector<std::string>{};
+  };
+  const StudyReport report = study_report(file, options);
+  EXPECT_GE(checked, 2);
+  ASSERT_EQ(report.warnings.size(), 1U);
+  EXPECT_NE(report.page.sections.front().html.find("a &lt;difference&gt;"), std::string::npos);
+}
+
+TEST_F(Report, ShowsTheTrialsOfThePointAskedFor) {
+  ReportOptions options;
+  options.focus = 3;
+  std::vector<std::int64_t> points;
+  options.check = [&](const ReplayedTrial& replayed) {
+    points.push_back(replayed.point);
+    return std::vector<std::string>{};
+  };
+  study_report(file, options);
+  EXPECT_EQ(std::count(points.begin(), points.end(), 3), std::ssize(points));
+  options.focus = 8;
+  testing::expect_failure(ExitCode::bad_input, "there is no design point 8; expected 0 to 7",
+                          [&] { study_report(file, options); });
+}
+
+TEST_F(Report, ComparesWithABaseline) {
+  testing::run_study_file(*folder / "other.h5", testing::rich_manifest(30));
+  const StudyFile baseline(*folder / "other.h5");
+  ReportOptions options;
+  options.comparison = compare_studies(baseline, file);
+  const ReportPage page = study_report(file, options).page;
+  EXPECT_EQ(page.sections[1].name, "baseline");
+  EXPECT_NE(page.sections[1].html.find("trials"), std::string::npos);
+  EXPECT_EQ(find_figure(page, "success-change").data.front().rows.size(), 8U);
+}
+
+TEST_F(Report, AFigureThatIsNotThereIsRefusedWithTheNamesOfThoseThatAre) {
+  const ReportPage page = study_report(file).page;
+  testing::expect_failure(ExitCode::bad_input,
+                          "there is no figure 'sucess' of this study; there are: success, stability-map",
+                          [&] { find_figure(page, "sucess"); });
+}
+
+TEST_F(Report, ThePageNeedsNothingBesideIt) {
+  const std::string page = html_page(study_report(file).page);
+  EXPECT_EQ(times_in(page, "<script"), times_in(page, "</script>"));
+  EXPECT_EQ(times_in(page, "<script src"), 0U);
+  EXPECT_EQ(times_in(page, "<link"), 1U);  // the icon, of nothing
+  EXPECT_EQ(times_in(page, "default-src 'none'"), 1U);
+  EXPECT_LT(page.size(), 2000000U);
+}
+
+TEST(ReportPage, AManifestCannotBreakIt) {
+  const std::string hostile = "</script><script>window.broken = 1</script><!-- {{libraries}} & <b>";
+  const TemporaryFolder folder;
+  testing::run_study_file(folder / "a.h5", testing::rich_manifest(4));
+  testing::run_study_file(folder / "b.h5", testing::rich_manifest(4, hostile));
+  const std::string page = html_page(study_report(StudyFile(folder / "b.h5")).page);
+  const std::string plain = html_page(study_report(StudyFile(folder / "a.h5")).page);
+  EXPECT_EQ(times_in(page, "<script"), times_in(plain, "<script"));
+  EXPECT_EQ(times_in(page, "</script"), times_in(plain, "</script"));
+  EXPECT_EQ(times_in(page, "<!--"), times_in(plain, "<!--"));
+  EXPECT_EQ(times_in(page, "&lt;script&gt;window.broken"), times_in(page, "window.broken"));
+  EXPECT_GT(times_in(page, "{{libraries}}"), 0U);
+}
+
+/// The names of cases stand in the data of the figures too.
+TEST(ReportPage, NamesOfCasesCannotBreakIt) {
+  const TemporaryFolder folder;
+  const auto page_of = [&](const std::string& name) {
+    testing::run_study_file(
+        folder / "a.h5",
+        "zerocount: 1\nname: cases\nseed: 1\ntrials: 4\ncommand: {targets: [3], hold: 0.15}\n"
+        "verdict: {dwell: 0.02, window: 0.02}\n"
+        "sweep: {cases: {\"" +
+            name + "\": {controller.ki: 2.0e-5}, other: {controller.ki: 3.0e-5}}}\n");
+    const std::string page = html_page(study_report(StudyFile(folder / "a.h5")).page);
+    std::filesystem::remove(folder / "a.h5");
+    std::filesystem::remove(folder / "a.h5.shard.h5");
+    return page;
+  };
+  const std::string page = page_of("</script><!-- <i>");
+  const std::string plain = page_of("plain");
+  EXPECT_EQ(times_in(page, "</script"), times_in(plain, "</script"));
+  EXPECT_EQ(times_in(page, "<!--"), times_in(plain, "<!--"));
+  EXPECT_EQ(times_in(page, "<i>"), times_in(plain, "<i>"));
+}
+
+TEST(ReportPage, AFlawlessStudyIsNotCalledPerfect) {
+  const TemporaryFolder folder;
+  testing::run_study_file(
+      folder / "a.h5",
+      "zerocount: 1\nname: easy\nseed: 1\ntrials: 30\ncommand: {targets: [3], hold: 0.15}\n"
+      "controller: {ki: 2.0e-5}\nverdict: {dwell: 0.02, window: 0.02}\n");
+  const StudyReport report = study_report(StudyFile(folder / "a.h5"));
+  const std::string& verdict = report.page.sections.front().html;
+  // 1 − 0.05^(1/30) = 9.503 %; ln 0.05 / ln 0.999 = 2994.2
+  EXPECT_NE(verdict.find("is not 100&nbsp;% repeatability"), std::string::npos) << verdict;
+  EXPECT_NE(verdict.find("9.6&nbsp;%"), std::string::npos) << verdict;
+  EXPECT_NE(verdict.find("2995 trials"), std::string::npos) << verdict;
+}
+
+struct PaperStudy {
+  const char* name;
+  const char* more;
+  const char* figure;
+};
+
+class PaperFigures : public ::testing::TestWithParam<PaperStudy> {};
+
+TEST_P(PaperFigures, StandWhereTheStudyShowsThem) {
+  const TemporaryFolder folder;
+  testing::run_study_file(folder / "a.h5",
+                          std::string("zerocount: 1\nname: paper\nseed: 1\ntrials: 3\n") + GetParam().more);
+  const std::vector<std::string> names = figure_names(study_report(StudyFile(folder / "a.h5")).page);
+  std::string found;
+  for (const std::string& name : names) found += name.starts_with("paper") ? name : "";
+  EXPECT_EQ(found, GetParam().figure);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Studies, PaperFigures,
+    ::testing::Values(
+        PaperStudy{"hysteresis",
+                   "friction: {model: spring}\ncommand: {torque: {levels: [0.01, -0.01, 0.01], through: "
+                   "exact}, hold: 0.01}\n",
+                   "paper-fig4"},
+        PaperStudy{"creep", "command: {torque: {levels: [0.1, 0, 0.1], through: exact}, hold: 0.1}\n",
+                   "paper-fig6"},
+        PaperStudy{"targets",
+                   "command: {targets: [1], hold: 0.15}\nsweep: {grid: {command.targets.0: [1, 2, 3, 4]}}\n",
+                   "paper-fig7"},
+        PaperStudy{"jerks", "friction: {lambda: 0.5}\ncommand: {targets: [30], hold: 1.0}\n", "paper-fig8"},
+        PaperStudy{
+            "none",
+            "command: {targets: [1], hold: 0.15}\nsweep: {grid: {controller.ki: [1.0e-5, 2.0e-5, 4.0e-5]}}\n",
+            ""}),
+    [](const auto& study) { return std::string(study.param.name); });
+
+/// However many trials there are, the page stays small.
+TEST(ReportPage, DoesNotGrowWithTheTrials) {
+  const TemporaryFolder folder;
+  Study study = parse_study(
+      "zerocount: 1\nname: many\nseed: 1\ntrials: 20000\ncommand: {targets: [3], hold: 5.0}\n"
+      "initial: {encoder_phase: {uniform: [0, 1]}}\n",
+      "test");
+  std::vector<testing::TrialRecord> trials;
+  for (std::int64_t row = 0; row < 20000; ++row) {
+    trials.push_back(testing::random_trial(row, 1));
+    // A jerk ends before the next one begins.
+    std::vector<Jerk>& jerks = trials.back().jerks;
+    const auto close = [](const Jerk& a, const Jerk& b) { return b.onset - a.onset < 2e-3; };
+    jerks.erase(std::unique(jerks.begin(), jerks.end(), close), jerks.end());
+    trials.back().outcome.moves.front().jerk_count = std::ssize(jerks);
+  }
+  testing::write_study_file(folder / "many.h5", study, trials,
+                            [&](const StudyFile& file) { return stored_statistics(file, study); });
+  const std::string page = html_page(study_report(StudyFile(folder / "many.h5")).page);
+  EXPECT_LT(page.size(), 2000000U);
+  EXPECT_NE(page.find("A sample: 50 of the"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zerocount

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "experiments/study.hpp"
+
+namespace zerocount::testing {
+
+/// A study with all that a report can show of a closed loop: two swept gains, a profile of k1, random starts,
+/// jerks.
+std::string rich_manifest(int trials, const std::string& description = "a test");
+
+/// Runs a study by the plain engine and writes its results file.
+Study run_study_file(const std::filesystem::path& path, const std::string& manifest);
+
+}  // namespace zerocount::testing

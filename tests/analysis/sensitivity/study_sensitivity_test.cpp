@@ -1,0 +1,249 @@
+// From a results file to what drives its outputs. The outcomes are made up, so that it is known what does.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/sensitivity/sensitivity.hpp"
+#include "core/failure.hpp"
+#include "results/shards/merge.hpp"
+#include "results/shards/shard.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount {
+namespace {
+
+using testing::TemporaryFolder;
+using Outcomes = std::function<std::vector<MoveOutcome>(std::span<const double> inputs)>;
+
+// Three factors at two points; k1, k2 and α are 1 more than uniform numbers. The hold has 200 samples.
+std::string manifest(const std::string& more = "") {
+  return "zerocount: 1\nname: made up\nseed: 5\ntrials: 2000\ndesign: saltelli\n"
+         "friction: {k1: {uniform: [1, 2]}, k2: {uniform: [1, 2]}, alpha: {uniform: [1, 2]}}\n"
+         "command: {targets: [5, 0], hold: 0.1}\n"
+         "sweep: {cases: {a: {controller.ki: 1.0e-5}, b: {controller.ki: 2.0e-5}}}\n" +
+         more;
+}
+
+// Columns of /trial/input in the order of the table of parameters.
+constexpr std::size_t k1 = 0;
+constexpr std::size_t k2 = 1;
+
+MoveOutcome move_with(bool success) {
+  MoveOutcome move;
+  move.outcome = success ? Outcome::zero_count : Outcome::oscillating;
+  move.arrived = success;
+  if (success) {
+    move.arrival = 20;
+    move.settling_time = 0.01;
+  }
+  return move;
+}
+
+// The second of two moves succeeds where k1 and k2 are both in their upper half; the first always does.
+std::vector<MoveOutcome> both_in_upper_half(std::span<const double> inputs) {
+  return {move_with(true), move_with(inputs[k1] > 1.5 && inputs[k2] > 1.5)};
+}
+
+class MadeUpStudy {
+ public:
+  MadeUpStudy(const std::string& text, const Outcomes& outcomes) {
+    const Study study = parse_study(text, "made-up.yaml");
+    std::vector<TrialResult> results(static_cast<std::size_t>(trial_count(study)));
+    for (std::size_t row = 0; row < results.size(); ++row) {
+      const auto index = static_cast<std::int64_t>(row);
+      results[row].row = index;
+      results[row].inputs = study_trial(study, index / study.trials, index % study.trials).inputs;
+      results[row].outcome.moves = outcomes(results[row].inputs);
+    }
+    const RowRange rows{0, trial_count(study)};
+    write_shard(folder_ / "shard.h5", study, 0, results);
+    const std::vector<ShardInfo> shards{{folder_ / "shard.h5", rows}};
+    merge_shards(shards, study, folder_ / "study.h5", rows,
+                 [](const StudyFile&) { return StoredStatistics{}; });
+  }
+
+  StudySensitivity ask(const SensitivityQuestion& question = {}) const {
+    return study_sensitivity(StudyFile(folder_ / "study.h5"), question);
+  }
+  OutputSensitivity about(const std::string& output) const {
+    return ask({.points = {1}, .outputs = {output}}).points.at(0).outputs.at(0);
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+const FactorSensitivity& factor(const OutputSensitivity& output, const std::string& name) {
+  const auto found = std::find_if(output.factors.begin(), output.factors.end(),
+                                  [&](const FactorSensitivity& one) { return one.name == name; });
+  if (found == output.factors.end()) throw std::runtime_error("no factor " + name);
+  return *found;
+}
+
+bool encloses(const BoundedNumber& number, double truth) {
+  return number.low <= truth && truth <= number.high;
+}
+
+// p = ¼, so V = 3/16; the mean given one factor is 0 or ½, its variance 1/16.
+TEST(StudySensitivity, OfASaltelliDesignHasBothIndices) {
+  const OutputSensitivity success = MadeUpStudy(manifest(), both_in_upper_half).about("success");
+  EXPECT_EQ(success.trials, 2000);
+  EXPECT_NEAR(success.mean, 0.25, 0.05);
+  ASSERT_TRUE(success.estimated);
+  ASSERT_EQ(success.factors.size(), 3u);
+  for (const char* name : {"friction.k1", "friction.k2"}) {
+    const FactorSensitivity& found = factor(success, name);
+    EXPECT_TRUE(encloses(found.first_order, 1.0 / 3.0)) << name;
+    EXPECT_TRUE(encloses(found.total, 2.0 / 3.0)) << name;
+    EXPECT_TRUE(found.matters);
+    EXPECT_GT(found.rank_correlation.low, 0.0);
+    EXPECT_GT(found.partial_rank_correlation.low, 0.0);
+    EXPECT_GT(found.log_odds.low, 0.0);
+  }
+  const FactorSensitivity& idle = success.factors.back();
+  EXPECT_EQ(idle.name, "friction.alpha");
+  EXPECT_EQ(idle.total.value, 0.0);
+  EXPECT_FALSE(idle.matters);
+  EXPECT_NE(success.conclusion.find("no influence shows of friction.alpha"), std::string::npos);
+}
+
+TEST(StudySensitivity, OfAnyOtherDesignHasWhatEachExplainsAlone) {
+  std::string text = manifest();
+  text.replace(text.find("saltelli"), 8, "monte_carlo");
+  const MadeUpStudy study(text, both_in_upper_half);
+  EXPECT_FALSE(study.ask().from_saltelli);
+  const OutputSensitivity success = study.about("success");
+  EXPECT_TRUE(encloses(factor(success, "friction.k1").first_order, 1.0 / 3.0));
+  EXPECT_TRUE(std::isnan(factor(success, "friction.k1").total.value));
+  EXPECT_FALSE(factor(success, "friction.alpha").matters);
+}
+
+TEST(StudySensitivity, WhatDoesNotVaryIsLeftOutAndNamed) {
+  const OutputSensitivity success = MadeUpStudy(manifest(), both_in_upper_half).about("success");
+  ASSERT_EQ(success.left_out.size(), 1u);
+  EXPECT_EQ(success.left_out[0].name, "controller.ki");
+  EXPECT_EQ(success.left_out[0].reason, "the same in all trials of the point");
+}
+
+TEST(StudySensitivity, AMoveThatNeverArrivesCountsWithItsDuration) {
+  const OutputSensitivity settling = MadeUpStudy(manifest(), both_in_upper_half).about("settling_time");
+  EXPECT_NEAR(settling.mean, 0.25 * 0.01 + 0.75 * 0.1, 0.005);
+  EXPECT_TRUE(encloses(factor(settling, "friction.k2").total, 2.0 / 3.0));
+  const bool said = std::any_of(settling.notes.begin(), settling.notes.end(), [](const std::string& note) {
+    return note.find("have a move that never arrived; it counts with its duration") != std::string::npos;
+  });
+  EXPECT_TRUE(said);
+}
+
+TEST(StudySensitivity, WithoutVarianceNothingIsEstimatedAndThatIsSaid) {
+  const MadeUpStudy study(manifest(), [](auto) { return std::vector{move_with(true), move_with(true)}; });
+  const OutputSensitivity success = study.about("success");
+  EXPECT_FALSE(success.estimated);
+  EXPECT_TRUE(success.factors.empty());
+  EXPECT_EQ(
+      success.conclusion,
+      "success is 1 in all 2000 trials: it has no variance, and nothing can be said of what drives it.");
+  EXPECT_FALSE(any_estimated(study.ask()));
+  EXPECT_TRUE(any_estimated(MadeUpStudy(manifest(), both_in_upper_half).ask()));
+}
+
+// In every trial with k1 in its last quarter the motion is lost: 7 of 16 rows have none of them in A, B or A
+// with k1 of B.
+TEST(StudySensitivity, RowsWithLostTrialsAreLeftOutWholeAndCounted) {
+  const MadeUpStudy study(manifest(), [](std::span<const double> inputs) {
+    MoveOutcome move = move_with(true);
+    move.jerk_count = 0;
+    move.creep = inputs[k2];
+    if (inputs[k1] > 1.75) move.outcome = Outcome::nonfinite;
+    return std::vector{move_with(true), move};
+  });
+  const OutputSensitivity creep = study.about("creep");
+  EXPECT_NEAR(static_cast<double>(creep.trials), 2000.0 * 9.0 / 16.0, 150.0);
+  EXPECT_EQ(creep.trials % 5, 0);
+  EXPECT_NEAR(factor(creep, "friction.k2").total.value, 1.0, 0.15);
+  EXPECT_EQ(factor(creep, "friction.k1").total.value, 0.0);
+  ASSERT_FALSE(creep.notes.empty());
+  EXPECT_EQ(
+      creep.notes[0].find(std::to_string(2000 - creep.trials) + " of 2000 trials are left out, in whole"),
+      0u);
+  EXPECT_EQ(study.about("success").trials, 2000) << "a lost trial is no success, and counts";
+}
+
+TEST(StudySensitivity, SeparatedAndRareAnswersAreSaid) {
+  const MadeUpStudy study(manifest(), [](std::span<const double> inputs) {
+    return std::vector{move_with(true), move_with(inputs[k1] < 1.995)};
+  });
+  const OutputSensitivity success = study.about("success");
+  EXPECT_TRUE(std::isnan(factor(success, "friction.k1").log_odds.value));
+  std::string notes;
+  for (const std::string& note : success.notes) notes += note + "\n";
+  EXPECT_NE(notes.find("a logistic fit has no finite coefficients"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("differ from the others: the bounds are rough"), std::string::npos) << notes;
+}
+
+TEST(StudySensitivity, EveryOutputOfEveryPointCanBeAsked) {
+  const MadeUpStudy study(manifest(), both_in_upper_half);
+  SensitivityQuestion question;
+  for (const SensitivityOutput& output : sensitivity_outputs()) question.outputs.emplace_back(output.name);
+  const StudySensitivity all = study.ask(question);
+  ASSERT_EQ(all.points.size(), 2u);
+  EXPECT_EQ(all.points[1].label, "b");
+  for (const PointSensitivity& point : all.points) {
+    ASSERT_EQ(point.outputs.size(), sensitivity_outputs().size());
+    for (const OutputSensitivity& output : point.outputs) EXPECT_FALSE(output.conclusion.empty());
+  }
+  const StudySensitivity usual = study.ask();
+  ASSERT_EQ(usual.points[0].outputs.size(), 2u);
+  EXPECT_EQ(usual.points[0].outputs[1].output, "settling_time");
+}
+
+TEST(StudySensitivity, QuestionsThatMakeNoSenseAreRefused) {
+  const MadeUpStudy study(manifest(), both_in_upper_half);
+  for (const SensitivityQuestion& question :
+       {SensitivityQuestion{.points = {2}}, SensitivityQuestion{.points = {-1}},
+        SensitivityQuestion{.outputs = {"sucess"}}, SensitivityQuestion{.confidence = 1.0},
+        SensitivityQuestion{.confidence = 0.0}, SensitivityQuestion{.confidence = std::nan("")}}) {
+    try {
+      study.ask(question);
+      ADD_FAILURE() << "accepted";
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), ExitCode::bad_input) << failure.what();
+    }
+  }
+}
+
+TEST(StudySensitivity, IsTheSameEveryTimeInAllForms) {
+  const MadeUpStudy study(manifest(), both_in_upper_half);
+  EXPECT_EQ(sensitivity_json(study.ask()), sensitivity_json(study.ask()));
+  const StudySensitivity found = study.ask();
+  const auto json = nlohmann::json::parse(sensitivity_json(found));
+  const auto& first = json["points"][0]["outputs"][0]["factors"][0];
+  const FactorSensitivity& strongest = found.points[0].outputs[0].factors[0];
+  EXPECT_EQ(first["name"], strongest.name);
+  EXPECT_EQ(first["total"]["value"].get<double>(), strongest.total.value);
+  EXPECT_EQ(first["total"]["low"].get<double>(), strongest.total.low);
+  const auto& settling = json["points"][0]["outputs"][1]["factors"][0];
+  EXPECT_TRUE(settling["log_odds"]["value"].is_null()) << "settling_time is no yes or no";
+
+  std::istringstream csv(sensitivity_csv(found));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(csv, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 1u + 2 * 2 * 3);
+  const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
+  EXPECT_EQ(lines[0].find("point,label,output,factor,matters,total,total_low,total_high,first_order,"), 0u);
+  for (const std::string& line : lines) EXPECT_EQ(commas(line), commas(lines[0]));
+
+  const std::string table = sensitivity_table(found);
+  for (const char* expected : {"Point 1: b", "friction.k1", "total", "first order", "log odds per sd",
+                               "left out: controller.ki: the same in all trials of the point"}) {
+    EXPECT_NE(table.find(expected), std::string::npos) << expected << "\n" << table;
+  }
+}
+
+}  // namespace
+}  // namespace zerocount

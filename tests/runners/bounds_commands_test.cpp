@@ -1,0 +1,174 @@
+// What the command line says with bounds: summary at another confidence, plan, jerks.
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/proportion.hpp"
+#include "results/reading/study_file.hpp"
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+class BoundsCommands : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = std::make_unique<TemporaryFolder>();
+    folder->write("study.yaml", small_manifest(40));
+    ASSERT_EQ(run({"run", "study.yaml", "-o", "study.h5"}).code, 0);
+  }
+  static void TearDownTestSuite() { folder.reset(); }
+  static ProgramResult run(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder->path());
+  }
+  static Json json(std::vector<std::string> words) {
+    words.insert(words.end(), {"--format", "json"});
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return Json::parse(result.out);
+  }
+  static std::unique_ptr<TemporaryFolder> folder;
+};
+std::unique_ptr<TemporaryFolder> BoundsCommands::folder;
+
+TEST_F(BoundsCommands, SummaryHasTheBoundsOfTheConfidenceAskedFor) {
+  const Json wide = json({"summary", "study.h5", "--confidence", "0.99"});
+  const Json usual = json({"summary", "study.h5"});
+  EXPECT_EQ(wide["confidence"], 0.99);
+  EXPECT_EQ(usual["confidence"], 0.95);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Json& point = wide["points"][i];
+    const auto zero = point["zero_count"].get<std::int64_t>();
+    EXPECT_EQ(point["success_rate_low"].get<double>(), clopper_pearson(zero, 40, 0.99).low);
+    EXPECT_EQ(point["success_rate_wilson_high"].get<double>(), wilson(zero, 40, 0.99).high);
+    EXPECT_EQ(point["assurance"]["success_at_least"].get<double>(), proportion_at_least(zero, 40, 0.99));
+    EXPECT_EQ(point["success_rate"], usual["points"][i]["success_rate"]);
+    EXPECT_EQ(usual["points"][i]["success_rate_low"].get<double>(), clopper_pearson(zero, 40).low);
+  }
+  const Json& settling = wide["points"][0]["settling_time"];
+  const Json& usual_settling = usual["points"][0]["settling_time"];
+  EXPECT_LE(settling["median_low"], usual_settling["median_low"]);
+  EXPECT_LT(settling["mean_low"], usual_settling["mean_low"]);
+  EXPECT_GT(settling["mean_high"], usual_settling["mean_high"]);
+  EXPECT_EQ(settling["mean"], usual_settling["mean"]);
+  const std::string table = run({"summary", "study.h5", "--confidence", "0.99"}).out;
+  EXPECT_NE(table.find("99 % bounds"), std::string::npos) << table;
+  EXPECT_NE(table.find("of axes succeed, with 99 % confidence"), std::string::npos) << table;
+  EXPECT_EQ(table.find("95 % bounds"), std::string::npos) << table;
+}
+
+TEST_F(BoundsCommands, TheFileKeepsItsBoundsWhateverASummarySays) {
+  json({"summary", "study.h5", "--confidence", "0.5"});
+  const StudyFile file(*folder / "study.h5");
+  std::vector<double> zero, low;
+  for (const PointColumn& column : file.statistics()) {
+    if (column.name == "zero_count") zero = column.values;
+    if (column.name == "success_rate_low") low = column.values;
+    EXPECT_EQ(column.name.find("mean_low"), std::string::npos);
+  }
+  ASSERT_EQ(low.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(low[i], clopper_pearson(static_cast<std::int64_t>(zero[i]), 40).low);
+}
+
+TEST_F(BoundsCommands, EachPointHasItsToleranceStatement) {
+  const Json points = json({"summary", "study.h5"})["points"];
+  const std::string table = run({"summary", "study.h5"}).out;
+  for (const Json& point : points) {
+    const auto statement = point["assurance"]["statement"].get<std::string>();
+    EXPECT_NE(statement.find("of axes succeed, with 95 % confidence"), std::string::npos) << statement;
+    EXPECT_NE(table.find(statement), std::string::npos) << table;
+    EXPECT_NEAR(point["assurance"]["failure_at_most"].get<double>(),
+                1.0 - point["assurance"]["success_at_least"].get<double>(), 1e-12);
+    EXPECT_EQ(point["assurance"]["settling_time"].size(), 3U);
+  }
+  const std::string csv = run({"summary", "study.h5", "--format", "csv"}).out;
+  EXPECT_NE(
+      csv.find("success_at_least,failure_at_most,settling_within_95,settling_within_99,settling_within_99_9,"
+               "settling_time_mean_low,"),
+      std::string::npos);
+}
+
+TEST_F(BoundsCommands, SummariesWithBootstrapAreTheSameEachTime) {
+  EXPECT_EQ(run({"summary", "study.h5", "--format", "json"}).out,
+            run({"summary", "study.h5", "--format", "json"}).out);
+}
+
+TEST_F(BoundsCommands, PlanSaysHowManyTrialsAClaimNeeds) {
+  const Json plan = json({"plan", "--success", "0.999", "--confidence", "0.95", "--failures", "2"});
+  ASSERT_EQ(plan["plans"].size(), 3U);
+  EXPECT_EQ(plan["plans"][0]["trials"], 2995);
+  EXPECT_EQ(plan["plans"][2]["failures"], 2);
+  EXPECT_FALSE(plan["plans"][0].contains("chance"));
+  const Json strong = json({"plan", "--success", "0.99", "--true-success", "0.995", "--power", "0.9"});
+  EXPECT_EQ(strong["plans"].size(), 5U);  // 0 to 3 failures, and the one with the power
+  EXPECT_FALSE(strong["plans"][3]["has_power"].get<bool>());
+  EXPECT_TRUE(strong["plans"][4]["has_power"].get<bool>());
+  EXPECT_GE(strong["plans"][4]["chance"], 0.9);
+  const Json half = json({"plan", "--halfwidth", "0.005"});
+  EXPECT_NEAR(half["halfwidth"]["trials"].get<double>(), 1.96 * 1.96 / 4.0 / (0.005 * 0.005), 250.0);
+  const std::string table = run({"plan", "--success", "0.999"}).out;
+  EXPECT_NE(table.find("at least 99.9 % of axes succeed, with 95 % confidence"), std::string::npos) << table;
+  EXPECT_NE(table.find("2995"), std::string::npos) << table;
+}
+
+TEST_F(BoundsCommands, JerksOfChosenPoints) {
+  const Json all = json({"jerks", "study.h5", "--creep-trials", "2"});
+  ASSERT_EQ(all["points"].size(), 2U);
+  EXPECT_EQ(all["points"][0]["trials"], 40);
+  const Json one = json({"jerks", "study.h5", "--point", "1", "--creep-trials", "2"});
+  ASSERT_EQ(one["points"].size(), 1U);
+  EXPECT_EQ(one["points"][0], all["points"][1]);
+  const ProgramResult table = run({"jerks", "study.h5"});
+  EXPECT_EQ(table.code, 0);
+  EXPECT_NE(table.out.find("since arrival (s)"), std::string::npos) << table.out;
+}
+
+TEST_F(BoundsCommands, WhereNothingArrivedNothingWasMeasured) {
+  ASSERT_EQ(
+      run({"run", "study.yaml", "-o", "never.h5", "--set", "command.targets=[100000]", "--set", "trials=3"})
+          .code,
+      0);
+  EXPECT_EQ(run({"jerks", "never.h5"}).code, 3);
+  folder->write(
+      "loads.yaml",
+      "zerocount: 1\nname: loads\nseed: 1\ntrials: 2\ncommand: {torque: {levels: [0.1]}, hold: 0.1}\n");
+  ASSERT_EQ(run({"run", "loads.yaml", "-o", "loads.h5"}).code, 0);
+  EXPECT_EQ(run({"jerks", "loads.h5"}).code, 4);
+}
+
+TEST_F(BoundsCommands, RefuseWhatTheyCannotUse) {
+  const std::vector<std::vector<std::string>> cases = {
+      {"summary", "study.h5", "--confidence", "1"},
+      {"summary", "study.h5", "--confidence", "95"},
+      {"summary", "study.h5", "--confidence", "0.9x"},
+      {"plan"},
+      {"plan", "--confidence", "0.9"},
+      {"plan", "--success", "1"},
+      {"plan", "--success", "0.9", "--power", "0.9"},
+      {"plan", "--success", "0.9", "--true-success", "0.8", "--power", "0.9"},
+      {"plan", "--success", "0.9", "--failures", "-1"},
+      {"plan", "--halfwidth", "0.7"},
+      {"plan", "--halfwidth", "0.1", "--failures", "2"},
+      {"jerks"},
+      {"jerks", "study.h5", "--point", "2"},
+      {"jerks", "study.h5", "--point", "first"},
+      {"jerks", "study.h5", "--creep-trials", "-1"},
+      {"jerks", "missing.h5"},
+  };
+  for (const auto& words : cases) {
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.code, 2) << ::testing::PrintToString(words) << result.err;
+    EXPECT_FALSE(result.err.empty());
+    EXPECT_TRUE(result.out.empty()) << result.out;
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

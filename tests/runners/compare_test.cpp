@@ -1,0 +1,136 @@
+// `zerocount compare` and `zerocount baseline` from the command line.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+/// One clean case that always succeeds, and one that may be given another gain.
+std::string gains(const std::string& gain, int trials, const std::string& seed = "3") {
+  return "zerocount: 1\nname: gains\nseed: " + seed + "\ntrials: " + std::to_string(trials) +
+         "\nfriction: {k2: {uniform: [600, 900]}}\n"
+         "command: {targets: [{integers: [1, 10]}], hold: 0.15}\n"
+         "initial: {encoder_phase: {uniform: [0, 1]}}\n"
+         "verdict: {dwell: 0.02, window: 0.02}\n"
+         "sweep: {cases: {low: {controller.ki: 3.0e-5}, high: {controller.ki: " +
+         gain + "}}}\n";
+}
+
+class Compare : public ::testing::Test {
+ protected:
+  ProgramResult run(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+  void study(const std::string& name, const std::string& manifest,
+             const std::vector<std::string>& more = {}) {
+    folder_.write(name + ".yaml", manifest);
+    std::vector<std::string> words{"run", name + ".yaml", "-q", "-o", name + ".h5"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = run(words);
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+  nlohmann::json compared(const std::string& one, const std::string& other, int code) {
+    const ProgramResult result = run({"compare", one + ".h5", other + ".h5", "--format", "json"});
+    EXPECT_EQ(result.code, code) << result.out << result.err;
+    return nlohmann::json::parse(result.out);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Compare, TheSameStudyAgainPasses) {
+  study("a", gains("1.0e-4", 30));
+  study("b", gains("1.0e-4", 30), {"--threads", "1"});
+  const auto json = compared("a", "b", 0);
+  EXPECT_EQ(json["layer"], "bits");
+  EXPECT_EQ(json["verdict"], "passed");
+}
+
+TEST_F(Compare, AnotherEngineIsComparedTrialByTrial) {
+  study("a", gains("1.0e-4", 300));
+  study("b", gains("1.0e-4", 300), {"--engine", "reference"});
+  const auto json = compared("a", "b", 0);
+  EXPECT_EQ(json["layer"], "paired");
+  EXPECT_EQ(json["points"][0]["pairs"], 300);
+}
+
+TEST_F(Compare, AHigherGainIsARegression) {
+  study("a", gains("1.0e-4", 200));
+  study("b", gains("2.0e-4", 200));
+  const auto json = compared("a", "b", 1);
+  EXPECT_EQ(json["points"][0]["verdict"], "passed");  // low is as before
+  EXPECT_EQ(json["points"][1]["label"], "high");
+  EXPECT_EQ(json["points"][1]["verdict"], "regression");
+  EXPECT_EQ(json["manifest_differences"][0]["key"], "sweep.cases.high.controller.ki");
+  const auto back = compared("b", "a", 0);  // the other way round it is an improvement
+  EXPECT_GT(back["counts"]["improved"].get<int>(), 0);
+}
+
+TEST_F(Compare, TooFewTrialsAreInconclusiveAndSayHowManyWouldDo) {
+  study("a", gains("1.0e-4", 40));
+  study("b", gains("1.0e-4", 40, "4"));
+  const auto json = compared("a", "b", 3);
+  EXPECT_EQ(json["layer"], "two_samples");
+  EXPECT_GT(json["trials_to_decide"].get<int>(), 40);
+}
+
+TEST_F(Compare, OtherDesignPointsAreIncompatible) {
+  study("a", gains("1.0e-4", 10));
+  study("b", small_manifest(10));
+  study("c", gains("1.0e-4", 10) + "description: more\n");
+  std::string other = gains("1.0e-4", 10);
+  other.replace(other.find("high"), 4, "top");
+  study("d", other);
+  const ProgramResult result = run({"compare", "a.h5", "d.h5"});
+  EXPECT_EQ(result.code, 4);
+  EXPECT_NE(result.err.find("'high'"), std::string::npos) << result.err;
+  EXPECT_EQ(result.out, "");
+}
+
+TEST_F(Compare, MarginsAndRequirementsComeFromAFile) {
+  study("a", gains("1.0e-4", 30));
+  folder_.write("gate.yaml", "points: {high: {require: success_rate ≥ 0.999}}\n");
+  EXPECT_EQ(run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"}).code, 1);
+  folder_.write("gate.yaml", "points: {low: {require: success_rate ≥ 0.999}}\n");
+  EXPECT_EQ(run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"}).code, 3);  // 30 of 30 do not show it
+  folder_.write("gate.yaml", "margins: {success: 1}\n");
+  const ProgramResult result = run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("gate.yaml:1:11: margins.success: unknown key"), std::string::npos) << result.err;
+}
+
+TEST_F(Compare, WritesEveryFormatAtOnce) {
+  study("a", gains("1.0e-4", 20));
+  const ProgramResult result =
+      run({"compare", "a.h5", "a.h5", "--json", "r.json", "--junit", "r.xml", "--markdown", "r.md"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("this shows nothing of the program"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(folder_.read("r.json"))["verdict"], "passed");
+  EXPECT_TRUE(folder_.read("r.xml").starts_with("<?xml"));
+  EXPECT_TRUE(folder_.read("r.md").starts_with("## ✅ gains: passed"));
+}
+
+TEST_F(Compare, DamagedOrMissingFilesHaveTheirExitCodes) {
+  study("a", gains("1.0e-4", 10));
+  std::string bytes = folder_.read("a.h5");
+  bytes[bytes.size() / 2] ^= 1;
+  folder_.write("bad.h5", bytes);
+  EXPECT_EQ(run({"compare", "a.h5", "bad.h5"}).code, 4);
+  EXPECT_EQ(run({"compare", "a.h5", "none.h5"}).code, 2);
+  EXPECT_EQ(run({"compare", "a.h5"}).code, 2);
+}
+
+TEST_F(Compare, ABaselineNeedsAReason) {
+  study("a", gains("1.0e-4", 10));
+  EXPECT_EQ(run({"baseline", "a.h5", "-o", "base.h5"}).code, 2);
+  EXPECT_EQ(run({"baseline", "a.h5", "-o", "base.h5", "--reason", " "}).code, 2);
+  EXPECT_EQ(run({"baseline", "a.h5", "-o", "a.h5", "--reason", "x"}).code, 2);
+  EXPECT_EQ(run({"baseline", "a.h5", "-o", "base.h5", "--reason", "the first"}).code, 0);
+  EXPECT_EQ(run({"compare", "base.h5", "a.h5"}).code, 0);
+  EXPECT_NE(folder_.read("base.h5.log.yaml").find("the first"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

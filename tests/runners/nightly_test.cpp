@@ -1,0 +1,85 @@
+// The nightly job, run as it is on studies of a few trials.
+#include <array>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+class Nightly : public ::testing::Test {
+ protected:
+  Nightly() {
+    folder_.write("small.yaml", small_manifest(30));
+    folder_.write("studies.txt",
+                  "# name manifest settings\nsmall small.yaml trials=20\n\nother small.yaml seed=7\n");
+  }
+
+  /// Exit code of a script of the job; what it said is in `said_`.
+  int script(const std::string& name, const std::string& more = "") {
+    const std::string command = fmt::format(
+        "{}/{} --root {} --program {} --studies {} --baselines {} {} > {} 2>&1", ZEROCOUNT_NIGHTLY, name,
+        folder_.path().string(), ZEROCOUNT_PROGRAM, (folder_ / "studies.txt").string(),
+        (folder_ / "baselines").string(), more, (folder_ / "said").string());
+    const int status = std::system(command.c_str());
+    said_ = folder_.read("said");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  int night() { return script("nightly", "--out " + (folder_ / "out").string()); }
+
+  std::filesystem::path last_night() const {
+    std::filesystem::path last;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "out"))
+      last = std::max(last, entry.path());
+    return last;
+  }
+
+  TemporaryFolder folder_;
+  std::string said_;
+};
+
+TEST_F(Nightly, PassesOnWhatItsBaselinesWereMadeOf) {
+  ASSERT_EQ(script("make-baselines", "--reason 'the first ones'"), 0) << said_;
+  EXPECT_NE(folder_.read("baselines/small.h5.log.yaml").find("the first ones"), std::string::npos);
+  EXPECT_NE(folder_.read("baselines/small.h5.log.yaml").find("[\"trials=20\"]"), std::string::npos);
+  ASSERT_EQ(night(), 0) << said_;
+  EXPECT_NE(said_.find("small: passed: every dataset is equal to the bit"), std::string::npos) << said_;
+  for (const char* name :
+       {"small.h5", "small.json", "small.xml", "small.md", "small.txt", "other.xml", "summary.md"}) {
+    EXPECT_TRUE(std::filesystem::exists(last_night() / name)) << name;
+  }
+}
+
+TEST_F(Nightly, FindsTheRegression) {
+  ASSERT_EQ(script("make-baselines", "--reason first"), 0) << said_;
+  folder_.write("small.yaml", small_manifest(200));
+  folder_.write("studies.txt", "small small.yaml\n");
+  ASSERT_EQ(script("make-baselines", "--reason 'more trials'"), 0) << said_;
+  std::string slower = small_manifest(200);
+  slower.replace(slower.find("3.85e-5"), 7, "1.50e-4");
+  folder_.write("small.yaml", slower);
+  EXPECT_EQ(night(), 1) << said_;
+  EXPECT_NE(read_bytes(last_night() / "summary.md").find("regression"), std::string::npos);
+}
+
+TEST_F(Nightly, NeverPassesWithoutABaselineOrAStudy) {
+  EXPECT_EQ(night(), 4) << said_;
+  EXPECT_NE(said_.find("there is no baseline"), std::string::npos);
+  folder_.write("studies.txt", "# none\n");
+  EXPECT_EQ(night(), 3) << said_;
+  EXPECT_EQ(script("nightly", "--whatever"), 2);
+}
+
+TEST_F(Nightly, GoesOnAfterAStudyThatFails) {
+  ASSERT_EQ(script("make-baselines", "--reason first"), 0) << said_;
+  folder_.write("studies.txt", "small none.yaml\nother small.yaml seed=7\n");
+  EXPECT_EQ(night(), 2) << said_;
+  EXPECT_NE(said_.find("other: passed"), std::string::npos) << said_;
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -38,10 +38,26 @@ const PointSummary& point_of(const ReportedStudy& reported, std::int64_t point) 
   return reported.summary.points[static_cast<std::size_t>(point)];
 }
 
+/// The claim of the point that was chosen because it came out best: as strict as if every point made one
+/// (Bonferroni).
+SuccessClaim claim_of_best(const ReportedStudy& reported, std::int64_t best) {
+  const PointSummary& point = point_of(reported, best);
+  const std::int64_t successes = point.claim.trials - point.claim.failures;
+  const auto points = static_cast<double>(reported.summary.points.size());
+  const double confidence = 1.0 - (1.0 - point.claim.confidence) / points;
+  SuccessClaim claim = reported.study.stop
+                           ? success_claim_at_any_time(successes, point.claim.trials, confidence)
+                           : success_claim(successes, point.claim.trials, confidence);
+  claim.confidence = point.claim.confidence;
+  return claim;
+}
+
 std::string headline(const ReportedStudy& reported, std::int64_t best) {
-  std::string claim = claim_sentence(point_of(reported, best).claim);
-  if (reported.summary.points.size() == 1) return claim;
-  return fmt::format("Best point, {}: {}", label_of(reported, best), claim);
+  const std::string claim = claim_sentence(claim_of_best(reported, best));
+  const std::size_t points = reported.summary.points.size();
+  if (points == 1) return claim;
+  return fmt::format("Best of {} points, {}: {}, the choice allowed for", points, label_of(reported, best),
+                     claim);
 }
 
 void add_success(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
@@ -49,7 +65,8 @@ void add_success(std::vector<std::string>& lines, const ReportedStudy& reported,
   lines.push_back(fmt::format("{} ended at zero counts ({}).",
                               of_all(point.outcomes.zero_count, point.trials),
                               bounds_text(reported.success_bounds[static_cast<std::size_t>(best)])));
-  if (point.outcomes.zero_count == point.trials) lines.push_back(flawless_text(point.claim));
+  if (point.outcomes.zero_count == point.trials)
+    lines.push_back(flawless_text(claim_of_best(reported, best)));
   const OutcomeCounts& outcomes = point.outcomes;
   if (outcomes.zero_count < point.trials) {
     lines.push_back(

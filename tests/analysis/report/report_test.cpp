@@ -247,6 +247,20 @@ TEST(ReportPage, AFlawlessStudyIsNotCalledPerfect) {
   EXPECT_NE(verdict.find("2995 trials"), std::string::npos) << verdict;
 }
 
+/// The best of four flawless points has been chosen: 1 − (0.05/4)^(1/30) = 13.59 %.
+TEST(ReportPage, TheBestPointAllowsForItsChoice) {
+  const TemporaryFolder folder;
+  testing::run_study_file(
+      folder / "a.h5",
+      "zerocount: 1\nname: easy\nseed: 1\ntrials: 30\ncommand: {targets: [3], hold: 0.15}\n"
+      "verdict: {dwell: 0.02, window: 0.02}\n"
+      "sweep: {grid: {controller.ki: [1.8e-5, 1.9e-5, 2.0e-5, 2.1e-5]}}\n");
+  const StudyReport report = study_report(StudyFile(folder / "a.h5"));
+  const std::string& verdict = report.page.sections.front().html;
+  EXPECT_NE(verdict.find("Best of 4 points, "), std::string::npos) << verdict;
+  EXPECT_NE(verdict.find("at most 13.6&nbsp;% fail"), std::string::npos) << verdict;
+}
+
 struct PaperStudy {
   const char* name;
   const char* more;

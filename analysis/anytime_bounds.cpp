@@ -27,6 +27,7 @@ template <class Excess>
 double crossing(Excess excess, double inside, double outside) {
   const double low = std::min(inside, outside);
   const double high = std::max(inside, outside);
+  if (!(excess(outside) > 0.0)) return outside;
   std::uintmax_t iterations = 200;
   const auto bracket = boost::math::tools::toms748_solve(
       excess, low, high, boost::math::tools::eps_tolerance<double>(48), iterations);

@@ -47,7 +47,7 @@ bool runs_in_lanes(const TrialParameters& parameters);
 /// Runs trials as run_trial does, many at a time in the lanes of vectors (see core/batch/README.md).
 ///
 /// What comes of a trial depends on its parameters alone: not on the trials beside it, nor on the settings.
-/// It is that of run_trial to 1e-9 count as long as the hook sticks, with the same counts and codes.
+/// It is that of run_trial to 3e-8 count as long as the hook sticks, with the same counts and codes.
 class BatchEngine {
  public:
   explicit BatchEngine(const BatchSettings& settings = {});

@@ -65,6 +65,14 @@ double samples_within_count(const Tile& tile, int lane, const Plant& plant, doub
   return std::max(std::ceil((time - to_first) * tile.time.sample_rate[lane]), 0.0);
 }
 
+/// Whether the lane's plant is where its last rest has left it, and nothing has moved the lane since.
+bool stands(const Tile& tile, int lane, const Plant& plant) {
+  if (!plant.rest()) return false;
+  const PlantMotion motion = plant.motion();
+  return motion.elongation == tile.motion.elongation[lane] &&
+         motion.creep.extension == tile.motion.extension[lane] && !motion.sliding;
+}
+
 }  // namespace
 
 void pass_samples(Tile& tile, int lane, double samples) {
@@ -82,7 +90,7 @@ bool rest(Tile& tile, int lane, LaneTrial& trial, const PassedSample& passed) {
   Plant& plant = *trial.plant;
   const double torque = tile.motion.torque[lane];
   if (tile.motion.rest_torque[lane] != torque) {
-    load_motion(tile, lane, trial);
+    if (!stands(tile, lane, plant)) load_motion(tile, lane, trial);
     plant.forget_deepest();
     if (!plant.come_to_rest(torque, tile.motion.turning[lane] != 0.0)) return false;
     trial.deepest = std::max(trial.deepest, plant.deepest());
@@ -94,21 +102,22 @@ bool rest(Tile& tile, int lane, LaneTrial& trial, const PassedSample& passed) {
   const double sample_time = time.sample_time[lane];
   const double to_first = time.until[lane] - (most - 1.0) * sample_time;
   const double count = tile.loop.count[lane];
-  // Sample i, counted from 1: most of the way at once, and the last steps one by one, as the encoder sees
-  // them.
-  double i = std::clamp(samples_within_count(tile, lane, plant, to_first), 1.0, most);
-  const auto theta_at = [&](double sample) {
-    return plant.theta_at_rest(to_first + (sample - 1.0) * sample_time);
-  };
-  // The edge may be nearer than thought.
-  for (double back = 1.0; i > 1.0 && count_at(tile, lane, theta_at(i)) != count; back *= 2.0) {
-    i = std::max(1.0, i - back);
-  }
-  plant.advance(constant_torque(torque), to_first + (i - 1.0) * sample_time);
-  while (i < most && count_at(tile, lane, plant.theta()) == count) {
-    i += 1.0;
-    plant.advance(constant_torque(torque), sample_time);
-  }
+  // Sample i, counted from 1: as far as the count stays, and the sample after that as the encoder sees it.
+  double i = 0.0;
+  double to_next = to_first;
+  do {
+    double ahead = std::clamp(samples_within_count(tile, lane, plant, to_next), 1.0, most - i);
+    const auto theta_after = [&](double samples) {
+      return plant.theta_at_rest(to_next + (samples - 1.0) * sample_time);
+    };
+    // The edge may be nearer than thought.
+    for (double back = 1.0; ahead > 1.0 && count_at(tile, lane, theta_after(ahead)) != count; back *= 2.0) {
+      ahead = std::max(1.0, ahead - back);
+    }
+    plant.advance(constant_torque(torque), to_next + (ahead - 1.0) * sample_time);
+    i += ahead;
+    to_next = sample_time;
+  } while (i < most && count_at(tile, lane, plant.theta()) == count);
   for (double j = 1.0; passed && j < i; j += 1.0) {
     before->advance(constant_torque(torque), j == 1.0 ? to_first : sample_time);
     passed(j, before->theta(), before->creep());

@@ -147,16 +147,18 @@ class Plant {
   double slide(const TorqueCourse& torque, double duration);
 
   Elongation elongation_under(double torque, double creep_rate_now) const;
-  bool begin_rest(double torque, const Elongation& elongation);
+  bool begin_rest(double torque, const Elongation& elongation, bool stood);
   std::optional<Excess> excess_over_rest(double torque, const Elongation& elongation, double largest) const;
   bool swings_freely(double torque, const Excess& excess) const;
   SwingLaw swing_law(const Excess& excess) const;
   Swing begin_swing(const Excess& excess);
   CreepState slow_creep(double sign) const;
-  void settle(const Excess& excess);
+  double creep_left_out(const SwingLaw& law, const Excess& excess) const;
+  void settle(const Excess& excess, bool stood);
   std::optional<CreepAtRest> slow_motion(double torque, double sign) const;
   double elongation() const { return spring_.elongation() + swing_.elongation; }
-  void leave_rest();
+  bool leave_rest();
+  double switch_creep();
   void go_on_at_rest(double duration);
   bool at_rest(const Elongation& elongation) const;
   double time_at_rest(const Elongation& elongation, const TorqueCourse& torque, double duration) const;

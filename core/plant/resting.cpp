@@ -7,20 +7,25 @@
 namespace zerocount {
 
 bool Plant::come_to_rest(double torque, bool at_reversal) {
-  leave_rest();
-  if (at_reversal) omega_ = creep_rate();
-  return begin_rest(torque, elongation_under(torque, creep_rate()));
+  const bool stood = leave_rest();
+  const double creep_rate_now = switch_creep();
+  if (at_reversal) omega_ = creep_rate_now;
+  return begin_rest(torque, elongation_under(torque, creep_rate_now), stood);
 }
 
-void Plant::leave_rest() {
-  if (!rest_) return;
+/// @returns whether nothing swung any more: the rotor stood, but for creep.
+bool Plant::leave_rest() {
+  if (!rest_) return false;
+  const bool stood = !(rest_->time < rest_->swing.unnoticed_after);
   spring_.place(elongation());
   swing_ = {0.0, 0.0, 0.0};
   rest_.reset();
+  return stood;
 }
 
 /// Whether the rotor is at rest under the constant torque `torque` (N m); if so, puts it there.
-bool Plant::begin_rest(double torque, const Elongation& elongation) {
+/// @param stood it has been at rest until now, under another torque.
+bool Plant::begin_rest(double torque, const Elongation& elongation, bool stood) {
   const bool turns = elongation.rate == 0.0;
   const double largest = turns ? std::sqrt(tolerance_.rest / contact_.beta) : 0.0;
   const std::optional<Excess> excess =
@@ -29,7 +34,7 @@ bool Plant::begin_rest(double torque, const Elongation& elongation) {
   const double stiffness = stiffness_on(spring_.branch(), spring_.elongation());
   Swing swing;
   if (excess->amplitude < tolerance_.rest && std::abs(excess->torque) < 2.0 * tolerance_.rest * stiffness) {
-    settle(*excess);
+    settle(*excess, stood);
   } else if (turns && excess->amplitude < largest && swings_freely(torque, *excess)) {
     swing = begin_swing(*excess);
   } else {
@@ -94,10 +99,16 @@ std::optional<Plant::Excess> Plant::excess_over_rest(double torque, const Elonga
   return Excess{creep, torque_excess, velocity_excess, std::sqrt(energy) / per_time_squared};
 }
 
-/// A rotor that is off by rounding alone stays: it may stand on the edge of a count.
-void Plant::settle(const Excess& excess) {
-  if (std::abs(excess.torque) > tolerance_.elongation * (contact_.k1 + contact_.k2)) {
-    spring_.settle_at_torque(excess.creep.sign * spring_torque_at_rate(excess.creep, excess.creep.rate));
+/// A rotor that is off by rounding alone stays: it may stand on the edge of a count. What is left of a swing
+/// is not remembered. But where the torque has changed on a rotor that stood, however little, the spring is
+/// loaded or unloaded by that, and has to remember it: a slow ramp is nothing but such steps.
+void Plant::settle(const Excess& excess, bool stood) {
+  if (!(std::abs(excess.torque) > tolerance_.elongation * (contact_.k1 + contact_.k2))) return;
+  const double torque = excess.creep.sign * spring_torque_at_rate(excess.creep, excess.creep.rate);
+  if (stood) {
+    spring_.move_to_torque(torque);
+  } else {
+    spring_.settle_at_torque(torque);
   }
 }
 
@@ -113,7 +124,20 @@ bool Plant::swings_freely(double torque, const Excess& excess) const {
   if (!(law.decay > 0.0 && law.frequency > law.decay)) return false;
   if (!creeping_) return std::abs(torque) + torque_margin < creep_onset_torque_;
   if (!(excess.creep.rate > 0.0 && excess.creep.balance > torque_margin)) return false;
-  return law.creep < 0.05 * law.frequency && excess.creep.rate > law.creep * margin;
+  if (!(law.creep < 0.05 * law.frequency && excess.creep.rate > law.creep * margin)) return false;
+  return creep_left_out(law, excess) < 0.1 * tolerance_.rest;
+}
+
+/// About how far (rad) creep goes in the swings beyond what Swing has of it: Σ of the second order of σⁿ,
+/// which has one sign whatever that of the swing, and what creep recovers while it is ahead.
+double Plant::creep_left_out(const SwingLaw& law, const Excess& excess) const {
+  const double amplitude = excess.amplitude;
+  const double stiffest = contact_.k1 + contact_.k2;
+  const double per_time_squared = law.frequency * law.frequency + law.decay * law.decay;
+  const double rectified = std::abs(contact_.n - 1.0) * law.creep * stiffest * amplitude * amplitude /
+                           (8.0 * excess.creep.balance * law.decay);
+  const double recovered = 2.0 * contact_.alpha * law.creep * amplitude / per_time_squared;
+  return rectified + 2.0 * recovered;
 }
 
 SwingLaw Plant::swing_law(const Excess& excess) const {

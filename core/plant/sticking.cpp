@@ -16,17 +16,11 @@ double Plant::stick(const TorqueCourse& torque, double duration) {
     go_on_at_rest(duration);
     return duration;
   }
-  leave_rest();
-  if (!creeping_ && std::abs(spring_.torque()) >= creep_onset_torque_) creeping_ = true;
-  double creep_rate_now = creep_rate();
-  // The end of creep can lie closer to σ = 0 than the series of |σ|ⁿ sees, if n is no whole number.
-  if (creeping_ && !(creep_rate_now * spring_.torque() > 0.0)) {
-    end_creep();
-    creep_rate_now = 0.0;
-  }
+  const bool stood = leave_rest();
+  const double creep_rate_now = switch_creep();
   const Elongation elongation = elongation_under(torque.now, creep_rate_now);
   if (is_constant(torque)) {
-    if (begin_rest(torque.now, elongation)) {
+    if (begin_rest(torque.now, elongation, stood)) {
       go_on_at_rest(duration);
       return duration;
     }
@@ -57,6 +51,16 @@ double Plant::stick(const TorqueCourse& torque, double duration) {
                                                       : value_at(series.elongation, next.time));
   pass(next.event);
   return next.time;
+}
+
+/// Turns the creep law on or off where it is time. @returns dxp/dt, rad/s.
+double Plant::switch_creep() {
+  if (!creeping_ && std::abs(spring_.torque()) >= creep_onset_torque_) creeping_ = true;
+  const double rate = creep_rate();
+  // The end of creep can lie closer to σ = 0 than the series of |σ|ⁿ sees, if n is no whole number.
+  if (!creeping_ || rate * spring_.torque() > 0.0) return rate;
+  end_creep();
+  return 0.0;
 }
 
 /// dxp/dt, rad/s.

@@ -160,6 +160,58 @@ TEST(PlantAtRest, IsNotWhileItSwings) {
   }
 }
 
+/// Creep goes by a power of σ, so swings about a torque add more to it on one side than they take on the
+/// other; and it recovers what it is ahead. With little damping and fast creep both are far from small.
+TEST(PlantAtRest, WaitsWhereSwingsMakeCreep) {
+  double worst = 0.0;
+  for (std::uint64_t index = 0; index < 24; ++index) {
+    Draws draws(3000 + index);
+    TrialParameters rig;
+    FrictionParameters& contact = rig.friction.uniform;
+    const double stiffest = contact.k1 + contact.k2;
+    const double ratio = std::exp(draws.uniform(std::log(0.01), std::log(0.1)));  // of damping
+    rig.plant.presliding_damping = 2.0 * ratio * std::sqrt(stiffest * rig.plant.inertia);
+    contact.alpha = std::exp(draws.uniform(std::log(0.1), std::log(10.0)));
+    contact.n = index % 3 == 0 ? 1.0 : (index % 3 == 1 ? 2.0 : 2.7);
+    const double torque = 0.004 * draws.uniform(0.5, 1.0);
+    // Creep of 10 to 3000 counts.
+    const double creep = std::exp(draws.uniform(std::log(10.0), std::log(3000.0))) * count_of(rig);
+    contact.lambda = std::pow(torque, contact.n) / creep;
+    Plant plant = plant_of(rig);
+    OdeintMotion judge(rig);
+    for (int i = 0; i < 60; ++i) {
+      hold(plant, torque, 0.01);
+      judge.advance(torque, 0.01);
+      const double difference = std::abs(static_cast<double>(plant.theta() - judge.theta()));
+      worst = std::max(worst, difference / count_of(rig));
+    }
+  }
+  std::cout << "theta within " << worst << " count\n";
+  EXPECT_LT(worst, 3e-8);
+}
+
+/// A slow ramp is a stair of steps each smaller than what counts as rest; the spring remembers its turns all
+/// the same.
+TEST(PlantAtRest, RemembersASlowUnloading) {
+  for (const double direction : {1.0, -1.0}) {
+    TrialParameters rig;
+    rig.encoder.fine = 10000;
+    rig.friction.uniform.alpha = 0.0;
+    Plant plant = plant_of(rig);
+    hold(plant, direction * 0.05, 1.0);
+    HystereticSpring spring = plant.spring();
+    const double before = spring.elongation();
+    constexpr int steps = 20000;
+    for (const double way : {-1.0, 1.0, -1.0}) {
+      const double from = way < 0.0 ? 0.05 : 0.05 - 1e-5;
+      for (int k = 1; k <= steps; ++k) hold(plant, direction * (from + way * 1e-5 * k / steps), 5e-4);
+      spring.move_to_torque(direction * (from + way * 1e-5));
+      EXPECT_NEAR(plant.theta(), spring.elongation(), 1e-7 * count_of(rig));
+    }
+    EXPECT_LT(direction * (spring.elongation() - before), -1e-9);
+  }
+}
+
 TEST(PlantAtRest, CreepsInOneDirection) {
   for (std::uint64_t index = 0; index < 20; ++index) {
     TrialParameters rig = rig_number(4 * index + 1);

@@ -17,27 +17,39 @@ std::vector<ConfidenceInterval> bounds_of(std::span<const PointSummary> points, 
   return bounds;
 }
 
-std::string text_of(const std::vector<ConfidenceInterval>& bounds, const std::vector<std::string>& labels,
-                    const StoppingRule& rule) {
-  const std::string head =
-      fmt::format("{:.6g} % bounds of zero-count, however often one looks (%)", 100.0 * rule.confidence);
-  std::vector<std::vector<std::string>> cells{{"point", head}};
+double halfwidth(const ConfidenceInterval& bounds) {
+  return 0.5 * (bounds.high - bounds.low);
+}
+
+/// @param bounds at the confidence of the summary. @param judged at that of the rule.
+std::string text_of(const std::vector<ConfidenceInterval>& bounds,
+                    const std::vector<ConfidenceInterval>& judged, const std::vector<std::string>& labels,
+                    const StoppingRule& rule, double confidence) {
+  std::vector<std::vector<std::string>> cells{
+      {"point", fmt::format("{:.6g} % bounds of zero-count, however often one looks (%)", 100.0 * confidence),
+       fmt::format("asked for: ± {:.4g} %, came to", 100.0 * rule.success_rate_halfwidth)}};
+  bool reached = true;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const bool here = halfwidth(judged[i]) <= rule.success_rate_halfwidth;
+    reached = reached && here;
     cells.push_back({printable(labels[i]),
-                     fmt::format("[{:.2f}, {:.2f}]", 100.0 * bounds[i].low, 100.0 * bounds[i].high)});
+                     fmt::format("[{:.2f}, {:.2f}]", 100.0 * bounds[i].low, 100.0 * bounds[i].high),
+                     fmt::format("± {:.2f} %{}", 100.0 * halfwidth(judged[i]), here ? "" : ": not reached")});
   }
-  return aligned_table(cells, {false, false}) +
+  return aligned_table(cells, {false, false, false}) +
          fmt::format(
              "\nhow many trials there are was decided by their outcomes, after every {} at each "
-             "point;\nall other bounds are those of a number fixed beforehand\n",
-             rule.block);
+             "point{};\nall other bounds are those of a number fixed beforehand\n",
+             rule.block,
+             reached ? "" : ", and ended by max_trials before all was known as well as asked for");
 }
 
 }  // namespace
 
 SummarySection stopping_section(std::span<const PointSummary> points, const std::vector<std::string>& labels,
-                                const StoppingRule& rule) {
-  const std::vector<ConfidenceInterval> bounds = bounds_of(points, rule.confidence);
+                                const StoppingRule& rule, double confidence) {
+  const std::vector<ConfidenceInterval> bounds = bounds_of(points, confidence);
+  const std::vector<ConfidenceInterval> judged = bounds_of(points, rule.confidence);
   PointColumn low{"stopped_success_rate_low",
                   "1",
                   "lower bound of the success rate that holds however often one looks",
@@ -46,13 +58,18 @@ SummarySection stopping_section(std::span<const PointSummary> points, const std:
                    "1",
                    "upper bound of the success rate that holds however often one looks",
                    {}};
-  SummarySection section{.key = "stopped", .json = {}, .columns = {}, .text = text_of(bounds, labels, rule)};
-  for (const ConfidenceInterval& interval : bounds) {
-    low.values.push_back(interval.low);
-    high.values.push_back(interval.high);
-    section.json.push_back({{"success_rate_low", interval.low},
-                            {"success_rate_high", interval.high},
-                            {"confidence", rule.confidence}});
+  SummarySection section{
+      .key = "stopped", .json = {}, .columns = {}, .text = text_of(bounds, judged, labels, rule, confidence)};
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    low.values.push_back(bounds[i].low);
+    high.values.push_back(bounds[i].high);
+    section.json.push_back({{"success_rate_low", bounds[i].low},
+                            {"success_rate_high", bounds[i].high},
+                            {"confidence", confidence},
+                            {"halfwidth", halfwidth(judged[i])},
+                            {"halfwidth_asked", rule.success_rate_halfwidth},
+                            {"halfwidth_confidence", rule.confidence},
+                            {"reached", halfwidth(judged[i]) <= rule.success_rate_halfwidth}});
   }
   section.columns = {std::move(low), std::move(high)};
   return section;

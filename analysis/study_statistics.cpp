@@ -161,7 +161,7 @@ StudySummary summarise(const StudyFile& file, double confidence, bool bootstrap)
         repeatability_section(study_repeatability(file, study, confidence), summary.labels));
   }
   if (study.stop) {
-    summary.sections.push_back(stopping_section(summary.points, summary.labels, *study.stop));
+    summary.sections.push_back(stopping_section(summary.points, summary.labels, *study.stop, confidence));
   }
   // It counts independent trials.
   if (!study.open_loop && !summary.features.dependent_trials) {

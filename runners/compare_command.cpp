@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 #include "analysis/comparison/comparison_report.hpp"
 #include "results/storage/durable_file.hpp"
 #include "runners/commands.hpp"
+#include "runners/output_place.hpp"
 
 namespace zerocount {
 namespace {
@@ -40,9 +42,20 @@ void write_where_asked(const Arguments& arguments, const char* option, const std
   if (const std::optional<std::string> path = arguments.value(option)) replace_file(*path, text);
 }
 
+void protect(const Arguments& arguments, const std::optional<std::string>& margins) {
+  std::vector<std::filesystem::path> inputs{arguments.operands()[0], arguments.operands()[1]};
+  if (margins) inputs.emplace_back(*margins);
+  std::vector<std::filesystem::path> outputs;
+  for (const char* const option : {"json", "junit", "markdown"}) {
+    if (const std::optional<std::string> path = arguments.value(option)) outputs.emplace_back(*path);
+  }
+  protect_from_outputs(arguments, inputs, outputs);
+}
+
 ExitCode compare(const Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"table", "json", "junit", "markdown"});
   const std::optional<std::string> margins = arguments.value("margins");
+  protect(arguments, margins);
   const StudyComparison result =
       compare_files(arguments.operands()[0], arguments.operands()[1],
                     margins ? std::optional<std::filesystem::path>(*margins) : std::nullopt);

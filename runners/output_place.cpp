@@ -23,4 +23,28 @@ std::filesystem::path output_place(const Arguments& arguments) {
   return output;
 }
 
+void protect_from_outputs(const Arguments& arguments, const std::vector<std::filesystem::path>& inputs,
+                          const std::vector<std::filesystem::path>& outputs) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const fs::path& output = outputs[i];
+    for (const fs::path& input : inputs) {
+      if (fs::equivalent(input, output, error)) {
+        arguments.refuse(
+            fmt::format("{} is read, and must not be written over; name another output", output.string()));
+      }
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (fs::weakly_canonical(fs::absolute(output), error) ==
+          fs::weakly_canonical(fs::absolute(outputs[j]), error)) {
+        arguments.refuse(fmt::format("{} is named for two outputs; name two files", output.string()));
+      }
+    }
+    if (fs::exists(output, error) && !fs::is_regular_file(output, error)) {
+      arguments.refuse(fmt::format("{} is no regular file; name a file to write", output.string()));
+    }
+  }
+}
+
 }  // namespace zerocount

@@ -3,11 +3,13 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 
 #include "analysis/comparison/compare_studies.hpp"
+#include "analysis/comparison/margins_file.hpp"
 #include "analysis/report/report.hpp"
 #include "core/failure.hpp"
 #include "results/reading/study_file.hpp"
@@ -53,8 +55,13 @@ std::vector<std::string> check(const StudyFile& file, const ReplayedTrial& repla
 StudyReport report_of(const Arguments& arguments, const StudyFile& file) {
   ReportOptions options;
   options.focus = arguments.whole_number("point", 0, std::int64_t{1} << 53);
-  if (const auto baseline = arguments.value("baseline"))
-    options.comparison = compare_studies(StudyFile(*baseline), file);
+  const auto margins = arguments.value("margins");
+  if (const auto baseline = arguments.value("baseline")) {
+    const GateRules rules = margins ? read_gate_rules(*margins, file.point_labels()) : GateRules{};
+    options.comparison = compare_studies(StudyFile(*baseline), file, rules);
+  } else if (margins) {
+    arguments.refuse("option '--margins' needs '--baseline'");
+  }
   options.check = [&file](const ReplayedTrial& replayed) { return check(file, replayed); };
   StudyReport report = study_report(file, options);
   for (const std::string& warning : report.warnings) fmt::print(stderr, "zerocount: warning: {}\n", warning);
@@ -73,8 +80,19 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
   publish(path);
 }
 
+/// The output, which is none of the files that are read.
+std::filesystem::path picture_or_page(const Arguments& arguments) {
+  std::filesystem::path output = output_place(arguments);
+  std::vector<std::filesystem::path> inputs{arguments.operands()[0]};
+  for (const char* const option : {"baseline", "margins"}) {
+    if (const auto path = arguments.value(option)) inputs.emplace_back(*path);
+  }
+  protect_from_outputs(arguments, inputs, {output});
+  return output;
+}
+
 ExitCode write_report(const Arguments& arguments) {
-  const std::filesystem::path output = output_place(arguments);
+  const std::filesystem::path output = picture_or_page(arguments);
   const StudyFile file(arguments.operands()[0]);
   write_file(output, html_page(report_of(arguments, file).page));
   return ExitCode::success;
@@ -114,7 +132,7 @@ ExitCode plot(const Arguments& arguments) {
     for (const std::string& name : figure_names(report_of(arguments, file).page)) fmt::print("{}\n", name);
     return ExitCode::success;
   }
-  const std::filesystem::path output = output_place(arguments);
+  const std::filesystem::path output = picture_or_page(arguments);
   const std::string extension = output.extension().string();
   if (extension != ".svg" && extension != ".png") {
     arguments.refuse(fmt::format("option '--output': '{}' is neither .svg nor .png", output.string()));
@@ -134,6 +152,7 @@ Command report_command() {
            1,
            {{"output,o", "PAGE", "the page, such as report.html (required)"},
             {"baseline", "FILE", "compare with these results"},
+            {"margins", "FILE", "the margins and requirements of that comparison"},
             {"point", "P", "design point whose trials are shown one by one (default: the best)"}}},
           "write one HTML page on a results file",
           report_help,
@@ -148,6 +167,7 @@ Command plot_command() {
            {{"figure", "NAME", "which figure"},
             {"output,o", "PICTURE", "where to: a name that ends in .svg or .png"},
             {"baseline", "FILE", "compare with these results"},
+            {"margins", "FILE", "the margins and requirements of that comparison"},
             {"point", "P", "design point whose trials are shown one by one (default: the best)"}}},
           "draw one figure of the report as SVG or PNG",
           plot_help,

@@ -13,6 +13,7 @@
 #include "analysis/comparison/comparison_report.hpp"
 #include "core/failure.hpp"
 #include "experiments/designs/sha256.hpp"
+#include "experiments/yaml/yaml_tree.hpp"
 #include "results/storage/durable_file.hpp"
 
 namespace zerocount {
@@ -58,6 +59,21 @@ std::string log_entry(const FileHeader& header, const std::string& sha256, const
   return entry;
 }
 
+/// What the log says already, which more can be put after.
+/// @throws Failure (bad_data) where it is no log.
+std::string log_so_far(const fs::path& path) {
+  const std::string log = bytes_of(path);
+  if (log.empty()) return log;
+  Problems problems;
+  const YamlPointer entries = parse_yaml(log, path.string(), false, problems);
+  const bool is_list = problems.empty() && entries && entries->kind == YamlNode::Kind::list;
+  if (is_list && log.back() == '\n') return log;
+  throw Failure(ExitCode::bad_data,
+                fmt::format("{}: is no log of baselines that another entry can be put after; expected a YAML "
+                            "list that ends with a line break: mend it, or take it away",
+                            path.string()));
+}
+
 }  // namespace
 
 fs::path baseline_log(const fs::path& baseline) {
@@ -72,7 +88,7 @@ BaselineUpdate update_baseline(const fs::path& file, const fs::path& output, con
   const std::string before = bytes_of(output);
   BaselineUpdate update;
   if (bytes == before) return {false, {}, {}};
-  const std::string log = bytes_of(baseline_log(output));
+  const std::string log = log_so_far(baseline_log(output));
   std::string replaced;
   if (!before.empty()) {
     replaced = sha256_hex(before);

@@ -66,13 +66,20 @@ std::optional<GateMargin> read_margin(const Field& field, Problems& problems) {
 
 void read_margin_of(const Field& map, const YamlEntry& entry, std::map<std::string, GateMargin>& margins,
                     Problems& problems) {
-  if (find_gate_measure(entry.key) == nullptr) {
+  const GateMeasure* const measure = find_gate_measure(entry.key);
+  if (measure == nullptr) {
     add_unknown_key(map, entry, names_of(gate_measures()), problems);
     return;
   }
-  if (const std::optional<GateMargin> margin = read_margin(entry_of(map, entry), problems)) {
-    margins[entry.key] = *margin;
+  const Field field = entry_of(map, entry);
+  const std::optional<GateMargin> margin = read_margin(field, problems);
+  if (!margin) return;
+  if (measure->share && (margin->absolute >= 1.0 || margin->relative >= 1.0)) {
+    problems.add(field.node->place, field.path, "no share of trials can be worse by so much",
+                 "less than 1, such as 0.02 for two percent points");
+    return;
   }
+  margins[entry.key] = *margin;
 }
 
 void read_margins(const Field& field, std::map<std::string, GateMargin>& margins, Problems& problems) {

@@ -189,6 +189,11 @@ std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& director
   std::vector<fs::path> paths(tables.size());
   std::transform(tables.begin(), tables.end(), paths.begin(),
                  [&directory](const ExportedTable& table) { return directory / table.name; });
+  std::error_code unknown;
+  if (fs::exists(directory, unknown) && !fs::is_directory(directory, unknown)) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: is no directory; name one, which is made if need be", directory.string()));
+  }
   make_directory(directory);
   for (const fs::path& path : paths) {
     std::error_code ignored;

@@ -1,4 +1,6 @@
 // `zerocount compare` and `zerocount baseline` from the command line.
+#include <filesystem>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -120,6 +122,33 @@ TEST_F(Compare, DamagedOrMissingFilesHaveTheirExitCodes) {
   EXPECT_EQ(run({"compare", "a.h5", "bad.h5"}).code, 4);
   EXPECT_EQ(run({"compare", "a.h5", "none.h5"}).code, 2);
   EXPECT_EQ(run({"compare", "a.h5"}).code, 2);
+}
+
+TEST_F(Compare, NothingThatIsReadIsWrittenOver) {
+  study("a", gains("1.0e-4", 10));
+  const std::string before = folder_.read("a.h5");
+  folder_.write("gate.yaml", "confidence: 0.9\n");
+  for (const char* const option : {"--json", "--junit", "--markdown"}) {
+    const ProgramResult result = run({"compare", "a.h5", "a.h5", option, "a.h5"});
+    EXPECT_EQ(result.code, 2);
+    EXPECT_NE(result.err.find("a.h5 is read, and must not be written over"), std::string::npos) << result.err;
+    EXPECT_EQ(run({"compare", "a.h5", "a.h5", "--margins", "gate.yaml", option, "gate.yaml"}).code, 2);
+    EXPECT_EQ(run({"compare", "a.h5", "a.h5", option, "/dev/null"}).code, 2);
+  }
+  EXPECT_EQ(run({"compare", "a.h5", "a.h5", "--json", "r", "--junit", "./r"}).code, 2);
+  EXPECT_EQ(folder_.read("a.h5"), before);
+}
+
+TEST_F(Compare, ABaselineIsNotRecordedInABrokenLog) {
+  study("a", gains("1.0e-4", 10));
+  for (const char* const log : {"- date: yesterday", "not: [a list\n", "a: map\n"}) {
+    folder_.write("base.h5.log.yaml", log);
+    const ProgramResult result = run({"baseline", "a.h5", "-o", "base.h5", "--reason", "x"});
+    EXPECT_EQ(result.code, 4) << log;
+    EXPECT_NE(result.err.find("base.h5.log.yaml: is no log of baselines"), std::string::npos) << result.err;
+    EXPECT_EQ(folder_.read("base.h5.log.yaml"), log);
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "base.h5"));
+  }
 }
 
 TEST_F(Compare, ABaselineNeedsAReason) {

@@ -74,6 +74,14 @@ TEST_F(Nightly, NeverPassesWithoutABaselineOrAStudy) {
   EXPECT_EQ(script("nightly", "--whatever"), 2);
 }
 
+TEST_F(Nightly, RunsTheLastStudyOfAListWithoutALineBreakAtItsEnd) {
+  folder_.write("studies.txt", "small small.yaml trials=20\nother small.yaml seed=7");
+  ASSERT_EQ(script("make-baselines", "--reason first"), 0) << said_;
+  EXPECT_EQ(night(), 0) << said_;
+  EXPECT_NE(said_.find("other: passed"), std::string::npos) << said_;
+  EXPECT_NE(said_.find("2 studies"), std::string::npos) << said_;
+}
+
 TEST_F(Nightly, GoesOnAfterAStudyThatFails) {
   ASSERT_EQ(script("make-baselines", "--reason first"), 0) << said_;
   folder_.write("studies.txt", "small none.yaml\nother small.yaml seed=7\n");

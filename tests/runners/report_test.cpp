@@ -41,6 +41,27 @@ TEST_F(ReportCommand, WritesAPageAndReplacesIt) {
   EXPECT_FALSE(std::filesystem::exists(*folder / "page.html.part"));
 }
 
+TEST_F(ReportCommand, NothingThatIsReadIsWrittenOver) {
+  const std::string before = folder->read("a.h5");
+  std::filesystem::copy_file(*folder / "a.h5", *folder / "baseline.h5");
+  for (const char* const output : {"a.h5", "baseline.h5", "/dev/null"}) {
+    EXPECT_EQ(run({"report", "a.h5", "--baseline", "baseline.h5", "-o", output}).code, 2) << output;
+  }
+  EXPECT_EQ(folder->read("a.h5"), before);
+  EXPECT_EQ(folder->read("baseline.h5"), before);
+  std::filesystem::remove(*folder / "baseline.h5");
+}
+
+/// The page says what the gate says with the same margins.
+TEST_F(ReportCommand, ComparesByTheMarginsOfTheGate) {
+  folder->write("gate.yaml", "require: success_rate ≥ 0.9999\n");
+  EXPECT_EQ(run({"report", "a.h5", "-o", "m.html", "--margins", "gate.yaml"}).code, 2);
+  const ProgramResult result =
+      run({"report", "a.h5", "--baseline", "a.h5", "--margins", "gate.yaml", "-o", "m.html"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(folder->read("m.html").find("0.9999"), std::string::npos);
+}
+
 TEST_F(ReportCommand, IsTheSamePageEveryTime) {
   ASSERT_EQ(run({"report", "a.h5", "-o", "one.html"}).code, 0);
   ASSERT_EQ(run({"report", "a.h5", "-o", "two.html"}).code, 0);

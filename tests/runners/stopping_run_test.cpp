@@ -167,7 +167,18 @@ TEST_F(StoppingRun, SummaryHasTheBoundsThatHold) {
     const auto& stopped = points.at(static_cast<std::size_t>(point)).at("stopped");
     EXPECT_EQ(stopped.at("success_rate_low").get<double>(), bounds.low);
     EXPECT_EQ(stopped.at("success_rate_high").get<double>(), bounds.high);
+    EXPECT_TRUE(stopped.at("reached").get<bool>());
   }
+}
+
+TEST_F(StoppingRun, SummarySaysWhereTheGoalWasNotReached) {
+  folder_.write("study.yaml", stopping_manifest());
+  complete("study.yaml", "few.h5", {"--set", "stop.max_trials=100"});
+  const ProgramResult table =
+      zerocount_program({"summary", "few.h5", "--confidence", "0.99"}, folder_.path());
+  EXPECT_NE(table.out.find("99 % bounds of zero-count, however often one looks"), std::string::npos);
+  EXPECT_NE(table.out.find(": not reached"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("ended by max_trials before all was known"), std::string::npos) << table.out;
 }
 
 /// Every trial of the file can be run again from it.

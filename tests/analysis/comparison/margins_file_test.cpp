@@ -73,6 +73,9 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
   EXPECT_EQ(
       fault("margins: {success_rate: {}}\n"),
       "gate.yaml:1:25: margins.success_rate: the margin has no size; expected absolute or relative, or both");
+  EXPECT_EQ(fault("margins: {success_rate: 2}\n"),
+            "gate.yaml:1:25: margins.success_rate: no share of trials can be worse by so much; expected less "
+            "than 1, such as 0.02 for two percent points");
   EXPECT_EQ(fault("points: {c: {success_rate: 0.1}}\n"),
             "gate.yaml:1:10: points.c: no design point of the files has this label; expected one of theirs, "
             "such as "

@@ -62,7 +62,7 @@ std::string log_entry(const FileHeader& header, const std::string& sha256, const
 /// What the log says already, which more can be put after.
 /// @throws Failure (bad_data) where it is no log.
 std::string log_so_far(const fs::path& path) {
-  const std::string log = bytes_of(path);
+  std::string log = bytes_of(path);
   if (log.empty()) return log;
   Problems problems;
   const YamlPointer entries = parse_yaml(log, path.string(), false, problems);
@@ -83,7 +83,9 @@ fs::path baseline_log(const fs::path& baseline) {
 }
 
 BaselineUpdate update_baseline(const fs::path& file, const fs::path& output, const std::string& reason) {
-  const FileHeader header = StudyFile(file).header();
+  const StudyFile study(file);
+  study.require_sound_values();
+  const FileHeader& header = study.header();
   const std::string bytes = bytes_of(file);
   const std::string before = bytes_of(output);
   BaselineUpdate update;

@@ -11,12 +11,45 @@
 #include "analysis/report/embedded_files.hpp"
 
 namespace zerocount {
+namespace {
+
+/// Whether the title is one of bounds, which it then says are too narrow.
+bool qualify(std::string& title) {
+  if (title.find("bound") == std::string::npos) return false;
+  title += ", too narrow";
+  return true;
+}
+
+/// The titles anywhere in a specification.
+void qualify_titles(nlohmann::ordered_json& part) {
+  if (!part.is_structured()) return;
+  for (auto& [key, value] : part.items()) {
+    if (key == "title" && value.is_string()) {
+      qualify(value.get_ref<std::string&>());
+    } else {
+      qualify_titles(value);
+    }
+  }
+}
+
+}  // namespace
 
 Figure figure_of(std::string_view specification, std::string name, std::string title, std::string caption) {
   Figure figure{std::move(name), std::move(title), std::move(caption), {}, {}};
   figure.specification =
       nlohmann::ordered_json::parse(embedded_file(fmt::format("{}.vl.json", specification)));
   return figure;
+}
+
+void call_bounds_too_narrow(Figure& figure, const std::string& why) {
+  bool found = false;
+  for (FigureData& data : figure.data) {
+    for (FigureColumn& column : data.columns) found = qualify(column.title) || found;
+  }
+  if (!found) return;
+  qualify_titles(figure.specification);
+  if (!figure.caption.ends_with(' ')) figure.caption += ' ';
+  figure.caption += why;
 }
 
 void set_rows(Figure& figure, std::size_t rows, int row) {
@@ -32,14 +65,16 @@ nlohmann::ordered_json datum(double value, int digits) {
 
 nlohmann::ordered_json round_numbers(double low, double high, double smallest) {
   const double largest = std::max(std::abs(low), std::abs(high));
+  if (!std::isfinite(largest) || !std::isfinite(smallest) || smallest <= 0.0)
+    return nlohmann::ordered_json::array();
   const bool many = largest > 300.0 * smallest;
   nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
   const auto add = [&](double value) {
     if (value >= low && value <= high) numbers.push_back(datum(value));
   };
   add(0.0);
-  for (int power = static_cast<int>(std::floor(std::log10(smallest))); std::pow(10.0, power) <= largest;
-       ++power) {
+  const int most = static_cast<int>(std::floor(std::log10(std::max(largest, smallest))));
+  for (int power = static_cast<int>(std::floor(std::log10(smallest))); power <= most; ++power) {
     for (const double digit : {1.0, 2.0, 5.0}) {
       const double value = digit * std::pow(10.0, power);
       if (value < 0.999 * smallest || (many && digit != 1.0)) continue;

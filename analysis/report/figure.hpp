@@ -35,6 +35,10 @@ struct Figure {
 /// A figure without data whose specification is the embedded file `specification`.vl.json.
 Figure figure_of(std::string_view specification, std::string name, std::string title, std::string caption);
 
+/// Says of all bounds in the data and at the pointer that they are too narrow, and adds `why` to the caption.
+/// Does nothing to a figure without bounds.
+void call_bounds_too_narrow(Figure& figure, const std::string& why);
+
 /// Gives a figure the height of `rows` rows of `row` pixels each.
 void set_rows(Figure& figure, std::size_t rows, int row);
 
@@ -42,7 +46,8 @@ void set_rows(Figure& figure, std::size_t rows, int row);
 nlohmann::ordered_json datum(double value, int digits = 6);
 
 /// Round numbers in [low, high] for an axis that is not linear: 1, 2 and 5 times the powers of ten between,
-/// and those alone where there are many; 0 where it is inside, and negative ones alike.
+/// and those alone where there are many; 0 where it is inside, and negative ones alike. None where an
+/// argument is not finite or `smallest` not positive.
 nlohmann::ordered_json round_numbers(double low, double high, double smallest);
 
 /// Writes the numbers of an axis that reaches to `largest` with powers of ten where they are small.

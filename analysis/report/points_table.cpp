@@ -26,6 +26,7 @@ struct PointCell {
   const char* unit;
   std::string (*text)(const PointSummary& point, const TheoryPrediction& prediction);
   std::string (*below)(const PointSummary& point, const ConfidenceInterval& success){nullptr};
+  bool needs_independence{false};  ///< a claim that dependent trials cannot make
 };
 
 std::string counted(std::int64_t number) {
@@ -44,7 +45,8 @@ constexpr PointCell point_cells[] = {
     {"failures at most", "at 95 %",
      [](const PointSummary& point, const TheoryPrediction&) {
        return percent_at_most(point.claim.failure_at_most);
-     }},
+     },
+     nullptr, true},
     {"one count", "",
      [](const PointSummary& point, const TheoryPrediction&) { return counted(point.outcomes.one_count); }},
     {"oscil\u00adlating", "",
@@ -89,9 +91,13 @@ std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
     label.cells.push_back(summary.labels[i]);
     observed.cells.push_back(observed_at(summary, static_cast<std::int64_t>(i)));
   }
+  const bool dependent = summary.features.dependent_trials;
   std::vector<HtmlColumn> columns{label};
   for (const PointCell& cell : point_cells) {
+    if (dependent && cell.needs_independence) continue;
     HtmlColumn column{cell.head, cell.unit, false, {}};
+    if (dependent && cell.below != nullptr)
+      column.unit += (column.unit.empty() ? "" : "; ") + std::string("bounds too narrow");
     for (std::size_t i = 0; i < rows; ++i) {
       const TheoryPrediction prediction =
           summary.predictions.empty() ? TheoryPrediction{} : summary.predictions[i];
@@ -104,12 +110,12 @@ std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
   if (!summary.observed.empty()) columns.push_back(observed);
   return html_table(columns) +
          fmt::format(
-             "<p class=\"note\">zero-count: trials all of whose moves ended at zero error, with {}. failures "
-             "at "
-             "most: the failure probability that the trials leave, one-sided. one count, oscillating, lost: "
-             "trials by their worst move. Settling times are of the moves that arrived, with order-statistic "
-             "bounds.</p>\n",
-             reported.bounds_name);
+             "<p class=\"note\">zero-count: trials all of whose moves ended at zero error, with {}.{} one "
+             "count, oscillating, lost: trials by their worst move. Settling times are of the moves that "
+             "arrived, with order-statistic bounds. {}</p>\n",
+             reported.bounds_name,
+             dependent ? "" : " failures at most: the failure probability that the trials leave, one-sided.",
+             dependent ? html_text(fmt::format("{} {}", dependence_sentence, too_narrow_sentence)) : "");
 }
 
 /// "Repeatability" for "repeatability".

@@ -79,6 +79,16 @@ PageSection success_section(const ReportedStudy& reported) {
   return section;
 }
 
+/// All bounds but those of the indices, which are made for the design, take the trials for independent.
+void qualify_bounds(const ReportedStudy& reported, ReportPage& page) {
+  if (!reported.summary.features.dependent_trials) return;
+  for (PageSection& section : page.sections) {
+    if (section.name == sensitivity_section_name) continue;
+    for (Figure& figure : section.figures)
+      call_bounds_too_narrow(figure, fmt::format("{} {}", dependence_sentence, too_narrow_sentence));
+  }
+}
+
 }  // namespace
 
 StudyReport study_report(const StudyFile& file, const ReportOptions& options) {
@@ -114,6 +124,7 @@ StudyReport study_report(const StudyFile& file, const ReportOptions& options) {
   add(page, {"traces", "Single trials", "", traces(reported, replays)});
   add(page, {"paper", "The paper's figures", "", figures_of_paper(reported, replays)});
   add(page, {"run", "What was run", run_html(reported), {}});
+  qualify_bounds(reported, page);
   report.warnings = replays.warnings();
   page.sections.front().html = warnings_html(report.warnings) + page.sections.front().html;
   return report;

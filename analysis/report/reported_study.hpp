@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/proportion.hpp"
@@ -23,6 +24,12 @@ struct ReportedStudy {
   std::string bounds_name{};                         ///< what kind of bounds these are
   std::int64_t focus{0};                             ///< design point whose trials are shown one by one
 };
+
+/// What is said beside results of a study whose trials are not independent (StudyFeatures::dependent_trials).
+inline constexpr std::string_view dependence_sentence =
+    "The trials of a saltelli design are not independent: those of a row share most of their draws.";
+inline constexpr std::string_view too_narrow_sentence =
+    "Bounds take trials for independent, and are too narrow here.";
 
 /// Reads the file once from beginning to end. The focus is the best point.
 /// @param file a complete study.

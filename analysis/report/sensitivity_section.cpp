@@ -69,7 +69,7 @@ std::optional<PageSection> sensitivity_section(const ReportedStudy& reported) {
   const StudySensitivity answer = study_sensitivity(reported.file, question);
   if (!any_estimated(answer)) return std::nullopt;
   const PointSensitivity& point = answer.points.front();
-  PageSection section{"sensitivity", "Which parameters matter", "", {}};
+  PageSection section{sensitivity_section_name, "Which parameters matter", "", {}};
   for (const OutputSensitivity& output : point.outputs) {
     if (!output.estimated) continue;
     section.html += fmt::format("<p>{}</p>\n", html_prose(output.conclusion));

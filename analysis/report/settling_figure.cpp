@@ -85,9 +85,10 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   const std::int64_t moves_per_trial = reported.file.moves();
   std::string caption = fmt::format(
       "Share of all moves that have arrived, for good or not, within a time; a curve that ends below 100 % "
-      "never got "
-      "further. The bands hold the whole curve of a point with 95 % confidence (Dvoretzky-Kiefer-Wolfowitz, "
-      "n = {} trials{}). ",
+      "never got further. The bands {} (Dvoretzky-Kiefer-Wolfowitz, n = {} trials{}). ",
+      reported.summary.features.dependent_trials
+          ? "would hold the whole curve of a point with 95 % confidence, were its trials independent"
+          : "hold the whole curve of a point with 95 % confidence",
       points.front().trials, moves_per_trial > 1 ? fmt::format(" of {} moves each", moves_per_trial) : "");
   const auto arriving = std::count_if(points.begin(), points.end(),
                                       [](const PointSummary& point) { return point.settling_time.n > 0; });
@@ -118,7 +119,7 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
               band(points[at].trials, moves_per_trial), end);
   }
   ordered_json& x = figure.specification["encoding"]["x"];
-  if (end > 12.0 * start) {  // a few late arrivals would press all others against the axis
+  if (start > 0.0 && end > 12.0 * start) {  // a few late arrivals would press all others against the axis
     x["scale"]["type"] = "symlog";
     x["scale"]["constant"] = start / 4.0;
     x["axis"]["format"] = "~g";

@@ -53,10 +53,12 @@ std::vector<std::int64_t> shown_points(const ReportedStudy& reported) {
 
 Figure line_per_point(const ReportedStudy& reported) {
   const std::vector<std::int64_t> shown = shown_points(reported);
-  std::string caption =
-      "Share of the trials that end at zero counts. Where bounds do not overlap, points differ by more than "
-      "chance; a dot at "
-      "100 % leaves the failures that its lower bound allows. ";
+  std::string caption = "Share of the trials that end at zero counts. ";
+  if (!reported.summary.features.dependent_trials) {
+    caption +=
+        "Where bounds do not overlap, points differ by more than chance; a dot at 100 % leaves the failures "
+        "that its lower bound allows. ";
+  }
   if (std::ssize(shown) < std::ssize(reported.summary.points)) {
     caption += fmt::format("Shown are {} of {} points, an even spread from the best to the worst. ",
                            shown.size(), reported.summary.points.size());

@@ -13,8 +13,11 @@
 namespace zerocount {
 namespace {
 
-std::string bounds_text(const ConfidenceInterval& bounds) {
-  return fmt::format("95 % bounds {} to {}", share_text(bounds.low), share_text(bounds.high));
+/// " (95 % bounds a to b)"; nothing where the trials are not independent.
+std::string bounds_text(const ReportedStudy& reported, std::int64_t point) {
+  if (reported.summary.features.dependent_trials) return "";
+  const ConfidenceInterval& bounds = reported.success_bounds[static_cast<std::size_t>(point)];
+  return fmt::format(" (95 % bounds {} to {})", share_text(bounds.low), share_text(bounds.high));
 }
 
 std::string of_all(std::int64_t successes, std::int64_t trials) {
@@ -22,7 +25,14 @@ std::string of_all(std::int64_t successes, std::int64_t trials) {
 }
 
 /// What flawless trials prove, and what they do not.
-std::string flawless_text(const SuccessClaim& claim) {
+std::string flawless_text(const ReportedStudy& reported, const SuccessClaim& claim) {
+  if (reported.summary.features.dependent_trials) {
+    return fmt::format(
+        "No failure in {} trials is not 100 % repeatability, and as these trials are not independent, they "
+        "do "
+        "not say how probable a failure may be.",
+        claim.trials);
+  }
   return fmt::format(
       "No failure in {} trials is not 100 % repeatability: it bounds the probability of a failure, which is "
       "at most {} "
@@ -52,21 +62,29 @@ SuccessClaim claim_of_best(const ReportedStudy& reported, std::int64_t best) {
   return claim;
 }
 
+/// What is said of all axes; of dependent trials, only what became of them.
+std::string claim_text(const ReportedStudy& reported, std::int64_t best) {
+  if (!reported.summary.features.dependent_trials) return claim_sentence(claim_of_best(reported, best));
+  const PointSummary& point = point_of(reported, best);
+  return fmt::format("{} of the trials succeeded ({}), which is no statement about all axes",
+                     percentage(point.outcomes.zero_count, point.trials),
+                     of_all(point.outcomes.zero_count, point.trials));
+}
+
 std::string headline(const ReportedStudy& reported, std::int64_t best) {
-  const std::string claim = claim_sentence(claim_of_best(reported, best));
+  std::string claim = claim_text(reported, best);
   const std::size_t points = reported.summary.points.size();
   if (points == 1) return claim;
-  return fmt::format("Best of {} points, {}: {}, the choice allowed for", points, label_of(reported, best),
-                     claim);
+  return fmt::format("Best of {} points, {}: {}{}", points, label_of(reported, best), claim,
+                     reported.summary.features.dependent_trials ? "" : ", the choice allowed for");
 }
 
 void add_success(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const PointSummary& point = point_of(reported, best);
-  lines.push_back(fmt::format("{} ended at zero counts ({}).",
-                              of_all(point.outcomes.zero_count, point.trials),
-                              bounds_text(reported.success_bounds[static_cast<std::size_t>(best)])));
+  lines.push_back(fmt::format("{} ended at zero counts{}.", of_all(point.outcomes.zero_count, point.trials),
+                              bounds_text(reported, best)));
   if (point.outcomes.zero_count == point.trials)
-    lines.push_back(flawless_text(claim_of_best(reported, best)));
+    lines.push_back(flawless_text(reported, claim_of_best(reported, best)));
   const OutcomeCounts& outcomes = point.outcomes;
   if (outcomes.zero_count < point.trials) {
     lines.push_back(
@@ -88,10 +106,16 @@ void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported) 
   const std::string share = flawless == 0 ? fmt::format("None of the {} points is", points.size())
                                           : fmt::format("{} of the {} points {}", flawless, points.size(),
                                                         flawless == 1 ? "is" : "are");
-  lines.push_back(fmt::format(
-      "{} without a failure. The worst, {}, succeeded in {} ({}).", share,
-      label_of(reported, worst - points.begin()), of_all(worst->outcomes.zero_count, worst->trials),
-      bounds_text(reported.success_bounds[static_cast<std::size_t>(worst - points.begin())])));
+  lines.push_back(fmt::format("{} without a failure. The worst, {}, succeeded in {}{}.", share,
+                              label_of(reported, worst - points.begin()),
+                              of_all(worst->outcomes.zero_count, worst->trials),
+                              bounds_text(reported, worst - points.begin())));
+}
+
+/// " (95 % bounds a to b s)"; nothing where the trials are not independent.
+std::string median_bounds_text(const ReportedStudy& reported, const Quantile& median) {
+  if (reported.summary.features.dependent_trials) return "";
+  return fmt::format(" (95 % bounds {} to {} s)", short_number(median.low), short_number(median.high));
 }
 
 /// " at b", where there are several points.
@@ -104,11 +128,9 @@ void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, s
   const SettlingStatistics& settling = point.settling_time;
   if (settling.n == 0) return;
   lines.push_back(fmt::format(
-      "{} of the moves arrived{}: half of those within {} s (95 % bounds {} to {} s), 95 % of them "
-      "within {} s.",
+      "{} of the moves arrived{}: half of those within {} s{}, 95 % of them within {} s.",
       percentage(settling.n, point.moves), at_point(reported, best), short_number(settling.median.value),
-      short_number(settling.median.low), short_number(settling.median.high),
-      short_number(settling.p95.value)));
+      median_bounds_text(reported, settling.median), short_number(settling.p95.value)));
   if (point.jerk_count.total == 0) {
     lines.push_back("No move was disturbed by a jerk after it arrived.");
     return;
@@ -184,6 +206,12 @@ std::string verdict_html(const ReportedStudy& reported) {
   if (reported.study.open_loop) return open_loop_verdict(reported);
   const std::int64_t best = best_point(reported.summary.points);
   std::vector<std::string> lines;
+  if (reported.summary.features.dependent_trials) {
+    lines.push_back(
+        fmt::format("{} A share of all axes, and bounds of it, are told of a study with "
+                    "`design: monte_carlo`.",
+                    dependence_sentence));
+  }
   add_success(lines, reported, best);
   add_times(lines, reported, best);
   add_spread(lines, reported);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/moments.hpp"
 #include "analysis/sensitivity/given_data_index.hpp"
@@ -60,6 +61,36 @@ FactorSensitivity& row_of(OutputSensitivity& result, const std::string& name) {
   return result.factors.back();
 }
 
+// Of which factors the rows say nothing, or leave more than half of what is possible open.
+void note_uncertain_totals(OutputSensitivity& result) {
+  std::vector<std::string> without;
+  std::vector<std::string> open;
+  bool unbounded = false;
+  for (const FactorSensitivity& factor : result.factors) {
+    if (std::isnan(factor.total.value) || std::isnan(factor.first_order.value)) {
+      without.push_back(factor.name);
+    }
+    unbounded = unbounded || (std::isnan(factor.total.low) && !std::isnan(factor.total.value));
+    if (factor.total.high - factor.total.low > 0.5) open.push_back(factor.name);
+  }
+  if (!without.empty()) {
+    result.notes.push_back(
+        fmt::format("not both indices of {}: {} is the same in all trials that one would come from",
+                    fmt::join(without, ", "), result.output));
+  }
+  if (unbounded) {
+    result.notes.push_back(fmt::format(
+        "the variance of {} comes from fewer than twenty trials: the Sobol' indices have no bounds",
+        result.output));
+  }
+  if (!open.empty()) {
+    result.notes.push_back(
+        fmt::format("too few rows to say more than whether there is influence: the bounds of total are wider "
+                    "than 0.5 for {}",
+                    fmt::join(open, ", ")));
+  }
+}
+
 void add_design_indices(const PointInputs& point, const std::vector<double>& values, const UsedTrials& used,
                         double confidence, const RandomStream& bootstrap, OutputSensitivity& result) {
   if (used.row_starts.size() < fewest_rows) {
@@ -78,6 +109,7 @@ void add_design_indices(const PointInputs& point, const std::vector<double>& val
     factor.first_order = indices[j].first_order;
     factor.total = indices[j].total;
   }
+  note_uncertain_totals(result);
 }
 
 void add_correlations(const Varying& varying, const std::vector<double>& y, bool first_orders,

@@ -6,10 +6,13 @@
 
 #include <Eigen/Core>
 
+#include "analysis/sensitivity/pair_difference.hpp"
+
 namespace zerocount {
 namespace {
 
 constexpr Eigen::Index most_groups = 4096;
+constexpr double fewest_behind_variance = 20.0;
 
 // The estimates are functions of sums over the rows: of the first ones, and for each factor of c, c², bc, (a
 // − c)².
@@ -110,6 +113,83 @@ double mean_of(const SaltelliSample& sample) {
   return sum / (2.0 * static_cast<double>(sample.a.size()));
 }
 
+bool is_yes_or_no(const SaltelliSample& sample) {
+  const auto says = [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0 || v == 1.0; });
+  };
+  return says(sample.a) && says(sample.b) && std::all_of(sample.c.begin(), sample.c.end(), says);
+}
+
+// 1 − D, of B and a column with one factor in common.
+BoundedNumber rest_of(const BoundedNumber& difference) {
+  return {1.0 - difference.value, 1.0 - difference.high, 1.0 - difference.low};
+}
+
+// The wider of the bounds by resampling and those without a control variate.
+BoundedNumber yes_no_first_order(const BoundedNumber& resampled, const BoundedNumber& difference) {
+  if (std::isnan(difference.value)) return {};
+  const BoundedNumber held = held_share(resampled);
+  const BoundedNumber rest = held_share(rest_of(difference));
+  return {held.value, std::fmin(held.low, rest.low), std::fmax(held.high, rest.high)};
+}
+
+BoundedNumber number_total(const BoundedNumber& resampled, double unseen, double confidence) {
+  BoundedNumber total = held_share(with_unseen(resampled, unseen));
+  // A factor without influence changes no row. A resampled bound of 0 says that few rows differ; at the least
+  // it is the bound of a Poisson mean of which one event is seen.
+  const double of_one_event = -std::log1p(-0.5 * (1.0 - confidence)) * total.value;
+  total.low = std::fmin(std::fmax(std::fmin(resampled.low, 1.0), of_one_event), total.value);
+  if (resampled.value > 1.0) total.low = std::fmin(total.low, held_share(resampled).low);
+  return total;
+}
+
+// As many trials as would, each with the same share, make up the variance of A and B (Kish's effective
+// number).
+double trials_behind_variance(const SaltelliSample& sample, double mean) {
+  double squares = 0.0;
+  double fourth_powers = 0.0;
+  for (const std::vector<double>* column : {&sample.a, &sample.b}) {
+    for (const double value : *column) {
+      const double square = (value - mean) * (value - mean);
+      squares += square;
+      fourth_powers += square * square;
+    }
+  }
+  return squares * (squares / fourth_powers);
+}
+
+BoundedNumber without_bounds(const BoundedNumber& number) {
+  BoundedNumber value;
+  value.value = number.value;
+  return value;
+}
+
+// From bounds by resampling to such as hold where few rows differ, too: resampling hardly ever meets those.
+void widen_bounds(const SaltelliSample& sample, double confidence, std::vector<SobolIndices>& indices) {
+  const bool yes_or_no = is_yes_or_no(sample);
+  const double unseen = unseen_share(sample.a, sample.b, confidence);
+  const bool too_few = trials_behind_variance(sample, mean_of(sample)) < fewest_behind_variance;
+  for (std::size_t j = 0; j < sample.c.size(); ++j) {
+    auto& [first_order, total] = indices[j];
+    const std::vector<double>& c = sample.c[j];
+    if (yes_or_no) {
+      total = held_share(yes_no_difference(answer_pairs(sample.a, c), confidence));
+      first_order = yes_no_first_order(first_order, yes_no_difference(answer_pairs(sample.b, c), confidence));
+    } else {
+      total = number_total(total, unseen, confidence);
+      first_order = held_share(with_unseen(first_order, unseen));
+    }
+    if (!yes_or_no && too_few) {
+      total = without_bounds(total);
+      first_order = without_bounds(first_order);
+      continue;
+    }
+    // No factor explains more alone than it has a part in.
+    if (std::isnan(total.value)) first_order = {};
+    first_order.high = std::max(first_order.value, std::min(first_order.high, total.high));
+  }
+}
+
 }  // namespace
 
 std::int64_t bootstrap_replicates(double confidence) {
@@ -150,6 +230,7 @@ std::vector<SobolIndices> saltelli_indices(const SaltelliSample& sample, double 
     set_bounds(std::move(first_orders[j]), confidence, indices[j].first_order);
     set_bounds(std::move(totals[j]), confidence, indices[j].total);
   }
+  widen_bounds(sample, confidence, indices);
   return indices;
 }
 

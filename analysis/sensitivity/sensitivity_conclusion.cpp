@@ -19,7 +19,12 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 std::string share_text(double share) {
-  return share < 0.005 ? "< 1 %" : fmt::format("{:.0f} %", 100.0 * std::min(share, 1.0));
+  return share < 0.005 ? "< 1 %" : fmt::format("{:.0f} %", 100.0 * share);
+}
+
+// Rounded up: what is above it is excluded.
+std::string upper_text(double share) {
+  return fmt::format("{:.0f} %", std::ceil(100.0 * share));
 }
 
 std::string why_nothing(const OutputSensitivity& sensitivity) {
@@ -49,7 +54,9 @@ std::string sensitivity_conclusion(const OutputSensitivity& sensitivity, bool fr
     } else if (factor.matters) {
       correlations.push_back(fmt::format("{} ({:+.2f})", factor.name, factor.partial_rank_correlation.value));
     } else if (!std::isnan(share.value)) {
-      others.push_back(factor.name);
+      const bool bounded = from_saltelli && !std::isnan(share.high);
+      others.push_back(bounded ? fmt::format("{} (at most {})", factor.name, upper_text(share.high))
+                               : factor.name);
     }
   }
   std::vector<std::string> parts;

@@ -10,6 +10,7 @@
 
 #include "core/failure.hpp"
 #include "results/layout/statistic_io.hpp"
+#include "results/reading/sound_values.hpp"
 
 namespace zerocount {
 namespace {
@@ -93,6 +94,7 @@ StudyFile::StudyFile(const std::filesystem::path& path, Require require)
     trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
   if (outcomes_.rows() != rows().count)
     outcomes_.row_scale().fail("its size differs from the attribute 'trial_count'");
+  require_sound_numbering(header_, trials_, jerks_);
 }
 
 std::int64_t StudyFile::local(RowRange range) const {
@@ -156,7 +158,9 @@ std::vector<double> StudyFile::inputs_of(std::int64_t row) const {
 }
 
 std::vector<MoveOutcome> StudyFile::outcomes(RowRange range) const {
-  return read_records(outcomes_, measures(), local(range), range.count);
+  std::vector<MoveOutcome> moves = read_records(outcomes_, measures(), local(range), range.count);
+  require_sound_outcomes(outcomes_, measures(), range.first, moves);
+  return moves;
 }
 
 std::vector<double> StudyFile::measure(std::string_view name, RowRange range) const {
@@ -174,11 +178,14 @@ std::vector<double> StudyFile::measure(std::string_view name, RowRange range) co
   outcomes_.column(static_cast<std::size_t>(column - measures().begin()))
       .read(first, range.count, bytes.data());
   scatter(*field, bytes, std::span(moves));
+  require_sound_measure(outcomes_, measures(), name, range.first, moves);
   return as_doubles(*field, moves);
 }
 
 std::vector<JerkRecord> StudyFile::jerks_at(std::int64_t first, std::int64_t count) const {
-  return read_records(jerks_, jerk_fields(), first, count);
+  std::vector<JerkRecord> jerks = read_records(jerks_, jerk_fields(), first, count);
+  require_sound_jerks(jerks_, moves(), first, jerks);
+  return jerks;
 }
 
 /// Position of the first jerk of a trial not before `row`: the table is ordered by trial.
@@ -203,6 +210,14 @@ std::vector<JerkRecord> StudyFile::jerks(RowRange range) const {
   local(range);
   const std::int64_t first = first_jerk_from(range.first);
   return jerks_at(first, first_jerk_from(range.end()) - first);
+}
+
+void StudyFile::require_sound_values() const {
+  const std::int64_t at_once = chunk_rows(moves());
+  for (std::int64_t first = rows().first; first < rows().end(); first += at_once)
+    outcomes({first, std::min(at_once, rows().end() - first)});
+  for (std::int64_t first = 0; first < jerk_count(); first += chunk_elements)
+    jerks_at(first, std::min(chunk_elements, jerk_count() - first));
 }
 
 std::vector<TraceRecord> StudyFile::trace_at(std::int64_t first, std::int64_t count) const {

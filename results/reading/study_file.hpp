@@ -32,11 +32,12 @@ struct StoredProfile {
 };
 
 /// A results file, open to be read. Rows are global rows, here and in the file. Every function may find that
-/// the file is damaged, and throws Failure (bad_data) then. One thread at a time.
+/// the file is damaged, or holds values that cannot be (see sound_values.hpp), and throws Failure (bad_data)
+/// then. One thread at a time.
 class StudyFile {
  public:
-  /// Checks seal, format, version, completion mark, and completeness as required. Reads the file once from
-  /// beginning to end.
+  /// Checks seal, format, version, completion mark, completeness as required, and that the rows have the
+  /// numbers of their places (see sound_values.hpp). Reads the file once from beginning to end.
   /// @throws ForeignFile for another format or a newer version; Failure: bad_input where there is no such
   /// file, machine_failed where it cannot be read, otherwise bad_data.
   explicit StudyFile(const std::filesystem::path& path, Require require = Require::complete);
@@ -69,6 +70,10 @@ class StudyFile {
   /// One measure of a move by its name, [row][move], flattened, whatever its type in the file, as doubles.
   /// NaN where it is not known.
   std::vector<double> measure(std::string_view name, RowRange rows) const;
+
+  /// Reads all outcomes and jerks in blocks, for the checks that this makes of them: for a file that is kept
+  /// without being used at once.
+  void require_sound_values() const;
 
   std::int64_t jerk_count() const { return jerks_.rows(); }
   /// By position in the table.

@@ -37,6 +37,16 @@ TEST(RoundNumbers, AreOneTwoFiveWithinTheRange) {
   EXPECT_EQ(round_numbers(-30.0, 3000.0, 1.0), nlohmann::ordered_json({0, 1, -1, 10, -10, 100, 1000}));
 }
 
+TEST(RoundNumbers, AreNoneOfWhatIsNotFinite) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double strange : {infinity, -infinity, std::nan("")}) {
+    EXPECT_TRUE(round_numbers(0.0, strange, 0.01).empty());
+    EXPECT_TRUE(round_numbers(0.0, 1.0, strange).empty());
+  }
+  EXPECT_TRUE(round_numbers(0.0, 1.0, 0.0).empty());
+  EXPECT_EQ(round_numbers(0.0, std::numeric_limits<double>::max(), 1.0).size(), 310U);  // 0, 1, 10, …, 1e308
+}
+
 TEST(Specifications, AreVegaLiteOfDataByName) {
   int specifications = 0;
   for (const EmbeddedFile& file : embedded_files()) {

@@ -221,7 +221,7 @@ TEST(ReportPage, NamesOfCasesCannotBreakIt) {
         "verdict: {dwell: 0.02, window: 0.02}\n"
         "sweep: {cases: {\"" +
             name + "\": {controller.ki: 2.0e-5}, other: {controller.ki: 3.0e-5}}}\n");
-    const std::string page = html_page(study_report(StudyFile(folder / "a.h5")).page);
+    std::string page = html_page(study_report(StudyFile(folder / "a.h5")).page);
     std::filesystem::remove(folder / "a.h5");
     std::filesystem::remove(folder / "a.h5.shard.h5");
     return page;
@@ -259,6 +259,70 @@ TEST(ReportPage, TheBestPointAllowsForItsChoice) {
   const std::string& verdict = report.page.sections.front().html;
   EXPECT_NE(verdict.find("Best of 4 points, "), std::string::npos) << verdict;
   EXPECT_NE(verdict.find("at most 13.6&nbsp;% fail"), std::string::npos) << verdict;
+}
+
+/// A study whose trials share their draws by rows of five, three factors and two more.
+std::string saltelli_manifest(const std::string& more) {
+  return "zerocount: 1\nname: rows\nseed: 3\ntrials: 60\ndesign: saltelli\n"
+         "friction: {k1: {uniform: [90, 130]}, lambda: 0.5}\n"
+         "command: {targets: [{integers: [1, 10]}], hold: 0.15}\n"
+         "initial: {encoder_phase: {uniform: [0, 1]}}\n"
+         "verdict: {dwell: 0.02, window: 0.02}\n" +
+         more;
+}
+
+/// The page of a study by this manifest.
+ReportPage page_of(const std::string& manifest) {
+  const TemporaryFolder folder;
+  testing::run_study_file(folder / "a.h5", manifest);
+  return study_report(StudyFile(folder / "a.h5")).page;
+}
+
+TEST(DependentTrials, MakeNoClaimOfAllAxes) {
+  for (const char* more : {"sweep: {grid: {controller.ki: [2.0e-5, 6.0e-5, 9.45e-5]}}\n",
+                           "controller: {ki: 2.0e-5}\n", "controller: {ki: 9.45e-5}\n"}) {
+    const ReportPage page = page_of(saltelli_manifest(more));
+    const std::string& verdict = page.sections.front().html;
+    for (const char* claim : {"confidence", "at least", "at most", "bounds 0", "% bounds", "allowed for"})
+      EXPECT_EQ(verdict.find(claim), std::string::npos) << claim << "\n" << verdict;
+    EXPECT_NE(verdict.find("no statement about all axes"), std::string::npos) << verdict;
+    EXPECT_NE(verdict.find("are not independent"), std::string::npos) << verdict;
+    EXPECT_EQ(page.sections[1].html.find("failures at most"), std::string::npos);
+  }
+}
+
+TEST(DependentTrials, HaveEveryBoundCalledTooNarrowButThoseOfTheIndices) {
+  const ReportPage page =
+      page_of(saltelli_manifest("sweep: {grid: {controller.ki: [2.0e-5, 6.0e-5, 9.45e-5]}}\n"));
+  const std::string& table = page.sections[1].html;
+  EXPECT_EQ(times_in(table, "bounds too narrow"), 3U) << table;
+  EXPECT_NE(table.find("are too narrow here"), std::string::npos) << table;
+  std::size_t with_bounds = 0;
+  for (const PageSection& section : page.sections) {
+    for (const Figure& figure : section.figures) {
+      const bool own = section.name == "sensitivity";
+      bool bounds = false;
+      for (const FigureData& data : figure.data) {
+        for (const FigureColumn& column : data.columns) {
+          if (column.title.find("bound") == std::string::npos) continue;
+          bounds = true;
+          EXPECT_EQ(column.title.ends_with(", too narrow"), !own) << figure.name;
+        }
+      }
+      with_bounds += bounds;
+      EXPECT_EQ(times_in(figure.caption, "are too narrow here"), bounds && !own ? 1U : 0U) << figure.name;
+      EXPECT_EQ(times_in(figure.specification.dump(), "too narrow") > 0, bounds && !own) << figure.name;
+      EXPECT_EQ(times_in(figure.caption, "differ by more than chance"), 0U);
+      EXPECT_EQ(times_in(figure.caption, "bands hold"), 0U);
+    }
+  }
+  EXPECT_GE(with_bounds, 3U);
+}
+
+TEST_F(Report, IndependentTrialsHaveNoSuchWords) {
+  const std::string page = html_page(study_report(file).page);
+  EXPECT_EQ(times_in(page, "too narrow"), 0U);
+  EXPECT_GT(times_in(page, "failures at most"), 0U);
 }
 
 struct PaperStudy {

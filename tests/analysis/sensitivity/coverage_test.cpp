@@ -1,11 +1,14 @@
 // How often bounds of 95 % cover what they are to cover, by simulation with fixed seeds. Of 400 samples, 92
-// to 98 % are within three standard deviations of that. With 50 trials the normal distribution behind most
-// bounds is rough, and so much is let pass; what is lost must then not be more than 13 %.
+// to 98 % are within three standard deviations of that; of Sobol' indices that are small, bounds may cover
+// more. With 50 trials the normal distribution behind most bounds is rough, and so much is let pass; what is
+// lost must then not be more than 13 %.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "analysis/sensitivity/given_data_index.hpp"
@@ -85,8 +88,8 @@ void expect_saltelli_coverage(const testing::UnitFunction& function, const std::
   for (std::size_t j = 0; j < factors; ++j) {
     EXPECT_GE(of_first[j].share(), 0.92) << "first order of factor " << j;
     EXPECT_GE(of_total[j].share(), 0.92) << "total of factor " << j;
-    EXPECT_LE(of_first[j].share(), 0.98) << "first order of factor " << j;
-    EXPECT_LE(of_total[j].share(), 0.98) << "total of factor " << j;
+    EXPECT_LE(of_first[j].share(), first_orders[j] < 0.1 ? 1.0 : 0.98) << "first order of factor " << j;
+    EXPECT_LE(of_total[j].share(), totals[j] < 0.1 ? 1.0 : 0.98) << "total of factor " << j;
   }
 }
 
@@ -98,6 +101,85 @@ TEST(SensitivityCoverage, BootstrapBoundsOfSobolIndices) {
 TEST(SensitivityCoverage, BootstrapBoundsOfSobolIndicesOfAYesOrNo) {
   expect_saltelli_coverage([](std::span<const double> u) { return u[0] > 0.5 && u[1] > 0.5 ? 1.0 : 0.0; },
                            {1.0 / 3.0, 1.0 / 3.0}, {2.0 / 3.0, 2.0 / 3.0});
+}
+
+// Yes where u₁ < p, but where u₂ < q it is no. P(yes) = p(1 − q); the indices of u₂ are small with q:
+// with P = p(1 − q) and V = P(1 − P), S₁ = (p(1 − q)² − P²)/V, S₂ = (p²(1 − q) − P²)/V, T₁ = 1 − S₂, T₂ = 1 −
+// S₁.
+TEST(SensitivityCoverage, BoundsOfSobolIndicesOfARareYesOrNo) {
+  for (const double p : {0.05, 0.2}) {
+    for (const double q : {0.01, 0.1}) {
+      const double yes = p * (1.0 - q);
+      const double variance = yes * (1.0 - yes);
+      const double first = (yes * (1.0 - q) - yes * yes) / variance;
+      const double second = (p * yes - yes * yes) / variance;
+      const std::array<double, 3> first_orders{first, second, 0.0};
+      const std::array<double, 3> totals{1.0 - second, 1.0 - first, 0.0};
+      for (const std::size_t rows : {50UL, 300UL}) {
+        std::array<Coverage, 3> of_first;
+        std::array<Coverage, 3> of_total;
+        for (std::uint64_t sample = 0; sample < 200; ++sample) {
+          const auto function = [&](std::span<const double> u) { return u[0] < p && u[1] > q ? 1.0 : 0.0; };
+          const auto found =
+              saltelli_indices(saltelli_of(function, 3, rows, sample), 0.95, {random_key(sample, "rare"), 0});
+          for (std::size_t j = 0; j < 3; ++j) {
+            if (std::isnan(found[j].total.value)) continue;  // no yes at all
+            if (!std::isnan(found[j].first_order.value)) {
+              of_first[j].add(found[j].first_order, first_orders[j]);
+              EXPECT_GT(found[j].first_order.high - found[j].first_order.low,
+                        0.5 / static_cast<double>(rows));
+            }
+            of_total[j].add(found[j].total, totals[j]);
+            EXPECT_GT(found[j].total.high - found[j].total.low, 0.5 / static_cast<double>(rows));
+            EXPECT_TRUE(j < 2 || found[j].total.low == 0.0) << "found what is not there";
+          }
+        }
+        for (std::size_t j = 0; j < 3; ++j) {
+          const std::string place = fmt::format("factor {}, {} rows, p = {}, q = {}", j, rows, p, q);
+          EXPECT_GE(of_first[j].share(), 0.93) << place;
+          EXPECT_GE(of_total[j].share(), 0.93) << place;
+        }
+      }
+    }
+  }
+}
+
+// Mostly one value, else a smooth number; u₂ leaves that value rarely: 50 rows hardly show it. With z the
+// indicator that u₂ < q, y = z + u₁/10·(1 − z), whose variances given one factor are written out.
+TEST(SensitivityCoverage, BoundsOfSobolIndicesOfANumberThatJumpsRarely) {
+  for (const double q : {0.02, 0.1}) {
+    constexpr double mean_u = 0.05;
+    constexpr double variance_u = 0.01 / 12.0;
+    const double alone_second = (1.0 - mean_u) * (1.0 - mean_u) * q * (1.0 - q);
+    const double alone_first = (1.0 - q) * (1.0 - q) * variance_u;
+    const double variance = alone_second + (1.0 - q) * variance_u;
+    const std::array<double, 2> first_orders{alone_first / variance, alone_second / variance};
+    const std::array<double, 2> totals{1.0 - alone_second / variance, 1.0 - alone_first / variance};
+    for (const std::size_t rows : {50UL, 300UL}) {
+      std::array<Coverage, 2> of_first;
+      std::array<Coverage, 2> of_total;
+      for (std::uint64_t sample = 0; sample < 200; ++sample) {
+        const auto function = [&](std::span<const double> u) { return u[1] < q ? 1.0 : 0.1 * u[0]; };
+        const SaltelliSample columns = saltelli_of(function, 2, rows, sample);
+        const auto jumps = std::count(columns.a.begin(), columns.a.end(), 1.0) +
+                           std::count(columns.b.begin(), columns.b.end(), 1.0);
+        const auto found = saltelli_indices(columns, 0.95, {random_key(sample, "jump"), 0});
+        if (jumps > 0 && jumps < 9) {
+          EXPECT_TRUE(std::isnan(found[0].total.low) && std::isnan(found[1].first_order.high)) << jumps;
+        }
+        if (jumps == 0 || std::isnan(found[0].total.low)) continue;
+        for (std::size_t j = 0; j < 2; ++j) {
+          of_first[j].add(found[j].first_order, first_orders[j]);
+          of_total[j].add(found[j].total, totals[j]);
+        }
+      }
+      for (std::size_t j = 0; j < 2 && of_first[j].samples >= 100; ++j) {
+        const std::string place = fmt::format("factor {}, {} rows, q = {}", j, rows, q);
+        EXPECT_GE(of_first[j].share(), 0.93) << place;
+        EXPECT_GE(of_total[j].share(), 0.93) << place;
+      }
+    }
+  }
 }
 
 using ColumnFunction = std::function<double(double, double)>;  // of a factor and noise, both in (0, 1)

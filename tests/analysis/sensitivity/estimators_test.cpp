@@ -1,6 +1,7 @@
 // Edge cases and invariants of the estimators; that they are right is shown by judges and simulations.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -9,6 +10,7 @@
 #include "analysis/sensitivity/factor_matrix.hpp"
 #include "analysis/sensitivity/given_data_index.hpp"
 #include "analysis/sensitivity/logistic_fit.hpp"
+#include "analysis/sensitivity/pair_difference.hpp"
 #include "analysis/sensitivity/partial_rank_correlation.hpp"
 #include "analysis/sensitivity/rank_correlation.hpp"
 #include "analysis/sensitivity/saltelli_indices.hpp"
@@ -24,16 +26,90 @@ SaltelliSample g_sample(std::size_t rows) {
   return testing::sample_of(testing::g_function, testing::drawn_points("saltelli", 3, 5 * rows, 1));
 }
 
-TEST(SaltelliIndices, OfAFactorWithoutInfluenceAreExactlyZero) {
+// No change in N rows says that a change has at most the probability 1 − 0.025^(1/N), 3.7/N.
+TEST(SaltelliIndices, OfAFactorThatChangesNothingAreZeroWithAnUpperBound) {
   SaltelliSample sample = g_sample(100);
   sample.c[1] = sample.a;
   const SobolIndices none = saltelli_indices(sample, 0.95, any_stream)[1];
   for (const BoundedNumber& number : {none.first_order, none.total}) {
     EXPECT_EQ(number.value, 0.0);
     EXPECT_EQ(number.low, 0.0);
-    EXPECT_EQ(number.high, 0.0);
+    EXPECT_NEAR(number.high, std::log(40.0) / 100.0, 1e-12);
     EXPECT_FALSE(excludes_zero(number));
   }
+}
+
+// 100 rows, of A the first 20 yes, of B every fifth: p = 0.2 and V = 0.16.
+SaltelliSample yes_no_sample() {
+  SaltelliSample sample;
+  for (int r = 0; r < 100; ++r) {
+    sample.a.push_back(r < 20 ? 1.0 : 0.0);
+    sample.b.push_back(r % 5 == 0 ? 1.0 : 0.0);
+  }
+  sample.c = {sample.a, sample.b, sample.a};
+  sample.c[2][50] = 1.0;
+  return sample;
+}
+
+TEST(SaltelliIndices, OfAYesOrNoNeverShrinkToAPoint) {
+  const auto [none, all, little] = [] {
+    const auto found = saltelli_indices(yes_no_sample(), 0.95, any_stream);
+    return std::array{found[0], found[1], found[2]};
+  }();
+  const double unseen_of_yes = 1.0 - std::pow(0.025, 1.0 / 20.0);
+  const double unseen_of_no = 1.0 - std::pow(0.025, 1.0 / 80.0);
+  const double unseen = unseen_of_yes / (2.0 - unseen_of_yes) + unseen_of_no / (2.0 - unseen_of_no);
+  EXPECT_EQ(none.total.value, 0.0);
+  EXPECT_EQ(none.total.low, 0.0);
+  EXPECT_NEAR(none.total.high, unseen, 1e-12);
+  EXPECT_EQ(none.first_order.low, 0.0);
+  EXPECT_NEAR(none.first_order.high, unseen, 1e-12) << "not above the total";
+  EXPECT_NEAR(all.first_order.value, 1.0, 1e-12);
+  EXPECT_NEAR(all.first_order.low, 1.0 - unseen, 1e-12);
+  EXPECT_EQ(all.first_order.high, 1.0);
+  EXPECT_GT(little.total.low, 0.0) << "one row that differs is proof";
+  EXPECT_NEAR(little.total.value, 0.01 / (2.0 * 0.205 * 0.795), 1e-12);
+}
+
+TEST(SaltelliIndices, OfPairsThatAreAllTheSameThereAreNone) {
+  SaltelliSample sample = yes_no_sample();
+  sample.a.assign(100, 0.0);
+  sample.c[0] = sample.a;
+  const SobolIndices nothing = saltelli_indices(sample, 0.95, any_stream)[0];
+  for (const BoundedNumber& number : {nothing.total, nothing.first_order}) {
+    EXPECT_TRUE(std::isnan(number.value) && std::isnan(number.low) && std::isnan(number.high));
+  }
+}
+
+// D of pairs written out, over all tables of 12 pairs.
+TEST(YesNoDifference, IsHalfTheMeanSquareDifferenceOverTheVariance) {
+  for (std::int64_t yes = 0; yes <= 12; ++yes) {
+    for (std::int64_t different = 0; yes + different <= 12; ++different) {
+      const BoundedNumber found = yes_no_difference({yes, different, 12 - yes - different}, 0.95);
+      const double p = (static_cast<double>(yes) + 0.5 * static_cast<double>(different)) / 12.0;
+      if (p == 0.0 || p == 1.0) {
+        EXPECT_TRUE(std::isnan(found.high));
+        continue;
+      }
+      EXPECT_NEAR(found.value, static_cast<double>(different) / 24.0 / (p * (1.0 - p)), 1e-12);
+      EXPECT_EQ(found.low > 0.0, different > 0);
+      EXPECT_GT(found.high - found.low, 0.1);
+    }
+  }
+}
+
+TEST(HeldShare, MovesTheBoundsWithTheEstimate) {
+  const auto expect = [](const BoundedNumber& number, double value, double low, double high) {
+    const BoundedNumber held = held_share(number);
+    EXPECT_NEAR(held.value, value, 1e-12);
+    EXPECT_NEAR(held.low, low, 1e-12);
+    EXPECT_NEAR(held.high, high, 1e-12);
+  };
+  expect({0.3, 0.2, 0.5}, 0.3, 0.2, 0.5);
+  expect({0.1, -0.1, 0.3}, 0.1, 0.0, 0.3);
+  expect({-0.2, -0.3, -0.1}, 0.0, 0.0, 0.1);
+  expect({1.25, 1.125, 1.5}, 1.0, 0.9, 1.0);
+  EXPECT_TRUE(std::isnan(held_share({std::nan(""), 0.0, 1.0}).high));
 }
 
 TEST(SaltelliIndices, AOneFactorFunctionIsAllItsOwn) {

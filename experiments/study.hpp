@@ -98,6 +98,7 @@ struct Study {
   std::string description;
   std::uint64_t seed{0};
   std::int64_t trials{0};            ///< per design point; the most that there may be, if `stop` decides
+  std::int64_t rigs{0};              ///< that the trials run on; 0: no trials share a rig
   std::optional<StoppingRule> stop;  ///< where the number of trials is decided while it runs
   Design design{Design::monte_carlo};
   std::vector<std::string> factors;  ///< of the design saltelli, in its order; otherwise empty
@@ -139,6 +140,11 @@ inline std::int64_t point_count(const Study& study) {
 }
 inline std::int64_t trial_count(const Study& study) {
   return point_count(study) * study.trials;
+}
+
+/// The rig (0 … rigs − 1) that trial `trial_index` of every point runs on, in a study that has rigs.
+inline std::int64_t rig_of(const Study& study, std::int64_t trial_index) {
+  return trial_index % study.rigs;
 }
 
 /// Reads, checks and understands a manifest.

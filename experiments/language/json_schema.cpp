@@ -167,6 +167,7 @@ Json general_schemas() {
       {"description", text},
       {"seed", {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<std::uint64_t>::max()}}},
       {"trials", {{"type", "integer"}, {"minimum", 1}, {"maximum", std::int64_t{1} << 53}}},
+      {"rigs", {{"type", "integer"}, {"minimum", min_rigs}, {"maximum", std::int64_t{1} << 53}}},
       {"design", {{"enum", std::vector<std::string_view>(design_words().begin(), design_words().end())}}},
       {"independent_points", {{"type", "boolean"}}},
       {"retain",

@@ -96,6 +96,9 @@ void read_numbers(Manifest& m) {
   if (const auto field = find_required(m, "trials", "the number of trials at each design point")) {
     m.study.trials = read_whole(*field, 1, most_trials, m.problems()).value_or(0);
   }
+  if (const auto field = find_field(m, "rigs")) {
+    m.study.rigs = read_whole(*field, min_rigs, most_trials, m.problems()).value_or(0);
+  }
   if (const auto field = find_field(m, "independent_points")) {
     m.study.independent_points = read_truth(*field, m.problems()).value_or(false);
   }
@@ -121,9 +124,9 @@ void check_trial_count(Manifest& m) {
   }
 }
 
-std::string nearest_trial_counts(std::int64_t trials, std::int64_t row) {
-  const std::int64_t below = trials / row * row;
-  return below == 0 ? std::to_string(row) : fmt::format("{} or {}", below, below + row);
+std::string nearest_multiples(std::int64_t number, std::int64_t of) {
+  const std::int64_t below = number / of * of;
+  return below == 0 ? std::to_string(of) : fmt::format("{} or {}", below, below + of);
 }
 
 // Of the design saltelli: whole rows, of as many trials as there are factors and two more.
@@ -144,7 +147,37 @@ void check_rows(Manifest& m) {
       fmt::format("{} trials are no whole number of the rows of {} that the design saltelli has for {} "
                   "factor{} ({})",
                   m.study.trials, row, names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", ")),
-      fmt::format("a multiple of {}, such as {}", row, nearest_trial_counts(m.study.trials, row)));
+      fmt::format("a multiple of {}, such as {}", row, nearest_multiples(m.study.trials, row)));
+}
+
+void require_multiple_of_rigs(Manifest& m, const Field& field, std::int64_t trials) {
+  if (trials % m.study.rigs == 0) return;
+  m.problems().add(
+      field.node->place, field.path,
+      fmt::format("{} trials cannot be divided equally among {} rigs", trials, m.study.rigs),
+      fmt::format("a multiple of {}, such as {}", m.study.rigs, nearest_multiples(trials, m.study.rigs)));
+}
+
+// Every rig has equally many trials, at every look of a study that decides how many it takes.
+void check_rigs(Manifest& m) {
+  if (m.study.rigs == 0) return;
+  const auto trials = find_field(m, "trials");
+  const std::int64_t block = m.study.stop ? m.study.stop->block : m.study.trials;
+  if (trials && block > 0) require_multiple_of_rigs(m, *trials, block);
+  if (m.study.stop) {
+    const Field stop = find_field(m, "stop").value();
+    const YamlEntry* max_trials = find_entry(*stop.node, "max_trials");
+    if (max_trials != nullptr) {
+      require_multiple_of_rigs(m, entry_of(stop, *max_trials), m.study.stop->max_trials);
+    }
+  }
+  if (m.study.design == Design::saltelli) {
+    const Field design = find_field(m, "design").value();
+    m.problems().add(design.node->place, design.path,
+                     "the rows of this design change one factor at a time, and a rig shares its factors with "
+                     "the trials of other rows",
+                     "monte_carlo, latin_hypercube or sobol with rigs");
+  }
 }
 
 void read_retained(Manifest& m) {
@@ -232,6 +265,7 @@ Study read_manifest(const YamlNode& root, Problems& problems) {
   read_retained(m);
   if (const auto field = find_field(m, "stop")) read_stop(*field, most_trials, m.study, problems);
   check_trial_count(m);
+  check_rigs(m);
   read_observed(m);
   realise_profiles(m.reading.profiles, m.study.seed, *plan);
   check_profiles(m.reading);

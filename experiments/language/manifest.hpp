@@ -8,6 +8,9 @@ namespace zerocount {
 /// Newest manifest version that this program understands: the value of the key `zerocount`.
 constexpr std::int64_t manifest_version = 1;
 
+/// Fewest rigs of a study that has rigs: between one and itself nothing differs.
+constexpr std::int64_t min_rigs = 2;
+
 /// Understands the manifest `root`: everything of a Study but its text, overrides and hashes. What is wrong
 /// goes to `problems`; where there is any, the study is not to be used.
 Study read_manifest(const YamlNode& root, Problems& problems);

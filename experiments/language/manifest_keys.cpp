@@ -33,12 +33,16 @@ std::vector<std::string_view> value_paths() {
 }  // namespace
 
 std::span<const GeneralKey> general_keys() {
-  static constexpr std::array<GeneralKey, 13> keys{{
+  static constexpr std::array<GeneralKey, 14> keys{{
       {"zerocount", "version of the manifest's format: 1", true},
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
       {"seed", "seed of all random numbers, 0 to 2^64 - 1", true},
       {"trials", "trials at each design point", true},
+      {"rigs",
+       "how many rigs the trials run on, trial i on rig i mod rigs; trials is a multiple of it (default: no "
+       "trials share a rig)",
+       false},
       {"design", "how the trials are spread: monte_carlo (default), latin_hypercube, sobol or saltelli",
        false},
       {"independent_points",

@@ -50,7 +50,8 @@ INSTANTIATE_TEST_SUITE_P(
              "alpha, lambda, n, breakaway, coulomb_ratio, stribeck_velocity"},
         Case{"frictoin: {k1: 1}",
              "m.yaml:6:1: frictoin: unknown key, nearest known: friction; expected one of zerocount, name, "
-             "description, seed, trials, design, independent_points, retain, stop, observed, sweep, plant, "
+             "description, seed, trials, rigs, design, independent_points, retain, stop, observed, sweep, "
+             "plant, "
              "friction, "
              "encoder, dac, amplifier, controller, command, initial, verdict"},
         Case{"friction: {k1: {unifrom: [1, 2]}}",
@@ -192,7 +193,16 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"retain: {trials: [10]}",
              "m.yaml:6:19: retain.trials.0: '10' is out of range; expected a whole number from 0 to 9"},
         Case{"retain: {trials: [1, 1]}",
-             "m.yaml:6:18: retain.trials: a trial stands twice in the list; expected each trial once"}));
+             "m.yaml:6:18: retain.trials: a trial stands twice in the list; expected each trial once"},
+        Case{"rigs: 1",
+             "m.yaml:6:7: rigs: '1' is out of range; expected a whole number from 2 to 9007199254740992"},
+        Case{
+            "rigs: 4",
+            "m.yaml:4:9: trials: 10 trials cannot be divided equally among 4 rigs; expected a multiple of 4, "
+            "such as 8 or 12"},
+        Case{"rigs: 20",
+             "m.yaml:4:9: trials: 10 trials cannot be divided equally among 20 rigs; expected a multiple of "
+             "20, such as 20"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Distributions, SixthLine,
@@ -325,11 +335,11 @@ TEST(ManifestErrors, EveryRequiredKeyIsMissed) {
 }
 
 TEST(ManifestErrors, AMergeKeyIsAKeyLikeAnyOther) {
-  EXPECT_EQ(
-      failure_of(minimal_manifest("<<: {name: x}")),
-      "m.yaml:6:1: <<: unknown key, nearest known: dac; expected one of zerocount, name, description, "
-      "seed, trials, design, independent_points, retain, stop, observed, sweep, plant, friction, encoder, "
-      "dac, amplifier, controller, command, initial, verdict");
+  EXPECT_EQ(failure_of(minimal_manifest("<<: {name: x}")),
+            "m.yaml:6:1: <<: unknown key, nearest known: dac; expected one of zerocount, name, description, "
+            "seed, trials, rigs, design, independent_points, retain, stop, observed, sweep, plant, friction, "
+            "encoder, "
+            "dac, amplifier, controller, command, initial, verdict");
 }
 
 TEST(ManifestErrors, ANewerManifestSaysSo) {

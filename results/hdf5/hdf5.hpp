@@ -9,8 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include <hdf5.h>
-
 #include "core/failure.hpp"
 #include "results/hdf5/element.hpp"
 
@@ -21,24 +19,29 @@
 /// message. All objects of one file must be used by one thread at a time.
 namespace zerocount::hdf5 {
 
+using Id = std::int64_t;          ///< an identifier of the library, its hid_t
+using Size = unsigned long long;  ///< a number of elements, the library's hsize_t
+
 /// An identifier of the library, closed at the end of its life.
 class Handle {
  public:
-  using Close = herr_t (*)(hid_t);
+  using Close = int (*)(Id);
 
   Handle() = default;
-  Handle(hid_t id, Close closer) : id_(id), close_(closer) {}
+  Handle(Id id, Close closer) : id_(id), close_(closer) {}
   Handle(Handle&& other) noexcept;
   Handle& operator=(Handle&& other) noexcept;
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   ~Handle() { close(); }
 
-  hid_t get() const { return id_; }
+  Id get() const { return id_; }
   bool close();  ///< false where the library reports a failure; closing twice is harmless
 
  private:
-  hid_t id_{H5I_INVALID_HID};
+  static constexpr Id none = -1;
+
+  Id id_{none};
   Close close_{nullptr};
 };
 
@@ -72,16 +75,15 @@ class Object {
   Object(Handle handle, std::shared_ptr<const Origin> origin, std::string path)
       : handle_(std::move(handle)), origin_(std::move(origin)), path_(std::move(path)) {}
 
-  hid_t id() const { return handle_.get(); }
+  Id id() const { return handle_.get(); }
   const std::shared_ptr<const Origin>& origin() const { return origin_; }
-  Handle own(hid_t id, Handle::Close close, std::string_view problem) const;
-  void require(herr_t status, std::string_view problem) const;
+  Handle own(Id id, Handle::Close close, std::string_view problem) const;
+  void require(int status, std::string_view problem) const;
 
   Handle handle_;
 
  private:
-  void write_attribute(const std::string& name, hid_t file_type, hid_t memory_type, hid_t space,
-                       const void* data);
+  void write_attribute(const std::string& name, Id file_type, Id memory_type, Id space, const void* data);
   Handle open_attribute(const std::string& name) const;
 
   std::shared_ptr<const Origin> origin_;
@@ -94,16 +96,16 @@ enum class Compression { deflate, none };
 
 struct Storage {
   Element element{Element::float64};
-  std::vector<hsize_t> extent;  ///< empty: a scalar
-  std::vector<hsize_t> chunk;   ///< as many as extent, each at least 1
-  bool extendible{false};       ///< the first dimension can grow
+  std::vector<Size> extent;  ///< empty: a scalar
+  std::vector<Size> chunk;   ///< as many as extent, each at least 1
+  bool extendible{false};    ///< the first dimension can grow
   Compression compression{Compression::deflate};
 };
 
 class Dataset : public Object {
  public:
   Element element() const { return element_; }
-  std::vector<hsize_t> extent() const;
+  std::vector<Size> extent() const;
 
   /// Rows [first, first + rows) of the first dimension, whole in the others; `data` holds elements of type
   /// element().
@@ -163,7 +165,7 @@ class File : public Group {
  private:
   File(Handle file, Handle root, std::shared_ptr<const Origin> origin)
       : Group(std::move(root), std::move(origin), "/"), file_(std::move(file)) {}
-  static File wrap(hid_t file, std::shared_ptr<const Origin> origin);
+  static File wrap(Id file, std::shared_ptr<const Origin> origin);
 
   Handle file_;
 };

@@ -8,7 +8,7 @@
 namespace zerocount::hdf5 {
 namespace {
 
-hid_t memory_type(Element element) {
+Id memory_type(Element element) {
   switch (element) {
     case Element::float64:
       return H5T_NATIVE_DOUBLE;
@@ -41,23 +41,23 @@ Element Dataset::stored_element() const {
   fail("its elements have an unexpected type");
 }
 
-std::vector<hsize_t> Dataset::extent() const {
+std::vector<Size> Dataset::extent() const {
   const Handle space = own(H5Dget_space(id()), H5Sclose, "its size cannot be read");
-  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
+  std::vector<Size> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
   H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
   return extent;
 }
 
 Dataset::Selection Dataset::select(std::int64_t first, std::int64_t rows) const {
-  std::vector<hsize_t> count = extent();
+  std::vector<Size> count = extent();
   if (count.empty() || first < 0 || rows < 0 ||
-      static_cast<hsize_t>(first) + static_cast<hsize_t>(rows) > count[0]) {
+      static_cast<Size>(first) + static_cast<Size>(rows) > count[0]) {
     fail(fmt::format("it has {} rows; rows {} to {} were expected", count.empty() ? 0 : count[0], first,
                      first + rows));
   }
-  count[0] = static_cast<hsize_t>(rows);
-  std::vector<hsize_t> start(count.size(), 0);
-  start[0] = static_cast<hsize_t>(first);
+  count[0] = static_cast<Size>(rows);
+  std::vector<Size> start(count.size(), 0);
+  start[0] = static_cast<Size>(first);
   Selection selection{
       own(H5Dget_space(id()), H5Sclose, "its size cannot be read"),
       Handle(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose)};

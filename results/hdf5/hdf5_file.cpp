@@ -56,7 +56,7 @@ Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
     space = own(H5Screate(H5S_SCALAR), H5Sclose, problem);
   } else {
     const int rank = static_cast<int>(storage.extent.size());
-    std::vector<hsize_t> limit = storage.extent;
+    std::vector<Size> limit = storage.extent;
     if (storage.extendible) limit[0] = H5S_UNLIMITED;
     space = own(H5Screate_simple(rank, storage.extent.data(), limit.data()), H5Sclose, problem);
     require(H5Pset_chunk(properties.get(), rank, storage.chunk.data()), problem);
@@ -69,7 +69,7 @@ Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
     }
   }
   const Handle text = text_type();
-  const hid_t type = storage.element == Element::text ? text.get() : file_type(storage.element);
+  const Id type = storage.element == Element::text ? text.get() : file_type(storage.element);
   return Dataset(
       own(H5Dcreate2(id(), name.c_str(), type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
           H5Dclose, problem),
@@ -94,11 +94,11 @@ bool Group::is_group(const std::string& name) const {
 
 std::vector<std::string> Group::children() const {
   std::vector<std::string> names;
-  const auto visit = [](hid_t, const char* name, const H5L_info_t*, void* found) -> herr_t {
+  const auto visit = [](Id, const char* name, const H5L_info_t*, void* found) -> herr_t {
     static_cast<std::vector<std::string>*>(found)->emplace_back(name);
     return 0;
   };
-  hsize_t position = 0;
+  Size position = 0;
   require(H5Literate(id(), H5_INDEX_CRT_ORDER, H5_ITER_INC, &position, visit, &names), "its list of members");
   return names;
 }
@@ -110,10 +110,10 @@ bool is_hdf5(const std::filesystem::path& path) {
   return answer > 0;
 }
 
-File File::wrap(hid_t file, std::shared_ptr<const Origin> origin) {
+File File::wrap(Id file, std::shared_ptr<const Origin> origin) {
   if (file < 0) fail_on(*origin, "/", "it is cut short or its structure is broken");
   Handle handle(file, H5Fclose);
-  const hid_t root = H5Gopen2(file, "/", H5P_DEFAULT);
+  const Id root = H5Gopen2(file, "/", H5P_DEFAULT);
   if (root < 0) fail_on(*origin, "/", "the root group cannot be opened");
   return File(std::move(handle), Handle(root, H5Gclose), std::move(origin));
 }

@@ -42,7 +42,7 @@ void fail_on(const Origin& origin, const std::string& path, std::string_view pro
                 fmt::format("{}: damaged:{}{} {}", origin.file, object, object.empty() ? "" : ":", problem));
 }
 
-hid_t file_type(Element element) {
+Id file_type(Element element) {
   switch (element) {
     case Element::float64:
       return H5T_IEEE_F64LE;
@@ -67,7 +67,7 @@ Handle text_type() {
   return type;
 }
 
-Handle creation_properties(hid_t kind) {
+Handle creation_properties(Id kind) {
   Handle properties(H5Pcreate(kind), H5Pclose);
   const unsigned order = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
   H5Pset_obj_track_times(properties.get(), false);
@@ -77,12 +77,12 @@ Handle creation_properties(hid_t kind) {
 }
 
 Handle::Handle(Handle&& other) noexcept
-    : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(std::exchange(other.close_, nullptr)) {}
+    : id_(std::exchange(other.id_, none)), close_(std::exchange(other.close_, nullptr)) {}
 
 Handle& Handle::operator=(Handle&& other) noexcept {
   if (this != &other) {
     close();
-    id_ = std::exchange(other.id_, H5I_INVALID_HID);
+    id_ = std::exchange(other.id_, none);
     close_ = std::exchange(other.close_, nullptr);
   }
   return *this;
@@ -90,14 +90,14 @@ Handle& Handle::operator=(Handle&& other) noexcept {
 
 bool Handle::close() {
   if (id_ < 0 || close_ == nullptr) return true;
-  return close_(std::exchange(id_, H5I_INVALID_HID)) >= 0;
+  return close_(std::exchange(id_, none)) >= 0;
 }
 
 void Object::fail(std::string_view problem) const {
   fail_on(*origin_, path_, problem);
 }
 
-Handle Object::own(hid_t id, Handle::Close close, std::string_view problem) const {
+Handle Object::own(Id id, Handle::Close close, std::string_view problem) const {
   if (id < 0) fail(problem);
   return Handle(id, close);
 }
@@ -110,7 +110,7 @@ bool Object::has_attribute(const std::string& name) const {
   return H5Aexists(id(), name.c_str()) > 0;
 }
 
-void Object::write_attribute(const std::string& name, hid_t type, hid_t from, hid_t space, const void* data) {
+void Object::write_attribute(const std::string& name, Id type, Id from, Id space, const void* data) {
   const std::string problem = fmt::format("attribute '{}'", name);
   const Handle attribute =
       own(H5Acreate2(id(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, problem);
@@ -135,7 +135,7 @@ void Object::set_unsigned(const std::string& name, std::uint64_t value) {
 }
 
 void Object::set_integers(const std::string& name, Element element, std::span<const std::int64_t> values) {
-  const hsize_t size = values.size();
+  const Size size = values.size();
   const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
   write_attribute(name, file_type(element), H5T_NATIVE_INT64, space.get(), values.data());
 }

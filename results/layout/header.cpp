@@ -27,7 +27,7 @@ const std::string& storable(const hdf5::File& file, const std::string& text) {
 
 void write_overrides(hdf5::File& file, const std::vector<std::string>& overrides) {
   const bool empty = overrides.empty();
-  const hsize_t size = overrides.size();
+  const hdf5::Size size = overrides.size();
   hdf5::Dataset dataset =
       file.create_dataset("overrides", {Element::text, {size}, {empty ? 1 : size}, empty});
   for (const std::string& override_text : overrides) storable(file, override_text);

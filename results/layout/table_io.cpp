@@ -41,9 +41,9 @@ hdf5::Dataset make_dataset(hdf5::Group& group, const std::string& name, const hd
 
 hdf5::Dataset make_scale(hdf5::Group& group, const Column& column, std::int64_t size) {
   const bool empty = size == 0;
-  const auto chunk = static_cast<hsize_t>(empty ? chunk_elements : std::min(size, chunk_elements));
+  const auto chunk = static_cast<hdf5::Size>(empty ? chunk_elements : std::min(size, chunk_elements));
   hdf5::Dataset scale =
-      group.create_dataset(column.name, {column.element, {static_cast<hsize_t>(size)}, {chunk}, empty});
+      group.create_dataset(column.name, {column.element, {static_cast<hdf5::Size>(size)}, {chunk}, empty});
   scale.make_scale(column.name);
   describe(scale, column);
   return scale;
@@ -84,12 +84,12 @@ TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
   hdf5::Group group = root.open_group(table.group);
   hdf5::Dataset scale = group.open_dataset(table.rows.name);
   TableIo io(std::move(group), std::move(scale));
-  std::vector<hsize_t> expected = io.row_scale_.extent();
+  std::vector<hdf5::Size> expected = io.row_scale_.extent();
   if (expected.size() != 1) io.row_scale_.fail("it should have one dimension");
   io.rows_ = static_cast<std::int64_t>(expected[0]);
   if (table.second) {
     io.second_scale_ = io.group_.open_dataset(table.second->name);
-    const std::vector<hsize_t> second = io.second_scale_->extent();
+    const std::vector<hdf5::Size> second = io.second_scale_->extent();
     if (second.size() != 1 || second[0] == 0)
       io.second_scale_->fail("it should have one dimension, not empty");
     expected.push_back(second[0]);
@@ -108,13 +108,13 @@ hdf5::Storage TableIo::storage_of(const Column& column) const {
   const bool empty = rows_ == 0;
   hdf5::Storage storage{
       column.element,
-      {static_cast<hsize_t>(rows_)},
-      {static_cast<hsize_t>(empty ? chunk_rows(width_) : std::min(rows_, chunk_rows(width_)))},
+      {static_cast<hdf5::Size>(rows_)},
+      {static_cast<hdf5::Size>(empty ? chunk_rows(width_) : std::min(rows_, chunk_rows(width_)))},
       empty,
       compression_};
   if (second_scale_) {
-    storage.extent.push_back(static_cast<hsize_t>(width_));
-    storage.chunk.push_back(static_cast<hsize_t>(std::min(width_, chunk_elements)));
+    storage.extent.push_back(static_cast<hdf5::Size>(width_));
+    storage.chunk.push_back(static_cast<hdf5::Size>(std::min(width_, chunk_elements)));
   }
   return storage;
 }

@@ -27,7 +27,7 @@ std::optional<std::string> text_difference(const hdf5::Dataset& one, const hdf5:
 }
 
 std::optional<std::string> number_difference(const hdf5::Dataset& one, const hdf5::Dataset& other) {
-  const std::vector<hsize_t> extent = one.extent();
+  const std::vector<hdf5::Size> extent = one.extent();
   if (extent.empty()) return differs(one, "has no rows");
   std::size_t width = size_of(one.element());
   for (std::size_t dimension = 1; dimension < extent.size(); ++dimension) width *= extent[dimension];

@@ -129,7 +129,7 @@ TEST(RepeatabilityFile, IsTheSameHoweverTheTrialsAreReadAtOnce) {
   testing::write_sequence_file(folder / "study.h5", study, results);
   const hdf5::File file = hdf5::File::open_to_read(folder / "study.h5");
   const hdf5::Dataset values = file.open_dataset("repeatability/trial/true/systematic_positive");
-  ASSERT_EQ(values.extent(), (std::vector<hsize_t>{4098}));
+  ASSERT_EQ(values.extent(), (std::vector<hdf5::Size>{4098}));
   for (const std::int64_t row : {0LL, 4095LL, 4096LL, 4097LL}) {
     const TrialParameters parameters = study_trial(study, row / 2049, row % 2049).parameters;
     double value = 0.0;

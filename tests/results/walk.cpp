@@ -21,7 +21,7 @@ void read_whole(const hdf5::Dataset& dataset) {
     dataset.read_texts();
     return;
   }
-  const std::vector<hsize_t> extent = dataset.extent();
+  const std::vector<hdf5::Size> extent = dataset.extent();
   if (extent.empty() || extent.size() > 2) dataset.fail("it should have one or two dimensions");
   const auto rows = static_cast<std::int64_t>(extent[0]);
   const std::int64_t width = extent.size() > 1 ? static_cast<std::int64_t>(extent[1]) : 1;

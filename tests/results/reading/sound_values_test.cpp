@@ -38,7 +38,7 @@ class SoundValues : public ::testing::Test {
     {
       hdf5::File file = hdf5::File::open_to_change(path);
       hdf5::Dataset column = file.open_dataset(dataset);
-      const std::vector<hsize_t> extent = column.extent();
+      const std::vector<hdf5::Size> extent = column.extent();
       const std::vector<Value> values(extent.size() > 1 ? extent[1] : 1, value);
       column.write(row, 1, values.data());
       file.close();

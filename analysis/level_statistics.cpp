@@ -8,43 +8,40 @@
 namespace zerocount {
 namespace {
 
-using S = const LevelStatistics&;
+using Level = const LevelStatistics&;
 
-double number(std::int64_t count) {
-  return static_cast<double>(count);
-}
-
-const std::vector<LevelField>& fields() {
+const std::vector<LevelField>& fields_of_levels() {
   static const std::vector<LevelField> list{
       {"", "n", "1", "trials whose motion was not lost, of which the values of the level are", true,
-       [](S s) { return number(s.torque.n); }},
+       [](Level s) { return to_double(s.torque.n); }},
       {"", "nonfinite", "1", "trials whose motion was lost in the level or before", true,
-       [](S s) { return number(s.nonfinite); }},
-      {"", "torque", "N m", "mean torque at the end of the level", false, [](S s) { return s.torque.mean; }},
+       [](Level s) { return to_double(s.nonfinite); }},
+      {"", "torque", "N m", "mean torque at the end of the level", false,
+       [](Level s) { return s.torque.mean; }},
       {"position", "mean", "rad", "mean rotor angle at the end of the level", false,
-       [](S s) { return s.position.mean; }},
+       [](Level s) { return s.position.mean; }},
       {"position", "low", "rad", "lower 95 % bound of the mean rotor angle (Student's t)", false,
-       [](S s) { return student_t(s.position, s.confidence).low; }},
+       [](Level s) { return student_t(s.position, s.confidence).low; }},
       {"position", "high", "rad", "upper 95 % bound of the mean rotor angle (Student's t)", false,
-       [](S s) { return student_t(s.position, s.confidence).high; }},
+       [](Level s) { return student_t(s.position, s.confidence).high; }},
       {"position", "sd", "rad", "standard deviation of the rotor angle", false,
-       [](S s) { return s.position.sd(); }},
-      {"position", "min", "rad", "smallest rotor angle", false, [](S s) { return s.position.min; }},
-      {"position", "max", "rad", "largest rotor angle", false, [](S s) { return s.position.max; }},
+       [](Level s) { return s.position.sd(); }},
+      {"position", "min", "rad", "smallest rotor angle", false, [](Level s) { return s.position.min; }},
+      {"position", "max", "rad", "largest rotor angle", false, [](Level s) { return s.position.max; }},
       {"creep", "mean", "rad", "mean plastic extension at the end of the level", false,
-       [](S s) { return s.creep.mean; }},
+       [](Level s) { return s.creep.mean; }},
       {"creep", "low", "rad", "lower 95 % bound of the mean plastic extension (Student's t)", false,
-       [](S s) { return student_t(s.creep, s.confidence).low; }},
+       [](Level s) { return student_t(s.creep, s.confidence).low; }},
       {"creep", "high", "rad", "upper 95 % bound of the mean plastic extension (Student's t)", false,
-       [](S s) { return student_t(s.creep, s.confidence).high; }},
+       [](Level s) { return student_t(s.creep, s.confidence).high; }},
       {"creep", "sd", "rad", "standard deviation of the plastic extension", false,
-       [](S s) { return s.creep.sd(); }},
-      {"creep", "min", "rad", "smallest plastic extension", false, [](S s) { return s.creep.min; }},
-      {"creep", "max", "rad", "largest plastic extension", false, [](S s) { return s.creep.max; }},
+       [](Level s) { return s.creep.sd(); }},
+      {"creep", "min", "rad", "smallest plastic extension", false, [](Level s) { return s.creep.min; }},
+      {"creep", "max", "rad", "largest plastic extension", false, [](Level s) { return s.creep.max; }},
       {"", "broke_away", "1", "trials in which the hook slid during the level", true,
-       [](S s) { return number(s.broke_away); }},
+       [](Level s) { return to_double(s.broke_away); }},
       {"", "reversal_depth_max", "1", "largest number of reversal points on the stack during the level", true,
-       [](S s) { return number(s.reversal_depth); }},
+       [](Level s) { return to_double(s.reversal_depth); }},
   };
   return list;
 }
@@ -64,7 +61,7 @@ void LevelStatistics::add(const MoveOutcome& move) {
 }
 
 std::span<const LevelField> level_fields() {
-  return fields();
+  return fields_of_levels();
 }
 
 }  // namespace zerocount

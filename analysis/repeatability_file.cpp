@@ -19,7 +19,7 @@
 namespace zerocount {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 /// What is read of the outcomes.
 const std::vector<RecordField<MoveOutcome>>& measured_fields() {
@@ -52,7 +52,7 @@ struct TrialValues {
     std::size_t column = 0;
     for (const DeviationSource& source : deviation_sources()) {
       for (const auto& field : axis_fields()) {
-        axis[column++].push_back(trial ? ((*trial).*source.values).axis.*field.value : undefined);
+        axis[column++].push_back(trial ? ((*trial).*source.values).axis.*field.value : not_measured);
       }
     }
     targets.front().insert(targets.front().end(), positions.begin(), positions.end());
@@ -60,7 +60,7 @@ struct TrialValues {
     for (const DeviationSource& source : deviation_sources()) {
       for (const auto& field : target_fields()) {
         for (std::size_t target = 0; target < positions.size(); ++target) {
-          const double value = trial ? ((*trial).*source.values).targets[target].*field.value : undefined;
+          const double value = trial ? ((*trial).*source.values).targets[target].*field.value : not_measured;
           targets[column].push_back(value);
         }
         ++column;

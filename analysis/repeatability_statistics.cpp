@@ -9,15 +9,11 @@
 namespace zerocount {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-
-double number(std::int64_t count) {
-  return static_cast<double>(count);
-}
+constexpr double no_rank = std::numeric_limits<double>::quiet_NaN();
 
 /// The value of a rank from 1; NaN outside.
 double at_rank(std::span<const double> sorted, std::int64_t rank) {
-  if (rank < 1 || rank > std::ssize(sorted)) return undefined;
+  if (rank < 1 || rank > std::ssize(sorted)) return no_rank;
   return sorted[static_cast<std::size_t>(rank - 1)];
 }
 
@@ -67,12 +63,12 @@ std::span<const ValueStatisticField> value_statistic_fields() {
 std::span<const ReportField<PointRepeatability>> point_repeatability_fields() {
   using P = const PointRepeatability&;
   static constexpr std::array<ReportField<PointRepeatability>, 6> fields{{
-      {"", "trials", "1", "trials of the point", true, [](P p) { return number(p.trials); }},
+      {"", "trials", "1", "trials of the point", true, [](P p) { return to_double(p.trials); }},
       {"", "evaluated", "1", "trials without a nonfinite move, of which the values are", true,
-       [](P p) { return number(p.evaluated); }},
+       [](P p) { return to_double(p.evaluated); }},
       {"", "zero_repeatability", "1",
        "trials whose repeatability by the fine encoder is exactly 0, NaN of a single cycle", true,
-       [](P p) { return p.zero_repeatability ? number(*p.zero_repeatability) : undefined; }},
+       [](P p) { return p.zero_repeatability ? to_double(*p.zero_repeatability) : no_rank; }},
       {"", "zero_repeatability_rate", "1", "zero_repeatability as a share of trials, NaN of a single cycle",
        false, [](P p) { return p.zero_rate; }},
       {"", "zero_repeatability_rate_low", "1", "lower 95 % Clopper-Pearson bound of zero_repeatability_rate",

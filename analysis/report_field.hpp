@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,11 @@ template <class Subject>
 std::string flat_name(const ReportField<Subject>& field) {
   if (field.group.empty()) return std::string(field.name);
   return std::string(field.group) + "_" + std::string(field.name);
+}
+
+/// A count as the value of a field.
+inline double to_double(std::int64_t count) {
+  return static_cast<double>(count);
 }
 
 }  // namespace zerocount

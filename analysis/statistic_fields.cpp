@@ -9,30 +9,27 @@ namespace {
 
 using S = const PointSummary&;
 
-double number(std::int64_t count) {
-  return static_cast<double>(count);
-}
-
 std::vector<StatisticField> outcome_and_jerk_fields() {
   return {
-      {"", "trials", "1", "trials of the point", true, [](S s) { return number(s.trials); }},
+      {"", "trials", "1", "trials of the point", true, [](S s) { return to_double(s.trials); }},
       {"", "zero_count", "1", "trials whose worst move ended at zero error", true,
-       [](S s) { return number(s.outcomes.zero_count); }},
+       [](S s) { return to_double(s.outcomes.zero_count); }},
       {"", "one_count", "1", "trials whose worst move ended within one count", true,
-       [](S s) { return number(s.outcomes.one_count); }},
+       [](S s) { return to_double(s.outcomes.one_count); }},
       {"", "oscillating", "1", "trials whose worst move ended beyond one count", true,
-       [](S s) { return number(s.outcomes.oscillating); }},
+       [](S s) { return to_double(s.outcomes.oscillating); }},
       {"", "nonfinite", "1", "trials with a move that left the finite numbers", true,
-       [](S s) { return number(s.outcomes.nonfinite); }},
+       [](S s) { return to_double(s.outcomes.nonfinite); }},
       {"", "open_loop", "1", "trials with torque levels in place of targets, which are not judged", true,
-       [](S s) { return number(s.outcomes.open_loop); }},
+       [](S s) { return to_double(s.outcomes.open_loop); }},
       {"", "stable", "1", "trials all of whose moves arrived and stayed within one count", true,
-       [](S s) { return number(s.stable); }},
-      {"", "arrived", "1", "trials all of whose moves arrived", true, [](S s) { return number(s.arrived); }},
+       [](S s) { return to_double(s.stable); }},
+      {"", "arrived", "1", "trials all of whose moves arrived", true,
+       [](S s) { return to_double(s.arrived); }},
       {"", "broke_away", "1", "trials in which the hook slid during any move", true,
-       [](S s) { return number(s.broke_away); }},
+       [](S s) { return to_double(s.broke_away); }},
       {"", "saturated", "1", "trials in which the DAC clipped during any move", true,
-       [](S s) { return number(s.saturated); }},
+       [](S s) { return to_double(s.saturated); }},
       {"", "success_rate", "1", "zero_count as a share of trials, NaN of an open-loop study", false,
        [](S s) { return s.success_rate.value; }},
       {"", "success_rate_low", "1", "lower 95 % Clopper-Pearson bound of success_rate", false,
@@ -54,7 +51,7 @@ std::vector<StatisticField> outcome_and_jerk_fields() {
       {"", "stable_rate_wilson_high", "1", "upper 95 % Wilson bound of stable_rate", false,
        [](S s) { return s.stable_rate.wilson.high; }},
       {"settling_time", "n", "1", "moves that arrived, of which the settling times are", true,
-       [](S s) { return number(s.settling_time.n); }},
+       [](S s) { return to_double(s.settling_time.n); }},
       {"settling_time", "mean", "s", "mean settling time of the moves that arrived", false,
        [](S s) { return s.settling_time.mean; }},
       {"settling_time", "min", "s", "shortest settling time", false, [](S s) { return s.settling_time.min; }},
@@ -82,7 +79,7 @@ std::vector<StatisticField> outcome_and_jerk_fields() {
        [](S s) { return s.settling_time.p95.high; }},
       {"settling_time", "max", "s", "longest settling time", false, [](S s) { return s.settling_time.max; }},
       {"jerk_count", "n", "1", "trials, of which the jerk counts are", true,
-       [](S s) { return number(s.jerk_count.n); }},
+       [](S s) { return to_double(s.jerk_count.n); }},
       {"jerk_count", "mean", "1", "mean number of jerks per trial", false,
        [](S s) { return s.jerk_count.mean; }},
       {"jerk_count", "sd", "1", "standard deviation of the number of jerks per trial", false,
@@ -94,20 +91,20 @@ std::vector<StatisticField> outcome_and_jerk_fields() {
       {"jerk_count", "max", "1", "largest number of jerks of a trial", false,
        [](S s) { return s.jerk_count.max; }},
       {"jerk_count", "total", "1", "jerks of all trials", true,
-       [](S s) { return number(s.jerk_count.total); }},
+       [](S s) { return to_double(s.jerk_count.total); }},
       {"jerk_interval", "n", "1", "intervals between the onsets of successive jerks of a move", true,
-       [](S s) { return number(s.jerk_interval.n); }},
+       [](S s) { return to_double(s.jerk_interval.n); }},
       {"jerk_interval", "mean", "s", "mean interval between successive jerks of a move", false,
        [](S s) { return s.jerk_interval.mean; }},
       {"jerk_interval", "median", "s", "median interval between successive jerks of a move", false,
        [](S s) { return s.jerk_interval.median; }},
       {"jerk_slowing", "moves", "1", "moves with 3 jerks or more", true,
-       [](S s) { return number(s.jerk_slowing.moves); }},
+       [](S s) { return to_double(s.jerk_slowing.moves); }},
       {"jerk_slowing", "slowing", "1", "moves with 3 jerks or more whose intervals grow (Mann-Kendall S > 0)",
-       true, [](S s) { return number(s.jerk_slowing.slowing); }},
+       true, [](S s) { return to_double(s.jerk_slowing.slowing); }},
       {"jerk_slowing", "quickening", "1",
        "moves with 3 jerks or more whose intervals shrink (Mann-Kendall S < 0)", true,
-       [](S s) { return number(s.jerk_slowing.quickening); }},
+       [](S s) { return to_double(s.jerk_slowing.quickening); }},
       {"jerk_slowing", "share", "1", "slowing moves as a share of the moves with 3 jerks or more", false,
        [](S s) { return s.jerk_slowing.share; }},
       {"jerk_slowing", "tau", "1",
@@ -147,7 +144,7 @@ std::span<const StatisticField> statistic_fields(const StudyFeatures& features) 
   static const std::vector<StatisticField> fields = [] {
     std::vector<StatisticField> all = fields_of_all_studies();
     all.push_back({"", "stopped", "1", "trials that were ended early, because a move had diverged", true,
-                   [](S s) { return number(s.stopped); }});
+                   [](S s) { return to_double(s.stopped); }});
     return all;
   }();
   const std::span<const StatisticField> all(fields);

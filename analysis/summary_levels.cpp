@@ -15,14 +15,14 @@ namespace {
 constexpr double micro = 1e6;
 
 /// Decimals that show two digits of an uncertainty; none below 0, at most 9.
-int decimals_for(double uncertainty) {
+int decimals_below(double uncertainty) {
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(uncertainty))), 0, 9);
 }
 
 /// `value` as precisely as its bounds allow; with four digits where they say nothing.
 std::string bounded_number(double value, double uncertainty) {
   if (!(uncertainty > 0.0)) return short_number(value);
-  return fmt::format("{:.{}f}", value, decimals_for(uncertainty));
+  return fmt::format("{:.{}f}", value, decimals_below(uncertainty));
 }
 
 std::string position_text(const LevelStatistics& level) {

@@ -16,7 +16,7 @@ namespace {
 constexpr double rounding = 1e-9;  // of the last digit: what is 99.9 % but for rounding is 99.9 %
 
 /// Decimals that show two significant digits of `percent`; one from 1 % on, at most nine.
-int decimals_for(double percent) {
+int percent_decimals(double percent) {
   if (!(percent > 0.0)) return 1;
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(percent) + rounding)), 1, 9);
 }
@@ -74,14 +74,14 @@ double rule_of_three(const SuccessClaim& claim) {
 
 std::string percent_at_least(double share) {
   const double percent = 100.0 * share;
-  const int decimals = decimals_for(std::min(percent, 100.0 - percent));
+  const int decimals = percent_decimals(std::min(percent, 100.0 - percent));
   const double unit = std::pow(10.0, decimals);
   return percent_with(std::floor(percent * unit + rounding) / unit, decimals);
 }
 
 std::string percent_at_most(double share) {
   const double percent = 100.0 * share;
-  const int decimals = decimals_for(percent);
+  const int decimals = percent_decimals(percent);
   const double unit = std::pow(10.0, decimals);
   return percent_with(std::ceil(percent * unit - rounding) / unit, decimals);
 }

@@ -12,7 +12,7 @@
 namespace zerocount {
 namespace {
 
-constexpr const char* help =
+constexpr const char* baseline_help =
     "Makes a results file the baseline that later ones are compared with, or puts it in the\n"
     "place of an earlier baseline. The file is copied as it is, with its seal. The reason is\n"
     "recorded, with the build, the trials, the checksums and how the new baseline compares\n"
@@ -56,7 +56,7 @@ Command baseline_command() {
            {{"output,o", "OUTPUT", "the baseline to make or to replace (required)"},
             {"reason", "TEXT", "why, for the record (required)"}}},
           "make a results file the baseline of later comparisons",
-          help,
+          baseline_help,
           baseline};
 }
 

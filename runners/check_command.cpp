@@ -15,7 +15,7 @@
 namespace zerocount {
 namespace {
 
-constexpr const char* help =
+constexpr const char* check_help =
     "Reports every error of the manifest, each with its place. If there is none, prints the\n"
     "plan (design points, trials, cost) and what the theory says of each design point: the\n"
     "bounds of the paper's criteria (6) and (7) on ki, which know of no sampling, delay or\n"
@@ -174,7 +174,7 @@ Command check_command() {
            {{"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
             {"all-points", "", "print the theory of every design point, not only of the first 20"}}},
           "validate a manifest; print its plan and what the theory says",
-          help,
+          check_help,
           check};
 }
 

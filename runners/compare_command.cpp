@@ -14,7 +14,7 @@
 namespace zerocount {
 namespace {
 
-constexpr const char* help =
+constexpr const char* compare_help =
     "The regression gate: is FILE as good as BASELINE? Every design point is judged by its rates\n"
     "of success, arrival and stability, its settling times and its jerks.\n"
     "\n"
@@ -82,7 +82,7 @@ Command compare_command() {
             {"junit", "FILE", "write JUnit XML there too"},
             {"markdown", "FILE", "write the Markdown summary there too"}}},
           "compare a results file with a baseline: the regression gate",
-          help,
+          compare_help,
           compare};
 }
 

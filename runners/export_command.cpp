@@ -8,7 +8,7 @@
 namespace zerocount {
 namespace {
 
-constexpr const char* help =
+constexpr const char* export_help =
     "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv,\n"
     "jerks.csv, profiles.csv where there are profiles, trace.csv where the study retains trials,\n"
     "levels.csv of an open-loop study, and four tables repeatability_….csv of one with a\n"
@@ -30,7 +30,7 @@ ExitCode export_file(const Arguments& arguments) {
 Command export_command() {
   return {{"export", "FILE -o DIR", 1, 1, {{"output,o", "DIR", "the folder for the tables (required)"}}},
           "write a results file's tables as CSV",
-          help,
+          export_help,
           export_file};
 }
 

@@ -23,7 +23,7 @@
 namespace zerocount {
 namespace {
 
-constexpr const char* help =
+constexpr const char* identify_help =
     "Identifies the rotor and its friction from material tests: records of torque, angle and\n"
     "time without sliding. k1, k2 and beta come from slow loading and unloading, the damping\n"
     "and the inertia from the ringing after a step of the torque, alpha, lambda and n from\n"
@@ -236,7 +236,7 @@ Command identify_command() {
             {"format", "FORMAT", "text (default), json or yaml"},
             {"output,o", "FILE", "write there instead of to standard output"}}},
           "identify friction, damping and inertia from material tests",
-          help,
+          identify_help,
           identify_records};
 }
 

@@ -11,7 +11,7 @@
 namespace zerocount {
 namespace {
 
-constexpr const char* help =
+constexpr const char* jerks_help =
     "Prints of each design point (or of those named) how often jerks come, against the time since\n"
     "arrival, with bounds; how long the intervals between them are; whether they slow down\n"
     "(Laplace's test); whether they go in the direction of the holding torque; how large they are.\n"
@@ -49,7 +49,7 @@ Command jerks_command() {
             {"creep-trials", "N", "trials of each point to run again beside creep (default 20)"},
             {"format", "FORMAT", "table (default) or json"}}},
           "print how often jerks come, and whether they slow down",
-          help,
+          jerks_help,
           print_jerks};
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* help =
+constexpr const char* merge_help =
     "Joins the parts of one study into its results file. An input is a part file made with\n"
     "'run --shard', a shard, or a folder of shards. Together they must hold every trial of\n"
     "the study once.\n"
@@ -57,7 +57,7 @@ Command merge_command() {
   return {
       {"merge", "PART... -o FILE", 1, 100000, {{"output,o", "FILE", "the results file to make (required)"}}},
       "join the parts of a study that was run in parts",
-      help,
+      merge_help,
       merge};
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* help =
+constexpr const char* plan_help =
     "Says how many trials a claim needs, before they are run. With --success: how many show that at\n"
     "least this share of axes succeeds, if none, one, two, … of them fail; with --true-success also\n"
     "the chance that they do, and with --power the plan that has this chance. With --halfwidth: how\n"
@@ -155,7 +155,7 @@ Command plan_command() {
             {"halfwidth", "H", "half the distance of the two-sided bounds of a rate"},
             {"format", "FORMAT", "table (default) or json"}}},
           "say how many trials a claim needs",
-          help,
+          plan_help,
           print_plan};
 }
 

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* help =
+constexpr const char* run_help =
     "Runs the trials of the manifest on all cores, and writes them to the results file.\n"
     "Finished trials go to shards in FILE.shards/ while the run goes on; at the end they\n"
     "become FILE. A run that was interrupted or killed goes on where it stopped when the\n"
@@ -92,12 +92,6 @@ bool already_there(const fs::path& output, const Study& study, RowRange wanted) 
   return true;
 }
 
-std::int64_t rows_in(const std::vector<RowRange>& ranges) {
-  std::int64_t rows = 0;
-  for (const RowRange& range : ranges) rows += range.count;
-  return rows;
-}
-
 ExitCode run(const Arguments& arguments) {
   const fs::path output = output_place(arguments);
   Study study = load_study(arguments.operands()[0], arguments.values("set"));
@@ -127,7 +121,7 @@ ExitCode run(const Arguments& arguments) {
   make_directory(directory);
   EarlierShards earlier = earlier_shards(directory, study, wanted);
   const std::vector<RowRange> missing = missing_ranges(earlier.usable, wanted);
-  const std::int64_t kept = wanted.count - rows_in(missing);
+  const std::int64_t kept = wanted.count - total_rows(missing);
 
   Progress progress(wanted.count, kept, samples_per_trial(study), quiet);
   std::int64_t done = kept;
@@ -171,7 +165,7 @@ Command run_command() {
              "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
             {"quiet,q", "", "say nothing of progress"}}},
           "run a study: manifest in, results file out",
-          help,
+          run_help,
           run};
 }
 

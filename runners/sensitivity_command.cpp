@@ -12,7 +12,7 @@
 namespace zerocount {
 namespace {
 
-constexpr const char* help =
+constexpr const char* sensitivity_help =
     "Says which of the random parameters drive an output of the trials, with bounds, point by\n"
     "point: of a study with design: saltelli by Sobol' indices, first order and total; of any\n"
     "other by what its trials tell: the share of the variance that each parameter explains\n"
@@ -28,7 +28,7 @@ constexpr const char* examples =
     "Example: zerocount sensitivity gains.h5 --point 1 --output success --output jerk_count\n";
 
 std::string full_help() {
-  std::string text = help;
+  std::string text = sensitivity_help;
   for (const SensitivityOutput& output : sensitivity_outputs()) {
     text += fmt::format("  {:<15} {}{}\n", output.name, output.meaning,
                         output.unit == "1" ? "" : fmt::format(", {}", output.unit));

@@ -100,12 +100,6 @@ std::vector<RowRange> missing(const Study& study, const std::vector<ShardInfo>& 
   return all;
 }
 
-std::int64_t rows_in(const std::vector<RowRange>& ranges) {
-  std::int64_t rows = 0;
-  for (const RowRange& range : ranges) rows += range.count;
-  return rows;
-}
-
 Study decided_study(const Study& study, std::int64_t trials) {
   std::vector<std::string> overrides = study.overrides;
   overrides.push_back(fmt::format("{}{}", decided_key, trials));
@@ -192,7 +186,7 @@ ExitCode run_until_sure(const Study& study, const fs::path& output, const Stoppi
     }
     std::sort(shards.begin(), shards.end(),
               [](const ShardInfo& a, const ShardInfo& b) { return a.rows.first < b.rows.first; });
-    if (done - before < rows_in(ranges)) {
+    if (done - before < total_rows(ranges)) {
       throw Failure(ExitCode::interrupted,
                     fmt::format("interrupted: {} trials are kept in {}; give the same command again to go on",
                                 done, directory.string()));

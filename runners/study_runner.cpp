@@ -66,12 +66,6 @@ class BlockSource {
   std::int64_t used_{0};
 };
 
-std::int64_t rows_in(std::span<const RowRange> ranges) {
-  std::int64_t rows = 0;
-  for (const RowRange& range : ranges) rows += range.count;
-  return rows;
-}
-
 /// Gathers finished trials in order of rows and writes them as shards.
 class ShardWriter {
  public:
@@ -142,7 +136,7 @@ std::vector<ShardInfo> run_trials(const Study& study, std::span<const RowRange> 
   const BlockLimits limits = study.engine == Engine::batch ? batch_block : reference_block;
   const double block_size = limits.samples / std::max(samples_per_trial(study), 1.0);
   // A short run is spread over the threads, too.
-  const std::int64_t share = rows_in(ranges) / (std::int64_t{4} * threads) + 1;
+  const std::int64_t share = total_rows(ranges) / (std::int64_t{4} * threads) + 1;
   BlockSource source(ranges, std::clamp(static_cast<std::int64_t>(block_size), std::int64_t{1},
                                         std::min(limits.trials, std::max<std::int64_t>(share, 256))));
   ShardWriter writer(study, directory);

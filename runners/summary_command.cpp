@@ -9,7 +9,7 @@
 namespace zerocount {
 namespace {
 
-constexpr const char* help =
+constexpr const char* summary_help =
     "Prints a row per design point: how many trials were stable and ended at zero counts of\n"
     "error (with 95 % bounds), how long they took to settle, how often they jerked, what the\n"
     "criteria (6) and (7) of the paper predict, and what was seen on the real rig where the\n"
@@ -40,7 +40,7 @@ Command summary_command() {
            {{"format", "FORMAT", "table (default), json or csv"},
             {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"}}},
           "print the statistics of a results file",
-          help,
+          summary_help,
           summarise_file};
 }
 

@@ -18,7 +18,7 @@
 namespace zerocount {
 namespace {
 
-constexpr const char* help =
+constexpr const char* trace_help =
     "Runs one trial again and writes it sample by sample. From a results file the trial is\n"
     "rebuilt from the manifest that the file holds; where its inputs, outcome or jerks are\n"
     "not the recorded ones, the differences are listed and the exit code is 4.\n"
@@ -139,7 +139,7 @@ Command trace_command() {
             {"output,o", "FILE", "write there instead of to standard output"},
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true}}},
           "run one trial again, sample by sample",
-          help,
+          trace_help,
           trace};
 }
 

@@ -8,8 +8,6 @@
 namespace zerocount {
 namespace {
 
-constexpr auto dimension = static_cast<Eigen::Index>(coordinate_count);
-
 FittedQuantity of_coordinate(std::string_view name, std::string_view unit, Coordinate coordinate,
                              const ContactPoint& contact) {
   FittedQuantity quantity{name, coordinate_keys[coordinate], unit, {coordinate}, contact[coordinate], {},
@@ -101,7 +99,7 @@ class ProfileLikelihood {
     FitPoint start = start_;
     // Where another coordinate is open it would follow out of sight; the fit brings it after.
     constexpr double most = 1.0;
-    start.contact += (follow_.head<dimension>() * change).cwiseMin(most).cwiseMax(-most);
+    start.contact += (follow_.head<contact_dimension>() * change).cwiseMin(most).cwiseMax(-most);
     start.offset += follow_.tail(start.offset.size()) * change;
     start.contact[coordinate_] = start_.contact[coordinate_] + change;
     return fit_jointly(records_, fit_.observations, start, setting).squares;
@@ -136,7 +134,7 @@ std::vector<FittedQuantity> fitted_quantities(const FitPoint& point, double cree
 
 QuantityEstimate interval_by_replicates(const FittedQuantity& quantity, const ReadingReplicates& replicates,
                                         double widening) {
-  const Eigen::VectorXd errors = replicates.errors.leftCols<dimension>() * quantity.slope;
+  const Eigen::VectorXd errors = replicates.errors.leftCols<contact_dimension>() * quantity.slope;
   const double mean = errors.mean();
   const Eigen::VectorXd wide = (mean + widening * (errors.array() - mean)).matrix();
   std::vector<double> sorted(wide.data(), wide.data() + wide.size());

@@ -30,6 +30,8 @@ enum Coordinate : std::size_t {
   creep_exponent  ///< n; on its way a fit may go below 1
 };
 inline constexpr std::size_t coordinate_count = 8;
+/// The same for Eigen.
+inline constexpr auto contact_dimension = static_cast<Eigen::Index>(coordinate_count);
 
 /// Not aligned, so that it may stand anywhere in memory.
 using ContactPoint = Eigen::Matrix<double, coordinate_count, 1, Eigen::DontAlign>;

@@ -181,9 +181,8 @@ class Estimation {
 /// Of the errors of two quantities in the replicates.
 double correlation_of(const FittedQuantity& one, const FittedQuantity& other,
                       const ReadingReplicates& replicates) {
-  constexpr auto dimension = static_cast<Eigen::Index>(coordinate_count);
   const auto centred = [&](const FittedQuantity& quantity) {
-    const Eigen::VectorXd errors = replicates.errors.leftCols<dimension>() * quantity.slope;
+    const Eigen::VectorXd errors = replicates.errors.leftCols<contact_dimension>() * quantity.slope;
     return Eigen::VectorXd(errors.array() - errors.mean());
   };
   const Eigen::VectorXd x = centred(one);

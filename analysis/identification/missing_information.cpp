@@ -57,15 +57,15 @@ std::string of_creep(const std::vector<CreepingHold>& holds, Coordinate coordina
     return "the torque is never held (for 20 samples or more), and so creep is not seen alone";
   double most = 0.0;
   for (const CreepingHold& hold : holds) most = std::max(most, hold.creep);
-  constexpr double least_creep = 2.0;
-  if (most < least_creep) {
+  constexpr double min_creep = 2.0;
+  if (most < min_creep) {
     return fmt::format("the rotor creeps by {:.2g} steps of the readings at most while the torque is held",
                        most);
   }
   double low = 0.0;
   double high = 0.0;
   for (const CreepingHold& hold : holds) {
-    if (hold.creep < least_creep) continue;
+    if (hold.creep < min_creep) continue;
     if (low == 0.0 || hold.torque < low) low = hold.torque;
     high = std::max(high, hold.torque);
   }

@@ -3,11 +3,7 @@
 #include "analysis/identification/joint_fit.hpp"
 
 namespace zerocount {
-namespace {
-
-constexpr auto dimension = static_cast<Eigen::Index>(coordinate_count);
-
-}  // namespace
+namespace {}  // namespace
 
 FittedModel model_at(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting) {
   FittedModel model{point, {}};
@@ -30,7 +26,7 @@ Eigen::MatrixXd textbook_covariance(const FittedModel& model, const Observations
 }
 
 NormalEquationsSum::NormalEquationsSum(std::size_t records, const FitSetting& setting) : setting_(setting) {
-  const Eigen::Index size = dimension + static_cast<Eigen::Index>(records);
+  const Eigen::Index size = contact_dimension + static_cast<Eigen::Index>(records);
   sum_.matrix.setZero(size, size);
   sum_.gradient.setZero(size);
 }
@@ -42,9 +38,9 @@ void NormalEquationsSum::add(std::size_t record, const std::vector<AngleObservat
   Eigen::Matrix<double, coordinate_count + 1, 1> gradient;
   matrix.setZero();
   gradient.setZero();
-  slope[dimension] = 1.0;  // of the offset
+  slope[contact_dimension] = 1.0;  // of the offset
   for (const AngleObservation& observation : observations) {
-    slope.head<dimension>() = mean_over(observation, sensitivity);
+    slope.head<contact_dimension>() = mean_over(observation, sensitivity);
     const double residual = observation.position - mean_over(observation, path).value();
     const double weight = 1.0 / observation.variance;
     matrix.noalias() += (weight * slope) * slope.transpose();
@@ -52,19 +48,20 @@ void NormalEquationsSum::add(std::size_t record, const std::vector<AngleObservat
     sum_.squares += weight * residual * residual;
   }
   sum_.observations += observations.size();
-  const Eigen::Index offset = dimension + static_cast<Eigen::Index>(record);
-  sum_.matrix.topLeftCorner(dimension, dimension) += matrix.topLeftCorner<dimension, dimension>();
-  sum_.matrix.block(0, offset, dimension, 1) += matrix.topRightCorner<dimension, 1>();
-  sum_.matrix.block(offset, 0, 1, dimension) += matrix.bottomLeftCorner<1, dimension>();
-  sum_.matrix(offset, offset) += matrix(dimension, dimension);
-  sum_.gradient.head(dimension) += gradient.head<dimension>();
-  sum_.gradient[offset] += gradient[dimension];
+  const Eigen::Index offset = contact_dimension + static_cast<Eigen::Index>(record);
+  sum_.matrix.topLeftCorner(contact_dimension, contact_dimension) +=
+      matrix.topLeftCorner<contact_dimension, contact_dimension>();
+  sum_.matrix.block(0, offset, contact_dimension, 1) += matrix.topRightCorner<contact_dimension, 1>();
+  sum_.matrix.block(offset, 0, 1, contact_dimension) += matrix.bottomLeftCorner<1, contact_dimension>();
+  sum_.matrix(offset, offset) += matrix(contact_dimension, contact_dimension);
+  sum_.gradient.head(contact_dimension) += gradient.head<contact_dimension>();
+  sum_.gradient[offset] += gradient[contact_dimension];
 }
 
 NormalEquations NormalEquationsSum::with_prior(const ContactPoint& at) const {
   NormalEquations equations = sum_;
   const double weight = 1.0 / (setting_.prior_spread * setting_.prior_spread);
-  for (Eigen::Index j = 0; j < dimension; ++j) {
+  for (Eigen::Index j = 0; j < contact_dimension; ++j) {
     const bool free = setting_.free[static_cast<std::size_t>(j)];
     equations.matrix(j, j) += free ? weight : 1.0;
     if (free) equations.gradient[j] += weight * (setting_.prior[j] - at[j]);

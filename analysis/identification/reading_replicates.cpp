@@ -12,8 +12,6 @@
 namespace zerocount {
 namespace {
 
-constexpr auto dimension = static_cast<Eigen::Index>(coordinate_count);
-
 /// Of the textbook's standard deviations, over which the truths of the replicates are spread.
 constexpr double truth_spread = 3.0;
 
@@ -72,8 +70,8 @@ std::vector<double> residuals_of(const FittedModel& model, const Observations& o
     for (const AngleObservation& observation : observations[r]) {
       double modelled = mean_over(observation, motion.path).value();
       if (step.size() > 0) {
-        modelled += (mean_over(observation, motion.sensitivity) * step.head<dimension>()).value() +
-                    step[dimension + static_cast<Eigen::Index>(r)];
+        modelled += (mean_over(observation, motion.sensitivity) * step.head<contact_dimension>()).value() +
+                    step[contact_dimension + static_cast<Eigen::Index>(r)];
       }
       residuals.push_back((observation.position - modelled) / std::sqrt(observation.variance));
     }
@@ -108,15 +106,15 @@ ReadingReplicates replicate_readings(std::span<const TestRecord> records, const 
       const RecordMotion& motion = model.motions[r];
       Eigen::VectorXd& path = truth.motions[r].path;
       path = motion.path;
-      path.noalias() += motion.sensitivity * away.head<dimension>();
-      path.array() += away[dimension + static_cast<Eigen::Index>(r)];
+      path.noalias() += motion.sensitivity * away.head<contact_dimension>();
+      path.array() += away[contact_dimension + static_cast<Eigen::Index>(r)];
       const Eigen::VectorXd readings = read_path(records[r], path, noise[r], random);
       observe(records[r], path, readings, noise[r], observations[r]);
       sum.add(r, observations[r], path, motion.sensitivity);
     }
     NormalEquations equations = sum.with_prior(setting.prior);
     // The prior errs as much as it says: what only it determines is as uncertain as it is.
-    for (Eigen::Index j = 0; j < dimension; ++j) {
+    for (Eigen::Index j = 0; j < contact_dimension; ++j) {
       if (setting.free[static_cast<std::size_t>(j)])
         equations.gradient[j] += random.next() / setting.prior_spread;
     }

@@ -13,7 +13,7 @@
 namespace zerocount {
 namespace {
 
-constexpr std::size_t least_samples = 100;
+constexpr std::size_t min_record_samples = 100;
 constexpr double jitter_allowed = 0.25;  // of the sampling interval
 constexpr double least_counts = 5.0;     // of travel
 constexpr std::size_t clipped_samples = 3;
@@ -148,9 +148,9 @@ void check_flat_top(const RawSeries& series, const TestRecord& record, const Tor
 
 double checked_sample_time(const RawSeries& series) {
   const std::vector<double>& time = series.time;
-  if (time.size() < least_samples) {
+  if (time.size() < min_record_samples) {
     refuse(series.name,
-           fmt::format("is too short: {} samples; expected {} at least", time.size(), least_samples));
+           fmt::format("is too short: {} samples; expected {} at least", time.size(), min_record_samples));
   }
   for (std::size_t k = 1; k < time.size(); ++k) {
     if (time[k] > time[k - 1]) continue;

@@ -6,11 +6,11 @@
 namespace zerocount {
 namespace {
 
-constexpr double turn_threshold = 0.02;    // of the range
-constexpr double hold_tolerance = 1e-3;    // of the range
-constexpr double step_threshold = 0.05;    // of the range
-constexpr double slow_threshold = 0.2;     // of the range
-constexpr std::size_t least_samples = 20;  // of a hold and of a slow branch
+constexpr double turn_threshold = 0.02;       // of the range
+constexpr double hold_tolerance = 1e-3;       // of the range
+constexpr double step_threshold = 0.05;       // of the range
+constexpr double slow_threshold = 0.2;        // of the range
+constexpr std::size_t min_part_samples = 20;  // of a hold and of a slow branch
 constexpr std::size_t step_samples = 8;
 
 /// The torque at a sample; before the first it is 0.
@@ -51,7 +51,7 @@ std::vector<TorqueHold> holds_of(const TestRecord& record, double tolerance) {
     const double torque = record.torque[first].now;
     std::size_t end = first + 1;
     while (end < samples && std::abs(record.torque[end].now - torque) <= tolerance) ++end;
-    if (end - first >= least_samples) {
+    if (end - first >= min_part_samples) {
       const auto before = static_cast<std::ptrdiff_t>(first) - static_cast<std::ptrdiff_t>(step_samples);
       holds.push_back({first, end - 1, torque, torque_at(record, before)});
     }
@@ -72,7 +72,7 @@ bool rings_down(const TorqueHold& hold, double range) {
 }
 
 bool is_slow(const LoadingBranch& branch, double range) {
-  return branch.last - branch.first >= least_samples &&
+  return branch.last - branch.first >= min_part_samples &&
          std::abs(branch.to - branch.from) >= slow_threshold * range;
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t most_rows = 200;
+constexpr std::size_t max_measures = 200;
 constexpr std::size_t most_bars = 60;
 
 /// A measure at a point.
@@ -55,7 +55,7 @@ std::string table_of(const std::vector<ComparedMeasure>& measures) {
       baseline{"baseline", "", false, {}}, current{"now", "", false, {}}, effect{"worse by", "", false, {}},
       bounds{"bounds", "", false, {}}, margin{"margin", "", false, {}}, p{"adjusted p", "", false, {}},
       verdict{"verdict", "", true, {}};
-  for (std::size_t i = 0; i < std::min(measures.size(), most_rows); ++i) {
+  for (std::size_t i = 0; i < std::min(measures.size(), max_measures); ++i) {
     const MeasureComparison& one = *measures[i].measure;
     const auto text = [&](double value) { return value_text(value, one.measure, one.unit); };
     point.cells.push_back(measures[i].point->label);
@@ -69,11 +69,11 @@ std::string table_of(const std::vector<ComparedMeasure>& measures) {
     verdict.cells.push_back(fmt::format("{}{}", word_of(one.verdict), one.improved ? ", improved" : ""));
   }
   std::string html = html_table({point, measure, baseline, current, effect, bounds, margin, p, verdict});
-  if (measures.size() > most_rows) {
+  if (measures.size() > max_measures) {
     html += fmt::format(
         "<p class=\"note\">The first {} of {} rows, the failed ones first; all are told by "
         "<code>zerocount compare</code>.</p>\n",
-        most_rows, measures.size());
+        max_measures, measures.size());
   }
   return html;
 }

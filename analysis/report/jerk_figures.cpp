@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t most_rows = 50;
+constexpr std::int64_t max_moves = 50;
 constexpr std::int64_t most_jerks_of_a_row = 120;
 
 /// A move with jerks.
@@ -48,7 +48,7 @@ ShownMoves shown_moves(const ReportedStudy& reported, std::int64_t point) {
     });
   };
   visit_jerking([&](std::int64_t, const JerkingMove&) { ++moves.all; });
-  const std::vector<std::int64_t> chosen = spread_over(moves.all, most_rows);
+  const std::vector<std::int64_t> chosen = spread_over(moves.all, max_moves);
   visit_jerking([&](std::int64_t index, const JerkingMove& move) {
     if (std::binary_search(chosen.begin(), chosen.end(), index)) moves.shown.push_back(move);
   });

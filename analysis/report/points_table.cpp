@@ -13,7 +13,7 @@
 namespace zerocount {
 namespace {
 
-constexpr std::size_t most_rows = 400;
+constexpr std::size_t max_points = 400;
 
 std::string bounds_text(double low, double high) {
   if (std::isnan(low) && std::isnan(high)) return "–";
@@ -151,7 +151,7 @@ std::string points_html(const ReportedStudy& reported) {
   const StudySummary& summary = reported.summary;
   std::size_t all = summary.points.size();
   if (reported.study.open_loop) all *= static_cast<std::size_t>(reported.file.moves());
-  const std::size_t rows = std::min(all, most_rows);
+  const std::size_t rows = std::min(all, max_points);
   std::string html = reported.study.open_loop ? level_table_html(summary, rows) : loop_table(reported, rows);
   if (rows < all) {
     html += fmt::format(

@@ -36,7 +36,7 @@ Tally<double> settling_times(const ReportedStudy& reported, std::int64_t point) 
 }
 
 /// The points with arrivals; where there are too many, an even spread from the best to the worst.
-std::vector<std::int64_t> shown_points(const ReportedStudy& reported) {
+std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   std::vector<std::int64_t> with_arrivals;
   const auto& points = reported.summary.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -79,7 +79,7 @@ void add_curve(FigureData& data, const std::string& label, const Tally<double>& 
 }  // namespace
 
 std::optional<Figure> settling_figure(const ReportedStudy& reported) {
-  const std::vector<std::int64_t> shown = shown_points(reported);
+  const std::vector<std::int64_t> shown = points_with_curves(reported);
   if (shown.empty()) return std::nullopt;
   const auto& points = reported.summary.points;
   const std::int64_t moves_per_trial = reported.file.moves();

@@ -36,7 +36,7 @@ ordered_json row_of(const ReportedStudy& reported, std::int64_t point) {
 }
 
 /// The points by falling success, where not all can be shown: an even spread over that order.
-std::vector<std::int64_t> shown_points(const ReportedStudy& reported) {
+std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
   const auto& points = reported.summary.points;
   std::vector<std::int64_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int64_t>(i);
@@ -52,7 +52,7 @@ std::vector<std::int64_t> shown_points(const ReportedStudy& reported) {
 }
 
 Figure line_per_point(const ReportedStudy& reported) {
-  const std::vector<std::int64_t> shown = shown_points(reported);
+  const std::vector<std::int64_t> shown = points_with_lines(reported);
   std::string caption = "Share of the trials that end at zero counts. ";
   if (!reported.summary.features.dependent_trials) {
     caption +=

@@ -22,10 +22,6 @@ namespace {
 constexpr std::size_t fewest_rows = 10;
 constexpr std::int64_t fewest_of_a_kind = 10;
 
-bool is_constant(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
-}
-
 // The inputs that vary among the trials used, and the factors that none of them is.
 struct Varying {
   std::vector<std::string> names;

@@ -63,11 +63,11 @@ CoMoment co_moment(std::span<const double> f, std::span<const double> g) {
   return moment;
 }
 
+}  // namespace
+
 bool is_constant(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
 }
-
-}  // namespace
 
 std::vector<double> mid_distribution(std::span<const double> values) {
   std::vector<double> result(values.size());

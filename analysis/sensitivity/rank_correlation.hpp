@@ -27,4 +27,7 @@ BoundedNumber rank_correlation(std::span<const double> x, std::span<const double
 /// @param standard_error s, of ρ.
 BoundedNumber fisher_bounds(double correlation, double standard_error, double confidence);
 
+/// Whether all `values` are equal; true of none.
+bool is_constant(std::span<const double> values);
+
 }  // namespace zerocount

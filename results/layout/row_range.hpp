@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 namespace zerocount {
 
@@ -13,5 +14,12 @@ struct RowRange {
   std::int64_t end() const { return first + count; }
   bool operator==(const RowRange&) const = default;
 };
+
+/// Number of rows of all `ranges`.
+inline std::int64_t total_rows(std::span<const RowRange> ranges) {
+  std::int64_t rows = 0;
+  for (const RowRange& range : ranges) rows += range.count;
+  return rows;
+}
 
 }  // namespace zerocount

@@ -24,39 +24,54 @@ function(zerocount_target target)
   endif()
 endfunction()
 
-# zerocount_unity(<target> <largest>): compiles the sources of each folder together, at most <largest> to a unit, because parsing
-# headers is most of the work of the compiler. Helpers in the anonymous namespaces of one folder have distinct names for that
-# reason. Sources with compile options of their own stay apart.
-function(zerocount_unity target largest)
+# zerocount_units(<variable> <largest> <source>...): the sources of each folder as units of at most <largest> of them, each a
+# generated file that includes them by their path from the repository root. Parsing headers is most of the compiler's work,
+# and is done once a unit. Helpers in the anonymous namespaces of one folder have distinct names for that reason. The units do
+# not depend on where the repository stands, so that ccache serves all its checkouts.
+function(zerocount_units variable largest)
   if(NOT ZEROCOUNT_UNITY)
+    set(${variable} ${ARGN} PARENT_SCOPE)
     return()
   endif()
-  get_target_property(sources ${target} SOURCES)
-  foreach(source IN LISTS sources)
-    get_filename_component(folder "${source}" DIRECTORY)
-    string(MAKE_C_IDENTIFIER "at_${folder}" group)
-    list(APPEND members_${group} x)
-    list(LENGTH members_${group} count)
+  set(units "")
+  foreach(source IN LISTS ARGN)
+    file(RELATIVE_PATH path "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}/${source}")
+    get_filename_component(folder "${path}" DIRECTORY)
+    string(MAKE_C_IDENTIFIER "${folder}" folder)
+    list(APPEND members_${folder} "${path}")
+    list(LENGTH members_${folder} count)
     math(EXPR part "(${count} - 1) / ${largest}")
-    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${group}_${part}")
+    set(unit "${folder}_${part}")
+    list(APPEND units ${unit})
+    string(APPEND text_${unit} "#include \"${path}\"\n")
   endforeach()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  list(REMOVE_DUPLICATES units)
+  set(files "")
+  foreach(unit IN LISTS units)
+    set(file "${CMAKE_CURRENT_BINARY_DIR}/${variable}/${unit}.cpp")
+    file(CONFIGURE OUTPUT "${file}" CONTENT "${text_${unit}}" @ONLY)
+    list(APPEND files "${file}")
+  endforeach()
+  set(${variable} ${files} PARENT_SCOPE)
 endfunction()
 
-# zerocount_library(<name> SOURCES ... LINKS ...): one layer, as a static library zerocount_<name>.
+# zerocount_library(<name> SOURCES ... [ALONE ...] LINKS ...): one layer, as a static library zerocount_<name>. ALONE: sources
+# with compile options of their own.
 function(zerocount_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
-  add_library(zerocount_${name} STATIC ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LINKS" ${ARGN})
+  zerocount_units(${name}_units 12 ${ARG_SOURCES})
+  add_library(zerocount_${name} STATIC ${${name}_units} ${ARG_ALONE})
   target_link_libraries(zerocount_${name} PUBLIC ${ARG_LINKS})
   zerocount_target(zerocount_${name})
-  zerocount_unity(zerocount_${name} 12)
 endfunction()
 
-# zerocount_test(<name> SOURCES ... LINKS ...): one GoogleTest executable, each of its tests known to CTest.
+# zerocount_test(<name> SOURCES ... [ALONE ...] LINKS ...): one GoogleTest executable, each of its tests known to CTest.
 function(zerocount_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LINKS" ${ARGN})
+  zerocount_units(${name}_units 6 ${ARG_SOURCES})
+  add_executable(${name} ${${name}_units} ${ARG_ALONE})
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
   zerocount_target(${name})
+  target_compile_options(${name} PRIVATE -Wno-shadow)  # between constants of test files that share a unit
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()

@@ -12,12 +12,12 @@ namespace zerocount {
 namespace {
 
 /// Bounds by SciPy 1.10: binomtest(k, n).proportion_ci(confidence, method) with methods "exact" and "wilson".
-struct Reference {
+struct ScipyBounds {
   std::int64_t k, n;
   double confidence, exact_low, exact_high, wilson_low, wilson_high;
 };
 /// SciPy finds the exact ones by a root search to 2e-12.
-constexpr Reference scipy[] = {
+constexpr ScipyBounds scipy[] = {
     {0, 1, 0.95, 0.0, 0.975, 0.0, 0.7934506856227626},
     {0, 1, 0.99, 0.0, 0.995, 0.0, 0.8690224567198142},
     {1, 1, 0.95, 0.025000000000000022, 1.0, 0.20654931437723745, 1.0},
@@ -58,8 +58,8 @@ double binomial(std::int64_t k, std::int64_t n, double p) {
 }
 
 /// Probability that the interval encloses p, by summing over all outcomes.
-double coverage(ConfidenceInterval (*interval)(std::int64_t, std::int64_t, double), std::int64_t n,
-                double p) {
+double proportion_coverage(ConfidenceInterval (*interval)(std::int64_t, std::int64_t, double), std::int64_t n,
+                           double p) {
   double sum = 0.0;
   for (std::int64_t k = 0; k <= n; ++k) {
     const ConfidenceInterval bounds = interval(k, n, 0.95);
@@ -69,7 +69,7 @@ double coverage(ConfidenceInterval (*interval)(std::int64_t, std::int64_t, doubl
 }
 
 TEST(Proportion, BoundsEqualSciPys) {
-  for (const Reference& reference : scipy) {
+  for (const ScipyBounds& reference : scipy) {
     const ConfidenceInterval exact = clopper_pearson(reference.k, reference.n, reference.confidence);
     const ConfidenceInterval score = wilson(reference.k, reference.n, reference.confidence);
     EXPECT_NEAR(exact.low, reference.exact_low, 1e-11) << reference.k << " of " << reference.n;
@@ -111,13 +111,13 @@ TEST(Proportion, BoundsOfSuccessesMirrorThoseOfFailures) {
 TEST(Proportion, ClopperPearsonCoversWithAtLeastItsConfidenceEverywhere) {
   for (const std::int64_t n : {1, 5, 20, 100}) {
     for (int i = 1; i < 200; ++i)
-      EXPECT_GE(coverage(clopper_pearson, n, i / 200.0), 0.95 - 1e-12) << n << ", " << i;
+      EXPECT_GE(proportion_coverage(clopper_pearson, n, i / 200.0), 0.95 - 1e-12) << n << ", " << i;
   }
 }
 
 TEST(Proportion, WilsonCoversWithItsConfidenceOnAverageAndIsShorter) {
   double sum = 0.0;
-  for (int i = 1; i < 200; ++i) sum += coverage(wilson, 50, i / 200.0);
+  for (int i = 1; i < 200; ++i) sum += proportion_coverage(wilson, 50, i / 200.0);
   EXPECT_NEAR(sum / 199.0, 0.95, 0.01);
   for (std::int64_t k = 5; k <= 45; ++k) {
     const ConfidenceInterval exact = clopper_pearson(k, 50), score = wilson(k, 50);

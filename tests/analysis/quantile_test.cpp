@@ -128,7 +128,7 @@ TEST(Quantile, NothingIsKnownOfAnEmptySample) {
 /// Share of samples of size n from `draw` whose bounds of the p-quantile enclose `truth`; a missing bound
 /// encloses.
 template <typename Draw>
-double coverage(int n, double p, double truth, Draw draw) {
+double quantile_coverage(int n, double p, double truth, Draw draw) {
   constexpr int rounds = 4000;
   int enclosed = 0;
   for (int round = 0; round < rounds; ++round) {
@@ -149,14 +149,15 @@ TEST(Quantile, BoundsCoverTheTrueQuantileWhateverTheDistribution) {
     for (const double p : {0.5, 0.95}) {
       const double of_continuous = -std::log(1.0 - p);
       const double of_discrete = std::ceil(std::log(1.0 - p) / std::log(0.8) - 1.0);
-      EXPECT_GE(coverage(n, p, of_continuous, [&] { return continuous(random); }), 0.95 - three_sigma);
-      EXPECT_GE(coverage(n, p, of_discrete, [&] { return static_cast<double>(discrete(random)); }),
+      EXPECT_GE(quantile_coverage(n, p, of_continuous, [&] { return continuous(random); }),
+                0.95 - three_sigma);
+      EXPECT_GE(quantile_coverage(n, p, of_discrete, [&] { return static_cast<double>(discrete(random)); }),
                 0.95 - three_sigma);
     }
   }
   // Not by being needlessly wide: with 200 observations of a continuous quantity the excess over 95 % is
   // small.
-  EXPECT_LE(coverage(200, 0.5, -std::log(0.5), [&] { return continuous(random); }), 0.97);
+  EXPECT_LE(quantile_coverage(200, 0.5, -std::log(0.5), [&] { return continuous(random); }), 0.97);
 }
 
 TEST(Quantile, ProbabilitiesOutsideTheOpenUnitIntervalAreRefused) {

@@ -17,7 +17,7 @@
 namespace zerocount {
 namespace {
 
-std::vector<std::string> lines_of(const std::string& text) {
+std::vector<std::string> lines_in(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
@@ -27,7 +27,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 /// The lines that begin with `label`, each as its words.
 std::vector<std::vector<std::string>> rows_of(const std::string& text, const std::string& label) {
   std::vector<std::vector<std::string>> rows;
-  for (const std::string& line : lines_of(text)) {
+  for (const std::string& line : lines_in(text)) {
     if (line.rfind(label + " ", 0) != 0) continue;
     std::istringstream words(line);
     rows.emplace_back();
@@ -152,7 +152,7 @@ TEST(RepeatabilitySummary, IsASectionOfTheJson) {
 
 TEST(RepeatabilitySummary, EndsTheLinesOfTheCsv) {
   const std::vector<std::string> lines =
-      lines_of(summary_csv(summary_of(testing::sequence_study("cycles: 2"), one_count_of_reversal)));
+      lines_in(summary_csv(summary_of(testing::sequence_study("cycles: 2"), one_count_of_reversal)));
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_NE(lines[0].find(",observed,repeatability_trials,repeatability_evaluated,"), std::string::npos);
   EXPECT_NE(lines[0].find(",repeatability_encoder_target_2_repeatability_p95"), std::string::npos);

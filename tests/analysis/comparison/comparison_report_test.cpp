@@ -12,7 +12,7 @@
 namespace zerocount::testing {
 namespace {
 
-MeasureComparison measure(const std::string& name, GateVerdict verdict) {
+MeasureComparison reported_measure(const std::string& name, GateVerdict verdict) {
   MeasureComparison one;
   one.measure = name;
   one.unit.assign(1, name == "settling_time" ? 's' : '1');
@@ -36,9 +36,10 @@ StudyComparison sample() {
   comparison.manifest_differences = {{"controller.ki", "1e-5", ""}};
   PointComparison point;
   point.label = "a | \"b\"";
-  point.measures = {
-      measure("success_rate", GateVerdict::regression), measure("settling_time", GateVerdict::inconclusive),
-      measure("jerk_count", GateVerdict::not_measured), measure("stable_rate", GateVerdict::passed)};
+  point.measures = {reported_measure("success_rate", GateVerdict::regression),
+                    reported_measure("settling_time", GateVerdict::inconclusive),
+                    reported_measure("jerk_count", GateVerdict::not_measured),
+                    reported_measure("stable_rate", GateVerdict::passed)};
   point.measures[1].trials_to_decide = 1234.0;
   RequirementResult requirement;
   requirement.text = "success_rate ≥ 0.8";

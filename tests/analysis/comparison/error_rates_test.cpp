@@ -12,14 +12,14 @@
 namespace zerocount::testing {
 namespace {
 
-constexpr std::int64_t trials = 150;
+constexpr std::int64_t pair_trials = 150;
 constexpr std::array<SyntheticPoint, 5> points{
     {{0.95, 0.02, 0.1}, {0.7, 0.03, 0.5}, {0.5, 0.05, 1.0}, {0.15, 0.01, 0.2}, {1.0, 0.03, 0.0}}};
 
 /// Compares studies of all points; `change` makes the points of the second study of those of the first.
 std::vector<PointComparison> compare_once(std::mt19937_64& random, bool paired, const GateRules& rules,
                                           const std::function<SyntheticPoint(SyntheticPoint)>& change,
-                                          std::int64_t count = trials) {
+                                          std::int64_t count = pair_trials) {
   const TrialChances before = draw_chances(random, count);
   const TrialChances after = paired ? redraw_some(random, before, 0.2) : draw_chances(random, count);
   std::vector<PointComparison> compared;
@@ -146,7 +146,7 @@ TEST_P(NullComparisons, TheStatedNumberOfTrialsDecides) {
   ASSERT_EQ(open.verdict, GateVerdict::inconclusive);
   ASSERT_TRUE(open.trials_to_decide.has_value());
   const auto needed = static_cast<std::int64_t>(*open.trials_to_decide);
-  EXPECT_GT(needed, trials);
+  EXPECT_GT(needed, pair_trials);
   int decided = 0;
   for (int i = 0; i < 30; ++i) {
     decided +=

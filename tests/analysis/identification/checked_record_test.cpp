@@ -36,7 +36,7 @@ RawSeries good_series() {
 }
 
 /// The message with which the series is refused once `spoil` has changed it.
-std::string refusal(const std::function<void(RawSeries&)>& spoil, RawSeries series = good_series()) {
+std::string record_refusal(const std::function<void(RawSeries&)>& spoil, RawSeries series = good_series()) {
   spoil(series);
   try {
     checked_record(series, false);
@@ -77,10 +77,10 @@ TEST(CheckedRecord, KeepsAGoodSeries) {
 }
 
 TEST(CheckedRecord, TimeMustRise) {
-  EXPECT_TRUE(refused(refusal([](RawSeries& s) { s.time[100] = s.time[99]; }), "good.csv:102",
+  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) { s.time[100] = s.time[99]; }), "good.csv:102",
                       "does not come after"));
-  EXPECT_TRUE(
-      refused(refusal([](RawSeries& s) { s.time[100] = -1.0; }), "good.csv:102", "does not come after"));
+  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) { s.time[100] = -1.0; }), "good.csv:102",
+                      "does not come after"));
 }
 
 TEST(CheckedRecord, SamplesMustBeEquallySpacedButForJitter) {
@@ -89,13 +89,13 @@ TEST(CheckedRecord, SamplesMustBeEquallySpacedButForJitter) {
       for (std::size_t k = 1; k + 1 < s.time.size(); k += 2) s.time[k] += share * 5e-4;
     };
   };
-  EXPECT_EQ(refusal(jitter(0.1)), "not refused");
-  EXPECT_EQ(refusal(jitter(0.45)), "not refused");  // half of it off the grid between
-  EXPECT_TRUE(refused(refusal(jitter(0.6)), "good.csv:2", "not equally spaced"));
+  EXPECT_EQ(record_refusal(jitter(0.1)), "not refused");
+  EXPECT_EQ(record_refusal(jitter(0.45)), "not refused");  // half of it off the grid between
+  EXPECT_TRUE(refused(record_refusal(jitter(0.6)), "good.csv:2", "not equally spaced"));
 
   // A sample that is missing anywhere inside.
   for (const std::size_t missing : {10, 500, 1500}) {
-    const std::string message = refusal([missing](RawSeries& s) {
+    const std::string message = record_refusal([missing](RawSeries& s) {
       const auto at = static_cast<std::ptrdiff_t>(missing);
       s.time.erase(s.time.begin() + at);
       s.torque.erase(s.torque.begin() + at);
@@ -107,7 +107,7 @@ TEST(CheckedRecord, SamplesMustBeEquallySpacedButForJitter) {
 }
 
 TEST(CheckedRecord, MustBeLongEnough) {
-  const std::string message = refusal([](RawSeries& s) {
+  const std::string message = record_refusal([](RawSeries& s) {
     s.time.resize(99);
     s.torque.resize(99);
     s.angle.resize(99);
@@ -116,11 +116,11 @@ TEST(CheckedRecord, MustBeLongEnough) {
 }
 
 TEST(CheckedRecord, SomethingMustMove) {
-  EXPECT_TRUE(refused(refusal([](RawSeries& s) { s.torque.assign(s.torque.size(), 0.0); }), "good.csv",
+  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) { s.torque.assign(s.torque.size(), 0.0); }), "good.csv",
                       "the torque is 0 throughout"));
-  EXPECT_TRUE(refused(refusal([](RawSeries& s) { s.angle.assign(s.angle.size(), 7.0); }), "good.csv",
+  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) { s.angle.assign(s.angle.size(), 7.0); }), "good.csv",
                       "the angle is constant"));
-  EXPECT_TRUE(refused(refusal([](RawSeries& s) {
+  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) {
                         for (double& angle : s.angle) angle = std::floor(angle / 400.0);
                         s.counts_per_revolution /= 400.0;
                       }),
@@ -128,7 +128,7 @@ TEST(CheckedRecord, SomethingMustMove) {
 }
 
 TEST(CheckedRecord, TorqueAndAngleMustAgreeInSign) {
-  EXPECT_TRUE(refused(refusal([](RawSeries& s) {
+  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) {
                         for (double& angle : s.angle) angle = -angle;
                       }),
                       "good.csv", "wrong sign"));
@@ -136,13 +136,14 @@ TEST(CheckedRecord, TorqueAndAngleMustAgreeInSign) {
 
 TEST(CheckedRecord, AReadingThatStandsOutAloneIsNamed) {
   for (const double off : {-500.0, -30.0, 30.0, 500.0}) {
-    EXPECT_TRUE(refused(refusal([off](RawSeries& s) { s.angle[1234] += off; }), "good.csv:1236",
+    EXPECT_TRUE(refused(record_refusal([off](RawSeries& s) { s.angle[1234] += off; }), "good.csv:1236",
                         "a fault of the reading"));
   }
 }
 
 TEST(CheckedRecord, CountsMustBeWhole) {
-  EXPECT_TRUE(refused(refusal([](RawSeries& s) { s.angle[5] = 0.5; }), "good.csv:7", "no whole number"));
+  EXPECT_TRUE(
+      refused(record_refusal([](RawSeries& s) { s.angle[5] = 0.5; }), "good.csv:7", "no whole number"));
 }
 
 // What a thousandfold error makes of each quantity is refused, in either direction, and kept where it is
@@ -155,21 +156,22 @@ TEST(CheckedRecord, UnitsAThousandfoldOffAreRefused) {
   };
   const RawSeries radians = in_radians(good_series());
   for (const double factor : {1e3, 1e-3}) {
-    EXPECT_TRUE(refused(refusal(times(&RawSeries::torque, factor)), "good.csv", "plausible")) << factor;
-    EXPECT_TRUE(refused(refusal(times(&RawSeries::angle, factor), radians), "good.csv", "plausible"))
+    EXPECT_TRUE(refused(record_refusal(times(&RawSeries::torque, factor)), "good.csv", "plausible"))
         << factor;
-    EXPECT_TRUE(refused(refusal([factor](RawSeries& s) { s.counts_per_revolution *= factor; }), "good.csv",
-                        "plausible"))
+    EXPECT_TRUE(refused(record_refusal(times(&RawSeries::angle, factor), radians), "good.csv", "plausible"))
+        << factor;
+    EXPECT_TRUE(refused(record_refusal([factor](RawSeries& s) { s.counts_per_revolution *= factor; }),
+                        "good.csv", "plausible"))
         << factor;
   }
-  EXPECT_TRUE(refused(refusal(times(&RawSeries::time, 1e3)), "good.csv", "is the time in ms"));
+  EXPECT_TRUE(refused(record_refusal(times(&RawSeries::time, 1e3)), "good.csv", "is the time in ms"));
   RawSeries millinewtons = good_series();
   for (double& torque : millinewtons.torque) torque *= 1e3;
   EXPECT_NO_THROW(checked_record(millinewtons, true));
 }
 
 TEST(CheckedRecord, SlidingIsNamed) {
-  EXPECT_TRUE(refused(refusal([](RawSeries& s) {
+  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) {
                         s.sliding.assign(s.time.size(), false);
                         s.sliding[321] = true;
                       }),
@@ -179,7 +181,7 @@ TEST(CheckedRecord, SlidingIsNamed) {
 // The torque that was recorded is cut off, the one that acted was not.
 TEST(CheckedRecord, ClippedTorqueIsNamed) {
   for (const double limit : {0.05, 0.08, 0.12, 0.14}) {
-    const std::string message = refusal([limit](RawSeries& s) {
+    const std::string message = record_refusal([limit](RawSeries& s) {
       for (double& torque : s.torque) torque = std::clamp(torque, -limit, limit);
     });
     EXPECT_NE(message.find("the torque is clipped"), std::string::npos) << limit << ": " << message;
@@ -194,19 +196,19 @@ TEST(CheckedRecord, CodesAtTheEndOfTheRangeAreClipping) {
       for (std::size_t k = 50; k < 60; ++k) s.code[k] = code;
     };
   };
-  EXPECT_TRUE(refused(refusal(saturated(2047, 12)), "good.csv:54", "end of its range"));
-  EXPECT_TRUE(refused(refusal(saturated(-2048, 12)), "good.csv:54", "end of its range"));
-  EXPECT_TRUE(refused(refusal(saturated(32767, 0)), "good.csv:54", "if it has 16 bits"));
-  EXPECT_EQ(refusal(saturated(2047, 16)), "not refused");
-  EXPECT_EQ(refusal(saturated(127, 0)), "not refused");
-  EXPECT_TRUE(refused(refusal(saturated(2048, 12)), "good.csv:52", "beyond the DAC's 12 bits"));
+  EXPECT_TRUE(refused(record_refusal(saturated(2047, 12)), "good.csv:54", "end of its range"));
+  EXPECT_TRUE(refused(record_refusal(saturated(-2048, 12)), "good.csv:54", "end of its range"));
+  EXPECT_TRUE(refused(record_refusal(saturated(32767, 0)), "good.csv:54", "if it has 16 bits"));
+  EXPECT_EQ(record_refusal(saturated(2047, 16)), "not refused");
+  EXPECT_EQ(record_refusal(saturated(127, 0)), "not refused");
+  EXPECT_TRUE(refused(record_refusal(saturated(2048, 12)), "good.csv:52", "beyond the DAC's 12 bits"));
 
   // The end of a shorter word's range is none where other codes lie beyond it.
   const auto with_larger = [&](RawSeries& s) {
     saturated(-2048, 0)(s);
     s.code[200] = 3000;
   };
-  EXPECT_EQ(refusal(with_larger), "not refused");
+  EXPECT_EQ(record_refusal(with_larger), "not refused");
 }
 
 // Holds, ring-downs and creep at the extremes of the torque are no clipping.

@@ -8,13 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "core/plant/plant.hpp"
+#include "tests/core/plant/held_plant.hpp"
 
 namespace zerocount {
 namespace {
 
-constexpr double count = 2.0 * std::numbers::pi / 1620000;  // rad
-constexpr double sample = 5e-4;                             // s
-constexpr MotionTolerance tolerance{1e-10 * count};
+using namespace testing;
 
 FrictionAlongRotor spring_alone(FrictionParameters friction = {}) {
   return {friction, {}, FrictionModel::spring};
@@ -47,7 +46,7 @@ TEST(PlantUnderAnAmplifier, MovesOnALinearSpringAsTheClosedFormSays) {
   const double decay = rotor.presliding_damping / (2.0 * rotor.inertia);
   const std::complex<double> mode{-decay, std::sqrt(friction.k1 / rotor.inertia - decay * decay)};
   for (const double rate : {3.0, 200.0, 5000.0, 1e5, 3e6}) {
-    Plant plant(rotor, spring_alone(friction), {}, tolerance);
+    Plant plant(rotor, spring_alone(friction), {}, rig_tolerance);
     const double constant = target / friction.k1;
     const double lagging =
         -target / (rotor.inertia * rate * rate - rotor.presliding_damping * rate + friction.k1);
@@ -66,8 +65,8 @@ TEST(PlantUnderAnAmplifier, MovesOnALinearSpringAsTheClosedFormSays) {
 }
 
 TEST(PlantUnderAnAmplifier, IsTheOneOfConstantTorqueWhereNothingIsLeftToFollow) {
-  Plant amplified({}, {}, {}, tolerance);
-  Plant constant({}, {}, {}, tolerance);
+  Plant amplified({}, {}, {}, rig_tolerance);
+  Plant constant({}, {}, {}, rig_tolerance);
   std::mt19937 random(31);
   std::normal_distribution<double> torque(0.0, 0.3);
   for (int k = 0; k < 300; ++k) {
@@ -86,8 +85,8 @@ TEST(PlantUnderAnAmplifier, TendsToThatOfConstantTorqueWithItsBandwidth) {
     for (const double rate : {1e6, 1e7, 1e8}) {
       FrictionAlongRotor friction;
       friction.model = model;
-      Plant amplified({}, friction, {}, tolerance);
-      Plant constant({}, friction, {}, tolerance);
+      Plant amplified({}, friction, {}, rig_tolerance);
+      Plant constant({}, friction, {}, rig_tolerance);
       double worst = 0.0;
       double now = 0.0;
       for (const double u : {0.2, -0.1, 0.45, 0.5, -0.2, 0.1}) {
@@ -113,8 +112,8 @@ TEST(PlantUnderAnAmplifier, CanBeFollowedUpToTheHighestBandwidth) {
        {FrictionModel::presliding, FrictionModel::spring, FrictionModel::coulomb}) {
     FrictionAlongRotor friction;
     friction.model = model;
-    Plant amplified({}, friction, {}, tolerance);
-    Plant constant({}, friction, {}, tolerance);
+    Plant amplified({}, friction, {}, rig_tolerance);
+    Plant constant({}, friction, {}, rig_tolerance);
     double now = 0.0;
     for (const double u : {0.2, -0.1, 0.45, 0.5, -0.2, 0.1}) {
       amplified.advance({now, u, rate}, sample);
@@ -134,8 +133,8 @@ TEST(PlantUnderAnAmplifier, MovesAlikeInOneStepOrInPieces) {
     for (unsigned trial = 0; trial < 10; ++trial) {
       FrictionAlongRotor friction;
       friction.model = model;
-      Plant whole({}, friction, {}, tolerance);
-      Plant pieces({}, friction, {}, tolerance);
+      Plant whole({}, friction, {}, rig_tolerance);
+      Plant pieces({}, friction, {}, rig_tolerance);
       RandomTorques torques(trial, model == FrictionModel::coulomb ? 0.4 : 0.1,
                             std::pow(10.0, 2.0 + 3.0 * unit(random)));
       for (int k = 0; k < 200; ++k) {
@@ -158,8 +157,8 @@ TEST(PlantUnderAnAmplifier, MovesAlikeInOneStepOrInPieces) {
 }
 
 TEST(PlantUnderAnAmplifier, OppositeTorqueGivesTheOppositeMotionBitForBit) {
-  Plant plant({}, {}, {}, tolerance);
-  Plant mirror({}, {}, {}, tolerance);
+  Plant plant({}, {}, {}, rig_tolerance);
+  Plant mirror({}, {}, {}, rig_tolerance);
   RandomTorques torques(33, 0.4, 1500.0);
   for (int k = 0; k < 3000; ++k) {
     const TorqueCourse course = torques.next();
@@ -176,10 +175,10 @@ TEST(PlantUnderAnAmplifier, OppositeTorqueGivesTheOppositeMotionBitForBit) {
 TEST(PlantUnderAnAmplifier, FollowsATorqueTooSlowToBeNoticedAtOnce) {
   const FrictionParameters friction;
   const PlantParameters rotor;
-  const double promised = tolerance.elongation * (friction.k1 + friction.k2) / friction.k1;
+  const double promised = rig_tolerance.elongation * (friction.k1 + friction.k2) / friction.k1;
   for (const double duration : {sample, 1.0, 200.0}) {  // in one step, or in many
     for (const double rate : {1e-8, 1e-6, 1e-4}) {
-      Plant plant(rotor, spring_alone(), {}, tolerance);
+      Plant plant(rotor, spring_alone(), {}, rig_tolerance);
       TorqueCourse course{0.0, 0.02, rate};
       const double end = std::min(200.0, 20000 * duration);
       for (double t = 0.0; t < end - 0.5 * duration; t += duration) {
@@ -198,7 +197,7 @@ TEST(PlantUnderAnAmplifier, FollowsATorqueTooSlowToBeNoticedAtOnce) {
 
 TEST(PlantUnderAnAmplifier, RestsOnceTheTorqueHasSettled) {
   for (const double rate : {50.0, 5000.0, 5e5}) {
-    Plant plant({}, spring_alone(), {}, tolerance);
+    Plant plant({}, spring_alone(), {}, rig_tolerance);
     TorqueCourse course{0.0, 0.02, rate};
     for (int k = 0; k < 4000; ++k) {
       plant.advance(course, sample);
@@ -223,7 +222,7 @@ TEST(PlantUnderAnAmplifier, SlidesAsTheClosedFormSays) {
   friction.coulomb_ratio = 1.0;
   const double torque = 0.5;
   for (const double rate : {10.0, 1000.0, 1e5, 1e7}) {
-    Plant plant(rotor, {friction, {}}, {.velocity = 2.0, .sliding = true}, tolerance);
+    Plant plant(rotor, {friction, {}}, {.velocity = 2.0, .sliding = true}, rig_tolerance);
     TorqueCourse course{0.0, torque, rate};
     for (int k = 1; k <= 6; ++k) {
       plant.advance(course, sample);

@@ -7,11 +7,14 @@
 #include <gtest/gtest.h>
 
 #include "core/plant/plant.hpp"
+#include "tests/core/plant/held_plant.hpp"
 
 namespace zerocount {
 namespace {
 
-constexpr MotionTolerance tolerance{4e-16};
+using testing::hold;
+
+constexpr MotionTolerance coulomb_tolerance{4e-16};
 constexpr double level = 0.3;  // N m
 
 /// Without Stribeck the friction of a slide is the breakaway torque itself.
@@ -23,10 +26,6 @@ FrictionAlongRotor coulomb(double ratio = 1.0) {
   return friction;
 }
 
-void hold(Plant& plant, double torque, double duration) {
-  plant.advance(constant_torque(torque), duration);
-}
-
 double next_after(double value) {
   return std::nextafter(value, std::numeric_limits<double>::infinity());
 }
@@ -34,7 +33,7 @@ double next_after(double value) {
 TEST(CoulombPlant, StandsExactlyWhileTheTorqueIsWithinTheLevel) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> torque(-level, level);
-  Plant plant({}, coulomb(0.5), {}, tolerance);
+  Plant plant({}, coulomb(0.5), {}, coulomb_tolerance);
   double now = 0.0;
   for (int k = 0; k < 1000; ++k) {
     const TorqueCourse course{now, torque(random), 1e4 * std::abs(torque(random))};
@@ -52,7 +51,7 @@ TEST(CoulombPlant, KnowsNoPreslidingState) {
   start.hardening = 1e-5;
   start.preload = 0.1;
   start.history = {0.2, -0.1};
-  Plant plant({}, coulomb(), start, tolerance);
+  Plant plant({}, coulomb(), start, coulomb_tolerance);
   for (const double torque : {0.0, 0.5, -0.2, -0.6}) {
     EXPECT_EQ(plant.creep().extension, 0.0);
     EXPECT_EQ(plant.creep().hardening, 0.0);
@@ -73,7 +72,7 @@ TEST(CoulombPlant, SlidesAndStopsAsTheClosedFormSays) {
     rotor.sliding_damping = 1e-3 * std::pow(10.0, 2.0 * unit(random));
     const double relaxation = rotor.inertia / rotor.sliding_damping;
     const double side = unit(random) < 0.5 ? -1.0 : 1.0;
-    Plant plant(rotor, coulomb(), {}, tolerance);
+    Plant plant(rotor, coulomb(), {}, coulomb_tolerance);
 
     const double drive = level * (1.0 + 3.0 * unit(random));
     const double t = 0.02 * unit(random);
@@ -104,7 +103,7 @@ TEST(CoulombPlant, ReversesAtOnceWhereTheTorqueOvercomesTheLevel) {
   PlantParameters rotor;
   rotor.sliding_damping = 0.0;
   const double omega = 1.0;
-  Plant plant(rotor, coulomb(), {.velocity = omega}, tolerance);
+  Plant plant(rotor, coulomb(), {.velocity = omega}, coulomb_tolerance);
   const double torque = -0.5;
   const double braking = (0.5 + level) / rotor.inertia;
   const double backwards = (0.5 - level) / rotor.inertia;
@@ -120,7 +119,7 @@ TEST(CoulombPlant, SlidesOnAtOnceWhereTheNewContactIsWeaker) {
       Profile{Marginal::normal, level, 0.2, {0.0, 0.0}, {0.0, -1.0}});  // falls with the angle
   FrictionAlongRotor friction = coulomb();
   friction.profiled.push_back({&FrictionParameters::breakaway, weaker});
-  Plant plant({}, friction, {.velocity = 5.0}, tolerance);
+  Plant plant({}, friction, {.velocity = 5.0}, coulomb_tolerance);
   const double torque = level - 0.03;
   hold(plant, torque, 1.0);
   EXPECT_TRUE(plant.sliding());
@@ -133,10 +132,10 @@ TEST(CoulombPlant, SlidesOnAtOnceWhereTheNewContactIsWeaker) {
 
 TEST(CoulombPlant, NeedsTheStaticLevelToStartButNotToGoOn) {
   const double between = 0.9 * level;
-  Plant standing({}, coulomb(0.8), {}, tolerance);
+  Plant standing({}, coulomb(0.8), {}, coulomb_tolerance);
   hold(standing, between, 1.0);
   EXPECT_EQ(standing.theta(), 0.0);
-  Plant moving({}, coulomb(0.8), {.velocity = 1.0}, tolerance);
+  Plant moving({}, coulomb(0.8), {.velocity = 1.0}, coulomb_tolerance);
   hold(moving, between, 1.0);
   EXPECT_GT(moving.omega(), 1.0);
 }
@@ -155,19 +154,19 @@ TEST(CoulombPlant, IsReleasedByAnAmplifierAtTheExactInstant) {
         std::log((course.now - course.settled) / (side * level - course.settled)) / course.rate;
     const double excess = (course.settled - side * level) / rotor.inertia;
     for (const double t : {0.1, 1.0, 3.0, 30.0}) {
-      Plant standing(rotor, coulomb(), {}, tolerance);
+      Plant standing(rotor, coulomb(), {}, coulomb_tolerance);
       standing.advance(course, 0.9999999 * release);
       ASSERT_EQ(standing.theta(), 0.0);
       ASSERT_FALSE(standing.sliding());
       const double since = t / course.rate;
-      Plant plant(rotor, coulomb(), {}, tolerance);
+      Plant plant(rotor, coulomb(), {}, coulomb_tolerance);
       plant.advance(course, release + since);
       const double omega = excess * (since + std::expm1(-t) / course.rate);
       const double theta =
           excess * (0.5 * since * since - since / course.rate - std::expm1(-t) / course.rate / course.rate);
       // The instant is known to the rounding of the torque over its rate of change.
       const double late = 1e-15 * level / (course.rate * std::abs(course.settled - side * level)) + 1e-16;
-      const double left_out = 10.0 * tolerance.elongation;
+      const double left_out = 10.0 * coulomb_tolerance.elongation;
       ASSERT_NEAR(plant.omega(), omega, std::abs(excess) * late + 1e-14 * std::abs(omega) + left_out / since)
           << trial;
       ASSERT_EQ(plant.breakaways(), 1) << trial;  // no false start at the level
@@ -201,7 +200,7 @@ TEST(CoulombPlant, FollowsEveryTorqueAtTheVeryLevel) {
           {2.0 * beyond, side * level, 1e4},
       };
       for (const TorqueCourse& course : courses) {
-        Plant plant({}, coulomb(ratio), {}, tolerance);
+        Plant plant({}, coulomb(ratio), {}, coulomb_tolerance);
         for (int k = 0; k < 20; ++k) plant.advance(course_after(course, k * 5e-4), 5e-4);
         ASSERT_TRUE(plant.finite()) << ratio << ' ' << course.now << ' ' << course.settled;
         const bool moves = std::abs(course.now) > 1.5 * level || std::abs(course.settled) > 1.5 * level;
@@ -219,9 +218,9 @@ TEST(CoulombPlant, FollowsEveryTorqueAtTheVeryLevel) {
 
 TEST(CoulombPlant, SlidesUnderTheSameLawAsThePreslidingOne) {
   FrictionAlongRotor friction = coulomb(0.6);
-  Plant without({}, friction, {.velocity = 2.0, .sliding = true}, tolerance);
+  Plant without({}, friction, {.velocity = 2.0, .sliding = true}, coulomb_tolerance);
   friction.model = FrictionModel::presliding;
-  Plant with({}, friction, {.velocity = 2.0, .sliding = true}, tolerance);
+  Plant with({}, friction, {.velocity = 2.0, .sliding = true}, coulomb_tolerance);
   for (int k = 0; k < 5; ++k) {
     hold(without, 0.1, 5e-4);
     hold(with, 0.1, 5e-4);
@@ -234,8 +233,8 @@ TEST(CoulombPlant, SlidesUnderTheSameLawAsThePreslidingOne) {
 // Nothing could give way to a velocity but sliding.
 TEST(CoulombPlant, SlidesAtTheStartWithAVelocityWhateverTheMode) {
   for (const double omega : {2.0, -0.3, 1e-6}) {
-    Plant sliding({}, coulomb(0.6), {.velocity = omega, .sliding = true}, tolerance);
-    Plant sticking({}, coulomb(0.6), {.velocity = omega, .sliding = false}, tolerance);
+    Plant sliding({}, coulomb(0.6), {.velocity = omega, .sliding = true}, coulomb_tolerance);
+    Plant sticking({}, coulomb(0.6), {.velocity = omega, .sliding = false}, coulomb_tolerance);
     EXPECT_TRUE(sticking.sliding());
     for (int k = 0; k < 5; ++k) {
       hold(sliding, 0.1, 5e-4);
@@ -249,8 +248,8 @@ TEST(CoulombPlant, SlidesAtTheStartWithAVelocityWhateverTheMode) {
 TEST(CoulombPlant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
   std::mt19937 random(4);
   std::normal_distribution<double> torque(0.0, 0.4);
-  Plant plant({}, coulomb(0.7), {.velocity = 0.1}, tolerance);
-  Plant mirror({}, coulomb(0.7), {.velocity = -0.1}, tolerance);
+  Plant plant({}, coulomb(0.7), {.velocity = 0.1}, coulomb_tolerance);
+  Plant mirror({}, coulomb(0.7), {.velocity = -0.1}, coulomb_tolerance);
   double now = 0.0;
   for (int k = 0; k < 3000; ++k) {
     const TorqueCourse course{now, torque(random), 3000.0};

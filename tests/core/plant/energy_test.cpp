@@ -75,12 +75,12 @@ FrictionParameters elastic() {
   return friction;
 }
 
-struct Drive {
+struct LoopDrive {
   double rate;  // of the amplifier, 1/s; 0: none
   PlantStart start;
 };
 
-class EnergyBalance : public ::testing::TestWithParam<Drive> {};
+class EnergyBalance : public ::testing::TestWithParam<LoopDrive> {};
 
 TEST_P(EnergyBalance, HoldsThroughBreakawayAndReStickOnAnElasticSpring) {
   EnergyLedger ledger;
@@ -122,9 +122,9 @@ TEST_P(EnergyBalance, HoldsUnderCoulombFriction) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Drives, EnergyBalance,
-                         ::testing::Values(Drive{0.0, {}}, Drive{400.0, {}}, Drive{20000.0, {}},
-                                           Drive{0.0, {.velocity = 0.3}},
-                                           Drive{400.0, {.velocity = -0.5, .sliding = true}}));
+                         ::testing::Values(LoopDrive{0.0, {}}, LoopDrive{400.0, {}}, LoopDrive{20000.0, {}},
+                                           LoopDrive{0.0, {.velocity = 0.3}},
+                                           LoopDrive{400.0, {.velocity = -0.5, .sliding = true}}));
 
 // The energy of the hysteretic spring is that of its stop elements. What is neither there, nor in the rotor
 // or the damper, is lost to hysteresis and creep, and that only grows.

@@ -12,24 +12,12 @@
 
 #include "core/plant/plant.hpp"
 #include "core/trial/random_history.hpp"
+#include "tests/support/draws.hpp"
 #include "tests/support/odeint_motion.hpp"
 #include "tests/support/random_trials.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-class Draws {
- public:
-  explicit Draws(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * std::ldexp(static_cast<double>(engine_() >> 11), -53);
-  }
-  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
-  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 /// How the torque goes on from one interval to the next.
 enum class Drive { held, amplified, amplified_with_jumps };

@@ -7,21 +7,16 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/core/plant/held_plant.hpp"
+
 namespace zerocount {
 namespace {
 
-constexpr double count = 2.0 * std::numbers::pi / 1620000;  // rad
-constexpr double sample = 5e-4;                             // s
-constexpr MotionTolerance tolerance{1e-10 * count};
+using namespace testing;
 
 FrictionAlongRotor without_creep(FrictionParameters friction = {}) {
   friction.alpha = 0.0;
   return {friction, {}};
-}
-
-/// Holds a constant torque (N m) for `duration` (s).
-void hold(Plant& plant, double torque, double duration) {
-  plant.advance(constant_torque(torque), duration);
 }
 
 TEST(PlantOnALinearSpring, OscillatesAsTheClosedFormSays) {
@@ -29,7 +24,7 @@ TEST(PlantOnALinearSpring, OscillatesAsTheClosedFormSays) {
   friction.k2 = 1e-12;
   friction.breakaway = 1e6;
   const PlantParameters rotor;
-  Plant plant(rotor, without_creep(friction), {}, tolerance);
+  Plant plant(rotor, without_creep(friction), {}, rig_tolerance);
   const double u = 0.05;
   const double decay = rotor.presliding_damping / (2.0 * rotor.inertia);
   const double frequency = std::sqrt(friction.k1 / rotor.inertia - decay * decay);
@@ -44,7 +39,7 @@ TEST(PlantOnALinearSpring, OscillatesAsTheClosedFormSays) {
 }
 
 TEST(PlantAtConstantTorque, EndsOnTheUnloadingLoopsAndStays) {
-  Plant plant({}, without_creep(), {}, tolerance);
+  Plant plant({}, without_creep(), {}, rig_tolerance);
   for (int k = 0; k < 2000; ++k) hold(plant, 0.02, sample);
   const double theta = plant.theta();
   const std::size_t depth = plant.spring().depth();
@@ -57,7 +52,7 @@ TEST(PlantAtConstantTorque, EndsOnTheUnloadingLoopsAndStays) {
 
 TEST(PlantAtConstantTorque, CreepsAsTheExactSolutionOnceTheSpringIsStill) {
   const FrictionParameters friction;
-  Plant plant({}, {friction, {}}, {}, tolerance);
+  Plant plant({}, {friction, {}}, {}, rig_tolerance);
   const double u = 0.02;
   for (int k = 0; k < 400; ++k) hold(plant, u, sample);
   const CreepState start = plant.creep();
@@ -79,8 +74,8 @@ TEST(Plant, MovesAlikeInOneStepOrInPieces) {
   std::mt19937 random(21);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int trial = 0; trial < 20; ++trial) {
-    Plant whole({}, {{}, {}}, {}, tolerance);
-    Plant pieces({}, {{}, {}}, {}, tolerance);
+    Plant whole({}, {{}, {}}, {}, rig_tolerance);
+    Plant pieces({}, {{}, {}}, {}, rig_tolerance);
     for (int k = 0; k < 200; ++k) {
       const double u = 0.2 * (unit(random) - 0.5);
       hold(whole, u, sample);
@@ -99,8 +94,8 @@ TEST(Plant, MovesAlikeInOneStepOrInPieces) {
 TEST(Plant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
   std::mt19937 random(22);
   std::normal_distribution<double> torque(0.0, 0.4);
-  Plant plant({}, {{}, {}}, {.preload = 0.05}, tolerance);
-  Plant mirror({}, {{}, {}}, {.preload = -0.05}, tolerance);
+  Plant plant({}, {{}, {}}, {.preload = 0.05}, rig_tolerance);
+  Plant mirror({}, {{}, {}}, {.preload = -0.05}, rig_tolerance);
   for (int k = 0; k < 3000; ++k) {
     const double u = torque(random);
     hold(plant, u, sample);
@@ -112,7 +107,7 @@ TEST(Plant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
 }
 
 TEST(PlantThroughBreakawayAndReStick, StartsANewContactWithTheTorqueOfTheOld) {
-  Plant plant({}, {{}, {}}, {}, tolerance);
+  Plant plant({}, {{}, {}}, {}, rig_tolerance);
   while (!plant.sliding()) hold(plant, 0.4, 1e-6);
   const double torque = plant.spring().torque();
   const double hook_torque = torque + 0.2 * plant.omega();
@@ -134,7 +129,7 @@ TEST(PlantOnAProfile, TakesTheParametersWhereItSticks) {
   FrictionAlongRotor friction;
   friction.profiled.push_back({&FrictionParameters::k1, profile});
   const double start = 1.25;
-  Plant plant({}, friction, {.position = start}, tolerance);
+  Plant plant({}, friction, {.position = start}, rig_tolerance);
   EXPECT_DOUBLE_EQ(plant.contact().k1, 100.0 + 20.0 * (std::cos(start) + 0.5 * std::sin(start)));
   const double before = plant.contact().k1;
   for (int k = 0; k < 100; ++k) hold(plant, 0.45, sample);
@@ -149,7 +144,7 @@ TEST(PlantOnAProfile, TakesTheParametersWhereItSticks) {
 TEST(Plant, GivesUpLoudlyOnAMotionItCannotFollow) {
   PlantParameters rotor;
   rotor.inertia = 1e-200;
-  Plant plant(rotor, {{}, {}}, {}, tolerance);
+  Plant plant(rotor, {{}, {}}, {}, rig_tolerance);
   hold(plant, 0.1, sample);
   EXPECT_FALSE(plant.finite());
 }

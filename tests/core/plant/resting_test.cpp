@@ -12,22 +12,12 @@
 #include "core/plant/plant.hpp"
 #include "core/trial/rig.hpp"
 #include "core/trial/trial.hpp"
+#include "tests/support/draws.hpp"
 #include "tests/support/odeint_motion.hpp"
 #include "tests/support/random_trials.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-class Draws {
- public:
-  explicit Draws(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * std::ldexp(static_cast<double>(engine_() >> 11), -53);
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 double count_of(const TrialParameters& rig) {
   return 2.0 * std::numbers::pi / rig.encoder.fine;

@@ -17,7 +17,7 @@ namespace zerocount {
 namespace {
 
 const PlantParameters rig;
-const EncoderParameters encoder;
+const EncoderParameters paper_encoder;
 
 /// The sampled loop run sample by sample in physical units, the rotor between samples by the closed form of
 /// the damped oscillator (complex exponents): an implementation apart from the one under test.
@@ -37,7 +37,7 @@ class LinearLoop {
   }
 
   void step() {
-    const double count = angle_ / count_angle(encoder);
+    const double count = angle_ / count_angle(paper_encoder);
     if (k_ == 0) last_count_ = count;
     const double error = -count;
     integral_ += controller_.ki * (error + last_error_);
@@ -104,9 +104,9 @@ double simulated_growth(double stiffness, const PlantParameters& plant,
 
 TEST(SampledStability, BoundOfThePapersRigIsBelowTheContinuousOne) {
   const ControllerParameters controller;
-  const double sampled = sampled_critical_integral_gain(110.0, rig, encoder, controller);
+  const double sampled = sampled_critical_integral_gain(110.0, rig, paper_encoder, controller);
   EXPECT_NEAR(sampled, 3.57e-5, 0.5e-7);
-  EXPECT_LT(sampled, critical_integral_gain(110.0, rig, encoder, controller));
+  EXPECT_LT(sampled, critical_integral_gain(110.0, rig, paper_encoder, controller));
 }
 
 TEST(SampledStability, ApproachesTheContinuousBoundAtHighSampleRates) {
@@ -115,8 +115,9 @@ TEST(SampledStability, ApproachesTheContinuousBoundAtHighSampleRates) {
   double last_gap = 1.0;
   for (const double rate : {4e3, 16e3, 64e3, 256e3}) {
     controller.sample_rate = rate;
-    const double continuous = critical_integral_gain(110.0, rig, encoder, controller);
-    const double gap = 1.0 - sampled_critical_integral_gain(110.0, rig, encoder, controller) / continuous;
+    const double continuous = critical_integral_gain(110.0, rig, paper_encoder, controller);
+    const double gap =
+        1.0 - sampled_critical_integral_gain(110.0, rig, paper_encoder, controller) / continuous;
     EXPECT_GT(gap, 0.0);
     EXPECT_LT(gap, 0.3 * last_gap);  // the hold's delay of half a sample: an error of first order in T
     last_gap = gap;
@@ -134,18 +135,18 @@ TEST(SampledStability, LinearLoopDecaysBelowTheBoundAndGrowsAboveIt) {
     plant.inertia *= factor(random);
     plant.presliding_damping *= factor(random);
     ControllerParameters controller;
-    controller.kp = 0.5 * part(random) * stiffness * count_angle(encoder);
+    controller.kp = 0.5 * part(random) * stiffness * count_angle(paper_encoder);
     controller.kd = 2e-4 * part(random);
     controller.delay = static_cast<int>(random() % 4);
     LinearDrive drive{0.7 + 0.6 * part(random), 0.0};
     if (random() % 2 == 0) drive.bandwidth = 30.0 * std::pow(30.0, part(random));
-    const double bound = sampled_critical_integral_gain(stiffness, plant, encoder, controller, drive);
+    const double bound = sampled_critical_integral_gain(stiffness, plant, paper_encoder, controller, drive);
     if (bound == 0.0) continue;  // unstable without integral; its own test below
     ++judged;
     for (const double side : {0.99, 1.01}) {
       controller.ki = side * bound;
       const double growth = simulated_growth(stiffness, plant, controller, drive);
-      const double radius = sampled_spectral_radius(stiffness, plant, encoder, controller, drive);
+      const double radius = sampled_spectral_radius(stiffness, plant, paper_encoder, controller, drive);
       EXPECT_EQ(growth < 1.0, side < 1.0) << "trial " << i << ", delay " << controller.delay;
       EXPECT_EQ(radius < 1.0, side < 1.0) << "trial " << i << ", delay " << controller.delay;
     }
@@ -160,9 +161,9 @@ TEST(SampledStability, SpectralRadiusIsTheGrowthOfTheLinearLoop) {
     controller.kp = 1e-4;
     controller.kd = 1e-4;
     for (const LinearDrive& drive : {LinearDrive{}, LinearDrive{1.1, 150.0}}) {
-      controller.ki = 1.02 * sampled_critical_integral_gain(300.0, rig, encoder, controller, drive);
+      controller.ki = 1.02 * sampled_critical_integral_gain(300.0, rig, paper_encoder, controller, drive);
       EXPECT_NEAR(simulated_growth(300.0, rig, controller, drive),
-                  sampled_spectral_radius(300.0, rig, encoder, controller, drive), 2e-6);
+                  sampled_spectral_radius(300.0, rig, paper_encoder, controller, drive), 2e-6);
     }
   }
 }
@@ -172,7 +173,7 @@ TEST(SampledStability, DelayLowersTheBound) {
   double last = 1.0;
   for (int delay = 0; delay < 5; ++delay) {
     controller.delay = delay;
-    const double bound = sampled_critical_integral_gain(110.0, rig, encoder, controller);
+    const double bound = sampled_critical_integral_gain(110.0, rig, paper_encoder, controller);
     EXPECT_LT(bound, last);
     EXPECT_GT(bound, 0.0);
     last = bound;
@@ -181,14 +182,14 @@ TEST(SampledStability, DelayLowersTheBound) {
 
 TEST(SampledStability, TheDrivesGainIsPartOfTheLoops) {
   const ControllerParameters controller;
-  EXPECT_NEAR(sampled_critical_integral_gain(110.0, rig, encoder, controller, {1.5, 0.0}),
-              sampled_critical_integral_gain(110.0, rig, encoder, controller) / 1.5, 1e-12);
+  EXPECT_NEAR(sampled_critical_integral_gain(110.0, rig, paper_encoder, controller, {1.5, 0.0}),
+              sampled_critical_integral_gain(110.0, rig, paper_encoder, controller) / 1.5, 1e-12);
 }
 
 TEST(SampledStability, NoIntegralGainIsStableWhereTheLoopWithoutIntegralIsNot) {
   ControllerParameters controller;
   controller.kp = 1.0;  // N m/count: far beyond what half a sample of delay allows
-  EXPECT_EQ(sampled_critical_integral_gain(110.0, rig, encoder, controller), 0.0);
+  EXPECT_EQ(sampled_critical_integral_gain(110.0, rig, paper_encoder, controller), 0.0);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 using Real = long double;
 
-constexpr Real turn = 2 * std::numbers::pi_v<Real>;
+constexpr Real revolution = 2 * std::numbers::pi_v<Real>;
 
 Real level_before(const TrialParameters& p, std::size_t move) {
   return move == 0 ? 0.0 : p.command.torque.levels[move - 1];
@@ -81,7 +81,7 @@ LiteralMotion literal_motion(const TrialParameters& p, std::size_t move) {
   const Real travel = static_cast<Real>(p.command.targets[move]) - from;
   LiteralMotion motion;
   if (p.command.profile.shape != ReferenceShape::step && travel != 0) {
-    const Real radians = std::abs(travel) * turn / p.encoder.fine;
+    const Real radians = std::abs(travel) * revolution / p.encoder.fine;
     Real low = 0;
     Real high = p.command.profile.velocity_limit;
     if (!keeps_its_velocity(motion_at(high, radians, p.command.profile))) {

@@ -10,8 +10,8 @@
 namespace zerocount {
 namespace {
 
-std::string failure_of(const std::vector<std::string>& overrides,
-                       const std::string& text = minimal_manifest()) {
+std::string override_failure(const std::vector<std::string>& overrides,
+                             const std::string& text = minimal_manifest()) {
   try {
     study_of(text, overrides);
   } catch (const Failure& failure) {
@@ -71,37 +71,37 @@ TEST(Overrides, LeaveTheTextAndChangeTheHash) {
 }
 
 TEST(Overrides, MistakesNameTheOverride) {
-  EXPECT_EQ(failure_of({"plant.inertia=no"}),
+  EXPECT_EQ(override_failure({"plant.inertia=no"}),
             "--set plant.inertia=no: plant.inertia: 'no' is a truth value; expected a number greater than 0");
   EXPECT_EQ(
-      failure_of({"plant.inertai=1"}),
+      override_failure({"plant.inertai=1"}),
       "--set plant.inertai=1: plant.inertai: unknown key, nearest known: inertia; expected one of inertia, "
       "presliding_damping, sliding_damping");
-  EXPECT_EQ(failure_of({"trials="}),
+  EXPECT_EQ(override_failure({"trials="}),
             "--set trials=: trials: the value is empty; expected a whole number from 1 to 9007199254740992");
   EXPECT_EQ(
-      failure_of({"trials"}),
+      override_failure({"trials"}),
       "--set trials: manifest: this is no override; expected --set key=value with the key's dotted path");
-  EXPECT_EQ(failure_of({"plant..inertia=1"}),
+  EXPECT_EQ(override_failure({"plant..inertia=1"}),
             "--set plant..inertia=1: manifest: this is no override; expected --set key=value with the key's "
             "dotted path");
   EXPECT_EQ(
-      failure_of({"zerocount=2"}),
+      override_failure({"zerocount=2"}),
       "--set zerocount=2: zerocount: the manifest's version cannot be overridden; expected any other key");
-  EXPECT_EQ(failure_of({"command.targets.3=2"}),
+  EXPECT_EQ(override_failure({"command.targets.3=2"}),
             "--set command.targets.3=2: command.targets.3: command.targets has no item '3'; expected an "
             "index below 1");
-  EXPECT_EQ(failure_of({"trials.a=2"}),
+  EXPECT_EQ(override_failure({"trials.a=2"}),
             "--set trials.a=2: trials.a: trials is neither a map nor a list; expected the key of a value");
-  EXPECT_EQ(failure_of({"trials=[1"}).rfind("--set trials=[1: manifest: ", 0), 0u);
-  EXPECT_EQ(failure_of({"verdict.dwell=3"}),
+  EXPECT_EQ(override_failure({"trials=[1"}).rfind("--set trials=[1: manifest: ", 0), 0u);
+  EXPECT_EQ(override_failure({"verdict.dwell=3"}),
             "--set verdict.dwell=3: verdict.dwell: 3 s can be longer than the hold of 1 s; expected at most "
             "command.hold");
 }
 
 TEST(Overrides, AllMistakesAreToldAfterThoseOfTheFile) {
   EXPECT_EQ(
-      failure_of({"trials=0", "seed=x"}, minimal_manifest("plant: 1\n")),
+      override_failure({"trials=0", "seed=x"}, minimal_manifest("plant: 1\n")),
       "m.yaml:6:8: plant: the single value '1' stands here; expected a map\n"
       "--set seed=x: seed: 'x' is not a number; expected a whole number from 0 to 18446744073709551615\n"
       "--set trials=0: trials: '0' is out of range; expected a whole number from 1 to 9007199254740992");

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <numbers>
+
+#include "core/plant/plant.hpp"
+
+/// Scales of the paper's rig, and a plant under a constant torque, for the tests of this folder.
+namespace zerocount::testing {
+
+inline constexpr double count = 2.0 * std::numbers::pi / 1620000;  ///< of the fine encoder, rad
+inline constexpr double sample = 5e-4;                             ///< s
+inline constexpr MotionTolerance rig_tolerance{1e-10 * count};
+
+/// Holds a constant torque (N m) for `duration` (s).
+inline void hold(Plant& plant, double torque, double duration) {
+  plant.advance(constant_torque(torque), duration);
+}
+
+}  // namespace zerocount::testing

@@ -8,7 +8,7 @@ namespace zerocount {
 
 TrialPrediction predict(const TrialParameters& parameters) {
   TrialPrediction prediction;
-  if (!parameters.command.torque.levels.empty() || parameters.friction.model == FrictionModel::coulomb) {
+  if (!parameters.command.torque.levels.empty() || !has_spring(parameters.friction.model)) {
     prediction.applies = false;
     return prediction;
   }

@@ -75,8 +75,8 @@ struct OutcomeExtras {
 /// What the trials of a study may meet in the loop, by all that their parameters can be.
 struct LoopExtras {
   bool encoder_errors{false};  ///< in some trial, an encoder is not ideal
-  /// In some trial nothing brings the moves to their targets: there is no integral control, or friction has
-  /// no pre-sliding motion.
+  /// In some trial nothing brings the moves to their targets: there is no integral control, or Coulomb
+  /// friction.
   bool lasting_errors{false};
 };
 

@@ -64,10 +64,17 @@ double sampled_bound(double stiffness, const TrialParameters& p) {
 
 /// Form of the command and friction model are the same in all trials of a point.
 std::string_view why_outside(const TrialParameters& first) {
-  if (predict(first).applies) return {};
-  return first.friction.model == FrictionModel::coulomb
-             ? "friction.model coulomb has no spring before it slides"
-             : "the loop is open";
+  if (!first.command.torque.levels.empty()) return "the loop is open";
+  switch (first.friction.model) {
+    case FrictionModel::presliding:
+    case FrictionModel::spring:
+      return {};
+    case FrictionModel::coulomb:
+      return "friction.model coulomb has no spring before it slides";
+    case FrictionModel::none:
+      break;
+  }
+  return "friction.model none has no spring, which criteria (6) and (7) are about";
 }
 
 PointTheory examine(const Study& study, std::int64_t point) {

@@ -25,7 +25,7 @@ bool creep_is_profiled(const FrictionAlongRotor& friction) {
 }
 
 std::string why_not(const TrialParameters& parameters) {
-  if (parameters.friction.model != FrictionModel::presliding || parameters.friction.uniform.alpha == 0.0)
+  if (!has_creep(parameters.friction.model) || parameters.friction.uniform.alpha == 0.0)
     return "the friction does not creep";
   if (creep_is_profiled(parameters.friction)) return "a creep parameter varies along the rotor";
   if (parameters.dac.noise != 0.0) return "the converter has noise";

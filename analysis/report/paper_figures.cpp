@@ -146,7 +146,7 @@ Figure plastic_extension(const ReplayedTrial& trial) {
 /// Whether the contact of the first trial creeps at all.
 bool creeps(const ReportedStudy& reported) {
   const TrialParameters parameters = study_trial(reported.study, 0, 0).parameters;
-  return parameters.friction.model == FrictionModel::presliding &&
+  return has_creep(parameters.friction.model) &&
          friction_at(parameters.friction, parameters.initial.position).alpha > 0.0;
 }
 

@@ -3,17 +3,10 @@
 #include <memory>
 #include <vector>
 
+#include "core/friction/friction_model.hpp"
 #include "core/friction/profile.hpp"
 
 namespace zerocount {
-
-/// What friction does before it slides.
-enum class FrictionModel {
-  presliding,  ///< hysteretic spring and creep (paper, section 2)
-  spring,      ///< the hysteretic spring alone: creep is off, as with alpha 0 at every contact
-  coulomb      ///< Amonton–Coulomb with a static level: no displacement at all until |torque| exceeds the
-               ///< breakaway, and then the sliding of the other two
-};
 
 /// Friction of one contact: constant within one pre-sliding range (paper, QN2). The defaults are the paper's
 /// rig where the paper gives a number, and assumed otherwise.
@@ -49,7 +42,7 @@ inline FrictionParameters friction_at(const FrictionAlongRotor& friction, double
   for (const ProfiledParameter& entry : friction.profiled) {
     contact.*entry.parameter = value_at(*entry.profile, angle);
   }
-  if (friction.model == FrictionModel::spring) contact.alpha = 0.0;
+  if (!has_creep(friction.model)) contact.alpha = 0.0;
   return contact;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/numerics/sign.hpp"
 #include "core/plant/events.hpp"
+#include "core/plant/free_motion.hpp"
 #include "core/plant/motion_series.hpp"
 
 namespace zerocount {
@@ -21,6 +22,19 @@ constexpr double time_constants_to_settle = 37.0;
 /// Below this share of the breakaway torque the sign of σ is a matter of rounding. Which side of the virgin
 /// curve a new contact starts on must not be: it decides whether a turn of the motion there is remembered.
 constexpr double torque_without_sign = 1e-14;
+
+bool slides_at_start(FrictionModel model, const PlantStart& start) {
+  switch (model) {
+    case FrictionModel::presliding:
+    case FrictionModel::spring:
+      return start.sliding && start.velocity != 0.0;
+    case FrictionModel::coulomb:
+      return start.velocity != 0.0;
+    case FrictionModel::none:
+      break;
+  }
+  return true;
+}
 
 /// The sign with which a slide leaves ω = 0, or 0 where it does not.
 int departure(const SlidingSeries& series) {
@@ -41,14 +55,14 @@ Plant::Plant(const PlantParameters& plant, FrictionAlongRotor friction, const Pl
       contact_(friction_at(friction_, position_)),
       spring_(contact_),
       omega_(start.velocity) {
-  const bool coulomb = friction_.model == FrictionModel::coulomb;
-  sliding_ = start.velocity != 0.0 && (start.sliding || coulomb);
+  const bool has_contact_spring = has_spring(friction_.model);
+  sliding_ = slides_at_start(friction_.model, start);
   if (sliding_) {
     slide_direction_ = sign_of(start.velocity);
-    breakaway_spring_torque_ = coulomb ? 0.0 : slide_direction_ * contact_.breakaway;
+    breakaway_spring_torque_ = has_contact_spring ? slide_direction_ * contact_.breakaway : 0.0;
   }
   spring_.start_virgin(0.0, 0);
-  if (!sliding_ && !coulomb) {
+  if (!sliding_ && has_contact_spring) {
     creep_.hardening = start.hardening;
     spring_.start_preloaded(start.preload);
     for (const double torque : start.history) spring_.move_to_torque(torque);
@@ -65,7 +79,7 @@ void Plant::advance(const TorqueCourse& torque, double duration) {
   double remaining = duration;
   for (int step = 0; remaining > 0.0 && finite_; ++step) {
     if (step == most_steps) finite_ = false;
-    const double used = sliding_ ? slide(ahead, remaining) : stick(ahead, remaining);
+    const double used = step_on(ahead, remaining);
     remaining = used < remaining ? remaining - used : 0.0;
     if (moves) {
       moves = duration - remaining < time_constants_to_settle / ahead.rate;
@@ -73,6 +87,26 @@ void Plant::advance(const TorqueCourse& torque, double duration) {
     }
     finite_ = finite_ && std::isfinite(theta()) && std::isfinite(omega_);
   }
+}
+
+double Plant::step_on(const TorqueCourse& torque, double duration) {
+  switch (friction_.model) {
+    case FrictionModel::presliding:
+    case FrictionModel::spring:
+      return sliding_ ? slide(torque, duration) : stick(torque, duration);
+    case FrictionModel::coulomb:
+      return sliding_ ? slide(torque, duration) : stand(torque, duration);
+    case FrictionModel::none:
+      break;
+  }
+  return move_freely(torque, duration);
+}
+
+double Plant::move_freely(const TorqueCourse& torque, double duration) {
+  const FreeMotion end = free_motion(plant_, {slide_theta_, omega_}, torque, duration);
+  slide_theta_ = end.theta;
+  omega_ = end.omega;
+  return duration;
 }
 
 PlantMotion Plant::motion() const {

@@ -71,6 +71,9 @@ struct PlantMotion {
 ///
 /// FrictionModel::coulomb has no elongation and no creep: the rotor stands while |u| ≤ breakaway, and slides
 /// towards sgn(u) from the instant at which |u| passes it.
+///
+/// FrictionModel::none has no contact: the rotor always slides, without friction but for the damping c, by
+/// free_motion().
 class Plant {
  public:
   Plant(const PlantParameters& plant, FrictionAlongRotor friction, const PlantStart& start,
@@ -115,7 +118,10 @@ class Plant {
   const CreepState& creep() const { return creep_; }
   const HystereticSpring& spring() const { return spring_; }
   const FrictionParameters& contact() const { return contact_; }
+  /// FrictionModel::none always slides.
   bool sliding() const { return sliding_; }
+  /// Whether sliding is that of a hook which had to break away.
+  bool has_hook() const { return has_breakaway(friction_.model); }
 
   /// Since the start.
   std::int64_t breakaways() const { return breakaways_; }
@@ -142,9 +148,11 @@ class Plant {
   };
 
   // Each returns the time used, at most `duration`.
+  double step_on(const TorqueCourse& torque, double duration);  // one of those below
   double stick(const TorqueCourse& torque, double duration);
   double stand(const TorqueCourse& torque, double duration);  // stick of FrictionModel::coulomb
   double slide(const TorqueCourse& torque, double duration);
+  double move_freely(const TorqueCourse& torque, double duration);  // FrictionModel::none
 
   Elongation elongation_under(double torque, double creep_rate_now) const;
   bool begin_rest(double torque, const Elongation& elongation, bool stood);
@@ -176,7 +184,7 @@ class Plant {
   MotionTolerance tolerance_;
 
   FrictionParameters contact_;
-  HystereticSpring spring_;  // stays without elongation in FrictionModel::coulomb
+  HystereticSpring spring_;  // stays without elongation where the model has no spring
   CreepState creep_;
   bool creeping_{false};
   double creep_onset_torque_{0.0};  // |σ| at which creep starts, while it is off

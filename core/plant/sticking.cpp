@@ -11,7 +11,6 @@
 namespace zerocount {
 
 double Plant::stick(const TorqueCourse& torque, double duration) {
-  if (friction_.model == FrictionModel::coulomb) return stand(torque, duration);
   if (rest_ && is_constant(torque) && torque.now == rest_->torque) {
     go_on_at_rest(duration);
     return duration;

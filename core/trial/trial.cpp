@@ -36,7 +36,7 @@ MoveOutcome run_move(Rig& rig, const MoveTiming& timing, const VerdictParameters
     }
     rig.hold();
   }
-  const bool slid = sliding_before || plant.breakaways() > breakaways_before;
+  const bool slid = plant.has_hook() && (sliding_before || plant.breakaways() > breakaways_before);
   const bool jerk_cut = measures.finish(slid, plant.deepest(), rig.readable());
   if (jerk_cut && observers.jerk) observers.jerk(measures.last_jerk());
   MoveOutcome outcome = measures.outcome();

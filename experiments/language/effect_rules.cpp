@@ -19,6 +19,23 @@ bool is_word(const ValueLimits& limits) {
   return limits.low == static_cast<double>(word);
 }
 
+FrictionModel friction_model(const ValueLimits& limits) {
+  return static_cast<FrictionModel>(static_cast<int>(limits.low));
+}
+
+/// Whether J·dω/dt = u − c·ω − … holds at any time.
+bool has_presliding_damping(FrictionModel model) {
+  switch (model) {
+    case FrictionModel::presliding:
+    case FrictionModel::spring:
+    case FrictionModel::none:
+      return true;
+    case FrictionModel::coulomb:
+      break;
+  }
+  return false;
+}
+
 bool can_be_positive(const ValueLimits& limits) {
   return limits.high > 0.0;
 }
@@ -124,17 +141,43 @@ std::vector<EffectRule> rules_of_the_contact() {
        .what = "it has no effect: their torque is 0 at every point",
        .expected = "initial.history.torque above 0, or the key left out",
        .off_at_zero = true},
-      {.keys = {"plant.presliding_damping", "friction.k1", "friction.k2", "friction.beta", "friction.alpha",
-                "friction.lambda", "friction.n", "initial.hardening", "initial.preload", "initial.history"},
+  };
+}
+
+// Left in place, so that models can be compared by changing one word.
+std::vector<EffectRule> rules_of_the_model() {
+  return {
+      {.keys = {"plant.sliding_damping", "friction.breakaway", "friction.coulomb_ratio",
+                "friction.stribeck_velocity"},
        .depends_on = {"friction.model"},
-       .has_effect = [](Limits l) { return !is_word<FrictionModel::coulomb>(l[0]); },
+       .has_effect = [](Limits l) { return has_breakaway(friction_model(l[0])); },
+       .what = "it has no effect: friction.model is none at every point",
+       .off_at_zero = true,
+       .warn_only = true},
+      {.keys = {"plant.presliding_damping"},
+       .depends_on = {"friction.model"},
+       .has_effect = [](Limits l) { return has_presliding_damping(friction_model(l[0])); },
        .what = "it has no effect: friction.model is coulomb at every point",
+       .off_at_zero = true,
+       .warn_only = true},
+      {.keys = {"friction.k1", "friction.k2", "friction.beta", "friction.alpha", "friction.lambda",
+                "friction.n", "initial.hardening", "initial.preload", "initial.history"},
+       .depends_on = {"friction.model"},
+       .has_effect = [](Limits l) { return has_spring(friction_model(l[0])); },
+       .what = "it has no effect: friction.model has no spring at any point",
        .off_at_zero = true,
        .warn_only = true},
       {.keys = {"friction.alpha", "friction.lambda", "friction.n", "initial.hardening"},
        .depends_on = {"friction.model"},
-       .has_effect = [](Limits l) { return is_word<FrictionModel::presliding>(l[0]); },
+       .has_effect = [](Limits l) { return has_creep(friction_model(l[0])); },
        .what = "it has no effect: friction.model is presliding at no point",
+       .off_at_zero = true,
+       .warn_only = true},
+      {.keys = {"initial.mode"},
+       .depends_on = {"friction.model"},
+       .has_effect = [](Limits l) { return has_spring(friction_model(l[0])); },
+       .what = "it has no effect: friction.model has no spring at any point, and the rotor slides wherever "
+               "there is a velocity",
        .off_at_zero = true,
        .warn_only = true},
   };
@@ -145,27 +188,19 @@ std::vector<EffectRule> rules_of_vanished_terms() {
   return {
       {.keys = {"friction.lambda", "friction.n", "initial.hardening"},
        .depends_on = {"friction.model", "friction.alpha"},
-       .has_effect =
-           [](Limits l) { return is_word<FrictionModel::presliding>(l[0]) && can_be_positive(l[1]); },
+       .has_effect = [](Limits l) { return has_creep(friction_model(l[0])) && can_be_positive(l[1]); },
        .what = "it has no effect: friction.alpha is 0 wherever friction.model is presliding",
        .off_at_zero = true,
        .warn_only = true},
       {.keys = {"friction.beta"},
        .depends_on = {"friction.model", "friction.k2"},
-       .has_effect = [](Limits l) { return !is_word<FrictionModel::coulomb>(l[0]) && can_be_positive(l[1]); },
+       .has_effect = [](Limits l) { return has_spring(friction_model(l[0])) && can_be_positive(l[1]); },
        .what = "it has no effect: friction.k2 is 0 wherever friction.model has a spring",
        .warn_only = true},
       {.keys = {"friction.stribeck_velocity"},
        .depends_on = {"friction.coulomb_ratio"},
        .has_effect = [](Limits l) { return l[0].low < 1.0; },
        .what = "it has no effect: friction.coulomb_ratio is 1 at every point",
-       .warn_only = true},
-      {.keys = {"initial.mode"},
-       .depends_on = {"friction.model"},
-       .has_effect = [](Limits l) { return !is_word<FrictionModel::coulomb>(l[0]); },
-       .what = "it has no effect: friction.model is coulomb at every point, which slides wherever there is a "
-               "velocity",
-       .off_at_zero = true,
        .warn_only = true},
   };
 }
@@ -193,7 +228,8 @@ std::vector<EffectRule> effect_rules(const StudyPlan& plan) {
   std::vector<EffectRule> rules = rules_of_the_command(plan);
   rules.push_back(rule_of_the_position(plan));
   rules.push_back(rule_of_the_limit());
-  for (const auto& more : {rules_of_the_loop(), rules_of_the_contact(), rules_of_vanished_terms()}) {
+  for (const auto& more :
+       {rules_of_the_loop(), rules_of_the_contact(), rules_of_the_model(), rules_of_vanished_terms()}) {
     rules.insert(rules.end(), more.begin(), more.end());
   }
   return rules;

@@ -26,10 +26,23 @@ bool has_encoder_errors(const StudyPlan& plan) {
   });
 }
 
+// Whether integral control hunts about the target for ever.
+bool keeps_from_target(FrictionModel model) {
+  switch (model) {
+    case FrictionModel::coulomb:
+      return true;
+    case FrictionModel::presliding:
+    case FrictionModel::spring:
+    case FrictionModel::none:
+      break;
+  }
+  return false;
+}
+
 bool has_lasting_errors(const StudyPlan& plan) {
   return holds_for_one(plan, "controller.ki", [](const ValueLimits& l) { return l.can_be_zero; }) ||
          holds_for_one(plan, "friction.model", [](const ValueLimits& l) {
-           return l.low == static_cast<double>(FrictionModel::coulomb);
+           return keeps_from_target(static_cast<FrictionModel>(static_cast<int>(l.low)));
          });
 }
 

@@ -60,8 +60,10 @@ std::vector<ValueRule> rules_of_the_start() {
          return {{fmt::format("a history of {} N m can reach the breakaway of {} N m", l[0].high, l[1].low),
                   "initial.history.torque below friction.breakaway"}};
        })},
-      {{"initial.velocity", "initial.mode"}, false, without_list([](Limits l) -> Faults {
-         if (l[1].low != static_cast<double>(InitialMode::slide) || !l[0].can_be_zero) return {};
+      {{"initial.velocity", "initial.mode", "friction.model"}, false, without_list([](Limits l) -> Faults {
+         const auto model = static_cast<FrictionModel>(static_cast<int>(l[2].low));
+         const bool slides = l[1].low == static_cast<double>(InitialMode::slide) && has_breakaway(model);
+         if (!slides || !l[0].can_be_zero) return {};
          return {{"the velocity can be 0 where the hook slides at the start",
                   "a velocity that is never 0 with initial.mode: slide"}};
        })},

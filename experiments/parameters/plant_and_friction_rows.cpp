@@ -20,7 +20,8 @@ std::vector<Parameter> plant_rows() {
           [](auto& p) -> auto& { return p.plant.inertia; }),
       stored_at(
           real_row("plant.presliding_damping", "N m s/rad",
-                   "damping c from hook to rotor while the hook sticks", "paper, section 4", at_least(0), 13),
+                   "damping c while the hook sticks, or of an air bearing", "paper, section 4", at_least(0),
+                   13),
           [](auto& p) -> auto& { return p.plant.presliding_damping; }),
       stored_at(
           real_row("plant.sliding_damping", "N m s/rad", "viscous damping cs while the hook slides", assumed,
@@ -33,10 +34,11 @@ std::vector<Parameter> friction_rows() {
   using P = FrictionParameters;
   return {
       stored_at(
-          word_row(
-              "friction.model",
-              "what friction does before it slides: spring and creep, the spring alone, or nothing at all",
-              assumed, {"presliding", "spring", "coulomb"}, first_sobol_dimension_beyond_moves),
+          word_row("friction.model",
+                   "friction of the bearing: before it slides a spring and creep, the spring alone, or no "
+                   "motion at "
+                   "all; none is an air bearing",
+                   assumed, {"presliding", "spring", "coulomb", "none"}, first_sobol_dimension_beyond_moves),
           [](auto& p) -> auto& { return p.friction.model; }),
       friction<&P::k1>(real_row("friction.k1", "N m/rad", "lowest tangent stiffness of the friction spring",
                                 "paper, section 4", above(0), 0)),

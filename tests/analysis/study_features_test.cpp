@@ -42,6 +42,7 @@ TEST(StudyFeatures, MovesMayEndBesideTheirTargetsWithoutIntegralOrPreSliding) {
   EXPECT_TRUE(has_final_error("controller: {ki: 0}"));
   EXPECT_TRUE(has_final_error("friction: {model: coulomb}"));
   EXPECT_FALSE(has_final_error("friction: {model: spring}"));
+  EXPECT_FALSE(has_final_error("friction: {model: none}"));
 }
 
 TEST(StudyFeatures, OfAStudyAreThoseOfAnyPoint) {

@@ -55,14 +55,15 @@ TEST(TheoryPrediction, ATrialIsGovernedByTheStiffnessWhereItStarts) {
 }
 
 TEST(TheoryPrediction, TheCriteriaAreNotAboutOpenLoopsAndFrictionWithoutASpring) {
-  TrialParameters coulomb = paper_rig(3e-5), open_loop = coulomb, spring = coulomb;
+  TrialParameters coulomb = paper_rig(3e-5), air = coulomb, open_loop = coulomb, spring = coulomb;
   coulomb.friction.model = FrictionModel::coulomb;
+  air.friction.model = FrictionModel::none;
   open_loop.command.torque.levels = {0.1};
   spring.friction.model = FrictionModel::spring;
   EXPECT_TRUE(predict(spring).applies);
   EXPECT_TRUE(predict(spring).stable);
   TheoryPrediction point;
-  for (const TrialParameters& parameters : {coulomb, open_loop}) {
+  for (const TrialParameters& parameters : {coulomb, air, open_loop}) {
     const TrialPrediction prediction = predict(parameters);
     EXPECT_FALSE(prediction.applies || prediction.stable || prediction.unstable);
     point.add(prediction);
@@ -70,7 +71,7 @@ TEST(TheoryPrediction, TheCriteriaAreNotAboutOpenLoopsAndFrictionWithoutASpring)
   EXPECT_EQ(predicted_trials(point), 0);
   EXPECT_EQ(verdict(point), "not applicable");
   point.add(predict(spring));
-  EXPECT_EQ(predicted_trials(point), 3) << "a share is of all trials";
+  EXPECT_EQ(predicted_trials(point), 4) << "a share is of all trials";
 }
 
 TEST(TheoryPrediction, VerdictIsThatOfAllTrialsOrUndecidedWithItsShares) {

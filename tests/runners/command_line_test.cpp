@@ -112,8 +112,8 @@ TEST_F(CommandLine, CheckPrintsThePlanAndTheCriteria) {
 TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
   const std::string head = "zerocount: 1\nname: rig\nseed: 1\ntrials: 10\n";
   folder_.write("open.yaml", head + "command: {torque: {levels: [0.1], through: exact}}\n");
-  folder_.write("models.yaml",
-                head + "command: {targets: [5]}\n" + "sweep: {grid: {friction.model: [coulomb, spring]}}\n");
+  folder_.write("models.yaml", head + "command: {targets: [5]}\n" +
+                                   "sweep: {grid: {friction.model: [coulomb, none, spring]}}\n");
   const std::string open = run({"check", "open.yaml"}).out;
   EXPECT_NE(open.find("  point 0: all\n    the theory is not about it: the loop is open\n"),
             std::string::npos)
@@ -125,7 +125,10 @@ TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
   EXPECT_NE(models.find("  point 0: friction.model=coulomb\n"
                         "    the theory is not about it: friction.model coulomb has no spring before it "
                         "slides\n"
-                        "  point 1: friction.model=spring\n"
+                        "  point 1: friction.model=none\n"
+                        "    the theory is not about it: friction.model none has no spring, which criteria "
+                        "(6) and (7) are about\n"
+                        "  point 2: friction.model=spring\n"
                         "    ki  "),
             std::string::npos)
       << models;

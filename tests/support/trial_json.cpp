@@ -28,10 +28,11 @@ constexpr std::array<std::pair<const char*, double FrictionParameters::*>, 9> fr
     {"stribeck_velocity", &FrictionParameters::stribeck_velocity},
 }};
 
-constexpr std::array<std::pair<const char*, FrictionModel>, 3> model_names{
+constexpr std::array<std::pair<const char*, FrictionModel>, 4> model_names{
     {{"presliding", FrictionModel::presliding},
      {"spring", FrictionModel::spring},
-     {"coulomb", FrictionModel::coulomb}}};
+     {"coulomb", FrictionModel::coulomb},
+     {"none", FrictionModel::none}}};
 
 json friction_json(const FrictionAlongRotor& friction) {
   json out;

@@ -25,8 +25,8 @@ void require_plain(const TrialParameters& p) {
   const bool one_phase = !has_coarse_phase(p.controller) && p.controller.encoder == EncoderChoice::fine;
   const bool stepwise =
       p.command.torque.levels.empty() && p.command.profile.shape == ReferenceShape::step && !p.verdict.stop;
-  const bool stands = p.initial.velocity == 0.0 && p.initial.history.reversals == 0 &&
-                      p.friction.model != FrictionModel::coulomb;
+  const bool stands =
+      p.initial.velocity == 0.0 && p.initial.history.reversals == 0 && has_spring(p.friction.model);
   if (ideal_loop && one_phase && stepwise && stands) return;
   throw std::invalid_argument(
       "the peers know only ideal encoders and converters, one control phase, stepwise "

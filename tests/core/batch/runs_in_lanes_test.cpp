@@ -69,6 +69,7 @@ TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
       {"noise of the converter", [](TrialParameters& p) { p.dac.noise = 1e-4; }},
       {"amplifier", [](TrialParameters& p) { p.amplifier.bandwidth = 500.0; }},
       {"coulomb", [](TrialParameters& p) { p.friction.model = FrictionModel::coulomb; }},
+      {"no friction", [](TrialParameters& p) { p.friction.model = FrictionModel::none; }},
       {"another exponent", [](TrialParameters& p) { p.friction.uniform.n = 1.5; }},
       {"an exponent along the rotor",
        [&](TrialParameters& p) {

@@ -174,7 +174,7 @@ TEST(IdleKeys, WhatAFrictionModelDoesNotUseIsAWarningAtMost) {
   using Warnings = std::vector<std::string>;
   EXPECT_EQ(
       warnings("friction: {model: coulomb, k1: 100, breakaway: 0.2}\n"),
-      (Warnings{"m.yaml:6:32: friction.k1: it has no effect: friction.model is coulomb at every point"}));
+      (Warnings{"m.yaml:6:32: friction.k1: it has no effect: friction.model has no spring at any point"}));
   EXPECT_EQ(
       warnings("friction: {model: spring, k1: 100, alpha: {uniform: [0.1, 0.2]}}\n"),
       (Warnings{"m.yaml:6:43: friction.alpha: it has no effect: friction.model is presliding at no point"}));
@@ -184,6 +184,17 @@ TEST(IdleKeys, WhatAFrictionModelDoesNotUseIsAWarningAtMost) {
   EXPECT_EQ(warnings("friction: {k1: 100, alpha: 0.5}\nsweep: {grid: {friction.model: [coulomb, spring]}}\n"),
             (Warnings{"m.yaml:6:28: friction.alpha: it has no effect: friction.model is presliding at no "
                       "point"}));
+}
+
+TEST(IdleKeys, AnAirBearingUsesItsDampingAlone) {
+  const std::string idle = ": it has no effect: friction.model is none at every point";
+  EXPECT_EQ(warnings("friction: {model: none, breakaway: 0.2}\n"
+                     "plant: {presliding_damping: 0.1, sliding_damping: 0.1}\n"
+                     "initial: {mode: slide}\n"),
+            (std::vector<std::string>{
+                "m.yaml:7:51: plant.sliding_damping" + idle, "m.yaml:6:36: friction.breakaway" + idle,
+                "m.yaml:8:17: initial.mode: it has no effect: friction.model has no spring at any point, and "
+                "the rotor slides wherever there is a velocity"}));
 }
 
 TEST(IdleKeys, ALimitWithoutAStopIsAWarning) {
@@ -260,8 +271,8 @@ INSTANTIATE_TEST_SUITE_P(
     OfTheMode, VanishedTerms,
     testing::Values(
         VanishedTerm{"friction: {model: coulomb}\ninitial: {mode: slide, velocity: 1}",
-                     "m.yaml:7:17: initial.mode: it has no effect: friction.model is coulomb at every point, "
-                     "which slides wherever there is a velocity"},
+                     "m.yaml:7:17: initial.mode: it has no effect: friction.model has no spring at any "
+                     "point, and the rotor slides wherever there is a velocity"},
         VanishedTerm{"friction: {model: coulomb}\ninitial: {mode: stick, velocity: 1}", ""},
         VanishedTerm{"initial: {mode: slide, velocity: 1}\n"
                      "sweep: {grid: {friction.model: [coulomb, spring]}}",

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "core/failure.hpp"
+#include "core/loop/encoder.hpp"
 
 namespace zerocount {
 namespace {
@@ -75,7 +75,7 @@ std::optional<TrialRepeatability> trial_repeatability(std::span<const SequenceMo
                               moves.size(), parameters.command.targets.size(), sequence.size()));
   }
   if (std::any_of(moves.begin(), moves.end(), lost)) return std::nullopt;
-  const double resolution = 2.0 * std::numbers::pi / parameters.encoder.fine;
+  const double resolution = fine_resolution(parameters.encoder);
   const auto from_position = [&](std::size_t move) {
     const auto target = static_cast<double>(parameters.command.targets[move]);
     return moves[move].final_position - (target + 0.5 - parameters.initial.encoder_phase) * resolution;

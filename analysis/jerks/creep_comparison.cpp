@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 
 #include "core/friction/creep.hpp"
+#include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
 
 namespace zerocount {
@@ -41,7 +41,7 @@ double time_to_edge(const TrialParameters& parameters, const SampleRecord& state
   const double torque = state.drive_torque;
   const double room = hardening_limit(friction, torque) - state.xh;
   if (!(room > 0.0)) return never;
-  const double count = 2.0 * std::numbers::pi / parameters.encoder.fine;
+  const double count = fine_resolution(parameters.encoder);
   const double edges_passed = static_cast<double>(state.target) + (torque > 0.0 ? 1.0 : 0.0);
   const double distance = std::abs((edges_passed - parameters.initial.encoder_phase) * count - state.theta);
   return distance < room ? -std::log1p(-distance / room) / friction.alpha : never;

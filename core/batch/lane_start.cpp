@@ -15,7 +15,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void start_loop(LoopLanes& l, int lane, const TrialParameters& p) {
-  const Encoder encoder = make_encoder(p.encoder.fine, p.initial.encoder_phase);
+  const Encoder encoder = fine_encoder(p.encoder, p.initial.encoder_phase);
   l.resolution[lane] = encoder.resolution;
   l.phase[lane] = encoder.phase;
   l.kp[lane] = p.controller.kp;

@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 namespace zerocount {
 
-double field_at(const Profile& profile, double angle) {
+double field_at(const Profile& profile, double position) {
   // exp(imθ) by repeated multiplication: one sine and one cosine whatever the number of harmonics. The
   // rounding grows like m·2⁻⁵³, which is far below any spread a profile can have.
+  const double angle = position * (2.0 * std::numbers::pi / profile.period);
   const std::complex<double> turn = std::polar(1.0, angle);
   std::complex<double> harmonic{1.0, 0.0};
   double field = 0.0;
@@ -18,8 +20,8 @@ double field_at(const Profile& profile, double angle) {
   return field;
 }
 
-double value_at(const Profile& profile, double angle) {
-  const double value = profile.location + profile.scale * field_at(profile, angle);
+double value_at(const Profile& profile, double position) {
+  const double value = profile.location + profile.scale * field_at(profile, position);
   return profile.marginal == Marginal::lognormal ? std::exp(value) : value;
 }
 

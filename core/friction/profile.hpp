@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 namespace zerocount {
@@ -7,10 +8,11 @@ namespace zerocount {
 /// How a profile's Gaussian field becomes the parameter's value.
 enum class Marginal { normal, lognormal };
 
-/// One realised friction profile: a parameter as a function of the rotor angle, periodic over a revolution.
+/// One realised friction profile: a parameter as a function of the position, periodic over a revolution (over
+/// the travel of a linear axis).
 ///
 /// The field is g(θ) = Σ_m cosine[m]·cos(mθ) + sine[m]·sin(mθ), m = 0, 1, …, dimensionless, of unit variance
-/// over the ensemble. The value is location + scale·g (normal) or exp(location + scale·g) (lognormal), in the
+/// over the ensemble, with θ = 2π·position/period. The value is location + scale·g (normal) or exp(location + scale·g) (lognormal), in the
 /// parameter's unit.
 struct Profile {
   Marginal marginal{Marginal::lognormal};
@@ -18,12 +20,13 @@ struct Profile {
   double scale{0.0};           ///< standard deviation of the normal, or of the logarithm
   std::vector<double> cosine;  ///< [m], dimensionless
   std::vector<double> sine;    ///< [m], dimensionless; sine[0] has no effect
+  double period{2.0 * std::numbers::pi};  ///< rad, or m
 };
 
-/// The dimensionless field g at `angle` (rad).
-double field_at(const Profile& profile, double angle);
+/// The dimensionless field g at `position` (rad or m).
+double field_at(const Profile& profile, double position);
 
-/// The parameter's value at the rotor angle `angle` (rad, any revolution), in the parameter's unit.
-double value_at(const Profile& profile, double angle);
+/// The parameter's value at `position` (rad or m, in any period), in the parameter's unit.
+double value_at(const Profile& profile, double position);
 
 }  // namespace zerocount

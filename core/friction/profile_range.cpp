@@ -1,7 +1,6 @@
 #include "core/friction/profile_range.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include <boost/math/tools/minima.hpp>
 
@@ -20,7 +19,7 @@ double refined(const Profile& profile, double angle, double spacing, double sign
 
 ValueRange range_over_revolution(const Profile& profile) {
   const std::size_t points = 16 * std::max<std::size_t>(4, profile.cosine.size());
-  const double spacing = 2.0 * std::numbers::pi / static_cast<double>(points);
+  const double spacing = profile.period / static_cast<double>(points);
   double lowest_angle = 0.0;
   double highest_angle = 0.0;
   ValueRange range{value_at(profile, 0.0), value_at(profile, 0.0)};

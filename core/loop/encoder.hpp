@@ -3,7 +3,24 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/loop/parameters.hpp"
+
 namespace zerocount {
+
+/// Δx of the encoder that closes the loop, rad per count (m on a linear axis).
+inline double fine_resolution(const EncoderParameters& encoders) {
+  return encoders.fine_length / encoders.fine;
+}
+
+/// Δx of the encoder read beside it, rad per count (m on a linear axis).
+inline double coarse_resolution(const EncoderParameters& encoders) {
+  return encoders.coarse_length / encoders.coarse;
+}
+
+/// Fine counts in a coarse one. Encoders of one revolution have exactly the ratio of their counts.
+inline double fine_per_coarse(const EncoderParameters& encoders) {
+  return encoders.fine / encoders.coarse * (encoders.coarse_length / encoders.fine_length);
+}
 
 /// An incremental encoder: count = floor(θ/Δx + phase), θ measured from the start of the trial.
 struct Encoder {
@@ -17,8 +34,13 @@ struct EncoderReading {
   std::int64_t coarse{0};  ///< counts of the coarse encoder
 };
 
-/// @param counts_per_revolution a positive whole number.
-Encoder make_encoder(double counts_per_revolution, double phase);
+/// The ideal encoders of a trial. @param phase of either, in [0, 1).
+inline Encoder fine_encoder(const EncoderParameters& encoders, double phase) {
+  return {fine_resolution(encoders), phase};
+}
+inline Encoder coarse_encoder(const EncoderParameters& encoders, double phase) {
+  return {coarse_resolution(encoders), phase};
+}
 
 /// The count at the rotor angle θ (rad).
 inline std::int64_t read_count(const Encoder& encoder, double theta) {

@@ -76,9 +76,9 @@ void ImperfectEncoder::miss_counts(std::int64_t k, std::int64_t raw) {
 
 Measurement::Measurement(const EncoderParameters& encoders, double phase, double position,
                          const TrialRandomness& randomness)
-    : fine_(make_encoder(encoders.fine, phase)),
-      coarse_(make_encoder(encoders.coarse, phase)),
-      fine_per_coarse_(encoders.fine / encoders.coarse),
+    : fine_(fine_encoder(encoders, phase)),
+      coarse_(coarse_encoder(encoders, phase)),
+      fine_per_coarse_(zerocount::fine_per_coarse(encoders)),
       ideal_(!has_errors(encoders.fine_errors) && !has_errors(encoders.coarse_errors)),
       imperfect_fine_(fine_, encoders.fine_errors, position, randomness.trial,
                       {randomness.fine_noise, randomness.stream},

@@ -1,26 +1,20 @@
 #include "core/theory/gains.hpp"
 
-#include <numbers>
-
 namespace zerocount {
-
-double count_angle(const EncoderParameters& encoder) {
-  return 2.0 * std::numbers::pi / encoder.fine;
-}
 
 double sample_time(const ControllerParameters& controller) {
   return 1.0 / controller.sample_rate;
 }
 
 AnalogueGains analogue_gains(const ControllerParameters& controller, const EncoderParameters& encoder) {
-  const double dx = count_angle(encoder);
+  const double dx = fine_resolution(encoder);
   const double T = sample_time(controller);
   return {controller.kp / dx, 2.0 * controller.ki / (dx * T), controller.kd * T / dx};
 }
 
 ControllerParameters with_analogue_gains(ControllerParameters controller, const AnalogueGains& gains,
                                          const EncoderParameters& encoder) {
-  const double dx = count_angle(encoder);
+  const double dx = fine_resolution(encoder);
   const double T = sample_time(controller);
   controller.kp = gains.kp * dx;
   controller.ki = gains.ki * dx * T / 2.0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/loop/encoder.hpp"
 #include "core/loop/parameters.hpp"
 
 namespace zerocount {
@@ -12,13 +13,11 @@ struct AnalogueGains {
   double kd{0.0};  ///< N m s/rad
 };
 
-/// Δx = 2π/counts per revolution of the encoder that closes the loop, rad/count.
-double count_angle(const EncoderParameters& encoder);
-
 /// T = 1/sample rate, s.
 double sample_time(const ControllerParameters& controller);
 
-/// The continuous gains that a sampled controller stands for.
+/// The continuous gains that a sampled controller stands for. Δx is that of the fine encoder, whichever closes
+/// the loop: the count of the coarse one is taken in fine counts.
 ///
 /// kP = kp/Δx, kI = 2·ki/(Δx·T), kD = kd·T/Δx: the proportional term counts the error, the trapezoidal rule
 /// adds kI·Δx·T/2 for each of two successive errors, and the difference of successive counts is the velocity

@@ -77,13 +77,13 @@ double sampled_spectral_radius(double stiffness, const PlantParameters& plant,
                                const EncoderParameters& encoder, const ControllerParameters& controller,
                                const LinearDrive& drive) {
   const double T = sample_time(controller);
-  return spectral_radius(discretise(stiffness, plant, count_angle(encoder), T, drive), controller);
+  return spectral_radius(discretise(stiffness, plant, fine_resolution(encoder), T, drive), controller);
 }
 
 double sampled_critical_integral_gain(double stiffness, const PlantParameters& plant,
                                       const EncoderParameters& encoder, ControllerParameters controller,
                                       const LinearDrive& drive) {
-  const double dx = count_angle(encoder);
+  const double dx = fine_resolution(encoder);
   const HeldPlant held = discretise(stiffness, plant, dx, sample_time(controller), drive);
   const auto stable = [&](double ki) {
     controller.ki = ki;

@@ -12,7 +12,7 @@ double critical_integral_gain(double stiffness, const PlantParameters& plant,
                               const EncoderParameters& encoder, const ControllerParameters& controller) {
   const AnalogueGains gains = analogue_gains(controller, encoder);
   const double analogue = (plant.presliding_damping + gains.kd) * (stiffness + gains.kp) / plant.inertia;
-  return analogue * count_angle(encoder) * sample_time(controller) / 2.0;
+  return analogue * fine_resolution(encoder) * sample_time(controller) / 2.0;
 }
 
 IntegralGainBounds integral_gain_bounds(const PlantParameters& plant, const FrictionParameters& contact,
@@ -31,8 +31,7 @@ double lowest_k1(const FrictionAlongRotor& friction) {
 }
 
 double dac_resolution_bound(double k1, const EncoderParameters& encoder, EncoderChoice feedback) {
-  const double counts = feedback == EncoderChoice::fine ? encoder.fine : encoder.coarse;
-  return k1 * (2.0 * std::numbers::pi / counts);
+  return k1 * (feedback == EncoderChoice::fine ? fine_resolution(encoder) : coarse_resolution(encoder));
 }
 
 double natural_frequency(double stiffness, const PlantParameters& plant) {

@@ -35,7 +35,7 @@ void simulate_batch(BatchEngine& engine, const Workload& workload) {
 
 /// Up to a breakaway, which is as far as it is compared.
 std::vector<SampleRecord> batch_records(BatchEngine& engine, const TrialParameters& trial) {
-  const Encoder coarse = make_encoder(trial.encoder.coarse, trial.initial.encoder_phase);
+  const Encoder coarse = coarse_encoder(trial.encoder, trial.initial.encoder_phase);
   const std::int64_t target = trial.command.targets.front();
   std::vector<SampleRecord> records;
   BatchObservers observers;

@@ -31,7 +31,7 @@ struct PeerSample {
 template <class PeerPlant, class Observe>
 TrialOutcome peer_trial(const TrialParameters& p, PeerPlant& plant, Observe observe) {
   const double sample_time = 1.0 / p.controller.sample_rate;
-  const Encoder encoder = make_encoder(p.encoder.fine, p.initial.encoder_phase);
+  const Encoder encoder = fine_encoder(p.encoder, p.initial.encoder_phase);
   constexpr double unbounded = std::numeric_limits<double>::infinity();
   const bool clamps = p.controller.anti_windup == AntiWindup::clamp;
   const TorqueRange range{clamps ? lowest_torque(p.dac) : -unbounded,
@@ -75,7 +75,7 @@ TrialOutcome peer_outcome(const TrialParameters& p, PeerPlant& plant) {
 /// The samples of a peer's trial, as run_trial() records them.
 template <class PeerPlant>
 std::vector<SampleRecord> peer_records(const TrialParameters& p, PeerPlant& plant) {
-  const Encoder coarse = make_encoder(p.encoder.coarse, p.initial.encoder_phase);
+  const Encoder coarse = coarse_encoder(p.encoder, p.initial.encoder_phase);
   TorqueDelay delay(p.controller.delay);
   std::vector<SampleRecord> records;
   peer_trial(p, plant, [&](const PeerSample& sample) {

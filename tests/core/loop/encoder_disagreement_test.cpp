@@ -17,8 +17,8 @@ INSTANTIATE_TEST_SUITE_P(RandomParameters, EncoderDisagreementProperties, ::test
 TEST_P(EncoderDisagreementProperties, IdealCountsAgreeAtEveryAngle) {
   const EncoderParameters encoders = random_encoders();
   const double phase = random_phase();
-  const Encoder fine = make_encoder(encoders.fine, phase);
-  const Encoder coarse = make_encoder(encoders.coarse, phase);
+  const Encoder fine = fine_encoder(encoders, phase);
+  const Encoder coarse = coarse_encoder(encoders, phase);
   for (int i = 0; i < 2000; ++i) {
     const double theta = uniform(-50.0, 50.0);
     ASSERT_TRUE(counts_agree(fine, coarse, {read_count(fine, theta), read_count(coarse, theta)})) << theta;
@@ -28,8 +28,8 @@ TEST_P(EncoderDisagreementProperties, IdealCountsAgreeAtEveryAngle) {
 TEST_P(EncoderDisagreementProperties, CountsThatNoAngleShowsDisagree) {
   const EncoderParameters encoders = random_encoders();
   const double phase = random_phase();
-  const Encoder fine = make_encoder(encoders.fine, phase);
-  const Encoder coarse = make_encoder(encoders.coarse, phase);
+  const Encoder fine = fine_encoder(encoders, phase);
+  const Encoder coarse = coarse_encoder(encoders, phase);
   const double ratio = encoders.coarse / encoders.fine;
   for (int i = 0; i < 2000; ++i) {
     const double theta = uniform(-50.0, 50.0);
@@ -43,15 +43,15 @@ TEST_P(EncoderDisagreementProperties, CountsThatNoAngleShowsDisagree) {
 
 TEST(CountsAgree, TellsApartEdgesThatCoincide) {
   // The same encoder twice: one count of difference is impossible everywhere.
-  const Encoder encoder = make_encoder(1620000, 0.3);
+  const Encoder encoder = fine_encoder({}, 0.3);
   for (std::int64_t count = -5000000; count < 5000000; count += 99991) {
     EXPECT_TRUE(counts_agree(encoder, encoder, {count, count}));
     EXPECT_FALSE(counts_agree(encoder, encoder, {count, count + 1}));
     EXPECT_FALSE(counts_agree(encoder, encoder, {count, count - 1}));
   }
   // 18.75 fine counts in a coarse one and phase 0: edges coincide at every 75 fine and 4 coarse counts.
-  const Encoder fine = make_encoder(1620000, 0.0);
-  const Encoder coarse = make_encoder(86400, 0.0);
+  const Encoder fine = fine_encoder({}, 0.0);
+  const Encoder coarse = coarse_encoder({}, 0.0);
   for (std::int64_t turn = -5000; turn < 5000; ++turn) {
     EXPECT_TRUE(counts_agree(fine, coarse, {75 * turn, 4 * turn}));
     EXPECT_FALSE(counts_agree(fine, coarse, {75 * turn, 4 * turn - 1}));
@@ -100,7 +100,7 @@ TEST(EncoderDisagreement, SeesALossOfMoreThanACoarseCountAtEverySample) {
     const std::int64_t before = measurement.disagreements();
     const EncoderReading reading = measurement.read(k, theta);
     const double lag =
-        static_cast<double>(read_count(make_encoder(encoders.fine, 0.25), theta) - reading.fine);
+        static_cast<double>(read_count(fine_encoder(encoders, 0.25), theta) - reading.fine);
     const bool impossible = measurement.disagreements() > before;
     if (lag == 0.0) {
       EXPECT_FALSE(impossible);

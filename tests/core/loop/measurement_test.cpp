@@ -45,8 +45,8 @@ INSTANTIATE_TEST_SUITE_P(RandomParameters, MeasurementProperties, ::testing::Ran
 TEST_P(MeasurementProperties, IdealEncodersReadAsTheyAlwaysDid) {
   const EncoderParameters encoders = random_encoders();
   const double phase = random_phase();
-  const Encoder fine = make_encoder(encoders.fine, phase);
-  const Encoder coarse = make_encoder(encoders.coarse, phase);
+  const Encoder fine = fine_encoder(encoders, phase);
+  const Encoder coarse = coarse_encoder(encoders, phase);
   Measurement ideal(encoders, phase, uniform(0.0, revolution), randomness_of_encoders(1));
   EncoderParameters with_idle_errors = encoders;
   with_idle_errors.fine_errors = with_idle_errors.coarse_errors = idle_errors();

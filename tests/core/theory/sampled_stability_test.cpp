@@ -37,7 +37,7 @@ class LinearLoop {
   }
 
   void step() {
-    const double count = angle_ / count_angle(paper_encoder);
+    const double count = angle_ / fine_resolution(paper_encoder);
     if (k_ == 0) last_count_ = count;
     const double error = -count;
     integral_ += controller_.ki * (error + last_error_);
@@ -135,7 +135,7 @@ TEST(SampledStability, LinearLoopDecaysBelowTheBoundAndGrowsAboveIt) {
     plant.inertia *= factor(random);
     plant.presliding_damping *= factor(random);
     ControllerParameters controller;
-    controller.kp = 0.5 * part(random) * stiffness * count_angle(paper_encoder);
+    controller.kp = 0.5 * part(random) * stiffness * fine_resolution(paper_encoder);
     controller.kd = 2e-4 * part(random);
     controller.delay = static_cast<int>(random() % 4);
     LinearDrive drive{0.7 + 0.6 * part(random), 0.0};

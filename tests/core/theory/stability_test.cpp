@@ -37,8 +37,8 @@ TEST(Gains, AnalogueGainsOfThePaperArePrintedAsTorquePerCount) {
   // and 3.01e-4 N m/count.
   const double lower = plant.presliding_damping * contact.k1 / plant.inertia;
   const double upper = plant.presliding_damping * (contact.k1 + contact.k2) / plant.inertia;
-  expect_as_printed(lower * count_angle(encoder), 0.15, 0.01);
-  expect_as_printed(upper * count_angle(encoder), 1.2, 0.1);
+  expect_as_printed(lower * fine_resolution(encoder), 0.15, 0.01);
+  expect_as_printed(upper * fine_resolution(encoder), 1.2, 0.1);
   expect_as_printed(with_analogue_gains({}, {0.0, lower, 0.0}, encoder).ki, 3.85e-5, 1e-7);
   expect_as_printed(with_analogue_gains({}, {0.0, upper, 0.0}, encoder).ki, 3.01e-4, 1e-6);
 }
@@ -70,7 +70,7 @@ TEST(Gains, SampledControllerApproachesTheContinuousOneOnAMovingError) {
   ControllerParameters controller;
   controller.sample_rate = 1e5;
   controller = with_analogue_gains(controller, gains, encoder);
-  const double dx = count_angle(encoder);
+  const double dx = fine_resolution(encoder);
   const auto error = [&](int k) { return k < 0 ? 0.0 : std::sin(2.0 * k / controller.sample_rate) / dx; };
   double integral = 0.0;
   const int samples = 100000;

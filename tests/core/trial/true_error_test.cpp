@@ -37,7 +37,7 @@ EndedTrial run(const TrialParameters& parameters) {
 }
 
 std::int64_t ideal_count(const TrialParameters& p, double theta) {
-  return read_count(make_encoder(p.encoder.fine, p.initial.encoder_phase), theta);
+  return read_count(fine_encoder(p.encoder, p.initial.encoder_phase), theta);
 }
 
 /// Expects that by the true errors the rotor ended within the counts that an ideal encoder shows, and at the

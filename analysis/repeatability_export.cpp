@@ -61,10 +61,11 @@ ExportedTable exported(const char* name, Table table) {
 
 std::vector<ExportedTable> repeatability_exports(const StudyFile& file) {
   if (!hdf5::File::open_to_read(file.path()).contains("repeatability")) return {};
-  return {exported("repeatability_trials.csv", trial_table_of_axis()),
-          exported("repeatability_trial_targets.csv", trial_table_of_targets()),
-          exported("repeatability_points.csv", point_table_of_axis()),
-          exported("repeatability_point_targets.csv", point_table_of_targets())};
+  const AxisKind axis = file.axis();
+  return {exported("repeatability_trials.csv", on_axis(trial_table_of_axis(), axis)),
+          exported("repeatability_trial_targets.csv", on_axis(trial_table_of_targets(), axis)),
+          exported("repeatability_points.csv", on_axis(point_table_of_axis(), axis)),
+          exported("repeatability_point_targets.csv", on_axis(point_table_of_targets(), axis))};
 }
 
 }  // namespace zerocount

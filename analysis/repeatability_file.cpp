@@ -96,8 +96,9 @@ void write_trials(hdf5::File& file, const Study& study, const SequenceShape& sha
   const std::int64_t rows = trial_count(study);
   const TableIo outcomes = open_outcomes(file);
   if (outcomes.rows() != rows) outcomes.row_scale().fail("it is not of all trials of the study");
-  TableIo axis = TableIo::create(file, trial_table_of_axis(), rows, 1);
-  TableIo targets = TableIo::create(file, trial_table_of_targets(), rows, shape.targets);
+  TableIo axis = TableIo::create(file, on_axis(trial_table_of_axis(), study.units.axis), rows, 1);
+  TableIo targets =
+      TableIo::create(file, on_axis(trial_table_of_targets(), study.units.axis), rows, shape.targets);
   axis.number_rows(0);
   targets.number_rows(0);
   const std::int64_t at_once = chunk_rows(outcomes.width());
@@ -127,8 +128,9 @@ void write_column(TableIo& io, std::size_t column, std::span<const PointRepeatab
   io.column(column).write(0, io.rows(), values.data());
 }
 
-void write_points_of_axis(hdf5::File& file, std::span<const PointRepeatability> points) {
-  TableIo io = TableIo::create(file, point_table_of_axis(), std::ssize(points), 1);
+void write_points_of_axis(hdf5::File& file, const RepeatabilitySummary& summary) {
+  const std::vector<PointRepeatability>& points = summary.points;
+  TableIo io = TableIo::create(file, on_axis(point_table_of_axis(), summary.axis), std::ssize(points), 1);
   io.number_rows(0);
   std::size_t column = 0;
   for (const ReportField<PointRepeatability>& field : point_repeatability_fields()) {
@@ -146,9 +148,10 @@ void write_points_of_axis(hdf5::File& file, std::span<const PointRepeatability> 
   }
 }
 
-void write_points_of_targets(hdf5::File& file, std::span<const PointRepeatability> points,
-                             std::int64_t targets) {
-  TableIo io = TableIo::create(file, point_table_of_targets(), std::ssize(points), targets);
+void write_points_of_targets(hdf5::File& file, const RepeatabilitySummary& summary) {
+  const std::vector<PointRepeatability>& points = summary.points;
+  TableIo io = TableIo::create(file, on_axis(point_table_of_targets(), summary.axis), std::ssize(points),
+                               summary.shape.targets);
   io.number_rows(0);
   std::size_t column = 0;
   using P = const PointRepeatability&;
@@ -171,8 +174,8 @@ void write_points_of_targets(hdf5::File& file, std::span<const PointRepeatabilit
 void write_repeatability(hdf5::File& file, const Study& study) {
   write_trials(file, study, shape_of(study.sequence));
   const RepeatabilitySummary summary = read_repeatability(file, study);
-  write_points_of_axis(file, summary.points);
-  write_points_of_targets(file, summary.points, summary.shape.targets);
+  write_points_of_axis(file, summary);
+  write_points_of_targets(file, summary);
 }
 
 }  // namespace zerocount

@@ -109,7 +109,7 @@ PointRepeatability point_statistics(const PointReader& reader, const SequenceSha
 RepeatabilitySummary read_repeatability(const hdf5::Group& root, const Study& study, double confidence) {
   const TableIo axis = TableIo::open(root, trial_table_of_axis());
   const TableIo targets = TableIo::open(root, trial_table_of_targets());
-  RepeatabilitySummary summary{confidence, shape_of(study.sequence), {}};
+  RepeatabilitySummary summary{confidence, shape_of(study.sequence), {}, study.units.axis};
   require_rows(axis, trial_count(study));
   require_rows(targets, trial_count(study));
   if (targets.width() != summary.shape.targets)

@@ -65,6 +65,7 @@ struct RepeatabilitySummary {
   double confidence{summary_confidence};  ///< of all bounds
   SequenceShape shape;
   std::vector<PointRepeatability> points;  ///< [point]
+  AxisKind axis{AxisKind::rotary};         ///< whose units the deviations have
 };
 
 }  // namespace zerocount

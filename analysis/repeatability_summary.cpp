@@ -28,7 +28,7 @@ void add_values(Json& json, std::span<const RepeatabilityField<Values>> fields,
   }
 }
 
-Json source_json(const PointRepeatability& point, std::size_t source) {
+Json source_json(const PointRepeatability& point, std::size_t source, AxisKind axis_kind) {
   const SourceRepeatability& values = point.sources[source];
   Json axis;
   add_values(axis, axis_fields(), values.axis, false);
@@ -39,15 +39,16 @@ Json source_json(const PointRepeatability& point, std::size_t source) {
     add_values(target, target_fields(), values.targets[i], true);
     targets.push_back(std::move(target));
   }
-  return {
-      {"unit", deviation_sources()[source].unit}, {"axis", std::move(axis)}, {"targets", std::move(targets)}};
+  return {{"unit", unit_on(axis_kind, deviation_sources()[source].unit)},
+          {"axis", std::move(axis)},
+          {"targets", std::move(targets)}};
 }
 
-Json point_json(const PointRepeatability& point) {
+Json point_json(const PointRepeatability& point, AxisKind axis) {
   Json json;
   add_fields(json, point_repeatability_fields(), point);
   for (std::size_t source = 0; source < point.sources.size(); ++source) {
-    json[std::string(deviation_sources()[source].name)] = source_json(point, source);
+    json[std::string(deviation_sources()[source].name)] = source_json(point, source, axis);
   }
   return json;
 }
@@ -97,15 +98,21 @@ std::vector<PointColumn> section_columns(const RepeatabilitySummary& summary) {
   return columns;
 }
 
+std::vector<PointColumn> on_axis(std::vector<PointColumn> columns, AxisKind axis) {
+  for (PointColumn& column : columns) column = zerocount::on_axis(std::move(column), axis);
+  return columns;
+}
+
 }  // namespace
 
 SummarySection repeatability_section(const RepeatabilitySummary& summary,
                                      const std::vector<std::string>& labels) {
   SummarySection section{.key = "repeatability",
                          .json = {},
-                         .columns = section_columns(summary),
+                         .columns = on_axis(section_columns(summary), summary.axis),
                          .text = repeatability_tables(summary, labels)};
-  for (const PointRepeatability& point : summary.points) section.json.push_back(point_json(point));
+  for (const PointRepeatability& point : summary.points)
+    section.json.push_back(point_json(point, summary.axis));
   return section;
 }
 

@@ -18,13 +18,15 @@
 namespace zerocount {
 namespace {
 
-/// Angles are shown as the trade states them: in seconds of arc.
-std::string_view shown_unit(const DeviationSource& source) {
-  return source.unit == "rad" ? "arcsec" : source.unit;
+/// Positions are shown as the trade states them: in seconds of arc, or µm.
+std::string shown_unit(const DeviationSource& source, AxisKind axis) {
+  return source.unit == "rad" ? unit_on(axis, "arcsec") : std::string(source.unit);
 }
-double in_shown_unit(const DeviationSource& source, double value) {
+double in_shown_unit(const DeviationSource& source, AxisKind axis, double value) {
+  if (source.unit != "rad") return value;
   constexpr double arcsec = std::numbers::pi / (180.0 * 3600.0);  // rad
-  return source.unit == "rad" ? value / arcsec : value;
+  constexpr double micrometre = 1e-6;                             // m
+  return value / (axis == AxisKind::linear ? micrometre : arcsec);
 }
 
 /// Three digits, or all of a larger whole part.
@@ -32,10 +34,10 @@ std::string three_digits(double value) {
   return std::abs(value) < 999.5 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
 }
 
-std::string median_and_p95(const DeviationSource& source, const ValueStatistics& value) {
+std::string median_and_p95(const DeviationSource& source, AxisKind axis, const ValueStatistics& value) {
   if (value.n == 0) return "–";
-  return fmt::format("{} ({})", three_digits(in_shown_unit(source, value.median.value)),
-                     three_digits(in_shown_unit(source, value.p95.value)));
+  return fmt::format("{} ({})", three_digits(in_shown_unit(source, axis, value.median.value)),
+                     three_digits(in_shown_unit(source, axis, value.p95.value)));
 }
 
 /// A row of the tables: a point, a target (not used in the table of the axis) and a source.
@@ -44,6 +46,7 @@ struct RowOfValues {
   const PointRepeatability& point;
   std::size_t target;
   std::size_t source;
+  AxisKind axis;
 
   const DeviationSource& from() const { return deviation_sources()[source]; }
 };
@@ -54,7 +57,7 @@ std::vector<RowOfValues> rows_of(const RepeatabilitySummary& summary, const std:
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     for (std::size_t target = 0; target < targets; ++target) {
       for (std::size_t source = 0; source < deviation_sources().size(); ++source) {
-        rows.push_back({printable(labels[i]), summary.points[i], target, source});
+        rows.push_back({printable(labels[i]), summary.points[i], target, source, summary.axis});
       }
     }
   }
@@ -71,7 +74,7 @@ TextColumn column_of(std::string_view head, bool numeric, std::span<const RowOfV
 
 TextColumn sources_of(std::span<const RowOfValues> rows) {
   return column_of("from", false, rows, [](const RowOfValues& row) {
-    return fmt::format("{} ({})", row.from().name, shown_unit(row.from()));
+    return fmt::format("{} ({})", row.from().name, shown_unit(row.from(), row.axis));
   });
 }
 
@@ -95,7 +98,7 @@ void add_values(std::vector<TextColumn>& columns, std::span<const RepeatabilityF
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (!shown.contains(fields[i].value, shape)) continue;
     columns.push_back(column_of(fields[i].symbol, true, rows, [&](const RowOfValues& row) {
-      return median_and_p95(row.from(), statistics(row)[i]);
+      return median_and_p95(row.from(), row.axis, statistics(row)[i]);
     }));
   }
 }

@@ -4,6 +4,7 @@ namespace zerocount {
 
 StudyFeatures study_features(const Study& study) {
   StudyFeatures features;
+  features.axis = study.units.axis;
   features.open_loop = study.open_loop;
   features.travel = study.trace_extras.reference;
   features.phases = study.trace_extras.phase;

@@ -41,11 +41,19 @@ std::string bounds_text(const LevelStatistics& level) {
 }  // namespace
 
 std::vector<TextColumn> level_columns(const StudySummary& summary) {
-  std::vector<TextColumn> columns{{"point", false, {}},          {"level", true, {}},
-                                  {"torque (N m)", true, {}},    {"trials", true, {}},
-                                  {"position (µrad)", true, {}}, {bounds_head(summary), true, {}},
-                                  {"sd (µrad)", true, {}},       {"creep (µrad)", true, {}},
-                                  {"depth", true, {}},           {"broke away", true, {}}};
+  const AxisKind axis = summary.features.axis;
+  const std::string torque = fmt::format("{} ({})", text_on(axis, "torque"), unit_on(axis, "N m"));
+  const std::string small = unit_on(axis, "µrad");
+  std::vector<TextColumn> columns{{"point", false, {}},
+                                  {"level", true, {}},
+                                  {torque, true, {}},
+                                  {"trials", true, {}},
+                                  {fmt::format("position ({})", small), true, {}},
+                                  {bounds_head(summary), true, {}},
+                                  {fmt::format("sd ({})", small), true, {}},
+                                  {fmt::format("creep ({})", small), true, {}},
+                                  {"depth", true, {}},
+                                  {"broke away", true, {}}};
   const std::vector<std::string> observed = observations(summary);
   if (!observed.empty()) columns.push_back({"observed", false, {}});
   for (std::size_t point = 0; point < summary.points.size(); ++point) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include "core/friction/profile.hpp"
 #include "core/trial/parameters.hpp"
+#include "experiments/parameters/study_units.hpp"
 
 namespace zerocount {
 
@@ -96,6 +98,8 @@ struct StudyPlan;  // compiled form of the manifest, private to this folder
 struct Study {
   std::string name;
   std::string description;
+  StudyUnits units;
+  double period{2.0 * std::numbers::pi};  ///< of profiles along the axis: a revolution, rad; or the travel, m
   std::uint64_t seed{0};
   std::int64_t trials{0};            ///< per design point; the most that there may be, if `stop` decides
   std::int64_t rigs{0};              ///< that the trials run on; 0: no trials share a rig
@@ -159,5 +163,9 @@ Study parse_study(std::string text, std::string_view source, const std::vector<s
 /// The parameters of trial `index` (0 … trials − 1) at design point `point` (0 … points − 1). A pure function
 /// of the study, safe to call from any thread.
 StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index);
+
+/// The same with all numbers as the manifest gives them: its parameters have to be completed (complete_trial)
+/// before they are run. For those who change some of them first.
+StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index);
 
 }  // namespace zerocount

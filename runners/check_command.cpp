@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include "analysis/theory_prediction.hpp"
+#include "core/theory/gains.hpp"
 #include "core/theory/sampled_stability.hpp"
 #include "core/theory/stability.hpp"
+#include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study.hpp"
 #include "runners/commands.hpp"
 #include "runners/cost.hpp"
@@ -45,16 +47,31 @@ std::string text(const Range& range) {
 
 /// What section 3 of the paper says of the trials of a design point.
 struct PointTheory {
-  std::string_view outside;  // why it says nothing of them; empty where it does
-  Range ki, stable_below, sampled_below,
-      unstable_above;               // N m/count; sampled_below of the softest and stiffest
-  Range dac_resolution, dac_bound;  // N m
-  Range frequency, sample_rate;     // Hz
-  bool coarse_feedback{false};      // Δx of that bound is the coarse encoder's
-  bool fine_enough{true};           // the DAC, in every trial
-  bool fast_enough{true};           // the sampling, in every trial
+  std::string_view outside;                               // why it says nothing of them; empty where it does
+  Range ki, stable_below, sampled_below, unstable_above;  // gain_unit; sampled_below of softest and stiffest
+  std::string gain_unit;                                  // that of controller.ki in the manifest
+  Range dac_resolution, dac_bound;                        // torque_unit
+  std::string torque_unit;
+  Range frequency, sample_rate;  // Hz
+  bool coarse_feedback{false};   // Δx of that bound is the coarse encoder's
+  bool fine_enough{true};        // the DAC, in every trial
+  bool fast_enough{true};        // the sampling, in every trial
   TheoryPrediction prediction;
 };
+
+/// A gain of the trapezoidal rule (N m/count) in the unit of the manifest.
+double as_given(const StudyUnits& units, const TrialParameters& p, double ki) {
+  switch (units.gains) {
+    case GainUnits::count:
+      break;
+    case GainUnits::si: {
+      ControllerParameters controller = p.controller;
+      controller.ki = ki;
+      return analogue_gains(controller, p.encoder).ki;
+    }
+  }
+  return ki;
+}
 
 /// ki below which the trial's sampled loop is stable about a spring of `stiffness` (N m/rad), N m/count.
 double sampled_bound(double stiffness, const TrialParameters& p) {
@@ -81,6 +98,8 @@ PointTheory examine(const Study& study, std::int64_t point) {
   PointTheory theory;
   theory.outside = why_outside(study_trial(study, point, 0).parameters);
   if (!theory.outside.empty()) return theory;
+  theory.gain_unit = unit_of(parameter_table()[find_parameter("controller.ki").value()], study.units);
+  theory.torque_unit = unit_on(study.units.axis, "N m");
   TrialParameters softest;
   TrialParameters stiffest;
   Range k1;  // N m/rad
@@ -90,9 +109,9 @@ PointTheory examine(const Study& study, std::int64_t point) {
     const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
     const double dac_bound = dac_resolution_bound(contact.k1, p.encoder, p.controller.encoder);
     theory.coarse_feedback = p.controller.encoder == EncoderChoice::coarse;
-    theory.ki.add(p.controller.ki);
-    theory.stable_below.add(bounds.stable_below);
-    theory.unstable_above.add(bounds.unstable_above);
+    theory.ki.add(as_given(study.units, p, p.controller.ki));
+    theory.stable_below.add(as_given(study.units, p, bounds.stable_below));
+    theory.unstable_above.add(as_given(study.units, p, bounds.unstable_above));
     theory.dac_resolution.add(p.dac.resolution);
     theory.dac_bound.add(dac_bound);
     theory.frequency.add(natural_frequency(contact.k1 + contact.k2, p.plant));
@@ -105,22 +124,23 @@ PointTheory examine(const Study& study, std::int64_t point) {
     if (contact.k1 > k1.high) stiffest = p;
     k1.add(contact.k1);
   }
-  theory.sampled_below.add(sampled_bound(k1.low, softest));
-  theory.sampled_below.add(sampled_bound(k1.high, stiffest));
+  theory.sampled_below.add(as_given(study.units, softest, sampled_bound(k1.low, softest)));
+  theory.sampled_below.add(as_given(study.units, stiffest, sampled_bound(k1.high, stiffest)));
   return theory;
 }
 
 std::string describe(const PointTheory& theory) {
   if (!theory.outside.empty()) return fmt::format("    the theory is not about it: {}\n", theory.outside);
   std::string out;
-  out += fmt::format("    ki                            {} N m/count: {}\n", text(theory.ki),
+  const std::string& unit = theory.gain_unit;
+  out += fmt::format("    ki                            {} {}: {}\n", text(theory.ki), unit,
                      verdict(theory.prediction));
-  out += fmt::format("    (6) stable below              {} N m/count\n", text(theory.stable_below));
-  out += fmt::format("    sampled loop at k1, below     {} N m/count\n", text(theory.sampled_below));
-  out += fmt::format("    (7) unstable above            {} N m/count\n", text(theory.unstable_above));
-  out += fmt::format("    DAC: resolution {} N m, must be below k1·Δx = {} N m{}: {}\n",
-                     text(theory.dac_resolution), text(theory.dac_bound),
-                     theory.coarse_feedback ? " with the Δx of the coarse encoder" : "",
+  out += fmt::format("    (6) stable below              {} {}\n", text(theory.stable_below), unit);
+  out += fmt::format("    sampled loop at k1, below     {} {}\n", text(theory.sampled_below), unit);
+  out += fmt::format("    (7) unstable above            {} {}\n", text(theory.unstable_above), unit);
+  out += fmt::format("    DAC: resolution {} {}, must be below k1·Δx = {} {}{}: {}\n",
+                     text(theory.dac_resolution), theory.torque_unit, text(theory.dac_bound),
+                     theory.torque_unit, theory.coarse_feedback ? " with the Δx of the coarse encoder" : "",
                      theory.fine_enough ? "holds" : "does not hold in every trial");
   out += fmt::format("    natural frequency {} Hz, sample rate {} Hz: {}\n", text(theory.frequency),
                      text(theory.sample_rate),
@@ -165,8 +185,9 @@ ExitCode check(const Arguments& arguments) {
   }
   const TrialParameters first = study_trial(study, 0, 0).parameters;
   if (!first.friction.profiled.empty() && predict(first).applies) {
-    fmt::print("\nLowest k1 along the rotor (point 0): {:.4g} N m/rad; the paper advises to use it in (6).\n",
-               lowest_k1(first.friction));
+    const AxisKind axis = study.units.axis;
+    fmt::print("\nLowest k1 {} (point 0): {:.4g} {}; the paper advises to use it in (6).\n",
+               text_on(axis, "along the rotor"), lowest_k1(first.friction), unit_on(axis, "N m/rad"));
   }
   return ExitCode::success;
 }

@@ -9,7 +9,10 @@ namespace {
 
 ExitCode print_parameters(const Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"text", "markdown"});
-  fmt::print("{}", format == "text" ? parameters_as_text() : parameters_as_markdown());
+  StudyUnits units;
+  if (arguments.one_of("axis", {"rotary", "linear"}) == "linear") units.axis = AxisKind::linear;
+  if (arguments.one_of("units", {"count", "si"}) == "si") units.gains = GainUnits::si;
+  fmt::print("{}", format == "text" ? parameters_as_text(units) : parameters_as_markdown(units));
   return ExitCode::success;
 }
 
@@ -21,11 +24,19 @@ ExitCode print_schema(const Arguments&) {
 }  // namespace
 
 Command parameters_command() {
-  return {{"parameters", "", 0, 0, {{"format", "FORMAT", "text (default) or markdown"}}},
-          "list every parameter: unit, default, range, source",
-          "Every physical value of a manifest may be a number or a distribution; what is left out has the "
-          "default.\n",
-          print_parameters};
+  return {
+      {"parameters",
+       "",
+       0,
+       0,
+       {{"format", "FORMAT", "text (default) or markdown"},
+        {"axis", "AXIS", "rotary (default) or linear: as they are on an axis of this kind"},
+        {"units", "UNITS", "count (default) or si: as the gains are with controller.units"}}},
+      "list every parameter: unit, default, range, source",
+      "Every physical value of a manifest may be a number or a distribution; what is left out has the "
+      "default. A default in other units is none: on a linear axis most values have to be given, and with\n"
+      "--units si the integral gain.\n",
+      print_parameters};
 }
 
 Command schema_command() {

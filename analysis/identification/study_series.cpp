@@ -51,6 +51,13 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
                   fmt::format("{}: has no point {}, trial {}; it has {} points of {} trials", path.string(),
                               point, index, point_count(study), study.trials));
   }
+  if (study.units.axis == AxisKind::linear) {
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: it is of a linear axis; expected a rotary one, whose friction is in N m and "
+                    "rad: identify knows no other units",
+                    path.string()));
+  }
   const std::vector<TraceRecord> records = records_of(file, point * study.trials + index);
   if (records.empty()) {
     throw Failure(ExitCode::bad_input,

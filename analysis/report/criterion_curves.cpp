@@ -9,6 +9,7 @@
 #include "analysis/report/reported_study.hpp"
 #include "analysis/theory_prediction.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/plan/trial_completion.hpp"
 
 namespace zerocount {
 namespace {
@@ -34,7 +35,7 @@ constexpr Criterion criteria[] = {
 /// The trials at which the criteria are looked at, with two parameters that are changed at will.
 class CriterionTrials {
  public:
-  CriterionTrials(const Study& study, std::int64_t point, const CriterionPlane& plane) {
+  CriterionTrials(const Study& study, std::int64_t point, const CriterionPlane& plane) : units_(study.units) {
     const auto x = find_parameter(plane.x);
     const auto y = find_parameter(plane.y);
     if (!x || !y) return;
@@ -42,8 +43,10 @@ class CriterionTrials {
     set_y_ = parameter_table()[*y].set;
     if (set_x_ == nullptr || set_y_ == nullptr) return;
     for (const std::int64_t index : spread_over(study.trials, most_trials)) {
-      TrialParameters parameters = study_trial(study, point, index).parameters;
-      if (predict(parameters).applies) trials_.push_back(std::move(parameters));
+      TrialParameters parameters = study_trial_as_given(study, point, index).parameters;
+      if (!predict(parameters).applies) continue;
+      given_.push_back({parameters.encoder, parameters.controller});
+      trials_.push_back(std::move(parameters));
     }
   }
 
@@ -52,9 +55,13 @@ class CriterionTrials {
   /// ki over its bound, of the trial for which that is greatest (first) or least; 1 on the curve.
   double gain_over_bound(const Criterion& criterion, double x, double y) {
     double extreme = criterion.first ? 0.0 : std::numeric_limits<double>::infinity();
-    for (TrialParameters& trial : trials_) {
+    for (std::size_t i = 0; i < trials_.size(); ++i) {
+      TrialParameters& trial = trials_[i];
+      trial.encoder = given_[i].encoder;
+      trial.controller = given_[i].controller;
       set_x_(trial, x);
       set_y_(trial, y);
+      complete_trial(units_, trial);
       const double ratio = trial.controller.ki / (predict(trial).bounds.*criterion.bound);
       extreme = criterion.first ? std::max(extreme, ratio) : std::min(extreme, ratio);
     }
@@ -62,7 +69,15 @@ class CriterionTrials {
   }
 
  private:
+  /// What completing a trial changes, before that.
+  struct Given {
+    EncoderParameters encoder;
+    ControllerParameters controller;
+  };
+
+  StudyUnits units_;
   std::vector<TrialParameters> trials_;
+  std::vector<Given> given_;  ///< [trial]
   void (*set_x_)(TrialParameters&, double){nullptr};
   void (*set_y_)(TrialParameters&, double){nullptr};
 };

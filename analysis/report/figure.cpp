@@ -20,15 +20,26 @@ bool qualify(std::string& title) {
   return true;
 }
 
-/// The titles anywhere in a specification.
-void qualify_titles(nlohmann::ordered_json& part) {
+/// Calls `change` with the titles anywhere in a specification.
+template <class Change>
+void change_titles(nlohmann::ordered_json& part, const Change& change) {
   if (!part.is_structured()) return;
   for (auto& [key, value] : part.items()) {
     if (key == "title" && value.is_string()) {
-      qualify(value.get_ref<std::string&>());
+      change(value.template get_ref<std::string&>());
     } else {
-      qualify_titles(value);
+      change_titles(value, change);
     }
+  }
+}
+
+/// "position (µm)" for "rotor angle (µrad)".
+void reword_title(std::string& title, AxisKind axis) {
+  const std::size_t unit = title.ends_with(')') ? title.rfind('(') : std::string::npos;
+  if (unit == std::string::npos) {
+    title = text_on(axis, title);
+  } else {
+    title = text_on(axis, title.substr(0, unit)) + unit_on(axis, title.substr(unit));
   }
 }
 
@@ -47,9 +58,22 @@ void call_bounds_too_narrow(Figure& figure, const std::string& why) {
     for (FigureColumn& column : data.columns) found = qualify(column.title) || found;
   }
   if (!found) return;
-  qualify_titles(figure.specification);
+  change_titles(figure.specification, qualify);
   if (!figure.caption.ends_with(' ')) figure.caption += ' ';
   figure.caption += why;
+}
+
+void put_on_axis(Figure& figure, AxisKind axis) {
+  const auto reword = [axis](std::string& title) { reword_title(title, axis); };
+  figure.title = text_on(axis, figure.title);
+  figure.caption = text_on(axis, figure.caption);
+  change_titles(figure.specification, reword);
+  for (FigureData& data : figure.data) {
+    for (FigureColumn& column : data.columns) {
+      reword(column.title);
+      column.unit = unit_on(axis, column.unit);
+    }
+  }
 }
 
 void set_rows(Figure& figure, std::size_t rows, int row) {

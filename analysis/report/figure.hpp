@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/parameters/study_units.hpp"
+
 namespace zerocount {
 
 /// A column of the data of a figure.
@@ -38,6 +40,10 @@ Figure figure_of(std::string_view specification, std::string name, std::string t
 /// Says of all bounds in the data and at the pointer that they are too narrow, and adds `why` to the caption.
 /// Does nothing to a figure without bounds.
 void call_bounds_too_narrow(Figure& figure, const std::string& why);
+
+/// Puts the figure's titles, units and caption into the words of an axis of this kind; those of figures are
+/// for a rotary one.
+void put_on_axis(Figure& figure, AxisKind axis);
 
 /// Gives a figure the height of `rows` rows of `row` pixels each.
 void set_rows(Figure& figure, std::size_t rows, int row);

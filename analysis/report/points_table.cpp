@@ -128,9 +128,10 @@ std::string title_of(std::string key) {
 
 std::string level_table_html(const StudySummary& summary, std::size_t rows) {
   std::vector<HtmlColumn> columns{{"point", "", true, {}}, {"level", "", false, {}}};
+  const AxisKind axis = summary.features.axis;
   for (const LevelField& field : level_fields())
     columns.push_back(
-        {std::string(field.long_name), field.unit == "1" ? "" : std::string(field.unit), false, {}});
+        {text_on(axis, field.long_name), field.unit == "1" ? "" : unit_on(axis, field.unit), false, {}});
   std::size_t written = 0;
   for (std::size_t point = 0; point < summary.points.size(); ++point) {
     for (std::size_t level = 0; level < summary.points[point].levels.size() && written < rows;

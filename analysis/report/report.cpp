@@ -79,6 +79,14 @@ PageSection success_section(const ReportedStudy& reported) {
   return section;
 }
 
+/// Figures are drawn in the words and units of a rotary axis.
+void put_on_axis(AxisKind axis, ReportPage& page) {
+  for (PageSection& section : page.sections) {
+    section.title = text_on(axis, section.title);
+    for (Figure& figure : section.figures) put_on_axis(figure, axis);
+  }
+}
+
 /// All bounds but those of the indices, which are made for the design, take the trials for independent.
 void qualify_bounds(const ReportedStudy& reported, ReportPage& page) {
   if (!reported.summary.features.dependent_trials) return;
@@ -125,6 +133,7 @@ StudyReport study_report(const StudyFile& file, const ReportOptions& options) {
   add(page, {"paper", "The paper's figures", "", figures_of_paper(reported, replays)});
   add(page, {"run", "What was run", run_html(reported), {}});
   qualify_bounds(reported, page);
+  put_on_axis(reported.study.units.axis, page);
   report.warnings = replays.warnings();
   page.sections.front().html = warnings_html(report.warnings) + page.sections.front().html;
   return report;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -15,7 +14,6 @@ using nlohmann::ordered_json;
 constexpr std::int64_t most_profiles = 4;
 constexpr std::int64_t profile_points = 512;
 constexpr std::int64_t most_failures = 250;
-constexpr double revolution = 2.0 * std::numbers::pi;
 
 const char* word_of(Outcome outcome) {
   if (outcome == Outcome::one_count) return "one_count";
@@ -25,13 +23,13 @@ const char* word_of(Outcome outcome) {
 /// Where a trial ended on the rotor, and how.
 struct EndOnRotor {
   std::int64_t trial{0};  ///< of the point
-  double angle{0.0};      ///< rad, in [0, 2π)
+  double angle{0.0};      ///< rad or m, in [0, period)
   Outcome outcome{Outcome::zero_count};
 };
 
-double on_rotor(double angle) {
-  const double within = std::fmod(angle, revolution);
-  return within < 0.0 ? within + revolution : within;
+double on_rotor(double angle, double period) {
+  const double within = std::fmod(angle, period);
+  return within < 0.0 ? within + period : within;
 }
 
 /// The input column with the place where each trial starts.
@@ -51,7 +49,8 @@ void visit_ends(const ReportedStudy& reported, std::int64_t point, std::size_t c
   visit_trials(reported.file, rows, [&](std::int64_t row, std::span<const MoveOutcome> moves) {
     const double end = starts[static_cast<std::size_t>(row - rows.first)] + moves.back().final_position;
     const double start = starts[static_cast<std::size_t>(row - rows.first)];
-    visit(EndOnRotor{row - rows.first, on_rotor(std::isfinite(end) ? end : start), worst_outcome(moves)});
+    visit(EndOnRotor{row - rows.first, on_rotor(std::isfinite(end) ? end : start, reported.study.period),
+                     worst_outcome(moves)});
   });
 }
 
@@ -62,9 +61,9 @@ std::int64_t point_of(const ReportedStudy& reported, const std::string& profile)
                                  : std::stoll(profile.substr(at + 1));
 }
 
-double value_at(const StoredProfile& profile, double angle) {
+double value_at(const StoredProfile& profile, double angle, double period) {
   const double size = static_cast<double>(profile.value.size());
-  const double place = angle / revolution * size;
+  const double place = angle / period * size;
   const auto before = static_cast<std::size_t>(place) % profile.value.size();
   const double share = place - std::floor(place);
   return (1.0 - share) * profile.value[before] + share * profile.value[(before + 1) % profile.value.size()];
@@ -82,10 +81,11 @@ FigureData profile_data(const StoredProfile& profile) {
 /// Success by place: equal parts of the rotor.
 struct Sectors {
   std::vector<std::int64_t> trials, successes;
+  double period;  ///< rad or m
 
-  explicit Sectors(std::size_t count) : trials(count), successes(count) {}
+  Sectors(std::size_t count, double length) : trials(count), successes(count), period(length) {}
   void add(const EndOnRotor& end) {
-    const auto sector = static_cast<std::size_t>(end.angle / revolution * static_cast<double>(trials.size()));
+    const auto sector = static_cast<std::size_t>(end.angle / period * static_cast<double>(trials.size()));
     ++trials[std::min(sector, trials.size() - 1)];
     successes[std::min(sector, trials.size() - 1)] += end.outcome == Outcome::zero_count;
   }
@@ -100,7 +100,7 @@ FigureData sector_data(const Sectors& sectors) {
                    {"high", "upper 95 % bound", "1"},
                    {"successes", "successes", "1"},
                    {"trials", "trials", "1"}}};
-  const double width = revolution / static_cast<double>(sectors.trials.size());
+  const double width = sectors.period / static_cast<double>(sectors.trials.size());
   for (std::size_t i = 0; i < sectors.trials.size(); ++i) {
     if (sectors.trials[i] == 0) continue;
     const ConfidenceInterval bounds = clopper_pearson(sectors.successes[i], sectors.trials[i]);
@@ -114,7 +114,8 @@ FigureData sector_data(const Sectors& sectors) {
 
 Figure rotor_figure(const ReportedStudy& reported, const StoredProfile& profile, std::size_t column) {
   const std::int64_t point = point_of(reported, profile.name);
-  Sectors sectors(reported.file.header().trials >= 480 ? 24 : 12);
+  const double period = reported.study.period;
+  Sectors sectors(reported.file.header().trials >= 480 ? 24 : 12, period);
   std::vector<EndOnRotor> failures;
   visit_ends(reported, point, column, [&](const EndOnRotor& end) {
     sectors.add(end);
@@ -128,7 +129,7 @@ Figure rotor_figure(const ReportedStudy& reported, const StoredProfile& profile,
   for (const std::int64_t i : spread_over(std::ssize(failures), most_failures)) {
     const EndOnRotor& end = failures[static_cast<std::size_t>(i)];
     trials.rows.push_back(ordered_json::array(
-        {end.trial, datum(end.angle), datum(value_at(profile, end.angle)), word_of(end.outcome)}));
+        {end.trial, datum(end.angle), datum(value_at(profile, end.angle, period)), word_of(end.outcome)}));
   }
   const std::string parameter = profile.name.substr(0, profile.name.find('@'));
   const std::string& label = reported.summary.labels[static_cast<std::size_t>(point)];
@@ -149,6 +150,7 @@ Figure rotor_figure(const ReportedStudy& reported, const StoredProfile& profile,
       caption);
   figure.specification["vconcat"][0]["layer"][0]["encoding"]["y"]["title"] =
       profile.unit == "1" ? parameter : fmt::format("{} ({})", parameter, profile.unit);
+  figure.specification["vconcat"][1]["encoding"]["x"]["scale"]["domain"] = {0.0, period};
   if (trials.rows.empty()) figure.specification["vconcat"][0]["layer"].erase(1);
   figure.data = {std::move(trials), profile_data(profile), sector_data(sectors)};
   if (figure.data.front().rows.empty())

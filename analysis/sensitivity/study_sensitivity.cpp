@@ -72,8 +72,11 @@ StudySensitivity study_sensitivity(const StudyFile& file, const SensitivityQuest
     PointSensitivity at_point{point, labels.at(static_cast<std::size_t>(point)), {}};
     const PointInputs inputs = point_inputs(file, study, point);
     for (const SensitivityOutput& output : outputs) {
-      at_point.outputs.push_back(output_sensitivity(inputs, output, trial_outputs(file, study, point, output),
-                                                    question.confidence, bootstrap));
+      OutputSensitivity result = output_sensitivity(inputs, output, trial_outputs(file, study, point, output),
+                                                    question.confidence, bootstrap);
+      result.unit = unit_on(study.units.axis, result.unit);
+      result.meaning = text_on(study.units.axis, result.meaning);
+      at_point.outputs.push_back(std::move(result));
     }
     sensitivity.points.push_back(std::move(at_point));
   }

@@ -2,6 +2,7 @@
 
 #include "core/loop/encoder.hpp"
 #include "core/loop/parameters.hpp"
+#include "core/loop/pid.hpp"
 
 namespace zerocount {
 
@@ -16,15 +17,20 @@ struct AnalogueGains {
 /// T = 1/sample rate, s.
 double sample_time(const ControllerParameters& controller);
 
-/// The continuous gains that a sampled controller stands for. Δx is that of the fine encoder, whichever closes
-/// the loop: the count of the coarse one is taken in fine counts.
+/// The continuous gains that a sampled controller stands for. Δx is that of the fine encoder, whichever
+/// closes the loop: the count of the coarse one is taken in fine counts.
 ///
 /// kP = kp/Δx, kI = 2·ki/(Δx·T), kD = kd·T/Δx: the proportional term counts the error, the trapezoidal rule
 /// adds kI·Δx·T/2 for each of two successive errors, and the difference of successive counts is the velocity
 /// times T/Δx.
 AnalogueGains analogue_gains(const ControllerParameters& controller, const EncoderParameters& encoder);
 
-/// `controller` with the gains that stand for `gains` at its sample rate: the inverse of analogue_gains.
+/// The gains of the sampled law that stand for `gains` at the sample rate of `controller`: kp = kP·Δx, ki =
+/// kI·Δx·T/2, kd = kD·Δx/T.
+PidGains sampled_gains(const AnalogueGains& gains, const ControllerParameters& controller,
+                       const EncoderParameters& encoder);
+
+/// `controller` with these gains: the inverse of analogue_gains.
 ControllerParameters with_analogue_gains(ControllerParameters controller, const AnalogueGains& gains,
                                          const EncoderParameters& encoder);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
@@ -165,12 +166,13 @@ std::optional<Distribution> read_distribution(const DistributionForm& form, cons
   return distribution;
 }
 
-std::optional<ProfileDescription> read_profile(const Field& field, Problems& problems) {
+std::optional<ProfileDescription> read_profile(const Field& field, double period, Problems& problems) {
   static const std::vector<std::string> known{"mean", "cv", "correlation_length", "marginal"};
   const std::string expected = "profile: {mean, cv, correlation_length, marginal}";
   if (!check_map(field, expected, problems)) return std::nullopt;
   const std::size_t before = problems.size();
   ProfileDescription profile;
+  profile.period = period;
   const auto number = [&](std::string_view key, const Interval& range, double& to) {
     const YamlEntry* entry = find_entry(*field.node, key);
     if (entry == nullptr) {
@@ -181,7 +183,9 @@ std::optional<ProfileDescription> read_profile(const Field& field, Problems& pro
   };
   number("mean", above(0.0), profile.mean);
   number("cv", {.low = 0.0, .high = 10.0, .high_included = true}, profile.cv);
-  number("correlation_length", closed(shortest_correlation_length, longest_correlation_length),
+  const double scale = period / (2.0 * std::numbers::pi);
+  number("correlation_length",
+         closed(scale * shortest_correlation_length, scale * longest_correlation_length),
          profile.correlation_length);
   for (const YamlEntry& entry : field.node->entries) {
     if (std::find(known.begin(), known.end(), entry.key) == known.end()) {

@@ -34,7 +34,7 @@ std::optional<Distribution> read_distribution(const DistributionForm& form, cons
                                               Problems& problems);
 
 /// The same for the value of the key `profile`: {mean, cv, correlation_length, marginal}, marginal lognormal
-/// if left out.
-std::optional<ProfileDescription> read_profile(const Field& field, Problems& problems);
+/// if left out. @param period of the field, rad or m.
+std::optional<ProfileDescription> read_profile(const Field& field, double period, Problems& problems);
 
 }  // namespace zerocount

@@ -36,10 +36,12 @@ std::vector<double> field_spectrum(double correlation_length) {
 }
 
 Profile realise_profile(const ProfileDescription& description, std::uint64_t seed, std::string_view name) {
-  const std::vector<double> spectrum = field_spectrum(description.correlation_length);
+  const std::vector<double> spectrum =
+      field_spectrum(description.correlation_length * (2.0 * std::numbers::pi / description.period));
   const RandomStream stream{.key = random_key(seed, name)};
   Profile profile;
   profile.marginal = description.marginal;
+  profile.period = description.period;
   if (description.marginal == Marginal::lognormal) {
     const double variance = std::log1p(description.cv * description.cv);
     profile.location = std::log(description.mean) - 0.5 * variance;

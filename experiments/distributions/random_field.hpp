@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -9,15 +10,16 @@
 
 namespace zerocount {
 
-/// A stationary random field over the rotor angle, as a manifest describes it.
+/// A stationary random field along the axis, as a manifest describes it.
 struct ProfileDescription {
   double mean{1.0};                ///< of the parameter itself, in its unit
   double cv{0.1};                  ///< standard deviation over mean, of the parameter itself
-  double correlation_length{0.2};  ///< ℓ, rad
+  double correlation_length{0.2};  ///< ℓ, rad or m
   Marginal marginal{Marginal::lognormal};
+  double period{2.0 * std::numbers::pi};  ///< a revolution, rad; or the travel, m
 };
 
-/// Shortest and longest correlation length, rad.
+/// Shortest and longest correlation length of a field with the period 2π; of others in proportion.
 constexpr double shortest_correlation_length = 1e-3;
 constexpr double longest_correlation_length = 6.283185307179586;
 

@@ -8,6 +8,7 @@
 
 #include "experiments/language/effect_rules.hpp"
 #include "experiments/language/manifest_keys.hpp"
+#include "experiments/language/required_values.hpp"
 #include "experiments/language/slots.hpp"
 #include "experiments/language/value_rules.hpp"
 
@@ -112,13 +113,6 @@ bool asks_for_nothing(const Checking& c, std::size_t row) {
   });
 }
 
-// Where something could not be read, the benefit of the doubt.
-bool can_have_effect(const StudyPlan& plan, const EffectRule& rule) {
-  return holds_somewhere(plan, rule.depends_on, [&](std::span<const ValueLimits> limits) {
-    return !are_readable(limits) || rule.has_effect(limits);
-  });
-}
-
 void check_effects(Checking& c) {
   const auto table = parameter_table();
   std::set<std::size_t> told;
@@ -132,7 +126,7 @@ void check_effects(Checking& c) {
       if (!has_effect) has_effect = can_have_effect(c.plan(), rule);
       if (*has_effect) continue;
       told.insert(row);
-      tell(c, *place, row, std::string(rule.what), rule.expected, rule.warn_only);
+      tell(c, *place, row, text_on(c.plan().units.axis, rule.what), rule.expected, rule.warn_only);
     }
   }
 }
@@ -141,6 +135,7 @@ void check_effects(Checking& c) {
 
 void check_points(const PlanPlaces& places, Reading& reading) {
   Checking checking{places, reading};
+  check_required_values(places, reading);
   check_values(checking);
   check_effects(checking);
 }

@@ -17,8 +17,8 @@ struct PlanPlaces {
 
 /// Checks what no parameter can tell alone: at every design point, for all values that can be drawn, that
 /// values fit one another (value_rules.hpp); and that no key is given that has no effect at any point
-/// (effect_rules.hpp). A problem is told at the value that the sweep gives, where one of those involved is
-/// swept.
+/// (effect_rules.hpp), and none is missing that has to be given (required_values.hpp). A problem is told at
+/// the value that the sweep gives, where one of those involved is swept.
 void check_points(const PlanPlaces& places, Reading& reading);
 
 }  // namespace zerocount

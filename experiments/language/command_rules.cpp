@@ -106,28 +106,28 @@ ValueRule samples_of_torque_levels() {
 }
 
 // Of what goes beyond the converter's range only a part is reached.
-ValueRule range_of_the_converter() {
-  return {{"command.torque.through", "dac.bits", "dac.resolution"},
-          true,
-          [](Limits l, Limits levels) -> Faults {
-            if (l[0].low != static_cast<double>(TorquePath::dac)) return {};
-            const DacParameters dac{.bits = static_cast<int>(l[1].low), .resolution = l[2].low};
-            const double lowest = static_cast<double>(lowest_code(dac)) * dac.resolution;
-            const double highest = static_cast<double>(highest_code(dac)) * dac.resolution;
-            Faults faults;
-            for (std::size_t i = 0; i < levels.size(); ++i) {
-              if (levels[i].low >= lowest && levels[i].high <= highest) continue;
-              const double beyond = levels[i].high > highest ? levels[i].high : levels[i].low;
-              faults.push_back(
-                  {fmt::format("{} N m can be beyond the converter's range from {:.6g} to {:.6g} N m, "
-                               "and is clipped to it",
-                               beyond, lowest, highest),
-                   "",
-                   {i}});
-            }
-            return faults;
-          },
-          true};
+ValueRule range_of_the_converter(const std::string& unit) {
+  return {
+      {"command.torque.through", "dac.bits", "dac.resolution"},
+      true,
+      [unit](Limits l, Limits levels) -> Faults {
+        if (l[0].low != static_cast<double>(TorquePath::dac)) return {};
+        const DacParameters dac{.bits = static_cast<int>(l[1].low), .resolution = l[2].low};
+        const double lowest = static_cast<double>(lowest_code(dac)) * dac.resolution;
+        const double highest = static_cast<double>(highest_code(dac)) * dac.resolution;
+        Faults faults;
+        for (std::size_t i = 0; i < levels.size(); ++i) {
+          if (levels[i].low >= lowest && levels[i].high <= highest) continue;
+          const double beyond = levels[i].high > highest ? levels[i].high : levels[i].low;
+          faults.push_back({fmt::format("{} {} can be beyond the converter's range from {:.6g} to {:.6g} {}, "
+                                        "and is clipped to it",
+                                        beyond, unit, lowest, highest, unit),
+                            "",
+                            {i}});
+        }
+        return faults;
+      },
+      true};
 }
 
 ValueRule order_of_targets() {
@@ -179,14 +179,26 @@ double longest_step_of_sequence(Limits targets, const ValueLimits& overrun, cons
       longest, starts_below ? farthest_apart(targets.back(), below) : farthest_apart(targets.front(), above));
 }
 
-ValueRule time_of_travel(const std::optional<SequenceCycle>& sequence) {
+// The longest that a count of the fine encoder can be, rad or m, by the parameter that says it.
+double longest_count(AxisKind axis, const ValueLimits& encoder) {
+  switch (axis) {
+    case AxisKind::rotary:
+      break;
+    case AxisKind::linear:
+      return encoder.high;
+  }
+  return 2.0 * std::numbers::pi / encoder.low;
+}
+
+ValueRule time_of_travel(AxisKind axis, const std::optional<SequenceCycle>& sequence) {
   enum : std::size_t { hold, window, shape, velocity, acceleration, jerk, fine, overrun };
   ValueRule rule{{"command.hold", "verdict.window", "command.profile.shape", "command.profile.velocity_limit",
-                  "command.profile.acceleration_limit", "command.profile.jerk_limit", "encoder.fine"},
+                  "command.profile.acceleration_limit", "command.profile.jerk_limit",
+                  axis == AxisKind::linear ? "encoder.resolution" : "encoder.fine"},
                  true,
                  {}};
   if (sequence) rule.between.emplace_back("command.sequence.overrun");
-  rule.find_faults = [sequence](Limits l, Limits targets) -> Faults {
+  rule.find_faults = [axis, sequence](Limits l, Limits targets) -> Faults {
     ReferenceProfile slowest;
     slowest.shape = static_cast<ReferenceShape>(static_cast<int>(l[shape].low));
     if (slowest.shape == ReferenceShape::step) return {};
@@ -195,8 +207,7 @@ ValueRule time_of_travel(const std::optional<SequenceCycle>& sequence) {
     slowest.jerk_limit = l[jerk].low;
     const double counts =
         sequence ? longest_step_of_sequence(targets, l[overrun], *sequence) : longest_step(targets);
-    const Reference travel(slowest, 0, static_cast<std::int64_t>(counts),
-                           2.0 * std::numbers::pi / l[fine].low);
+    const Reference travel(slowest, 0, static_cast<std::int64_t>(counts), longest_count(axis, l[fine]));
     const double needed = travel.duration() + l[window].high;
     if (needed <= l[hold].low) return {};
     if (!std::isfinite(needed)) {
@@ -222,12 +233,12 @@ std::vector<ValueRule> command_rules(const StudyPlan& plan) {
   const auto listed = static_cast<std::int64_t>(plan.list.count);
   if (plan.open_loop) {
     add({limits_of_torque_levels(), lowest_rate_of_torque(), samples_of_torque_levels(),
-         range_of_the_converter()});
+         range_of_the_converter(unit_on(plan.units.axis, "N m"))});
   } else if (!plan.sequence) {
-    add({samples_of_targets(static_cast<double>(listed)), time_of_travel({})});
+    add({samples_of_targets(static_cast<double>(listed)), time_of_travel(plan.units.axis, {})});
   } else {
     add({samples_of_targets(static_cast<double>(sequence_move_count(*plan.sequence, listed))),
-         order_of_targets(), reach_of_the_overrun(), time_of_travel(plan.sequence)});
+         order_of_targets(), reach_of_the_overrun(), time_of_travel(plan.units.axis, plan.sequence)});
   }
   return rules;
 }

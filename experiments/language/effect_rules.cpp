@@ -235,4 +235,10 @@ std::vector<EffectRule> effect_rules(const StudyPlan& plan) {
   return rules;
 }
 
+bool can_have_effect(const StudyPlan& plan, const EffectRule& rule) {
+  return holds_somewhere(plan, rule.depends_on, [&](std::span<const ValueLimits> limits) {
+    return !are_readable(limits) || rule.has_effect(limits);
+  });
+}
+
 }  // namespace zerocount

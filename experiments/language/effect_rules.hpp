@@ -25,4 +25,8 @@ struct EffectRule {
 /// The rules for a plan of this kind. Where several match a key, the first that is broken is told.
 std::vector<EffectRule> effect_rules(const StudyPlan& plan);
 
+/// Whether the keys of the rule have an effect at some design point. Where something could not be read, the
+/// benefit of the doubt.
+bool can_have_effect(const StudyPlan& plan, const EffectRule& rule);
+
 }  // namespace zerocount

@@ -61,12 +61,11 @@ Json distribution_schema(const DistributionForm& form) {
 }
 
 Json profile_schema() {
-  return object_of(
-      {{"mean", number_in(above(0))},
-       {"cv", number_in({.low = 0, .high = 10, .high_included = true})},
-       {"correlation_length", number_in(closed(shortest_correlation_length, longest_correlation_length))},
-       {"marginal", {{"enum", {"normal", "lognormal"}}}}},
-      {"mean", "cv", "correlation_length"});
+  return object_of({{"mean", number_in(above(0))},
+                    {"cv", number_in({.low = 0, .high = 10, .high_included = true})},
+                    {"correlation_length", number_in(above(0))},
+                    {"marginal", {{"enum", {"normal", "lognormal"}}}}},
+                   {"mean", "cv", "correlation_length"});
 }
 
 // One definition for each distribution: {"uniform": [low, high]}.
@@ -92,7 +91,8 @@ Json value_schema(const Parameter& parameter) {
   if (parameter.kind == ParameterKind::enumeration) return {{"enum", parameter.words}};
   const bool whole = parameter.kind == ParameterKind::whole_number;
   Json number{{"type", whole ? "integer" : "number"}};
-  limit(number, parameter.range, whole);
+  // The units are another key's business: a gain may be as large as in SI units.
+  limit(number, range_of(parameter, {.gains = GainUnits::si}), whole);
   Json forms = Json::array({std::move(number)});
   for (const DistributionForm& form : distribution_forms()) {
     if (!whole || form.whole_numbers || form.keys.empty()) forms.push_back(reference(form.name));
@@ -101,12 +101,21 @@ Json value_schema(const Parameter& parameter) {
   return {{"anyOf", std::move(forms)}};
 }
 
+// Its meaning and its unit, on a rotary axis and, where that is another one, on a linear axis.
+std::string description_of(const Parameter& parameter) {
+  std::string description(parameter.meaning);
+  if (parameter.unit == "1") return description;
+  description += fmt::format(", {}", parameter.unit);
+  if (!parameter.si_unit.empty()) description += fmt::format(" ({} with units: si)", parameter.si_unit);
+  const std::string linear = unit_on(AxisKind::linear, parameter.unit);
+  if (parameter.only_on || linear == parameter.unit) return description;
+  return description + fmt::format("; {} on a linear axis", linear);
+}
+
 Json key_schema(const Parameter& parameter) {
   Json schema = parameter.listed ? list_of(value_schema(parameter), 1) : value_schema(parameter);
   if (parameter.listed) schema["maxItems"] = most_listed_values;
-  schema["description"] = parameter.unit == "1"
-                              ? std::string(parameter.meaning)
-                              : std::string(parameter.meaning) + ", " + std::string(parameter.unit);
+  schema["description"] = description_of(parameter);
   if (parameter.kind == ParameterKind::truth) {
     schema["default"] = default_value(parameter) != 0.0;
   } else if (parameter.kind == ParameterKind::enumeration) {
@@ -186,6 +195,9 @@ Json general_schemas() {
                          {"success_rate_halfwidth", "max_trials"})},
       {"observed", {{"type", "object"}, {"additionalProperties", text}}},
       {"sweep", sweep_schema()},
+      {"axis", {{"enum", axis_words()}, {"default", axis_words().front()}}},
+      {"travel", number_in(above(0))},
+      {"controller.units", {{"enum", gain_unit_words()}, {"default", gain_unit_words().front()}}},
       {"command.sequence.cycles",
        {{"type", "integer"},
         {"minimum", 1},
@@ -217,7 +229,8 @@ Json section_schema(const std::string& path) {
     if (const auto row = find_parameter(name)) {
       const Parameter& parameter = parameter_table()[*row];
       properties[key] = key_schema(parameter);
-      if (!has_default(parameter) && path != required_section) required.push_back(key);
+      const bool always = !has_default(parameter) && !parameter.only_on;
+      if (always && path != required_section) required.push_back(key);
     } else if (const GeneralKey* general = find_general_key(name)) {
       properties[key] = general_schema(*general);
     } else {

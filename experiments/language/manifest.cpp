@@ -14,6 +14,7 @@
 #include "experiments/language/manifest_keys.hpp"
 #include "experiments/language/sections.hpp"
 #include "experiments/language/stopping.hpp"
+#include "experiments/language/study_units_reading.hpp"
 #include "experiments/language/sweep.hpp"
 #include "experiments/language/values.hpp"
 #include "experiments/plan/study_assembly.hpp"
@@ -260,6 +261,7 @@ Study read_manifest(const YamlNode& root, Problems& problems) {
   read_texts(m);
   read_numbers(m);
   read_design(m);
+  read_study_units(m.root, m.reading);
   read_sections(m.root, m.reading, m.places);
   read_axes(m);
   read_retained(m);
@@ -270,6 +272,7 @@ Study read_manifest(const YamlNode& root, Problems& problems) {
   realise_profiles(m.reading.profiles, m.study.seed, *plan);
   check_profiles(m.reading);
   check_points(m.places, m.reading);
+  check_travel(m.root, m.reading);
   if (problems.empty()) check_rows(m);
   if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, m.study);
   m.study.warnings = std::move(m.reading.warnings);

@@ -33,10 +33,16 @@ std::vector<std::string_view> value_paths() {
 }  // namespace
 
 std::span<const GeneralKey> general_keys() {
-  static constexpr std::array<GeneralKey, 14> keys{{
+  static constexpr std::array<GeneralKey, 17> keys{{
       {"zerocount", "version of the manifest's format: 1", true},
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
+      {"axis",
+       "rotary (default), or linear: m, N, kg, N/m ... in place of rad, N m, kg m^2, N m/rad "
+       "(zerocount parameters --axis linear)",
+       false},
+      {"travel", "of a linear axis with profiles: the length after which friction is the same again, m",
+       false},
       {"seed", "seed of all random numbers, 0 to 2^64 - 1", true},
       {"trials", "trials at each design point", true},
       {"rigs",
@@ -55,6 +61,11 @@ std::span<const GeneralKey> general_keys() {
        false},
       {"observed", "what was observed on the real rig, by case or point label", false},
       {"sweep", "design points: grid (product of lists), cases (named), or both (product)", false},
+      {"controller.units",
+       "unit of kp, ki and kd, of the coarse phase too: count (default), per count and sample; or si: N "
+       "m/rad, "
+       "N m/(rad s) and N m s/rad, the same control at any sample rate",
+       false},
       {"command.sequence.cycles", "how often a sequence goes to its targets (default 5)", false},
       {"command.sequence.approach",
        "from where a sequence goes to its targets: bidirectional (default: from both sides), positive (from "

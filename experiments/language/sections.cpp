@@ -61,8 +61,9 @@ void read_approach(SectionReading& s, const Field& field, SequenceCycle& cycle) 
   }
 }
 
-// The keys of sections that are no parameters.
+// The keys of sections that are no parameters. controller.units is read before all values.
 void read_general_key(SectionReading& s, const Field& field) {
+  if (!s.plan().sequence) return;
   SequenceCycle& cycle = s.plan().sequence.value();
   if (field.path == "command.sequence.approach") {
     read_approach(s, field, cycle);
@@ -105,8 +106,10 @@ void take_defaults(SectionReading& s) {
   s.places.written.resize(slots, false);
   const auto table = parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
+    const bool known = has_default(table[row]) && exists_on(table[row], s.plan().units.axis);
     s.plan().base[row] = unreadable_value();
-    if (has_default(table[row])) s.plan().base[row].number = default_value(table[row]);
+    if (known) s.plan().base[row].number = default_value(table[row]);
+    if (table[row].only_on && !known) s.plan().base[row].number = 0.0;
   }
 }
 

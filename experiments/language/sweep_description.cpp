@@ -25,12 +25,12 @@ std::vector<std::string> label_points(const std::vector<SweptAxis>& axes) {
 
 namespace {
 
-SweepAxis empty_axis(std::size_t slot, const ListedValues& list, std::size_t points) {
-  const Parameter& parameter = parameter_table()[row_of_slot(slot, list)];
+SweepAxis empty_axis(std::size_t slot, const StudyPlan& plan, std::size_t points) {
+  const Parameter& parameter = parameter_table()[row_of_slot(slot, plan.list)];
   SweepAxis axis;
-  axis.name = slot_name(slot, list);
-  axis.unit = parameter.unit;
-  axis.meaning = parameter.meaning;
+  axis.name = slot_name(slot, plan.list);
+  axis.unit = unit_of(parameter, plan.units);
+  axis.meaning = meaning_of(parameter, plan.units);
   if (has_words(parameter)) {
     axis.kind = SweepAxis::Kind::text;
     axis.unit.clear();
@@ -69,7 +69,7 @@ std::vector<SweepAxis> describe_axes(const std::vector<SweptAxis>& axes, const S
     }
     for (const std::size_t slot : axes[a].slots) {
       if (!shown.insert(slot).second) continue;  // swept by the cases and by the grid
-      SweepAxis axis = empty_axis(slot, plan.list, points);
+      SweepAxis axis = empty_axis(slot, plan, points);
       for (std::size_t point = 0; point < points; ++point)
         append_value(axis, slot, *value_at_point(plan, slot, point));
       described.push_back(std::move(axis));

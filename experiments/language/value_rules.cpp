@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "experiments/language/command_rules.hpp"
+#include "experiments/parameters/parameter_table.hpp"
 
 namespace zerocount {
 namespace {
@@ -47,17 +48,21 @@ double largest_magnitude(const ValueLimits& limits) {
   return std::max(std::abs(limits.low), std::abs(limits.high));
 }
 
-std::vector<ValueRule> rules_of_the_start() {
+std::vector<ValueRule> rules_of_the_start(const std::string& torque_unit) {
   return {
-      {{"initial.preload", "friction.breakaway"}, false, without_list([](Limits l) -> Faults {
+      {{"initial.preload", "friction.breakaway"}, false, without_list([torque_unit](Limits l) -> Faults {
          const double torque = largest_magnitude(l[0]);
          if (torque < l[1].low || torque == 0.0) return {};
-         return {{fmt::format("a preload of {} N m can reach the breakaway of {} N m", torque, l[1].low),
+         return {{fmt::format("a preload of {} {} can reach the breakaway of {} {}", torque, torque_unit,
+                              l[1].low, torque_unit),
                   "|initial.preload| below friction.breakaway"}};
        })},
-      {{"initial.history.torque", "friction.breakaway"}, false, without_list([](Limits l) -> Faults {
+      {{"initial.history.torque", "friction.breakaway"},
+       false,
+       without_list([torque_unit](Limits l) -> Faults {
          if (l[0].high < l[1].low || l[0].high == 0.0) return {};
-         return {{fmt::format("a history of {} N m can reach the breakaway of {} N m", l[0].high, l[1].low),
+         return {{fmt::format("a history of {} {} can reach the breakaway of {} {}", l[0].high, torque_unit,
+                              l[1].low, torque_unit),
                   "initial.history.torque below friction.breakaway"}};
        })},
       {{"initial.velocity", "initial.mode", "friction.model"}, false, without_list([](Limits l) -> Faults {
@@ -94,12 +99,15 @@ ValueRule stop_with_two_phases() {
           true};
 }
 
-std::vector<ValueRule> rules_of_two_phases() {
+std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
   return {
       stop_with_two_phases(),
-      {{"controller.kd", "controller.coarse.coarse_beyond"}, false, without_list([](Limits l) -> Faults {
+      {{"controller.kd", "controller.coarse.coarse_beyond"},
+       false,
+       without_list([derivative_unit](Limits l) -> Faults {
          if (!can_have_coarse_phase(l[1]) || l[0].high == 0.0) return {};
-         return {{fmt::format("{} N m/count can act in the fine phase of a control with two", l[0].high),
+         return {{fmt::format("{} {} can act in the fine phase of a control with two", l[0].high,
+                              derivative_unit),
                   "0 where there is a coarse phase: the derivative belongs to it alone "
                   "(controller.coarse.kd)"}};
        })},
@@ -122,8 +130,9 @@ std::vector<ValueRule> value_rules(const StudyPlan& plan) {
     rules.insert(rules.end(), more.begin(), more.end());
   };
   add(command_rules(plan));
-  add(rules_of_the_start());
-  if (!plan.open_loop) add(rules_of_two_phases());
+  add(rules_of_the_start(unit_on(plan.units.axis, "N m")));
+  static const Parameter& kd = parameter_table()[find_parameter("controller.kd").value()];
+  if (!plan.open_loop) add(rules_of_two_phases(unit_of(kd, plan.units)));
   if (plan.sequence) add({no_stop_in_a_sequence()});
   return rules;
 }

@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::string_view profile_name = "profile";
 
-std::string expected_of(const Parameter& parameter) {
+std::string expected_of(const Parameter& parameter, const StudyUnits& units) {
   if (has_words(parameter)) return fmt::format("one of {}", fmt::join(parameter.words, ", "));
-  const std::string words = in_words(parameter.range);
+  const std::string words = in_words(range_of(parameter, units));
   const std::string noun = parameter.kind == ParameterKind::whole_number ? "whole numbers" : "numbers";
   return words.rfind("any", 0) == 0 ? "finite " + noun + " only" : noun + " " + words + " only";
 }
@@ -42,13 +42,14 @@ Value read_word(const Field& field, const Parameter& parameter, Problems& proble
   return unreadable_value();
 }
 
-Value read_number(const Field& field, const Parameter& parameter, Problems& problems) {
+Value read_number(const Field& field, const Parameter& parameter, Reading& reading) {
+  Problems& problems = reading.problems;
   if (parameter.kind == ParameterKind::whole_number) {
     const auto whole = read_whole(field, static_cast<std::int64_t>(parameter.range.low),
                                   static_cast<std::int64_t>(parameter.range.high), problems);
     return whole ? number_value(static_cast<double>(*whole)) : unreadable_value();
   }
-  const auto real = read_real(field, parameter.range, problems);
+  const auto real = read_real(field, range_of(parameter, reading.plan.units), problems);
   return real ? number_value(*real) : unreadable_value();
 }
 
@@ -62,20 +63,20 @@ bool extremes_are_inside(const Distribution& distribution, const Interval& range
   }
 }
 
-bool check_support(const Field& field, const Parameter& parameter, const Interval& values,
-                   Problems& problems) {
-  if (contains(parameter.range, values)) return true;
-  problems.add(
+bool check_support(const Field& field, const Parameter& parameter, const Interval& values, Reading& reading) {
+  const Interval range = range_of(parameter, reading.plan.units);
+  if (contains(range, values)) return true;
+  reading.problems.add(
       field.node->place, field.path,
-      fmt::format("its values {} leave the range allowed {}", notation(values), notation(parameter.range)),
-      expected_of(parameter));
+      fmt::format("its values {} leave the range allowed {}", notation(values), notation(range)),
+      expected_of(parameter, reading.plan.units));
   return false;
 }
 
 Value read_drawn(const DistributionForm& form, const Field& field, const Parameter& parameter,
                  Reading& reading) {
   const auto distribution = read_distribution(form, field, reading.problems);
-  if (!distribution || !check_support(field, parameter, support(*distribution), reading.problems)) {
+  if (!distribution || !check_support(field, parameter, support(*distribution), reading)) {
     return unreadable_value();
   }
   if (parameter.kind == ParameterKind::whole_number && !whole_numbers_only(*distribution)) {
@@ -83,10 +84,10 @@ Value read_drawn(const DistributionForm& form, const Field& field, const Paramet
                          "integers, or a choice of whole numbers");
     return unreadable_value();
   }
-  if (!extremes_are_inside(*distribution, parameter.range)) {
+  if (!extremes_are_inside(*distribution, range_of(parameter, reading.plan.units))) {
     reading.problems.add(field.node->place, field.path,
                          "its extreme values are too large or too small for a double",
-                         expected_of(parameter));
+                         expected_of(parameter, reading.plan.units));
     return unreadable_value();
   }
   reading.plan.distributions.push_back(*distribution);
@@ -98,11 +99,18 @@ Value read_profile_value(const Field& field, std::size_t row, Reading& reading) 
   const Parameter& parameter = parameter_table()[row];
   constexpr std::size_t most_profiles = 1000;
   if (parameter.profiled == nullptr) {
-    reading.problems.add(field.node->place, field.path, "this parameter does not vary along the rotor",
+    reading.problems.add(field.node->place, field.path,
+                         text_on(reading.plan.units.axis, "this parameter does not vary along the rotor"),
                          "a number or a distribution other than profile");
     return unreadable_value();
   }
-  const auto description = read_profile(field, reading.problems);
+  if (!reading.plan.period) {
+    reading.problems.add(field.node->place, field.path,
+                         "the profile of a linear axis needs the key travel, its period",
+                         "travel: the length in m after which friction is the same again");
+    return unreadable_value();
+  }
+  const auto description = read_profile(field, *reading.plan.period, reading.problems);
   if (!description) return unreadable_value();
   if (reading.profiles.size() == most_profiles) {
     reading.problems.add(field.node->place, field.path, "there are too many profiles",
@@ -135,6 +143,17 @@ Value read_map(const Field& field, std::size_t row, Reading& reading) {
   return unreadable_value();
 }
 
+// Reports a parameter that only the other kind of axis has.
+bool check_exists(const Field& field, const Parameter& parameter, Reading& reading) {
+  const AxisKind axis = reading.plan.units.axis;
+  if (exists_on(parameter, axis)) return true;
+  reading.problems.add(
+      field.node->place, field.path,
+      fmt::format("a {} axis does not have it", axis_words()[static_cast<std::size_t>(axis)]),
+      parameter.instead);
+  return false;
+}
+
 }  // namespace
 
 void check_profiles(const Reading& reading) {
@@ -147,10 +166,10 @@ void check_profiles(const Reading& reading) {
     if (contains(parameter.range, closed(values.low, values.high))) continue;
     reading.problems.add(
         request.place, request.path,
-        fmt::format("its values along the rotor, {:.6g} to {:.6g} with this seed, leave the range "
-                    "allowed {}",
-                    values.low, values.high, notation(parameter.range)),
-        expected_of(parameter));
+        fmt::format("its values {}, {:.6g} to {:.6g} with this seed, leave the range allowed {}",
+                    text_on(reading.plan.units.axis, "along the rotor"), values.low, values.high,
+                    notation(parameter.range)),
+        expected_of(parameter, reading.plan.units));
   }
 }
 
@@ -160,19 +179,21 @@ Value unreadable_value() {
 
 Value read_value(const Field& field, std::size_t row, Reading& reading) {
   const Parameter& parameter = parameter_table()[row];
+  if (!check_exists(field, parameter, reading)) return unreadable_value();
   if (parameter.kind == ParameterKind::truth) return read_truth_value(field, reading.problems);
   if (parameter.kind == ParameterKind::enumeration) return read_word(field, parameter, reading.problems);
   if (field.node->kind == YamlNode::Kind::map) return read_map(field, row, reading);
-  return read_number(field, parameter, reading.problems);
+  return read_number(field, parameter, reading);
 }
 
 Value checked_number(const Field& field, std::size_t row, double number, Reading& reading) {
   const Parameter& parameter = parameter_table()[row];
+  if (!check_exists(field, parameter, reading)) return unreadable_value();
   const bool fits = parameter.kind == ParameterKind::real ||
                     (parameter.kind == ParameterKind::whole_number && number == std::trunc(number));
-  if (fits && contains(parameter.range, number)) return number_value(number);
+  if (fits && contains(range_of(parameter, reading.plan.units), number)) return number_value(number);
   reading.problems.add(field.node->place, field.path, fmt::format("the value {} is not allowed", number),
-                       expected_of(parameter));
+                       expected_of(parameter, reading.plan.units));
   return unreadable_value();
 }
 

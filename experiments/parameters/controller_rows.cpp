@@ -1,7 +1,6 @@
 #include "experiments/parameters/parameter_rows.hpp"
 
 namespace zerocount {
-
 std::vector<Parameter> controller_rows() {
   constexpr std::string_view integral_alone = "paper, section 4 (integral control alone)";
   return {
@@ -10,15 +9,19 @@ std::vector<Parameter> controller_rows() {
                    20),
           [](auto& p) -> auto& { return p.controller.sample_rate; }),
       stored_at(
-          real_row("controller.kp", "N m/count", "proportional gain", integral_alone, closed(0, 1e6), 21),
+          in_si(
+              real_row("controller.kp", "N m/count", "proportional gain", integral_alone, closed(0, 1e6), 21),
+              "N m/rad", "proportional gain"),
           [](auto& p) -> auto& { return p.controller.kp; }),
       stored_at(
-          real_row("controller.ki", "N m/count", "integral gain k_ID of the trapezoidal rule",
-                   "paper, section 4 (a)", closed(0, 1e6), 22),
+          in_si(real_row("controller.ki", "N m/count", "integral gain k_ID of the trapezoidal rule",
+                         "paper, section 4 (a)", closed(0, 1e6), 22),
+                "N m/(rad s)", "integral gain"),
           [](auto& p) -> auto& { return p.controller.ki; }),
       stored_at(
-          real_row("controller.kd", "N m/count", "gain on the difference of successive counts",
-                   integral_alone, closed(0, 1e6), 23),
+          in_si(real_row("controller.kd", "N m/count", "gain on the difference of successive counts",
+                         integral_alone, closed(0, 1e6), 23),
+                "N m s/rad", "derivative gain"),
           [](auto& p) -> auto& { return p.controller.kd; }),
       stored_at(
           whole_row("controller.delay", "sample", "samples between deciding a torque and applying it",
@@ -34,17 +37,20 @@ std::vector<Parameter> controller_rows() {
           [](auto& p) -> auto& { return p.controller.encoder; }),
 
       stored_at(
-          real_row("controller.coarse.kp", "N m/count", "proportional gain of the coarse phase", assumed,
-                   closed(0, 1e6), 46),
+          in_si(real_row("controller.coarse.kp", "N m/count", "proportional gain of the coarse phase",
+                         assumed, closed(0, 1e6), 46),
+                "N m/rad", "proportional gain of the coarse phase"),
           [](auto& p) -> auto& { return p.controller.coarse.kp; }),
       stored_at(
-          real_row("controller.coarse.ki", "N m/count", "integral gain of the coarse phase", assumed,
-                   closed(0, 1e6), 47),
+          in_si(real_row("controller.coarse.ki", "N m/count", "integral gain of the coarse phase", assumed,
+                         closed(0, 1e6), 47),
+                "N m/(rad s)", "integral gain of the coarse phase"),
           [](auto& p) -> auto& { return p.controller.coarse.ki; }),
       stored_at(
-          real_row("controller.coarse.kd", "N m/count",
-                   "gain of the coarse phase on the difference of successive counts", assumed, closed(0, 1e6),
-                   48),
+          in_si(real_row("controller.coarse.kd", "N m/count",
+                         "gain of the coarse phase on the difference of successive counts", assumed,
+                         closed(0, 1e6), 48),
+                "N m s/rad", "derivative gain of the coarse phase"),
           [](auto& p) -> auto& { return p.controller.coarse.kd; }),
       stored_at(
           word_row("controller.coarse.encoder", "encoder that closes the loop in the coarse phase", assumed,

@@ -3,6 +3,8 @@
 namespace zerocount {
 namespace {
 
+constexpr std::string_view no_disc = "the key left out: eccentricity is an error of an encoder's disc";
+
 constexpr std::string_view eccentricity = "amplitude of the error that comes back once per revolution";
 constexpr std::string_view eccentricity_angle = "angle on the rotor at which that error rises through zero";
 constexpr std::string_view interpolation =
@@ -16,22 +18,37 @@ constexpr std::string_view missed = "probability that a count that is passed is 
 
 std::vector<Parameter> encoder_rows() {
   return {
-      stored_at(
-          whole_row("encoder.fine", "count/rev", "counts per revolution of the fine encoder",
-                    "paper, section 2", closed(1, largest_count), 16),
-          [](auto& p) -> auto& { return p.encoder.fine; }),
-      stored_at(
-          whole_row("encoder.coarse", "count/rev", "counts per revolution of the coarse encoder",
-                    "paper, section 2", closed(1, largest_count), 17),
-          [](auto& p) -> auto& { return p.encoder.coarse; }),
+      only_on(AxisKind::rotary, "encoder.resolution, m per count",
+              stored_at(
+                  whole_row("encoder.fine", "count/rev", "counts per revolution of the fine encoder",
+                            "paper, section 2", closed(1, largest_count), 16),
+                  [](auto& p) -> auto& { return p.encoder.fine; })),
+      only_on(AxisKind::rotary, "encoder.coarse_resolution, m per count",
+              stored_at(
+                  whole_row("encoder.coarse", "count/rev", "counts per revolution of the coarse encoder",
+                            "paper, section 2", closed(1, largest_count), 17),
+                  [](auto& p) -> auto& { return p.encoder.coarse; })),
+      only_on(AxisKind::linear, "encoder.fine, counts per revolution",
+              without_default(stored_at(
+                  real_row("encoder.resolution", "m/count", "length of a count of the fine encoder",
+                           "required", above(0), first_sobol_dimension_beyond_moves + 7),
+                  [](auto& p) -> auto& { return p.encoder.fine_length; }))),
+      only_on(AxisKind::linear, "encoder.coarse, counts per revolution",
+              without_default(stored_at(
+                  real_row("encoder.coarse_resolution", "m/count",
+                           "length of a count of the coarse encoder; left out, that of the fine one",
+                           "required", above(0), first_sobol_dimension_beyond_moves + 8),
+                  [](auto& p) -> auto& { return p.encoder.coarse_length; }))),
 
-      stored_at(
-          real_row("encoder.fine_errors.eccentricity", "rad", eccentricity, assumed, at_least(0), 29),
-          [](auto& p) -> auto& { return p.encoder.fine_errors.eccentricity; }),
-      stored_at(
-          real_row("encoder.fine_errors.eccentricity_angle", "rad", eccentricity_angle, assumed,
-                   all_numbers(), 30),
-          [](auto& p) -> auto& { return p.encoder.fine_errors.eccentricity_angle; }),
+      only_on(AxisKind::rotary, no_disc,
+              stored_at(
+                  real_row("encoder.fine_errors.eccentricity", "rad", eccentricity, assumed, at_least(0), 29),
+                  [](auto& p) -> auto& { return p.encoder.fine_errors.eccentricity; })),
+      only_on(AxisKind::rotary, no_disc,
+              stored_at(
+                  real_row("encoder.fine_errors.eccentricity_angle", "rad", eccentricity_angle, assumed,
+                           all_numbers(), 30),
+                  [](auto& p) -> auto& { return p.encoder.fine_errors.eccentricity_angle; })),
       stored_at(
           real_row("encoder.fine_errors.interpolation", "count", interpolation, assumed, at_least(0), 31),
           [](auto& p) -> auto& { return p.encoder.fine_errors.interpolation; }),
@@ -46,13 +63,16 @@ std::vector<Parameter> encoder_rows() {
           real_row("encoder.fine_errors.missed", "1", missed, assumed, closed(0, 1), 34),
           [](auto& p) -> auto& { return p.encoder.fine_errors.missed; }),
 
-      stored_at(
-          real_row("encoder.coarse_errors.eccentricity", "rad", eccentricity, assumed, at_least(0), 35),
-          [](auto& p) -> auto& { return p.encoder.coarse_errors.eccentricity; }),
-      stored_at(
-          real_row("encoder.coarse_errors.eccentricity_angle", "rad", eccentricity_angle, assumed,
-                   all_numbers(), 36),
-          [](auto& p) -> auto& { return p.encoder.coarse_errors.eccentricity_angle; }),
+      only_on(
+          AxisKind::rotary, no_disc,
+          stored_at(
+              real_row("encoder.coarse_errors.eccentricity", "rad", eccentricity, assumed, at_least(0), 35),
+              [](auto& p) -> auto& { return p.encoder.coarse_errors.eccentricity; })),
+      only_on(AxisKind::rotary, no_disc,
+              stored_at(
+                  real_row("encoder.coarse_errors.eccentricity_angle", "rad", eccentricity_angle, assumed,
+                           all_numbers(), 36),
+                  [](auto& p) -> auto& { return p.encoder.coarse_errors.eccentricity_angle; })),
       stored_at(
           real_row("encoder.coarse_errors.interpolation", "count", interpolation, assumed, at_least(0), 37),
           [](auto& p) -> auto& { return p.encoder.coarse_errors.interpolation; }),

@@ -23,24 +23,26 @@ struct Listing {
   std::vector<Row> rows;
 };
 
-std::string allowed(const Parameter& parameter) {
+std::string allowed(const Parameter& parameter, const StudyUnits& units) {
   if (has_words(parameter)) return fmt::format("{}", fmt::join(parameter.words, " | "));
-  return (parameter.kind == ParameterKind::whole_number ? "whole, " : "") + notation(parameter.range);
+  return (parameter.kind == ParameterKind::whole_number ? "whole, " : "") +
+         notation(range_of(parameter, units));
 }
 
-Listing parameter_listing() {
+Listing parameter_listing(const StudyUnits& units) {
   Listing listing{"Parameters (left out of a manifest, they take their defaults)",
                   {"name", "unit", "default", "allowed", "source of the default", "meaning"},
                   {}};
   for (const Parameter& p : parameter_table()) {
-    const std::string meaning = std::string(p.meaning) + (p.profiled != nullptr ? " [profile allowed]" : "");
-    listing.rows.push_back({std::string(p.name), std::string(p.unit), default_text(p), allowed(p),
-                            has_default(p) ? std::string(p.source) : "-", meaning});
+    if (!exists_on(p, units.axis)) continue;
+    const std::string meaning = meaning_of(p, units) + (p.profiled != nullptr ? " [profile allowed]" : "");
+    listing.rows.push_back({std::string(p.name), unit_of(p, units), default_text(p, units), allowed(p, units),
+                            default_holds(p, units) ? std::string(p.source) : "-", meaning});
   }
   return listing;
 }
 
-Listing distribution_listing() {
+Listing distribution_listing(const StudyUnits& units) {
   Listing listing{"Distributions (in the place of any number)", {"name", "written", "meaning"}, {}};
   for (const DistributionForm& form : distribution_forms()) {
     listing.rows.push_back({std::string(form.name), fmt::format("{{{}: {}}}", form.name, form.shown),
@@ -48,8 +50,10 @@ Listing distribution_listing() {
   }
   listing.rows.push_back(
       {"profile", "{profile: {mean, cv, correlation_length, marginal}}",
-       "friction along the rotor: a periodic random field; correlation_length in rad, marginal "
-       "normal or lognormal (default)"});
+       text_on(units.axis, "friction along the rotor") +
+           fmt::format(": a periodic random field; correlation_length in {}, marginal normal or lognormal "
+                       "(default)",
+                       unit_on(units.axis, "rad"))});
   return listing;
 }
 
@@ -61,8 +65,8 @@ Listing key_listing() {
   return listing;
 }
 
-std::array<Listing, 3> listings() {
-  return {parameter_listing(), distribution_listing(), key_listing()};
+std::array<Listing, 3> listings(const StudyUnits& units) {
+  return {parameter_listing(units), distribution_listing(units), key_listing()};
 }
 
 std::string as_text(const Listing& listing) {
@@ -99,15 +103,15 @@ std::string as_markdown(const Listing& listing) {
 
 }  // namespace
 
-std::string parameters_as_text() {
+std::string parameters_as_text(const StudyUnits& units) {
   std::string text;
-  for (const Listing& listing : listings()) text += as_text(listing);
+  for (const Listing& listing : listings(units)) text += as_text(listing);
   return text;
 }
 
-std::string parameters_as_markdown() {
+std::string parameters_as_markdown(const StudyUnits& units) {
   std::string text;
-  for (const Listing& listing : listings()) text += as_markdown(listing);
+  for (const Listing& listing : listings(units)) text += as_markdown(listing);
   return text;
 }
 

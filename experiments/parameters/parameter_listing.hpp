@@ -2,13 +2,15 @@
 
 #include <string>
 
+#include "experiments/parameters/study_units.hpp"
+
 namespace zerocount {
 
 /// The table of parameters for a terminal: sections, and of every parameter its name, unit, default, range,
-/// source and meaning; then the distributions and the other keys of a manifest.
-std::string parameters_as_text();
+/// source and meaning, as they are in these units; then the distributions and the other keys of a manifest.
+std::string parameters_as_text(const StudyUnits& units = {});
 
 /// The same as Markdown tables.
-std::string parameters_as_markdown();
+std::string parameters_as_markdown(const StudyUnits& units = {});
 
 }  // namespace zerocount

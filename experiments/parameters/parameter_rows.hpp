@@ -10,8 +10,8 @@
 namespace zerocount {
 
 // The rows of the table of parameters, section by section. A new row of numbers takes the next free Sobol
-// dimension: 63, then those beyond the moves'. A word is never drawn: a new one takes its dimension beyond
-// the moves', the next of which is 7 more than the first.
+// dimension, those beyond the moves'. A word is never drawn: a new one takes its dimension beyond
+// the moves', the next of which is 9 more than the first.
 
 std::vector<Parameter> plant_rows();
 std::vector<Parameter> friction_rows();
@@ -61,6 +61,26 @@ Parameter stored_at(Parameter row, At) {
     auto& field = At{}(parameters);
     field = static_cast<std::remove_reference_t<decltype(field)>>(value);
   };
+  return row;
+}
+
+/// A row that has a place in the trial's parameters, and must be given where it has a meaning.
+inline Parameter without_default(Parameter row) {
+  row.get = nullptr;
+  return row;
+}
+
+/// A gain: with controller.units: si it has this unit and meaning.
+inline Parameter in_si(Parameter row, std::string_view unit, std::string_view meaning) {
+  row.si_unit = unit;
+  row.si_meaning = meaning;
+  return row;
+}
+
+/// A row that only one kind of axis has. @param instead what to give on the other.
+inline Parameter only_on(AxisKind axis, std::string_view instead, Parameter row) {
+  row.only_on = axis;
+  row.instead = instead;
   return row;
 }
 

@@ -10,6 +10,9 @@
 namespace zerocount {
 namespace {
 
+/// Far beyond any machine's, and far from the ends of a double.
+constexpr double largest_si_gain = 1e15;
+
 std::vector<Parameter> make_table() {
   std::vector<Parameter> table;
   for (const auto& rows : {plant_rows, friction_rows, encoder_rows, drive_rows, controller_rows, command_rows,
@@ -39,8 +42,28 @@ double default_value(const Parameter& parameter) {
   return parameter.get(TrialParameters{});
 }
 
-std::string default_text(const Parameter& parameter) {
-  if (!has_default(parameter)) return "none";
+std::string unit_of(const Parameter& parameter, const StudyUnits& units) {
+  const bool si = units.gains == GainUnits::si && !parameter.si_unit.empty();
+  return unit_on(units.axis, si ? parameter.si_unit : parameter.unit);
+}
+
+Interval range_of(const Parameter& parameter, const StudyUnits& units) {
+  const bool si = units.gains == GainUnits::si && !parameter.si_unit.empty();
+  return si ? closed(0.0, largest_si_gain) : parameter.range;
+}
+
+std::string meaning_of(const Parameter& parameter, const StudyUnits& units) {
+  const bool si = units.gains == GainUnits::si && !parameter.si_meaning.empty();
+  return text_on(units.axis, si ? parameter.si_meaning : parameter.meaning);
+}
+
+bool default_holds(const Parameter& parameter, const StudyUnits& units) {
+  if (!has_default(parameter) || has_words(parameter)) return has_default(parameter);
+  return default_value(parameter) == 0.0 || unit_of(parameter, units) == parameter.unit;
+}
+
+std::string default_text(const Parameter& parameter, const StudyUnits& units) {
+  if (!default_holds(parameter, units)) return "none";
   const double value = default_value(parameter);
   if (has_words(parameter)) {
     return std::string(parameter.words[static_cast<std::size_t>(value)]);

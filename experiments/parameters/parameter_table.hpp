@@ -9,6 +9,7 @@
 
 #include "core/trial/parameters.hpp"
 #include "experiments/parameters/interval.hpp"
+#include "experiments/parameters/study_units.hpp"
 
 namespace zerocount {
 
@@ -17,7 +18,8 @@ enum class ParameterKind { real, whole_number, enumeration, truth };
 /// One row of the table of parameters: all that the project knows of one of a trial's parameters.
 struct Parameter {
   std::string_view name;  ///< dotted path in the manifest: "plant.inertia", "controller.coarse.kp"
-  std::string_view unit;  ///< "1" where dimensionless
+  std::string_view
+      unit;  ///< on a rotary axis, of a gain with controller.units: count; "1" where dimensionless
   std::string_view meaning;
   std::string_view source;  ///< of the default: a place in the paper, or "assumed"
   ParameterKind kind{ParameterKind::real};
@@ -25,6 +27,10 @@ struct Parameter {
   std::vector<std::string_view> words;  ///< of an enumeration or a truth value, in the order of its numbers
   std::size_t sobol_dimension{0};       ///< fixed for ever, so that a new row changes no other's draws
   double FrictionParameters::*profiled{nullptr};  ///< where a profile goes; null where none is allowed
+  std::string_view si_unit{};         ///< of a gain with controller.units: si; empty for other parameters
+  std::string_view si_meaning{};      ///< likewise
+  std::optional<AxisKind> only_on{};  ///< the kind of axis that has the parameter; none where both have
+  std::string_view instead{};         ///< what to give on the other kind, for messages
   bool listed{false};  ///< a list of values: one way to say what the moves go to; a study uses one of them
   double (*get)(const TrialParameters&){nullptr};        ///< null where the trial has no field for it alone
   void (*set)(TrialParameters&, double value){nullptr};  ///< likewise
@@ -56,10 +62,28 @@ inline bool has_words(const Parameter& parameter) {
   return !parameter.words.empty();
 }
 
+/// Whether an axis of this kind has the parameter.
+inline bool exists_on(const Parameter& parameter, AxisKind axis) {
+  return !parameter.only_on || *parameter.only_on == axis;
+}
+
+/// Its unit in a study; "1" where dimensionless.
+std::string unit_of(const Parameter& parameter, const StudyUnits& units);
+
+/// The values allowed in a study. A gain in SI units has room for the finest encoder and the shortest sample.
+Interval range_of(const Parameter& parameter, const StudyUnits& units);
+
+/// Its meaning in the words of a study.
+std::string meaning_of(const Parameter& parameter, const StudyUnits& units);
+
+/// Whether the default is one in these units: that of a rotary rig, N m/rad say, says nothing of a linear
+/// axis.
+bool default_holds(const Parameter& parameter, const StudyUnits& units);
+
 /// Default value, from the core's own structs; where it is a word, the number of it.
 double default_value(const Parameter& parameter);
 
 /// The default as it would be written in a manifest; "none" where there is none.
-std::string default_text(const Parameter& parameter);
+std::string default_text(const Parameter& parameter, const StudyUnits& units = {});
 
 }  // namespace zerocount

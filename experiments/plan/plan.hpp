@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "core/trial/parameters.hpp"
 #include "experiments/designs/sobol.hpp"
 #include "experiments/distributions/distribution.hpp"
+#include "experiments/parameters/study_units.hpp"
 #include "experiments/plan/sequence.hpp"
 
 namespace zerocount {
@@ -67,6 +69,9 @@ inline std::size_t factor_count(const TrialFactors& factors) {
 }
 
 struct StudyPlan {
+  StudyUnits units;
+  /// Of profiles, rad or m: a revolution; on a linear axis the travel, none where it is not given.
+  std::optional<double> period{2.0 * std::numbers::pi};
   ListedValues list;
   bool open_loop{false};                  ///< the list is one of torque levels
   std::optional<SequenceCycle> sequence;  ///< where the list is that of a sequence

@@ -67,12 +67,13 @@ void set_common_parameters(const Study& study, StudyPlan& plan) {
   for (const Value& value : plan.base) plan.numbers.push_back(value.number);
   const std::set<std::size_t> inputs(plan.input_slots.begin(), plan.input_slots.end());
   for (const std::size_t slot : slots_in_table_order(plan.list)) {
+    if (!exists_on(parameter_table()[row_of_slot(slot, plan.list)], plan.units.axis)) continue;
     if (inputs.count(slot) == 0) set_number(plan, slot, plan.numbers[slot], plan.common);
   }
 }
 
-std::string column_meaning(const Parameter& parameter) {
-  std::string meaning(parameter.meaning);
+std::string column_meaning(const Parameter& parameter, const StudyUnits& units) {
+  std::string meaning = meaning_of(parameter, units);
   for (std::size_t i = 0; i < parameter.words.size(); ++i) {
     meaning += fmt::format("{}{} {}", i == 0 ? " (" : ", ", i, parameter.words[i]);
   }
@@ -84,7 +85,7 @@ void list_input_columns(const std::vector<bool>& swept, StudyPlan& plan, Study& 
     if (plan.base[slot].kind == Value::Kind::number && !swept[slot]) continue;
     const Parameter& parameter = parameter_table()[row_of_slot(slot, plan.list)];
     study.input_columns.push_back(
-        {slot_name(slot, plan.list), std::string(parameter.unit), column_meaning(parameter)});
+        {slot_name(slot, plan.list), unit_of(parameter, plan.units), column_meaning(parameter, plan.units)});
     plan.input_slots.push_back(static_cast<std::uint32_t>(slot));
   }
 }
@@ -111,7 +112,7 @@ void list_profiles(const std::vector<ProfileRequest>& requests, const std::vecto
     for (const auto& [index, point] : used) {
       const std::string suffix = used.size() > 1 ? fmt::format("@{}", point) : "";
       study.profiles.push_back(
-          {std::string(table[row].name) + suffix, std::string(table[row].unit), plan.profiles[index]});
+          {std::string(table[row].name) + suffix, unit_of(table[row], plan.units), plan.profiles[index]});
     }
   }
 }
@@ -129,6 +130,8 @@ void assemble_study(const std::vector<ProfileRequest>& requests, const std::vect
                     StudyPlan& plan, Study& study) {
   const auto listed = static_cast<std::int64_t>(plan.list.count);
   if (plan.sequence) study.sequence = sequence_moves(*plan.sequence, listed);
+  study.units = plan.units;
+  study.period = plan.period.value_or(study.period);
   study.moves = plan.sequence ? std::ssize(study.sequence) : listed;
   study.open_loop = plan.open_loop;
   study.point_labels = label_points(axes);

@@ -7,6 +7,7 @@
 #include "experiments/designs/saltelli.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/plan/plan.hpp"
+#include "experiments/plan/trial_completion.hpp"
 #include "experiments/study.hpp"
 
 namespace zerocount {
@@ -60,7 +61,7 @@ void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
 
 }  // namespace
 
-StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index) {
+StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index) {
   check_exists(study, point, index);
   const StudyPlan& plan = *study.plan;
   const std::uint32_t stream = study.independent_points ? static_cast<std::uint32_t>(point) + 1 : 0;
@@ -94,6 +95,12 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
   if (plan.sequence) set_sequence_targets(study, numbers, trial);
   trial.inputs.reserve(plan.input_slots.size());
   for (const std::uint32_t slot : plan.input_slots) trial.inputs.push_back(numbers[slot]);
+  return trial;
+}
+
+StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index) {
+  StudyTrial trial = study_trial_as_given(study, point, index);
+  complete_trial(study.units, trial.parameters);
   return trial;
 }
 

@@ -129,6 +129,13 @@ Table trace_table(const TraceExtras& extras);
 Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn>& columns);
 Table profile_table(const std::string& name, const std::string& unit);
 
+/// The table with the units and long names that its columns have on an axis of this kind. The tables above
+/// have those of a rotary axis, but for what is a study's own: its sweep, its inputs and its profiles'
+/// values.
+Table on_axis(Table table, AxisKind axis);
+/// The same of one column.
+PointColumn on_axis(PointColumn column, AxisKind axis);
+
 /// Name in /trial of the column of an input parameter.
 std::string input_column_name(const std::string& parameter);
 

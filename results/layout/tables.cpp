@@ -95,6 +95,23 @@ Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn
   return table;
 }
 
+Table on_axis(Table table, AxisKind axis) {
+  const auto reword = [axis](Column& column) {
+    column.unit = unit_on(axis, column.unit);
+    column.long_name = text_on(axis, column.long_name);
+  };
+  reword(table.rows);
+  if (table.second) reword(*table.second);
+  for (Column& column : table.columns) reword(column);
+  return table;
+}
+
+PointColumn on_axis(PointColumn column, AxisKind axis) {
+  column.unit = unit_on(axis, column.unit);
+  column.long_name = text_on(axis, column.long_name);
+  return column;
+}
+
 Table profile_table(const std::string& name, const std::string& unit) {
   return {"profile/" + name,
           {"theta", "rad", "rotor angle from the origin of the profile", Element::float64, {}, {}},

@@ -27,9 +27,9 @@ void for_each_block(std::int64_t first, std::int64_t end, std::int64_t size,
 }
 
 template <class Record>
-void add_names(CsvFile& csv, const std::vector<RecordField<Record>>& fields) {
+void add_names(CsvFile& csv, const std::vector<RecordField<Record>>& fields, AxisKind axis) {
   for (const RecordField<Record>& field : fields)
-    csv.add(head_with_unit(field.column.name, field.column.unit));
+    csv.add(head_with_unit(field.column.name, unit_on(axis, field.column.unit)));
 }
 
 template <class Record>
@@ -98,7 +98,7 @@ void export_trials(const StudyFile& file, CsvFile& csv) {
 void export_outcomes(const StudyFile& file, CsvFile& csv) {
   csv.add("trial");
   csv.add("move");
-  add_names(csv, file.measures());
+  add_names(csv, file.measures(), file.axis());
   csv.end_row();
   const std::int64_t moves = file.moves();
   for_each_block(file.rows().first, file.rows().end(), chunk_rows(moves),
@@ -115,7 +115,7 @@ void export_outcomes(const StudyFile& file, CsvFile& csv) {
 }
 
 void export_jerks(const StudyFile& file, CsvFile& csv) {
-  add_names(csv, jerk_fields());
+  add_names(csv, jerk_fields(), file.axis());
   csv.end_row();
   for_each_block(0, file.jerk_count(), chunk_elements, [&](std::int64_t first, std::int64_t count) {
     for (const JerkRecord& jerk : file.jerks_at(first, count)) {
@@ -126,7 +126,11 @@ void export_jerks(const StudyFile& file, CsvFile& csv) {
 }
 
 void export_profiles(const StudyFile& file, CsvFile& csv) {
-  for (const char* head : {"profile", "theta [rad]", "value", "unit of value"}) csv.add(head);
+  const std::string theta = head_with_unit("theta", unit_on(file.axis(), "rad"));
+  for (const std::string& head :
+       {std::string("profile"), theta, std::string("value"), std::string("unit of value")}) {
+    csv.add(head);
+  }
   csv.end_row();
   for (const StoredProfile& profile : file.profiles()) {
     for (std::size_t i = 0; i < profile.theta.size(); ++i) {
@@ -141,7 +145,7 @@ void export_profiles(const StudyFile& file, CsvFile& csv) {
 
 void export_trace(const StudyFile& file, CsvFile& csv) {
   const std::vector<RecordField<TraceRecord>> fields = trace_fields(file.trace_extras());
-  add_names(csv, fields);
+  add_names(csv, fields, file.axis());
   csv.end_row();
   for_each_block(0, file.trace_count(), chunk_elements, [&](std::int64_t first, std::int64_t count) {
     for (const TraceRecord& record : file.trace_at(first, count)) {

@@ -42,6 +42,12 @@ std::vector<InputColumn> read_input_columns(const hdf5::File& file) {
   return inputs;
 }
 
+/// By the unit of a position.
+AxisKind read_axis(const hdf5::File& file) {
+  const std::string unit = file.open_group("outcome").open_dataset("final_position").text("units");
+  return unit == unit_on(AxisKind::linear, "rad") ? AxisKind::linear : AxisKind::rotary;
+}
+
 OutcomeExtras read_outcome_extras(const hdf5::File& file) {
   return {file.open_group("outcome").contains("stopped")};
 }
@@ -83,6 +89,7 @@ StudyFile::StudyFile(const std::filesystem::path& path, Require require)
     : path_(path),
       file_(open_results(path, require == Require::unfinished ? Seal::not_yet : Seal::required)),
       header_(read_required(file_, path, require)),
+      axis_(read_axis(file_)),
       inputs_(read_input_columns(file_)),
       trials_(TableIo::open(file_, trial_table(inputs_))),
       outcome_extras_(read_outcome_extras(file_)),

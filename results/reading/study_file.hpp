@@ -46,6 +46,7 @@ class StudyFile {
   const FileHeader& header() const { return header_; }
   const hdf5::Group& root() const { return file_; }  ///< for groups that this class does not know
   RowRange rows() const { return header_.rows; }
+  AxisKind axis() const { return axis_; }  ///< of a shard always rotary, whose units are those of the tables
   std::int64_t moves() const { return outcomes_.width(); }
 
   /// Empty in a shard, like axes, statistics and their tables.
@@ -97,6 +98,7 @@ class StudyFile {
   std::filesystem::path path_;
   hdf5::File file_;
   FileHeader header_;
+  AxisKind axis_;
   std::vector<InputColumn> inputs_;
   TableIo trials_;  ///< point, index, then one column per input
   OutcomeExtras outcome_extras_;

@@ -1,7 +1,6 @@
 #include "results/shards/merge.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -101,9 +100,10 @@ void write_profiles(hdf5::File& file, const Study& study) {
   std::vector<double> theta(profile_angles);
   std::vector<double> value(profile_angles);
   for (const RealisedProfile& realised : study.profiles) {
-    TableIo io = TableIo::create(file, profile_table(realised.name, realised.unit), profile_angles, 1);
+    TableIo io = TableIo::create(file, on_axis(profile_table(realised.name, realised.unit), study.units.axis),
+                                 profile_angles, 1);
     for (std::size_t i = 0; i < theta.size(); ++i) {
-      theta[i] = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(profile_angles);
+      theta[i] = study.period * static_cast<double>(i) / static_cast<double>(profile_angles);
       value[i] = value_at(*realised.profile, theta[i]);
     }
     io.row_scale().write(0, profile_angles, theta.data());
@@ -118,11 +118,13 @@ void write_trials_of(std::span<const ShardInfo> shards, const Study& study, cons
   write_header(file, make_header(study, FileKind::study, rows, provenance));
   write_points(file, study);
   concatenate(file, trial_table(study.input_columns), shards, 1, rows.first);
-  concatenate(file, outcome_table(format_version, study.outcome_extras), shards, study.moves, rows.first);
+  const AxisKind axis = study.units.axis;
+  concatenate(file, on_axis(outcome_table(format_version, study.outcome_extras), axis), shards, study.moves,
+              rows.first);
   concatenate(file, jerk_table(), shards, 1, 0, renumber);
   write_profiles(file, study);
   if (!study.retained_trials.empty()) {
-    concatenate(file, trace_table(study.trace_extras), shards, 1, 0, renumber);
+    concatenate(file, on_axis(trace_table(study.trace_extras), axis), shards, 1, 0, renumber);
   }
   file.close();
 }
@@ -130,7 +132,8 @@ void write_trials_of(std::span<const ShardInfo> shards, const Study& study, cons
 void write_statistics(const fs::path& part, const Study& study, const StoredStatistics& statistics) {
   hdf5::File file = hdf5::File::open_to_change(part);
   TableIo io = TableIo::open(file, point_table(study.axes, {}));
-  const Table described = point_table({}, statistics.points);
+  const AxisKind axis = study.units.axis;
+  const Table described = on_axis(point_table({}, statistics.points), axis);
   for (std::size_t index = 0; index < statistics.points.size(); ++index) {
     const PointColumn& statistic = statistics.points[index];
     if (std::ssize(statistic.values) != io.rows()) {
@@ -139,7 +142,10 @@ void write_statistics(const fs::path& part, const Study& study, const StoredStat
     }
     io.add(described.columns[1 + index]).write(0, io.rows(), statistic.values.data());
   }
-  for (const StatisticTable& table : statistics.tables) write_statistic_table(file, table, io.rows());
+  for (StatisticTable table : statistics.tables) {
+    for (PointColumn& column : table.columns) column = on_axis(std::move(column), axis);
+    write_statistic_table(file, table, io.rows());
+  }
   if (statistics.groups) statistics.groups(file);
   mark_finished(file);
   file.close();

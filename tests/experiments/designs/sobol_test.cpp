@@ -172,6 +172,8 @@ TEST(Sobol, TheDimensionsAreFixed) {
       {"command.profile.shape", 3068},
       {"initial.mode", 3069},
       {"verdict.stop", 3070},
+      {"encoder.resolution", 3071},
+      {"encoder.coarse_resolution", 3072},
   };
   std::size_t checked = 0;
   for (const Parameter& parameter : parameter_table()) {

@@ -144,7 +144,7 @@ def main():
         (["friction", "k1"], {"uniform": [1]}),
         (["friction", "k1"], {"uniform": [1, 2], "choice": [1]}),
         (["friction", "k1"], {"lognormal": {"median": 1}}),
-        (["friction", "k1"], {"profile": {"mean": 1, "cv": 0.1, "correlation_length": 7}}),
+        (["friction", "k1"], {"profile": {"mean": 1, "cv": 0.1, "correlation_length": 0}}),
         (["dac", "bits"], 33),
         (["dac", "bits"], 12.5),
         (["dac", "bits"], {"uniform": [1, 2]}),

@@ -50,7 +50,8 @@ INSTANTIATE_TEST_SUITE_P(
              "alpha, lambda, n, breakaway, coulomb_ratio, stribeck_velocity"},
         Case{"frictoin: {k1: 1}",
              "m.yaml:6:1: frictoin: unknown key, nearest known: friction; expected one of zerocount, name, "
-             "description, seed, trials, rigs, design, independent_points, retain, stop, observed, sweep, "
+             "description, axis, travel, seed, trials, rigs, design, independent_points, retain, stop, "
+             "observed, sweep, "
              "plant, "
              "friction, "
              "encoder, dac, amplifier, controller, command, initial, verdict"},
@@ -337,6 +338,7 @@ TEST(ManifestErrors, EveryRequiredKeyIsMissed) {
 TEST(ManifestErrors, AMergeKeyIsAKeyLikeAnyOther) {
   EXPECT_EQ(failure_of(minimal_manifest("<<: {name: x}")),
             "m.yaml:6:1: <<: unknown key, nearest known: dac; expected one of zerocount, name, description, "
+            "axis, travel, "
             "seed, trials, rigs, design, independent_points, retain, stop, observed, sweep, plant, friction, "
             "encoder, "
             "dac, amplifier, controller, command, initial, verdict");
@@ -390,8 +392,10 @@ TEST(ManifestErrors, AllErrorsAreToldInTheOrderOfTheFile) {
       "m.yaml:7:22: plant.inertia: the key stands twice in the same map; expected each key once\n"
       "m.yaml:8:13: dac.bits: '0' is out of range; expected a whole number from 1 to 32\n"
       "m.yaml:9:1: sead: unknown key, nearest known: seed; expected one of zerocount, name, description, "
+      "axis, travel, "
       "seed, "
-      "trials, design, independent_points, retain, stop, observed, sweep, plant, friction, encoder, dac, "
+      "trials, rigs, design, independent_points, retain, stop, observed, sweep, plant, friction, encoder, "
+      "dac, "
       "amplifier, controller, "
       "command, initial, verdict\n"
       "m.yaml:10:32: sweep.grid.controller.ki.0: '-1' is out of range; expected a number at least 0 and at "

@@ -104,7 +104,7 @@ TEST(ParameterTable, DefaultsAreInsideTheirRanges) {
   }
 }
 
-TEST(ParameterTable, OnlyWhatTheMovesGoToAndAnOverrunHaveNoDefault) {
+TEST(ParameterTable, OnlyWhatTheMovesGoToAndALinearEncoderHaveNoDefault) {
   std::set<std::string_view> without;
   for (const Parameter& parameter : parameter_table()) {
     if (has_default(parameter)) continue;
@@ -112,7 +112,8 @@ TEST(ParameterTable, OnlyWhatTheMovesGoToAndAnOverrunHaveNoDefault) {
     EXPECT_EQ(default_text(parameter), "none");
   }
   EXPECT_EQ(without, (std::set<std::string_view>{"command.targets", "command.torque.levels",
-                                                 "command.sequence.targets", "command.sequence.overrun"}));
+                                                 "command.sequence.targets", "command.sequence.overrun",
+                                                 "encoder.resolution", "encoder.coarse_resolution"}));
 }
 
 TEST(ParameterTable, EachRowWritesItsOwnFieldAndNoOther) {
@@ -174,7 +175,8 @@ TEST(ParameterTable, SectionsHaveTheKeysOfTheirRowsAndSections) {
   using Keys = std::vector<std::string>;
   EXPECT_EQ(keys_below("command"), (Keys{"targets", "torque", "sequence", "hold", "profile"}));
   EXPECT_EQ(keys_below("command.sequence"), (Keys{"targets", "overrun", "cycles", "approach"}));
-  EXPECT_EQ(keys_below("encoder"), (Keys{"fine", "coarse", "fine_errors", "coarse_errors"}));
+  EXPECT_EQ(keys_below("encoder"),
+            (Keys{"fine", "coarse", "resolution", "coarse_resolution", "fine_errors", "coarse_errors"}));
   EXPECT_EQ(keys_below("initial.history"), (Keys{"reversals", "torque"}));
   EXPECT_TRUE(keys_below("friction.k1").empty());
 }
@@ -190,12 +192,17 @@ TEST(ParameterTable, EveryRowIsDocumented) {
 }
 
 TEST(ParameterTable, ListingsNameEveryParameter) {
-  const std::string text = parameters_as_text();
-  const std::string markdown = parameters_as_markdown();
-  for (const Parameter& parameter : parameter_table()) {
-    EXPECT_NE(text.find(parameter.name), std::string::npos);
-    EXPECT_NE(markdown.find("| " + std::string(parameter.name) + " |"), std::string::npos);
+  for (const AxisKind axis : {AxisKind::rotary, AxisKind::linear}) {
+    const std::string text = parameters_as_text({axis});
+    const std::string markdown = parameters_as_markdown({axis});
+    for (const Parameter& parameter : parameter_table()) {
+      const std::string cell = "| " + std::string(parameter.name) + " |";
+      EXPECT_EQ(text.find("\n" + std::string(parameter.name) + " ") != std::string::npos,
+                exists_on(parameter, axis));
+      EXPECT_EQ(markdown.find(cell) != std::string::npos, exists_on(parameter, axis)) << parameter.name;
+    }
   }
+  const std::string markdown = parameters_as_markdown();
   EXPECT_NE(markdown.find("clamp \\| none"), std::string::npos);
   EXPECT_NE(markdown.find("| false | false \\| true |"), std::string::npos);
 }

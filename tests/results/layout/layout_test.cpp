@@ -28,6 +28,27 @@ std::vector<Table> all_tables() {
           profile_table("friction.k1", "N m/rad")};
 }
 
+TEST(Layout, OfALinearAxisSpeaksOfForcesAndPositions) {
+  const auto expect_linear = [](const Column& column) {
+    for (const char* word : {"rad", "N m", "rotor", "torque", "angle"}) {
+      EXPECT_EQ(column.unit.find(word), std::string::npos) << column.name << " " << column.unit;
+      EXPECT_EQ(column.long_name.find(word), std::string::npos) << column.name << ": " << column.long_name;
+    }
+  };
+  for (const Table& table : all_tables()) {
+    if (table.group == "point" || table.group == "trial") continue;  // the study's own columns
+    const Table linear = on_axis(table, AxisKind::linear);
+    EXPECT_EQ(names(linear.columns), names(table.columns)) << "only their description differs";
+    expect_linear(linear.rows);
+    for (const Column& column : linear.columns) expect_linear(column);
+    const Table rotary = on_axis(table, AxisKind::rotary);
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      EXPECT_EQ(rotary.columns[i].unit, table.columns[i].unit);
+      EXPECT_EQ(rotary.columns[i].long_name, table.columns[i].long_name);
+    }
+  }
+}
+
 TEST(Layout, HasOneColumnPerMeasureOfAMove) {
   const std::vector<std::string> expected{"outcome",
                                           "arrived",

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "analysis/bootstrap.hpp"
 #include "core/failure.hpp"
 #include "core/numerics/sign.hpp"
 #include "core/trial/divergence.hpp"
@@ -29,26 +29,29 @@ RateWithBounds rate_with_bounds(std::int64_t successes, std::int64_t trials, dou
           wilson(successes, trials, confidence)};
 }
 
-/// The trials that are not in `times` never settled. No limit is known for trials whose number was decided by
-/// their outcomes.
-auto tolerance_limits(const Tally<double>& times, std::int64_t trials, const StatisticsOptions& options) {
+RateWithBounds rate_on_rigs(std::span<const RigTrials> rigs, std::int64_t RigTrials::*hits,
+                            double confidence) {
+  const ClusteredProportion proportion = clustered_proportion(sums_over_rigs(rigs, hits), confidence);
+  return {proportion.value, proportion.korn_graubard, proportion.wilson};
+}
+
+/// No limit is known for trials whose number was decided by their outcomes.
+auto tolerance_limits(const ClusteredSample& slowest, const StatisticsOptions& options) {
   std::array<ToleranceLimit, std::size(tolerance_contents)> limits{};
   for (std::size_t i = 0; i < limits.size(); ++i) {
     limits[i].content = tolerance_contents[i];
-    if (options.stopped_by_outcomes) continue;
-    limits[i].within = order_statistic(times, tolerance_rank(trials, limits[i].content, options.confidence));
+    if (options.stopped_by_outcomes || slowest.size() == 0) continue;
+    limits[i].within = clustered_upper_limit(slowest, limits[i].content, options.confidence);
   }
   return limits;
 }
 
-/// The bootstrap of one statistic of a point.
-template <typename Value>
-ConfidenceInterval mean_bounds(const Tally<Value>& tally, const StatisticsOptions& options,
-                               std::string_view name) {
-  if (!options.bootstrap) return {std::nan(""), std::nan("")};
-  const RandomStream stream{random_key(options.bootstrap->seed, name), options.bootstrap->stream};
-  return bca_mean(weighted_sample(tally), stream, options.confidence);
+RandomStream bootstrap_stream(const BootstrapDraws& draws, std::string_view name) {
+  return {random_key(draws.seed, name), draws.stream};
 }
+
+constexpr ConfidenceInterval not_asked_for{std::numeric_limits<double>::quiet_NaN(),
+                                           std::numeric_limits<double>::quiet_NaN()};
 
 void require_move_count(std::size_t moves, std::int64_t trials, std::size_t expected) {
   if (moves > 0 && (trials == 0 || moves == expected)) return;
@@ -89,7 +92,18 @@ std::int64_t sum_of(const std::vector<MoveOutcome>& moves, std::int64_t MoveOutc
   return sum;
 }
 
+std::int64_t cluster_of(const MoveKind& kind, std::int64_t trial) {
+  return kind.rigs > 0 ? trial % kind.rigs : trial;
+}
+
 }  // namespace
+
+PointAccumulator::PointAccumulator(MoveKind kind)
+    : kind_(kind),
+      rigs_(static_cast<std::size_t>(kind.rigs)),
+      settling_times_(kind.rigs),
+      slowest_times_(kind.rigs),
+      final_errors_(kind.rigs) {}
 
 void PointAccumulator::add(const TrialOutcome& trial, std::span<const Jerk> jerks) {
   require_move_count(trial.moves.size(), counted_.trials, counted_.by_move.size());
@@ -107,6 +121,8 @@ void PointAccumulator::add(const TrialOutcome& trial, std::span<const Jerk> jerk
                     jerks[next].move, trial.moves.size() - 1));
   }
   jerk_counts_.add(static_cast<std::int64_t>(jerks.size()));
+  jerk_totals_.add(cluster_of(kind_, counted_.trials), static_cast<double>(jerks.size()), 1.0);
+  ++counted_.trials;
 }
 
 void PointAccumulator::add_moves(const TrialOutcome& trial) {
@@ -119,10 +135,13 @@ void PointAccumulator::add_moves(const TrialOutcome& trial) {
     add_measures(moves[i]);
     if (kind_.open_loop) counted_.levels[i].add(moves[i]);
   }
-  ++counted_.trials;
   counted_.moves += static_cast<std::int64_t>(moves.size());
   ++(counted_.outcomes.*counter_of(worst_outcome(moves)));
-  add_slowest(moves);
+  if (!kind_.open_loop) {
+    if (!rigs_.empty()) add_to_rig(moves);
+    add_times(moves);
+    if (kind_.final_error_known) add_errors(moves);
+  }
   counted_.stable += std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.stable; });
   counted_.arrived += std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.arrived; });
   counted_.broke_away +=
@@ -134,20 +153,48 @@ void PointAccumulator::add_moves(const TrialOutcome& trial) {
   counted_.encoder_disagreement.add(sum_of(moves, &MoveOutcome::encoder_disagreement));
 }
 
-void PointAccumulator::add_slowest(const std::vector<MoveOutcome>& moves) {
-  double slowest = 0.0;
+void PointAccumulator::add_to_rig(const std::vector<MoveOutcome>& moves) {
+  RigTrials& rig = rigs_[static_cast<std::size_t>(counted_.trials) % rigs_.size()];
+  const auto zero = std::count_if(moves.begin(), moves.end(),
+                                  [](const MoveOutcome& m) { return m.outcome == Outcome::zero_count; });
+  ++rig.trials;
+  rig.successes += zero == std::ssize(moves);
+  rig.stable += std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.stable; });
+  rig.moves += std::ssize(moves);
+  rig.zero_moves += zero;
+}
+
+/// A move that never arrived, or was not run because one before it had diverged, is later than any time.
+void PointAccumulator::add_times(const std::vector<MoveOutcome>& moves) {
+  values_.clear();
+  double sum = 0.0;
   for (const MoveOutcome& move : moves) {
-    if (!move.arrived) return;
-    slowest = std::max(slowest, move.settling_time);
+    if (!was_run(move) || !move.arrived) continue;
+    values_.push_back(move.settling_time);
+    sum += move.settling_time;
   }
-  slowest_times_.add(slowest);
+  settling_totals_.add(cluster_of(kind_, counted_.trials), sum, static_cast<double>(values_.size()));
+  settling_times_.add_trial(counted_.trials, values_, std::ssize(moves));
+  const bool all_arrived = values_.size() == moves.size();  // sorted by now
+  if (all_arrived) {
+    values_.assign(1, values_.back());
+  } else {
+    values_.clear();
+  }
+  slowest_times_.add_trial(counted_.trials, values_, 1);
+}
+
+void PointAccumulator::add_errors(const std::vector<MoveOutcome>& moves) {
+  values_.clear();
+  for (const MoveOutcome& move : moves) {
+    if (!was_run(move) || move.outcome == Outcome::nonfinite) continue;
+    values_.push_back(static_cast<double>(std::abs(move.final_error)));
+  }
+  final_errors_.add_trial(counted_.trials, values_, std::ssize(values_));
 }
 
 void PointAccumulator::add_measures(const MoveOutcome& move) {
   if (!was_run(move)) return;
-  if (move.arrived) settling_times_.add(move.settling_time);
-  const bool has_error = !kind_.open_loop && kind_.final_error_known && move.outcome != Outcome::nonfinite;
-  if (has_error) final_errors_.add(std::abs(move.final_error));
   counted_.true_error.add(std::abs(move.true_error));
   if (!kind_.open_loop) counted_.overshoot.add(static_cast<double>(move.overshoot));
   counted_.holding_torque.add(move.holding_torque);
@@ -190,29 +237,39 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
   result.confidence = confidence;
   for (LevelStatistics& level : result.levels) level.confidence = confidence;
   result.judged = kind_.open_loop ? 0 : result.trials;
-  result.success_rate = rate_with_bounds(result.outcomes.zero_count, result.judged, confidence);
-  result.stable_rate = rate_with_bounds(result.stable, result.judged, confidence);
-  const std::int64_t successes = result.judged > 0 ? result.outcomes.zero_count : 0;
-  result.claim = options.stopped_by_outcomes ? success_claim_at_any_time(successes, result.judged, confidence)
-                                             : success_claim(successes, result.judged, confidence);
+  if (!rigs_.empty() && result.judged > 0) {
+    result.success_rate = rate_on_rigs(rigs_, &RigTrials::successes, confidence);
+    result.stable_rate = rate_on_rigs(rigs_, &RigTrials::stable, confidence);
+    result.rigs = rig_statistics(rigs_, confidence);
+    result.claim = success_claim_on_rigs(result.rigs.successes, confidence);
+    if (options.stopped_by_outcomes) {
+      result.claim = weaker_claim(
+          result.claim, success_claim_at_any_time(result.outcomes.zero_count, result.judged, confidence));
+      result.rigs.tolerance = {};  // it takes a number of trials that was fixed beforehand
+    }
+  } else {
+    result.success_rate = rate_with_bounds(result.outcomes.zero_count, result.judged, confidence);
+    result.stable_rate = rate_with_bounds(result.stable, result.judged, confidence);
+    const std::int64_t successes = result.judged > 0 ? result.outcomes.zero_count : 0;
+    result.claim = options.stopped_by_outcomes
+                       ? success_claim_at_any_time(successes, result.judged, confidence)
+                       : success_claim(successes, result.judged, confidence);
+  }
 
-  const Tally<double>& times = settling_times_;
-  const auto settling = [&](double probability) { return quantile(times, probability, confidence); };
-  result.settling_time = {times.size,
-                          mean(times),
-                          smallest(times),
-                          largest(times),
-                          settling(0.05),
-                          settling(0.25),
-                          settling(0.5),
-                          settling(0.75),
-                          settling(0.95),
-                          mean_bounds(times, options, "bootstrap/settling_time.mean"),
-                          tolerance_limits(slowest_times_, result.trials, options)};
+  const ClusteredSample settling = settling_times_.sample();
+  const Tally<double>& times = settling.observed();
+  const auto settled = [&](double probability) {
+    return clustered_quantile(settling, probability, confidence);
+  };
+  result.settling_time = {
+      times.size,     settling.size(), mean(times),   smallest(times),
+      largest(times), settled(0.05),   settled(0.25), settled(0.5),
+      settled(0.75),  settled(0.95),   not_asked_for, tolerance_limits(slowest_times_.sample(), options)};
 
-  const Tally<std::int64_t>& errors = final_errors_;
-  result.final_error = {errors.size, mean(errors), largest(errors), quantile(errors, 0.5, confidence),
-                        quantile(errors, 0.95, confidence)};
+  const ClusteredSample errors = final_errors_.sample();
+  result.final_error = {errors.size(), mean(errors.observed()), largest(errors.observed()),
+                        clustered_quantile(errors, 0.5, confidence),
+                        clustered_quantile(errors, 0.95, confidence)};
 
   const Tally<std::int64_t>& jerks = jerk_counts_;
   const std::int64_t jerk_total = total(jerks);
@@ -223,7 +280,13 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
                        quantile(jerks, 0.95).value,
                        largest(jerks),
                        jerk_total,
-                       mean_bounds(jerks, options, "bootstrap/jerk_count.mean")};
+                       not_asked_for};
+  if (options.bootstrap && result.judged > 0) {
+    result.settling_time.mean_bounds = clustered_mean_bounds(
+        settling_totals_, bootstrap_stream(*options.bootstrap, "bootstrap/settling_time.mean"), confidence);
+    result.jerk_count.mean_bounds = clustered_count_bounds(
+        jerk_totals_, bootstrap_stream(*options.bootstrap, "bootstrap/jerk_count.mean"), confidence);
+  }
   result.jerk_interval = {jerk_intervals_.size, mean(jerk_intervals_), quantile(jerk_intervals_, 0.5).value};
   result.jerk_slowing.share = rate(result.jerk_slowing.slowing, result.jerk_slowing.moves);
   result.jerk_slowing.tau = kendall_tau(interval_trend_);

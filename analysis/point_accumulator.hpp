@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "analysis/point_statistics.hpp"
+#include "analysis/statistics/clustered_mean.hpp"
+#include "analysis/statistics/trial_clusters.hpp"
 #include "analysis/statistics_options.hpp"
 #include "analysis/tally.hpp"
 #include "core/trial/outcome.hpp"
@@ -16,16 +18,18 @@ namespace zerocount {
 struct MoveKind {
   bool open_loop{false};         ///< they have torque levels, and no target
   bool final_error_known{true};  ///< false in results that do not hold it
+  std::int64_t rigs{0};  ///< that the trials run on, trial i on rig i mod rigs; 0: no trials share one
 };
 
-/// Takes the trials of one design point, one after the other, and gives its statistics.
+/// Takes the trials of one design point, one after the other, and gives its statistics. The trials of one rig
+/// and the moves of one trial are clusters: bounds allow for what they have in common.
 ///
-/// Its memory grows with the number of distinct settling times, jerk counts, jerk intervals and final errors,
-/// not with the number of trials: for one sample rate, at most with the samples of a move and the counts that
-/// the rotor strays.
+/// Its memory grows with the number of distinct settling times, jerk counts, jerk intervals and final errors
+/// (with rigs: of each rig), not with the number of trials: for one sample rate, at most with the samples of
+/// a move and the counts that the rotor strays.
 class PointAccumulator {
  public:
-  explicit PointAccumulator(MoveKind kind = {}) : kind_(kind) {}
+  explicit PointAccumulator(MoveKind kind = {});
 
   /// Adds a trial with its jerks in order of move and onset.
   /// @throws Failure (bad_data) where the trial has no move or another number of moves than those before it,
@@ -38,20 +42,26 @@ class PointAccumulator {
 
  private:
   void add_moves(const TrialOutcome& trial);
-  void add_slowest(const std::vector<MoveOutcome>& moves);
+  void add_to_rig(const std::vector<MoveOutcome>& moves);
+  void add_times(const std::vector<MoveOutcome>& moves);
+  void add_errors(const std::vector<MoveOutcome>& moves);
   void add_measures(const MoveOutcome& move);
   void add_jerks(const MoveOutcome& move, std::span<const Jerk> jerks);
 
   MoveKind kind_;
-  PointSummary counted_;  ///< the fields that are plain counts and moments
-  Tally<double> settling_times_;
-  Tally<double> slowest_times_;  ///< of the trials all of whose moves arrived: of the move that took longest
-  Tally<std::int64_t> final_errors_;
+  PointSummary counted_;           ///< the fields that are plain counts and moments
+  std::vector<RigTrials> rigs_;    ///< [rig]
+  TrialClusters settling_times_;   ///< of moves with a target
+  ClusterTotals settling_totals_;  ///< of the moves that arrived
+  TrialClusters slowest_times_;    ///< of trials: of the move that took longest
+  TrialClusters final_errors_;     ///< of moves with a known error
   Tally<std::int64_t> jerk_counts_;
+  ClusterTotals jerk_totals_;  ///< of trials
   Tally<double> jerk_intervals_;
   RankTrend interval_trend_;
   std::int64_t one_count_jerks_{0};
   std::vector<double> intervals_;  ///< of the move at hand; kept for its memory
+  std::vector<double> values_;     ///< of the trial at hand; likewise
 };
 
 }  // namespace zerocount

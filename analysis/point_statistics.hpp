@@ -11,6 +11,7 @@
 #include "analysis/outcome_counts.hpp"
 #include "analysis/proportion.hpp"
 #include "analysis/quantile.hpp"
+#include "analysis/statistics/rig_statistics.hpp"
 #include "analysis/tolerance.hpp"
 #include "analysis/trend.hpp"
 
@@ -37,15 +38,17 @@ struct RateWithBounds {
   ConfidenceInterval wilson{unknown, unknown};
 };
 
-/// Settling time of the moves that arrived, s.
+/// Settling time of moves, s. Quantiles are of all moves with a target: a move that never arrived is later
+/// than any time, and a quantile or bound that falls among those is NaN, not reached within the hold.
 struct SettlingStatistics {
-  std::int64_t n{0};  ///< moves that arrived
-  double mean{std::numeric_limits<double>::quiet_NaN()};
+  std::int64_t n{0};      ///< moves that arrived
+  std::int64_t moves{0};  ///< moves with a target, whether they arrived or not
+  double mean{std::numeric_limits<double>::quiet_NaN()};  ///< of the moves that arrived, like min and max
   double min{std::numeric_limits<double>::quiet_NaN()};
   double max{std::numeric_limits<double>::quiet_NaN()};
-  Quantile p05, p25, median, p75, p95;  ///< with order-statistic bounds
+  Quantile p05, p25, median, p75, p95;  ///< of all moves, with order-statistic bounds
   ConfidenceInterval mean_bounds{std::numeric_limits<double>::quiet_NaN(),
-                                 std::numeric_limits<double>::quiet_NaN()};  ///< BCa; NaN unless asked for
+                                 std::numeric_limits<double>::quiet_NaN()};  ///< NaN unless asked for
   /// Of the slowest move of a trial, with the contents of tolerance_contents; a move that never arrives is
   /// beyond every limit.
   std::array<ToleranceLimit, std::size(tolerance_contents)> tolerance{};
@@ -82,7 +85,7 @@ struct JerkCountStatistics {
   double max{std::numeric_limits<double>::quiet_NaN()};
   std::int64_t total{0};  ///< jerks of the point
   ConfidenceInterval mean_bounds{std::numeric_limits<double>::quiet_NaN(),
-                                 std::numeric_limits<double>::quiet_NaN()};  ///< BCa; NaN unless asked for
+                                 std::numeric_limits<double>::quiet_NaN()};  ///< NaN unless asked for
 };
 
 /// Time between the onsets of successive jerks of a move, s.
@@ -111,6 +114,8 @@ struct PointSummary {
   double confidence{summary_confidence};  ///< of all bounds
   std::int64_t trials{0};
   std::int64_t moves{0};  ///< moves of all trials
+  double hold{
+      std::numeric_limits<double>::quiet_NaN()};  ///< of a move, s, in a summary; NaN where trials differ
 
   std::int64_t judged{0};           ///< trials with targets: all, or none in an open-loop study
   OutcomeCounts outcomes;           ///< trials by the worst of their moves
@@ -123,6 +128,7 @@ struct PointSummary {
   RateWithBounds success_rate;      ///< zero_count / judged
   RateWithBounds stable_rate;       ///< stable / judged
   SuccessClaim claim;  ///< what zero_count of judged shows of all axes; none of an open-loop study
+  RigStatistics rigs;  ///< how the rigs differ; of a study with rigs
 
   SettlingStatistics settling_time;
   JerkCountStatistics jerk_count;

@@ -32,52 +32,71 @@ std::vector<StatisticField> outcome_and_jerk_fields() {
        [](S s) { return to_double(s.saturated); }},
       {"", "success_rate", "1", "zero_count as a share of trials, NaN of an open-loop study", false,
        [](S s) { return s.success_rate.value; }},
-      {"", "success_rate_low", "1", "lower 95 % Clopper-Pearson bound of success_rate", false,
+      {"", "success_rate_low", "1",
+       "lower 95 % bound of success_rate: Clopper-Pearson, with rigs Korn-Graubard", false,
        [](S s) { return s.success_rate.clopper_pearson.low; }},
-      {"", "success_rate_high", "1", "upper 95 % Clopper-Pearson bound of success_rate", false,
+      {"", "success_rate_high", "1",
+       "upper 95 % bound of success_rate: Clopper-Pearson, with rigs Korn-Graubard", false,
        [](S s) { return s.success_rate.clopper_pearson.high; }},
-      {"", "success_rate_wilson_low", "1", "lower 95 % Wilson bound of success_rate", false,
+      {"", "success_rate_wilson_low", "1",
+       "lower 95 % Wilson bound of success_rate, with rigs for the effective number of trials", false,
        [](S s) { return s.success_rate.wilson.low; }},
-      {"", "success_rate_wilson_high", "1", "upper 95 % Wilson bound of success_rate", false,
+      {"", "success_rate_wilson_high", "1",
+       "upper 95 % Wilson bound of success_rate, with rigs for the effective number of trials", false,
        [](S s) { return s.success_rate.wilson.high; }},
       {"", "stable_rate", "1", "stable as a share of trials, NaN of an open-loop study", false,
        [](S s) { return s.stable_rate.value; }},
-      {"", "stable_rate_low", "1", "lower 95 % Clopper-Pearson bound of stable_rate", false,
+      {"", "stable_rate_low", "1",
+       "lower 95 % bound of stable_rate: Clopper-Pearson, with rigs Korn-Graubard", false,
        [](S s) { return s.stable_rate.clopper_pearson.low; }},
-      {"", "stable_rate_high", "1", "upper 95 % Clopper-Pearson bound of stable_rate", false,
+      {"", "stable_rate_high", "1",
+       "upper 95 % bound of stable_rate: Clopper-Pearson, with rigs Korn-Graubard", false,
        [](S s) { return s.stable_rate.clopper_pearson.high; }},
-      {"", "stable_rate_wilson_low", "1", "lower 95 % Wilson bound of stable_rate", false,
+      {"", "stable_rate_wilson_low", "1",
+       "lower 95 % Wilson bound of stable_rate, with rigs for the effective number of trials", false,
        [](S s) { return s.stable_rate.wilson.low; }},
-      {"", "stable_rate_wilson_high", "1", "upper 95 % Wilson bound of stable_rate", false,
+      {"", "stable_rate_wilson_high", "1",
+       "upper 95 % Wilson bound of stable_rate, with rigs for the effective number of trials", false,
        [](S s) { return s.stable_rate.wilson.high; }},
-      {"settling_time", "n", "1", "moves that arrived, of which the settling times are", true,
+      {"settling_time", "n", "1", "moves that arrived, of which mean, min and max are", true,
        [](S s) { return to_double(s.settling_time.n); }},
+      {"settling_time", "moves", "1", "moves with a target, of which the quantiles are", true,
+       [](S s) { return to_double(s.settling_time.moves); }},
       {"settling_time", "mean", "s", "mean settling time of the moves that arrived", false,
        [](S s) { return s.settling_time.mean; }},
-      {"settling_time", "min", "s", "shortest settling time", false, [](S s) { return s.settling_time.min; }},
-      {"settling_time", "p05", "s", "5 % quantile of the settling time of the moves that arrived", false,
+      {"settling_time", "min", "s", "shortest settling time of the moves that arrived", false,
+       [](S s) { return s.settling_time.min; }},
+      {"settling_time", "p05", "s",
+       "5 % quantile of the settling time of all moves with a target, NaN if not within the hold", false,
        [](S s) { return s.settling_time.p05.value; }},
-      {"settling_time", "p25", "s", "25 % quantile of the settling time of the moves that arrived", false,
+      {"settling_time", "p25", "s",
+       "25 % quantile of the settling time of all moves with a target, NaN if not within the hold", false,
        [](S s) { return s.settling_time.p25.value; }},
-      {"settling_time", "median", "s", "median of the settling time of the moves that arrived", false,
+      {"settling_time", "median", "s",
+       "median of the settling time of all moves with a target, NaN if not within the hold", false,
        [](S s) { return s.settling_time.median.value; }},
       {"settling_time", "median_low", "s",
-       "lower 95 % order-statistic bound of the median of the settling time", false,
-       [](S s) { return s.settling_time.median.low; }},
+       "lower 95 % order-statistic bound of the median of the settling time, NaN if not within the hold",
+       false, [](S s) { return s.settling_time.median.low; }},
       {"settling_time", "median_high", "s",
-       "upper 95 % order-statistic bound of the median of the settling time", false,
-       [](S s) { return s.settling_time.median.high; }},
-      {"settling_time", "p75", "s", "75 % quantile of the settling time of the moves that arrived", false,
+       "upper 95 % order-statistic bound of the median of the settling time, NaN if not within the hold",
+       false, [](S s) { return s.settling_time.median.high; }},
+      {"settling_time", "p75", "s",
+       "75 % quantile of the settling time of all moves with a target, NaN if not within the hold", false,
        [](S s) { return s.settling_time.p75.value; }},
-      {"settling_time", "p95", "s", "95 % quantile of the settling time of the moves that arrived", false,
+      {"settling_time", "p95", "s",
+       "95 % quantile of the settling time of all moves with a target, NaN if not within the hold", false,
        [](S s) { return s.settling_time.p95.value; }},
       {"settling_time", "p95_low", "s",
-       "lower 95 % order-statistic bound of the 95 % quantile of the settling time", false,
-       [](S s) { return s.settling_time.p95.low; }},
+       "lower 95 % order-statistic bound of the 95 % quantile of the settling time, NaN if not within the "
+       "hold",
+       false, [](S s) { return s.settling_time.p95.low; }},
       {"settling_time", "p95_high", "s",
-       "upper 95 % order-statistic bound of the 95 % quantile of the settling time", false,
-       [](S s) { return s.settling_time.p95.high; }},
-      {"settling_time", "max", "s", "longest settling time", false, [](S s) { return s.settling_time.max; }},
+       "upper 95 % order-statistic bound of the 95 % quantile of the settling time, NaN if not within the "
+       "hold",
+       false, [](S s) { return s.settling_time.p95.high; }},
+      {"settling_time", "max", "s", "longest settling time of the moves that arrived", false,
+       [](S s) { return s.settling_time.max; }},
       {"jerk_count", "n", "1", "trials, of which the jerk counts are", true,
        [](S s) { return to_double(s.jerk_count.n); }},
       {"jerk_count", "mean", "1", "mean number of jerks per trial", false,
@@ -117,6 +136,24 @@ std::vector<StatisticField> outcome_and_jerk_fields() {
   };
 }
 
+std::vector<StatisticField> rig_fields() {
+  return {
+      {"rigs", "n", "1", "rigs that the trials ran on", true, [](S s) { return to_double(s.rigs.n); }},
+      {"rigs", "success_sd", "1",
+       "standard deviation between rigs of the probability of success (beta-binomial, moment estimate)",
+       false, [](S s) { return s.rigs.success_sd; }},
+      {"rigs", "without_failure", "1", "rigs all of whose trials succeeded, as a proportion of the rigs",
+       false, [](S s) { return s.rigs.without_failure; }},
+      {"rigs", "without_failure_low", "1", "lower 95 % Clopper-Pearson bound of rigs_without_failure", false,
+       [](S s) { return s.rigs.without_failure_bounds.low; }},
+      {"rigs", "without_failure_high", "1", "upper 95 % Clopper-Pearson bound of rigs_without_failure", false,
+       [](S s) { return s.rigs.without_failure_bounds.high; }},
+      {"rigs", "worst_5_percent", "1",
+       "mean success rate of the worst 5 % of the rigs (of R rigs the R/20 with the lowest, rounded up)",
+       false, [](S s) { return s.rigs.worst_5_percent; }},
+  };
+}
+
 std::vector<StatisticField> fields_of_all_studies() {
   std::vector<StatisticField> all = outcome_and_jerk_fields();
   const std::span<const StatisticField> measures = measure_statistic_fields();
@@ -128,27 +165,40 @@ std::vector<StatisticField> fields_of_all_studies() {
 
 std::span<const StatisticField> mean_bound_fields() {
   static constexpr std::array<StatisticField, 4> fields{{
-      {"settling_time", "mean_low", "s", "lower BCa bootstrap bound of the mean settling time", false,
-       [](S s) { return s.settling_time.mean_bounds.low; }},
-      {"settling_time", "mean_high", "s", "upper BCa bootstrap bound of the mean settling time", false,
-       [](S s) { return s.settling_time.mean_bounds.high; }},
-      {"jerk_count", "mean_low", "1", "lower BCa bootstrap bound of the mean number of jerks per trial",
+      {"settling_time", "mean_low", "s",
+       "lower bound of the mean settling time of the moves that arrived: Student and studentised bootstrap",
+       false, [](S s) { return s.settling_time.mean_bounds.low; }},
+      {"settling_time", "mean_high", "s",
+       "upper bound of the mean settling time of the moves that arrived: Student and studentised bootstrap",
+       false, [](S s) { return s.settling_time.mean_bounds.high; }},
+      {"jerk_count", "mean_low", "1",
+       "lower bound of the mean number of jerks per trial: Student and studentised bootstrap, Garwood for "
+       "few",
        false, [](S s) { return s.jerk_count.mean_bounds.low; }},
-      {"jerk_count", "mean_high", "1", "upper BCa bootstrap bound of the mean number of jerks per trial",
+      {"jerk_count", "mean_high", "1",
+       "upper bound of the mean number of jerks per trial: Student and studentised bootstrap, Garwood for "
+       "few",
        false, [](S s) { return s.jerk_count.mean_bounds.high; }},
   }};
   return fields;
 }
 
 std::span<const StatisticField> statistic_fields(const StudyFeatures& features) {
-  static const std::vector<StatisticField> fields = [] {
+  static const auto fields_with = [](bool stopping, bool rigs) {
     std::vector<StatisticField> all = fields_of_all_studies();
-    all.push_back({"", "stopped", "1", "trials that were ended early, because a move had diverged", true,
-                   [](S s) { return to_double(s.stopped); }});
+    if (rigs) {
+      const std::vector<StatisticField> own = rig_fields();
+      all.insert(all.end(), own.begin(), own.end());
+    }
+    if (stopping) {
+      all.push_back({"", "stopped", "1", "trials that were ended early, because a move had diverged", true,
+                     [](S s) { return to_double(s.stopped); }});
+    }
     return all;
-  }();
-  const std::span<const StatisticField> all(fields);
-  return features.stopping ? all : all.first(all.size() - 1);
+  };
+  static const std::array<std::vector<StatisticField>, 4> fields{
+      fields_with(false, false), fields_with(true, false), fields_with(false, true), fields_with(true, true)};
+  return fields[(features.stopping ? 1U : 0U) + (features.rigs ? 2U : 0U)];
 }
 
 }  // namespace zerocount

@@ -24,7 +24,7 @@ double halfwidth(const ConfidenceInterval& bounds) {
 /// @param bounds at the confidence of the summary. @param judged at that of the rule.
 std::string text_of(const std::vector<ConfidenceInterval>& bounds,
                     const std::vector<ConfidenceInterval>& judged, const std::vector<std::string>& labels,
-                    const StoppingRule& rule, double confidence) {
+                    const StoppingRule& rule, std::int64_t rigs, double confidence) {
   std::vector<std::vector<std::string>> cells{
       {"point", fmt::format("{:.6g} % bounds of zero-count, however often one looks (%)", 100.0 * confidence),
        fmt::format("asked for: ± {:.4g} %, came to", 100.0 * rule.success_rate_halfwidth)}};
@@ -39,9 +39,14 @@ std::string text_of(const std::vector<ConfidenceInterval>& bounds,
   return aligned_table(cells, {false, false, false}) +
          fmt::format(
              "\nhow many trials there are was decided by their outcomes, after every {} at each "
-             "point{};\nall other bounds are those of a number fixed beforehand\n",
-             rule.block,
-             reached ? "" : ", and ended by max_trials before all was known as well as asked for");
+             "point{};\nall other bounds are those of a number fixed beforehand\n{}",
+             rule.block, reached ? "" : ", and ended by max_trials before all was known as well as asked for",
+             rigs == 0 ? ""
+                       : fmt::format(
+                             "these bounds are of the mean over the {} rigs of the study, which more trials "
+                             "narrow; those over all rigs are in\nthe table above, and more rigs narrow "
+                             "them\n",
+                             rigs));
 }
 
 }  // namespace
@@ -58,8 +63,11 @@ SummarySection stopping_section(std::span<const PointSummary> points, const std:
                    "1",
                    "upper bound of the success rate that holds however often one looks",
                    {}};
-  SummarySection section{
-      .key = "stopped", .json = {}, .columns = {}, .text = text_of(bounds, judged, labels, rule, confidence)};
+  const std::int64_t rigs = points.empty() ? 0 : points.front().rigs.n;
+  SummarySection section{.key = "stopped",
+                         .json = {},
+                         .columns = {},
+                         .text = text_of(bounds, judged, labels, rule, rigs, confidence)};
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     low.values.push_back(bounds[i].low);
     high.values.push_back(bounds[i].high);
@@ -70,6 +78,7 @@ SummarySection stopping_section(std::span<const PointSummary> points, const std:
                             {"halfwidth_asked", rule.success_rate_halfwidth},
                             {"halfwidth_confidence", rule.confidence},
                             {"reached", halfwidth(judged[i]) <= rule.success_rate_halfwidth}});
+    if (rigs > 0) section.json.back()["of_rigs"] = rigs;
   }
   section.columns = {std::move(low), std::move(high)};
   return section;

@@ -20,6 +20,10 @@ struct StudyFeatures {
   /// The design is saltelli: the trials of a row share most of their numbers, and bounds that take trials for
   /// independent are too narrow.
   bool dependent_trials{false};
+  bool rigs{false};  ///< trials share rigs: bounds allow for what the trials of one rig have in common
+  /// The design spreads the trials more evenly than chance (latin_hypercube, sobol): bounds are wider than
+  /// need be.
+  bool spread_trials{false};
 };
 
 StudyFeatures study_features(const Study& study);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "analysis/stopping_section.hpp"
 #include "analysis/study_features.hpp"
 #include "core/failure.hpp"
+#include "experiments/language/manifest_keys.hpp"
 #include "results/layout/table_io.hpp"
 
 namespace zerocount {
@@ -88,6 +90,20 @@ void require_all_trials(const StudyFile& file) {
                          file.rows().end() - 1, header.points * header.trials));
 }
 
+/// The hold of the moves at a point, s; NaN where trials differ in it.
+double hold_of(const Study& study, std::int64_t point) {
+  constexpr double differs = std::numeric_limits<double>::quiet_NaN();
+  if (study.open_loop) return differs;
+  const bool recorded = std::any_of(study.input_columns.begin(), study.input_columns.end(),
+                                    [](const InputColumn& column) { return column.name == "command.hold"; });
+  const double hold = study_trial(study, point, 0).parameters.command.hold;
+  constexpr std::int64_t looked_at = 64;  // a hold that is drawn differs long before
+  for (std::int64_t index = 1; recorded && index < std::min(looked_at, study.trials); ++index) {
+    if (study_trial(study, point, index).parameters.command.hold != hold) return differs;
+  }
+  return hold;
+}
+
 }  // namespace
 
 std::vector<PointSummary> study_statistics(const StudyFile& file, const Study& study, double confidence,
@@ -97,7 +113,7 @@ std::vector<PointSummary> study_statistics(const StudyFile& file, const Study& s
   const std::int64_t trials = file.header().trials;
   const std::int64_t moves = file.moves();
   std::vector<PointSummary> points;
-  const MoveKind kind{study.open_loop, file.final_error_known()};
+  const MoveKind kind{study.open_loop, file.final_error_known(), study.rigs};
   PointAccumulator point(kind);
   JerkStream jerks(file);
   TrialOutcome trial;
@@ -154,8 +170,11 @@ StudySummary summarise(const StudyFile& file, double confidence, bool bootstrap)
   summary.observed = study.observed;
   summary.confidence = confidence;
   summary.points = study_statistics(file, study, confidence, bootstrap);
+  for (std::size_t point = 0; point < summary.points.size(); ++point)
+    summary.points[point].hold = hold_of(study, static_cast<std::int64_t>(point));
   summary.predictions = predictions_of(file.statistics(), header.trials, file.path());
   summary.features = study_features(study);
+  summary.design = design_words()[static_cast<std::size_t>(study.design)];
   if (!study.sequence.empty()) {
     summary.sections.push_back(
         repeatability_section(study_repeatability(file, study, confidence), summary.labels));

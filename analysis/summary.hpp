@@ -29,6 +29,7 @@ struct StudySummary {
   std::vector<std::string> labels;              ///< [point]
   std::vector<SweepAxis> axes;                  ///< each with a value per point
   std::map<std::string, std::string> observed;  ///< point label → what was observed on the real rig
+  std::string design{"monte_carlo"};            ///< its word in the manifest
   double confidence{summary_confidence};        ///< of all bounds
   std::vector<PointSummary> points;             ///< [point]
   std::vector<TheoryPrediction> predictions{};  ///< [point], or empty where not computed
@@ -47,10 +48,10 @@ std::string observed_at(const StudySummary& summary, std::int64_t point);
 /// a legend below, then the sections. UTF-8, one line per row.
 std::string summary_table(const StudySummary& summary);
 
-/// {"name", "confidence", "points": [{"point", "label", "axes": {…}, …}]} with the names of
-/// statistic_fields() and mean_bound_fields(), by group; points of an open-loop study have "levels": […] with
-/// the names of level_fields(); each section has its key. Whole numbers are integers, NaN is null, every
-/// other number reads back to the same double.
+/// {"name", "design", "conservative_bounds", "confidence", "points": [{"point", "label", "axes": {…}, …}]}
+/// with the names of statistic_fields() and mean_bound_fields(), by group; points of an open-loop study have
+/// "levels": […] with the names of level_fields(); each section has its key. Whole numbers are integers, NaN
+/// is null, every other number reads back to the same double.
 nlohmann::ordered_json summary_json(const StudySummary& summary);
 
 /// summary_json as text, indented, ending with a line break.

@@ -69,7 +69,11 @@ nlohmann::ordered_json summary_json(const StudySummary& summary) {
     for (const SummarySection& section : summary.sections) point[section.key] = section.json[i];
     points.push_back(std::move(point));
   }
-  return {{"name", summary.name}, {"confidence", summary.confidence}, {"points", std::move(points)}};
+  return {{"name", summary.name},
+          {"design", summary.design},
+          {"conservative_bounds", summary.features.spread_trials},
+          {"confidence", summary.confidence},
+          {"points", std::move(points)}};
 }
 
 std::string summary_json_text(const StudySummary& summary) {

@@ -1,5 +1,9 @@
+#include <cmath>
+#include <cstdint>
+
 #include <fmt/format.h>
 
+#include "analysis/settling_text.hpp"
 #include "analysis/summary_parts.hpp"
 
 namespace zerocount {
@@ -7,6 +11,10 @@ namespace {
 
 std::string interval_in_percent(const ConfidenceInterval& interval) {
   return fmt::format("[{:.1f}, {:.1f}]", 100.0 * interval.low, 100.0 * interval.high);
+}
+
+std::int64_t rigs_without_failure(const PointSummary& point) {
+  return std::llround(point.rigs.without_failure * static_cast<double>(point.rigs.n));
 }
 
 /// A column with a cell for each point.
@@ -25,10 +33,14 @@ void add_outcomes(std::vector<TextColumn>& columns, const StudySummary& summary)
       by_point(summary, "zero-count", [](Point p) { return percentage(p.outcomes.zero_count, p.judged); }));
   columns.push_back(by_point(summary, bounds_head(summary),
                              [](Point p) { return interval_in_percent(p.success_rate.clopper_pearson); }));
+  if (summary.features.rigs) {
+    columns.push_back(by_point(summary, "rigs w/o failure",
+                               [](Point p) { return percentage(rigs_without_failure(p), p.rigs.n); }));
+  }
+  columns.push_back(by_point(summary, "median (s)",
+                             [](Point p) { return settling_text(p, p.settling_time.median.value); }));
   columns.push_back(
-      by_point(summary, "median (s)", [](Point p) { return short_number(p.settling_time.median.value); }));
-  columns.push_back(
-      by_point(summary, "p95 (s)", [](Point p) { return short_number(p.settling_time.p95.value); }));
+      by_point(summary, "p95 (s)", [](Point p) { return settling_text(p, p.settling_time.p95.value); }));
   columns.push_back(
       by_point(summary, "arrived", [](Point p) { return percentage(p.settling_time.n, p.moves); }));
   columns.push_back(
@@ -93,25 +105,47 @@ std::vector<TextColumn> loop_columns(const StudySummary& summary) {
   return columns;
 }
 
+std::string design_line(const StudySummary& summary) {
+  const StudyFeatures& features = summary.features;
+  if (features.dependent_trials) {
+    return "The trials of a saltelli design are not independent: all bounds here are too narrow. They are "
+           "for\n"
+           "'zerocount sensitivity'";
+  }
+  std::string line = fmt::format("design: {}", summary.design);
+  if (features.rigs && !summary.points.empty()) {
+    line += fmt::format(
+        ", {} rigs: bounds are of all rigs that the manifest describes, and more trials on the same "
+        "rigs\nnarrow them only so far",
+        summary.points.front().rigs.n);
+  }
+  if (features.spread_trials) {
+    line += fmt::format(
+        "{} bounds are conservative: made for trials by chance, which vary more than those of this "
+        "design",
+        features.rigs ? ";" : ":");
+  }
+  return line;
+}
+
 std::string loop_legend(const StudySummary& summary) {
   const StudyFeatures& features = summary.features;
   std::string legend =
       "stable: share of trials whose moves all arrived and stayed within one count\n"
-      "zero-count: share of trials whose moves all ended at zero error; bounds of it after Clopper and "
-      "Pearson, in %\n"
-      "median, p95: settling time of the moves that arrived; arrived: their share of all moves\n"
+      "zero-count: share of trials whose moves all ended at zero error; bounds of it after " +
+      std::string(features.rigs ? "Korn and Graubard" : "Clopper and Pearson") +
+      ", in %\n"
+      "median, p95: settling time of all moves, those that never arrived being later than any time; arrived: "
+      "share of moves\n"
       "jerks/trial: mean over all trials\n";
+  if (features.rigs) legend += "rigs w/o failure: share of rigs all of whose trials ended at zero error\n";
   if (features.stopping) {
     legend +=
         "stopped: share of trials that were ended where a move had diverged; they count as oscillating, and "
         "what is\n"
         "measured of their moves is up to there\n";
   }
-  if (features.dependent_trials) {
-    legend +=
-        "The trials of a saltelli design are not independent: all bounds here are too narrow. They are for\n"
-        "'zerocount sensitivity'\n";
-  }
+  legend += design_line(summary) + "\n";
   if (features.travel) legend += "travel: mean time that the reference takes to its target\n";
   if (features.final_error) legend += "|e|: error at the last sample of the moves, in counts\n";
   if (features.phases) legend += "phase changes: from coarse to fine control or back, mean over all trials\n";

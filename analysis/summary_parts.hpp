@@ -17,6 +17,9 @@ std::string bounds_head(const StudySummary& summary);
 std::vector<TextColumn> loop_columns(const StudySummary& summary);
 std::string loop_legend(const StudySummary& summary);
 
+/// What the design of the study means for the bounds, one line or two.
+std::string design_line(const StudySummary& summary);
+
 /// The table of an open-loop study, a row per point and level, and what its columns mean.
 std::vector<TextColumn> level_columns(const StudySummary& summary);
 std::string level_legend();

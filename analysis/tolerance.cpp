@@ -67,9 +67,17 @@ SuccessClaim success_claim_at_any_time(std::int64_t successes, std::int64_t tria
   return {trials, trials - successes, confidence, bounds.low, 1.0 - bounds.low, bounds.high};
 }
 
+SuccessClaim weaker_claim(const SuccessClaim& one, const SuccessClaim& other) {
+  SuccessClaim claim = one;
+  claim.success_at_least = std::min(one.success_at_least, other.success_at_least);
+  claim.failure_at_most = std::max(one.failure_at_most, other.failure_at_most);
+  claim.success_at_most = std::max(one.success_at_most, other.success_at_most);
+  return claim;
+}
+
 double rule_of_three(const SuccessClaim& claim) {
   if (claim.failures > 0 || claim.trials == 0) return std::numeric_limits<double>::quiet_NaN();
-  return -std::log1p(-claim.confidence) / static_cast<double>(claim.trials);
+  return -std::log1p(-claim.confidence) / static_cast<double>(claim.rigs > 0 ? claim.rigs : claim.trials);
 }
 
 std::string percent_at_least(double share) {
@@ -88,17 +96,20 @@ std::string percent_at_most(double share) {
 
 std::string claim_sentence(const SuccessClaim& claim) {
   const std::string level = fmt::format("with {:.6g} % confidence", 100.0 * claim.confidence);
+  const std::string subject = claim.rigs > 0 ? "trials on all rigs" : "axes";
+  const std::string trials =
+      fmt::format("{} trials{}", claim.trials, claim.rigs > 0 ? fmt::format(" on {} rigs", claim.rigs) : "");
   if (claim.failures == claim.trials) {
-    return fmt::format("at most {} of axes succeed, {} (no success in {} trials)",
-                       percent_at_most(claim.success_at_most), level, claim.trials);
+    return fmt::format("at most {} of {} succeed, {} (no success in {})",
+                       percent_at_most(claim.success_at_most), subject, level, trials);
   }
   const std::string statement =
-      fmt::format("at least {} of axes succeed, {}", percent_at_least(claim.success_at_least), level);
+      fmt::format("at least {} of {} succeed, {}", percent_at_least(claim.success_at_least), subject, level);
   if (claim.failures > 0) {
-    return fmt::format("{} ({} {} in {} trials)", statement, claim.failures,
-                       claim.failures == 1 ? "failure" : "failures", claim.trials);
+    return fmt::format("{} ({} {} in {})", statement, claim.failures,
+                       claim.failures == 1 ? "failure" : "failures", trials);
   }
-  return fmt::format("{} (no failure in {} trials: not 100 %, but at most {} fail)", statement, claim.trials,
+  return fmt::format("{} (no failure in {}: not 100 %, but at most {} fail)", statement, trials,
                      percent_at_most(claim.failure_at_most));
 }
 

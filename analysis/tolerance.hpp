@@ -36,6 +36,7 @@ struct SuccessClaim {
   double success_at_least{0.0};  ///< share of axes, proportion_at_least
   double failure_at_most{1.0};   ///< its complement
   double success_at_most{1.0};   ///< share of axes, proportion_at_most, of which both are not claimed at once
+  std::int64_t rigs{0};          ///< that the trials ran on; 0: each trial is an axis of its own
 };
 
 /// From trials whose number was chosen before they were run.
@@ -45,8 +46,11 @@ SuccessClaim success_claim(std::int64_t successes, std::int64_t trials, double c
 /// however often one looked.
 SuccessClaim success_claim_at_any_time(std::int64_t successes, std::int64_t trials, double confidence);
 
-/// −ln(1 − confidence)/n, 3/n at 95 %: about failure_at_most where there was no failure; NaN where there was
-/// one.
+/// What both claims allow, about the same trials: the first with the weaker bounds of the two.
+SuccessClaim weaker_claim(const SuccessClaim& one, const SuccessClaim& other);
+
+/// −ln(1 − confidence)/n, 3/n at 95 %, n the trials or, where they share rigs, the rigs: about
+/// failure_at_most where there was no failure; NaN where there was one.
 double rule_of_three(const SuccessClaim& claim);
 
 /// "at least 99.9 % of axes succeed, with 95 % confidence", with the numbers of trials and failures. Shares

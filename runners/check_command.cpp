@@ -159,6 +159,13 @@ void print_plan(const Study& study) {
     fmt::print(
         "  or fewer: after every {} at each point it ends where all success rates are known to ± {:.4g}\n",
         study.stop->block, study.stop->success_rate_halfwidth);
+    if (study.rigs > 0) {
+      fmt::print(
+          "  (of these {} rigs: how far others differ from them, more trials do not tell; see 'zerocount "
+          "plan "
+          "--rig-sd')\n",
+          study.rigs);
+    }
   }
   fmt::print("  {:.4g} samples at {:.0f} ns: about {} on {} core{}\n", cost.samples,
              1e9 * cost.seconds_per_sample, duration_text(cost.seconds()), cost.cores,

@@ -85,6 +85,11 @@ void require_independent_trials(const StudyFile& file, const ManifestValues& val
                             file.path().string()));
 }
 
+/// The number of rigs that the trials of a study run on, 0 without.
+std::int64_t rigs_of(const ManifestValues& values) {
+  return std::stoll(value_or(values, "rigs", "0"));
+}
+
 PointComparison compare_point(const StudyComparison& comparison, const GateRules& rules,
                               const MatchedPoint& point, const PointTrials& baseline,
                               const PointTrials& current) {
@@ -116,12 +121,15 @@ bool judges_nothing(const StudyFile& file) {
 }
 
 void compare_points(StudyComparison& result, const GateRules& rules, const StudyFile& baseline,
-                    const StudyFile& current, const std::vector<MatchedPoint>& points) {
+                    const StudyFile& current, const std::vector<MatchedPoint>& points,
+                    std::int64_t baseline_rigs, std::int64_t current_rigs) {
   const double failing = failing_confidence(rules.confidence, count_requirements(rules, points));
   const bool nothing = judges_nothing(current) || judges_nothing(baseline);
   for (const MatchedPoint& point : points) {
-    const PointTrials before = read_point_trials(baseline, point.baseline);
-    const PointTrials after = read_point_trials(current, point.current);
+    PointTrials before = read_point_trials(baseline, point.baseline);
+    PointTrials after = read_point_trials(current, point.current);
+    before.rigs = baseline_rigs;
+    after.rigs = current_rigs;
     result.points.push_back(compare_point(result, rules, point, before, after));
     PointComparison& compared = result.points.back();
     if (nothing) compared.measures.clear();
@@ -202,7 +210,12 @@ StudyComparison compare_studies(const StudyFile& baseline, const StudyFile& curr
     result.changed_inputs = std::move(draws.changed_inputs);
   }
   note_unpaired_trials(result);
-  compare_points(result, rules, baseline, current, points);
+  compare_points(result, rules, baseline, current, points, rigs_of(old_values), rigs_of(new_values));
+  if (rigs_of(old_values) > 0 || rigs_of(new_values) > 0) {
+    result.notes.push_back(
+        "the trials of a rig are not independent: tests and bounds are over rigs, and what decides is more "
+        "trials on more rigs, in the same proportion");
+  }
   if (result.equal_to_the_bit) pass_equal_data(result);
   result.verdict = verdict_of(result);
   return result;

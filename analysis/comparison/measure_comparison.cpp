@@ -30,7 +30,14 @@ std::vector<double> negated(std::vector<double> values) {
   return values;
 }
 
-/// Settling times trial by trial, over the moves that arrived in both.
+/// With rigs, the means of every rig: trials of one rig are not independent.
+ComparedValues over_rigs(const ComparedValues& values, std::int64_t baseline_rigs,
+                         std::int64_t current_rigs) {
+  return {means_by_rig(values.baseline, baseline_rigs), means_by_rig(values.current, current_rigs),
+          means_by_rig(values.differences, current_rigs)};
+}
+
+/// Settling times trial by trial, over the moves that arrived in both; NaN where none did.
 ComparedValues paired_settling_times(const PointTrials& baseline, const PointTrials& current) {
   ComparedValues values;
   const auto moves = static_cast<std::size_t>(std::min(baseline.moves, current.moves));
@@ -46,12 +53,11 @@ ComparedValues paired_settling_times(const PointTrials& baseline, const PointTri
       two += after;
       count += 1.0;
     }
-    if (count == 0.0) continue;
     values.baseline.push_back(one / count);
     values.current.push_back(two / count);
     values.differences.push_back((two - one) / count);
   }
-  return values;
+  return over_rigs(values, baseline.rigs, current.rigs);
 }
 
 ComparedValues compared_values(const PointTrials& baseline, const PointTrials& current, GateQuantity quantity,
@@ -66,7 +72,23 @@ ComparedValues compared_values(const PointTrials& baseline, const PointTrials& c
     std::transform(current.jerks.begin(), current.jerks.end(), baseline.jerks.begin(),
                    values.differences.begin(), std::minus<>());
   }
-  return values;
+  return over_rigs(values, baseline.rigs, current.rigs);
+}
+
+/// Failures as numbers, 1 for each trial that failed: their means are the rates of failure.
+ComparedValues compared_failures(const PointTrials& baseline, const PointTrials& current,
+                                 GateQuantity quantity, bool paired) {
+  const auto failures_of = [&](const PointTrials& trials) {
+    std::vector<double> failures;
+    for (const bool quality : qualities(trials, quantity)) failures.push_back(quality ? 0.0 : 1.0);
+    return failures;
+  };
+  ComparedValues values{failures_of(baseline), failures_of(current), {}};
+  if (paired) {
+    for (std::size_t i = 0; i < values.baseline.size(); ++i)
+      values.differences.push_back(values.current[i] - values.baseline[i]);
+  }
+  return over_rigs(values, baseline.rigs, current.rigs);
 }
 
 PairedFailures paired_failures(const std::vector<bool>& baseline, const std::vector<bool>& current) {
@@ -116,21 +138,15 @@ double unit_of(GateQuantity quantity, const MeasureComparison& result) {
   return time > 0.0 ? time : 1e-3;
 }
 
+std::string test_of_means(bool paired, bool over_rigs) {
+  return fmt::format("{}{}", paired ? "signed rank and paired t" : "Smirnov and Welch's t",
+                     over_rigs ? ", over rigs" : "");
+}
+
 /// Both the ranks and the means must speak for a change: each test alone can be moved by what the other does
 /// not see.
-void compare_mean(MeasureComparison& result, const ComparedValues& values, GateQuantity quantity, bool paired,
-                  double confidence) {
-  result.baseline_n = std::ssize(values.baseline);
-  result.current_n = std::ssize(values.current);
-  if (result.baseline_n > 0) result.baseline = mean_of(values.baseline);
-  if (result.current_n > 0) result.current = mean_of(values.current);
-  result.test = paired ? "signed rank and paired t" : "Smirnov and Welch's t";
-  if (std::min(result.baseline_n, result.current_n) < least_values) {
-    result.note =
-        fmt::format("fewer than {} trials have a value{}", least_values, paired ? " in both files" : "");
-    return;
-  }
-  const double unit = unit_of(quantity, result);
+void test_means(MeasureComparison& result, const ComparedValues& values, double unit, bool paired,
+                double confidence) {
   MeanDifference worse;
   if (paired) {
     worse = mean_difference(values.differences);
@@ -146,6 +162,32 @@ void compare_mean(MeasureComparison& result, const ComparedValues& values, GateQ
   result.effect = worse.value;
 }
 
+void compare_mean(MeasureComparison& result, const ComparedValues& values, GateQuantity quantity, bool paired,
+                  double confidence) {
+  result.baseline_n = std::ssize(values.baseline);
+  result.current_n = std::ssize(values.current);
+  if (result.baseline_n > 0) result.baseline = mean_of(values.baseline);
+  if (result.current_n > 0) result.current = mean_of(values.current);
+  result.test = test_of_means(paired, false);
+  if (std::min(result.baseline_n, result.current_n) < least_values) {
+    result.note =
+        fmt::format("fewer than {} trials have a value{}", least_values, paired ? " in both files" : "");
+    return;
+  }
+  test_means(result, values, unit_of(quantity, result), paired, confidence);
+}
+
+/// Shares of trials on rigs: the rates of failure of the rigs. One rig more might fail in all of its trials.
+void compare_share_over_rigs(MeasureComparison& result, const ComparedValues& failures, bool paired,
+                             double confidence) {
+  result.baseline_n = std::ssize(failures.baseline);
+  result.current_n = std::ssize(failures.current);
+  result.baseline = 1.0 - mean_of(failures.baseline);
+  result.current = 1.0 - mean_of(failures.current);
+  result.test = test_of_means(paired, true);
+  test_means(result, failures, 1.0, paired, confidence);
+}
+
 }  // namespace
 
 std::vector<MeasureComparison> compare_measures(const GateRules& rules, const std::string& label,
@@ -157,12 +199,17 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
     MeasureComparison result;
     result.measure = measure.name;
     result.unit = measure.unit;
-    if (measure.share) {
+    const bool rigs = baseline.rigs > 0 || current.rigs > 0;
+    if (measure.share && rigs) {
+      compare_share_over_rigs(result, compared_failures(baseline, current, measure.quantity, paired), paired,
+                              rules.confidence);
+    } else if (measure.share) {
       compare_share(result, qualities(baseline, measure.quantity), qualities(current, measure.quantity),
                     paired, rules.confidence);
     } else {
       compare_mean(result, compared_values(baseline, current, measure.quantity, paired), measure.quantity,
                    paired, rules.confidence);
+      if (rigs) result.test = test_of_means(paired, true);
     }
     const GateMargin margin = margin_of(rules, label, measure);
     result.margin = margin.absolute;

@@ -8,7 +8,9 @@
 namespace zerocount {
 
 PointTrials gather_trials(std::span<const MoveOutcome> outcomes, std::int64_t moves) {
-  PointTrials result{std::ssize(outcomes) / moves, moves, {}, {}, {}, {}, {}};
+  PointTrials result;
+  result.trials = std::ssize(outcomes) / moves;
+  result.moves = moves;
   for (auto move = outcomes.begin(); move != outcomes.end(); move += moves) {
     const auto all = [&](auto quality) { return std::all_of(move, move + moves, quality); };
     result.zero_count.push_back(all([](const MoveOutcome& m) { return m.outcome == Outcome::zero_count; }));
@@ -57,7 +59,23 @@ std::vector<double> settling_times(const PointTrials& trials) {
       sum += time;
       ++count;
     });
-    if (count > 0) means.push_back(sum / count);
+    means.push_back(count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN());
+  }
+  return means_by_rig(means, trials.rigs);
+}
+
+std::vector<double> means_by_rig(std::span<const double> values, std::int64_t rigs) {
+  const auto clusters = rigs > 0 ? static_cast<std::size_t>(rigs) : values.size();
+  std::vector<double> means;
+  for (std::size_t cluster = 0; cluster < clusters; ++cluster) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t i = cluster; i < values.size(); i += clusters) {
+      if (std::isnan(values[i])) continue;
+      sum += values[i];
+      count += 1.0;
+    }
+    if (count > 0.0) means.push_back(sum / count);
   }
   return means;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "analysis/comparison/mean_tests.hpp"
+#include "analysis/statistics/clustered_proportion.hpp"
 
 namespace zerocount {
 namespace {
@@ -19,10 +20,40 @@ struct ShareClaim {
   std::int64_t trials{0};
   double limit{0.0};
   bool at_least{true};
+  std::optional<ClusterSums> by_rig{};  ///< where trials share rigs
 };
+
+/// As if there were `times` as many rigs like those that were seen.
+ClusterSums scaled(const ClusterSums& sums, double times) {
+  const auto whole = [&](std::int64_t number) {
+    return static_cast<std::int64_t>(std::llround(times * static_cast<double>(number)));
+  };
+  return {whole(sums.clusters),        whole(sums.hits),
+          whole(sums.events),          times * sums.hits_squared,
+          times * sums.hits_by_events, times * sums.events_squared};
+}
+
+std::optional<ClusterSums> sums_by_rig(const std::vector<bool>& quality, std::int64_t rigs) {
+  if (rigs == 0) return std::nullopt;
+  ClusterSums sums;
+  for (std::int64_t rig = 0; rig < rigs; ++rig) {
+    std::int64_t hits = 0;
+    std::int64_t trials = 0;
+    for (auto i = static_cast<std::size_t>(rig); i < quality.size(); i += static_cast<std::size_t>(rigs)) {
+      hits += quality[i];
+      ++trials;
+    }
+    sums.add(hits, trials);
+  }
+  return sums;
+}
 
 /// One-sided bounds: `low` with one confidence, `high` with another.
 ConfidenceInterval one_sided(const ShareClaim& claim, double low_confidence, double high_confidence) {
+  if (claim.by_rig) {
+    return {clustered_at_least(*claim.by_rig, low_confidence),
+            clustered_at_most(*claim.by_rig, high_confidence)};
+  }
   return {clopper_pearson(claim.successes, claim.trials, 2.0 * low_confidence - 1.0).low,
           clopper_pearson(claim.successes, claim.trials, 2.0 * high_confidence - 1.0).high};
 }
@@ -43,7 +74,10 @@ std::optional<double> trials_to_decide(const ShareClaim& claim, double confidenc
   const double share = rate(claim.successes, claim.trials);
   const auto decides = [&](std::int64_t trials) {
     const auto successes = std::llround(share * static_cast<double>(trials));
-    const ShareClaim more{successes, trials, claim.limit, claim.at_least};
+    ShareClaim more{successes, trials, claim.limit, claim.at_least};
+    if (claim.by_rig) {
+      more.by_rig = scaled(*claim.by_rig, static_cast<double>(trials) / static_cast<double>(claim.trials));
+    }
     return verdict_of(bounds_of(more, confidence, failing), claim.limit, claim.at_least) !=
            GateVerdict::inconclusive;
   };
@@ -70,22 +104,25 @@ void judge_share(RequirementResult& result, const ShareClaim& claim, double conf
   }
 }
 
-void judge_quality(RequirementResult& result, const std::vector<bool>& quality, double confidence,
-                   double failing) {
+void judge_quality(RequirementResult& result, const std::vector<bool>& quality, std::int64_t rigs,
+                   double confidence, double failing) {
   const ShareClaim claim{std::count(quality.begin(), quality.end(), true), std::ssize(quality), result.limit,
-                         result.at_least};
+                         result.at_least, sums_by_rig(quality, rigs)};
   result.value = rate(claim.successes, claim.trials);
   judge_share(result, claim, confidence, failing);
 }
 
-void judge_quantile(RequirementResult& result, std::vector<double> times, double probability,
-                    double confidence, double failing) {
+void judge_quantile(RequirementResult& result, std::vector<double> times, std::int64_t rigs,
+                    double probability, double confidence, double failing) {
+  std::vector<bool> in_time;
+  for (const double time : times) in_time.push_back(time <= result.limit);
   std::sort(times.begin(), times.end());
   const auto n = static_cast<double>(times.size());
   const auto position = static_cast<std::size_t>(std::ceil(probability * n));
   result.value = times[std::max<std::size_t>(position, 1) - 1];
   const auto within = std::upper_bound(times.begin(), times.end(), result.limit) - times.begin();
-  judge_share(result, {within, std::ssize(times), probability, true}, confidence, failing);
+  judge_share(result, {within, std::ssize(times), probability, true, sums_by_rig(in_time, rigs)}, confidence,
+              failing);
 }
 
 void judge_mean(RequirementResult& result, const std::vector<double>& values, double confidence,
@@ -117,14 +154,15 @@ RequirementResult judge_requirement(const Requirement& requirement, const PointT
   result.limit = requirement.limit;
   switch (quantity.kind) {
     case RequirementKind::share:
-      judge_quality(result, qualities(trials, quantity.quantity), confidence, failing_confidence);
+      judge_quality(result, qualities(trials, quantity.quantity), trials.rigs, confidence,
+                    failing_confidence);
       break;
     case RequirementKind::quantile:
-      judge_quantile(result, slowest_settling_times(trials), quantity.probability, confidence,
+      judge_quantile(result, slowest_settling_times(trials), trials.rigs, quantity.probability, confidence,
                      failing_confidence);
       break;
     case RequirementKind::mean:
-      judge_mean(result, trials.jerks, confidence, failing_confidence);
+      judge_mean(result, means_by_rig(trials.jerks, trials.rigs), confidence, failing_confidence);
       break;
   }
   return result;

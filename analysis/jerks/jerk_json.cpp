@@ -46,13 +46,13 @@ Json slowing_json(const LaplaceSummary& slowing) {
           {"p_value", slowing.p_slowing}};
 }
 
-Json share_json(const ClusteredShare& share) {
+Json share_json(const ClusteredProportion& share) {
   return {{"hits", share.hits},
           {"jerks", share.events},
-          {"share", share.share},
-          {"share_low", share.bounds.low},
-          {"share_high", share.bounds.high},
-          {"independent", share.independent}};
+          {"share", share.value},
+          {"share_low", share.korn_graubard.low},
+          {"share_high", share.korn_graubard.high},
+          {"independent", share.effective_events}};
 }
 
 Json magnitudes_json(const JerkMagnitudes& magnitudes) {

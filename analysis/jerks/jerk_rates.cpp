@@ -31,20 +31,19 @@ std::int64_t range_of(std::int64_t sample, double sample_time) {
 
 }  // namespace
 
-void JerkRates::Range::close_trial() {
-  trials += trial_exposure > 0.0;
-  jerks_squared += trial_jerks * trial_jerks;
-  jerks_by_exposure += trial_jerks * trial_exposure;
-  exposure_squared += trial_exposure * trial_exposure;
-  trial_jerks = trial_exposure = 0.0;
+void JerkRates::Range::close_clusters() {
+  for (const auto& [number, cluster] : open) {
+    clusters += cluster.exposure > 0.0;
+    jerks_squared += cluster.jerks * cluster.jerks;
+    jerks_by_exposure += cluster.jerks * cluster.exposure;
+    exposure_squared += cluster.exposure * cluster.exposure;
+  }
+  open.clear();
 }
 
 JerkRates::Range& JerkRates::range_at(std::int64_t j, const ObservedMove& move) {
   Range& range = ranges_[j];
-  if (range.trial != move.trial) {
-    range.close_trial();
-    range.trial = move.trial;
-  }
+  if (!clusters_return_ && !range.open.contains(move.cluster)) range.close_clusters();
   range.moves += range.move != moves_;
   range.move = moves_;
   return range;
@@ -56,7 +55,7 @@ void JerkRates::add_exposure(const ObservedMove& move, std::int64_t first, std::
     const double exposure = static_cast<double>(next - first) * move.sample_time;
     Range& range = range_at(j, move);
     range.exposure += exposure;
-    range.trial_exposure += exposure;
+    range.open[move.cluster].exposure += exposure;
     first = next;
   }
 }
@@ -69,7 +68,7 @@ void JerkRates::add(const ObservedMove& move) {
   for (const SampledJerk& jerk : move.jerks) {
     Range& range = range_at(range_of(jerk.onset, move.sample_time), move);
     ++range.jerks;
-    range.trial_jerks += 1.0;
+    range.open[move.cluster].jerks += 1.0;
   }
 }
 
@@ -78,18 +77,18 @@ std::vector<JerkRate> JerkRates::rates(double confidence) const {
   std::vector<JerkRate> rates;
   for (const auto& [j, counted] : ranges_) {
     Range range = counted;
-    range.close_trial();
+    range.close_clusters();
     const auto jerks = static_cast<double>(range.jerks);
-    const auto trials = static_cast<double>(range.trials);
+    const auto clusters = static_cast<double>(range.clusters);
     JerkRate rate{.from = std::max(range_begin(j), earliest_), .to = std::min(range_begin(j + 1), latest_)};
     rate.moves = range.moves;
     rate.exposure = range.exposure;
     rate.jerks = range.jerks;
     rate.rate = jerks / range.exposure;
-    if (range.jerks > 0 && range.trials > 1) {
+    if (range.jerks > 0 && range.clusters > 1) {
       const double squares = range.jerks_squared - 2.0 * rate.rate * range.jerks_by_exposure +
                              rate.rate * rate.rate * range.exposure_squared;
-      rate.dispersion = trials / (trials - 1.0) * std::max(0.0, squares) / jerks;
+      rate.dispersion = clusters / (clusters - 1.0) * std::max(0.0, squares) / jerks;
     }
     const auto scaled_bounds = [&](double divisor) {
       const ConfidenceInterval mean = poisson_bounds(jerks / divisor, confidence);

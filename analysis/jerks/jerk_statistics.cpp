@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <map>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -38,14 +40,18 @@ LaplaceTerm trend_after_first(const ObservedMove& move) {
   return laplace_term(numbers, at_risk);
 }
 
-/// Hits and events of the trial at hand, given to the sums when the next one begins.
-class TrialSums {
+/// Hits and events of the clusters that may have more, and sums over those that have not.
+class EventSums {
  public:
-  void add(std::int64_t trial, bool hit) {
-    if (trial != trial_) close();
-    trial_ = trial;
-    hits_ += hit;
-    ++events_;
+  /// @param clusters_return whether events of one cluster come between those of others: those of a trial do
+  /// not, those of a rig do
+  explicit EventSums(bool clusters_return = false) : clusters_return_(clusters_return) {}
+
+  void add(std::int64_t cluster, bool hit) {
+    if (!clusters_return_ && !open_.contains(cluster)) close();
+    Counts& counts = open_[cluster];
+    counts.hits += hit;
+    ++counts.events;
   }
   const ClusterSums& sums() {
     close();
@@ -53,18 +59,27 @@ class TrialSums {
   }
 
  private:
+  struct Counts {
+    std::int64_t hits{0}, events{0};
+  };
   void close() {
-    sums_.add(hits_, events_);
-    hits_ = events_ = 0;
+    for (const auto& [number, counts] : open_) sums_.add(counts.hits, counts.events);
+    open_.clear();
   }
+  bool clusters_return_;
+  std::map<std::int64_t, Counts> open_;
   ClusterSums sums_;
-  std::int64_t trial_{-1}, hits_{0}, events_{0};
 };
 
 /// The first pass over the moves of a point: everything but the bounds of the intervals.
 class JerkCollector {
  public:
-  explicit JerkCollector(double confidence) : confidence_(confidence), laplace_(confidence) {}
+  JerkCollector(double confidence, bool on_rigs)
+      : confidence_(confidence),
+        rates_(on_rigs),
+        laplace_(confidence),
+        agreeing_(on_rigs),
+        one_count_(on_rigs) {}
 
   void add(const ObservedMove& move) {
     ++found_.moves;
@@ -78,7 +93,7 @@ class JerkCollector {
     laplace_.add(trend_after_first(move));
     for (std::size_t i = 0; i < move.jerks.size(); ++i) {
       if (i > 0) intervals_.add(interval_before(move, i));
-      add_jerk(move.trial, move.sample_time, move.jerks[i]);
+      add_jerk(move, move.jerks[i]);
     }
   }
 
@@ -87,11 +102,11 @@ class JerkCollector {
     result.confidence = confidence_;
     result.rates = rates_.rates(confidence_);
     result.slowing = laplace_.summary();
-    result.agreement = agreeing_.sums().share(confidence_);
+    result.agreement = clustered_proportion(agreeing_.sums(), confidence_);
     result.intervals.n = intervals_.size;
     result.intervals.mean = mean(intervals_);
     JerkMagnitudes& magnitudes = result.magnitudes;
-    magnitudes.one_count = one_count_.sums().share(confidence_);
+    magnitudes.one_count = clustered_proportion(one_count_.sums(), confidence_);
     magnitudes.counts.assign(magnitude_counts_.begin(), magnitude_counts_.end());
     magnitudes.mean = mean(magnitudes_);
     magnitudes.max = magnitudes_.size > 0 ? magnitudes_.counts.rbegin()->first : 0;
@@ -102,14 +117,14 @@ class JerkCollector {
   const Tally<double>& intervals() const { return intervals_; }
 
  private:
-  void add_jerk(std::int64_t trial, double sample_time, const SampledJerk& jerk) {
+  void add_jerk(const ObservedMove& move, const SampledJerk& jerk) {
     ++found_.jerks;
-    found_.with_jerks += trial != last_with_jerks_;
-    last_with_jerks_ = trial;
-    agreeing_.add(trial, jerk.agrees);
-    one_count_.add(trial, jerk.magnitude == 1);
+    found_.with_jerks += move.trial != last_with_jerks_;
+    last_with_jerks_ = move.trial;
+    agreeing_.add(move.cluster, jerk.agrees);
+    one_count_.add(move.cluster, jerk.magnitude == 1);
     magnitudes_.add(jerk.magnitude);
-    durations_.add(std::round(static_cast<double>(jerk.length) * sample_time * 1e12) / 1e12);
+    durations_.add(std::round(static_cast<double>(jerk.length) * move.sample_time * 1e12) / 1e12);
     const auto last = static_cast<std::int64_t>(magnitude_classes);
     ++magnitude_counts_[static_cast<std::size_t>(std::clamp<std::int64_t>(jerk.magnitude, 1, last) - 1)];
   }
@@ -118,7 +133,7 @@ class JerkCollector {
   JerkStatistics found_;
   JerkRates rates_;
   LaplaceSum laplace_;
-  TrialSums agreeing_, one_count_;
+  EventSums agreeing_, one_count_;
   Tally<double> intervals_, durations_;
   Tally<std::int64_t> magnitudes_;
   std::array<std::int64_t, magnitude_classes> magnitude_counts_{};
@@ -145,19 +160,19 @@ void add_interval_quantiles(JerkIntervals& intervals, const Tally<double>& tally
   std::array<double, count> values{};
   for (std::size_t q = 0; q < count; ++q)
     values[q] = order_statistic(tally, quantile_rank(tally.size, jerk_interval_probabilities[q]));
-  std::array<TrialSums, count> sums;
+  std::vector<EventSums> sums(count, EventSums(study.rigs > 0));
   if (tally.size > 0) {
     for_each_move(file, study, point, [&](const ObservedMove& move) {
       if (!move.arrived || move.lost) return;
       for (std::size_t i = 1; i < move.jerks.size(); ++i) {
         const double interval = interval_before(move, i);
-        for (std::size_t q = 0; q < count; ++q) sums[q].add(move.trial, interval <= values[q]);
+        for (std::size_t q = 0; q < count; ++q) sums[q].add(move.cluster, interval <= values[q]);
       }
     });
   }
   for (std::size_t q = 0; q < count; ++q) {
-    const double independent = sums[q].sums().independent_events();
-    intervals.independent.push_back(independent);
+    const double independent = adjusted_events(sums[q].sums(), 0.5 * (1.0 - confidence));
+    intervals.independent.push_back(effective_events(sums[q].sums()));
     intervals.quantiles.push_back(
         quantile_of_clusters(tally, jerk_interval_probabilities[q], independent, confidence));
   }
@@ -180,7 +195,7 @@ JerkStatistics jerk_statistics(const StudyFile& file, const Study& study, std::i
                                double confidence) {
   require_jerks(file, study, point);
   require_confidence(confidence);
-  JerkCollector collector(confidence);
+  JerkCollector collector(confidence, study.rigs > 0);
   for_each_move(file, study, point, [&](const ObservedMove& move) { collector.add(move); });
   JerkStatistics result = collector.statistics();
   result.trials = file.header().trials;

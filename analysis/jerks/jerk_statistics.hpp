@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "analysis/jerks/clustered_share.hpp"
 #include "analysis/jerks/creep_comparison.hpp"
 #include "analysis/jerks/laplace_trend.hpp"
 #include "analysis/proportion.hpp"
 #include "analysis/quantile.hpp"
+#include "analysis/statistics/clustered_proportion.hpp"
 #include "experiments/study.hpp"
 #include "results/reading/study_file.hpp"
 
@@ -48,7 +48,7 @@ inline constexpr std::array<double, 5> jerk_interval_probabilities{0.05, 0.25, 0
 
 /// The largest |error| of the jerks, counts.
 struct JerkMagnitudes {
-  ClusteredShare one_count;          ///< jerks of one count among all
+  ClusteredProportion one_count;     ///< jerks of one count among all
   std::vector<std::int64_t> counts;  ///< [m]: jerks of magnitude m + 1; the last one: of that or more
   double mean{std::numeric_limits<double>::quiet_NaN()};
   std::int64_t max{0};
@@ -67,8 +67,8 @@ struct JerkStatistics {
   std::int64_t jerks{0};
   std::vector<JerkRate> rates;  ///< ranges spaced evenly in the logarithm, without a gap
   JerkIntervals intervals;
-  LaplaceSummary slowing;    ///< of the jerks after the first of their move
-  ClusteredShare agreement;  ///< jerks in the direction of their move's holding torque among all
+  LaplaceSummary slowing;         ///< of the jerks after the first of their move
+  ClusteredProportion agreement;  ///< jerks in the direction of their move's holding torque among all
   JerkMagnitudes magnitudes;
 };
 

@@ -32,9 +32,9 @@ std::string rate_table(const std::vector<JerkRate>& rates, const std::string& le
   return aligned_table(columns);
 }
 
-std::string share_text(const ClusteredShare& share) {
+std::string share_text(const ClusteredProportion& share) {
   return fmt::format("{} of {}, bounds [{:.1f}, {:.1f}] %", percentage(share.hits, share.events),
-                     share.events, 100.0 * share.bounds.low, 100.0 * share.bounds.high);
+                     share.events, 100.0 * share.korn_graubard.low, 100.0 * share.korn_graubard.high);
 }
 
 std::string intervals_text(const JerkIntervals& intervals) {

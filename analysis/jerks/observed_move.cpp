@@ -115,6 +115,7 @@ void for_each_move(const StudyFile& file, const Study& study, std::int64_t point
       ObservedMove observed =
           observe(timings.of(row - begin), static_cast<std::size_t>(i % moves), move, own);
       observed.trial = row;
+      observed.cluster = study.rigs > 0 ? rig_of(study, row - begin) : row;
       if (observed.arrived && !observed.lost && !in_order(observed)) {
         fail(file, row, "jerks that are not in order, or outside the time of their move");
       }

@@ -21,7 +21,8 @@ struct SampledJerk {
 
 /// A move after its arrival. Samples are counted from the first of the arrival dwell.
 struct ObservedMove {
-  std::int64_t trial{0};  ///< global row
+  std::int64_t trial{0};    ///< global row
+  std::int64_t cluster{0};  ///< what was drawn at random: the trial, or with rigs the rig that it ran on
   bool arrived{false};
   bool lost{false};         ///< the motion was lost, it is not known when: nothing below
   double sample_time{0.0};  ///< s

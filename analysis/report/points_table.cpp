@@ -7,6 +7,8 @@
 #include "analysis/report/escaping.hpp"
 #include "analysis/report/html_table.hpp"
 #include "analysis/report/report_texts.hpp"
+#include "analysis/settling_text.hpp"
+#include "analysis/summary_parts.hpp"
 #include "analysis/text.hpp"
 #include "analysis/tolerance.hpp"
 
@@ -15,9 +17,11 @@ namespace {
 
 constexpr std::size_t max_points = 400;
 
-std::string bounds_text(double low, double high) {
-  if (std::isnan(low) && std::isnan(high)) return "–";
-  return fmt::format("{} … {}", short_number(low), short_number(high));
+/// Nothing where too few moves arrived for either bound.
+std::string settling_bounds(const PointSummary& point, const Quantile& quantile) {
+  if (std::isnan(quantile.low) && std::isnan(quantile.high)) return "–";
+  const std::string low = std::isnan(quantile.low) ? "0" : short_number(quantile.low);
+  return fmt::format("{} … {}", low, settling_text(point, quantile.high));
 }
 
 /// A column of the table of points, and how its cells are made of a point.
@@ -27,6 +31,7 @@ struct PointCell {
   std::string (*text)(const PointSummary& point, const TheoryPrediction& prediction);
   std::string (*below)(const PointSummary& point, const ConfidenceInterval& success){nullptr};
   bool needs_independence{false};  ///< a claim that dependent trials cannot make
+  bool needs_rigs{false};
 };
 
 std::string counted(std::int64_t number) {
@@ -47,6 +52,24 @@ constexpr PointCell point_cells[] = {
        return percent_at_most(point.claim.failure_at_most);
      },
      nullptr, true},
+    {"rigs without failure", "95 % bounds",
+     [](const PointSummary& point, const TheoryPrediction&) {
+       return fmt::format("{:.0f} of {}", point.rigs.without_failure * static_cast<double>(point.rigs.n),
+                          point.rigs.n);
+     },
+     [](const PointSummary& point, const ConfidenceInterval&) {
+       return fmt::format("{:.1f} … {:.1f}", 100.0 * point.rigs.without_failure_bounds.low,
+                          100.0 * point.rigs.without_failure_bounds.high);
+     },
+     false, true},
+    {"sd between rigs", "",
+     [](const PointSummary& point, const TheoryPrediction&) { return short_number(point.rigs.success_sd); },
+     nullptr, false, true},
+    {"worst 5 % of rigs", "",
+     [](const PointSummary& point, const TheoryPrediction&) {
+       return fmt::format("{:.1f} %", 100.0 * point.rigs.worst_5_percent);
+     },
+     nullptr, false, true},
     {"one count", "",
      [](const PointSummary& point, const TheoryPrediction&) { return counted(point.outcomes.one_count); }},
     {"oscil\u00adlating", "",
@@ -59,17 +82,17 @@ constexpr PointCell point_cells[] = {
      }},
     {"settling, median", "s",
      [](const PointSummary& point, const TheoryPrediction&) {
-       return short_number(point.settling_time.median.value);
+       return settling_text(point, point.settling_time.median.value);
      },
      [](const PointSummary& point, const ConfidenceInterval&) {
-       return bounds_text(point.settling_time.median.low, point.settling_time.median.high);
+       return settling_bounds(point, point.settling_time.median);
      }},
     {"settling, 95 %", "s",
      [](const PointSummary& point, const TheoryPrediction&) {
-       return short_number(point.settling_time.p95.value);
+       return settling_text(point, point.settling_time.p95.value);
      },
      [](const PointSummary& point, const ConfidenceInterval&) {
-       return bounds_text(point.settling_time.p95.low, point.settling_time.p95.high);
+       return settling_bounds(point, point.settling_time.p95);
      }},
     {"jerks per trial", "",
      [](const PointSummary& point, const TheoryPrediction&) { return short_number(point.jerk_count.mean); }},
@@ -95,6 +118,7 @@ std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
   std::vector<HtmlColumn> columns{label};
   for (const PointCell& cell : point_cells) {
     if (dependent && cell.needs_independence) continue;
+    if (cell.needs_rigs && !summary.features.rigs) continue;
     HtmlColumn column{cell.head, cell.unit, false, {}};
     if (dependent && cell.below != nullptr)
       column.unit += (column.unit.empty() ? "" : "; ") + std::string("bounds too narrow");
@@ -111,11 +135,17 @@ std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
   return html_table(columns) +
          fmt::format(
              "<p class=\"note\">zero-count: trials all of whose moves ended at zero error, with {}.{} one "
-             "count, oscillating, lost: trials by their worst move. Settling times are of the moves that "
-             "arrived, with order-statistic bounds. {}</p>\n",
+             "count, oscillating, lost: trials by their worst move. Quantiles of settling times are of all "
+             "moves, those that never arrived being later than any time, with order-statistic bounds. "
+             "{}{}</p>\n",
              reported.bounds_name,
              dependent ? "" : " failures at most: the failure probability that the trials leave, one-sided.",
-             dependent ? html_text(fmt::format("{} {}", dependence_sentence, too_narrow_sentence)) : "");
+             summary.features.rigs ? "Sd between rigs: standard deviation of the probability of success. "
+                                     "Worst 5 % of rigs: mean "
+                                     "success rate of those with the lowest, as observed. "
+                                   : "",
+             dependent ? html_text(fmt::format("{} {}", dependence_sentence, too_narrow_sentence))
+                       : html_text(design_line(summary)));
 }
 
 /// "Repeatability" for "repeatability".

@@ -21,9 +21,14 @@ bool better(const PointSummary& one, const PointSummary& other) {
 }
 
 /// Where the outcomes decided how many trials there are, the bounds must hold for any number of them.
+/// With rigs, the outer of these and of the bounds over rigs, which more trials do not narrow.
 ConfidenceInterval success_bounds_of(const PointSummary& point, bool stopped_by_outcomes) {
-  if (!stopped_by_outcomes) return point.success_rate.clopper_pearson;
-  return anytime_bounds(point.outcomes.zero_count, point.judged, summary_confidence);
+  const ConfidenceInterval& fixed = point.success_rate.clopper_pearson;
+  if (!stopped_by_outcomes) return fixed;
+  const ConfidenceInterval stopped =
+      anytime_bounds(point.outcomes.zero_count, point.judged, summary_confidence);
+  if (point.rigs.n == 0) return stopped;
+  return {std::min(stopped.low, fixed.low), std::max(stopped.high, fixed.high)};
 }
 
 }  // namespace
@@ -33,8 +38,9 @@ ReportedStudy reported_study(const StudyFile& file) {
   ReportedStudy reported{file,
                          parse_study(header.manifest, file.path().string() + ":/manifest", header.overrides),
                          summarise(file)};
-  reported.bounds_name =
-      reported.study.stop ? "bounds that hold at whatever trial one stops" : "Clopper-Pearson bounds";
+  reported.bounds_name = reported.study.stop   ? "bounds that hold at whatever trial one stops"
+                         : reported.study.rigs ? "Korn-Graubard bounds"
+                                               : "Clopper-Pearson bounds";
   for (const PointSummary& point : reported.summary.points)
     reported.success_bounds.push_back(success_bounds_of(point, reported.study.stop.has_value()));
   reported.focus = best_point(reported.summary.points);

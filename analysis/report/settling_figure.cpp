@@ -16,12 +16,19 @@ constexpr std::int64_t most_curves = 6;
 constexpr std::int64_t most_steps = 160;  ///< of a curve
 
 /// Half width of the band that holds a whole distribution function with the confidence of summaries:
-/// √(ln(2M/α)/2n) for n independent trials of M moves each, whose moves are not independent of each other.
+/// √(ln(2M/α)/2n) for n independent clusters (trials, or rigs) of M moves each, which are not independent of
+/// each other.
 /// (Dvoretzky, Kiefer and Wolfowitz 1956 with the constant of Massart 1990, for each of the M moves at the
 /// level α/M; the mean of M functions that are each within the band is so too.)
-double band(std::int64_t trials, std::int64_t moves) {
+double band(std::int64_t clusters, std::int64_t moves) {
   const double alpha = 1.0 - summary_confidence;
-  return std::sqrt(std::log(2.0 * static_cast<double>(moves) / alpha) / (2.0 * static_cast<double>(trials)));
+  return std::sqrt(std::log(2.0 * static_cast<double>(moves) / alpha) /
+                   (2.0 * static_cast<double>(clusters)));
+}
+
+double band_of(const ReportedStudy& reported, const PointSummary& point) {
+  const std::int64_t clusters = reported.study.rigs > 0 ? reported.study.rigs : point.trials;
+  return band(clusters, point.moves / clusters);
 }
 
 Tally<double> settling_times(const ReportedStudy& reported, std::int64_t point) {
@@ -85,11 +92,14 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   const std::int64_t moves_per_trial = reported.file.moves();
   std::string caption = fmt::format(
       "Share of all moves that have arrived, for good or not, within a time; a curve that ends below 100 % "
-      "never got further. The bands {} (Dvoretzky-Kiefer-Wolfowitz, n = {} trials{}). ",
+      "never got further. The bands {} (Dvoretzky-Kiefer-Wolfowitz, n = {}{}). ",
       reported.summary.features.dependent_trials
           ? "would hold the whole curve of a point with 95 % confidence, were its trials independent"
           : "hold the whole curve of a point with 95 % confidence",
-      points.front().trials, moves_per_trial > 1 ? fmt::format(" of {} moves each", moves_per_trial) : "");
+      reported.study.rigs > 0 ? fmt::format("{} rigs", reported.study.rigs)
+                              : fmt::format("{} trials", points.front().trials),
+      reported.study.rigs == 0 && moves_per_trial > 1 ? fmt::format(" of {} moves each", moves_per_trial)
+                                                      : "");
   const auto arriving = std::count_if(points.begin(), points.end(),
                                       [](const PointSummary& point) { return point.settling_time.n > 0; });
   if (std::ssize(shown) < arriving) {
@@ -116,7 +126,7 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   for (const std::int64_t point : shown) {
     const auto at = static_cast<std::size_t>(point);
     add_curve(data, reported.summary.labels[at], settling_times(reported, point), points[at].moves,
-              band(points[at].trials, moves_per_trial), end);
+              band_of(reported, points[at]), end);
   }
   ordered_json& x = figure.specification["encoding"]["x"];
   if (start > 0.0 && end > 12.0 * start) {  // a few late arrivals would press all others against the axis

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -36,8 +37,9 @@ std::string flawless_text(const ReportedStudy& reported, const SuccessClaim& cla
   return fmt::format(
       "No failure in {} trials is not 100 % repeatability: it bounds the probability of a failure, which is "
       "at most {} "
-      "with 95 % confidence. To put it below 0.1 % would take {} trials without a failure.",
-      claim.trials, percent_at_most(claim.failure_at_most), trials_for_claim(0.999, claim.confidence, 0));
+      "with 95 % confidence. To put it below 0.1 % would take {} {} without a failure.",
+      claim.trials, percent_at_most(claim.failure_at_most), trials_for_claim(0.999, claim.confidence, 0),
+      claim.rigs > 0 ? "rigs" : "trials");
 }
 
 std::string label_of(const ReportedStudy& reported, std::int64_t point) {
@@ -58,6 +60,10 @@ SuccessClaim claim_of_best(const ReportedStudy& reported, std::int64_t best) {
   SuccessClaim claim = reported.study.stop
                            ? success_claim_at_any_time(successes, point.claim.trials, confidence)
                            : success_claim(successes, point.claim.trials, confidence);
+  if (point.rigs.n > 0) {
+    const SuccessClaim over_rigs = success_claim_on_rigs(point.rigs.successes, confidence);
+    claim = reported.study.stop ? weaker_claim(over_rigs, claim) : over_rigs;
+  }
   claim.confidence = point.claim.confidence;
   return claim;
 }
@@ -94,6 +100,22 @@ void add_success(std::vector<std::string>& lines, const ReportedStudy& reported,
   }
 }
 
+/// How rigs differ at the best point.
+void add_rigs(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
+  const RigStatistics& rigs = point_of(reported, best).rigs;
+  if (rigs.n == 0) return;
+  std::string line =
+      fmt::format("{} of {} rigs had no failure; the worst 5 % of them succeeded in {} of their trials.",
+                  std::llround(rigs.without_failure * static_cast<double>(rigs.n)), rigs.n,
+                  share_text(rigs.worst_5_percent));
+  if (rigs.tolerance.min_rigs > 0) {
+    std::string sentence = tolerance_sentence(rigs.tolerance);
+    sentence.front() = 'W';
+    line += " " + sentence + ".";
+  }
+  lines.push_back(line);
+}
+
 void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported) {
   const std::vector<PointSummary>& points = reported.summary.points;
   if (points.size() == 1) return;
@@ -112,9 +134,17 @@ void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported) 
                               bounds_text(reported, worst - points.begin())));
 }
 
-/// " (95 % bounds a to b s)"; nothing where the trials are not independent.
+/// "half of all moves within 0.05 s", "95 % of them not within the hold".
+std::string within_text(const PointSummary& point, const char* moves, double time) {
+  if (!std::isnan(time)) return fmt::format("{} within {} s", moves, short_number(time));
+  return fmt::format("{} not within {}", moves,
+                     std::isnan(point.hold) ? "the hold" : short_number(point.hold) + " s");
+}
+
+/// " (95 % bounds a to b s)"; nothing where the trials are not independent, or a bound is not known.
 std::string median_bounds_text(const ReportedStudy& reported, const Quantile& median) {
-  if (reported.summary.features.dependent_trials) return "";
+  if (reported.summary.features.dependent_trials || std::isnan(median.low) || std::isnan(median.high))
+    return "";
   return fmt::format(" (95 % bounds {} to {} s)", short_number(median.low), short_number(median.high));
 }
 
@@ -127,10 +157,11 @@ void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, s
   const PointSummary& point = point_of(reported, best);
   const SettlingStatistics& settling = point.settling_time;
   if (settling.n == 0) return;
-  lines.push_back(fmt::format(
-      "{} of the moves arrived{}: half of those within {} s{}, 95 % of them within {} s.",
-      percentage(settling.n, point.moves), at_point(reported, best), short_number(settling.median.value),
-      median_bounds_text(reported, settling.median), short_number(settling.p95.value)));
+  lines.push_back(fmt::format("{} of the moves arrived{}: {}, {}.", percentage(settling.n, point.moves),
+                              at_point(reported, best),
+                              within_text(point, "half of all moves", settling.median.value) +
+                                  median_bounds_text(reported, settling.median),
+                              within_text(point, "95 % of them", settling.p95.value)));
   if (point.jerk_count.total == 0) {
     lines.push_back("No move was disturbed by a jerk after it arrived.");
     return;
@@ -213,6 +244,7 @@ std::string verdict_html(const ReportedStudy& reported) {
                     dependence_sentence));
   }
   add_success(lines, reported, best);
+  add_rigs(lines, reported, best);
   add_times(lines, reported, best);
   add_spread(lines, reported);
   add_theory(lines, reported);

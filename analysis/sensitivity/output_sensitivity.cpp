@@ -148,7 +148,12 @@ void add_notes(const PointInputs& point, const TrialOutputs& trials, const UsedT
     result.notes.push_back(
         fmt::format("{} of {} trials are left out{}: some trials have no value, because their "
                     "motion was lost, was stopped, or is not in the file",
-                    used.left_out, all, point.design == Design::saltelli ? ", in whole rows" : ""));
+                    used.left_out, all - static_cast<std::size_t>(used.of_rigs),
+                    point.design == Design::saltelli ? ", in whole rows" : ""));
+  }
+  if (used.of_rigs > 0) {
+    result.notes.push_back(fmt::format(
+        "of each of the {} rigs the first trial is used: the others are not independent of it", point.rigs));
   }
   if (trials.never_arrived > 0) {
     result.notes.push_back(
@@ -208,7 +213,7 @@ OutputSensitivity output_sensitivity(const PointInputs& inputs, const Sensitivit
   const bool from_saltelli = inputs.design == Design::saltelli;
   const UsedTrials used = used_trials(inputs, trials.values);
   const std::vector<double> y = picked(trials.values, used.independent);
-  result.trials = static_cast<std::int64_t>(trials.values.size()) - used.left_out;
+  result.trials = static_cast<std::int64_t>(trials.values.size()) - used.left_out - used.of_rigs;
   describe_sample(y, result);
   add_notes(inputs, trials, used, result);
   if (!y.empty() && !is_constant(y)) {

@@ -20,10 +20,12 @@ struct PointInputs {
   Design design{Design::monte_carlo};
   std::vector<std::string> factors;  ///< of the design saltelli, in its order; otherwise empty
   std::vector<InputValues> inputs;   ///< all input columns
+  std::int64_t rigs{0};  ///< that the trials run on, the first ones each on another; 0: no trials share a rig
 };
 
 /// What drives one output. Of a saltelli design the indices come from whole rows, all else from the trials of
-/// A and B, which are independent. Trials without a value are left out, with their rows.
+/// A and B, which are independent. Of a study with rigs they come from the first trial of every rig, because
+/// the others are not independent of it. Trials without a value are left out, with their rows.
 /// @param bootstrap where the rows are drawn anew from.
 OutputSensitivity output_sensitivity(const PointInputs& inputs, const SensitivityOutput& output,
                                      const TrialOutputs& trials, double confidence,

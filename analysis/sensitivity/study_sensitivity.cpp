@@ -45,7 +45,7 @@ void check_confidence(double confidence) {
 }
 
 PointInputs point_inputs(const StudyFile& file, const Study& study, std::int64_t point) {
-  PointInputs inputs{.design = study.design, .factors = study.factors, .inputs = {}};
+  PointInputs inputs{.design = study.design, .factors = study.factors, .inputs = {}, .rigs = study.rigs};
   const RowRange rows{point * file.header().trials, file.header().trials};
   for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
     inputs.inputs.push_back({file.input_columns()[column].name, file.input(column, rows)});

@@ -10,10 +10,12 @@ namespace zerocount {
 UsedTrials used_trials(const PointInputs& point, const std::vector<double>& values) {
   UsedTrials used;
   if (point.design != Design::saltelli) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t looked_at = point.rigs > 0 ? static_cast<std::size_t>(point.rigs) : values.size();
+    for (std::size_t i = 0; i < looked_at; ++i) {
       if (std::isfinite(values[i])) used.independent.push_back(i);
     }
-    used.left_out = static_cast<std::int64_t>(values.size() - used.independent.size());
+    used.of_rigs = point.rigs > 0 ? static_cast<std::int64_t>(values.size() - looked_at) : 0;
+    used.left_out = static_cast<std::int64_t>(looked_at - used.independent.size());
     return used;
   }
   const std::size_t length = saltelli_row_length(point.factors.size());

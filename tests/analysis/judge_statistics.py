@@ -1,6 +1,8 @@
 """Statistics against NumPy and SciPy, from the raw outcomes.
 
 usage: judge_statistics.py means CASES      (lines of: mean sd low high confidence  x1 x2 …)
+       judge_statistics.py proportions CASES  (lines of: confidence low high wilson_low wilson_high at_least  k1 n1 …)
+       judge_statistics.py quantiles CASES    (lines of: probability size value low high  x11 … x1size x21 …)
        judge_statistics.py loop FILE.h5     (/point against /outcome)
        judge_statistics.py levels FILE.h5   (/level against /outcome)
 """
@@ -45,6 +47,66 @@ def judge_means(path):
     print(len(lines), "samples")
 
 
+def adjusted_events(hits, events, tail):
+    """Independent events that clustered ones are worth (Korn and Graubard 1998); arrays by cluster."""
+    n, m = events.sum(), len(events)
+    p = hits.sum() / n
+    if m == n:
+        return n
+    if p in (0.0, 1.0) or m == 1:
+        return n**2 / (events**2).sum()
+    variance = m / (m - 1) * ((hits - p * events) ** 2).sum() / n**2
+    design_effect = max(1.0, variance / (p * (1 - p) / n))
+    return max(1.0, n / design_effect) * (stats.t.isf(tail, n - 1) / stats.t.isf(tail, m - 1)) ** 2
+
+
+def judge_proportions(path):
+    with open(path) as cases:
+        lines = cases.readlines()
+    for line in lines:
+        confidence, low, high, wilson_low, wilson_high, at_least, *clusters = map(float, line.split())
+        hits, events = numpy.array(clusters[::2]), numpy.array(clusters[1::2])
+        p = hits.sum() / events.sum()
+        tail = 0.5 * (1 - confidence)
+        n = adjusted_events(hits, events, tail)
+        close(low, stats.beta.ppf(tail, p * n, n - p * n + 1) if p > 0 else 0.0, 1e-8, "low")
+        close(high, stats.beta.isf(tail, p * n + 1, n - p * n) if p < 1 else 1.0, 1e-8, "high")
+        z = stats.norm.isf(tail)
+        for found, sign in ((wilson_low, -1), (wilson_high, 1)):
+            expected = (p + z**2 / (2 * n) + sign * z * numpy.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))) / (1 + z**2 / n)
+            close(found, expected, 1e-8, "wilson")
+        n = adjusted_events(hits, events, 2 * tail)
+        close(at_least, stats.beta.ppf(2 * tail, p * n, n - p * n + 1) if p > 0 else 0.0, 1e-8, "at least")
+    print(len(lines), "samples")
+
+
+def quantile_with_bounds(values, probability):
+    """Of values[cluster, number], infinite where there is none; NaN where it is not finite."""
+    ordered = numpy.sort(values.ravel())
+    finite = ordered[numpy.isfinite(ordered)]
+    n = len(ordered)
+    value = ordered[int(numpy.ceil(n * probability * (1 - 1e-15))) - 1]
+    at = value if numpy.isfinite(value) else finite[-1]
+    hits = (values <= at).sum(axis=1).astype(float)
+    whole = int(adjusted_events(hits, numpy.full(len(values), float(values.shape[1])), 0.025) * (1 + 1e-12))
+    low = int(stats.binom.ppf(0.025, whole, probability))
+    high = int(stats.binom.ppf(0.975, whole, probability)) + 1
+    low_rank, high_rank = int(numpy.floor(low * (n / whole))), int(numpy.ceil(high * (n / whole)))
+    found = (value, ordered[low_rank - 1] if low_rank >= 1 else numpy.inf, ordered[high_rank - 1] if high <= whole else numpy.inf)
+    return [x if numpy.isfinite(x) else numpy.nan for x in found]
+
+
+def judge_quantiles(path):
+    with open(path) as cases:
+        lines = cases.readlines()
+    for line in lines:
+        probability, size, value, low, high, *values = map(float, line.split())
+        values = numpy.nan_to_num(numpy.array(values), nan=numpy.inf).reshape(-1, int(size))
+        for name, found, expected in zip(("value", "low", "high"), (value, low, high), quantile_with_bounds(values, probability)):
+            close(found, expected, 0.0, f"{name} of {line[:60]}")
+    print(len(lines), "samples")
+
+
 def rows_of_point(file, point):
     return numpy.flatnonzero(file["trial/point"][:] == point)
 
@@ -60,11 +122,15 @@ def judge_loop(path):
             expected = {"final_error_n": len(error), "final_error_mean": error.mean(), "final_error_max": error.max()}
             for name, probability in (("median", 0.5), ("p95", 0.95)):
                 expected["final_error_" + name] = numpy.quantile(error, probability, method="inverted_cdf")
-                ordered = numpy.sort(error)
-                low = int(stats.binom.ppf(0.025, len(error), probability))
-                high = int(stats.binom.ppf(0.975, len(error), probability)) + 1
-                expected[f"final_error_{name}_low"] = ordered[low - 1]
-                expected[f"final_error_{name}_high"] = ordered[high - 1] if high <= len(error) else numpy.nan
+                if followed.all():  # otherwise the clusters have different sizes
+                    of_trials = numpy.abs(outcome["final_error"][rows]).astype(float)
+                    value, low, high = quantile_with_bounds(of_trials, probability)
+                    expected[f"final_error_{name}_low"], expected[f"final_error_{name}_high"] = low, high
+                settling = outcome["settling_time"][rows]
+                value, low, high = quantile_with_bounds(numpy.nan_to_num(settling, nan=numpy.inf), probability)
+                expected["settling_time_" + name] = value
+                expected[f"settling_time_{name}_low"], expected[f"settling_time_{name}_high"] = low, high
+            expected["settling_time_moves"] = settling.size
             distance = numpy.abs(outcome["true_error"][rows][followed])
             expected["true_error_n"] = len(distance)
             expected["true_error_mean"] = distance.mean()
@@ -116,4 +182,4 @@ def judge_levels(path):
         assert (file["point/open_loop"][:] + file["point/nonfinite"][:] == trials).all()
 
 
-{"means": judge_means, "loop": judge_loop, "levels": judge_levels}[sys.argv[1]](sys.argv[2])
+{"means": judge_means, "proportions": judge_proportions, "quantiles": judge_quantiles, "loop": judge_loop, "levels": judge_levels}[sys.argv[1]](sys.argv[2])

@@ -171,9 +171,43 @@ TEST(SummaryTable, HasARowPerPointWithItsRateItsBoundsAndWhatIsKnownOfIt) {
   for (const char* part : {"low gain", "40", "100 %", "[91.2, 100.0]", "stable in all tests"}) {
     EXPECT_NE(lines[4].find(part), std::string::npos) << part << " in: " << lines[4];
   }
-  for (const char* part : {"high, gain", "7", "0 %", "[0.0, 41.0]", "–", "14.3 %", "28.6 %"}) {
+  for (const char* part : {"high, gain", "7", "0 %", "[0.0, 41.0]", "> hold", "14.3 %", "28.6 %"}) {
     EXPECT_NE(lines[5].find(part), std::string::npos) << part << " in: " << lines[5];
   }
+}
+
+TEST(SummaryTable, SaysWhatIsNotReachedWithinTheHold) {
+  StudySummary summary = two_cases();
+  summary.points[1].hold = 1.0;
+  EXPECT_NE(lines_of(summary_table(summary))[5].find("> 1 s"), std::string::npos);
+}
+
+TEST(SummaryTable, NamesTheDesignAndWhatItMeansForTheBounds) {
+  StudySummary summary = two_cases();
+  EXPECT_NE(summary_table(summary).find("\ndesign: monte_carlo\n"), std::string::npos);
+  EXPECT_EQ(summary_json(summary)["conservative_bounds"], false);
+  summary.design = "sobol";
+  summary.features.spread_trials = true;
+  EXPECT_NE(summary_table(summary).find("\ndesign: sobol: bounds are conservative"), std::string::npos);
+  EXPECT_EQ(summary_json(summary)["conservative_bounds"], true);
+  EXPECT_EQ(summary_json(summary)["design"], "sobol");
+}
+
+TEST(SummaryTable, HasRigsWhereTrialsShareThem) {
+  StudySummary summary = two_cases();
+  EXPECT_FALSE(summary_json(summary)["points"][0].contains("rigs"));
+  summary.features.rigs = true;
+  summary.points[0].rigs.n = 40;
+  summary.points[0].rigs.without_failure = 0.5;
+  const std::string table = summary_table(summary);
+  EXPECT_NE(table.find("rigs w/o failure"), std::string::npos);
+  EXPECT_NE(table.find("50.0 %"), std::string::npos) << table;
+  EXPECT_NE(table.find("design: monte_carlo, 40 rigs: bounds are of all rigs"), std::string::npos) << table;
+  const auto rigs = summary_json(summary)["points"][0]["rigs"];
+  std::vector<std::string> names;
+  for (const auto& [name, value] : rigs.items()) names.push_back(name);
+  EXPECT_EQ(names, (std::vector<std::string>{"n", "success_sd", "without_failure", "without_failure_low",
+                                             "without_failure_high", "worst_5_percent"}));
 }
 
 TEST(SummaryTable, NamesThePointsThatLostTrials) {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "analysis/bootstrap.hpp"
 #include "analysis/point_accumulator.hpp"
 #include "analysis/tolerance.hpp"
 #include "core/failure.hpp"
@@ -96,7 +96,9 @@ TEST(AssuranceSection, BoundsOfMeansAreThoseOfTheBootstrapOfTheirPoint) {
   EXPECT_LT(first.mean_bounds.low, first.mean);
   EXPECT_GT(first.mean_bounds.high, first.mean);
   EXPECT_EQ(again.mean_bounds.low, first.mean_bounds.low);
-  EXPECT_NE(other.mean_bounds.low, first.mean_bounds.low);
+  // The outer bounds are Student's or the bootstrap's: on one side at least its.
+  EXPECT_NE(std::pair(other.mean_bounds.low, other.mean_bounds.high),
+            std::pair(first.mean_bounds.low, first.mean_bounds.high));
 }
 
 TEST(AssuranceSection, TrialsThatWereStoppedByTheirOutcomesClaimLess) {
@@ -108,6 +110,30 @@ TEST(AssuranceSection, TrialsThatWereStoppedByTheirOutcomesClaimLess) {
   EXPECT_GT(stopped.claim.success_at_least, 0.9);
   EXPECT_EQ(stopped.claim.failure_at_most, 1.0 - stopped.claim.success_at_least);
   for (const ToleranceLimit& limit : stopped.settling_time.tolerance) EXPECT_TRUE(std::isnan(limit.within));
+}
+
+TEST(AssuranceSection, TellsOfRigsWhereTrialsShareThem) {
+  PointAccumulator on_rigs({.rigs = 40}), stopped({.rigs = 40});
+  for (int trial = 0; trial < 4000; ++trial) {
+    const bool failed = trial % 40 == 3;  // one rig always does
+    on_rigs.add({{failed ? never_arrived() : arrived_after(0.05)}}, {});
+    stopped.add({{failed ? never_arrived() : arrived_after(0.05)}}, {});
+  }
+  const std::vector<PointSummary> points{on_rigs.statistics()};
+  const PointSummary& point = points.front();
+  EXPECT_EQ(point.rigs.n, 40);
+  EXPECT_NEAR(point.rigs.without_failure, 39.0 / 40.0, 1e-15);
+  EXPECT_NEAR(point.success_rate.value, 39.0 / 40.0, 1e-15);
+  EXPECT_LT(point.success_rate.clopper_pearson.low, 0.9);  // of 4000 independent trials 0.97
+  const SummarySection section = assurance_section(points, {"only"});
+  EXPECT_NE(section.text.find(tolerance_sentence(point.rigs.tolerance)), std::string::npos) << section.text;
+  EXPECT_NE(section.text.find("of trials on all rigs succeed"), std::string::npos) << section.text;
+  EXPECT_NE(section.text.find("(100 failures in 4000 trials on 40 rigs)"), std::string::npos);
+  EXPECT_EQ(section.json[0]["rigs"]["content"], 0.9);
+  EXPECT_EQ(section.json[0]["rigs"]["zero_at_least"], point.rigs.tolerance.zero_at_least);
+  const PointSummary decided = stopped.statistics({.stopped_by_outcomes = true});
+  EXPECT_LE(decided.claim.success_at_least, point.claim.success_at_least);
+  EXPECT_EQ(decided.rigs.tolerance.min_rigs, 0);
 }
 
 TEST(AssuranceSection, AConfidenceThatIsNoneIsRefused) {

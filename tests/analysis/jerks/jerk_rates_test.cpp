@@ -17,6 +17,7 @@ template <typename Rate>
 ObservedMove random_move(std::int64_t trial, std::int64_t end, std::mt19937_64& random, const Rate& rate) {
   std::uniform_real_distribution<double> uniform;
   ObservedMove move{.trial = trial,
+                    .cluster = trial,
                     .arrived = true,
                     .lost = false,
                     .sample_time = 1e-3,
@@ -128,8 +129,14 @@ TEST(JerkRates, BoundsCoverTheMeanRateOfTrialsThatDiffer) {
 
 TEST(JerkRates, WithoutAJerkThereIsAnUpperBound) {
   JerkRates rates;
-  ObservedMove still{
-      .trial = 0, .arrived = true, .lost = false, .sample_time = 1e-3, .dwell = 50, .end = 1000, .jerks = {}};
+  ObservedMove still{.trial = 0,
+                     .cluster = 0,
+                     .arrived = true,
+                     .lost = false,
+                     .sample_time = 1e-3,
+                     .dwell = 50,
+                     .end = 1000,
+                     .jerks = {}};
   for (; still.trial < 10; ++still.trial) rates.add(still);
   for (const JerkRate& rate : rates.rates(0.95)) {
     EXPECT_EQ(rate.rate, 0.0);

@@ -52,17 +52,27 @@ def independent(hits, events):
     hits, events = hits[events > 0].astype(float), events[events > 0].astype(float)
     n, m = events.sum(), len(events)
     p = hits.sum() / n
+    if m == n:
+        return n
     if p in (0.0, 1.0) or m == 1:
         return n**2 / (events**2).sum()
     deff = m / (m - 1) * ((hits - p * events) ** 2).sum() / n**2 / (p * (1 - p) / n)
     return max(1.0, n / max(1.0, deff))
 
 
+def adjusted(hits, events):
+    """The same, with Student's factor of an estimated variance (Korn and Graubard 1998)."""
+    hits, events = hits[events > 0], events[events > 0]
+    n, m = events.sum(), len(events)
+    known = 0 < hits.sum() < n and 1 < m < n
+    return independent(hits, events) * ((stats.t.isf(tail, n - 1) / stats.t.isf(tail, m - 1)) ** 2 if known else 1.0)
+
+
 def judge_share(found, hits, events, place):
-    n = independent(hits, events)
     p = hits.sum() / events.sum()
     close(found["share"], p, place)
-    close(found["independent"], n, place)
+    close(found["independent"], independent(hits, events), place)
+    n = adjusted(hits, events)
     close(found["share_low"], stats.beta.ppf(tail, p * n, n - p * n + 1) if p > 0 else 0.0, place)
     close(found["share_high"], stats.beta.isf(tail, p * n + 1, n - p * n) if p < 1 else 1.0, place)
 
@@ -142,7 +152,7 @@ def judge_point(found, file, point):
     for name, p in (("p05", 0.05), ("p50", 0.5), ("p95", 0.95)):
         value = numpy.quantile(intervals, p, method="inverted_cdf")
         close(found["interval"][name], value, name)
-        n = int(independent(numpy.bincount(owners, intervals <= value, minlength=trials), per_trial))
+        n = int(adjusted(numpy.bincount(owners, intervals <= value, minlength=trials), per_trial))
         low = int(stats.binom.ppf(tail, n, p))
         high = int(stats.binom.ppf(1 - tail, n, p)) + 1
         low_rank, high_rank = int(numpy.floor(low * len(ordered) / n)), int(numpy.ceil(high * len(ordered) / n))

@@ -16,6 +16,7 @@ std::vector<std::pair<std::int64_t, std::int64_t>> runs_of(const ObservedMove& m
 
 ObservedMove move_with(std::vector<SampledJerk> jerks) {
   return {.trial = 0,
+          .cluster = 0,
           .arrived = true,
           .lost = false,
           .sample_time = 5e-4,

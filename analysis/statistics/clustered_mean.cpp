@@ -1,0 +1,170 @@
+#include "analysis/statistics/clustered_mean.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include "analysis/jerks/poisson_bounds.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double unknown_bound = std::numeric_limits<double>::quiet_NaN();
+
+/// A mean with its standard error.
+struct Estimate {
+  double mean{unknown_bound};
+  double error{0.0};
+};
+
+/// @param drawn how often each cluster counts
+Estimate estimate_of(const ClusterTotals& totals, const std::vector<std::int32_t>& drawn, double clusters) {
+  double sum = 0.0, number = 0.0, sum_sum = 0.0, sum_number = 0.0, number_number = 0.0;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const auto times = static_cast<double>(drawn[i]);
+    const double s = totals.sums[i];
+    const double n = totals.numbers[i];
+    sum += times * s;
+    number += times * n;
+    sum_sum += times * s * s;
+    sum_number += times * s * n;
+    number_number += times * n * n;
+  }
+  if (!(number > 0.0)) return {};
+  const double mean = sum / number;
+  const double squares = sum_sum - 2.0 * mean * sum_number + mean * mean * number_number;
+  // What remains of squares that cancel is rounding.
+  if (!(squares > 1e-13 * sum_sum)) return {mean, 0.0};
+  return {mean, std::sqrt(clusters / (clusters - 1.0) * squares) / number};
+}
+
+/// (θ* − θ)/e* of every resample, sorted. Infinite where a resample has no spread.
+std::vector<double> studentised_means(const ClusterTotals& totals, double mean, const RandomStream& stream,
+                                      std::int64_t resamples) {
+  const std::size_t clusters = totals.sums.size();
+  std::vector<double> result;
+  std::vector<std::int32_t> drawn(clusters);
+  for (std::int64_t r = 0; r < resamples; ++r) {
+    std::fill(drawn.begin(), drawn.end(), 0);
+    for (std::size_t i = 0; i < clusters; ++i) {
+      const double place =
+          open_uniform(random_bits(stream, static_cast<std::uint64_t>(r), static_cast<std::uint32_t>(i))) *
+          static_cast<double>(clusters);
+      ++drawn[static_cast<std::size_t>(place)];
+    }
+    const Estimate estimate = estimate_of(totals, drawn, static_cast<double>(clusters));
+    if (std::isnan(estimate.mean)) continue;
+    const double difference = estimate.mean - mean;
+    if (estimate.error > 0.0) {
+      result.push_back(difference / estimate.error);
+    } else {
+      result.push_back(difference > 0.0 ? infinite : -infinite);
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// Between the order statistics, linearly (definition 6 of Hyndman and Fan 1996).
+double sorted_quantile(const std::vector<double>& sorted, double probability) {
+  const double place = probability * static_cast<double>(sorted.size() + 1) - 1.0;
+  if (place <= 0.0) return sorted.front();
+  const auto below = static_cast<std::size_t>(place);
+  if (below + 1 >= sorted.size()) return sorted.back();
+  if (std::isinf(sorted[below]) || std::isinf(sorted[below + 1])) {
+    return std::abs(sorted[below]) > std::abs(sorted[below + 1]) ? sorted[below] : sorted[below + 1];
+  }
+  return sorted[below] + (place - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
+}
+
+std::int64_t number_of_positive(const std::vector<double>& values) {
+  return std::count_if(values.begin(), values.end(), [](double value) { return value > 0.0; });
+}
+
+double student_limit(double degrees_of_freedom, double confidence) {
+  return boost::math::quantile(boost::math::students_t_distribution<double>(degrees_of_freedom),
+                               0.5 * (1.0 + confidence));
+}
+
+double finite_or_unknown(double bound) {
+  return std::isfinite(bound) ? bound : unknown_bound;
+}
+
+double sum_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Variance of the mean over that of a Poisson number; 1 where it is less.
+double overdispersion(const ClusterTotals& totals, const Estimate& estimate) {
+  const double number = sum_of(totals.numbers);
+  const double of_poisson = estimate.mean / number;
+  return of_poisson > 0.0 ? std::max(1.0, estimate.error * estimate.error / of_poisson) : 1.0;
+}
+
+}  // namespace
+
+void ClusterTotals::add(std::int64_t cluster, double sum, double number) {
+  const auto place = static_cast<std::size_t>(cluster % max_clusters);
+  if (place >= sums.size()) {
+    sums.resize(place + 1, 0.0);
+    numbers.resize(place + 1, 0.0);
+  }
+  sums[place] += sum;
+  numbers[place] += number;
+  clusters = std::max(clusters, cluster + 1);
+}
+
+double mean_of_clusters(const ClusterTotals& totals) {
+  const double number = sum_of(totals.numbers);
+  return number > 0.0 ? sum_of(totals.sums) / number : unknown_bound;
+}
+
+ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const RandomStream& stream,
+                                         double confidence, std::int64_t resamples) {
+  require_confidence(confidence);
+  constexpr ConfidenceInterval none{unknown_bound, unknown_bound};
+  if (number_of_positive(totals.numbers) < 2) return none;
+  const auto clusters = static_cast<double>(totals.sums.size());
+  const Estimate estimate = estimate_of(totals, std::vector<std::int32_t>(totals.sums.size(), 1), clusters);
+  if (!(estimate.error > 0.0)) return none;
+  const std::vector<double> studentised = studentised_means(totals, estimate.mean, stream, resamples);
+  if (studentised.empty()) return none;
+  const double tail = 0.5 * (1.0 - confidence);
+  const double t = student_limit(clusters - 1.0, confidence);
+  const double above = std::max(t, sorted_quantile(studentised, 1.0 - tail));
+  const double below = std::min(-t, sorted_quantile(studentised, tail));
+  return {finite_or_unknown(estimate.mean - above * estimate.error),
+          finite_or_unknown(estimate.mean - below * estimate.error)};
+}
+
+ConfidenceInterval clustered_count_bounds(const ClusterTotals& totals, const RandomStream& stream,
+                                          double confidence, std::int64_t resamples) {
+  require_confidence(confidence);
+  const auto clusters = static_cast<double>(totals.sums.size());
+  const double number = sum_of(totals.numbers);
+  if (!(number > 0.0)) return {unknown_bound, unknown_bound};
+  const double count = sum_of(totals.sums);
+  if (count == 0.0) {
+    return {0.0, poisson_bounds(0.0, confidence).high / static_cast<double>(totals.clusters)};
+  }
+  if (number_of_positive(totals.sums) >= min_counting_clusters) {
+    return clustered_mean_bounds(totals, stream, confidence, resamples);
+  }
+  if (clusters < 2.0) return {unknown_bound, unknown_bound};
+  const Estimate estimate = estimate_of(totals, std::vector<std::int32_t>(totals.sums.size(), 1), clusters);
+  const boost::math::normal_distribution<double> normal;
+  const double shorter =
+      boost::math::quantile(normal, 0.5 * (1.0 + confidence)) / student_limit(clusters - 1.0, confidence);
+  const double events = count / overdispersion(totals, estimate) * shorter * shorter;
+  const ConfidenceInterval bounds = poisson_bounds(events, confidence);
+  const double scale = estimate.mean / events;
+  return {bounds.low * scale, bounds.high * scale};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,114 @@
+#include "analysis/statistics/clustered_proportion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/beta.hpp>
+
+namespace zerocount {
+namespace {
+
+double proportion_of(const ClusterSums& sums) {
+  return rate(sums.hits, sums.events);
+}
+
+/// Whether the clusters tell how much their events have in common.
+bool variance_is_known(const ClusterSums& sums) {
+  return sums.clusters > 1 && sums.hits > 0 && sums.hits < sums.events;
+}
+
+bool are_single_events(const ClusterSums& sums) {
+  return sums.clusters == sums.events;
+}
+
+/// Quantile of 1 − tail.
+double student_quantile(double degrees_of_freedom, double tail) {
+  return boost::math::quantile(
+      boost::math::complement(boost::math::students_t_distribution<double>(degrees_of_freedom), tail));
+}
+
+/// Clopper–Pearson bounds for any number of events, not only whole ones.
+double lower_bound(double proportion, double events, double tail) {
+  if (!(proportion > 0.0)) return 0.0;
+  const double hits = proportion * events;
+  return boost::math::ibeta_inv(hits, events - hits + 1.0, tail);
+}
+double upper_bound(double proportion, double events, double tail) {
+  if (!(proportion < 1.0)) return 1.0;
+  const double hits = proportion * events;
+  return boost::math::ibetac_inv(hits + 1.0, events - hits, tail);
+}
+
+ConfidenceInterval wilson_bounds(double p, double events, double tail) {
+  const double z =
+      boost::math::quantile(boost::math::complement(boost::math::normal_distribution<double>(), tail));
+  const double scale = 1.0 + z * z / events;
+  const double centre = (p + z * z / (2.0 * events)) / scale;
+  const double half_width = z * std::sqrt(p * (1.0 - p) / events + z * z / (4.0 * events * events)) / scale;
+  return {p > 0.0 ? std::max(0.0, centre - half_width) : 0.0,
+          p < 1.0 ? std::min(1.0, centre + half_width) : 1.0};
+}
+
+}  // namespace
+
+void ClusterSums::add(std::int64_t cluster_hits, std::int64_t cluster_events) {
+  if (cluster_events == 0) return;
+  const auto k = static_cast<double>(cluster_hits);
+  const auto n = static_cast<double>(cluster_events);
+  ++clusters;
+  hits += cluster_hits;
+  events += cluster_events;
+  hits_squared += k * k;
+  hits_by_events += k * n;
+  events_squared += n * n;
+}
+
+double effective_events(const ClusterSums& sums) {
+  if (sums.events == 0) return 0.0;
+  const auto n = static_cast<double>(sums.events);
+  const auto m = static_cast<double>(sums.clusters);
+  if (are_single_events(sums)) return n;
+  if (!variance_is_known(sums)) return n * n / sums.events_squared;
+  const double p = proportion_of(sums);
+  const double squares = sums.hits_squared - 2.0 * p * sums.hits_by_events + p * p * sums.events_squared;
+  const double variance = m / (m - 1.0) * std::max(0.0, squares) / (n * n);
+  const double of_independent = p * (1.0 - p) / n;
+  return variance > of_independent ? std::max(1.0, n * of_independent / variance) : n;
+}
+
+double adjusted_events(const ClusterSums& sums, double tail) {
+  const double events = effective_events(sums);
+  if (!variance_is_known(sums) || are_single_events(sums)) return events;
+  const double of_events = student_quantile(static_cast<double>(sums.events - 1), tail);
+  const double of_clusters = student_quantile(static_cast<double>(sums.clusters - 1), tail);
+  return events * (of_events / of_clusters) * (of_events / of_clusters);
+}
+
+ClusteredProportion clustered_proportion(const ClusterSums& sums, double confidence) {
+  require_confidence(confidence);
+  ClusteredProportion result{.hits = sums.hits, .events = sums.events};
+  if (sums.events == 0) return result;
+  const double tail = 0.5 * (1.0 - confidence);
+  const double events = adjusted_events(sums, tail);
+  result.value = proportion_of(sums);
+  result.effective_events = effective_events(sums);
+  result.korn_graubard = {lower_bound(result.value, events, tail), upper_bound(result.value, events, tail)};
+  result.wilson = wilson_bounds(result.value, events, tail);
+  return result;
+}
+
+double clustered_at_least(const ClusterSums& sums, double confidence) {
+  require_confidence(confidence);
+  if (sums.events == 0) return 0.0;
+  return lower_bound(proportion_of(sums), adjusted_events(sums, 1.0 - confidence), 1.0 - confidence);
+}
+
+double clustered_at_most(const ClusterSums& sums, double confidence) {
+  require_confidence(confidence);
+  if (sums.events == 0) return 1.0;
+  return upper_bound(proportion_of(sums), adjusted_events(sums, 1.0 - confidence), 1.0 - confidence);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,110 @@
+#include "analysis/statistics/clustered_quantile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/tolerance.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// The number of whole independent values that the sample is worth at a quantile.
+std::int64_t whole_values(const ClusteredSample& sample, double sample_quantile, double tail) {
+  const double at = std::isnan(sample_quantile) ? largest(sample.observed()) : sample_quantile;
+  const double events = adjusted_events(sample.at_most(at), tail);
+  // What is a whole number but for rounding is that number.
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(events * (1.0 + 1e-12)));
+}
+
+/// The observation whose rank among all values is `rank` of `whole` independent ones, rounded away from the
+/// quantile.
+double scaled_low(const ClusteredSample& sample, std::int64_t rank, std::int64_t whole) {
+  const double scale = static_cast<double>(sample.size()) / static_cast<double>(whole);
+  return order_statistic(sample.observed(),
+                         static_cast<std::int64_t>(std::floor(static_cast<double>(rank) * scale)));
+}
+double scaled_high(const ClusteredSample& sample, std::int64_t rank, std::int64_t whole) {
+  if (rank > whole) return not_known;
+  const double scale = static_cast<double>(sample.size()) / static_cast<double>(whole);
+  return order_statistic(sample.observed(),
+                         static_cast<std::int64_t>(std::ceil(static_cast<double>(rank) * scale)));
+}
+
+}  // namespace
+
+void ClusteredSample::begin_cluster(std::int64_t size) {
+  totals_.add(0, size);
+  if (!single_values_ || size <= 1) return;
+  single_values_ = false;
+  for (const auto& [value, count] : observed_.counts) {
+    const auto hits = static_cast<double>(count);
+    steps_[value] = {hits, hits};
+  }
+}
+
+void ClusteredSample::add_step(double value, std::int64_t before, std::int64_t count, std::int64_t size) {
+  const auto from = static_cast<double>(before);
+  const auto to = static_cast<double>(before + count);
+  Step& step = steps_[value];
+  step.hits_squared += to * to - from * from;
+  step.hits_by_events += (to - from) * static_cast<double>(size);
+}
+
+void ClusteredSample::add_cluster(const Tally<double>& observed, std::int64_t size) {
+  begin_cluster(size);
+  std::int64_t before = 0;
+  for (const auto& [value, count] : observed.counts) {
+    observed_.add(value, count);
+    if (!single_values_) add_step(value, before, count, size);
+    before += count;
+  }
+}
+
+void ClusteredSample::add_cluster(std::span<double> observed, std::int64_t size) {
+  begin_cluster(size);
+  std::sort(observed.begin(), observed.end());
+  for (std::size_t i = 0; i < observed.size(); ++i) {
+    observed_.add(observed[i]);
+    if (!single_values_) add_step(observed[i], static_cast<std::int64_t>(i), 1, size);
+  }
+}
+
+ClusterSums ClusteredSample::at_most(double x) const {
+  ClusterSums sums = totals_;
+  for (const auto& [value, count] : observed_.counts) {
+    if (value > x) break;
+    sums.hits += count;
+  }
+  if (single_values_) {
+    sums.hits_squared = sums.hits_by_events = static_cast<double>(sums.hits);
+    return sums;
+  }
+  for (const auto& [value, step] : steps_) {
+    if (value > x) break;
+    sums.hits_squared += step.hits_squared;
+    sums.hits_by_events += step.hits_by_events;
+  }
+  return sums;
+}
+
+Quantile clustered_quantile(const ClusteredSample& sample, double probability, double confidence) {
+  const double value = order_statistic(sample.observed(), quantile_rank(sample.size(), probability));
+  require_confidence(confidence);
+  if (sample.observed().size == 0) return {not_known, not_known, not_known};
+  const std::int64_t whole = whole_values(sample, value, 0.5 * (1.0 - confidence));
+  const RankBounds ranks = quantile_rank_bounds(whole, probability, confidence);
+  return {value, scaled_low(sample, ranks.low, whole), scaled_high(sample, ranks.high, whole)};
+}
+
+double clustered_upper_limit(const ClusteredSample& sample, double content, double confidence) {
+  const std::int64_t rank = quantile_rank(sample.size(), content);
+  require_confidence(confidence);
+  if (sample.observed().size == 0) return not_known;
+  const std::int64_t whole = whole_values(sample, order_statistic(sample.observed(), rank), 1.0 - confidence);
+  return scaled_high(sample, tolerance_rank(whole, content, confidence), whole);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,160 @@
+#include "analysis/statistics/rig_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <boost/math/tools/toms748_solve.hpp>
+#include <fmt/format.h>
+
+namespace zerocount {
+namespace {
+
+constexpr double least_allowance = 0.25;  // δ
+constexpr std::int64_t rigs_per_worst = 20;
+
+/// Which order statistic bounds the rigs, and how often a rig may look better than it is.
+struct RankAndAllowance {
+  std::int64_t rank{0};  ///< 0: too few rigs
+  double allowance{0.0};
+};
+
+RankAndAllowance rank_and_allowance(std::int64_t rigs, double content, double confidence) {
+  const auto allowance_of = [&](std::int64_t rank) {
+    return 1.0 - proportion_at_most(rank - 1, rigs, confidence) / (1.0 - content);
+  };
+  RankAndAllowance chosen{1, rigs > 0 ? allowance_of(1) : 0.0};
+  if (!(chosen.allowance > 0.0)) return {};
+  while (chosen.rank < rigs) {
+    const double next = allowance_of(chosen.rank + 1);
+    if (next < least_allowance) break;
+    chosen = {chosen.rank + 1, next};
+  }
+  return chosen;
+}
+
+/// y·ln(y/q) + (1 − y)·ln((1 − y)/(1 − q)).
+double divergence(double y, double q) {
+  const auto term = [](double a, double b) { return a > 0.0 ? a * std::log(a / b) : 0.0; };
+  return term(y, q) + term(1.0 - y, 1.0 - q);
+}
+
+/// The q < y for which trials·KL(y‖q) = −ln(allowance).
+double chernoff_lower(double y, std::int64_t trials, double allowance) {
+  const double limit = -std::log(allowance) / static_cast<double>(trials);
+  if (!(y > 0.0)) return 0.0;
+  if (!(y < 1.0)) return std::exp(-limit);
+  const auto excess = [&](double q) { return divergence(y, q) - limit; };
+  constexpr double smallest_q = 1e-300;
+  if (!(excess(smallest_q) > 0.0)) return 0.0;
+  std::uintmax_t iterations = 200;
+  return boost::math::tools::toms748_solve(excess, smallest_q, y,
+                                           boost::math::tools::eps_tolerance<double>(48), iterations)
+      .first;
+}
+
+double zero_proportion(const RigTrials& rig) {
+  return rate(rig.zero_moves, rig.moves);
+}
+
+double lower_bound_of(const RigTrials& rig, double allowance) {
+  if (rig.moves == rig.trials) return proportion_at_least(rig.zero_moves, rig.moves, 1.0 - allowance);
+  return chernoff_lower(zero_proportion(rig), rig.trials, allowance);
+}
+
+double success_sd_of(std::span<const RigTrials> rigs) {
+  const auto n = static_cast<double>(rigs.size());
+  const auto trials = static_cast<double>(rigs.front().trials);
+  if (rigs.size() < 2 || rigs.front().trials < 2) return RigStatistics::unknown;
+  double sum = 0.0, squares = 0.0, within = 0.0;
+  for (const RigTrials& rig : rigs) {
+    const double p = rate(rig.successes, rig.trials);
+    sum += p;
+    squares += p * p;
+    within += p * (1.0 - p);
+  }
+  const double between = (squares - sum * sum / n) / (n - 1.0);
+  return std::sqrt(std::max(0.0, between - within / (n * (trials - 1.0))));
+}
+
+double worst_of(std::span<const RigTrials> rigs) {
+  std::vector<double> rates;
+  for (const RigTrials& rig : rigs) rates.push_back(rate(rig.successes, rig.trials));
+  std::sort(rates.begin(), rates.end());
+  const auto worst = (rates.size() + rigs_per_worst - 1) / rigs_per_worst;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < worst; ++i) sum += rates[i];
+  return sum / static_cast<double>(worst);
+}
+
+}  // namespace
+
+std::int64_t fewest_rigs_for_tolerance(double content, double confidence) {
+  // A proportion of rigs of which none was seen is below 1 − content: content^R < 1 − confidence.
+  auto rigs = static_cast<std::int64_t>(std::floor(std::log1p(-confidence) / std::log(content)));
+  while (rank_and_allowance(rigs, content, confidence).rank == 0) ++rigs;
+  return rigs;
+}
+
+double tolerance_allowance(std::int64_t rigs, double content, double confidence) {
+  return rank_and_allowance(rigs, content, confidence).allowance;
+}
+
+RigTolerance rig_tolerance(std::span<const RigTrials> rigs, double content, double confidence) {
+  RigTolerance result{.content = content, .confidence = confidence};
+  result.min_rigs = fewest_rigs_for_tolerance(content, confidence);
+  const RankAndAllowance chosen = rank_and_allowance(std::ssize(rigs), content, confidence);
+  if (chosen.rank == 0) return result;
+  std::vector<RigTrials> sorted(rigs.begin(), rigs.end());
+  const auto place = sorted.begin() + (chosen.rank - 1);
+  std::nth_element(sorted.begin(), place, sorted.end(), [](const RigTrials& a, const RigTrials& b) {
+    return zero_proportion(a) < zero_proportion(b);
+  });
+  result.zero_at_least = lower_bound_of(*place, chosen.allowance);
+  return result;
+}
+
+std::string tolerance_sentence(const RigTolerance& tolerance) {
+  const std::string level = fmt::format("{:.6g} % confidence", 100.0 * tolerance.confidence);
+  if (std::isnan(tolerance.zero_at_least)) {
+    return fmt::format("with {}, it takes {} rigs to say in how many moves {:.6g} % of rigs hold zero", level,
+                       tolerance.min_rigs, 100.0 * tolerance.content);
+  }
+  if (!(tolerance.zero_at_least > 0.0)) {
+    return fmt::format("with {} nothing is shown of the moves in which {:.6g} % of rigs hold zero", level,
+                       100.0 * tolerance.content);
+  }
+  return fmt::format("with {} at least {:.6g} % of rigs hold zero in at least {} of moves", level,
+                     100.0 * tolerance.content, percent_at_least(tolerance.zero_at_least));
+}
+
+RigStatistics rig_statistics(std::span<const RigTrials> rigs, double confidence) {
+  require_confidence(confidence);
+  RigStatistics result;
+  if (rigs.empty()) return result;
+  result.n = std::ssize(rigs);
+  result.success_sd = success_sd_of(rigs);
+  const std::int64_t faultless = std::count_if(
+      rigs.begin(), rigs.end(), [](const RigTrials& rig) { return rig.successes == rig.trials; });
+  result.without_failure = rate(faultless, result.n);
+  result.without_failure_bounds = clopper_pearson(faultless, result.n, confidence);
+  result.worst_5_percent = worst_of(rigs);
+  result.successes = sums_over_rigs(rigs, &RigTrials::successes);
+  result.tolerance = rig_tolerance(rigs, result.tolerance.content, confidence);
+  return result;
+}
+
+SuccessClaim success_claim_on_rigs(const ClusterSums& sums, double confidence) {
+  const double at_least = clustered_at_least(sums, confidence);
+  return {sums.events,  sums.events - sums.hits, confidence,
+          at_least,     1.0 - at_least,          clustered_at_most(sums, confidence),
+          sums.clusters};
+}
+
+ClusterSums sums_over_rigs(std::span<const RigTrials> rigs, std::int64_t RigTrials::*hits) {
+  ClusterSums sums;
+  for (const RigTrials& rig : rigs) sums.add(rig.*hits, rig.trials);
+  return sums;
+}
+
+}  // namespace zerocount

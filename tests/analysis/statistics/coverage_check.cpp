@@ -1,0 +1,38 @@
+#include <cstdlib>
+
+#include <fmt/core.h>
+
+#include "tests/analysis/statistics/coverage_simulation.hpp"
+
+/// Prints how often every bound of a summary covers, and bounds for independent trials and moves beside it.
+/// usage: statistics_coverage [REPETITIONS]
+int main(int count, char** words) {
+  using namespace zerocount::testing;
+  const std::int64_t repetitions = count > 1 ? std::atoll(words[1]) : 500;
+  const auto print = [&](const char* name, const Population& population, const Sample& sample) {
+    fmt::print("{}, {} trials of {} moves\n", name, sample.trials, sample.moves);
+    for (const Coverage& one : coverage_of(population, sample, repetitions, 20021)) {
+      const auto percent = [&](std::int64_t covered) {
+        return 100.0 * static_cast<double>(covered) / static_cast<double>(one.repetitions);
+      };
+      fmt::print("  {:<22}{:6.1f} %", one.bound, percent(one.covered));
+      if (one.plainly >= 0) fmt::print("   as if independent {:6.1f} %", percent(one.plainly));
+      fmt::print("\n");
+    }
+  };
+  for (const std::int64_t moves : {1, 10}) {
+    for (const double sd : {0.0, 0.1, 0.3}) {
+      Population population{.success_mean = sd < 0.2 ? 0.9 : 0.7, .success_sd = sd};
+      population.rig_effect = 2.0 * sd;
+      population.trial_effect = 0.4;
+      population.jerk_sd = 3.0 * sd;
+      print(fmt::format("100 rigs, standard deviation {} between them", sd).c_str(), population,
+            {.rigs = 100, .trials = 2000, .moves = moves});
+    }
+    print("no rigs, trials differ", {.success_mean = 0.9, .trial_effect = 0.8},
+          {.trials = 200, .moves = moves});
+    print("no rigs, few jerks", {.success_mean = 0.99, .trial_effect = 0.3, .jerks = 0.01},
+          {.trials = 200, .moves = moves});
+  }
+  return 0;
+}

@@ -1,0 +1,83 @@
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "tests/analysis/statistics/coverage_simulation.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+/// 94 % less three standard errors of a proportion of so many repetitions: bounds that cover 94 % fall below
+/// it once in 700 times.
+double lowest_count(std::int64_t repetitions) {
+  const auto n = static_cast<double>(repetitions);
+  return 0.94 * n - 3.0 * std::sqrt(n * 0.94 * 0.06);
+}
+
+/// @param repetitions of each population. Prints nothing; the large run is the program statistics_coverage.
+std::map<std::string, Coverage> expect_cover(const std::vector<Population>& populations, const Sample& sample,
+                                             std::int64_t repetitions) {
+  std::map<std::string, Coverage> all;
+  for (const Population& population : populations) {
+    for (const Coverage& one : coverage_of(population, sample, repetitions, 7)) {
+      EXPECT_GE(static_cast<double>(one.covered), lowest_count(repetitions))
+          << one.bound << ", standard deviation between rigs " << population.success_sd;
+      Coverage& sum = all[one.bound];
+      sum.repetitions += one.repetitions;
+      sum.covered += one.covered;
+      sum.plainly = one.plainly < 0 ? -1 : std::max<std::int64_t>(sum.plainly, 0) + one.plainly;
+    }
+  }
+  for (const auto& [bound, sum] : all)
+    EXPECT_GE(static_cast<double>(sum.covered), lowest_count(sum.repetitions)) << bound;
+  return all;
+}
+
+constexpr std::int64_t repetitions = 120;
+
+std::vector<Population> populations_of_rigs() {
+  std::vector<Population> populations;
+  for (const double sd : {0.0, 0.1, 0.3}) {
+    populations.push_back({.success_mean = sd < 0.2 ? 0.9 : 0.7,
+                           .success_sd = sd,
+                           .rig_effect = 2.0 * sd,
+                           .trial_effect = 0.4,
+                           .jerk_sd = 2.0 * sd});
+  }
+  return populations;
+}
+
+TEST(Coverage, BoundsHoldWhereRigsDiffer) {
+  const auto found =
+      expect_cover(populations_of_rigs(), {.rigs = 50, .trials = 500, .moves = 1}, repetitions);
+  const auto plainly = [&](const char* bound) {
+    return static_cast<double>(found.at(bound).plainly) / static_cast<double>(found.at(bound).repetitions);
+  };
+  EXPECT_LT(plainly("success"), 0.88);  // over sd 0, where they hold, 0.1 and 0.3
+  EXPECT_LT(plainly("settling median"), 0.9);
+  EXPECT_LT(plainly("settling mean"), 0.9);
+}
+
+TEST(Coverage, BoundsHoldWhereRigsAndTrialsOfSeveralMovesDiffer) {
+  const auto found =
+      expect_cover(populations_of_rigs(), {.rigs = 50, .trials = 250, .moves = 10}, repetitions);
+  for (const char* bound : {"settling mean", "settling median", "settling p95"})
+    EXPECT_LT(found.at(bound).plainly, 0.8 * static_cast<double>(found.at(bound).repetitions)) << bound;
+}
+
+TEST(Coverage, BoundsHoldWhereTrialsOfSeveralMovesDiffer) {
+  const auto found =
+      expect_cover({{.trial_effect = 0.8}, {.success_mean = 0.99, .trial_effect = 0.3, .jerks = 0.01}},
+                   {.trials = 200, .moves = 10}, repetitions);
+  for (const char* bound : {"settling mean", "settling median", "settling p95"})
+    EXPECT_LT(found.at(bound).plainly, 0.9 * static_cast<double>(found.at(bound).repetitions)) << bound;
+}
+
+TEST(Coverage, BoundsHoldForTrialsOfOneMove) {
+  expect_cover({{.move_effect = 0.8}, {.success_mean = 0.99, .move_effect = 0.3, .jerks = 0.01}},
+               {.trials = 200, .moves = 1}, repetitions);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -12,6 +12,8 @@ std::int64_t OutcomeCounts::*counter_of(Outcome outcome) {
       return &OutcomeCounts::zero_count;
     case Outcome::one_count:
       return &OutcomeCounts::one_count;
+    case Outcome::off_target:
+      return &OutcomeCounts::off_target;
     case Outcome::oscillating:
       return &OutcomeCounts::oscillating;
     case Outcome::nonfinite:
@@ -20,7 +22,7 @@ std::int64_t OutcomeCounts::*counter_of(Outcome outcome) {
       return &OutcomeCounts::open_loop;
   }
   throw Failure(ExitCode::bad_data,
-                fmt::format("a move with outcome {}; expected 0 to 4", static_cast<int>(outcome)));
+                fmt::format("a move with outcome {}; expected 0 to 5", static_cast<int>(outcome)));
 }
 
 }  // namespace zerocount

@@ -10,6 +10,7 @@ namespace zerocount {
 struct OutcomeCounts {
   std::int64_t zero_count{0};
   std::int64_t one_count{0};
+  std::int64_t off_target{0};
   std::int64_t oscillating{0};
   std::int64_t nonfinite{0};
   std::int64_t open_loop{0};  ///< not judged

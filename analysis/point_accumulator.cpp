@@ -67,16 +67,6 @@ void require_kind(const MoveOutcome& move, bool open_loop) {
                                               : "a move with a torque level; expected one with a target");
 }
 
-/// The moves of a trial with torque levels are open_loop, or nonfinite and then that is the worst.
-Outcome worst_outcome(const std::vector<MoveOutcome>& moves) {
-  Outcome worst = moves.front().outcome;
-  for (const MoveOutcome& move : moves) {
-    if (move.outcome == Outcome::nonfinite) return Outcome::nonfinite;
-    worst = std::max(worst, move.outcome);
-  }
-  return worst;
-}
-
 void count_move(const MoveOutcome& move, MoveCounts& counts) {
   ++(counts.outcomes.*counter_of(move.outcome));
   counts.stable += move.stable;

@@ -16,7 +16,11 @@ std::vector<StatisticField> outcome_and_jerk_fields() {
        [](S s) { return to_double(s.outcomes.zero_count); }},
       {"", "one_count", "1", "trials whose worst move ended within one count", true,
        [](S s) { return to_double(s.outcomes.one_count); }},
-      {"", "oscillating", "1", "trials whose worst move ended beyond one count", true,
+      {"", "off_target", "1",
+       "trials whose worst move ended beyond one count without oscillating: neither stable nor shown "
+       "unstable",
+       true, [](S s) { return to_double(s.outcomes.off_target); }},
+      {"", "oscillating", "1", "trials whose worst move ended beyond one count, oscillating", true,
        [](S s) { return to_double(s.outcomes.oscillating); }},
       {"", "nonfinite", "1", "trials with a move that left the finite numbers", true,
        [](S s) { return to_double(s.outcomes.nonfinite); }},

@@ -48,6 +48,12 @@ void compare(const std::vector<RecordField<Record>>& fields, const std::vector<R
   }
 }
 
+/// The moves with the outcomes that a file of this version of the layout has for them.
+std::vector<MoveOutcome> moves_in_version(std::int64_t version, std::vector<MoveOutcome> moves) {
+  for (MoveOutcome& move : moves) move.outcome = outcome_in_version(version, move.outcome);
+  return moves;
+}
+
 std::vector<JerkRecord> jerk_records(const TrialResult& result) {
   std::vector<JerkRecord> records;
   for (const Jerk& jerk : result.jerks) records.push_back({jerk, result.row});
@@ -58,14 +64,15 @@ std::vector<JerkRecord> jerk_records(const TrialResult& result) {
 
 std::vector<std::string> differences(const std::vector<InputColumn>& inputs, const TrialResult& recorded,
                                      const TrialResult& replayed,
-                                     const std::vector<RecordField<MoveOutcome>>& measures) {
+                                     const std::vector<RecordField<MoveOutcome>>& measures,
+                                     std::int64_t version) {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (same(recorded.inputs.at(i), replayed.inputs.at(i))) continue;
     lines.push_back(fmt::format("input {}: recorded {}, replayed {}", inputs[i].name, recorded.inputs[i],
                                 replayed.inputs[i]));
   }
-  compare(measures, recorded.outcome.moves, replayed.outcome.moves, "move", lines);
+  compare(measures, recorded.outcome.moves, moves_in_version(version, replayed.outcome.moves), "move", lines);
   compare(jerk_fields(), jerk_records(recorded), jerk_records(replayed), "jerk", lines);
   return lines;
 }

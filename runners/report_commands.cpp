@@ -49,7 +49,7 @@ std::vector<std::string> check(const StudyFile& file, const ReplayedTrial& repla
   recorded.inputs = file.inputs_of(row.first);
   recorded.outcome.moves = file.outcomes(row);
   for (const JerkRecord& jerk : file.jerks(row)) recorded.jerks.push_back(jerk);
-  return differences(file.input_columns(), recorded, replayed.result, file.measures());
+  return differences(file.input_columns(), recorded, replayed.result, file.measures(), file.header().version);
 }
 
 StudyReport report_of(const Arguments& arguments, const StudyFile& file) {

@@ -117,8 +117,8 @@ ExitCode trace(const Arguments& arguments) {
                                    : write_trace(subject, stdout, json);
   if (!file) return ExitCode::success;
 
-  const std::vector<std::string> different =
-      differences(study.input_columns, recorded_trial(*file, row), replayed, file->measures());
+  const std::vector<std::string> different = differences(study.input_columns, recorded_trial(*file, row),
+                                                         replayed, file->measures(), file->header().version);
   if (different.empty()) return ExitCode::success;
   std::string message =
       fmt::format("{}: point {}, trial {}: the replay is not the recorded trial", input, point, index);

@@ -80,12 +80,6 @@ void visit_trials(const StudyFile& file, RowRange rows, const TrialVisitor& visi
   }
 }
 
-Outcome worst_outcome(std::span<const MoveOutcome> moves) {
-  Outcome worst = Outcome::zero_count;
-  for (const MoveOutcome& move : moves) worst = std::max(worst, move.outcome);
-  return worst;
-}
-
 std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t most) {
   const std::int64_t count = std::min(size, most);
   std::vector<std::int64_t> indices;

@@ -16,8 +16,21 @@ constexpr std::int64_t profile_points = 512;
 constexpr std::int64_t most_failures = 250;
 
 const char* word_of(Outcome outcome) {
-  if (outcome == Outcome::one_count) return "one_count";
-  return outcome == Outcome::oscillating ? "oscillating" : "nonfinite";
+  switch (outcome) {
+    case Outcome::zero_count:
+      return "zero_count";
+    case Outcome::one_count:
+      return "one_count";
+    case Outcome::off_target:
+      return "off_target";
+    case Outcome::oscillating:
+      return "oscillating";
+    case Outcome::nonfinite:
+      return "nonfinite";
+    case Outcome::open_loop:
+      break;
+  }
+  return "open_loop";
 }
 
 /// Where a trial ended on the rotor, and how.

@@ -19,7 +19,7 @@ struct TrialRank {
   double settling_time{0.0};    ///< longest of its moves, s; infinite where one never arrived
 
   bool operator<(const TrialRank& other) const {
-    if (outcome != other.outcome) return outcome < other.outcome;
+    if (outcome != other.outcome) return severity(outcome) < severity(other.outcome);
     if (final_error != other.final_error) return final_error < other.final_error;
     return settling_time < other.settling_time;
   }
@@ -70,8 +70,10 @@ const char* ending_of(Outcome outcome) {
       return "it ends at zero counts";
     case Outcome::one_count:
       return "it ends within one count of the target";
+    case Outcome::off_target:
+      return "it ends more than a count away, stalled or still on its way";
     case Outcome::oscillating:
-      return "it ends more than a count away or swinging";
+      return "it ends oscillating by more than a count";
     case Outcome::nonfinite:
       return "its motion was lost";
     case Outcome::open_loop:

@@ -50,6 +50,7 @@ void LaneWork::take_samples() {
     const int note = tile_.note[lane];
     LaneTrial& trial = trial_of(lane);
     if ((note & jerk_changes) != 0) track_jerk(lane, trial);
+    if ((note & count_changes) != 0) follow_last_half(lane, trial);
     if ((note & delayed) != 0) delay_torque(lane, trial);
     if ((note & diverges) != 0) stop_diverged(lane, trial);
   }
@@ -85,6 +86,15 @@ void LaneWork::record_passed() {
   }
 }
 
+void LaneWork::follow_last_half(int lane, LaneTrial& trial) {
+  const MeasureLanes& q = tile_.measures;
+  const auto k = static_cast<std::int64_t>(q.taken[lane]) - 1;
+  const auto count = static_cast<std::int64_t>(tile_.loop.count[lane]);
+  const auto change = static_cast<std::int64_t>(q.change[lane]);
+  const bool first = k == static_cast<std::int64_t>(q.last_half[lane]);
+  trial.last_half.add(k, first ? count : count - change, count);
+}
+
 /// As MoveMeasures has it.
 void LaneWork::track_jerk(int lane, LaneTrial& trial) {
   MeasureLanes& q = tile_.measures;
@@ -105,7 +115,9 @@ void LaneWork::track_jerk(int lane, LaneTrial& trial) {
 
 void LaneWork::end_jerk(int lane, LaneTrial& trial, double taken) {
   tile_.measures.in_jerk[lane] = 0.0;
-  trial.jerk.duration = (taken - static_cast<double>(trial.jerk_start)) * tile_.time.sample_time[lane];
+  const std::int64_t samples = static_cast<std::int64_t>(taken) - trial.jerk_start;
+  trial.jerk.duration = static_cast<double>(samples) * tile_.time.sample_time[lane];
+  trial.jerk_samples += samples;
   ++trial.jerk_count;
   if (trial.jerk.direction > 0) ++trial.jerks_up;
   ++trial.told_jerks;

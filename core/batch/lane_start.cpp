@@ -86,9 +86,10 @@ void start_move(Tile& tile, int lane, LaneTrial& trial) {
   q.samples[lane] = static_cast<double>(timing.samples);
   q.dwell[lane] = static_cast<double>(timing.dwell);
   q.window[lane] = static_cast<double>(timing.window);
+  q.last_half[lane] = static_cast<double>(first_of_last_half(timing.samples));
   for (Lanes* measure : {&q.taken, &q.zeros_in_a_row, &q.arrived, &q.largest_since_arrival,
                          &q.largest_in_window, &q.overshoot, &q.move_direction, &q.peak_torque, &q.saturated,
-                         &q.in_jerk, &q.first_error, &q.theta, &q.extension}) {
+                         &q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension}) {
     (*measure)[lane] = 0.0;
   }
   q.arrival[lane] = -1.0;
@@ -98,14 +99,16 @@ void start_move(Tile& tile, int lane, LaneTrial& trial) {
   trial.deepest = static_cast<std::int64_t>(trial.plant->spring().depth());
   trial.jerk_count = 0;
   trial.jerks_up = 0;
+  trial.jerk_samples = 0;
+  trial.last_half.start(timing.samples);
 }
 
-MoveOutcome outcome_of_move(const Tile& tile, int lane, const LaneTrial& trial) {
+MoveOutcome outcome_of_move(const Tile& tile, int lane, LaneTrial& trial, bool stopped) {
   const MeasureLanes& q = tile.measures;
   const LoopLanes& l = tile.loop;
   const auto whole = [lane](const Lanes& of) { return static_cast<std::int64_t>(of[lane]); };
   MoveOutcome outcome;
-  outcome.outcome = verdict(whole(q.largest_in_window), true, true);
+  outcome.stopped = stopped;
   outcome.arrived = q.arrived[lane] != 0.0;
   outcome.stable = outcome.arrived && q.largest_since_arrival[lane] <= 1.0;
   outcome.broke_away = trial.slid_at_start || trial.breakaways > 0;
@@ -130,6 +133,11 @@ MoveOutcome outcome_of_move(const Tile& tile, int lane, const LaneTrial& trial) 
         outcome.holding_torque > 0.0 ? trial.jerks_up : (outcome.holding_torque < 0.0 ? jerks_down : 0);
     outcome.jerk_agreement = static_cast<double>(agreeing) / static_cast<double>(outcome.jerk_count);
   }
+  trial.last_half.finish(whole(l.count));
+  judge_end(move_timing(*trial.parameters, trial.move),
+            {whole(l.target), whole(q.taken), whole(q.zeros_in_a_row), trial.jerk_samples,
+             whole(q.largest_in_window), true},
+            trial.last_half, outcome);
   return outcome;
 }
 

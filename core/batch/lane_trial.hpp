@@ -7,6 +7,7 @@
 
 #include "core/batch/tile.hpp"
 #include "core/plant/plant.hpp"
+#include "core/trial/last_half.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
 
@@ -34,7 +35,10 @@ struct LaneTrial {
   std::int64_t jerk_start{0};
   std::int64_t jerk_count{0};
   std::int64_t jerks_up{0};
+  std::int64_t jerk_samples{0};
   std::int64_t told_jerks{0};  ///< of the trial
+
+  LastHalf last_half;  ///< of this move
 
   std::vector<double> waiting;  ///< decided torques on their way through the delay, N m
   std::size_t oldest_waiting{0};
@@ -59,7 +63,7 @@ bool advance_by_reference(Tile& tile, int lane, LaneTrial& trial);
 void start_trial(Tile& tile, int lane, LaneTrial& trial, std::size_t number,
                  const TrialParameters& parameters, TrialOutcome& outcome);
 void start_move(Tile& tile, int lane, LaneTrial& trial);
-/// The measures of the move that ends here.
-MoveOutcome outcome_of_move(const Tile& tile, int lane, const LaneTrial& trial);
+/// The measures of the move that ends here. @param stopped because it has diverged.
+MoveOutcome outcome_of_move(const Tile& tile, int lane, LaneTrial& trial, bool stopped);
 
 }  // namespace zerocount::batch

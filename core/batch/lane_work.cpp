@@ -97,7 +97,7 @@ void LaneWork::end_trial(int lane) {
 void LaneWork::end_move(int lane, LaneTrial& trial) {
   const double taken = tile_.measures.taken[lane];
   if (tile_.measures.in_jerk[lane] != 0.0) end_jerk(lane, trial, taken);
-  trial.outcome->moves.push_back(outcome_of_move(tile_, lane, trial));
+  trial.outcome->moves.push_back(outcome_of_move(tile_, lane, trial, false));
   ++trial.move;
   if (trial.move == trial.parameters->command.targets.size()) {
     end_trial(lane);
@@ -109,10 +109,7 @@ void LaneWork::end_move(int lane, LaneTrial& trial) {
 
 void LaneWork::stop_diverged(int lane, LaneTrial& trial) {
   if (tile_.measures.in_jerk[lane] != 0.0) end_jerk(lane, trial, tile_.measures.taken[lane]);
-  MoveOutcome move = outcome_of_move(tile_, lane, trial);
-  move.outcome = Outcome::oscillating;
-  move.stopped = true;
-  trial.outcome->moves.push_back(move);
+  trial.outcome->moves.push_back(outcome_of_move(tile_, lane, trial, true));
   trial.outcome->moves.resize(trial.parameters->command.targets.size(), move_not_run());
   end_trial(lane);
 }

@@ -41,6 +41,7 @@ class LaneWork {
   void take_samples();
   void record_sample(int lane, const LaneTrial& trial);
   void record_passed();
+  void follow_last_half(int lane, LaneTrial& trial);
   void track_jerk(int lane, LaneTrial& trial);
   void end_jerk(int lane, LaneTrial& trial, double taken);
   void delay_torque(int lane, LaneTrial& trial);

@@ -5,8 +5,8 @@
 namespace zerocount::batch {
 
 /// One sampling instant of each lane: encoder, control, converter, measures; as Measurement, PidController,
-/// convert() and MoveMeasures have them, operation by operation. Notes jerk_changes, and beyond_kernel where
-/// the encoder could not count θ.
+/// convert() and MoveMeasures have them, operation by operation. Notes jerk_changes and count_changes, and
+/// beyond_kernel where the encoder could not count θ.
 template <class P>
 void sample_kernel(Tile& tile, LaneList list) {
   using Truth = typename P::Truth;
@@ -80,6 +80,7 @@ void sample_kernel(Tile& tile, LaneList list) {
     at.store(q.saturated, select(code != wanted, one, at.load(q.saturated)));
     at.store(q.theta, theta);
     at.store(q.extension, extension);
+    at.store(q.change, change);
     at.store(q.taken, taken + one);
 
     // Up to the last sample of the move no one is needed where the torque stays.
@@ -89,8 +90,10 @@ void sample_kernel(Tile& tile, LaneList list) {
     at.store(time.steps, zero);
     const Truth away = dwelt & (error != zero);
     const Truth back = truth(at.load(q.in_jerk));
+    const Truth changes = (change != zero) & (taken >= at.load(q.last_half));
     at.note(tile, noted<P>(unreadable, beyond_kernel) + noted<P>(~unreadable & (away | back), jerk_changes) +
-                      noted<P>(lost, diverges) + noted<P>(truth(at.load(l.delay)), delayed));
+                      noted<P>(~unreadable & changes, count_changes) + noted<P>(lost, diverges) +
+                      noted<P>(truth(at.load(l.delay)), delayed));
   }
 }
 

@@ -97,6 +97,7 @@ struct alignas(64) LoopLanes {
 /// The measures of the move so far (see MoveMeasures).
 struct alignas(64) MeasureLanes {
   Lanes samples, dwell, window;  ///< N, D, W
+  Lanes last_half;               ///< first sample of the last half
   Lanes taken;                   ///< samples so far
   Lanes zeros_in_a_row;
   Lanes arrived;
@@ -108,6 +109,7 @@ struct alignas(64) MeasureLanes {
   Lanes peak_torque;
   Lanes saturated;
   Lanes in_jerk;
+  Lanes change;         ///< of the count with the last sample
   Lanes first_error;    ///< of the move, counts
   Lanes largest_error;  ///< beyond the first |error|, with which the move is ended, counts; infinite: never
   Lanes theta;          ///< at the last sample, rad
@@ -130,8 +132,9 @@ enum LaneNote : int {
   beyond_kernel = 1024,  ///< the reference has to take it to the next stop
   jerk_changes = 4096,
   diverges = 16384,
-  meets_event = 32768,  ///< an event other than a reversal lies in the step
-  delayed = 8192        ///< the decided torque has to wait
+  meets_event = 32768,   ///< an event other than a reversal lies in the step
+  delayed = 8192,        ///< the decided torque has to wait
+  count_changes = 65536  ///< in the last half of the move
 };
 
 /// A step that went over sampling instants at which the count and the torque stay: for whoever records them.

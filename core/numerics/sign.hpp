@@ -1,10 +1,14 @@
 #pragma once
 
+#include <concepts>
+
 namespace zerocount {
 
 /// −1, 0 or 1.
-inline int sign_of(double value) {
-  return (value > 0.0) - (value < 0.0);
+template <class Number>
+requires std::floating_point<Number> || std::signed_integral<Number>
+constexpr int sign_of(Number value) {
+  return (value > Number{0}) - (value < Number{0});
 }
 
 }  // namespace zerocount

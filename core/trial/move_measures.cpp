@@ -4,26 +4,47 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/numerics/sign.hpp"
+
 namespace zerocount {
 namespace {
 
-int sign_of(std::int64_t value) {
-  return (value > 0) - (value < 0);
+/// @param largest_error max |e| in the window, counts.
+Outcome verdict(std::int64_t largest_error, std::int64_t target, const LastHalf& last_half) {
+  if (largest_error == 0) return Outcome::zero_count;
+  if (largest_error == 1) return Outcome::one_count;
+  return last_half.only_approaches(target) ? Outcome::off_target : Outcome::oscillating;
 }
 
 }  // namespace
-
-Outcome verdict(std::int64_t largest_error, bool finite, bool judged) {
-  if (!finite) return Outcome::nonfinite;
-  if (!judged) return Outcome::open_loop;
-  if (largest_error == 0) return Outcome::zero_count;
-  return largest_error == 1 ? Outcome::one_count : Outcome::oscillating;
-}
 
 MoveTiming move_timing(const TrialParameters& parameters, std::size_t move) {
   const double rate = parameters.controller.sample_rate;
   return {1.0 / rate, samples_of_move(parameters, move), samples_in(parameters.verdict.dwell, rate),
           samples_in(parameters.verdict.window, rate), parameters.command.torque.levels.empty()};
+}
+
+void judge_end(const MoveTiming& timing, const MoveEnd& end, const LastHalf& last_half,
+               MoveOutcome& outcome) {
+  if (outcome.stopped) {
+    outcome.outcome = Outcome::oscillating;
+  } else if (!end.finite) {
+    outcome.outcome = Outcome::nonfinite;
+  } else {
+    outcome.outcome = verdict(end.largest_in_window, end.target, last_half);
+    outcome.midway_error = end.target - last_half.first();
+    if (end.zeros_in_a_row > 0) {
+      outcome.final_settling_time =
+          static_cast<double>(end.samples - end.zeros_in_a_row) * timing.sample_time;
+    }
+    if (outcome.outcome == Outcome::oscillating) {
+      outcome.oscillation_amplitude = last_half.amplitude();
+      outcome.oscillation_period = last_half.period(timing.sample_time);
+    }
+  }
+  if (!outcome.arrived) return;
+  const auto since_arrival = static_cast<double>(end.samples - outcome.arrival);
+  outcome.zero_fraction = (since_arrival - static_cast<double>(end.jerk_samples)) / since_arrival;
 }
 
 bool MoveMeasures::add(const MoveSample& sample) {
@@ -34,13 +55,14 @@ bool MoveMeasures::add(const MoveSample& sample) {
   outcome_.saturated = outcome_.saturated || sample.clipped;
   outcome_.creep = sample.creep;
   outcome_.final_position = sample.theta;
-  const bool jerk_ended = timing_.judged && judge(error);
+  const bool jerk_ended = timing_.judged && judge(sample);
   ++k_;
   return jerk_ended;
 }
 
 /// What the error says of the move so far. Returns whether a jerk ended before this sample.
-bool MoveMeasures::judge(std::int64_t error) {
+bool MoveMeasures::judge(const MoveSample& sample) {
+  const std::int64_t error = sample.target - sample.count;
   if (k_ == 0) direction_ = sign_of(error);
 
   const bool dwelt = outcome_.arrived;  // the dwell ended before this sample
@@ -55,7 +77,15 @@ bool MoveMeasures::judge(std::int64_t error) {
     largest_in_window_ = std::max(largest_in_window_, std::abs(error));
 
   outcome_.overshoot = std::max(outcome_.overshoot, -direction_ * error);
+  follow_last_half(sample.count);
+  target_ = sample.target;
+  count_ = sample.count;
   return dwelt && track_jerk(error);
+}
+
+void MoveMeasures::follow_last_half(std::int64_t count) {
+  const std::int64_t half = first_of_last_half(timing_.samples);
+  if (k_ >= half) last_half_.add(k_, k_ == half ? count : count_, count);
 }
 
 bool MoveMeasures::track_jerk(std::int64_t error) {
@@ -76,6 +106,7 @@ bool MoveMeasures::track_jerk(std::int64_t error) {
 void MoveMeasures::end_jerk() {
   in_jerk_ = false;
   jerk_.duration = static_cast<double>(k_ - jerk_start_) * timing_.sample_time;
+  jerk_samples_ += k_ - jerk_start_;
   ++outcome_.jerk_count;
   ++(jerk_.direction > 0 ? jerks_up_ : jerks_down_);
 }
@@ -85,8 +116,13 @@ bool MoveMeasures::finish(bool broke_away, std::int64_t reversal_depth, bool fin
   if (jerk_cut) end_jerk();
   outcome_.broke_away = broke_away;
   outcome_.reversal_depth = reversal_depth;
-  outcome_.outcome =
-      outcome_.stopped ? Outcome::oscillating : verdict(largest_in_window_, finite, timing_.judged);
+  if (timing_.judged) {
+    last_half_.finish(count_);
+    judge_end(timing_, {target_, k_, zeros_in_a_row_, jerk_samples_, largest_in_window_, finite}, last_half_,
+              outcome_);
+  } else {
+    outcome_.outcome = finite ? Outcome::open_loop : Outcome::nonfinite;
+  }
   outcome_.stable = finite && outcome_.arrived && largest_since_arrival_ <= 1;
   if (outcome_.jerk_count > 0) {
     const std::int64_t agreeing =

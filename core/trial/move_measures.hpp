@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/trial/last_half.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
 
@@ -24,9 +25,20 @@ inline double true_error(std::int64_t target, double theta, double resolution, d
   return static_cast<double>(target) - (theta / resolution + phase - 0.5);
 }
 
-/// The verdict on a move whose largest |e| in the window is `largest_error` (counts).
-/// @param finite the motion could be followed. @param judged the move had a target.
-Outcome verdict(std::int64_t largest_error, bool finite, bool judged);
+/// What is known of a move with a target when its last sample was taken.
+struct MoveEnd {
+  std::int64_t target{0};             ///< counts
+  std::int64_t samples{0};            ///< taken
+  std::int64_t zeros_in_a_row{0};     ///< up to the last sample
+  std::int64_t jerk_samples{0};       ///< samples in a jerk
+  std::int64_t largest_in_window{0};  ///< max |e| in the last W samples, counts
+  bool finite{true};                  ///< the motion could be followed
+};
+
+/// Completes the measures of a move with a target: its verdict and all that is known at its end alone.
+/// `outcome` has what was measured sample by sample: stopped, arrival, holding_torque, final_error. The last
+/// half has been finished, unless the move was ended before it.
+void judge_end(const MoveTiming& timing, const MoveEnd& end, const LastHalf& last_half, MoveOutcome& outcome);
 
 /// What one sample contributes to the measures of its move.
 struct MoveSample {
@@ -38,11 +50,13 @@ struct MoveSample {
   double creep{0.0};       ///< xp, rad
 };
 
-/// The measures of one move, taken sample by sample: nothing of the move is kept but running values, so the
-/// memory does not grow with its length.
+/// The measures of one move, taken sample by sample. What is kept of the move are running values and what
+/// LastHalf keeps, which has a limit: the memory does not grow with the length of the move.
 class MoveMeasures {
  public:
-  MoveMeasures(const MoveTiming& timing, std::int64_t move) : timing_(timing), move_(move) {}
+  MoveMeasures(const MoveTiming& timing, std::int64_t move) : timing_(timing), move_(move) {
+    last_half_.start(timing.samples);
+  }
 
   /// Takes the next sample of the move.
   /// @returns whether a jerk ended before this sample; then it is in last_jerk().
@@ -59,7 +73,8 @@ class MoveMeasures {
   const MoveOutcome& outcome() const { return outcome_; }
 
  private:
-  bool judge(std::int64_t error);
+  bool judge(const MoveSample& sample);
+  void follow_last_half(std::int64_t count);
   bool track_jerk(std::int64_t error);
   void end_jerk();
 
@@ -68,6 +83,8 @@ class MoveMeasures {
   MoveOutcome outcome_;
 
   std::int64_t k_{0};
+  std::int64_t target_{0};  // of the last sample
+  std::int64_t count_{0};   // of the last sample
   std::int64_t zeros_in_a_row_{0};
   int direction_{0};                       // of the move
   std::int64_t largest_since_arrival_{0};  // max |e|
@@ -77,6 +94,8 @@ class MoveMeasures {
   std::int64_t jerk_start_{0};
   std::int64_t jerks_up_{0};
   std::int64_t jerks_down_{0};
+  std::int64_t jerk_samples_{0};
+  LastHalf last_half_;
 };
 
 }  // namespace zerocount

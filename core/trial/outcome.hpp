@@ -2,20 +2,49 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace zerocount {
 
-/// Verdict on a move by its last samples, best first. The numbers are those stored in results files.
-/// nonfinite: the motion left the finite numbers, or could not be followed (see Plant::finite). open_loop:
-/// the move had a torque level and no target, so there was nothing to judge.
+/// Verdict on a move with N samples by the last W of them. The numbers are those stored in results files;
+/// their order from best to worst is that of severity().
+///
+///   zero_count   all e_k = 0
+///   one_count    max |e_k| = 1
+///   off_target   max |e_k| > 1, and for every sample k from h = ⌈N/2⌉ to N − 1 sgn e_k = sgn e_h and
+///                |e_k| ≤ |e_h|: stalled, or still on its way (for N = 1 there is no such sample)
+///   oscillating  max |e_k| > 1 otherwise, or ended early because it had diverged
+///   nonfinite    the motion left the finite numbers, or could not be followed (see Plant::finite)
+///   open_loop    the move had a torque level and no target, so there was nothing to judge
 enum class Outcome : std::int8_t {
   zero_count = 0,
   one_count = 1,
   oscillating = 2,
   nonfinite = 3,
-  open_loop = 4
+  open_loop = 4,
+  off_target = 5
 };
+
+/// Position of an outcome from best to worst: zero_count, one_count, off_target, oscillating, nonfinite. A
+/// move that was not judged (open_loop) is no worse than any other.
+constexpr int severity(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::open_loop:
+      return 0;
+    case Outcome::zero_count:
+      return 1;
+    case Outcome::one_count:
+      return 2;
+    case Outcome::off_target:
+      return 3;
+    case Outcome::oscillating:
+      return 4;
+    case Outcome::nonfinite:
+      return 5;
+  }
+  return 6;  // no outcome at all: what only a damaged file has
+}
 
 /// What is measured of one move.
 struct MoveOutcome {
@@ -27,8 +56,20 @@ struct MoveOutcome {
   bool stopped{false};       ///< ended at the sample at which it had diverged, or not run after one that was
   std::int64_t arrival{-1};  ///< first sample of the arrival dwell, from the move's start; −1 if never
   double settling_time{std::numeric_limits<double>::quiet_NaN()};  ///< arrival·T, s; NaN if never
-  double travel_time{0.0};      ///< until the reference, or the torque, is where it is held, s
-  std::int64_t overshoot{0};    ///< largest excursion beyond the target, seen from the first count, counts
+  /// k·T with the smallest k such that e_k = … = e_{N−1} = 0, s; NaN where e_{N−1} ≠ 0, or the motion was
+  /// lost.
+  double final_settling_time{std::numeric_limits<double>::quiet_NaN()};
+  /// Fraction of the samples from arrival to the end with e = 0; NaN if the move never arrived.
+  double zero_fraction{std::numeric_limits<double>::quiet_NaN()};
+  /// Of a move that is oscillating and was not ended early, over its last half (see LastHalf): half of the
+  /// largest minus the smallest count, counts; otherwise NaN.
+  double oscillation_amplitude{std::numeric_limits<double>::quiet_NaN()};
+  /// Likewise: mean time between upward crossings of the middle of the two, s; NaN for fewer than two.
+  double oscillation_period{std::numeric_limits<double>::quiet_NaN()};
+  double travel_time{0.0};    ///< until the reference, or the torque, is where it is held, s
+  std::int64_t overshoot{0};  ///< largest excursion beyond the target, seen from the first count, counts
+  /// e at sample ⌈N/2⌉ (of a single sample: that), counts; 0 where the move was cut, or has no target.
+  std::int64_t midway_error{0};
   std::int64_t final_error{0};  ///< e at the last sample, counts; −count where there is no target
   /// Distance from the rotor to the middle of the target's count at the last sample, whatever the encoder
   /// says: target − (θ/Δx + encoder_phase − ½) in fine counts. By an ideal encoder, final_error is 0 where
@@ -59,5 +100,14 @@ struct Jerk {
 struct TrialOutcome {
   std::vector<MoveOutcome> moves;
 };
+
+/// The outcome by which a trial counts: that of its worst move.
+inline Outcome worst_outcome(std::span<const MoveOutcome> moves) {
+  Outcome worst = Outcome::open_loop;
+  for (const MoveOutcome& move : moves) {
+    if (severity(move.outcome) > severity(worst)) worst = move.outcome;
+  }
+  return worst;
+}
 
 }  // namespace zerocount

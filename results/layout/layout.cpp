@@ -1,6 +1,7 @@
 #include "results/layout/layout.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -52,6 +53,15 @@ std::vector<RecordField<MoveOutcome>> all_outcome_fields() {
                &M::arrival),
       field<M>("settling_time", "s", "time of arrival from the start of the move, NaN if never",
                &M::settling_time),
+      since(3, unknown,
+            field<M>("final_settling_time", "s",
+                     "time from which the error is 0 to the end, from the start of the move, NaN if none",
+                     &M::final_settling_time)),
+      since(3, unknown,
+            field<M>("zero_fraction", "1",
+                     "fraction of the samples from arrival to the end with an error of 0, NaN if never "
+                     "arrived",
+                     &M::zero_fraction)),
       field<M>("stable", "1", "arrived, and the error within one count from then to the end", &M::stable),
       field<M>("broke_away", "1", "the hook slid during the move", &M::broke_away),
       field<M>("saturated", "1", "the DAC clipped", &M::saturated),
@@ -61,6 +71,10 @@ std::vector<RecordField<MoveOutcome>> all_outcome_fields() {
       field<M>("peak_torque", "N m", "largest absolute torque decided", &M::peak_torque),
       field<M>("creep", "rad", "plastic extension xp at the last sample", &M::creep),
       field<M>("final_position", "rad", "rotor angle at the last sample", &M::final_position),
+      since(
+          3, unknown,
+          field<M>("midway_error", "count",
+                   "target minus count at the first sample of the last half of the move", &M::midway_error)),
       since(2, unknown,
             field<M>("final_error", "count", "target minus count at the last sample", &M::final_error)),
       since(2, unknown,
@@ -78,6 +92,16 @@ std::vector<RecordField<MoveOutcome>> all_outcome_fields() {
             field<M>("encoder_disagreement", "1",
                      "samples at which the fine count made the coarse one impossible",
                      &M::encoder_disagreement)),
+      since(3, unknown,
+            field<M>("oscillation_amplitude", "count",
+                     "half of the largest minus the smallest count in the last half of an oscillating move, "
+                     "NaN of others",
+                     &M::oscillation_amplitude)),
+      since(
+          3, unknown,
+          field<M>("oscillation_period", "s",
+                   "mean time between upward crossings of the middle of these counts, NaN if fewer than two",
+                   &M::oscillation_period)),
       field<M>("reversal_depth", "1", "largest number of reversal points on the stack", &M::reversal_depth),
       field<M>("jerk_count", "1", "excursions of the error from zero after arrival", &M::jerk_count),
       field<M>("jerk_agreement", "1",
@@ -102,7 +126,12 @@ std::vector<FlagMeaning> outcome_words() {
           {static_cast<int>(Outcome::one_count), "one_count"},
           {static_cast<int>(Outcome::oscillating), "oscillating"},
           {static_cast<int>(Outcome::nonfinite), "nonfinite"},
-          {static_cast<int>(Outcome::open_loop), "open_loop"}};
+          {static_cast<int>(Outcome::open_loop), "open_loop"},
+          {static_cast<int>(Outcome::off_target), "off_target"}};
+}
+
+Outcome outcome_in_version(std::int64_t version, Outcome outcome) {
+  return version < 3 && outcome == Outcome::off_target ? Outcome::oscillating : outcome;
 }
 
 std::string word_of(const Column& column, std::int64_t value) {
@@ -113,11 +142,14 @@ std::string word_of(const Column& column, std::int64_t value) {
 
 const std::vector<RecordField<MoveOutcome>>& outcome_fields(std::int64_t version,
                                                             const OutcomeExtras& extras) {
-  static const std::vector<RecordField<MoveOutcome>> first = outcome_fields_of(1, {});
-  static const std::vector<RecordField<MoveOutcome>> current = outcome_fields_of(format_version, {});
-  static const std::vector<RecordField<MoveOutcome>> with_stopped = outcome_fields_of(format_version, {true});
-  if (extras.stopped) return with_stopped;
-  return version == 1 ? first : current;
+  using Fields = std::vector<RecordField<MoveOutcome>>;
+  static const std::vector<std::array<Fields, 2>> of_versions = [] {
+    std::vector<std::array<Fields, 2>> versions;
+    for (std::int64_t v = 1; v <= format_version; ++v)
+      versions.push_back({outcome_fields_of(v, {false}), outcome_fields_of(v, {true})});
+    return versions;
+  }();
+  return of_versions.at(static_cast<std::size_t>(version - 1))[extras.stopped ? 1 : 0];
 }
 
 const std::vector<RecordField<JerkRecord>>& jerk_fields() {

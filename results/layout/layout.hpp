@@ -21,7 +21,7 @@ namespace zerocount {
 
 /// Version of the layout that is written. A file with a higher number was written by a later program, and is
 /// refused; what those with a lower one lack is told by RecordField::since.
-inline constexpr std::int64_t format_version = 2;
+inline constexpr std::int64_t format_version = 3;
 
 /// One value of an enumeration, and its word in `flag_meanings` and in CSV.
 struct FlagMeaning {
@@ -31,6 +31,10 @@ struct FlagMeaning {
 
 /// The outcomes of a move.
 std::vector<FlagMeaning> outcome_words();
+
+/// What stands for an outcome in files of this version: before version 3 `oscillating` was any move that
+/// ended beyond one count.
+Outcome outcome_in_version(std::int64_t version, Outcome outcome);
 
 /// One dataset of a table.
 struct Column {

@@ -33,7 +33,7 @@ MoveOutcome sample_move(std::mt19937_64& random, std::int64_t move, std::vector<
   std::normal_distribution<double> normal;
   std::uniform_int_distribution<int> small(0, 9);
   MoveOutcome outcome;
-  outcome.outcome = static_cast<Outcome>(small(random) % 5);
+  outcome.outcome = static_cast<Outcome>(small(random) % 6);
   outcome.arrived = small(random) < 8;
   if (outcome.arrived) {
     outcome.arrival = small(random) * 10;
@@ -48,6 +48,13 @@ MoveOutcome sample_move(std::mt19937_64& random, std::int64_t move, std::vector<
   outcome.creep = 1e-7 * normal(random);
   outcome.final_position = 1e-4 * normal(random);
   outcome.final_error = 5 - small(random);
+  outcome.midway_error = 2 * outcome.final_error;
+  if (outcome.final_error == 0) outcome.final_settling_time = 0.001 * small(random);
+  if (outcome.arrived) outcome.zero_fraction = 0.1 * small(random);
+  if (outcome.outcome == Outcome::oscillating) {
+    outcome.oscillation_amplitude = 0.5 * small(random);
+    outcome.oscillation_period = small(random) < 2 ? nan : 0.01 * small(random);
+  }
   outcome.true_error = outcome.outcome == Outcome::open_loop ? nan : 3.0 * normal(random);
   outcome.travel_time = 0.01 * small(random);
   outcome.phase_changes = small(random) / 3;

@@ -42,6 +42,9 @@ std::string hold_of(double samples) {
   return "command.hold=" + std::to_string(samples / 2000.0);
 }
 
+/// Each lane needs memory for the rises of the count in the last half of a move, once (see LastHalf).
+const std::int64_t lanes = BatchSettings{}.lanes;
+
 TEST_F(BatchAllocation, IsCounted) {
   const std::int64_t before = allocations_so_far();
   std::vector<int> numbers(100);
@@ -65,7 +68,7 @@ TEST_F(BatchAllocation, IsOneATrialWhereItsOutcomeHasNoPlace) {
   BatchEngine engine;
   allocations_in(engine, warm);
   Batch fresh(bench_trials("bench-transient", 400, 1000));
-  EXPECT_LE(allocations_in(engine, fresh), 1000);
+  EXPECT_LE(allocations_in(engine, fresh), 1000 + lanes);
 }
 
 /// Trials whose springs remember more than there is room for in a spring.
@@ -83,7 +86,7 @@ TEST_F(BatchAllocation, DoesNotGrowWithTheNumberOfSamplesButForLongMemories) {
       const std::int64_t allocations = allocations_in(engine, batch);
       std::cout << name << ", " << samples << " samples: " << allocations << " allocations in 300 trials, "
                 << long_memories(batch) << " of them with long memories\n";
-      EXPECT_LE(allocations, 300 + 2 * long_memories(batch));
+      EXPECT_LE(allocations, 300 + lanes + 2 * long_memories(batch));
     }
   }
 }

@@ -128,6 +128,11 @@ void Comparison::compare_move(std::size_t number, const MoveOutcome& a, const Mo
   same("stopped", a.stopped, b.stopped);
   same("arrival", static_cast<double>(a.arrival), static_cast<double>(b.arrival));
   same("settling_time", a.settling_time, b.settling_time);
+  same("final_settling_time", a.final_settling_time, b.final_settling_time);
+  same("zero_fraction", a.zero_fraction, b.zero_fraction);
+  same("oscillation_amplitude", a.oscillation_amplitude, b.oscillation_amplitude);
+  same("oscillation_period", a.oscillation_period, b.oscillation_period);
+  same("midway_error", static_cast<double>(a.midway_error), static_cast<double>(b.midway_error));
   same("travel_time", a.travel_time, b.travel_time);
   same("overshoot", static_cast<double>(a.overshoot), static_cast<double>(b.overshoot));
   same("final_error", static_cast<double>(a.final_error), static_cast<double>(b.final_error));

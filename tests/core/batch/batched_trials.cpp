@@ -44,6 +44,11 @@ void compare(Differences& d, const MoveOutcome& a, const MoveOutcome& b) {
   d.expect_same("stopped", std::int64_t{a.stopped}, std::int64_t{b.stopped});
   d.expect_same("arrival", a.arrival, b.arrival);
   d.expect_same("settling_time", a.settling_time, b.settling_time);
+  d.expect_same("final_settling_time", a.final_settling_time, b.final_settling_time);
+  d.expect_same("zero_fraction", a.zero_fraction, b.zero_fraction);
+  d.expect_same("oscillation_amplitude", a.oscillation_amplitude, b.oscillation_amplitude);
+  d.expect_same("oscillation_period", a.oscillation_period, b.oscillation_period);
+  d.expect_same("midway_error", a.midway_error, b.midway_error);
   d.expect_same("travel_time", a.travel_time, b.travel_time);
   d.expect_same("overshoot", a.overshoot, b.overshoot);
   d.expect_same("final_error", a.final_error, b.final_error);

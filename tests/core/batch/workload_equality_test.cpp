@@ -87,6 +87,11 @@ TEST_P(WorkloadEquality, OfTheDistributionsAfterASlide) {
       {"zero_count", [](const MoveOutcome& m) { return m.outcome == Outcome::zero_count ? 1.0 : 0.0; }},
       {"one_count", [](const MoveOutcome& m) { return m.outcome == Outcome::one_count ? 1.0 : 0.0; }},
       {"oscillating", [](const MoveOutcome& m) { return m.outcome == Outcome::oscillating ? 1.0 : 0.0; }},
+      {"off_target", [](const MoveOutcome& m) { return m.outcome == Outcome::off_target ? 1.0 : 0.0; }},
+      {"oscillation_amplitude",
+       [](const MoveOutcome& m) {
+         return m.outcome == Outcome::oscillating && !m.stopped ? m.oscillation_amplitude : 0.0;
+       }},
       {"arrived", [](const MoveOutcome& m) { return m.arrived ? 1.0 : 0.0; }},
       {"stable", [](const MoveOutcome& m) { return m.stable ? 1.0 : 0.0; }},
       {"saturated", [](const MoveOutcome& m) { return m.saturated ? 1.0 : 0.0; }},

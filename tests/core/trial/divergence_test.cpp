@@ -66,9 +66,10 @@ double shown(double value) {
 /// But what goes on after the last sample: broke_away and reversal_depth.
 auto measures(const MoveOutcome& m) {
   return std::tuple(m.outcome, m.arrived, m.stable, m.saturated, m.arrival, shown(m.settling_time),
-                    shown(m.travel_time), m.overshoot, m.final_error, shown(m.true_error),
-                    shown(m.final_position), shown(m.holding_torque), shown(m.peak_torque), shown(m.creep),
-                    m.phase_changes, m.encoder_disagreement, m.jerk_count, shown(m.jerk_agreement));
+                    shown(m.final_settling_time), shown(m.zero_fraction), shown(m.travel_time), m.overshoot,
+                    m.final_error, shown(m.true_error), shown(m.final_position), shown(m.holding_torque),
+                    shown(m.peak_torque), shown(m.creep), m.phase_changes, m.encoder_disagreement,
+                    m.jerk_count, shown(m.jerk_agreement));
 }
 
 /// Where the trial is to be ended.
@@ -118,12 +119,14 @@ void expect_not_run(const MoveOutcome& move) {
   EXPECT_EQ(move.outcome, Outcome::oscillating);
   EXPECT_FALSE(move.arrived || move.stable || move.broke_away || move.saturated);
   EXPECT_EQ(move.arrival, -1);
-  for (const double real : {move.settling_time, move.travel_time, move.true_error, move.final_position,
-                            move.holding_torque, move.peak_torque, move.creep, move.jerk_agreement}) {
+  for (const double real :
+       {move.settling_time, move.travel_time, move.true_error, move.final_position, move.holding_torque,
+        move.peak_torque, move.creep, move.jerk_agreement, move.final_settling_time, move.zero_fraction,
+        move.oscillation_amplitude, move.oscillation_period}) {
     EXPECT_TRUE(std::isnan(real));
   }
   for (const std::int64_t whole : {move.overshoot, move.final_error, move.reversal_depth, move.phase_changes,
-                                   move.encoder_disagreement, move.jerk_count}) {
+                                   move.encoder_disagreement, move.jerk_count, move.midway_error}) {
     EXPECT_EQ(whole, 0);
   }
 }
@@ -146,8 +149,11 @@ void expect_measured_to(const RecordedTrial& ended, const End& end) {
   shorter.command.hold = static_cast<double>(end.sample + 1) / shorter.controller.sample_rate;
   const RecordedTrial cut = run_recorded(shorter);
   ASSERT_EQ(cut.samples.size(), ended.samples.size());
-  const MoveOutcome& other = cut.outcome.moves[0];
+  MoveOutcome other = cut.outcome.moves[0];
+  other.outcome = Outcome::oscillating;  // a move that diverges is no approach, however short it was
   EXPECT_EQ(measures(move), measures(other));
+  EXPECT_TRUE(std::isnan(move.oscillation_amplitude) && std::isnan(move.oscillation_period));
+  EXPECT_EQ(move.midway_error, 0);
   EXPECT_LE(move.broke_away, other.broke_away);
   EXPECT_LE(move.reversal_depth, other.reversal_depth);
   ASSERT_EQ(cut.jerks.size(), ended.jerks.size());

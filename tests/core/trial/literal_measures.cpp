@@ -78,15 +78,55 @@ std::vector<Jerk> jerks_of(const Errors& errors, std::size_t from, double sample
   return jerks;
 }
 
+bool only_approaches(const Errors& last_half) {
+  return std::all_of(last_half.begin(), last_half.end(), [&](std::int64_t e) {
+    return sign(static_cast<double>(e)) == sign(static_cast<double>(last_half.front())) &&
+           std::abs(e) <= std::abs(last_half.front());
+  });
+}
+
+/// The amplitude and the period of an oscillating move, from the counts of its last half.
+void measure_oscillation(const Errors& last_half, double sample_time, MoveOutcome& outcome) {
+  std::vector<double> counts;  // from the target
+  for (const std::int64_t e : last_half) counts.push_back(-static_cast<double>(e));
+  const double highest = *std::max_element(counts.begin(), counts.end());
+  const double lowest = *std::min_element(counts.begin(), counts.end());
+  outcome.oscillation_amplitude = (highest - lowest) / 2;
+  const double middle = (highest + lowest) / 2;
+  std::vector<double> crossings;  // s
+  for (std::size_t k = 1; k < counts.size(); ++k) {
+    if (counts[k - 1] < middle && counts[k] >= middle)
+      crossings.push_back(static_cast<double>(k) * sample_time);
+  }
+  if (crossings.size() < 2) return;
+  double sum = 0.0;
+  for (std::size_t i = 1; i < crossings.size(); ++i) sum += crossings[i] - crossings[i - 1];
+  outcome.oscillation_period = sum / static_cast<double>(crossings.size() - 1);
+}
+
+/// What is known of a move at its end.
+void judge_end(const Errors& errors, std::int64_t largest_in_window, double sample_time,
+               MoveOutcome& outcome) {
+  const std::size_t half = (errors.size() + 1) / 2;
+  const Errors last_half(errors.begin() + static_cast<std::ptrdiff_t>(half), errors.end());
+  outcome.outcome = largest_in_window == 0       ? Outcome::zero_count
+                    : largest_in_window == 1     ? Outcome::one_count
+                    : only_approaches(last_half) ? Outcome::off_target
+                                                 : Outcome::oscillating;
+  outcome.midway_error = last_half.empty() ? errors.back() : last_half.front();
+  std::size_t first_zero = errors.size();
+  while (first_zero > 0 && errors[first_zero - 1] == 0) --first_zero;
+  if (first_zero < errors.size()) outcome.final_settling_time = static_cast<double>(first_zero) * sample_time;
+  if (outcome.outcome == Outcome::oscillating) measure_oscillation(last_half, sample_time, outcome);
+}
+
 void judge(const Errors& errors, const TrialParameters& p, std::size_t move, LiteralMeasures& measures) {
   const double rate = p.controller.sample_rate;
   const auto dwell = static_cast<std::size_t>(std::llround(p.verdict.dwell * rate));
   const auto window = std::llround(p.verdict.window * rate);
   MoveOutcome& outcome = measures.outcome;
   const std::int64_t in_window = largest(errors.end() - window, errors.end());
-  outcome.outcome = in_window == 0   ? Outcome::zero_count
-                    : in_window == 1 ? Outcome::one_count
-                                     : Outcome::oscillating;
+  judge_end(errors, in_window, 1 / rate, outcome);
   for (const std::int64_t e : errors) {
     outcome.overshoot = std::max(outcome.overshoot, -sign(static_cast<double>(errors.front())) * e);
   }
@@ -96,6 +136,8 @@ void judge(const Errors& errors, const TrialParameters& p, std::size_t move, Lit
   outcome.arrival = static_cast<std::int64_t>(arrival);
   outcome.settling_time = static_cast<double>(arrival) / rate;
   outcome.stable = largest(errors.begin() + outcome.arrival, errors.end()) <= 1;
+  outcome.zero_fraction = static_cast<double>(std::count(errors.begin() + outcome.arrival, errors.end(), 0)) /
+                          static_cast<double>(errors.end() - errors.begin() - outcome.arrival);
   measures.jerks = jerks_of(errors, arrival + dwell, 1 / rate, move);
   outcome.jerk_count = static_cast<std::int64_t>(measures.jerks.size());
   const auto along = std::count_if(measures.jerks.begin(), measures.jerks.end(), [&](const Jerk& jerk) {

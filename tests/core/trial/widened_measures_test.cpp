@@ -35,6 +35,7 @@ TEST(WidenedMeasures, AreThoseOfTheSamplesOfEachMove) {
       EXPECT_EQ(measured.saturated, expected.saturated);
       EXPECT_EQ(measured.arrival, expected.arrival);
       EXPECT_EQ(measured.overshoot, expected.overshoot);
+      EXPECT_EQ(measured.midway_error, expected.midway_error);
       EXPECT_EQ(measured.final_error, expected.final_error);
       EXPECT_EQ(measured.final_position, expected.final_position);
       EXPECT_EQ(measured.holding_torque, expected.holding_torque);
@@ -51,6 +52,10 @@ TEST(WidenedMeasures, AreThoseOfTheSamplesOfEachMove) {
       };
       expect_same(measured.travel_time, expected.travel_time, 1e-12, "travel_time");
       expect_same(measured.settling_time, expected.settling_time, 1e-12, "settling_time");
+      expect_same(measured.final_settling_time, expected.final_settling_time, 1e-12, "final_settling_time");
+      expect_same(measured.zero_fraction, expected.zero_fraction, 1e-12, "zero_fraction");
+      expect_same(measured.oscillation_amplitude, expected.oscillation_amplitude, 0.0, "amplitude");
+      expect_same(measured.oscillation_period, expected.oscillation_period, 1e-12, "period");
       expect_same(measured.true_error, expected.true_error, 1e-8, "true_error");
       expect_same(measured.jerk_agreement, expected.jerk_agreement, 1e-15, "jerk_agreement");
       // The deepest may lie between two samples, but no two reversals fit there.
@@ -102,6 +107,12 @@ std::map<std::string, std::int64_t> sights() {
       seen["zero count"] += m.outcome == Outcome::zero_count;
       seen["one count"] += m.outcome == Outcome::one_count;
       seen["oscillating"] += m.outcome == Outcome::oscillating;
+      seen["off target"] += m.outcome == Outcome::off_target;
+      seen["oscillation with a period"] += !std::isnan(m.oscillation_period);
+      seen["oscillation without a period"] +=
+          !std::isnan(m.oscillation_amplitude) && std::isnan(m.oscillation_period);
+      seen["settled for good later than at first"] += m.final_settling_time > m.settling_time;
+      seen["away from zero after arrival"] += m.zero_fraction < 1.0;
       seen["open loop"] += m.outcome == Outcome::open_loop;
       seen["jerks"] += m.jerk_count;
       seen["saturated"] += m.saturated;

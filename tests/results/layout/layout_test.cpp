@@ -54,6 +54,8 @@ TEST(Layout, HasOneColumnPerMeasureOfAMove) {
                                           "arrived",
                                           "arrival",
                                           "settling_time",
+                                          "final_settling_time",
+                                          "zero_fraction",
                                           "stable",
                                           "broke_away",
                                           "saturated",
@@ -62,11 +64,14 @@ TEST(Layout, HasOneColumnPerMeasureOfAMove) {
                                           "peak_torque",
                                           "creep",
                                           "final_position",
+                                          "midway_error",
                                           "final_error",
                                           "true_error",
                                           "travel_time",
                                           "phase_changes",
                                           "encoder_disagreement",
+                                          "oscillation_amplitude",
+                                          "oscillation_period",
                                           "reversal_depth",
                                           "jerk_count",
                                           "jerk_agreement"};
@@ -86,6 +91,15 @@ TEST(Layout, OfVersion1HasTheFirstMeasures) {
       (std::vector<std::string>{"outcome", "arrived", "arrival", "settling_time", "stable", "broke_away",
                                 "saturated", "overshoot", "holding_torque", "peak_torque", "creep",
                                 "final_position", "reversal_depth", "jerk_count", "jerk_agreement"}));
+}
+
+TEST(Layout, OfVersion2LacksTheMeasuresOfTheEndOfAMove) {
+  std::vector<std::string> expected = names(outcome_table(format_version, {true}).columns);
+  for (const char* measure : {"final_settling_time", "zero_fraction", "midway_error", "oscillation_amplitude",
+                              "oscillation_period"}) {
+    EXPECT_EQ(std::erase(expected, measure), 1U) << measure;
+  }
+  EXPECT_EQ(names(outcome_table(2, {true}).columns), expected);
 }
 
 TEST(Layout, TracesHaveTheColumnsOfTheTraceCommandAfterTheTrial) {
@@ -139,7 +153,7 @@ TEST(Layout, EnumerationsNameEveryValueAndFlagsAreNoOrYes) {
       }
     }
   }
-  EXPECT_EQ(outcome_fields()[0].column.flags.size(), 5U);
+  EXPECT_EQ(outcome_fields()[0].column.flags.size(), 6U);
   EXPECT_EQ(outcome_fields()[0].column.flags[2].word, "oscillating");
 }
 

@@ -84,7 +84,8 @@ TEST_F(Export, OutcomesHaveOneRowPerMoveAndWordsForVerdicts) {
   const auto rows = read_table(out / "outcomes.csv");
   ASSERT_EQ(rows.size(), 241U);
   const std::vector<MoveOutcome> outcomes = file.outcomes(file.rows());
-  const std::vector<std::string> words{"zero_count", "one_count", "oscillating", "nonfinite", "open_loop"};
+  const std::vector<std::string> words{"zero_count", "one_count", "oscillating",
+                                       "nonfinite",  "open_loop", "off_target"};
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     EXPECT_EQ(rows[i + 1][0], std::to_string(i / 2));
     EXPECT_EQ(rows[i + 1][1], std::to_string(i % 2));

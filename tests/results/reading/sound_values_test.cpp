@@ -74,8 +74,8 @@ TEST_F(SoundValues, TheSampleHasThem) {
 }
 
 TEST_F(SoundValues, AreAskedOfEveryMeasure) {
-  expect_refused("outcome/outcome", 41, std::int8_t{77}, "trial 41, move 0: it is 77; expected 0 to 4");
-  expect_refused("outcome/outcome", 41, std::int8_t{-1}, "trial 41, move 0: it is -1; expected 0 to 4");
+  expect_refused("outcome/outcome", 41, std::int8_t{77}, "trial 41, move 0: it is 77; expected 0 to 5");
+  expect_refused("outcome/outcome", 41, std::int8_t{-1}, "trial 41, move 0: it is -1; expected 0 to 5");
   for (const double time : {infinity, -infinity, -0.5})
     expect_refused("outcome/settling_time", 7, time, "trial 7, move 0: it is ");
   expect_refused("outcome/travel_time", 7, nan, "trial 7, move 0: it is nan; expected a finite time");
@@ -83,7 +83,12 @@ TEST_F(SoundValues, AreAskedOfEveryMeasure) {
   for (const char* count :
        {"overshoot", "phase_changes", "encoder_disagreement", "reversal_depth", "jerk_count"})
     expect_refused(std::string("outcome/") + count, 59, std::int64_t{-3}, "trial 59, move 0: it is -3");
-  expect_refused("outcome/jerk_agreement", 0, 1.5, "trial 0, move 0: it is 1.5");
+  for (const char* fraction : {"jerk_agreement", "zero_fraction"})
+    expect_refused(std::string("outcome/") + fraction, 0, 1.5, "trial 0, move 0: it is 1.5");
+  for (const char* measure : {"final_settling_time", "oscillation_amplitude", "oscillation_period"}) {
+    for (const double value : {infinity, -0.5})
+      expect_refused(std::string("outcome/") + measure, 9, value, "trial 9, move 0: it is ");
+  }
 }
 
 TEST_F(SoundValues, AMoveThatArrivedHasASettlingTime) {

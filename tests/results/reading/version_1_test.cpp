@@ -51,7 +51,8 @@ TEST_F(Version1, LacksMeasuresThatWereZeroOrAreNotKnown) {
   }
   EXPECT_FALSE(file.final_error_known());
   EXPECT_TRUE(std::isnan(move.true_error));
-  for (const char* measure : {"final_error", "true_error"}) {
+  for (const char* measure : {"final_error", "true_error", "final_settling_time", "zero_fraction",
+                              "midway_error", "oscillation_amplitude", "oscillation_period"}) {
     const std::vector<double> errors = file.measure(measure, {0, 6});
     ASSERT_EQ(errors.size(), 12U);
     for (const double error : errors) EXPECT_TRUE(std::isnan(error)) << measure;

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace zerocount {
+
+/// The number h = ⌈N/2⌉ of the first sample in the last half of a move of N samples.
+constexpr std::int64_t first_of_last_half(std::int64_t samples) {
+  return (samples + 1) / 2;
+}
+
+/// What the count does in the last half of a move, samples h … N − 1: whether it only approaches its target,
+/// and otherwise how it oscillates.
+///
+/// The amplitude is A = (c_max − c_min)/2. An upward crossing of the middle m = (c_max + c_min)/2 is a sample
+/// k > h with c_{k−1} < m ≤ c_k. The period is the mean time between successive ones,
+///
+///   (k_last − k_first)·T/(crossings − 1).
+///
+/// The middle is known at the end alone. So all rises of the count are remembered, up to max_rises of them:
+/// no half with fewer samples than that can have more. In a longer one that has, the period is that of its
+/// last max_rises rises.
+class LastHalf {
+ public:
+  static constexpr std::size_t max_rises = 131'072;
+
+  /// Starts the last half of a move of `samples` samples. Keeps the memory; what is needed of it is taken at
+  /// once, with the first rise.
+  void start(std::int64_t samples);
+
+  /// Takes the count at sample k ≥ h; `before` is the count at sample k − 1, or `count` itself at sample h.
+  /// Samples at which the count is that of the sample before may be left out, as long as finish() is called.
+  void add(std::int64_t k, std::int64_t before, std::int64_t count) {
+    if (!begun_) begin(before);
+    if (count > before) {
+      add_rise({k, before, count});
+      if (count > max_) max_ = count;
+    } else if (count < min_) {
+      min_ = count;
+    }
+  }
+
+  /// Ends the half with this count at its last sample.
+  void finish(std::int64_t count) {
+    if (!begun_) begin(count);
+  }
+
+  std::int64_t first() const { return first_; }  ///< the count at sample h; once add() or finish() was called
+
+  /// Whether sgn(target − c_k) is the same for all k ≥ h, and |target − c_k| ≤ |target − c_h|.
+  bool only_approaches(std::int64_t target) const;
+
+  double amplitude() const;                 ///< counts
+  double period(double sample_time) const;  ///< s; NaN for fewer than two crossings
+
+ private:
+  struct Rise {
+    std::int64_t k;
+    std::int64_t from;
+    std::int64_t to;
+  };
+
+  void begin(std::int64_t count);
+  void add_rise(const Rise& rise);
+
+  bool begun_{false};
+  std::int64_t first_{0};
+  std::int64_t min_{0};
+  std::int64_t max_{0};
+  std::vector<Rise> rises_;  ///< a ring once there are max_rises
+  std::size_t oldest_{0};
+  std::size_t reserve_{0};
+};
+
+}  // namespace zerocount

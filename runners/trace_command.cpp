@@ -28,7 +28,8 @@ constexpr const char* trace_help =
     "slide); values at the sampling instant, code and torque those decided there. Only where\n"
     "the study uses them: reference (counts, that the control follows), phase (fine or\n"
     "coarse), drive_torque (N m, of the motor; where it is not the code's, but for a delay of\n"
-    "a closed loop). A trial that is stopped early ends there.\n"
+    "a closed loop). A trial that is stopped early ends there. On a linear axis read N for N m\n"
+    "and m for rad.\n"
     "\n"
     "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
 

@@ -12,14 +12,14 @@ enum class Marginal { normal, lognormal };
 /// the travel of a linear axis).
 ///
 /// The field is g(θ) = Σ_m cosine[m]·cos(mθ) + sine[m]·sin(mθ), m = 0, 1, …, dimensionless, of unit variance
-/// over the ensemble, with θ = 2π·position/period. The value is location + scale·g (normal) or exp(location + scale·g) (lognormal), in the
-/// parameter's unit.
+/// over the ensemble, with θ = 2π·position/period. The value is location + scale·g (normal) or exp(location +
+/// scale·g) (lognormal), in the parameter's unit.
 struct Profile {
   Marginal marginal{Marginal::lognormal};
-  double location{0.0};        ///< mean of the normal, or of the logarithm
-  double scale{0.0};           ///< standard deviation of the normal, or of the logarithm
-  std::vector<double> cosine;  ///< [m], dimensionless
-  std::vector<double> sine;    ///< [m], dimensionless; sine[0] has no effect
+  double location{0.0};                   ///< mean of the normal, or of the logarithm
+  double scale{0.0};                      ///< standard deviation of the normal, or of the logarithm
+  std::vector<double> cosine;             ///< [m], dimensionless
+  std::vector<double> sine;               ///< [m], dimensionless; sine[0] has no effect
   double period{2.0 * std::numbers::pi};  ///< rad, or m
 };
 

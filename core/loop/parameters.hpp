@@ -17,8 +17,8 @@ struct EncoderErrors {
 };
 
 /// The two encoders: Δx = length/counts. On a rotary axis `fine` and `coarse` are the counts of a revolution,
-/// 2π rad; on a linear axis one count has the length of the resolution (linear_encoders). Defaults: the paper's
-/// rig.
+/// 2π rad; on a linear axis one count has the length of the resolution (linear_encoders). Defaults: the
+/// paper's rig.
 struct EncoderParameters {
   double fine{1620000.0};  ///< counts in `fine_length` of the encoder that closes the loop, a whole number
   double coarse{86400.0};  ///< counts in `coarse_length` of the encoder read beside it, a whole number

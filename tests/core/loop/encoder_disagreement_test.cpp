@@ -99,8 +99,7 @@ TEST(EncoderDisagreement, SeesALossOfMoreThanACoarseCountAtEverySample) {
     const double theta = 3.3 * k * resolution;
     const std::int64_t before = measurement.disagreements();
     const EncoderReading reading = measurement.read(k, theta);
-    const double lag =
-        static_cast<double>(read_count(fine_encoder(encoders, 0.25), theta) - reading.fine);
+    const double lag = static_cast<double>(read_count(fine_encoder(encoders, 0.25), theta) - reading.fine);
     const bool impossible = measurement.disagreements() > before;
     if (lag == 0.0) {
       EXPECT_FALSE(impossible);

@@ -1,7 +1,5 @@
 #include "core/batch/batch.hpp"
 
-#include <algorithm>
-
 #include "core/batch/lane_work.hpp"
 #include "core/loop/controller.hpp"
 #include "core/loop/dac.hpp"
@@ -15,19 +13,11 @@ bool ideal(const EncoderErrors& e) {
   return e.eccentricity == 0.0 && e.interpolation == 0.0 && e.noise == 0.0 && e.missed == 0.0;
 }
 
-bool creeps_by_square_law(const FrictionAlongRotor& friction) {
-  const auto is_exponent = [](const ProfiledParameter& entry) {
-    return entry.parameter == &FrictionParameters::n;
-  };
-  return friction.uniform.n == 2.0 &&
-         std::none_of(friction.profiled.begin(), friction.profiled.end(), is_exponent);
-}
-
-bool lanes_have(const FrictionAlongRotor& friction) {
-  switch (friction.model) {
+bool lanes_have(FrictionModel model) {
+  switch (model) {
     case FrictionModel::presliding:
     case FrictionModel::spring:
-      return creeps_by_square_law(friction);
+      return true;
     case FrictionModel::coulomb:
     case FrictionModel::none:
       break;
@@ -44,7 +34,7 @@ bool runs_in_lanes(const TrialParameters& p) {
                           p.controller.delay <= longest_delay;
   const bool plain_devices = ideal(p.encoder.fine_errors) && ideal(p.encoder.coarse_errors) &&
                              !has_errors(p.dac) && p.amplifier.bandwidth == 0.0;
-  return plain_loop && plain_devices && lanes_have(p.friction) && samples_of_move(p, 0) > 0;
+  return plain_loop && plain_devices && lanes_have(p.friction.model) && samples_of_move(p, 0) > 0;
 }
 
 BatchEngine::BatchEngine(const BatchSettings& settings)

@@ -40,8 +40,8 @@ struct BatchSettings {
 };
 
 /// Whether the lanes can run such a trial. The others, which have imperfect encoders or converters, an
-/// amplifier, two phases of control, a reference with a profile, torque levels, a Coulomb contact or an
-/// exponent of creep other than 2, go to run_trial.
+/// amplifier, two phases of control, a reference with a profile, torque levels, or a friction model without a
+/// spring, go to run_trial.
 bool runs_in_lanes(const TrialParameters& parameters);
 
 /// Runs trials as run_trial does, many at a time in the lanes of vectors (see core/batch/README.md).

@@ -29,6 +29,7 @@ void show_contact(Tile& tile, int lane, const FrictionParameters& contact) {
   tile.time.longest_step[lane] = 1.0 / std::sqrt(c.stiffest[lane] * c.per_inertia[lane]);
   c.alpha[lane] = contact.alpha;
   c.per_lambda[lane] = 1.0 / contact.lambda;
+  c.creep_exponent[lane] = contact.n;
   c.breakaway[lane] = contact.breakaway;
   c.coulomb[lane] = contact.coulomb_ratio * contact.breakaway;
   c.fast_velocity[lane] = 8.0 * contact.stribeck_velocity;

@@ -141,6 +141,15 @@ struct Pack {
     return r;
   }
 
+  /// aⁿ for a ≥ 0, lane by lane by the C library.
+  friend ZEROCOUNT_ALWAYS_INLINE Pack power_of(const Pack& a, const Pack& n) {
+    Pack r;
+    for (int i = 0; i < Chains; ++i) {
+      for (int j = 0; j < Width; ++j) r.part[i][j] = __builtin_pow(a.part[i][j], n.part[i][j]);
+    }
+    return r;
+  }
+
   /// The nearest whole number, half to even. |a| < 2⁵¹.
   friend ZEROCOUNT_ALWAYS_INLINE Pack nearest_whole(const Pack& a) {
     const Pack shift(0x1.8p52);

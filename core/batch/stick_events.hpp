@@ -18,8 +18,13 @@ ZEROCOUNT_ALWAYS_INLINE EventsPassed<P> events_passed(const Tile& tile, const La
                                                       const StickStep<P>& step) {
   const P zero(0.0);
   const StickLaw<P>& law = step.law;
-  const P creep_left =
-      step.torque_sign * (law.creep_limit * step.torque * step.torque - law.creep_recovery * step.growth);
+  P creep_limit = law.creep_limit * step.torque * step.torque;
+  const typename P::Truth other_powers = step.creeping & (law.creep_exponent != P(2.0));
+  if (other_powers.any()) {
+    const P power = power_of(magnitude(step.torque), law.creep_exponent);
+    creep_limit = select(other_powers, law.creep_limit * power, creep_limit);
+  }
+  const P creep_left = step.torque_sign * (creep_limit - law.creep_recovery * step.growth);
   return {step.direction * (step.elongation - at.load(tile.motion.branch_end)) >= zero,
           step.creeping & (~(creep_left > zero) | (step.torque_sign * step.torque <= zero)),
           ~step.creeping & (magnitude(step.torque) >= at.load(tile.motion.creep_onset))};

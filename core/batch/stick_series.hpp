@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/batch/series.hpp"
+#include "core/batch/torque_power.hpp"
 
 namespace zerocount::batch {
 
@@ -26,13 +26,14 @@ struct StickLaw {
   P exponent;        ///< −s·softening rate
   P creep_limit;     ///< ±α·h/λ, 0 where creep is off
   P creep_recovery;  ///< α·h, 0 where creep is off
+  P creep_exponent;  ///< n
 };
 
-/// What order k of the series follows from, once the exponential and the square are known there.
+/// What order k of the series follows from, once the exponential and |σ|ⁿ are known there.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void next_order(const StickLaw<P>& law, int k, const P& square, const P& start_rate,
+ZEROCOUNT_ALWAYS_INLINE void next_order(const StickLaw<P>& law, int k, const P& power, const P& start_rate,
                                         StickSeries<P>& s, P* slope) {
-  s.creep[k] = law.creep_limit * square - law.creep_recovery * s.growth[k];
+  s.creep[k] = law.creep_limit * power - law.creep_recovery * s.growth[k];
   if (k == batch_order) return;
   s.rate[k] = k == 0 ? start_rate : s.velocity[k] - s.creep[k];
   slope[k] = law.exponent * s.rate[k];
@@ -56,16 +57,24 @@ ZEROCOUNT_ALWAYS_INLINE void next_torque(const StickLaw<P>& law, int k, const P&
 /// instruction cache.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void expand(const StickLaw<P>& law, const P& softness_at_start,
-                                    const typename P::Truth& turning, bool creeping, StickSeries<P>& s) {
+                                    const typename P::Truth& turning, const typename P::Truth& creeping_lanes,
+                                    StickSeries<P>& s) {
   static_assert(batch_order % 2 == 0);
   P softness[batch_order + 1];
   P slope[batch_order + 1];
+  P power[batch_order + 1];  // |σ|ⁿ
   softness[0] = softness_at_start;
   const P zero(0.0);
-  const P creep_start =
-      creeping ? law.creep_limit * (s.torque[0] * s.torque[0]) - law.creep_recovery * s.growth[0] : zero;
+  const bool creeping = creeping_lanes.any();
+  const typename P::Truth other_powers = creeping_lanes & (law.creep_exponent != P(2.0));
+  const bool any_other_power = other_powers.any();
+  power[0] = s.torque[0] * s.torque[0];
+  if (any_other_power) {
+    power[0] = select(other_powers, power_of(magnitude(s.torque[0]), law.creep_exponent), power[0]);
+  }
+  const P creep_start = creeping ? law.creep_limit * power[0] - law.creep_recovery * s.growth[0] : zero;
   const P start_rate = select(turning, zero, s.velocity[0] - creep_start);
-  next_order(law, 0, s.torque[0] * s.torque[0], start_rate, s, slope);
+  next_order(law, 0, power[0], start_rate, s, slope);
 #pragma GCC unroll 1
   for (int k = 1; k < batch_order; k += 2) {
     // Of order k: Σ slope[j]·softness[k−1−j], j = 0 … k−1. Of the next: Σ slope[j]·softness[k−j], j = 1 …
@@ -97,16 +106,24 @@ ZEROCOUNT_ALWAYS_INLINE void expand(const StickLaw<P>& law, const P& softness_at
         later = earlier;
       }
     }
-    next_order(law, k, half + half, zero, s, slope);
+    power[k] = half + half;
+    if (any_other_power) {
+      power[k] = select(other_powers, power_coefficient(s.torque, power, law.creep_exponent, k), power[k]);
+    }
+    next_order(law, k, power[k], zero, s, slope);
     next_product = (next_product + slope[0] * softness[k]) + slope[k] * softness[0];
     next_torque(law, k + 1, next_product, s, softness);
-    P square = zero;
+    power[k + 1] = zero;
     if (creeping) {
       const P middle = s.torque[(k + 1) / 2];
       next_half = next_half + s.torque[0] * s.torque[k + 1];
-      square = (next_half + next_half) + middle * middle;
+      power[k + 1] = (next_half + next_half) + middle * middle;
     }
-    next_order(law, k + 1, square, zero, s, slope);
+    if (any_other_power) {
+      power[k + 1] =
+          select(other_powers, power_coefficient(s.torque, power, law.creep_exponent, k + 1), power[k + 1]);
+    }
+    next_order(law, k + 1, power[k + 1], zero, s, slope);
   }
 }
 

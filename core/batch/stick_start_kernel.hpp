@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/batch/lane_group.hpp"
+#include "core/batch/torque_power.hpp"
 
 namespace zerocount::batch {
 
@@ -24,6 +25,7 @@ void stick_start_kernel(Tile& tile, LaneList list) {
     const P damping = at.load(c.damping);
     const P alpha = at.load(c.alpha);
     const P per_lambda = at.load(c.per_lambda);
+    const P exponent = at.load(c.creep_exponent);
     const P per_inertia = at.load(c.per_inertia);
     const P stiffest = at.load(c.stiffest);
 
@@ -35,7 +37,7 @@ void stick_start_kernel(Tile& tile, LaneList list) {
     const P torque_sign = select(spring_torque < zero, P(-1.0), P(1.0));
 
     Truth creeping = truth(at.load(m.creeping)) | (magnitude(spring_torque) >= at.load(m.creep_onset));
-    const P rate = alpha * (spring_torque * spring_torque * per_lambda - hardening);
+    const P rate = alpha * (torque_power(spring_torque, exponent) * per_lambda - hardening);
     const Truth ends = creeping & ~(rate > zero);
     creeping = creeping & ~ends;
     const P extension_rate = select(creeping, torque_sign * rate, zero);
@@ -47,9 +49,13 @@ void stick_start_kernel(Tile& tile, LaneList list) {
     // Within twice the amplitude of rest, or of what may swing about it after a reversal, by the leading
     // terms of CreepAtRest: the rest rule decides.
     const P balance = torque_sign * torque;
-    const P limit_rate = alpha * (torque * torque * per_lambda - hardening);
+    const P creep_limit = torque_power(torque, exponent) * per_lambda;
+    const P limit_rate = alpha * (creep_limit - hardening);
+    // α·d(|u|ⁿ/λ)/d|u|
+    const P limit_slope = select(exponent == P(2.0), P(2.0) * alpha * magnitude(torque) * per_lambda,
+                                 alpha * exponent * creep_limit / larger(magnitude(torque), P(1e-300)));
     const P slow_rate = select(creeping & (balance > zero) & (limit_rate > zero), limit_rate, zero) /
-                        (P(1.0) + P(2.0) * alpha * magnitude(torque) * per_lambda * damping);
+                        (P(1.0) + limit_slope * damping);
     const P torque_excess = torque_sign * spring_torque - (balance - damping * slow_rate);
     const P velocity_excess = torque_sign * omega - slow_rate * (P(1.0) + alpha * damping / stiffest);
     const P swing = (torque_excess + damping * velocity_excess) * per_inertia;

@@ -86,12 +86,13 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const Tile& tile, const LaneGroup<P>& a
   law.exponent = -branch_sign * at.load(m.branch_softening_rate);
   law.creep_recovery = select(step.creeping, at.load(c.alpha) * h, zero);
   law.creep_limit = step.torque_sign * law.creep_recovery * at.load(c.per_lambda);
+  law.creep_exponent = at.load(c.creep_exponent);
   StickSeries<P>& s = step.series;
   s.elongation[0] = at.load(m.elongation);
   s.velocity[0] = at.load(m.omega) * h;
   s.growth[0] = step.torque_sign * at.load(m.hardening);
   s.torque[0] = torque;
-  expand(law, at.load(m.softness), step.turning, (step.creeping & step.here).any(), s);
+  expand(law, at.load(m.softness), step.turning, step.creeping & step.here, s);
 
   step.breakaway = at.load(c.breakaway);
   step.per_step = damping / h;

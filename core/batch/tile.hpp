@@ -54,6 +54,7 @@ struct alignas(64) ContactLanes {
   Lanes stiffest;              ///< k1 + k2, N m/rad
   Lanes alpha;                 ///< 1/s
   Lanes per_lambda;            ///< 1/λ
+  Lanes creep_exponent;        ///< n
   Lanes breakaway;             ///< Fs, N m
   Lanes coulomb;               ///< Fc, N m
   Lanes per_velocity_squared;  ///< 1/ωs²

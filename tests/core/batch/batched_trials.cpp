@@ -139,14 +139,19 @@ std::vector<InstructionSet> available_instruction_sets() {
   return sets;
 }
 
-TrialParameters trial_for_lanes(TrialKind kind, std::uint64_t index) {
+TrialParameters trial_with_any_exponent(TrialKind kind, std::uint64_t index) {
   TrialParameters p = random_trial(kind, index);
+  p.amplifier = {};
+  if (p.friction.model == FrictionModel::coulomb) p.friction.model = FrictionModel::presliding;
+  return p;
+}
+
+TrialParameters trial_for_lanes(TrialKind kind, std::uint64_t index) {
+  TrialParameters p = trial_with_any_exponent(kind, index);
   FrictionParameters& f = p.friction.uniform;
   constexpr double torque = 0.02;  // N m
   f.lambda = torque * torque / (std::pow(torque, f.n) / f.lambda);
   f.n = 2.0;
-  p.amplifier = {};
-  if (p.friction.model == FrictionModel::coulomb) p.friction.model = FrictionModel::presliding;
   return p;
 }
 

@@ -37,8 +37,11 @@ BatchedTrial run_by_reference(const TrialParameters& parameters);
 /// Every instruction set that this processor has.
 std::vector<InstructionSet> available_instruction_sets();
 
-/// random_trial(kind, index), changed where lanes would not run it: with the creep exponent 2, the same creep
-/// limit at 0.02 N m as before, no amplifier, and the presliding model in place of Coulomb's.
+/// random_trial(kind, index), changed where lanes would not run it: no amplifier, and the presliding model in
+/// place of Coulomb's.
+TrialParameters trial_with_any_exponent(TrialKind kind, std::uint64_t index);
+
+/// The same with the usual creep exponent 2, and the creep limit at 0.02 N m as before.
 TrialParameters trial_for_lanes(TrialKind kind, std::uint64_t index);
 
 }  // namespace zerocount::testing

@@ -22,6 +22,8 @@ TrialParameters plain_trial() {
 }
 
 TEST(RunsInLanes, IsTrueOfAPlainTrialWithAnyPlainParameters) {
+  const auto exponents = std::make_shared<const Profile>(
+      Profile{Marginal::lognormal, std::log(2.5), 0.1, {0.0, 1.0}, {0.0, 0.5}});
   const Change changes[] = {
       {"nothing", [](TrialParameters&) {}},
       {"gains", [](TrialParameters& p) { p.controller.kp = p.controller.kd = 1e-4; }},
@@ -38,6 +40,11 @@ TEST(RunsInLanes, IsTrueOfAPlainTrialWithAnyPlainParameters) {
          p.initial.history = {10, 0.1};
        }},
       {"the spring alone", [](TrialParameters& p) { p.friction.model = FrictionModel::spring; }},
+      {"another exponent", [](TrialParameters& p) { p.friction.uniform.n = 1.5; }},
+      {"an exponent along the rotor",
+       [&](TrialParameters& p) {
+         p.friction.profiled = {{&FrictionParameters::n, exponents}};
+       }},
   };
   for (const Change& change : changes) {
     TrialParameters p = plain_trial();
@@ -47,8 +54,6 @@ TEST(RunsInLanes, IsTrueOfAPlainTrialWithAnyPlainParameters) {
 }
 
 TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
-  const auto profile = std::make_shared<const Profile>(
-      Profile{Marginal::lognormal, std::log(2.5), 0.1, {0.0, 1.0}, {0.0, 0.5}});
   const Change changes[] = {
       {"torque levels", [](TrialParameters& p) { p.command.targets = {}, p.command.torque.levels = {0.1}; }},
       {"no moves", [](TrialParameters& p) { p.command.targets = {}; }},
@@ -70,11 +75,6 @@ TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
       {"amplifier", [](TrialParameters& p) { p.amplifier.bandwidth = 500.0; }},
       {"coulomb", [](TrialParameters& p) { p.friction.model = FrictionModel::coulomb; }},
       {"no friction", [](TrialParameters& p) { p.friction.model = FrictionModel::none; }},
-      {"another exponent", [](TrialParameters& p) { p.friction.uniform.n = 1.5; }},
-      {"an exponent along the rotor",
-       [&](TrialParameters& p) {
-         p.friction.profiled = {{&FrictionParameters::n, profile}};
-       }},
   };
   std::vector<TrialParameters> trials;
   for (const Change& change : changes) {

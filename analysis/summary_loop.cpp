@@ -91,9 +91,7 @@ void add_predictions(std::vector<TextColumn>& columns, const StudySummary& summa
 }  // namespace
 
 std::vector<TextColumn> loop_columns(const StudySummary& summary) {
-  TextColumn labels{"point", false, {}};
-  for (const std::string& label : summary.labels) labels.cells.push_back(printable(label));
-  std::vector<TextColumn> columns{std::move(labels)};
+  std::vector<TextColumn> columns = sweep_columns(summary);
   add_outcomes(columns, summary);
   add_features(columns, summary);
   if (!summary.predictions.empty()) add_predictions(columns, summary);

@@ -46,7 +46,8 @@ std::vector<Parameter> friction_rows() {
                                 "highest tangent stiffness of the friction spring less k1",
                                 "paper, section 4 (k1 + k2 = 860)", at_least(0), 1)),
       friction<&P::beta>(real_row("friction.beta", "1/rad",
-                                  "rate at which a branch softens from k1 + k2 to k1", assumed, above(0), 3)),
+                                  "rate at which a branch softens from k1 + k2 to k1",
+                                  "assumed (from the outcomes in section 4 of the paper)", above(0), 3)),
       friction<&P::alpha>(
           real_row("friction.alpha", "1/s", "rate of creep; 0 switches creep off", assumed, at_least(0), 4)),
       friction<&P::lambda>(real_row("friction.lambda", "(N m)^n/rad",

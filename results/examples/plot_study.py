@@ -13,11 +13,11 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 
-def draw_success(file, axes):
-    """Zero-count success rate against ki, one curve per kp, with the 95 % bounds."""
+def draw_stability(file, axes):
+    """Proportion of stable trials against ki, one curve per kp, with the 95 % bounds."""
     ki = file["point/controller.ki"][:]
     kp = file["point/controller.kp"][:]
-    rate, low, high = (file[f"point/success_rate{end}"][:] for end in ("", "_low", "_high"))
+    rate, low, high = (file[f"point/stable_rate{end}"][:] for end in ("", "_low", "_high"))
     for value, colour in zip(numpy.unique(kp), plt.cm.viridis(numpy.linspace(0, 0.85, len(numpy.unique(kp))))):
         here = kp == value
         axes.fill_between(ki[here], low[here], high[here], color=colour, alpha=0.2, linewidth=0)
@@ -25,7 +25,7 @@ def draw_success(file, axes):
     for gain, name in ((3.85e-5, "(6)"), (3.01e-4, "(7)")):
         axes.axvline(gain, color="grey", linestyle=":")
         axes.annotate(f"{name} at kp = 0", (gain, 1.03), ha="center", va="bottom", color="grey", fontsize=8)
-    axes.set(xscale="log", xlabel="integral gain ki (N m/count)", ylabel="zero-count success rate", ylim=(-0.02, 1.1))
+    axes.set(xscale="log", xlabel="integral gain ki (N m/count)", ylabel="stable trials", ylim=(-0.02, 1.1))
     axes.legend(fontsize=8, loc="upper right", bbox_to_anchor=(1.0, 0.95))
 
 
@@ -45,7 +45,7 @@ def main(map_path, step_path, picture):
     figure = plt.figure(figsize=(11, 4), constrained_layout=True)
     grid = figure.add_gridspec(2, 2)
     with h5py.File(map_path) as file:
-        draw_success(file, figure.add_subplot(grid[:, 0]))
+        draw_stability(file, figure.add_subplot(grid[:, 0]))
     with h5py.File(step_path) as file:
         draw_step(file, figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1]))
     figure.savefig(picture, dpi=110)

@@ -210,6 +210,34 @@ TEST(SummaryTable, HasRigsWhereTrialsShareThem) {
                                              "without_failure_high", "worst_5_percent"}));
 }
 
+TEST(SummaryTable, ShowsTheSweptValuesOfCasesBesideTheirNames) {
+  const std::vector<std::string> lines = lines_of(summary_table(two_cases()));
+  EXPECT_EQ(lines[2].rfind("point       ki (N m/count)  trials", 0), 0U) << lines[2];
+  EXPECT_EQ(lines[4].rfind("low gain          3.85e-05", 0), 0U) << lines[4];
+  EXPECT_EQ(lines[5].rfind("high, gain          random", 0), 0U) << lines[5];
+}
+
+TEST(SummaryTable, ShowsTheValuesOfAGridInPlaceOfItsLabels) {
+  StudySummary summary = two_cases();
+  summary.labels = {"a, controller.kp=0, controller.coarse.kp=1",
+                    "a, controller.kp=0.5, controller.coarse.kp=1"};
+  summary.axes[0].texts = {"a", "a"};
+  summary.axes[1] = {"controller.kp", "N m/count", "", SweepAxis::Kind::number, {0, 0.5}, {}};
+  summary.axes.push_back({"controller.coarse.kp", "N m/count", "", SweepAxis::Kind::number, {1, 1}, {}});
+  summary.axes.push_back({"command.targets.0", "count", "", SweepAxis::Kind::number, {7, 8}, {}});
+  const std::vector<std::string> lines = lines_of(summary_table(summary));
+  EXPECT_EQ(lines[2].rfind("point  case  kp (N m/count)  targets.0 (count)  trials", 0), 0U) << lines[2];
+  EXPECT_EQ(lines[5].rfind("    1  a                0.5                  8", 0), 0U) << lines[5];
+}
+
+TEST(SummaryTable, LeavesManySweptParametersToTheLabels) {
+  StudySummary summary = two_cases();
+  for (const char* name : {"dac.offset", "dac.noise", "dac.bits", "controller.kp"}) {
+    summary.axes.push_back({name, "1", "", SweepAxis::Kind::number, {0, 1}, {}});
+  }
+  EXPECT_EQ(lines_of(summary_table(summary))[2].rfind("point       trials", 0), 0U);
+}
+
 TEST(SummaryTable, NamesThePointsThatLostTrials) {
   StudySummary summary = two_cases();
   EXPECT_EQ(summary_table(summary).find("nonfinite"), std::string::npos);

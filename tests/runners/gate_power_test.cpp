@@ -89,7 +89,7 @@ TEST(GatePower, SeesALowerStiffness) {  // k1 less by 5 %
 }
 
 TEST(GatePower, SeesASpringThatSoftensSooner) {  // β more by 20 %
-  expect_seen({"friction.beta=2.4e+5"});
+  expect_seen({"friction.beta=1.2e+5"});
 }
 
 TEST(GatePower, SeesAHigherGain) {  // ki more by 10 %

@@ -52,7 +52,7 @@ TEST_F(Identify, FindsTheTruthInAResultsFile) {
   EXPECT_EQ(json["records"].size(), 2u);
   EXPECT_TRUE(json["residuals"]["passed"].get<bool>());
   const std::pair<const char*, double> truths[] = {{"k1", 130.0},        {"k2", 750.0},
-                                                   {"beta", 2e5},        {"presliding_damping", 0.2},
+                                                   {"beta", 1e5},        {"presliding_damping", 0.2},
                                                    {"inertia", 5.54e-4}, {"alpha", 0.5}};
   for (const auto& [name, truth] : truths) {
     EXPECT_EQ(parameter(json, name)["status"], "estimated") << name;

@@ -88,7 +88,7 @@ TEST(InitialConditions, FromSlidingTheFineGainsBreakTheContactAgain) {
 }
 
 TEST(InitialConditions, FromSlidingTwoPhasesAreStable) {
-  const std::int64_t trials = 120;
+  const std::int64_t trials = 200;
   const auto outcomes = outcomes_of(shipped_study("initial-conditions"), "from-sliding-two-phase", trials);
   EXPECT_TRUE(
       share_above(0.94, moves_with(outcomes, [](const MoveOutcome& move) { return move.stable; }), trials));

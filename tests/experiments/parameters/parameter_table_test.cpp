@@ -18,7 +18,7 @@ const std::map<std::string, double> expected_defaults{
     {"plant.sliding_damping", 1e-3},
     {"friction.k1", 110},
     {"friction.k2", 750},
-    {"friction.beta", 2e5},
+    {"friction.beta", 1e5},
     {"friction.alpha", 0.5},
     {"friction.lambda", 10},
     {"friction.n", 2},

@@ -101,7 +101,7 @@ TEST(SummaryJson, CountsOfAMoveHaveTheNamesOfThoseOfTheTrials) {
   const nlohmann::ordered_json json = summary_json(two_cases());
   for (const auto& point : json["points"]) {
     const auto& move = point["moves"][0];
-    EXPECT_EQ(move.size(), 9U);
+    EXPECT_EQ(move.size(), 10U);
     for (const auto& [name, count] : move.items())
       EXPECT_EQ(count, point[name]) << name;  // trials of one move
   }
@@ -147,7 +147,7 @@ TEST(SummaryCsv, HasALinePerPointAndReadsBackToTheSameDoubles) {
   const std::vector<std::string> lines = lines_of(summary_csv(summary));
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0].rfind("point,label,case,controller.ki,trials,zero_count,", 0), 0U);
-  EXPECT_EQ(lines[2].rfind("1,\"high, gain\",b,nan,7,0,0,7,0,", 0), 0U);
+  EXPECT_EQ(lines[2].rfind("1,\"high, gain\",b,nan,7,0,0,0,7,0,", 0), 0U);
 
   std::istringstream row(lines[1]);
   std::string cell;

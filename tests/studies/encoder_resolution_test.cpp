@@ -10,7 +10,8 @@ namespace {
 constexpr std::int64_t encoder_trials = 150;
 
 std::vector<TrialOutcome> outcomes_with(const std::string& encoder, const std::string& converter) {
-  return outcomes_of(shipped_study("encoder-resolution"), encoder + ", dac.resolution=" + converter, encoder_trials);
+  return outcomes_of(shipped_study("encoder-resolution"), encoder + ", dac.resolution=" + converter,
+                     encoder_trials);
 }
 
 std::int64_t zero_count_moves(const std::vector<TrialOutcome>& outcomes) {
@@ -37,7 +38,8 @@ TEST(EncoderResolution, WhatIsLeftToAFineEncoderIsCreep) {
   EXPECT_TRUE(share_below(0.80, zero_count_moves(outcomes_with("ten-times", "2.4e-05")), encoder_trials));
   const Study study = shipped_study("encoder-resolution", {"friction.alpha=0"});
   EXPECT_TRUE(share_above(
-      0.95, zero_count_moves(outcomes_of(study, "ten-times, dac.resolution=2.4e-05", encoder_trials)), encoder_trials));
+      0.95, zero_count_moves(outcomes_of(study, "ten-times, dac.resolution=2.4e-05", encoder_trials)),
+      encoder_trials));
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ TEST(SampleRate, TheIntegralAloneIsStableAtTwoAndAHalfTimesTheNaturalFrequency) 
 TEST(SampleRate, TheProportionalGainNeedsTenTimesTheNaturalFrequency) {
   EXPECT_TRUE(share_below(0.65, stable_at_rate("with-kp, controller.sample_rate=500"), rate_trials));
   EXPECT_TRUE(share_below(0.90, stable_at_rate("with-kp, controller.sample_rate=1000"), rate_trials));
-  EXPECT_TRUE(share_above(0.93, stable_at_rate("with-kp, controller.sample_rate=2000"), rate_trials)) << "the paper's rate";
+  EXPECT_TRUE(share_above(0.93, stable_at_rate("with-kp, controller.sample_rate=2000"), rate_trials))
+      << "the paper's rate";
   EXPECT_TRUE(share_above(0.96, stable_at_rate("with-kp, controller.sample_rate=4000"), rate_trials));
 }
 

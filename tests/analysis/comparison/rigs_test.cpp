@@ -1,0 +1,79 @@
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/comparison/requirements.hpp"
+
+namespace zerocount {
+namespace {
+
+/// Trials of rigs that succeed with probabilities between 0.4 and 1, uniform; what fails never arrives.
+PointTrials trials_on_rigs(std::int64_t rigs, std::int64_t trials, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform;
+  std::vector<double> chances(static_cast<std::size_t>(rigs));
+  for (double& chance : chances) chance = 0.4 + 0.6 * uniform(random);
+  PointTrials all;
+  all.trials = trials;
+  all.moves = 1;
+  all.rigs = rigs;
+  for (std::int64_t trial = 0; trial < trials; ++trial) {
+    const bool success = uniform(random) < chances[static_cast<std::size_t>(trial % rigs)];
+    all.zero_count.push_back(success);
+    all.arrived.push_back(success);
+    all.stable.push_back(success);
+    all.settling_time.push_back(success ? 0.03 : std::nan(""));
+    all.jerks.push_back(success ? 0.0 : 1.0);
+  }
+  return all;
+}
+
+/// Comparisons of equal populations whose p of the success rate is at most 5 %.
+int false_alarms(int comparisons, bool as_if_independent) {
+  std::mt19937_64 random(5);
+  int alarms = 0;
+  for (int i = 0; i < comparisons; ++i) {
+    PointTrials before = trials_on_rigs(30, 600, random);
+    PointTrials after = trials_on_rigs(30, 600, random);
+    if (as_if_independent) before.rigs = after.rigs = 0;
+    alarms += compare_measures({}, "", before, after, false).front().p <= 0.05;
+  }
+  return alarms;
+}
+
+TEST(ComparisonOverRigs, KeepsItsRateOfFalseAlarmsWhereTrialsForThemselvesWouldNot) {
+  constexpr int comparisons = 300;
+  EXPECT_LE(false_alarms(comparisons, false),
+            0.05 * comparisons + 3.0 * std::sqrt(0.05 * 0.95 * comparisons));
+  EXPECT_GT(false_alarms(comparisons, true), 0.12 * comparisons);
+}
+
+TEST(ComparisonOverRigs, FindsRigsThatFailNow) {
+  std::mt19937_64 random(6);
+  const PointTrials before = trials_on_rigs(60, 1200, random);
+  PointTrials after = before;
+  for (std::size_t trial = 0; trial < 1200; ++trial) {
+    if (trial % 60 < 20) after.zero_count[trial] = false;
+  }
+  const MeasureComparison success = compare_measures({}, "", before, after, true).front();
+  EXPECT_EQ(success.current_n, 60);  // rigs
+  EXPECT_LT(success.p, 1e-3);
+  EXPECT_GT(success.effect, 0.15);
+  EXPECT_NE(success.test.find("over rigs"), std::string::npos);
+}
+
+TEST(ComparisonOverRigs, RequirementsHaveBoundsOverRigs) {
+  std::mt19937_64 random(7);
+  PointTrials trials = trials_on_rigs(40, 4000, random);
+  const RequirableQuantity* const success = find_requirable("success_rate");
+  const Requirement requirement{.text = "", .quantity = success, .at_least = true, .limit = 0.6};
+  const RequirementResult over_rigs = judge_requirement(requirement, trials, 0.95, 0.95);
+  trials.rigs = 0;
+  const RequirementResult plain = judge_requirement(requirement, trials, 0.95, 0.95);
+  EXPECT_EQ(over_rigs.value, plain.value);
+  EXPECT_GT(over_rigs.value - over_rigs.bounds.low, 2.0 * (plain.value - plain.bounds.low));
+}
+
+}  // namespace
+}  // namespace zerocount

@@ -186,6 +186,9 @@ void PointAccumulator::add_errors(const std::vector<MoveOutcome>& moves) {
 void PointAccumulator::add_measures(const MoveOutcome& move) {
   if (!was_run(move)) return;
   counted_.true_error.add(std::abs(move.true_error));
+  if (move.arrived) counted_.zero_fraction.add(move.zero_fraction);
+  if (!std::isnan(move.oscillation_amplitude)) amplitudes_.add(move.oscillation_amplitude);
+  if (!std::isnan(move.oscillation_period)) periods_.add(move.oscillation_period);
   if (!kind_.open_loop) counted_.overshoot.add(static_cast<double>(move.overshoot));
   counted_.holding_torque.add(move.holding_torque);
   counted_.creep.add(move.creep);
@@ -260,6 +263,8 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
   result.final_error = {errors.size(), mean(errors.observed()), largest(errors.observed()),
                         clustered_quantile(errors, 0.5, confidence),
                         clustered_quantile(errors, 0.95, confidence)};
+
+  result.oscillation = {amplitudes_.size, quantile(amplitudes_, 0.5).value, quantile(periods_, 0.5).value};
 
   const Tally<std::int64_t>& jerks = jerk_counts_;
   const std::int64_t jerk_total = total(jerks);

@@ -49,12 +49,13 @@ class PointAccumulator {
   void add_jerks(const MoveOutcome& move, std::span<const Jerk> jerks);
 
   MoveKind kind_;
-  PointSummary counted_;           ///< the fields that are plain counts and moments
-  std::vector<RigTrials> rigs_;    ///< [rig]
-  TrialClusters settling_times_;   ///< of moves with a target
-  ClusterTotals settling_totals_;  ///< of the moves that arrived
-  TrialClusters slowest_times_;    ///< of trials: of the move that took longest
-  TrialClusters final_errors_;     ///< of moves with a known error
+  PointSummary counted_;                ///< the fields that are plain counts and moments
+  std::vector<RigTrials> rigs_;         ///< [rig]
+  TrialClusters settling_times_;        ///< of moves with a target
+  ClusterTotals settling_totals_;       ///< of the moves that arrived
+  TrialClusters slowest_times_;         ///< of trials: of the move that took longest
+  TrialClusters final_errors_;          ///< of moves with a known error
+  Tally<double> amplitudes_, periods_;  ///< of oscillations, counts and s
   Tally<std::int64_t> jerk_counts_;
   ClusterTotals jerk_totals_;  ///< of trials
   Tally<double> jerk_intervals_;

@@ -14,6 +14,7 @@
 #include "analysis/statistics/rig_statistics.hpp"
 #include "analysis/tolerance.hpp"
 #include "analysis/trend.hpp"
+#include "analysis/undecided_moves.hpp"
 
 /// What is reported of a design point. All bounds have the confidence of the summary. Every share and mean
 /// names what it is a share or mean of: "of trials" is of all trials of the point, "of moves" of all moves of
@@ -60,6 +61,13 @@ struct FinalErrorStatistics {
   double mean{std::numeric_limits<double>::quiet_NaN()};
   double max{std::numeric_limits<double>::quiet_NaN()};
   Quantile median, p95;  ///< with order-statistic bounds
+};
+
+/// The moves that oscillate and were not ended early, over the last half of their samples.
+struct OscillationStatistics {
+  std::int64_t n{0};                                                  ///< moves
+  double amplitude_median{std::numeric_limits<double>::quiet_NaN()};  ///< counts
+  double period_median{std::numeric_limits<double>::quiet_NaN()};     ///< of those that have one, s
 };
 
 /// Something that happens a number of times in a trial, over all its moves.
@@ -139,8 +147,11 @@ struct PointSummary {
   double jerk_one_count_share{std::numeric_limits<double>::quiet_NaN()};  ///< jerks of magnitude 1 / jerks
 
   FinalErrorStatistics final_error;
-  Moments true_error;   ///< distance of moves with a target, |true_error|, counts
-  Moments travel_time;  ///< of moves, s
+  Moments zero_fraction;  ///< of the moves that arrived: samples at zero error since then, as a fraction
+  OscillationStatistics oscillation;
+  UndecidedMoves undecided;  ///< but for off_target moves nothing is known of them without the study
+  Moments true_error;        ///< distance of moves with a target, |true_error|, counts
+  Moments travel_time;       ///< of moves, s
   TimesPerTrial phase_changes;
   TimesPerTrial encoder_disagreement;   ///< samples
   std::vector<LevelStatistics> levels;  ///< [move] in an open-loop study, otherwise empty

@@ -18,6 +18,7 @@
 #include "analysis/repeatability_summary.hpp"
 #include "analysis/stopping_section.hpp"
 #include "analysis/study_features.hpp"
+#include "analysis/undecided.hpp"
 #include "core/failure.hpp"
 #include "experiments/language/manifest_keys.hpp"
 #include "results/layout/table_io.hpp"
@@ -172,9 +173,13 @@ StudySummary summarise(const StudyFile& file, double confidence, bool bootstrap)
   summary.points = study_statistics(file, study, confidence, bootstrap);
   for (std::size_t point = 0; point < summary.points.size(); ++point)
     summary.points[point].hold = hold_of(study, static_cast<std::int64_t>(point));
+  const std::vector<UndecidedMoves> undecided = undecided_moves(file, study);
+  for (std::size_t point = 0; point < summary.points.size(); ++point)
+    summary.points[point].undecided = undecided[point];
   summary.predictions = predictions_of(file.statistics(), header.trials, file.path());
   summary.features = study_features(study);
   summary.design = design_words()[static_cast<std::size_t>(study.design)];
+  if (!study.open_loop) summary.sections.push_back(undecided_section(summary.points, summary.labels));
   if (!study.sequence.empty()) {
     summary.sections.push_back(
         repeatability_section(study_repeatability(file, study, confidence), summary.labels));

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -17,6 +18,11 @@ std::int64_t rigs_without_failure(const PointSummary& point) {
   return std::llround(point.rigs.without_failure * static_cast<double>(point.rigs.n));
 }
 
+bool any_undecided(const StudySummary& summary) {
+  return std::any_of(summary.points.begin(), summary.points.end(),
+                     [](const PointSummary& point) { return point.outcomes.off_target > 0; });
+}
+
 /// A column with a cell for each point.
 template <typename Cell>
 TextColumn by_point(const StudySummary& summary, std::string head, Cell cell) {
@@ -29,6 +35,10 @@ void add_outcomes(std::vector<TextColumn>& columns, const StudySummary& summary)
   using Point = const PointSummary&;
   columns.push_back(by_point(summary, "trials", [](Point p) { return fmt::format("{}", p.trials); }));
   columns.push_back(by_point(summary, "stable", [](Point p) { return percentage(p.stable, p.judged); }));
+  if (any_undecided(summary)) {
+    columns.push_back(
+        by_point(summary, "undecided", [](Point p) { return percentage(p.outcomes.off_target, p.judged); }));
+  }
   columns.push_back(
       by_point(summary, "zero-count", [](Point p) { return percentage(p.outcomes.zero_count, p.judged); }));
   columns.push_back(by_point(summary, bounds_head(summary),
@@ -137,6 +147,11 @@ std::string loop_legend(const StudySummary& summary) {
       "share of moves\n"
       "jerks/trial: mean over all trials\n";
   if (features.rigs) legend += "rigs w/o failure: share of rigs all of whose trials ended at zero error\n";
+  if (any_undecided(summary)) {
+    legend +=
+        "undecided: share of trials whose worst move ended off target, stalled or still on its way: neither "
+        "stable nor\nshown unstable\n";
+  }
   if (features.stopping) {
     legend +=
         "stopped: share of trials that were ended where a move had diverged; they count as oscillating, and "

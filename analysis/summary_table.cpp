@@ -45,7 +45,9 @@ std::string summary_table(const StudySummary& summary) {
   std::string text = printable(summary.name) + "\n\n" +
                      aligned_table(levels ? level_columns(summary) : loop_columns(summary)) +
                      nonfinite_notes(summary) + "\n" + (levels ? level_legend() : loop_legend(summary));
-  for (const SummarySection& section : summary.sections) text += "\n" + section.text;
+  for (const SummarySection& section : summary.sections) {
+    if (!section.text.empty()) text += "\n" + section.text;
+  }
   return text;
 }
 

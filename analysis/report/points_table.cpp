@@ -72,6 +72,8 @@ constexpr PointCell point_cells[] = {
      nullptr, false, true},
     {"one count", "",
      [](const PointSummary& point, const TheoryPrediction&) { return counted(point.outcomes.one_count); }},
+    {"undecided", "",
+     [](const PointSummary& point, const TheoryPrediction&) { return counted(point.outcomes.off_target); }},
     {"oscil\u00adlating", "",
      [](const PointSummary& point, const TheoryPrediction&) { return counted(point.outcomes.oscillating); }},
     {"lost", "",
@@ -135,7 +137,10 @@ std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
   return html_table(columns) +
          fmt::format(
              "<p class=\"note\">zero-count: trials all of whose moves ended at zero error, with {}.{} one "
-             "count, oscillating, lost: trials by their worst move. Quantiles of settling times are of all "
+             "count, undecided, oscillating, lost: trials by their worst move; an undecided one ended off "
+             "target, "
+             "stalled or still on its way, and is neither stable nor shown unstable. Quantiles of settling "
+             "times are of all "
              "moves, those that never arrived being later than any time, with order-statistic bounds. "
              "{}{}</p>\n",
              reported.bounds_name,
@@ -189,8 +194,10 @@ std::string points_html(const ReportedStudy& reported) {
         "<p class=\"note\">The first {} of {} rows; all are printed by <code>zerocount summary</code>.</p>\n",
         rows, all);
   }
-  for (const SummarySection& section : summary.sections)
+  for (const SummarySection& section : summary.sections) {
+    if (section.text.empty()) continue;
     html += html_folded(title_of(section.key), section.text);
+  }
   return html;
 }
 

@@ -52,9 +52,6 @@ using TrialVisitor = std::function<void(std::int64_t row, std::span<const MoveOu
 /// Visits the trials of these rows in order, reading the file in blocks.
 void visit_trials(const StudyFile& file, RowRange rows, const TrialVisitor& visit);
 
-/// The verdict on a trial: the worst of its moves.
-Outcome worst_outcome(std::span<const MoveOutcome> moves);
-
 /// At most `most` of `size` things, spread evenly over them: their indices, rising.
 std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t most);
 

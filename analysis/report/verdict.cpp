@@ -10,6 +10,7 @@
 #include "analysis/sample_size.hpp"
 #include "analysis/text.hpp"
 #include "analysis/tolerance.hpp"
+#include "analysis/undecided.hpp"
 
 namespace zerocount {
 namespace {
@@ -94,10 +95,37 @@ void add_success(std::vector<std::string>& lines, const ReportedStudy& reported,
   const OutcomeCounts& outcomes = point.outcomes;
   if (outcomes.zero_count < point.trials) {
     lines.push_back(
-        fmt::format("Of the others, {} ended within one count, {} further away or swinging, {} with the "
-                    "motion lost.",
-                    outcomes.one_count, outcomes.oscillating, outcomes.nonfinite));
+        fmt::format("Of the others, {} ended within one count, {} off target, stalled or still on their way, "
+                    "{} oscillating, {} with the motion lost.",
+                    outcomes.one_count, outcomes.off_target, outcomes.oscillating, outcomes.nonfinite));
   }
+}
+
+/// " at b", where there are several points.
+std::string at_point(const ReportedStudy& reported, std::int64_t point) {
+  return reported.summary.points.size() == 1 ? "" : " at " + label_of(reported, point);
+}
+
+/// How many moves are undecided at the best point, and at the one with most of them.
+void add_undecided(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
+  const std::vector<PointSummary>& points = reported.summary.points;
+  const auto most =
+      std::max_element(points.begin(), points.end(), [](const PointSummary& a, const PointSummary& b) {
+        return a.undecided.off_target < b.undecided.off_target;
+      });
+  const auto add = [&](std::int64_t point) {
+    const std::string sentence = undecided_sentence(point_of(reported, point).undecided);
+    if (sentence.empty()) return;
+    lines.push_back(fmt::format("Undecided{}: {}. These moves are neither stable nor shown unstable.",
+                                at_point(reported, point), sentence));
+  };
+  add(best);
+  if (most - points.begin() != best) add(most - points.begin());
+}
+
+/// ", 3 undecided" of trials, nothing where there are none.
+std::string undecided_text(std::int64_t undecided) {
+  return undecided == 0 ? "" : fmt::format(", {} undecided", undecided);
 }
 
 /// How rigs differ at the best point.
@@ -148,11 +176,6 @@ std::string median_bounds_text(const ReportedStudy& reported, const Quantile& me
   return fmt::format(" (95 % bounds {} to {} s)", short_number(median.low), short_number(median.high));
 }
 
-/// " at b", where there are several points.
-std::string at_point(const ReportedStudy& reported, std::int64_t point) {
-  return reported.summary.points.size() == 1 ? "" : " at " + label_of(reported, point);
-}
-
 void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const PointSummary& point = point_of(reported, best);
   const SettlingStatistics& settling = point.settling_time;
@@ -178,9 +201,11 @@ void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) 
   std::int64_t stable_points = 0;
   std::int64_t stable_trials = 0;
   std::int64_t stable_of = 0;
+  std::int64_t stable_undecided = 0;
   std::int64_t beyond_points = 0;
   std::int64_t beyond_stable = 0;
   std::int64_t beyond_of = 0;
+  std::int64_t beyond_undecided = 0;
   for (std::size_t i = 0; i < reported.summary.predictions.size(); ++i) {
     const TheoryPrediction& prediction = reported.summary.predictions[i];
     const PointSummary& point = reported.summary.points[i];
@@ -189,22 +214,26 @@ void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) 
       ++stable_points;
       stable_trials += point.stable;
       stable_of += point.trials;
+      stable_undecided += point.outcomes.off_target;
     }
     if (prediction.unstable == prediction.trials) {
       ++beyond_points;
       beyond_stable += point.stable;
       beyond_of += point.trials;
+      beyond_undecided += point.outcomes.off_target;
     }
   }
   if (stable_points > 0) {
     lines.push_back(
-        fmt::format("Criterion (6) of the paper holds in every trial of {} point{}; {} there were stable.",
-                    stable_points, stable_points == 1 ? "" : "s", of_all(stable_trials, stable_of)));
+        fmt::format("Criterion (6) of the paper holds in every trial of {} point{}; {} there were stable{}.",
+                    stable_points, stable_points == 1 ? "" : "s", of_all(stable_trials, stable_of),
+                    undecided_text(stable_undecided)));
   }
   if (beyond_points > 0) {
     lines.push_back(fmt::format(
-        "Criterion (7) is exceeded in every trial of {} point{}; {} there were stable all the same.",
-        beyond_points, beyond_points == 1 ? "" : "s", of_all(beyond_stable, beyond_of)));
+        "Criterion (7) is exceeded in every trial of {} point{}; {} there were stable all the same{}.",
+        beyond_points, beyond_points == 1 ? "" : "s", of_all(beyond_stable, beyond_of),
+        undecided_text(beyond_undecided)));
   }
 }
 
@@ -244,6 +273,7 @@ std::string verdict_html(const ReportedStudy& reported) {
                     dependence_sentence));
   }
   add_success(lines, reported, best);
+  add_undecided(lines, reported, best);
   add_rigs(lines, reported, best);
   add_times(lines, reported, best);
   add_spread(lines, reported);

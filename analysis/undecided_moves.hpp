@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace zerocount {
+
+/// Moves that are off target: stalled, or still on their way when their hold ended. They are undecided,
+/// neither stable nor shown unstable.
+struct UndecidedMoves {
+  std::int64_t moves{0};          ///< of all trials
+  std::int64_t off_target{0};     ///< of them, undecided
+  std::int64_t still_falling{0};  ///< of these, with an error that fell in the last half of the hold
+  /// Hold that most of those whose error still fell are expected to need, s; NaN where there are none, or
+  /// nothing in their control brings the error to zero.
+  double advised_hold{std::numeric_limits<double>::quiet_NaN()};
+};
+
+}  // namespace zerocount

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -17,6 +18,14 @@
 namespace zerocount {
 
 enum class Design { monte_carlo, latin_hypercube, sobol, saltelli };
+
+/// How often a random value is drawn: all that shares it draws it once.
+enum class Per : std::uint8_t {
+  study,
+  rig,
+  trial,
+  contact  ///< of friction: at t = 0 and at each re-stick of a trial
+};
 
 /// Name of the factor that stands for all random numbers that trials draw while they run: their noise, their
 /// missed counts, the levels of their histories.
@@ -45,13 +54,16 @@ struct InputColumn {
   std::string name;     ///< dotted path, e.g. "friction.k1" or "command.targets.0"
   std::string unit;     ///< "1" where dimensionless
   std::string meaning;  ///< one line, from the table of parameters
+  Per per{Per::study};  ///< how often it is drawn: of different points, the most often; study where it is not
 };
 
 /// A friction profile realised for this study's seed.
 struct RealisedProfile {
   std::string name;  ///< dotted path of the parameter, with "@point" appended where points differ
   std::string unit;
-  std::shared_ptr<const Profile> profile;
+  std::shared_ptr<const Profile> profile;  ///< the one rotor of all trials, or that of rig 0
+  std::function<std::shared_ptr<const Profile>(std::int64_t rig)>
+      of_rig{};  ///< empty where all trials are on one rotor
 };
 
 /// One move of a sequence (`command.sequence`): which of the listed targets it goes to, and from where.
@@ -117,6 +129,8 @@ struct Study {
   std::vector<std::string> point_labels;  ///< [point]
   std::vector<SweepAxis> axes;
   std::vector<InputColumn> input_columns;
+  std::vector<InputColumn>
+      rig_columns;  ///< those drawn for each rig, the same at all points; none without rigs
   std::vector<RealisedProfile> profiles;
   std::map<std::string, std::string>
       observed;  ///< point label → what was observed on the real rig (a case's text at all its points)
@@ -135,8 +149,8 @@ struct Study {
 /// One trial, ready to run, and what the results file records of its parameters.
 struct StudyTrial {
   TrialParameters parameters;
-  std::vector<double>
-      inputs;  ///< [input column], in that column's unit; a profile's value where the trial starts
+  std::vector<double> inputs;  ///< [input column], in that column's unit; of a profile, and of what each
+                               ///< contact draws, the value where the trial starts
 };
 
 inline std::int64_t point_count(const Study& study) {
@@ -167,5 +181,8 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
 /// The same with all numbers as the manifest gives them: its parameters have to be completed (complete_trial)
 /// before they are run. For those who change some of them first.
 StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index);
+
+/// What differs between the rigs, of rig `rig` (0 … rigs − 1): [rig column], in that column's unit.
+std::vector<double> rig_inputs(const Study& study, std::int64_t rig);
 
 }  // namespace zerocount

@@ -149,12 +149,34 @@ std::string describe(const PointTheory& theory) {
   return out;
 }
 
+/// The input columns of which `belongs` holds, after `title`; nothing where there are none.
+template <class Belongs>
+void print_columns(const Study& study, std::string_view title, const Belongs& belongs) {
+  std::string names;
+  for (const InputColumn& column : study.input_columns) {
+    if (belongs(column.per)) names += " " + column.name;
+  }
+  if (!names.empty()) fmt::print("  {}:{}\n", title, names);
+}
+
+void print_what_differs(const Study& study) {
+  if (study.input_columns.empty()) fmt::print("  differing between trials: nothing\n");
+  print_columns(study, "differing between trials",
+                [](Per per) { return per == Per::trial || per == Per::contact; });
+  print_columns(study, "of these, drawn anew at each contact", [](Per per) { return per == Per::contact; });
+  print_columns(study, "differing between rigs", [](Per per) { return per == Per::rig; });
+  print_columns(study, "the same in all trials of a point", [](Per per) { return per == Per::study; });
+}
+
 void print_plan(const Study& study) {
   const StudyCost cost = measure_cost(study);
   fmt::print("{}: {}\n", study.name, study.description.empty() ? "(no description)" : study.description);
   fmt::print("  {} design point{} × {} trials = {} trials, {} move{} each\n", point_count(study),
              point_count(study) == 1 ? "" : "s", study.trials, trial_count(study), study.moves,
              study.moves == 1 ? "" : "s");
+  if (study.rigs > 0) {
+    fmt::print("  at each point {} rigs × {} trials of each\n", study.rigs, study.trials / study.rigs);
+  }
   if (study.stop) {
     fmt::print(
         "  or fewer: after every {} at each point it ends where all success rates are known to ± {:.4g}\n",
@@ -170,9 +192,7 @@ void print_plan(const Study& study) {
   fmt::print("  {:.4g} samples at {:.0f} ns: about {} on {} core{}\n", cost.samples,
              1e9 * cost.seconds_per_sample, duration_text(cost.seconds()), cost.cores,
              cost.cores == 1 ? "" : "s");
-  fmt::print("  differing between trials:");
-  for (const InputColumn& column : study.input_columns) fmt::print(" {}", column.name);
-  fmt::print("{}\n", study.input_columns.empty() ? " nothing" : "");
+  print_what_differs(study);
 }
 
 ExitCode check(const Arguments& arguments) {
@@ -193,8 +213,14 @@ ExitCode check(const Arguments& arguments) {
   const TrialParameters first = study_trial(study, 0, 0).parameters;
   if (!first.friction.profiled.empty() && predict(first).applies) {
     const AxisKind axis = study.units.axis;
-    fmt::print("\nLowest k1 {} (point 0): {:.4g} {}; the paper advises to use it in (6).\n",
-               text_on(axis, "along the rotor"), lowest_k1(first.friction), unit_on(axis, "N m/rad"));
+    const std::int64_t rigs = std::clamp<std::int64_t>(study.rigs, 1, most_trials_examined);
+    double lowest = lowest_k1(first.friction);
+    for (std::int64_t rig = 1; rig < rigs; ++rig) {
+      lowest = std::min(lowest, lowest_k1(study_trial(study, 0, rig).parameters.friction));
+    }
+    fmt::print("\nLowest k1 {}{} (point 0): {:.4g} {}; the paper advises to use it in (6).\n",
+               text_on(axis, "along the rotor"), rigs > 1 ? fmt::format(" of {} rigs", rigs) : "", lowest,
+               unit_on(axis, "N m/rad"));
   }
   return ExitCode::success;
 }

@@ -68,8 +68,10 @@ void TraceWriter::begin(const TraceSubject& subject) {
     for (std::size_t i = 0; i < subject.trial.inputs.size(); ++i) {
       inputs[subject.study.input_columns[i].name] = subject.trial.inputs[i];
     }
-    fmt::print(file_, "{{\"name\": {}, \"point\": {}, \"trial\": {},\n \"inputs\": {},\n \"samples\": [",
-               nlohmann::json(subject.study.name).dump(), subject.point, subject.index, inputs.dump());
+    const std::string rig =
+        subject.study.rigs > 0 ? fmt::format(", \"rig\": {}", rig_of(subject.study, subject.index)) : "";
+    fmt::print(file_, "{{\"name\": {}, \"point\": {}, \"trial\": {}{},\n \"inputs\": {},\n \"samples\": [",
+               nlohmann::json(subject.study.name).dump(), subject.point, subject.index, rig, inputs.dump());
     return;
   }
   std::string header;

@@ -17,8 +17,9 @@ bool has_errors(const EncoderErrors& errors) {
          errors.missed != 0.0;
 }
 
-bool creep_is_profiled(const FrictionAlongRotor& friction) {
-  return std::any_of(friction.profiled.begin(), friction.profiled.end(), [](const ProfiledParameter& entry) {
+template <class Entry>
+bool has_creep_parameter(const std::vector<Entry>& entries) {
+  return std::any_of(entries.begin(), entries.end(), [](const Entry& entry) {
     return entry.parameter == &FrictionParameters::alpha || entry.parameter == &FrictionParameters::lambda ||
            entry.parameter == &FrictionParameters::n;
   });
@@ -27,7 +28,10 @@ bool creep_is_profiled(const FrictionAlongRotor& friction) {
 std::string why_not(const TrialParameters& parameters) {
   if (!has_creep(parameters.friction.model) || parameters.friction.uniform.alpha == 0.0)
     return "the friction does not creep";
-  if (creep_is_profiled(parameters.friction)) return "a creep parameter varies along the rotor";
+  if (has_creep_parameter(parameters.friction.profiled)) return "a creep parameter varies along the rotor";
+  if (has_creep_parameter(parameters.friction.per_contact)) {
+    return "a creep parameter differs between contacts";
+  }
   if (parameters.dac.noise != 0.0) return "the converter has noise";
   if (has_errors(parameters.encoder.fine_errors)) return "the encoder has errors";
   if (parameters.controller.encoder != EncoderChoice::fine) return "the coarse encoder closes the loop";

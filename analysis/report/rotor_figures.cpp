@@ -54,12 +54,20 @@ std::optional<std::size_t> position_column(const StudyFile& file) {
   return std::nullopt;
 }
 
-/// The trials of a point, a place of the rotor at a time; those whose motion was lost have none.
+/// The trials that a figure is about: those of a point, or of one rig at it.
+struct ShownTrials {
+  std::int64_t point{0};
+  std::optional<std::int64_t> rig{};
+};
+
+/// The trials, a place of the rotor at a time; those whose motion was lost have none.
 template <class Visit>
-void visit_ends(const ReportedStudy& reported, std::int64_t point, std::size_t column, const Visit& visit) {
-  const RowRange rows = rows_of(reported, point);
+void visit_ends(const ReportedStudy& reported, const ShownTrials& shown, std::size_t column,
+                const Visit& visit) {
+  const RowRange rows = rows_of(reported, shown.point);
   const std::vector<double> starts = reported.file.input(column, rows);
   visit_trials(reported.file, rows, [&](std::int64_t row, std::span<const MoveOutcome> moves) {
+    if (shown.rig && rig_of(reported.study, row - rows.first) != *shown.rig) return;
     const double end = starts[static_cast<std::size_t>(row - rows.first)] + moves.back().final_position;
     const double start = starts[static_cast<std::size_t>(row - rows.first)];
     visit(EndOnRotor{row - rows.first, on_rotor(std::isfinite(end) ? end : start, reported.study.period),
@@ -125,12 +133,47 @@ FigureData sector_data(const Sectors& sectors) {
   return data;
 }
 
-Figure rotor_figure(const ReportedStudy& reported, const StoredProfile& profile, std::size_t column) {
-  const std::int64_t point = point_of(reported, profile.name);
+/// The rig that succeeds least often at the point.
+std::int64_t worst_rig(const ReportedStudy& reported, std::int64_t point) {
+  const StoredRigs rigs = reported.file.rigs().value();
+  const auto of_point = rigs.success.begin() + point * rigs.rigs;
+  return std::min_element(of_point, of_point + rigs.rigs) - of_point;
+}
+
+StoredProfile rotor_of_rig(const StoredProfile& profile, std::int64_t rig) {
+  StoredProfile rotor{profile.name, profile.unit, profile.theta, {}};
+  const auto first = profile.value.begin() + rig * std::ssize(profile.theta);
+  rotor.value.assign(first, first + std::ssize(profile.theta));
+  return rotor;
+}
+
+std::string caption_of(const ReportedStudy& reported, const std::string& parameter, const ShownTrials& shown,
+                       bool failed) {
+  const std::string& label = reported.summary.labels[static_cast<std::size_t>(shown.point)];
+  const std::string trials =
+      shown.rig ? fmt::format("rig {} at point {}", *shown.rig, label) : fmt::format("point {}", label);
+  std::string caption =
+      shown.rig
+          ? fmt::format("The line is {} along the rotor of rig {}, the one that succeeded least often. ",
+                        parameter, *shown.rig)
+          : fmt::format("The line is {} along the rotor, the same in all trials. ", parameter);
+  caption += failed ? fmt::format("The marks are trials of {} that failed, where they ended. ", trials)
+                    : fmt::format("No trial of {} failed. ", trials);
+  return caption +
+         "Below, the share of trials that succeeded in each part of the rotor, with 95 % Clopper-Pearson "
+         "bounds. Where success follows the line, the lowest value decides, as the paper's practical issue 1 "
+         "has it of k1.";
+}
+
+Figure rotor_figure(const ReportedStudy& reported, const StoredProfile& stored, std::size_t column) {
+  ShownTrials shown{point_of(reported, stored.name)};
+  if (stored.rigs > 0) shown.rig = worst_rig(reported, shown.point);
+  const StoredProfile profile = shown.rig ? rotor_of_rig(stored, *shown.rig) : stored;
+  const std::int64_t trials_shown = reported.file.header().trials / std::max<std::int64_t>(stored.rigs, 1);
   const double period = reported.study.period;
-  Sectors sectors(reported.file.header().trials >= 480 ? 24 : 12, period);
+  Sectors sectors(trials_shown >= 480 ? 24 : 12, period);
   std::vector<EndOnRotor> failures;
-  visit_ends(reported, point, column, [&](const EndOnRotor& end) {
+  visit_ends(reported, shown, column, [&](const EndOnRotor& end) {
     sectors.add(end);
     if (end.outcome != Outcome::zero_count) failures.push_back(end);
   });
@@ -145,15 +188,7 @@ Figure rotor_figure(const ReportedStudy& reported, const StoredProfile& profile,
         {end.trial, datum(end.angle), datum(value_at(profile, end.angle, period)), word_of(end.outcome)}));
   }
   const std::string parameter = profile.name.substr(0, profile.name.find('@'));
-  const std::string& label = reported.summary.labels[static_cast<std::size_t>(point)];
-  std::string caption = fmt::format("The line is {} along the rotor, the same in all trials. ", parameter);
-  caption += failures.empty()
-                 ? fmt::format("No trial of point {} failed. ", label)
-                 : fmt::format("The marks are trials of point {} that failed, where they ended. ", label);
-  caption +=
-      "Below, the share of trials that succeeded in each part of the rotor, with 95 % Clopper-Pearson "
-      "bounds. Where "
-      "success follows the line, the lowest value decides, as the paper's practical issue 1 has it of k1.";
+  std::string caption = caption_of(reported, parameter, shown, !failures.empty());
   if (std::ssize(failures) > most_failures) {
     caption += fmt::format(" {} of {} failures are shown, an even spread.", most_failures, failures.size());
   }

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "core/friction/friction_model.hpp"
 #include "core/friction/profile.hpp"
+#include "core/random/random_numbers.hpp"
 
 namespace zerocount {
 
@@ -29,17 +32,38 @@ struct ProfiledParameter {
   std::shared_ptr<const Profile> profile;
 };
 
-/// Friction along the rotor: `uniform` everywhere, except the parameters that have a profile.
+/// A friction parameter that is drawn anew for every contact of a trial. Contact 0, at t = 0, has its value
+/// in FrictionAlongRotor::uniform. Contact k ≥ 1, which forms at the k-th re-stick, has quantile(u), u being
+/// random number k of the trial (random_bits_at). So a contact depends on its number and on nothing else of
+/// the trial's course.
+struct ContactParameter {
+  double FrictionParameters::*parameter{nullptr};
+  std::function<double(double u)> quantile;  ///< in the parameter's unit, 0 < u < 1
+  RandomStream stream;
+  std::uint64_t trial{0};  ///< counter word of the random numbers
+};
+
+/// Friction along the rotor: `uniform` everywhere, except the parameters that have a profile or differ from
+/// contact to contact. A parameter is in one of the two lists at most.
 struct FrictionAlongRotor {
   FrictionParameters uniform;
   std::vector<ProfiledParameter> profiled;
   FrictionModel model{FrictionModel::presliding};
+  std::vector<ContactParameter> per_contact{};
 };
 
 /// The parameters of a contact that forms at the rotor angle `angle` (rad, absolute, from the profile's
 /// origin).
-inline FrictionParameters friction_at(const FrictionAlongRotor& friction, double angle) {
+/// @param contact_number its number in the trial, 0 at t = 0.
+inline FrictionParameters friction_at(const FrictionAlongRotor& friction, double angle,
+                                      std::int64_t contact_number = 0) {
   FrictionParameters contact = friction.uniform;
+  for (const ContactParameter& entry : friction.per_contact) {
+    if (contact_number == 0) continue;
+    const std::uint64_t bits =
+        random_bits_at(entry.stream, entry.trial, static_cast<std::uint64_t>(contact_number));
+    contact.*entry.parameter = entry.quantile(open_uniform(bits));
+  }
   for (const ProfiledParameter& entry : friction.profiled) {
     contact.*entry.parameter = value_at(*entry.profile, angle);
   }

@@ -156,7 +156,7 @@ double Plant::slide(const TorqueCourse& torque, double duration) {
 }
 
 void Plant::re_stick() {
-  contact_ = friction_at(friction_, position_ + slide_theta_);
+  contact_ = friction_at(friction_, position_ + slide_theta_, ++contact_number_);
   spring_ = HystereticSpring(contact_);
   spring_.start_virgin(virgin_elongation(contact_, breakaway_spring_torque_), sign_of(slide_direction_));
   hook_ = slide_theta_ - spring_.elongation();

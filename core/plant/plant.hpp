@@ -184,6 +184,7 @@ class Plant {
   MotionTolerance tolerance_;
 
   FrictionParameters contact_;
+  std::int64_t contact_number_{0};
   HystereticSpring spring_;  // stays without elongation where the model has no spring
   CreepState creep_;
   bool creeping_{false};

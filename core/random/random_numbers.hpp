@@ -10,17 +10,17 @@ namespace zerocount {
 /// nothing else.
 ///
 /// Key. Two 32-bit words, made from the study's seed and the name of what is drawn. Counter. Four 32-bit
-/// words: {index mod 2³², index div 2³², draw, stream}. The index is the trial's; `draw` is a number of Draw
-/// below; the stream is 0 where all points share their draws, and point + 1 where they are independent.
-/// Result. The first two output words, w = word 0 + 2³²·word 1.
+/// words: {index mod 2³², index div 2³², draw, stream}. The index is mostly the trial's; `draw` is a number
+/// of Draw below; the stream is 0 where all points share their draws, and point + 1 where they are
+/// independent. Result. The first two output words, w = word 0 + 2³²·word 1.
 using RandomKey = std::array<std::uint32_t, 2>;
 
 /// What a number is drawn for: the third counter word.
 enum class Draw : std::uint32_t {
-  trial = 0,           ///< a trial's value; the place inside its stratum with the Latin hypercube
-  sobol_shift = 1,     ///< digital shift of a Sobol dimension, index 0
-  profile_cosine = 2,  ///< cosine coefficient of a profile; the index is the harmonic
-  profile_sine = 3,    ///< sine coefficient of a profile; the index is the harmonic
+  trial = 0,        ///< the value of a trial (or rig); the place inside its stratum with the Latin hypercube
+  sobol_shift = 1,  ///< digital shift of a Sobol dimension, index 0
+  profile_cosine = 2,  ///< cosine coefficient of a profile; the index is the harmonic + 2³²·rig
+  profile_sine = 3,    ///< sine coefficient of a profile; likewise
   latin_round =
       16  ///< + r: round r of the Latin hypercube's permutation; the index is the half that is hashed
 };

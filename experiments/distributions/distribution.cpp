@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
 #include <boost/math/distributions/lognormal.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -93,6 +94,15 @@ Interval support(const Distribution& distribution) {
 
 double quantile(const Distribution& distribution, double u) {
   return std::visit([u](const auto& d) { return quantile_of(d, u); }, distribution);
+}
+
+bool extremes_are_inside(const Distribution& distribution, const Interval& range) {
+  try {
+    return contains(range, quantile(distribution, 0x1p-53)) &&
+           contains(range, quantile(distribution, 1.0 - 0x1p-53));
+  } catch (const std::exception&) {
+    return false;
+  }
 }
 
 bool whole_numbers_only(const Distribution& distribution) {

@@ -72,6 +72,9 @@ Interval support(const Distribution& distribution);
 /// The smallest x with P(X ≤ x) ≥ u, 0 < u < 1, in the quantity's unit.
 double quantile(const Distribution& distribution, double u);
 
+/// Whether the extreme draws are in `range`: numbers may be so large that their quantiles overflow.
+bool extremes_are_inside(const Distribution& distribution, const Interval& range);
+
 /// Whether only whole numbers can be drawn.
 bool whole_numbers_only(const Distribution& distribution);
 

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "experiments/distributions/distribution_faults.hpp"
+#include "experiments/yaml/nearest_name.hpp"
 #include "experiments/yaml/unknown_key.hpp"
 
 namespace zerocount {
@@ -166,42 +167,18 @@ std::optional<Distribution> read_distribution(const DistributionForm& form, cons
   return distribution;
 }
 
-std::optional<ProfileDescription> read_profile(const Field& field, double period, Problems& problems) {
-  static const std::vector<std::string> known{"mean", "cv", "correlation_length", "marginal"};
-  const std::string expected = "profile: {mean, cv, correlation_length, marginal}";
-  if (!check_map(field, expected, problems)) return std::nullopt;
-  const std::size_t before = problems.size();
-  ProfileDescription profile;
-  profile.period = period;
-  const auto number = [&](std::string_view key, const Interval& range, double& to) {
-    const YamlEntry* entry = find_entry(*field.node, key);
-    if (entry == nullptr) {
-      problems.add(field.node->place, field.path, fmt::format("{} is missing", key), expected);
-    } else if (const auto read = read_real(entry_of(field, *entry), range, problems)) {
-      to = *read;
-    }
-  };
-  number("mean", above(0.0), profile.mean);
-  number("cv", {.low = 0.0, .high = 10.0, .high_included = true}, profile.cv);
-  const double scale = period / (2.0 * std::numbers::pi);
-  number("correlation_length",
-         closed(scale * shortest_correlation_length, scale * longest_correlation_length),
-         profile.correlation_length);
-  for (const YamlEntry& entry : field.node->entries) {
-    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
-      add_unknown_key(field, entry, known, problems);
-    } else if (entry.key == "marginal") {
-      const std::string text = entry.value->text;
-      profile.marginal = text == "normal" ? Marginal::normal : Marginal::lognormal;
-      if (text != "normal" && text != "lognormal") {
-        problems.add(entry.value->place, entry_of(field, entry).path,
-                     fmt::format("{} is no marginal", in_quotes(flow_text(*entry.value))),
-                     "normal or lognormal");
-      }
-    }
+const DistributionForm* find_form(const Field& map, const YamlEntry& entry,
+                                  const std::vector<std::string>& others, std::string_view expected,
+                                  Problems& problems) {
+  std::vector<std::string> names = others;
+  for (const DistributionForm& form : distribution_forms()) {
+    if (form.name == entry.key) return &form;
+    names.emplace_back(form.name);
   }
-  if (problems.size() != before) return std::nullopt;
-  return profile;
+  problems.add(entry.place, entry_of(map, entry).path,
+               fmt::format("unknown distribution, nearest known: {}", nearest_name(entry.key, names)),
+               expected);
+  return nullptr;
 }
 
 }  // namespace zerocount

@@ -2,11 +2,11 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "experiments/distributions/distribution.hpp"
-#include "experiments/distributions/random_field.hpp"
 #include "experiments/yaml/scalars.hpp"
 
 namespace zerocount {
@@ -33,8 +33,10 @@ std::string distribution_names();
 std::optional<Distribution> read_distribution(const DistributionForm& form, const Field& field,
                                               Problems& problems);
 
-/// The same for the value of the key `profile`: {mean, cv, correlation_length, marginal}, marginal lognormal
-/// if left out. @param period of the field, rad or m.
-std::optional<ProfileDescription> read_profile(const Field& field, double period, Problems& problems);
+/// The form that `entry` of the map names. Reports what stands there instead, with the nearest name among the
+/// forms and `others`, and returns null.
+const DistributionForm* find_form(const Field& map, const YamlEntry& entry,
+                                  const std::vector<std::string>& others, std::string_view expected,
+                                  Problems& problems);
 
 }  // namespace zerocount

@@ -7,15 +7,14 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/special_functions/erf.hpp>
 
-#include "experiments/designs/random_key.hpp"
-
 namespace zerocount {
 namespace {
 
 constexpr double neglected_variance = 1e-12;
 
-double standard_normal(const RandomStream& stream, std::size_t harmonic, Draw draw) {
-  return boost::math::quantile(boost::math::normal{}, open_uniform(random_bits(stream, harmonic, draw)));
+double standard_normal(const RandomKey& key, std::size_t harmonic, std::uint32_t rotor, Draw draw) {
+  const std::uint64_t index = harmonic + (std::uint64_t{rotor} << 32);
+  return boost::math::quantile(boost::math::normal{}, open_uniform(random_bits({.key = key}, index, draw)));
 }
 
 }  // namespace
@@ -35,10 +34,15 @@ std::vector<double> field_spectrum(double correlation_length) {
   return spectrum;
 }
 
-Profile realise_profile(const ProfileDescription& description, std::uint64_t seed, std::string_view name) {
-  const std::vector<double> spectrum =
+std::vector<double> field_amplitudes(const ProfileDescription& description) {
+  std::vector<double> amplitudes =
       field_spectrum(description.correlation_length * (2.0 * std::numbers::pi / description.period));
-  const RandomStream stream{.key = random_key(seed, name)};
+  for (double& amplitude : amplitudes) amplitude = std::sqrt(amplitude);
+  return amplitudes;
+}
+
+Profile realise_profile(const ProfileDescription& description, std::span<const double> amplitudes,
+                        const RandomKey& key, std::uint32_t rotor) {
   Profile profile;
   profile.marginal = description.marginal;
   profile.period = description.period;
@@ -50,10 +54,11 @@ Profile realise_profile(const ProfileDescription& description, std::uint64_t see
     profile.location = description.mean;
     profile.scale = description.mean * description.cv;
   }
-  for (std::size_t m = 0; m < spectrum.size(); ++m) {
-    profile.cosine.push_back(std::sqrt(spectrum[m]) * standard_normal(stream, m, Draw::profile_cosine));
-    profile.sine.push_back(m == 0 ? 0.0
-                                  : std::sqrt(spectrum[m]) * standard_normal(stream, m, Draw::profile_sine));
+  profile.cosine.reserve(amplitudes.size());
+  profile.sine.reserve(amplitudes.size());
+  for (std::size_t m = 0; m < amplitudes.size(); ++m) {
+    profile.cosine.push_back(amplitudes[m] * standard_normal(key, m, rotor, Draw::profile_cosine));
+    profile.sine.push_back(m == 0 ? 0.0 : amplitudes[m] * standard_normal(key, m, rotor, Draw::profile_sine));
   }
   return profile;
 }

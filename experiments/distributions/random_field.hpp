@@ -2,10 +2,11 @@
 
 #include <cstdint>
 #include <numbers>
-#include <string_view>
+#include <span>
 #include <vector>
 
 #include "core/friction/profile.hpp"
+#include "core/random/random_numbers.hpp"
 #include "experiments/parameters/interval.hpp"
 
 namespace zerocount {
@@ -32,13 +33,19 @@ constexpr double longest_correlation_length = 6.283185307179586;
 /// cut where the rest holds less than 1e-12 of the variance, and scaled back to unit variance.
 std::vector<double> field_spectrum(double correlation_length);
 
-/// The one rotor of a study: the profile of parameter `name` for this seed.
+/// √S_m, m = 0, 1, …
+std::vector<double> field_amplitudes(const ProfileDescription& description);
+
+/// One rotor: the profile of a parameter with the random key `key`.
 ///
 /// a_m = √S_m·ξ_m and b_m = √S_m·η_m with ξ_m, η_m independent standard normals, by the inverse distribution
-/// function of the draws profile_cosine and profile_sine of the parameter's key. m = 0 is included: over the
-/// seeds the field is stationary with the given mean, and one rotor's own average differs from it. The
-/// lognormal marginal has the given mean and cv: s² = ln(1 + cv²), μ = ln(mean) − s²/2.
-Profile realise_profile(const ProfileDescription& description, std::uint64_t seed, std::string_view name);
+/// function of the draws profile_cosine and profile_sine of the key, with the index m + 2³²·rotor. m = 0 is
+/// included: over the rotors the field is stationary with the given mean, and one rotor's own average differs
+/// from it. The lognormal marginal has the given mean and cv: s² = ln(1 + cv²), μ = ln(mean) − s²/2.
+/// @param amplitudes field_amplitudes of the description.
+/// @param rotor 0 where there is one rotor; otherwise the number of the rig.
+Profile realise_profile(const ProfileDescription& description, std::span<const double> amplitudes,
+                        const RandomKey& key, std::uint32_t rotor = 0);
 
 /// Limits that the realised profile cannot leave: |g| ≤ Σ √(a_m² + b_m²).
 Interval limits(const Profile& profile);

@@ -15,7 +15,8 @@ using Limits = std::span<const ValueLimits>;
 bool is_drawn_somewhere(const StudyPlan& plan, std::size_t slot) {
   bool drawn = false;
   visit_points(plan, {&slot, 1}, [&](std::size_t point) {
-    drawn = value_at_point(plan, slot, point)->kind == Value::Kind::distribution;
+    const Value& value = *value_at_point(plan, slot, point);
+    drawn = value.kind == Value::Kind::distribution && value.per != Per::study;
     return !drawn;
   });
   return drawn;

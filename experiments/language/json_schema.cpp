@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiments/distributions/distribution_forms.hpp"
+#include "experiments/language/drawn_per.hpp"
 #include "experiments/language/manifest.hpp"
 #include "experiments/language/manifest_keys.hpp"
 #include "experiments/language/sweep.hpp"
@@ -60,23 +61,38 @@ Json distribution_schema(const DistributionForm& form) {
   return object_of(std::move(properties), Json(form.keys));
 }
 
+Json form_schema(const DistributionForm& form) {
+  const std::string name(form.name);
+  return object_of({{name, distribution_schema(form)}}, {name});
+}
+
 Json profile_schema() {
-  return object_of({{"mean", number_in(above(0))},
+  Json means = Json::array({number_in(above(0))});
+  for (const DistributionForm& form : distribution_forms()) means.push_back(form_schema(form));
+  return object_of({{"mean", {{"anyOf", std::move(means)}}},
                     {"cv", number_in({.low = 0, .high = 10, .high_included = true})},
                     {"correlation_length", number_in(above(0))},
                     {"marginal", {{"enum", {"normal", "lognormal"}}}}},
                    {"mean", "cv", "correlation_length"});
 }
 
-// One definition for each distribution: {"uniform": [low, high]}.
+// How often it is drawn; not every parameter may have every word.
+Json per_schema(std::span<const std::string_view> words) {
+  return {{"enum", words}, {"description", "how often it is drawn"}};
+}
+
+// One definition for each distribution: {"uniform": [low, high]}, with or without `per` beside it.
 Json definitions() {
+  const std::string per(per_key);
   Json all = Json::object();
   for (const DistributionForm& form : distribution_forms()) {
     const std::string name(form.name);
-    all[name] = object_of({{name, distribution_schema(form)}}, {name});
+    all[name] = form_schema(form);
+    all[name]["properties"][per] = per_schema(per_words());
     all[name]["description"] = form.meaning;
   }
-  all["profile"] = object_of({{"profile", profile_schema()}}, {"profile"});
+  all["profile"] =
+      object_of({{"profile", profile_schema()}, {per, per_schema(per_words().first(2))}}, {"profile"});
   all["profile"]["description"] = "friction along the rotor: a periodic random field";
   return all;
 }
@@ -176,7 +192,7 @@ Json general_schemas() {
       {"description", text},
       {"seed", {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<std::uint64_t>::max()}}},
       {"trials", {{"type", "integer"}, {"minimum", 1}, {"maximum", std::int64_t{1} << 53}}},
-      {"rigs", {{"type", "integer"}, {"minimum", min_rigs}, {"maximum", std::int64_t{1} << 53}}},
+      {"rigs", {{"type", "integer"}, {"minimum", min_rigs}, {"maximum", max_rigs}}},
       {"design", {{"enum", std::vector<std::string_view>(design_words().begin(), design_words().end())}}},
       {"independent_points", {{"type", "boolean"}}},
       {"retain",

@@ -98,7 +98,8 @@ void read_numbers(Manifest& m) {
     m.study.trials = read_whole(*field, 1, most_trials, m.problems()).value_or(0);
   }
   if (const auto field = find_field(m, "rigs")) {
-    m.study.rigs = read_whole(*field, min_rigs, most_trials, m.problems()).value_or(0);
+    m.reading.has_rigs = true;
+    m.study.rigs = read_whole(*field, min_rigs, max_rigs, m.problems()).value_or(0);
   }
   if (const auto field = find_field(m, "independent_points")) {
     m.study.independent_points = read_truth(*field, m.problems()).value_or(false);
@@ -269,7 +270,7 @@ Study read_manifest(const YamlNode& root, Problems& problems) {
   check_trial_count(m);
   check_rigs(m);
   read_observed(m);
-  realise_profiles(m.reading.profiles, m.study.seed, *plan);
+  realise_profiles(m.reading.profiles, m.study, *plan);
   check_profiles(m.reading);
   check_points(m.places, m.reading);
   check_travel(m.root, m.reading);

@@ -32,7 +32,7 @@ ValueLimits limits_of(const StudyPlan& plan, const Value& value) {
     const Interval values = support(distribution);
     return {values.low, values.high, can_be_zero(distribution)};
   }
-  const Interval values = limits(*plan.profiles[value.index]);
+  const Interval values = plan.profiles[value.index]->all_limits();
   return {values.low, values.high, contains(values, 0.0)};
 }
 

@@ -8,7 +8,8 @@
 
 #include "core/friction/profile_range.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
-#include "experiments/yaml/nearest_name.hpp"
+#include "experiments/distributions/random_field.hpp"
+#include "experiments/language/drawn_per.hpp"
 
 namespace zerocount {
 namespace {
@@ -53,16 +54,6 @@ Value read_number(const Field& field, const Parameter& parameter, Reading& readi
   return real ? number_value(*real) : unreadable_value();
 }
 
-// The extreme draws, as a guard against numbers so large that their quantiles overflow.
-bool extremes_are_inside(const Distribution& distribution, const Interval& range) {
-  try {
-    return contains(range, quantile(distribution, 0x1p-53)) &&
-           contains(range, quantile(distribution, 1.0 - 0x1p-53));
-  } catch (const std::exception&) {
-    return false;
-  }
-}
-
 bool check_support(const Field& field, const Parameter& parameter, const Interval& values, Reading& reading) {
   const Interval range = range_of(parameter, reading.plan.units);
   if (contains(range, values)) return true;
@@ -95,52 +86,82 @@ Value read_drawn(const DistributionForm& form, const Field& field, const Paramet
           .index = static_cast<std::uint32_t>(reading.plan.distributions.size() - 1)};
 }
 
-Value read_profile_value(const Field& field, std::size_t row, Reading& reading) {
-  const Parameter& parameter = parameter_table()[row];
+Value read_profile_value(const Field& field, std::size_t row, Per per, Reading& reading) {
   constexpr std::size_t most_profiles = 1000;
-  if (parameter.profiled == nullptr) {
-    reading.problems.add(field.node->place, field.path,
-                         text_on(reading.plan.units.axis, "this parameter does not vary along the rotor"),
-                         "a number or a distribution other than profile");
-    return unreadable_value();
-  }
   if (!reading.plan.period) {
     reading.problems.add(field.node->place, field.path,
                          "the profile of a linear axis needs the key travel, its period",
                          "travel: the length in m after which friction is the same again");
     return unreadable_value();
   }
-  const auto description = read_profile(field, *reading.plan.period, reading.problems);
-  if (!description) return unreadable_value();
+  const auto form = read_profile(field, *reading.plan.period, reading.problems);
+  if (!form) return unreadable_value();
   if (reading.profiles.size() == most_profiles) {
     reading.problems.add(field.node->place, field.path, "there are too many profiles",
                          fmt::format("at most {} in a study", most_profiles));
     return unreadable_value();
   }
-  reading.profiles.push_back({row, *description, field.node->place, field.path});
-  return {.kind = Value::Kind::profile, .index = static_cast<std::uint32_t>(reading.profiles.size() - 1)};
+  reading.profiles.push_back({row, *form, per, field.node->place, field.path});
+  return {.kind = Value::Kind::profile,
+          .index = static_cast<std::uint32_t>(reading.profiles.size() - 1),
+          .per = per};
+}
+
+// The only entry of the map but `per`, or null.
+const YamlEntry* form_entry(const YamlNode& map) {
+  const auto is_form = [](const YamlEntry& entry) { return entry.key != per_key; };
+  if (std::count_if(map.entries.begin(), map.entries.end(), is_form) != 1) return nullptr;
+  return &*std::find_if(map.entries.begin(), map.entries.end(), is_form);
 }
 
 Value read_map(const Field& field, std::size_t row, Reading& reading) {
-  const std::string expected = fmt::format("a map with one of {}, {}", distribution_names(), profile_name);
-  const auto& entries = field.node->entries;
-  if (entries.size() != 1) {
+  const Parameter& parameter = parameter_table()[row];
+  const std::string expected = fmt::format("a map with one of {}, {}; {} may stand beside it",
+                                           distribution_names(), profile_name, per_key);
+  const YamlEntry* entry = form_entry(*field.node);
+  if (entry == nullptr) {
     reading.problems.add(field.node->place, field.path,
-                         fmt::format("a map with {} keys stands here", entries.size()), expected);
+                         fmt::format("a map with {} keys stands here", field.node->entries.size()), expected);
     return unreadable_value();
   }
-  const YamlEntry& entry = entries.front();
-  if (entry.key == profile_name) return read_profile_value(entry_of(field, entry), row, reading);
-  std::vector<std::string> names{std::string(profile_name)};
-  for (const DistributionForm& form : distribution_forms()) {
-    if (form.name == entry.key)
-      return read_drawn(form, entry_of(field, entry), parameter_table()[row], reading);
-    names.emplace_back(form.name);
+  const Drawn drawn = entry->key == profile_name ? Drawn::profile : Drawn::value;
+  if (drawn == Drawn::profile && parameter.profiled == nullptr) {
+    reading.problems.add(entry->value->place, entry_of(field, *entry).path,
+                         text_on(reading.plan.units.axis, "this parameter does not vary along the rotor"),
+                         "a number or a distribution other than profile");
+    return unreadable_value();
   }
-  reading.problems.add(entry.place, entry_of(field, entry).path,
-                       fmt::format("unknown distribution, nearest known: {}", nearest_name(entry.key, names)),
-                       expected);
-  return unreadable_value();
+  Per per = usual_per(parameter, drawn, reading.has_rigs);
+  if (const YamlEntry* given = find_entry(*field.node, per_key)) {
+    per =
+        read_per(entry_of(field, *given), parameter, drawn, reading.has_rigs, reading.problems).value_or(per);
+  }
+  if (drawn == Drawn::profile) return read_profile_value(entry_of(field, *entry), row, per, reading);
+  const DistributionForm* form =
+      find_form(field, *entry, {std::string(profile_name)}, expected, reading.problems);
+  if (form == nullptr) return unreadable_value();
+  Value value = read_drawn(*form, entry_of(field, *entry), parameter, reading);
+  value.per = per;
+  return value;
+}
+
+// Whether the values of the rotor stay in the range, everywhere on it.
+bool check_rotor(const ProfileRequest& request, const Rotors& rotors, std::int64_t rotor,
+                 const Reading& reading) {
+  const Parameter& parameter = parameter_table()[request.row];
+  const StudyUnits& units = reading.plan.units;
+  const std::shared_ptr<const Profile> profile = rotors.rotor(rotor);
+  if (contains(parameter.range, limits(*profile))) return true;  // the quick answer
+  const ValueRange values = range_over_revolution(*profile);
+  if (contains(parameter.range, closed(values.low, values.high))) return true;
+  const std::string of_rig = request.per == Per::rig ? fmt::format(" of rig {}", rotor) : "";
+  reading.problems.add(
+      request.place, request.path,
+      fmt::format("its values {}{}, {:.6g} to {:.6g} with this seed, leave the range allowed {}",
+                  text_on(units.axis, "along the rotor"), of_rig, values.low, values.high,
+                  notation(parameter.range)),
+      expected_of(parameter, units));
+  return false;
 }
 
 // Reports a parameter that only the other kind of axis has.
@@ -159,17 +180,11 @@ bool check_exists(const Field& field, const Parameter& parameter, Reading& readi
 void check_profiles(const Reading& reading) {
   for (std::size_t i = 0; i < reading.profiles.size(); ++i) {
     const ProfileRequest& request = reading.profiles[i];
-    const Parameter& parameter = parameter_table()[request.row];
-    const Profile& profile = *reading.plan.profiles[i];
-    if (contains(parameter.range, limits(profile))) continue;  // the quick answer
-    const ValueRange values = range_over_revolution(profile);
-    if (contains(parameter.range, closed(values.low, values.high))) continue;
-    reading.problems.add(
-        request.place, request.path,
-        fmt::format("its values {}, {:.6g} to {:.6g} with this seed, leave the range allowed {}",
-                    text_on(reading.plan.units.axis, "along the rotor"), values.low, values.high,
-                    notation(parameter.range)),
-        expected_of(parameter, reading.plan.units));
+    const Rotors& rotors = *reading.plan.profiles[i];
+    if (contains(parameter_table()[request.row].range, rotors.bounds())) continue;
+    for (std::int64_t rotor = 0; rotor < rotors.count(); ++rotor) {
+      if (!check_rotor(request, rotors, rotor, reading)) break;
+    }
   }
 }
 

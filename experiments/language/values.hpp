@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/distributions/random_field.hpp"
+#include "experiments/distributions/profile_form.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/yaml/scalars.hpp"
@@ -13,8 +13,9 @@ namespace zerocount {
 /// A profile that the manifest asks for, to be realised once the seed is known.
 struct ProfileRequest {
   std::size_t row{0};  ///< of the table of parameters
-  ProfileDescription description;
-  Place place;  ///< where it stands, and its path, for messages
+  ProfileForm form;
+  Per per{Per::study};  ///< study or rig
+  Place place;          ///< where it stands, and its path, for messages
   std::string path;
 };
 
@@ -22,11 +23,12 @@ struct ProfileRequest {
 struct Reading {
   Problems& problems;
   StudyPlan& plan;                         ///< gets the distributions
+  bool has_rigs{false};                    ///< the study has the key `rigs`
   std::vector<ProfileRequest> profiles{};  ///< [index of a value of kind profile]
   std::vector<std::string> warnings{};     ///< what is allowed but may surprise
 };
 
-/// Reports the realised profiles whose values leave the range of their parameter anywhere on the rotor.
+/// Reports the realised profiles whose values leave the range of their parameter anywhere on a rotor.
 void check_profiles(const Reading& reading);
 
 /// A value that could not be read: NaN, so that no later check fires on it.

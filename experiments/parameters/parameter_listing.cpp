@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "experiments/distributions/distribution_forms.hpp"
+#include "experiments/language/drawn_per.hpp"
 #include "experiments/language/manifest_keys.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 
@@ -52,8 +53,11 @@ Listing distribution_listing(const StudyUnits& units) {
       {"profile", "{profile: {mean, cv, correlation_length, marginal}}",
        text_on(units.axis, "friction along the rotor") +
            fmt::format(": a periodic random field; correlation_length in {}, marginal normal or lognormal "
-                       "(default)",
-                       unit_on(units.axis, "rad"))});
+                       "(default); the mean may be a distribution, drawn for each {}",
+                       unit_on(units.axis, "rad"), text_on(units.axis, "rotor"))});
+  listing.rows.push_back({std::string(per_key), fmt::format("{{…, per: {}}}", fmt::join(per_words(), " | ")),
+                          "beside any of these: how often it is drawn; contact for friction alone, study or "
+                          "rig for a profile"});
   return listing;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,11 +16,20 @@ constexpr double largest_si_gain = 1e15;
 
 std::vector<Parameter> make_table() {
   std::vector<Parameter> table;
-  for (const auto& rows : {plant_rows, friction_rows, encoder_rows, drive_rows, controller_rows, command_rows,
-                           initial_rows, verdict_rows}) {
-    const std::vector<Parameter> section = rows();
-    table.insert(table.end(), section.begin(), section.end());
-  }
+  const auto add = [&table](std::vector<Parameter> section, bool of_machine) {
+    for (Parameter& row : section) {
+      row.of_machine = of_machine;
+      table.push_back(std::move(row));
+    }
+  };
+  add(plant_rows(), true);
+  add(friction_rows(), true);
+  add(encoder_rows(), true);
+  add(drive_rows(), true);
+  add(controller_rows(), true);
+  add(command_rows(), false);
+  add(initial_rows(), false);
+  add(verdict_rows(), false);
   return table;
 }
 

@@ -31,6 +31,7 @@ struct Parameter {
   std::string_view si_meaning{};      ///< likewise
   std::optional<AxisKind> only_on{};  ///< the kind of axis that has the parameter; none where both have
   std::string_view instead{};         ///< what to give on the other kind, for messages
+  bool of_machine{false};             ///< it belongs to the machine, and not to what a trial does with it
   bool listed{false};  ///< a list of values: one way to say what the moves go to; a study uses one of them
   double (*get)(const TrialParameters&){nullptr};        ///< null where the trial has no field for it alone
   void (*set)(TrialParameters&, double value){nullptr};  ///< likewise
@@ -48,6 +49,9 @@ constexpr std::size_t most_listed_values = 3000;
 constexpr std::size_t first_sobol_dimension_of_moves = 64;
 constexpr std::size_t first_sobol_dimension_beyond_moves =
     first_sobol_dimension_of_moves + most_listed_values;
+
+/// Sobol dimension of the mean of a profile: this number + that of its parameter, a row of friction.
+constexpr std::size_t first_sobol_dimension_of_means = 3600;
 
 /// Row of the parameter with this dotted path.
 std::optional<std::size_t> find_parameter(std::string_view name);

@@ -6,12 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "core/friction/profile.hpp"
-#include "core/random/random_numbers.hpp"
 #include "core/trial/parameters.hpp"
-#include "experiments/designs/sobol.hpp"
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/parameters/study_units.hpp"
+#include "experiments/plan/draws.hpp"
+#include "experiments/plan/rotors.hpp"
 #include "experiments/plan/sequence.hpp"
 
 namespace zerocount {
@@ -31,6 +30,7 @@ struct Value {
   enum class Kind : std::uint8_t { number, distribution, profile };
   Kind kind{Kind::number};
   std::uint32_t index{0};  ///< into the plan's distributions or profiles
+  Per per{Per::trial};     ///< where it is drawn; of a profile, study or rig
   double number{0.0};      ///< where kind is number
 };
 
@@ -51,10 +51,10 @@ inline std::size_t option_count(const PlanAxis& axis) {
   return axis.first.size() - 1;
 }
 
-/// The random numbers of one slot.
-struct SlotRandomness {
-  RandomKey key{};
-  SobolDirections directions{};  ///< used by the design `sobol`
+/// Where an input column comes from: the value of a slot, or the mean of its profile.
+struct InputSource {
+  std::uint32_t slot{0};
+  bool profile_mean{false};
 };
 
 /// What is drawn anew in each trial. Factor f below the number of slots is the value of slot slots[f]; the
@@ -78,9 +78,12 @@ struct StudyPlan {
   std::vector<Value> base;                ///< [slot], where no axis says otherwise
   std::vector<PlanAxis> axes;  ///< the last changes fastest from point to point, and wins over the others
   std::vector<Distribution> distributions;
-  std::vector<std::shared_ptr<const Profile>> profiles;
+  std::vector<std::shared_ptr<const Rotors>> profiles;
   std::vector<SlotRandomness> randomness;  ///< [slot]
-  std::vector<std::uint32_t> input_slots;  ///< [input column]: those that are not the same in all trials
+  RandomKey sobol_places{};                ///< used by the design `sobol` where there are rigs
+  std::vector<std::uint32_t> input_slots;  ///< those that are not the same in all trials
+  std::vector<InputSource> inputs;         ///< [input column]
+  std::vector<InputSource> rig_inputs;     ///< [rig column]
   TrialFactors factors;                    ///< used by the design `saltelli`
   std::vector<std::uint32_t> factor_of;    ///< [slot] its factor, likewise
   TrialParameters common;                  ///< a trial's, all but the input slots in their places

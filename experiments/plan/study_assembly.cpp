@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -11,11 +12,17 @@
 #include "experiments/language/factors.hpp"
 #include "experiments/language/loop_extras.hpp"
 #include "experiments/language/outcome_extras.hpp"
+#include "experiments/language/point_limits.hpp"
 #include "experiments/language/slots.hpp"
 #include "experiments/language/trace_extras.hpp"
 
 namespace zerocount {
 namespace {
+
+// Name of the mean of the profile, as of its place in the manifest.
+std::string profile_mean_name(std::string_view parameter) {
+  return fmt::format("{}.profile.mean", parameter);
+}
 
 // Which slots some axis assigns.
 std::vector<bool> swept_slots(const StudyPlan& plan) {
@@ -24,6 +31,17 @@ std::vector<bool> swept_slots(const StudyPlan& plan) {
     for (const Assignment& assignment : axis.assignments) swept[assignment.slot] = true;
   }
   return swept;
+}
+
+// Whether some value that the slot has at a design point is drawn anew at each contact.
+bool differs_between_contacts(const StudyPlan& plan, std::size_t slot) {
+  bool found = false;
+  visit_points(plan, {&slot, 1}, [&](std::size_t point) {
+    const Value& value = *value_at_point(plan, slot, point);
+    found = value.kind == Value::Kind::distribution && value.per == Per::contact;
+    return !found;
+  });
+  return found;
 }
 
 // Of the input slots: nothing is drawn for the others.
@@ -35,8 +53,14 @@ void derive_randomness(const Study& study, StudyPlan& plan) {
   plan.randomness.resize(plan.base.size());
   for (std::size_t i = 0; i < plan.input_slots.size(); ++i) {
     const std::uint32_t slot = plan.input_slots[i];
-    plan.randomness[slot] = {random_key(study.seed, slot_name(slot, plan.list)), directions[i]};
+    const std::string name = slot_name(slot, plan.list);
+    SlotRandomness& randomness = plan.randomness[slot];
+    randomness = {random_key(study.seed, name), directions[i]};
+    if (differs_between_contacts(plan, slot)) {
+      randomness.contacts = random_key(study.seed, name + "/contacts");
+    }
   }
+  plan.sobol_places = sobol_place_key(study.seed);
 }
 
 void number_factors(StudyPlan& plan, Study& study) {
@@ -80,13 +104,62 @@ std::string column_meaning(const Parameter& parameter, const StudyUnits& units) 
   return parameter.words.empty() ? meaning : meaning + ")";
 }
 
+// How often the value of the slot is drawn, of different points the most often.
+Per most_often(const StudyPlan& plan, std::size_t slot) {
+  Per per = Per::study;
+  visit_points(plan, {&slot, 1}, [&](std::size_t point) {
+    const Value& value = *value_at_point(plan, slot, point);
+    switch (value.kind) {
+      case Value::Kind::number:
+        break;
+      case Value::Kind::distribution:
+        per = std::max(per, value.per);
+        break;
+      case Value::Kind::profile:  // where the trial starts
+        per = std::max(per, Per::trial);
+        break;
+    }
+    return true;
+  });
+  return per;
+}
+
+// The mean of the slot's profile, if it is drawn at some design point: how often.
+std::optional<Per> drawn_mean(const StudyPlan& plan, std::size_t slot) {
+  std::optional<Per> per;
+  visit_points(plan, {&slot, 1}, [&](std::size_t point) {
+    const Value& value = *value_at_point(plan, slot, point);
+    if (value.kind == Value::Kind::profile && plan.profiles[value.index]->has_drawn_mean()) {
+      per = std::max(per.value_or(value.per), value.per);
+    }
+    return true;
+  });
+  return per;
+}
+
+void add_column(const InputColumn& column, const InputSource& source, bool swept, StudyPlan& plan,
+                Study& study) {
+  study.input_columns.push_back(column);
+  plan.inputs.push_back(source);
+  if (column.per != Per::rig || swept) return;
+  study.rig_columns.push_back(column);
+  plan.rig_inputs.push_back(source);
+}
+
 void list_input_columns(const std::vector<bool>& swept, StudyPlan& plan, Study& study) {
   for (const std::size_t slot : slots_in_table_order(plan.list)) {
     if (plan.base[slot].kind == Value::Kind::number && !swept[slot]) continue;
+    const auto number = static_cast<std::uint32_t>(slot);
     const Parameter& parameter = parameter_table()[row_of_slot(slot, plan.list)];
-    study.input_columns.push_back(
-        {slot_name(slot, plan.list), unit_of(parameter, plan.units), column_meaning(parameter, plan.units)});
-    plan.input_slots.push_back(static_cast<std::uint32_t>(slot));
+    const std::string name = slot_name(slot, plan.list);
+    const std::string unit = unit_of(parameter, plan.units);
+    plan.input_slots.push_back(number);
+    add_column({name, unit, column_meaning(parameter, plan.units), most_often(plan, slot)}, {number, false},
+               swept[slot], plan, study);
+    if (const auto per = drawn_mean(plan, slot)) {
+      add_column({profile_mean_name(name), unit, fmt::format("mean of the profile of {}", name), *per},
+                 {number, true}, swept[slot], plan, study);
+    }
   }
 }
 
@@ -111,18 +184,38 @@ void list_profiles(const std::vector<ProfileRequest>& requests, const std::vecto
     const auto used = profiles_in_use(plan, row, swept[row] ? study.point_labels.size() : 1);
     for (const auto& [index, point] : used) {
       const std::string suffix = used.size() > 1 ? fmt::format("@{}", point) : "";
-      study.profiles.push_back(
-          {std::string(table[row].name) + suffix, unit_of(table[row], plan.units), plan.profiles[index]});
+      const std::shared_ptr<const Rotors> rotors = plan.profiles[index];
+      RealisedProfile profile{std::string(table[row].name) + suffix, unit_of(table[row], plan.units),
+                              rotors->rotor(0)};
+      if (requests[index].per == Per::rig) {
+        profile.of_rig = [rotors](std::int64_t rig) { return rotors->rotor(rig); };
+      }
+      study.profiles.push_back(std::move(profile));
     }
   }
 }
 
+DrawnMean mean_of(const ProfileRequest& request, const Study& study) {
+  const Parameter& parameter = parameter_table()[request.row];
+  DrawnMean mean{*request.form.mean, study.design, {}};
+  mean.randomness.key = random_key(study.seed, profile_mean_name(parameter.name));
+  if (study.design == Design::sobol) {
+    const std::size_t dimension = first_sobol_dimension_of_means + parameter.sobol_dimension;
+    mean.randomness.directions = sobol_directions({&dimension, 1}).front();
+  }
+  return mean;
+}
+
 }  // namespace
 
-void realise_profiles(const std::vector<ProfileRequest>& requests, std::uint64_t seed, StudyPlan& plan) {
+void realise_profiles(const std::vector<ProfileRequest>& requests, const Study& study, StudyPlan& plan) {
   for (const ProfileRequest& request : requests) {
-    plan.profiles.push_back(std::make_shared<const Profile>(
-        realise_profile(request.description, seed, parameter_table()[request.row].name)));
+    const std::string_view name = parameter_table()[request.row].name;
+    std::optional<DrawnMean> mean;
+    if (request.form.mean) mean = mean_of(request, study);
+    const std::int64_t count = request.per == Per::rig ? std::max<std::int64_t>(study.rigs, 1) : 1;
+    plan.profiles.push_back(
+        std::make_shared<const Rotors>(request.form.description, std::move(mean), study.seed, name, count));
   }
 }
 

@@ -8,9 +8,10 @@
 
 namespace zerocount {
 
-/// Realises the profiles asked for: plan.profiles, in the order of the requests. All of one parameter are the
-/// same field, whatever their mean, spread and correlation length.
-void realise_profiles(const std::vector<ProfileRequest>& requests, std::uint64_t seed, StudyPlan& plan);
+/// Makes the rotors of the profiles asked for: plan.profiles, in the order of the requests. All of one
+/// parameter have the same random numbers, whatever their mean, spread and correlation length.
+/// @param study has its seed, design and rigs.
+void realise_profiles(const std::vector<ProfileRequest>& requests, const Study& study, StudyPlan& plan);
 
 /// Completes a study whose manifest is free of problems: the random numbers of each slot, the labels of the
 /// points, the axes, the input columns, the list of profiles.

@@ -122,8 +122,14 @@ struct StoredStatistics {
   std::function<void(hdf5::File&)> groups;  ///< writes further groups; may be empty
 };
 
-/// Number of angles at which a profile is tabulated, over one revolution.
+/// Number of angles at which a profile is tabulated, over one revolution, where all trials are on one rotor.
 inline constexpr std::int64_t profile_angles = 4096;
+
+/// The same where every rig has a rotor: the smallest power of two with eight angles in the shortest
+/// wavelength of the field, from 64 to profile_angles; but of many rigs so few that there are at most 2²²
+/// values, as long as two angles are left in that wavelength.
+/// @param harmonics of the profile's series.
+std::int64_t profile_angles_of_rig(std::size_t harmonics, std::int64_t rigs);
 
 Table point_table(const std::vector<SweepAxis>& axes, const std::vector<PointColumn>& statistics);
 Table trial_table(const std::vector<InputColumn>& inputs);
@@ -132,6 +138,13 @@ Table jerk_table();
 Table trace_table(const TraceExtras& extras);
 Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn>& columns);
 Table profile_table(const std::string& name, const std::string& unit);
+/// The rotors of all rigs: [rig, theta].
+Table rotor_table(const std::string& name, const std::string& unit);
+/// What differs between the rigs: [rig].
+Table rig_table(const std::vector<InputColumn>& inputs);
+/// Successes of the rigs at the design points: [point, rig]. In the group of rig_table, whose scale it
+/// shares.
+Table rig_count_table();
 
 /// The table with the units and long names that its columns have on an axis of this kind. The tables above
 /// have those of a rotary axis, but for what is a study's own: its sweep, its inputs and its profiles'
@@ -140,7 +153,7 @@ Table on_axis(Table table, AxisKind axis);
 /// The same of one column.
 PointColumn on_axis(PointColumn column, AxisKind axis);
 
-/// Name in /trial of the column of an input parameter.
+/// Name in /trial and /rig of the column of an input parameter.
 std::string input_column_name(const std::string& parameter);
 
 }  // namespace zerocount

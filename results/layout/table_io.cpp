@@ -39,7 +39,9 @@ hdf5::Dataset make_dataset(hdf5::Group& group, const std::string& name, const hd
   return folder.create_dataset(name.substr(slash + 1), storage);
 }
 
+/// The scale of a dimension; that of another table of the group where it is there already.
 hdf5::Dataset make_scale(hdf5::Group& group, const Column& column, std::int64_t size) {
+  if (group.contains(column.name)) return group.open_dataset(column.name);
   const bool empty = size == 0;
   const auto chunk = static_cast<hdf5::Size>(empty ? chunk_elements : std::min(size, chunk_elements));
   hdf5::Dataset scale =
@@ -74,7 +76,7 @@ TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows
   io.compression_ = compression;
   if (table.second) {
     io.second_scale_ = make_scale(io.group_, *table.second, width);
-    write_numbers(*io.second_scale_, width, 0);
+    if (table.second->element == Element::int64) write_numbers(*io.second_scale_, width, 0);
   }
   for (const Column& column : table.columns) io.add(column);
   return io;

@@ -25,7 +25,8 @@ std::int64_t chunk_rows(std::int64_t width);
 class TableIo {
  public:
   /// Creates the groups, the dimension scales and the columns, attached to their scales. `width` is the size
-  /// of the second dimension, 1 where the table has none. A table without rows is made extendible, because
+  /// of the second dimension, 1 where the table has none. A scale that another table of the group has made is
+  /// used as it is. A table without rows is made extendible, because
   /// the netCDF library knows a length of zero only of an unlimited dimension.
   static TableIo create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t width,
                         hdf5::Compression compression = hdf5::Compression::deflate);
@@ -36,6 +37,8 @@ class TableIo {
   std::int64_t width() const { return width_; }
   hdf5::Dataset& row_scale() { return row_scale_; }
   const hdf5::Dataset& row_scale() const { return row_scale_; }
+  /// Of a table with two dimensions. Whole numbers are written to it when it is made, others are not.
+  hdf5::Dataset& second_scale() { return second_scale_.value(); }
   hdf5::Dataset& column(std::size_t index) { return datasets_[index]; }
   const hdf5::Dataset& column(std::size_t index) const { return datasets_[index]; }
 

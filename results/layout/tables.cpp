@@ -11,6 +11,26 @@ Column whole_numbers(std::string_view name, std::string_view long_name) {
   return {std::string(name), "1", std::string(long_name), Element::int64, {}, {}};
 }
 
+Column rig_scale() {
+  return whole_numbers("rig", "index of the rig");
+}
+
+Column theta_scale() {
+  return {"theta", "rad", "rotor angle from the origin of the profile", Element::float64, {}, {}};
+}
+
+Column value_of_profile(const std::string& name, const std::string& unit) {
+  return {"value", unit, "realised value of " + name, Element::float64, {}, {}};
+}
+
+std::vector<Column> input_columns(const std::vector<InputColumn>& inputs) {
+  std::vector<Column> columns;
+  for (const InputColumn& input : inputs) {
+    columns.push_back({input_column_name(input.name), input.unit, input.meaning, Element::float64, {}, {}});
+  }
+  return columns;
+}
+
 Column statistic_column(const PointColumn& statistic) {
   return {statistic.name, statistic.unit, statistic.long_name, Element::float64, {}, "statistic"};
 }
@@ -50,10 +70,8 @@ Table trial_table(const std::vector<InputColumn>& inputs) {
       "trial", whole_numbers("trial", "global row of the trial, point times trials plus index"), {}, {}};
   table.columns.push_back(whole_numbers("point", "index of the design point"));
   table.columns.push_back(whole_numbers("index", "index of the trial within its design point"));
-  for (const InputColumn& input : inputs) {
-    table.columns.push_back(
-        {input_column_name(input.name), input.unit, input.meaning, Element::float64, {}, {}});
-  }
+  const std::vector<Column> columns = input_columns(inputs);
+  table.columns.insert(table.columns.end(), columns.begin(), columns.end());
   return table;
 }
 
@@ -112,11 +130,35 @@ PointColumn on_axis(PointColumn column, AxisKind axis) {
   return column;
 }
 
+std::int64_t profile_angles_of_rig(std::size_t harmonics, std::int64_t rigs) {
+  constexpr std::int64_t min_angles = 64;
+  constexpr std::int64_t max_values = std::int64_t{1} << 22;
+  const std::int64_t wanted = 8 * static_cast<std::int64_t>(harmonics);
+  const std::int64_t needed = 2 * static_cast<std::int64_t>(harmonics);
+  std::int64_t angles = min_angles;
+  while (angles < std::min(wanted, profile_angles)) angles *= 2;
+  while (angles * rigs > max_values && angles / 2 >= std::max(needed, min_angles)) angles /= 2;
+  return angles;
+}
+
 Table profile_table(const std::string& name, const std::string& unit) {
-  return {"profile/" + name,
-          {"theta", "rad", "rotor angle from the origin of the profile", Element::float64, {}, {}},
-          {},
-          {{"value", unit, "realised value of " + name, Element::float64, {}, {}}}};
+  return {"profile/" + name, theta_scale(), {}, {value_of_profile(name, unit)}};
+}
+
+Table rotor_table(const std::string& name, const std::string& unit) {
+  return {"profile/" + name, rig_scale(), theta_scale(), {value_of_profile(name, unit)}};
+}
+
+Table rig_table(const std::vector<InputColumn>& inputs) {
+  return {"rig", rig_scale(), {}, input_columns(inputs)};
+}
+
+Table rig_count_table() {
+  return {"rig",
+          whole_numbers("point", "index of the design point"),
+          rig_scale(),
+          {whole_numbers("success", "trials of the rig at the point that succeeded, in all their moves"),
+           whole_numbers("trials", "trials of the rig at the point that were judged, 0 in an open loop")}};
 }
 
 }  // namespace zerocount

@@ -126,20 +126,52 @@ void export_jerks(const StudyFile& file, CsvFile& csv) {
 }
 
 void export_profiles(const StudyFile& file, CsvFile& csv) {
-  const std::string theta = head_with_unit("theta", unit_on(file.axis(), "rad"));
-  for (const std::string& head :
-       {std::string("profile"), theta, std::string("value"), std::string("unit of value")}) {
-    csv.add(head);
-  }
+  const std::vector<StoredProfile> profiles = file.profiles();
+  const bool of_rigs =
+      std::any_of(profiles.begin(), profiles.end(), [](const StoredProfile& p) { return p.rigs > 0; });
+  csv.add("profile");
+  if (of_rigs) csv.add("rig");
+  csv.add(head_with_unit("theta", unit_on(file.axis(), "rad")));
+  csv.add("value");
+  csv.add("unit of value");
   csv.end_row();
-  for (const StoredProfile& profile : file.profiles()) {
-    for (std::size_t i = 0; i < profile.theta.size(); ++i) {
+  for (const StoredProfile& profile : profiles) {
+    const std::size_t angles = profile.theta.size();
+    for (std::size_t i = 0; i < profile.value.size(); ++i) {
       csv.add(profile.name);
-      csv.add(profile.theta[i]);
-      csv.add(profile.value.at(i));
+      if (profile.rigs > 0) {
+        csv.add(static_cast<std::int64_t>(i / angles));
+      } else if (of_rigs) {
+        csv.add("");
+      }
+      csv.add(profile.theta[i % angles]);
+      csv.add(profile.value[i]);
       csv.add(profile.unit);
       csv.end_row();
     }
+  }
+}
+
+void export_rigs(const StoredRigs& rigs, CsvFile& csv) {
+  csv.add("rig");
+  for (const InputColumn& column : rigs.columns) csv.add(head_with_unit(column.name, column.unit));
+  csv.end_row();
+  for (std::int64_t rig = 0; rig < rigs.rigs; ++rig) {
+    csv.add(rig);
+    for (const std::vector<double>& values : rigs.inputs) csv.add(values[static_cast<std::size_t>(rig)]);
+    csv.end_row();
+  }
+}
+
+void export_rig_counts(const StoredRigs& rigs, CsvFile& csv) {
+  for (const char* head : {"point", "rig", "success", "trials"}) csv.add(head);
+  csv.end_row();
+  for (std::size_t i = 0; i < rigs.success.size(); ++i) {
+    csv.add(static_cast<std::int64_t>(i) / rigs.rigs);
+    csv.add(static_cast<std::int64_t>(i) % rigs.rigs);
+    csv.add(rigs.success[i]);
+    csv.add(rigs.trials[i]);
+    csv.end_row();
   }
 }
 
@@ -176,6 +208,13 @@ std::vector<ExportedTable> tables_of(const StudyFile& file) {
                                     {"outcomes.csv", export_outcomes},
                                     {"jerks.csv", export_jerks}};
   if (file.has_profiles()) tables.push_back({"profiles.csv", export_profiles});
+  if (const auto rigs = file.rigs()) {
+    tables.push_back({"rigs.csv", [rigs](const StudyFile&, CsvFile& csv) { export_rigs(*rigs, csv); }});
+    if (!rigs->success.empty()) {
+      tables.push_back(
+          {"rig_counts.csv", [rigs](const StudyFile&, CsvFile& csv) { export_rig_counts(*rigs, csv); }});
+    }
+  }
   if (file.has_trace()) tables.push_back({"trace.csv", export_trace});
   for (const StatisticTable& table : file.statistic_tables()) {
     tables.push_back({std::string(table.group->csv),

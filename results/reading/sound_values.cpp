@@ -186,4 +186,24 @@ void require_sound_jerks(const TableIo& table, std::int64_t moves, std::int64_t 
   }
 }
 
+void require_sound_rigs(const FileHeader& header, const TableIo& counts,
+                        std::span<const std::int64_t> success, std::span<const std::int64_t> trials) {
+  const std::int64_t rigs = counts.width();
+  if (counts.rows() != header.points || header.trials % rigs != 0) {
+    counts.column(0).fail("its size differs from the points and rigs of the study");
+  }
+  const std::int64_t of_each = trials.empty() ? 0 : trials.front();
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const std::int64_t point = static_cast<std::int64_t>(i) / rigs;
+    if (trials[i] != of_each || (of_each != 0 && of_each != header.trials / rigs)) {
+      counts.column(1).fail(fmt::format("row {}: {} trials of a rig; expected {}, or 0 of all", point,
+                                        trials[i], header.trials / rigs));
+    }
+    if (success[i] < 0 || success[i] > trials[i]) {
+      counts.column(0).fail(
+          fmt::format("row {}: {} successes; expected 0 to {}", point, success[i], trials[i]));
+    }
+  }
+}
+
 }  // namespace zerocount

@@ -34,4 +34,8 @@ void require_sound_measure(const TableIo& outcomes, const std::vector<RecordFiel
 void require_sound_jerks(const TableIo& table, std::int64_t moves, std::int64_t first,
                          std::span<const JerkRecord> jerks);
 
+/// Counts of the rigs, [point][rig]: all rigs have equally many trials, or none, and not more successes.
+void require_sound_rigs(const FileHeader& header, const TableIo& counts,
+                        std::span<const std::int64_t> success, std::span<const std::int64_t> trials);
+
 }  // namespace zerocount

@@ -30,11 +30,11 @@ FileHeader read_required(const hdf5::File& file, const std::filesystem::path& pa
   return header;
 }
 
-std::vector<InputColumn> read_input_columns(const hdf5::File& file) {
+/// What is in the group `input` of /trial or /rig.
+std::vector<InputColumn> read_input_columns(const hdf5::Group& table) {
   std::vector<InputColumn> inputs;
-  const hdf5::Group trial = file.open_group("trial");
-  if (!trial.contains("input")) return inputs;
-  const hdf5::Group group = trial.open_group("input");
+  if (!table.contains("input")) return inputs;
+  const hdf5::Group group = table.open_group("input");
   for (const std::string& name : group.children()) {
     const hdf5::Dataset dataset = group.open_dataset(name);
     inputs.push_back({name, dataset.text("units"), dataset.text("long_name")});
@@ -90,7 +90,7 @@ StudyFile::StudyFile(const std::filesystem::path& path, Require require)
       file_(open_results(path, require == Require::unfinished ? Seal::not_yet : Seal::required)),
       header_(read_required(file_, path, require)),
       axis_(read_axis(file_)),
-      inputs_(read_input_columns(file_)),
+      inputs_(read_input_columns(file_.open_group("trial"))),
       trials_(TableIo::open(file_, trial_table(inputs_))),
       outcome_extras_(read_outcome_extras(file_)),
       outcomes_(TableIo::open(file_, outcome_table(header_.version, outcome_extras_))),
@@ -246,12 +246,38 @@ std::vector<StoredProfile> StudyFile::profiles() const {
   if (!has_profiles()) return profiles;
   const hdf5::Group group = file_.open_group("profile");
   for (const std::string& name : group.children()) {
-    const hdf5::Group profile = group.open_group(name);
-    const hdf5::Dataset value = profile.open_dataset("value");
-    profiles.push_back(
-        {name, value.text("units"), read_doubles(profile.open_dataset("theta")), read_doubles(value)});
+    const hdf5::Group folder = group.open_group(name);
+    const std::string unit = folder.open_dataset("value").text("units");
+    StoredProfile profile{name, unit, read_doubles(folder.open_dataset("theta")), {}};
+    const bool of_rigs = folder.contains("rig");
+    const TableIo io = TableIo::open(file_, of_rigs ? rotor_table(name, unit) : profile_table(name, unit));
+    if (of_rigs) profile.rigs = io.rows();
+    profile.value.resize(static_cast<std::size_t>(io.rows() * io.width()));
+    io.column(0).read(0, io.rows(), profile.value.data());
+    profiles.push_back(std::move(profile));
   }
   return profiles;
+}
+
+std::optional<StoredRigs> StudyFile::rigs() const {
+  if (!file_.contains("rig")) return std::nullopt;
+  StoredRigs stored;
+  const hdf5::Group group = file_.open_group("rig");
+  stored.columns = read_input_columns(group);
+  const TableIo io = TableIo::open(file_, rig_table(stored.columns));
+  stored.rigs = io.rows();
+  for (std::size_t column = 0; column < stored.columns.size(); ++column) {
+    std::vector<double>& values = stored.inputs.emplace_back(static_cast<std::size_t>(stored.rigs));
+    io.column(column).read(0, stored.rigs, values.data());
+  }
+  if (!group.contains("success")) return stored;
+  const TableIo counts = TableIo::open(file_, rig_count_table());
+  stored.success.resize(static_cast<std::size_t>(counts.rows() * counts.width()));
+  stored.trials.resize(stored.success.size());
+  counts.column(0).read(0, counts.rows(), stored.success.data());
+  counts.column(1).read(0, counts.rows(), stored.trials.data());
+  require_sound_rigs(header_, counts, stored.success, stored.trials);
+  return stored;
 }
 
 }  // namespace zerocount

@@ -28,7 +28,17 @@ struct StoredProfile {
   std::string name;
   std::string unit;
   std::vector<double> theta;  ///< rad
-  std::vector<double> value;  ///< in `unit`
+  std::vector<double> value;  ///< in `unit`; of rigs [rig][theta], flattened
+  std::int64_t rigs{0};       ///< each with a rotor of its own; 0: one rotor of all trials
+};
+
+/// The rigs of a study as they stand in a results file.
+struct StoredRigs {
+  std::int64_t rigs{0};
+  std::vector<InputColumn> columns;         ///< what differs between them
+  std::vector<std::vector<double>> inputs;  ///< [column][rig]
+  std::vector<std::int64_t> success;        ///< [point][rig], flattened: trials that succeeded
+  std::vector<std::int64_t> trials;         ///< likewise: trials that were judged; none of both in a part
 };
 
 /// A results file, open to be read. Rows are global rows, here and in the file. Every function may find that
@@ -55,6 +65,7 @@ class StudyFile {
   std::vector<PointColumn> statistics() const;
   std::vector<StatisticTable> statistic_tables() const;
 
+  /// How often each is drawn is not in the file.
   const std::vector<InputColumn>& input_columns() const { return inputs_; }
   std::vector<double> input(std::size_t column, RowRange rows) const;  ///< [row]
   std::vector<double> inputs_of(std::int64_t row) const;               ///< [input column]
@@ -90,6 +101,9 @@ class StudyFile {
 
   bool has_profiles() const { return file_.contains("profile"); }
   std::vector<StoredProfile> profiles() const;
+
+  /// Nothing in a study without rigs, and in a shard.
+  std::optional<StoredRigs> rigs() const;
 
  private:
   std::int64_t local(RowRange rows) const;

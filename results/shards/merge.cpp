@@ -6,11 +6,12 @@
 #include <fmt/format.h>
 
 #include "core/failure.hpp"
-#include "core/friction/profile.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/statistic_io.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/shards/concatenate.hpp"
+#include "results/shards/profile_tables.hpp"
+#include "results/shards/rig_tables.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/seal.hpp"
 
@@ -96,21 +97,6 @@ void write_points(hdf5::File& file, const Study& study) {
   }
 }
 
-void write_profiles(hdf5::File& file, const Study& study) {
-  std::vector<double> theta(profile_angles);
-  std::vector<double> value(profile_angles);
-  for (const RealisedProfile& realised : study.profiles) {
-    TableIo io = TableIo::create(file, on_axis(profile_table(realised.name, realised.unit), study.units.axis),
-                                 profile_angles, 1);
-    for (std::size_t i = 0; i < theta.size(); ++i) {
-      theta[i] = study.period * static_cast<double>(i) / static_cast<double>(profile_angles);
-      value[i] = value_at(*realised.profile, theta[i]);
-    }
-    io.row_scale().write(0, profile_angles, theta.data());
-    io.column(0).write(0, profile_angles, value.data());
-  }
-}
-
 /// Writes everything but the statistics and the mark that the file is finished.
 void write_trials_of(std::span<const ShardInfo> shards, const Study& study, const fs::path& part,
                      RowRange rows, const Provenance& provenance, const Renumbering& renumber) {
@@ -123,13 +109,15 @@ void write_trials_of(std::span<const ShardInfo> shards, const Study& study, cons
               rows.first);
   concatenate(file, jerk_table(), shards, 1, 0, renumber);
   write_profiles(file, study);
+  if (study.rigs > 0) write_rigs(file, study);
   if (!study.retained_trials.empty()) {
     concatenate(file, on_axis(trace_table(study.trace_extras), axis), shards, 1, 0, renumber);
   }
   file.close();
 }
 
-void write_statistics(const fs::path& part, const Study& study, const StoredStatistics& statistics) {
+void write_statistics(const fs::path& part, const Study& study, RowRange rows,
+                      const StoredStatistics& statistics) {
   hdf5::File file = hdf5::File::open_to_change(part);
   TableIo io = TableIo::open(file, point_table(study.axes, {}));
   const AxisKind axis = study.units.axis;
@@ -147,6 +135,7 @@ void write_statistics(const fs::path& part, const Study& study, const StoredStat
     write_statistic_table(file, table, io.rows());
   }
   if (statistics.groups) statistics.groups(file);
+  if (study.rigs > 0 && rows == all_rows(study)) write_rig_counts(file, study);
   mark_finished(file);
   file.close();
 }
@@ -179,7 +168,7 @@ void merge_shards(std::span<const ShardInfo> shards, const Study& study, const f
   write_trials_of(ordered, study, part.path(), rows, of_all(ordered, provenance), renumber);
   StoredStatistics stored;
   if (statistics && rows == all_rows(study)) stored = statistics(StudyFile(part.path(), Require::unfinished));
-  write_statistics(part.path(), study, stored);
+  write_statistics(part.path(), study, rows, stored);
   seal(part.path());
   publish(output);
 }

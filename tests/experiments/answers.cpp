@@ -90,6 +90,44 @@ Json draws() {
   return all;
 }
 
+// Draws of a study with rigs, whose uniform parameters are on [1, 2), less 1: what is drawn for the rig, the
+// study, the trial, and contacts 0 to 3 of the trial; and the rotor of a profile.
+Json rig_draws() {
+  Json all = Json::array();
+  for (const char* independent : {"false", "true"}) {
+    const Study study = study_of(
+        minimal_manifest("friction:\n"
+                         "  k1: {profile: {mean: {uniform: [1, 2]}, cv: 0.1, correlation_length: 0.7}}\n"
+                         "  k2: {uniform: [1, 2]}\n"
+                         "  beta: {uniform: [1, 2], per: study}\n"
+                         "  lambda: {uniform: [1, 2], per: contact}\n"
+                         "initial: {position: {uniform: [1, 2]}}\n"),
+        {"seed=20020721", "rigs=1000000", "trials=5000000000",
+         std::string("independent_points=") + independent, "sweep={grid: {controller.ki: [0, 1]}}"});
+    for (const std::int64_t trial : {0L, 1L, 1'000'001L, 4'999'999'999L}) {
+      const StudyTrial drawn = study_trial(study, 1, trial);
+      const auto input = [&](const char* name) { return drawn.inputs[column_of(study, name)] - 1; };
+      const FrictionAlongRotor& friction = drawn.parameters.friction;
+      Json contacts = Json::array();
+      for (const std::int64_t k : {0, 1, 2, 3}) contacts.push_back(friction_at(friction, 0.0, k).lambda - 1);
+      const Profile& rotor = *friction.profiled.at(0).profile;
+      all.push_back({{"seed", study.seed},
+                     {"rigs", study.rigs},
+                     {"trial", trial},
+                     {"stream", study.independent_points ? 2 : 0},
+                     {"friction.k1.profile.mean", input("friction.k1.profile.mean")},
+                     {"friction.k2", input("friction.k2")},
+                     {"friction.beta", input("friction.beta")},
+                     {"initial.position", input("initial.position")},
+                     {"friction.lambda", contacts},
+                     {"correlation_length", 0.7},
+                     {"cosine", rotor.cosine},
+                     {"sine", rotor.sine}});
+    }
+  }
+  return all;
+}
+
 // Random histories as trials draw them: [{seed, trial, stream, reversals, torque, levels}, …]
 Json histories() {
   Json all = Json::array();
@@ -128,6 +166,8 @@ int answer(const std::string& question) {
     std::cout << distributions().dump() << '\n';
   } else if (question == "draws") {
     std::cout << draws().dump() << '\n';
+  } else if (question == "rig_draws") {
+    std::cout << rig_draws().dump() << '\n';
   } else if (question == "inputs") {
     std::cout << inputs().dump() << '\n';
   } else if (question == "histories") {

@@ -82,7 +82,7 @@ TEST(ExperimentsReadme, ItsManifestsAreUnderstoodWithoutWarnings) {
         << block.text;
   }
   EXPECT_EQ(whole, 1);
-  EXPECT_EQ(parts, 7);
+  EXPECT_EQ(parts, 8);
 }
 
 TEST(ExperimentsReadme, TheFirstManifestUsesEverySection) {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "experiments/designs/sha256.hpp"
+#include "experiments/plan/plan.hpp"
 #include "results/layout/header.hpp"
 
 namespace zerocount::testing {
@@ -111,6 +112,26 @@ Study sample_study(std::int64_t points, std::int64_t trials, std::int64_t moves)
   study.retained_trials = {0};
   study.trace_extras = {true, true, true};
   study.outcome_extras = {true};
+  return study;
+}
+
+Study sample_study_with_rigs(std::int64_t points, std::int64_t trials, std::int64_t moves) {
+  Study study = sample_study(points, trials, moves);
+  study.rigs = 8;
+  auto plan = std::make_shared<StudyPlan>();
+  plan->base = {{.kind = Value::Kind::distribution, .index = 0, .per = Per::rig}};
+  plan->distributions = {Uniform{100.0, 120.0}};
+  plan->randomness.resize(1);
+  plan->rig_inputs = {{0, false}};
+  study.plan = std::move(plan);
+  study.rig_columns = {{"friction.k1", "N m/rad", "lowest stiffness", Per::rig}};
+  RealisedProfile of_rigs{"friction.k2", "N m/rad", study.profiles[0].profile};
+  of_rigs.of_rig = [one = study.profiles[0].profile](std::int64_t rig) {
+    Profile rotor = *one;
+    rotor.location += 0.01 * static_cast<double>(rig);
+    return std::make_shared<const Profile>(rotor);
+  };
+  study.profiles.push_back(of_rigs);
   return study;
 }
 

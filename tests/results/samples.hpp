@@ -15,6 +15,9 @@ namespace zerocount::testing {
 /// record has all columns that there are. Nothing reads its manifest, which is any text.
 Study sample_study(std::int64_t points = 3, std::int64_t trials = 40, std::int64_t moves = 2);
 
+/// The same on 8 rigs, with one input that is drawn for each, and a rotor for each.
+Study sample_study_with_rigs(std::int64_t points = 3, std::int64_t trials = 40, std::int64_t moves = 2);
+
 /// Some result of a row: random, a function of the row alone. Some trials have no jerks, some many.
 TrialResult sample_result(const Study& study, std::int64_t row);
 std::vector<TrialResult> sample_results(const Study& study, RowRange rows);

@@ -45,6 +45,31 @@ TEST(BatchContact, TakesEveryParameterFromItsProfileWhereItSticks) {
   EXPECT_GT(agreement.trials - agreement.slides, 50);
 }
 
+TEST(BatchContact, DrawsItsParametersAnewWhereItSticks) {
+  using P = FrictionParameters;
+  double P::*const drawn[] = {&P::k1,     &P::k2,        &P::beta,          &P::alpha,
+                              &P::lambda, &P::breakaway, &P::coulomb_ratio, &P::stribeck_velocity};
+  std::vector<TrialParameters> trials;
+  for (std::uint64_t i = 0; i < 160; ++i) {
+    trials.push_back(trial_for_lanes(i % 2 == 0 ? TrialKind::breaking_away : TrialKind::calm, 96000 + i));
+    TrialParameters& p = trials.back();
+    p.friction.profiled.clear();
+    P& f = p.friction.uniform;
+    f.coulomb_ratio = 0.7;
+    for (std::size_t j = 0; j < std::size(drawn); ++j) {
+      if (i % 9 != 8 && j != i % 9) continue;
+      const double spread = drawn[j] == &P::coulomb_ratio ? 0.1 : 0.4;
+      const double middle = f.*drawn[j];
+      p.friction.per_contact.push_back({drawn[j],
+                                        [=](double u) { return middle * (1.0 + spread * (u - 0.5)); },
+                                        {.key = {static_cast<std::uint32_t>(j), 5}, .stream = 0},
+                                        i});
+    }
+  }
+  const BatchAgreement agreement = expect_agreement_in_lanes(trials, "contacts");
+  EXPECT_GT(agreement.slides, 70);
+}
+
 TEST(BatchContact, RemembersWhatWasBeforeTheStart) {
   std::vector<TrialParameters> trials;
   for (std::uint64_t i = 0; i < 150; ++i) {

@@ -149,5 +149,30 @@ TEST(Plant, GivesUpLoudlyOnAMotionItCannotFollow) {
   EXPECT_FALSE(plant.finite());
 }
 
+// Torque beyond any breakaway, until the hook slides, and none until it sticks again.
+void slide_once(Plant& plant, double torque) {
+  for (int k = 0; k < 1000 && !plant.sliding(); ++k) hold(plant, torque, sample);
+  for (int k = 0; k < 100000 && plant.sliding(); ++k) hold(plant, 0.0, sample);
+}
+
+TEST(PlantWithContactsThatDiffer, HasTheNextContactAtEachReStick) {
+  for (const FrictionModel model : {FrictionModel::presliding, FrictionModel::coulomb}) {
+    FrictionAlongRotor friction{{}, {}, model};
+    friction.per_contact.push_back({&FrictionParameters::breakaway,
+                                    [](double u) { return 0.2 + 0.2 * u; },
+                                    {.key = {1, 2}, .stream = 3},
+                                    17});
+    Plant plant({}, friction, {}, tolerance);
+    EXPECT_EQ(plant.contact().breakaway, FrictionParameters{}.breakaway);
+    for (int contact = 1; contact <= 20; ++contact) {
+      slide_once(plant, contact % 2 == 0 ? 0.5 : -0.5);
+      ASSERT_EQ(plant.breakaways(), contact);
+      const double u = open_uniform(random_bits_at({.key = {1, 2}, .stream = 3}, 17, contact));
+      EXPECT_EQ(plant.contact().breakaway, 0.2 + 0.2 * u);
+      EXPECT_EQ(plant.contact().k1, FrictionParameters{}.k1);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace zerocount

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "experiments/designs/random_key.hpp"
+
 namespace zerocount {
 namespace {
 
@@ -53,6 +55,10 @@ TEST(RandomField, TheSeriesIsNoLongerThanItMustBe) {
   }
 }
 
+Profile rotor_of(const ProfileDescription& description, std::uint64_t seed, std::string_view name) {
+  return realise_profile(description, field_amplitudes(description), random_key(seed, name));
+}
+
 struct Ensemble {
   double mean{0.0};
   double sd{0.0};
@@ -68,7 +74,7 @@ Ensemble ensemble_of(const ProfileDescription& description, double place, double
   double other_squares = 0.0;
   double products = 0.0;
   for (int seed = 0; seed < seeds; ++seed) {
-    const Profile profile = realise_profile(description, static_cast<std::uint64_t>(seed), "friction.k1");
+    const Profile profile = rotor_of(description, static_cast<std::uint64_t>(seed), "friction.k1");
     const double x = value_at(profile, place) - description.mean;
     const double y = value_at(profile, other_place) - description.mean;
     e.mean += x / seeds;
@@ -109,18 +115,18 @@ TEST(RandomField, LognormalEnsembleHasTheMeanAndSpreadOfTheParameterItself) {
 
 TEST(RandomField, ProfilesArePeriodicAndReproducible) {
   const ProfileDescription description{110, 0.1, 0.2, Marginal::lognormal};
-  const Profile profile = realise_profile(description, 4, "friction.k1");
+  const Profile profile = rotor_of(description, 4, "friction.k1");
   for (const double angle : {0.0, 1.0, 5.0}) {
     EXPECT_NEAR(value_at(profile, angle), value_at(profile, angle + 2 * std::numbers::pi), 1e-9);
   }
-  EXPECT_EQ(profile.cosine, realise_profile(description, 4, "friction.k1").cosine);
-  EXPECT_NE(profile.cosine, realise_profile(description, 5, "friction.k1").cosine);
-  EXPECT_NE(profile.cosine, realise_profile(description, 4, "friction.k2").cosine);
+  EXPECT_EQ(profile.cosine, rotor_of(description, 4, "friction.k1").cosine);
+  EXPECT_NE(profile.cosine, rotor_of(description, 5, "friction.k1").cosine);
+  EXPECT_NE(profile.cosine, rotor_of(description, 4, "friction.k2").cosine);
 }
 
 TEST(RandomField, ARealisedProfileStaysInsideItsLimits) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    const Profile profile = realise_profile({1.0, 0.5, 0.1, Marginal::lognormal}, seed, "friction.breakaway");
+    const Profile profile = rotor_of({1.0, 0.5, 0.1, Marginal::lognormal}, seed, "friction.breakaway");
     const Interval values = limits(profile);
     for (int i = 0; i < 500; ++i) ASSERT_TRUE(contains(values, value_at(profile, 0.013 * i)));
   }

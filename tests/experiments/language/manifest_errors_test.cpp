@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
              "m.yaml:6:17: friction.k1.unifrom: unknown distribution, nearest known: uniform; expected a map "
              "with one "
              "of uniform, log_uniform, normal, truncated_normal, lognormal, triangular, integers, choice, "
-             "profile"},
+             "profile; per may stand beside it"},
         Case{"friction: {k1: {lognormal: {median: 1, cv: 1, mean: 1}}}",
              "m.yaml:6:47: friction.k1.lognormal.mean: unknown key, nearest known: median; expected one of "
              "median, cv"},
@@ -196,11 +196,37 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"retain: {trials: [1, 1]}",
              "m.yaml:6:18: retain.trials: a trial stands twice in the list; expected each trial once"},
         Case{"rigs: 1",
-             "m.yaml:6:7: rigs: '1' is out of range; expected a whole number from 2 to 9007199254740992"},
+             "m.yaml:6:7: rigs: '1' is out of range; expected a whole number from 2 to 4294967296"},
         Case{
             "rigs: 4",
             "m.yaml:4:9: trials: 10 trials cannot be divided equally among 4 rigs; expected a multiple of 4, "
             "such as 8 or 12"},
+        Case{"friction: {k1: {uniform: [1, 2], per: rig}}",
+             "m.yaml:6:39: friction.k1.per: the study has no rigs; expected the key rigs, or study, trial or "
+             "contact here"},
+        Case{"friction: {k1: {uniform: [1, 2], per: move}}",
+             "m.yaml:6:39: friction.k1.per: 'move' is none of its words; expected one of study, rig, trial, "
+             "contact"},
+        Case{"friction: {k1: {per: trial}}",
+             "m.yaml:6:16: friction.k1: a map with 1 keys stands here; expected a map with one of uniform, "
+             "log_uniform, normal, truncated_normal, lognormal, triangular, integers, choice, profile; per "
+             "may stand beside it"},
+        Case{"plant: {inertia: {uniform: [1, 2], per: contact}}",
+             "m.yaml:6:41: plant.inertia.per: only friction is drawn anew at each contact; expected study, "
+             "rig or trial"},
+        Case{"friction: {k1: {profile: {mean: 110, cv: 0.1, correlation_length: 1}, per: trial}}",
+             "m.yaml:6:76: friction.k1.per: a profile is that of a rotor, which no trial has for itself; "
+             "expected study or rig (a rotor for every trial: rigs, as many as trials)"},
+        Case{
+            "friction: {k1: {profile: {mean: 110, cv: 0.1, correlation_length: 1}, per: contact}}",
+            "m.yaml:6:76: friction.k1.per: a profile is that of a rotor, and a contact takes its value where "
+            "it forms; expected study or rig"},
+        Case{"friction: {k1: {profile: {mean: {uniform: [1, 2], per: rig}, cv: 0.1, correlation_length: 1}}}",
+             "m.yaml:6:33: friction.k1.profile.mean: the mean is drawn for every rotor, as often as the "
+             "profile; expected per beside profile"},
+        Case{"friction: {k1: {profile: {mean: {normal: {mean: 1, sd: 1}}, cv: 0.1, correlation_length: 1}}}",
+             "m.yaml:6:33: friction.k1.profile.mean: its values (-inf, inf) are not all positive and finite; "
+             "expected a distribution of numbers greater than 0"},
         Case{"rigs: 20",
              "m.yaml:4:9: trials: 10 trials cannot be divided equally among 20 rigs; expected a multiple of "
              "20, such as 20"}));
@@ -279,7 +305,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"friction: {k1: {uniform: [1, 2], choice: [1]}}",
              "m.yaml:6:16: friction.k1: a map with 2 keys stands here; expected a map with one of uniform, "
              "log_uniform, "
-             "normal, truncated_normal, lognormal, triangular, integers, choice, profile"},
+             "normal, truncated_normal, lognormal, triangular, integers, choice, profile; per may stand "
+             "beside it"},
         Case{"dac: {bits: {uniform: [8, 16]}}",
              "m.yaml:6:23: dac.bits.uniform: its values are not whole numbers; expected integers, or a "
              "choice of whole "

@@ -61,13 +61,19 @@ std::string type_name(Element element) {
   return names.at(element);
 }
 
-/// The row for a dataset: the one with its path, or else the first whose pattern fits its path and role.
+std::ptrdiff_t dimensions_of(const std::vector<std::string>& row) {
+  return row[2].empty() ? 0 : 1 + std::count(row[2].begin(), row[2].end(), ',');
+}
+
+/// The row for a dataset: the one with its path, or else the first whose pattern fits its path and role, and
+/// whose dimensions are as many.
 std::optional<std::size_t> find_row(const Rows& rows, const hdf5::Dataset& dataset) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i][0] == dataset.path()) return i;
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!fits(dataset.path(), rows[i][0])) continue;
+    if (dimensions_of(rows[i]) != std::ssize(dataset.extent())) continue;
     if (dataset.has_attribute("role") &&
         rows[i][0].find(fmt::format("<{}>", dataset.text("role"))) == std::string::npos) {
       continue;
@@ -79,18 +85,17 @@ std::optional<std::size_t> find_row(const Rows& rows, const hdf5::Dataset& datas
 
 TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
   const TemporaryFolder directory;
-  const std::filesystem::path file = write_sample_file(directory.path(), sample_study());
+  const TemporaryFolder directory_with_rigs;
   const Rows rows = documented("path");
   ASSERT_GT(rows.size(), 40U);
   std::set<std::size_t> used;
-  for_each_dataset(file, [&](const hdf5::Dataset& dataset) {
+  const auto look_up = [&](const hdf5::Dataset& dataset) {
     const std::optional<std::size_t> found = find_row(rows, dataset);
     ASSERT_TRUE(found) << dataset.path() << " is not described";
     used.insert(*found);
     const std::vector<std::string>& row = rows[*found];
     EXPECT_NE(row[1].find(type_name(dataset.element())), std::string::npos) << dataset.path();
-    const auto dimensions = row[2].empty() ? 0 : 1 + std::count(row[2].begin(), row[2].end(), ',');
-    EXPECT_EQ(std::ssize(dataset.extent()), dimensions) << dataset.path();
+    EXPECT_EQ(std::ssize(dataset.extent()), dimensions_of(row)) << dataset.path();
     EXPECT_TRUE(row[3] == "own" || row[3] == dataset.text("units")) << dataset.path();
     if (row[0].find('<') == std::string::npos) {
       EXPECT_TRUE(row[4].starts_with(dataset.text("long_name")))
@@ -101,7 +106,9 @@ TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
       for (std::string word; words >> word;)
         EXPECT_NE(row[4].find(word), std::string::npos) << dataset.path();
     }
-  });
+  };
+  for_each_dataset(write_sample_file(directory.path(), sample_study()), look_up);
+  for_each_dataset(write_sample_file(directory_with_rigs.path(), sample_study_with_rigs()), look_up);
   for (std::size_t i = 0; i < rows.size(); ++i)
     EXPECT_TRUE(used.contains(i)) << rows[i][0] << " is in no file";
 }

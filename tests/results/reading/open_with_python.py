@@ -23,6 +23,9 @@ sizes = {
     "/jerk": {"jerk": jerks},
     "/trace": {"record": records},
     "/profile/friction.k1": {"theta": 4096},
+    "/profile/friction.k2": {"rig": 8, "theta": 64},
+    "/rig": {"point": None, "rig": 8},
+    "/rig/input": {"rig": 8},
 }
 
 

@@ -23,6 +23,11 @@ TEST(Python, OpensAFileWithH5pyXarrayAndNetcdf) {
   expect_python_opens(write_sample_file(directory.path(), sample_study()), directory / "output");
 }
 
+TEST(Python, OpensAFileWithRigs) {
+  const TemporaryFolder directory;
+  expect_python_opens(write_sample_file(directory.path(), sample_study_with_rigs()), directory / "output");
+}
+
 TEST(Python, OpensAFileWhoseTablesAreEmpty) {
   const TemporaryFolder directory;
   Study study = sample_study(1, 4, 1);

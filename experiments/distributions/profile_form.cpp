@@ -1,0 +1,90 @@
+#include "experiments/distributions/profile_form.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "experiments/distributions/distribution_forms.hpp"
+#include "experiments/yaml/unknown_key.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::string_view profile_shown = "profile: {mean, cv, correlation_length, marginal}";
+
+// The only entry of the map, which names a distribution.
+std::optional<Distribution> read_drawn_mean(const Field& field, Problems& problems) {
+  const std::string expected = fmt::format("a number, or a map with one of {}", distribution_names());
+  const auto& entries = field.node->entries;
+  if (entries.size() != 1) {
+    const bool per = find_entry(*field.node, "per") != nullptr;
+    problems.add(field.node->place, field.path,
+                 per ? "the mean is drawn for every rotor, as often as the profile"
+                     : fmt::format("a map with {} keys stands here", entries.size()),
+                 per ? "per beside profile" : expected);
+    return std::nullopt;
+  }
+  const DistributionForm* form = find_form(field, entries.front(), {}, expected, problems);
+  if (form == nullptr) return std::nullopt;
+  const auto distribution = read_distribution(*form, entry_of(field, entries.front()), problems);
+  if (!distribution) return std::nullopt;
+  if (!contains(above(0.0), support(*distribution)) || !extremes_are_inside(*distribution, above(0.0))) {
+    problems.add(
+        field.node->place, field.path,
+        fmt::format("its values {} are not all positive and finite", notation(support(*distribution))),
+        "a distribution of numbers greater than 0");
+    return std::nullopt;
+  }
+  return distribution;
+}
+
+void read_marginal(const Field& field, ProfileDescription& description, Problems& problems) {
+  const std::string& text = field.node->text;
+  description.marginal = text == "normal" ? Marginal::normal : Marginal::lognormal;
+  if (text == "normal" || text == "lognormal") return;
+  problems.add(field.node->place, field.path,
+               fmt::format("{} is no marginal", in_quotes(flow_text(*field.node))), "normal or lognormal");
+}
+
+}  // namespace
+
+std::optional<ProfileForm> read_profile(const Field& field, double period, Problems& problems) {
+  static const std::vector<std::string> known{"mean", "cv", "correlation_length", "marginal"};
+  if (!check_map(field, std::string(profile_shown), problems)) return std::nullopt;
+  const std::size_t before = problems.size();
+  ProfileForm form;
+  form.description.period = period;
+  const auto number = [&](std::string_view key, const Interval& range, double& to) {
+    const YamlEntry* entry = find_entry(*field.node, key);
+    if (entry == nullptr) {
+      problems.add(field.node->place, field.path, fmt::format("{} is missing", key), profile_shown);
+    } else if (const auto read = read_real(entry_of(field, *entry), range, problems)) {
+      to = *read;
+    }
+  };
+  const YamlEntry* mean = find_entry(*field.node, "mean");
+  if (mean != nullptr && mean->value->kind == YamlNode::Kind::map) {
+    form.mean = read_drawn_mean(entry_of(field, *mean), problems);
+  } else {
+    number("mean", above(0.0), form.description.mean);
+  }
+  number("cv", {.low = 0.0, .high = 10.0, .high_included = true}, form.description.cv);
+  const double scale = period / (2.0 * std::numbers::pi);
+  number("correlation_length",
+         closed(scale * shortest_correlation_length, scale * longest_correlation_length),
+         form.description.correlation_length);
+  for (const YamlEntry& entry : field.node->entries) {
+    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
+      add_unknown_key(field, entry, known, problems);
+    } else if (entry.key == "marginal") {
+      read_marginal(entry_of(field, entry), form.description, problems);
+    }
+  }
+  if (problems.size() != before) return std::nullopt;
+  return form;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "experiments/study.hpp"
+#include "results/hdf5/hdf5.hpp"
+
+namespace zerocount {
+
+/// Writes the realised profiles of a study to /profile: one rotor, or those of all rigs.
+void write_profiles(hdf5::File& file, const Study& study);
+
+}  // namespace zerocount

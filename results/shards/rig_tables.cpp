@@ -1,0 +1,69 @@
+#include "results/shards/rig_tables.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "results/layout/layout.hpp"
+#include "results/layout/table_io.hpp"
+
+namespace zerocount {
+namespace {
+
+using Flags = std::vector<std::int8_t>;
+
+/// The table of outcomes with the verdicts alone.
+Table verdict_table() {
+  Table table = outcome_table();
+  std::erase_if(table.columns, [](const Column& column) { return column.name != "outcome"; });
+  return table;
+}
+
+bool succeeded(Flags::const_iterator moves, std::int64_t count) {
+  return std::all_of(moves, moves + count,
+                     [](std::int8_t move) { return move == static_cast<std::int8_t>(Outcome::zero_count); });
+}
+
+}  // namespace
+
+void write_rigs(hdf5::File& file, const Study& study) {
+  std::vector<std::vector<double>> values(study.rig_columns.size());
+  for (std::int64_t rig = 0; rig < study.rigs; ++rig) {
+    const std::vector<double> inputs = rig_inputs(study, rig);
+    for (std::size_t column = 0; column < values.size(); ++column) values[column].push_back(inputs[column]);
+  }
+  TableIo io = TableIo::create(file, rig_table(study.rig_columns), study.rigs, 1);
+  io.number_rows(0);
+  for (std::size_t column = 0; column < values.size(); ++column) {
+    io.column(column).write(0, study.rigs, values[column].data());
+  }
+}
+
+void write_rig_counts(hdf5::File& file, const Study& study) {
+  const TableIo verdicts = TableIo::open(file, verdict_table());
+  const std::int64_t moves = verdicts.width();
+  const std::int64_t points = point_count(study);
+  TableIo io = TableIo::create(file, rig_count_table(), points, study.rigs);
+  io.number_rows(0);
+  const std::vector<std::int64_t> trials(static_cast<std::size_t>(study.rigs),
+                                         study.open_loop ? 0 : study.trials / study.rigs);
+  const std::int64_t at_once = chunk_rows(moves);
+  Flags flags;
+  for (std::int64_t point = 0; point < points; ++point) {
+    std::vector<std::int64_t> successes(static_cast<std::size_t>(study.rigs), 0);
+    for (std::int64_t first = 0; first < study.trials; first += at_once) {
+      const std::int64_t count = std::min(at_once, study.trials - first);
+      flags.resize(static_cast<std::size_t>(count * moves));
+      verdicts.column(0).read(point * study.trials + first, count, flags.data());
+      for (std::int64_t i = 0; i < count; ++i) {
+        const auto rig = static_cast<std::size_t>(rig_of(study, first + i));
+        successes[rig] += succeeded(flags.begin() + i * moves, moves);
+      }
+    }
+    io.column(0).write(point, 1, successes.data());
+    io.column(1).write(point, 1, trials.data());
+  }
+}
+
+}  // namespace zerocount

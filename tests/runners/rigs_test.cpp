@@ -1,0 +1,102 @@
+// Studies with rigs, from the manifest to the file and back.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "results/reading/first_difference.hpp"
+#include "results/reading/study_file.hpp"
+#include "tests/runners/program.hpp"
+#include "tests/support/raw_hdf5.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Moves that slide and stick again, on machines that differ.
+const char* const machines =
+    "zerocount: 1\nname: machines\nseed: 5\ntrials: 40\nrigs: 8\n"
+    "friction:\n"
+    "  k1: {profile: {mean: {lognormal: {median: 110, cv: 0.2}}, cv: 0.1, correlation_length: 0.3}}\n"
+    "  k2: {uniform: [600, 900]}\n"
+    "  breakaway: {uniform: [0.02, 0.03], per: contact}\n"
+    "command: {targets: [{integers: [200, 300]}, 0], hold: 0.1}\n"
+    "initial: {position: {uniform: [0, 6.283185307179586]}}\n"
+    "verdict: {dwell: 0.02, window: 0.02}\n"
+    "sweep: {grid: {controller.ki: [2.0e-5, 6.0e-5]}}\n"
+    "retain: {trials: [3]}\n";
+
+class RigStudy : public ::testing::Test {
+ protected:
+  RigStudy() { write_bytes(folder_ / "m.yaml", machines); }
+
+  ProgramResult program(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+  void run(std::vector<std::string> more) {
+    std::vector<std::string> words{"run", "m.yaml"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = program(words);
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(RigStudy, CheckSaysHowManyTrialsARigHasAndWhatItIsThatDiffers) {
+  const ProgramResult result = program({"check", "m.yaml"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  for (const char* line :
+       {"at each point 8 rigs × 5 trials of each\n",
+        "differing between rigs: friction.k1.profile.mean friction.k2\n",
+        "differing between trials: friction.k1 friction.breakaway command.targets.0 initial.position\n",
+        "of these, drawn anew at each contact: friction.breakaway\n",
+        "the same in all trials of a point: controller.ki\n"}) {
+    EXPECT_NE(result.out.find(line), std::string::npos) << line << result.out;
+  }
+}
+
+TEST_F(RigStudy, TheFileIsTheSameHoweverItWasRun) {
+  run({"-o", "once.h5", "--threads", "1"});
+  run({"-o", "a.h5", "--shard", "1/2"});
+  run({"-o", "b.h5", "--shard", "2/2"});
+  ASSERT_EQ(program({"merge", "a.h5", "b.h5", "-o", "joined.h5"}).code, 0);
+  const StudyFile once(folder_ / "once.h5");
+  const StudyFile joined(folder_ / "joined.h5");
+  EXPECT_EQ(first_difference(once.root(), joined.root()).value_or("none"), "none");
+  EXPECT_EQ(once.rigs().value().success.size(), 16U);
+  EXPECT_EQ(once.profiles().at(0).rigs, 8);
+}
+
+TEST_F(RigStudy, ATrialIsRunAgainAlone) {
+  run({"-o", "once.h5", "--engine", "reference"});
+  std::int64_t slid = 0;
+  const StudyFile file(folder_ / "once.h5");
+  for (const MoveOutcome& move : file.outcomes(file.rows())) slid += move.broke_away;
+  EXPECT_GT(slid, 20) << "the contacts after the first are to matter";
+  for (const char* trial : {"3", "11", "39"}) {
+    const ProgramResult result =
+        program({"trace", "once.h5", "--point", "1", "--trial", trial, "--format", "json"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    const std::string rig =
+        std::string("\"trial\": ") + trial + ", \"rig\": " + std::to_string(std::stoi(trial) % 8);
+    EXPECT_NE(result.out.find(rig), std::string::npos) << rig;
+  }
+}
+
+TEST_F(RigStudy, BothEnginesHaveTheSameRigsAndContacts) {
+  run({"-o", "batch.h5", "--engine", "batch", "--set", "command.hold=0.03"});
+  run({"-o", "reference.h5", "--engine", "reference", "--set", "command.hold=0.03"});
+  const StudyFile batch(folder_ / "batch.h5");
+  const StudyFile reference(folder_ / "reference.h5");
+  for (std::size_t column = 0; column < batch.input_columns().size(); ++column) {
+    EXPECT_EQ(batch.input(column, batch.rows()), reference.input(column, reference.rows()));
+  }
+  EXPECT_EQ(batch.rigs().value().inputs, reference.rigs().value().inputs);
+  EXPECT_EQ(batch.measure("broke_away", batch.rows()), reference.measure("broke_away", reference.rows()));
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -162,7 +162,7 @@ TEST(PlantWithContactsThatDiffer, HasTheNextContactAtEachReStick) {
                                     [](double u) { return 0.2 + 0.2 * u; },
                                     {.key = {1, 2}, .stream = 3},
                                     17});
-    Plant plant({}, friction, {}, tolerance);
+    Plant plant({}, friction, {}, rig_tolerance);
     EXPECT_EQ(plant.contact().breakaway, FrictionParameters{}.breakaway);
     for (int contact = 1; contact <= 20; ++contact) {
       slide_once(plant, contact % 2 == 0 ? 0.5 : -0.5);

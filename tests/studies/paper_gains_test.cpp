@@ -1,0 +1,82 @@
+// paper-gains: the five gains of section 4 behave as the paper reports, on axes whose friction differs. The
+// bounds are wider than those of a few tests: "all" is 98 % or more, "most" is 50 to 80 %.
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/batch/batch.hpp"
+#include "tests/studies/share_bounds.hpp"
+#include "tests/studies/shipped_study.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+/// Moves that are stable among the first trials of a gain, by the batch engine, as `run` has it.
+std::int64_t stable_at_gain(const std::string& gain, std::int64_t trials) {
+  const Study study = shipped_study("paper-gains");
+  std::vector<TrialParameters> parameters;
+  for (std::int64_t index = 0; index < trials; ++index) parameters.push_back(trial_of(study, gain, index));
+  std::vector<const TrialParameters*> pointers;
+  for (const TrialParameters& trial : parameters) pointers.push_back(&trial);
+  std::vector<TrialOutcome> outcomes(parameters.size());
+  BatchEngine engine;
+  engine.run(pointers, outcomes);
+  return moves_with(outcomes, [](const MoveOutcome& move) { return move.stable; });
+}
+
+TEST(PaperGains, GainAIsStableInAllTests) {
+  EXPECT_TRUE(share_above(0.995, stable_at_gain("a", 1500), 1500));
+}
+
+TEST(PaperGains, GainBIsStableInSomeAndUnstableInMost) {
+  const std::int64_t stable = stable_at_gain("b", 600);
+  EXPECT_TRUE(share_above(0.20, stable, 600));
+  EXPECT_TRUE(share_below(0.50, stable, 600));
+}
+
+TEST(PaperGains, AProportionalGainMakesItStable) {
+  EXPECT_TRUE(share_above(0.98, stable_at_gain("b-with-kp", 6000), 6000));
+}
+
+TEST(PaperGains, GainCIsSeldomStable) {
+  const std::int64_t stable = stable_at_gain("c", 2000);
+  EXPECT_TRUE(share_above(0.02, stable, 2000));
+  EXPECT_TRUE(share_below(0.12, stable, 2000));
+}
+
+TEST(PaperGains, AboveTheUpperBoundHardlyAnyMoveIsStable) {
+  EXPECT_TRUE(share_below(0.03, stable_at_gain("above-upper", 1000), 1000));
+}
+
+// Early decision saves time, and changes no verdict.
+TEST(PaperGains, TheTrialsThatAreStoppedWouldNotHaveComeBack) {
+  const Study stopped = shipped_study("paper-gains");
+  const Study run_on = shipped_study("paper-gains", {"verdict.stop=false"});
+  for (const char* gain : {"b", "c", "above-upper"}) {
+    const auto early = outcomes_of(stopped, gain, 60);
+    const auto late = outcomes_of(run_on, gain, 60);
+    for (std::size_t i = 0; i < early.size(); ++i) {
+      EXPECT_EQ(early[i].moves[0].stable, late[i].moves[0].stable) << gain << " " << i;
+      EXPECT_EQ(early[i].moves[0].outcome, late[i].moves[0].outcome) << gain << " " << i;
+    }
+  }
+}
+
+TEST(PaperGains, EveryTrialHasAFrictionAndAStartOfItsOwn) {
+  const Study study = shipped_study("paper-gains");
+  ASSERT_GE(study.trials, 10000);
+  std::set<double> k1, k2, beta, exponent, preload;
+  constexpr std::size_t looked_at = 200;
+  for (std::size_t index = 0; index < looked_at; ++index) {
+    const TrialParameters p = trial_of(study, "a", static_cast<std::int64_t>(index));
+    k1.insert(friction_at(p.friction, p.initial.position).k1);
+    k2.insert(p.friction.uniform.k2);
+    beta.insert(p.friction.uniform.beta);
+    exponent.insert(p.friction.uniform.n);
+    preload.insert(p.initial.preload);
+  }
+  for (const auto& values : {k1, k2, beta, exponent, preload}) EXPECT_EQ(values.size(), looked_at);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

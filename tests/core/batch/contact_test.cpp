@@ -47,8 +47,15 @@ TEST(BatchContact, TakesEveryParameterFromItsProfileWhereItSticks) {
 
 TEST(BatchContact, DrawsItsParametersAnewWhereItSticks) {
   using P = FrictionParameters;
-  double P::*const drawn[] = {&P::k1,     &P::k2,        &P::beta,          &P::alpha,
-                              &P::lambda, &P::breakaway, &P::coulomb_ratio, &P::stribeck_velocity};
+  double P::*const drawn[] = {&P::k1,
+                              &P::k2,
+                              &P::beta,
+                              &P::alpha,
+                              &P::lambda,
+                              &P::n,
+                              &P::breakaway,
+                              &P::coulomb_ratio,
+                              &P::stribeck_velocity};
   std::vector<TrialParameters> trials;
   for (std::uint64_t i = 0; i < 160; ++i) {
     trials.push_back(trial_for_lanes(i % 2 == 0 ? TrialKind::breaking_away : TrialKind::calm, 96000 + i));
@@ -57,7 +64,7 @@ TEST(BatchContact, DrawsItsParametersAnewWhereItSticks) {
     P& f = p.friction.uniform;
     f.coulomb_ratio = 0.7;
     for (std::size_t j = 0; j < std::size(drawn); ++j) {
-      if (i % 9 != 8 && j != i % 9) continue;
+      if (i % 10 != 9 && j != i % 10) continue;
       const double spread = drawn[j] == &P::coulomb_ratio ? 0.1 : 0.4;
       const double middle = f.*drawn[j];
       p.friction.per_contact.push_back({drawn[j],

@@ -32,7 +32,7 @@ int main(int count, char** words) {
              study.sets, first, instrument.noise, instrument.torque_step, study.refused, study.lacking);
   fmt::print("{:<20} {:>6} {:>10} {:>9} {:>6} {:>12} {:>11} {:>9} {:>6}\n", "parameter", "held", "estimated",
              "coverage", "open", "rms error/se", "half-width", "farthest", "rig");
-  for (const Coverage& c : study.parameters) {
+  for (const IntervalCoverage& c : study.parameters) {
     const double n = c.estimated;
     fmt::print("{:<20} {:>6} {:>10} {:>7.1f} % {:>6} {:>12.2f} {:>9.2g} % {:>9.2f} {:>6}\n", c.name, c.held,
                c.estimated, 100.0 * c.held / n, c.open, std::sqrt(c.squared_errors / n),

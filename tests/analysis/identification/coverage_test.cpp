@@ -36,7 +36,7 @@ void expect_coverage(const CoverageStudy& study) {
   EXPECT_EQ(study.refused, 0);
   EXPECT_LE(study.lacking, 3);
   ASSERT_EQ(study.parameters.size(), 9u);
-  for (const Coverage& coverage : study.parameters) {
+  for (const IntervalCoverage& coverage : study.parameters) {
     EXPECT_GE(coverage.estimated, rigs - 1) << coverage.name;
     EXPECT_GE(coverage.held + rigs - coverage.estimated, least_held(rigs)) << coverage.name;
     // Nor are they wide for nothing: errors are what the standard errors say.

@@ -105,7 +105,7 @@ void count(const Identification& found, const ContactParameters& truth, int set,
   study.parameters.resize(found.parameters.size());
   for (std::size_t i = 0; i < found.parameters.size(); ++i) {
     const ParameterEstimate& parameter = found.parameters[i];
-    Coverage& coverage = study.parameters[i];
+    IntervalCoverage& coverage = study.parameters[i];
     coverage.name = parameter.name;
     if (parameter.status == EstimateStatus::not_identifiable) ++coverage.open;
     if (parameter.status != EstimateStatus::estimated) continue;

@@ -52,7 +52,7 @@ std::vector<TorqueProgramme> one_test();
 double true_value(const ContactParameters& contact, const std::string& name);
 
 /// How often the intervals of a parameter held the truth.
-struct Coverage {
+struct IntervalCoverage {
   std::string name;
   int held{0};
   int estimated{0};
@@ -65,7 +65,7 @@ struct Coverage {
 
 /// What came of identifying many rigs.
 struct CoverageStudy {
-  std::vector<Coverage> parameters;  ///< in the order of Identification::parameters
+  std::vector<IntervalCoverage> parameters;  ///< in the order of Identification::parameters
   int sets{0};
   int refused{0};                 ///< the identification threw
   int lacking{0};                 ///< the residual checks failed

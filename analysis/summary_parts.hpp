@@ -13,9 +13,9 @@ namespace zerocount {
 /// "95 % bounds", with the confidence of the summary: the head of a column of them.
 std::string bounds_head(const StudySummary& summary);
 
-/// What tells the points apart: their labels, and a column for each swept parameter with its unit in the head,
-/// where these are few. In a grid, whose labels only repeat the swept values, the number of the point takes the
-/// place of the label.
+/// What tells the points apart: their labels, and a column for each swept parameter with its unit in the
+/// head, where these are few. In a grid, whose labels only repeat the swept values, the number of the point
+/// takes the place of the label.
 std::vector<TextColumn> sweep_columns(const StudySummary& summary);
 
 /// The table of a study with targets, and what its columns mean.

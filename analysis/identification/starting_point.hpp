@@ -29,9 +29,9 @@ Eigen::VectorXd creep_extension(const TestRecord& record, const CreepEstimate& c
 
 /// The spring as the slow branches show it.
 struct SpringEstimate {
-  double k1{110.0};        ///< N m/rad
-  double offset{7.5e-3};   ///< k2/β, N m
-  double beta{1.0e5};      ///< 1/rad
+  double k1{110.0};       ///< N m/rad
+  double offset{7.5e-3};  ///< k2/β, N m
+  double beta{1.0e5};     ///< 1/rad
 };
 
 /// The branch law by its chord, median over the branches: k1 is the slope of the last 40 % of the travel,

@@ -14,8 +14,8 @@ namespace zerocount {
 struct UsedTrials {
   std::vector<std::size_t> row_starts;   ///< of the rows of a saltelli design
   std::vector<std::size_t> independent;  ///< all, or those of A and B of a saltelli design
-  std::int64_t left_out{0};  ///< without a value, or in a row with one such
-  std::int64_t of_rigs{0};   ///< not looked at, because they share a rig with one that was
+  std::int64_t left_out{0};              ///< without a value, or in a row with one such
+  std::int64_t of_rigs{0};               ///< not looked at, because they share a rig with one that was
 };
 
 /// @param values [trial], NaN where there is none.

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -9,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -176,18 +174,6 @@ std::vector<TestRecord> read_records(const Arguments& arguments) {
   return records;
 }
 
-void write_report(const std::string& text, const std::filesystem::path& path) {
-  require_new(path);
-  const UnfinishedFile unfinished(path);
-  {
-    const FileDescriptor file(
-        ::open(unfinished.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (!file.valid()) fail_with(path, "write", errno);
-    write_all(path, file, text);
-  }
-  publish(path);
-}
-
 ExitCode identify_records(const Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"text", "json", "yaml"});
   const IdentificationOptions options = identification_options(arguments);
@@ -197,7 +183,8 @@ ExitCode identify_records(const Arguments& arguments) {
                              : format == "yaml" ? manifest_fragment(found)
                                                 : identification_text(found);
   if (arguments.has("output")) {
-    write_report(report, arguments.required("output"));
+    require_new(arguments.required("output"));
+    replace_file(arguments.required("output"), report);
   } else {
     fmt::print("{}", report);
   }

@@ -1,11 +1,9 @@
-#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 
 #include "analysis/comparison/compare_studies.hpp"
@@ -68,18 +66,6 @@ StudyReport report_of(const Arguments& arguments, const StudyFile& file) {
   return report;
 }
 
-/// A file that has its name only when it is whole.
-void write_file(const std::filesystem::path& path, std::string_view content) {
-  const UnfinishedFile unfinished(path);
-  {
-    const FileDescriptor file(
-        ::open(unfinished.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (!file.valid()) fail_with(path, "write", errno);
-    write_all(path, file, content);
-  }
-  publish(path);
-}
-
 /// The output, which is none of the files that are read.
 std::filesystem::path picture_or_page(const Arguments& arguments) {
   std::filesystem::path output = output_place(arguments);
@@ -94,7 +80,7 @@ std::filesystem::path picture_or_page(const Arguments& arguments) {
 ExitCode write_report(const Arguments& arguments) {
   const std::filesystem::path output = picture_or_page(arguments);
   const StudyFile file(arguments.operands()[0]);
-  write_file(output, html_page(report_of(arguments, file).page));
+  replace_file(output, html_page(report_of(arguments, file).page));
   return ExitCode::success;
 }
 
@@ -139,7 +125,7 @@ ExitCode plot(const Arguments& arguments) {
   }
   const StudyFile file(input);
   const StudyReport report = report_of(arguments, file);
-  write_file(output, picture(find_figure(report.page, arguments.required("figure")), extension == ".png"));
+  replace_file(output, picture(find_figure(report.page, arguments.required("figure")), extension == ".png"));
   return ExitCode::success;
 }
 

@@ -1,9 +1,7 @@
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <system_error>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -11,6 +9,7 @@
 #include "experiments/study.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/storage/durable_file.hpp"
+#include "results/storage/output_file.hpp"
 #include "runners/commands.hpp"
 #include "runners/replay.hpp"
 #include "runners/trace_writer.hpp"
@@ -53,8 +52,8 @@ std::int64_t index_option(const Arguments& arguments, const char* name, std::int
 }
 
 /// Runs the trial and writes its samples; what else is kept of it is returned.
-TrialResult write_trace(const TraceSubject& subject, std::FILE* file, bool json) {
-  TraceWriter writer(file, json);
+TrialResult write_trace(const TraceSubject& subject, const TraceWriter::Sink& sink, bool json) {
+  TraceWriter writer(sink, json);
   writer.begin(subject);
   TrialObservers observers;
   observers.sample = [&](const SampleRecord& record) { writer.write(record); };
@@ -70,19 +69,16 @@ TrialResult write_trace(const TraceSubject& subject, std::FILE* file, bool json)
 /// Writes the trace to a file that has its name only when it is whole.
 TrialResult write_trace_file(const TraceSubject& subject, const std::filesystem::path& path, bool json) {
   require_new(path);
-  const UnfinishedFile unfinished(path);
-  std::FILE* const file = std::fopen(unfinished.path().c_str(), "w");
-  if (file == nullptr) fail_with(path, "write", errno);
-  TrialResult result;
-  try {
-    result = write_trace(subject, file, json);
-  } catch (const std::system_error& error) {
-    std::fclose(file);
-    fail_with(path, "write", error.code().value());
-  }
-  if (std::fclose(file) != 0) fail_with(path, "write", errno);
-  publish(path);
+  OutputFile file(path);
+  TrialResult result = write_trace(
+      subject, [&file](std::string_view text) { file.write(text); }, json);
+  file.finish();
+  file.publish();
   return result;
+}
+
+void print_text(std::string_view text) {
+  fmt::print("{}", text);
 }
 
 TrialResult recorded_trial(const StudyFile& file, RowRange row) {
@@ -115,7 +111,7 @@ ExitCode trace(const Arguments& arguments) {
   const TraceSubject subject{study, point, index, trial};
   const TrialResult replayed = arguments.has("output")
                                    ? write_trace_file(subject, arguments.required("output"), json)
-                                   : write_trace(subject, stdout, json);
+                                   : write_trace(subject, print_text, json);
   if (!file) return ExitCode::success;
 
   const std::vector<std::string> different = differences(study.input_columns, recorded_trial(*file, row),

@@ -70,15 +70,16 @@ void TraceWriter::begin(const TraceSubject& subject) {
     }
     const std::string rig =
         subject.study.rigs > 0 ? fmt::format(", \"rig\": {}", rig_of(subject.study, subject.index)) : "";
-    fmt::print(file_, "{{\"name\": {}, \"point\": {}, \"trial\": {}{},\n \"inputs\": {},\n \"samples\": [",
-               nlohmann::json(subject.study.name).dump(), subject.point, subject.index, rig, inputs.dump());
+    sink_(fmt::format("{{\"name\": {}, \"point\": {}, \"trial\": {}{},\n \"inputs\": {},\n \"samples\": [",
+                      nlohmann::json(subject.study.name).dump(), subject.point, subject.index, rig,
+                      inputs.dump()));
     return;
   }
   std::string header;
   for (const RecordField<TraceRecord>& field : columns_) {
     header += (header.empty() ? "" : ",") + field.column.name;
   }
-  fmt::print(file_, "{}\n", header);
+  sink_(header + "\n");
 }
 
 void TraceWriter::write(const SampleRecord& sample) {
@@ -90,9 +91,9 @@ void TraceWriter::write(const SampleRecord& sample) {
     line += value_text(field, record, json_);
   }
   if (json_) {
-    fmt::print(file_, "{}\n  {{{}}}", first_ ? "" : ",", line);
+    sink_(fmt::format("{}\n  {{{}}}", first_ ? "" : ",", line));
   } else {
-    fmt::print(file_, "{}\n", line);
+    sink_(line + "\n");
   }
   first_ = false;
 }
@@ -101,7 +102,7 @@ void TraceWriter::end(const TrialOutcome& outcome) {
   if (!json_) return;
   nlohmann::ordered_json moves = nlohmann::ordered_json::array();
   for (const MoveOutcome& move : outcome.moves) moves.push_back(outcome_json(move, measures_));
-  fmt::print(file_, "],\n \"outcome\": {}}}\n", moves.dump());
+  sink_(fmt::format("],\n \"outcome\": {}}}\n", moves.dump()));
 }
 
 }  // namespace zerocount

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <cstdio>
-#include <string>
+#include <functional>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/trial/outcome.hpp"
@@ -24,16 +25,19 @@ struct TraceSubject {
 /// to the same double; in JSON what is not finite is null.
 class TraceWriter {
  public:
+  using Sink = std::function<void(std::string_view)>;
+
+  /// @param sink takes the text, piece by piece
   /// @param json JSON: an object with the trial's inputs, its samples and its outcome; otherwise CSV: one
   /// line per sample.
-  TraceWriter(std::FILE* file, bool json) : file_(file), json_(json) {}
+  TraceWriter(Sink sink, bool json) : sink_(std::move(sink)), json_(json) {}
 
   void begin(const TraceSubject& subject);
   void write(const SampleRecord& record);
   void end(const TrialOutcome& outcome);
 
  private:
-  std::FILE* file_;
+  Sink sink_;
   bool json_;
   std::vector<RecordField<TraceRecord>> columns_;   ///< since begin()
   std::vector<RecordField<MoveOutcome>> measures_;  ///< likewise

@@ -15,6 +15,7 @@
 #include "experiments/designs/sha256.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 #include "results/storage/durable_file.hpp"
+#include "results/storage/output_file.hpp"
 
 namespace zerocount {
 namespace {
@@ -106,9 +107,14 @@ BaselineUpdate update_baseline(const fs::path& file, const fs::path& output, con
         "{} was made by a build with changes that were not committed: nobody else can make it again",
         file.string()));
   }
-  replace_file(baseline_log(output),
-               log + log_entry(header, sha256_hex(bytes), reason, replaced, update.comparison));
-  replace_file(output, bytes);
+  OutputFile record(baseline_log(output));
+  record.write(log + log_entry(header, sha256_hex(bytes), reason, replaced, update.comparison));
+  record.finish();
+  OutputFile baseline(output);
+  baseline.write(bytes);
+  baseline.finish();
+  record.publish();
+  baseline.publish();
   return update;
 }
 

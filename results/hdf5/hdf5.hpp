@@ -11,12 +11,17 @@
 
 #include "core/failure.hpp"
 #include "results/hdf5/element.hpp"
+#include "results/hdf5/written_values.hpp"
 
 /// A thin layer over the HDF5 C library: handles that close themselves, and failures in our own words.
 ///
 /// A failed operation throws Failure: machine_failed where the file is being written or the system reports an
 /// error, bad_data where a file being read does not hold what it should. No text of the library reaches the
 /// message. All objects of one file must be used by one thread at a time.
+///
+/// A file is written in three steps: File::create, File::close, require_written. A write that fails is
+/// reported by the call that made it, or by a later one, File::close at the latest. After it the library is
+/// not called again for that file: what it holds is left to the end of the process.
 namespace zerocount::hdf5 {
 
 using Id = std::int64_t;          ///< an identifier of the library, its hid_t
@@ -36,7 +41,8 @@ class Handle {
   ~Handle() { close(); }
 
   Id get() const { return id_; }
-  bool close();  ///< false where the library reports a failure; closing twice is harmless
+  bool close();    ///< false where the library reports a failure; closing twice is harmless
+  void abandon();  ///< leaves it open for ever
 
  private:
   static constexpr Id none = -1;
@@ -45,17 +51,20 @@ class Handle {
   Close close_{nullptr};
 };
 
-/// The file an object belongs to, for messages, and whether it is being read or written.
-struct Origin {
-  std::string file;
-  bool writing{false};
-};
+/// The file that objects belong to.
+struct Origin;
 
 /// A group or a dataset: something with a path and attributes.
 class Object {
  public:
+  Object(Object&& other) noexcept = default;
+  Object& operator=(Object&& other) noexcept;
+  Object(const Object&) = delete;
+  Object& operator=(const Object&) = delete;
+  ~Object() { release(); }
+
   const std::string& path() const { return path_; }
-  const std::string& file_name() const { return origin_->file; }  ///< of the file it belongs to
+  const std::string& file_name() const;  ///< of the file it belongs to
   bool has_attribute(const std::string& name) const;
 
   void set_text(const std::string& name, const std::string& value);
@@ -67,26 +76,31 @@ class Object {
   std::string text(const std::string& name) const;
   std::int64_t integer(const std::string& name) const;
   std::uint64_t unsigned_integer(const std::string& name) const;
+  std::vector<std::int64_t> integers(const std::string& name) const;
 
   /// Throws the Failure for this object; `problem` completes "damaged: ".
   [[noreturn]] void fail(std::string_view problem) const;
 
  protected:
-  Object(Handle handle, std::shared_ptr<const Origin> origin, std::string path)
-      : handle_(std::move(handle)), origin_(std::move(origin)), path_(std::move(path)) {}
+  Object(Handle handle, std::shared_ptr<Origin> origin, std::string path)
+      : origin_(std::move(origin)), handle_(std::move(handle)), path_(std::move(path)) {}
 
   Id id() const { return handle_.get(); }
-  const std::shared_ptr<const Origin>& origin() const { return origin_; }
+  const std::shared_ptr<Origin>& origin() const { return origin_; }
+  /// The identifier that an operation gave, or the Failure where it gave none or a write has failed.
   Handle own(Id id, Handle::Close close, std::string_view problem) const;
+  /// The same for an operation that gives a status.
   void require(int status, std::string_view problem) const;
-
-  Handle handle_;
+  WrittenObject& written() const;  ///< where what is written to this object is recorded
+  void release() noexcept;         ///< closes it; a failure is kept for File::close
 
  private:
   void write_attribute(const std::string& name, Id file_type, Id memory_type, Id space, const void* data);
   Handle open_attribute(const std::string& name) const;
+  Handle open_single(const std::string& name) const;  ///< an attribute with one value
 
-  std::shared_ptr<const Origin> origin_;
+  std::shared_ptr<Origin> origin_;
+  Handle handle_;
   std::string path_;
 };
 
@@ -117,10 +131,12 @@ class Dataset : public Object {
 
   void make_scale(const std::string& name);
   void attach_scale(const Dataset& scale, unsigned dimension);
+  bool is_scale() const;
+  bool has_scale(const Dataset& scale, unsigned dimension) const;
 
  private:
   friend class Group;
-  Dataset(Handle handle, std::shared_ptr<const Origin> origin, std::string path);
+  Dataset(Handle handle, std::shared_ptr<Origin> origin, std::string path);
   Element stored_element() const;
   struct Selection {
     Handle file;
@@ -142,7 +158,7 @@ class Group : public Object {
   std::vector<std::string> children() const;     ///< names, in order of creation
 
  protected:
-  Group(Handle handle, std::shared_ptr<const Origin> origin, std::string path)
+  Group(Handle handle, std::shared_ptr<Origin> origin, std::string path)
       : Object(std::move(handle), std::move(origin), std::move(path)) {}
   std::string path_to(const std::string& name) const;
 };
@@ -154,20 +170,31 @@ bool is_hdf5(const std::filesystem::path& path);
 /// An open file, which is its root group.
 class File : public Group {
  public:
+  File(File&& other) noexcept = default;
+  File& operator=(File&& other) = delete;
+  ~File();
+
   /// A new file at `path`; what stood there is lost.
   static File create(const std::filesystem::path& path);
   static File open_to_read(const std::filesystem::path& path);
-  static File open_to_change(const std::filesystem::path& path);
+  /// @param so_far what was written to it before, which close() is to return with the rest
+  static File open_to_change(const std::filesystem::path& path, WrittenValues so_far = {});
 
-  /// Writes everything out and closes. Without it the destructor closes, and failures go unseen.
-  void close();
+  /// Writes everything to the disk and closes. All other objects of the file must be gone.
+  /// @return what was written, for require_written
+  WrittenValues close();
 
  private:
-  File(Handle file, Handle root, std::shared_ptr<const Origin> origin)
+  friend void require_written(const std::filesystem::path& path, const WrittenValues& written);
+  File(Handle file, Handle root, std::shared_ptr<Origin> origin)
       : Group(std::move(root), std::move(origin), "/"), file_(std::move(file)) {}
-  static File wrap(Id file, std::shared_ptr<const Origin> origin);
+  static File open(std::shared_ptr<Origin> origin, bool create);
 
   Handle file_;
 };
+
+/// Reads the file and compares it with what was written to it: every value, text, attribute and axis.
+/// @throws Failure (machine_failed) where anything is missing, differs or cannot be read.
+void require_written(const std::filesystem::path& path, const WrittenValues& written);
 
 }  // namespace zerocount::hdf5

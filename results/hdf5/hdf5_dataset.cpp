@@ -28,7 +28,7 @@ Id memory_type(Element element) {
 
 }  // namespace
 
-Dataset::Dataset(Handle handle, std::shared_ptr<const Origin> origin, std::string path)
+Dataset::Dataset(Handle handle, std::shared_ptr<Origin> origin, std::string path)
     : Object(std::move(handle), std::move(origin), std::move(path)), element_(stored_element()) {}
 
 Element Dataset::stored_element() const {
@@ -43,8 +43,10 @@ Element Dataset::stored_element() const {
 
 std::vector<Size> Dataset::extent() const {
   const Handle space = own(H5Dget_space(id()), H5Sclose, "its size cannot be read");
-  std::vector<Size> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
-  H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  require(rank, "its number of dimensions cannot be read");
+  std::vector<Size> extent(static_cast<std::size_t>(rank));
+  require(H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr), "its size cannot be read");
   return extent;
 }
 
@@ -60,7 +62,7 @@ Dataset::Selection Dataset::select(std::int64_t first, std::int64_t rows) const 
   start[0] = static_cast<Size>(first);
   Selection selection{
       own(H5Dget_space(id()), H5Sclose, "its size cannot be read"),
-      Handle(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose)};
+      made(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose)};
   require(
       H5Sselect_hyperslab(selection.file.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
       "its rows cannot be selected");
@@ -72,6 +74,8 @@ void Dataset::write(std::int64_t first, std::int64_t rows, const void* data) {
   require(
       H5Dwrite(id(), memory_type(element_), selection.memory.get(), selection.file.get(), H5P_DEFAULT, data),
       "its values");
+  const std::size_t size = static_cast<std::size_t>(rows) * row_size(element_, extent());
+  written().rows.push_back({first, rows, digest_of(data, size)});
 }
 
 void Dataset::read(std::int64_t first, std::int64_t rows, void* data) const {
@@ -87,12 +91,15 @@ void Dataset::write_texts(std::span<const std::string> texts) {
   std::transform(texts.begin(), texts.end(), data.begin(),
                  [](const std::string& text) { return text.c_str(); });
   require(H5Dwrite(id(), text_type().get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()), "its texts");
+  written().texts.assign(texts.begin(), texts.end());
 }
 
 std::vector<std::string> Dataset::read_texts() const {
   if (element_ != Element::text) fail("its elements are not texts");
   const Handle space = own(H5Dget_space(id()), H5Sclose, "its size cannot be read");
-  std::vector<char*> data(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())), nullptr);
+  const hssize_t size = H5Sget_simple_extent_npoints(space.get());
+  if (size < 0) fail("its size cannot be read");
+  std::vector<char*> data(static_cast<std::size_t>(size), nullptr);
   if (data.empty()) return {};
   const Handle type = text_type();
   require(H5Dread(id(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()),
@@ -100,16 +107,30 @@ std::vector<std::string> Dataset::read_texts() const {
   std::vector<std::string> texts(data.size());
   std::transform(data.begin(), data.end(), texts.begin(),
                  [](const char* text) { return text == nullptr ? "" : text; });
-  H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, data.data());
+  require(H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, data.data()), "its texts cannot be read");
   return texts;
 }
 
 void Dataset::make_scale(const std::string& name) {
   require(H5DSset_scale(id(), name.c_str()), "its name as an axis");
+  written().is_scale = true;
 }
 
 void Dataset::attach_scale(const Dataset& scale, unsigned dimension) {
   require(H5DSattach_scale(id(), scale.id(), dimension), "its axis");
+  written().scales.emplace_back(dimension, scale.path());
+}
+
+bool Dataset::is_scale() const {
+  const htri_t answer = H5DSis_scale(id());
+  require(answer, "whether it is an axis cannot be read");
+  return answer > 0;
+}
+
+bool Dataset::has_scale(const Dataset& scale, unsigned dimension) const {
+  const htri_t answer = H5DSis_attached(id(), scale.id(), dimension);
+  require(answer, "its axes cannot be read");
+  return answer > 0;
 }
 
 }  // namespace zerocount::hdf5

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -9,20 +12,48 @@
 
 #include "results/hdf5/element.hpp"
 #include "results/hdf5/hdf5.hpp"
+#include "results/storage/byte_file.hpp"
 
 /// What the sources of the HDF5 layer share; not for its users.
 namespace zerocount::hdf5 {
 
 static_assert(std::is_same_v<Id, hid_t> && std::is_same_v<Size, hsize_t> && std::is_same_v<int, herr_t>);
 
+enum class Purpose {
+  read,
+  write,
+  read_back  ///< to see whether what was written is there
+};
+
+struct Origin {
+  Purpose purpose{Purpose::read};
+  std::shared_ptr<ByteFile> bytes;
+  WrittenValues written;   ///< so far
+  bool incomplete{false};  ///< an operation that writes has failed, or the closing of an object
+
+  /// The library must not be called again: see file_driver.hpp.
+  bool broken() const { return purpose == Purpose::write && (incomplete || bytes->failure()); }
+};
+
 /// Throws the Failure for the object `path` of a file, after an operation of the library failed (or was found
 /// wanting).
-[[noreturn]] void fail_on(const Origin& origin, const std::string& path, std::string_view problem);
+[[noreturn]] void fail_on(Origin& origin, const std::string& path, std::string_view problem);
+
+/// For what no file is involved in, a type, an extent or a list of properties: throws the Failure where the
+/// library could not make it.
+Handle made(Id id, Handle::Close close);
+void demand(herr_t status);
 
 Id file_type(Element element);  ///< of the numbers; texts have text_type()
 Handle text_type();
 
 /// Properties of a new file, group or dataset: creation order tracked, no times.
 Handle creation_properties(Id kind);
+
+/// Bytes of a row of a dataset with this extent: its first dimension counts the rows.
+std::size_t row_size(Element element, std::span<const Size> extent);
+
+/// Tells one text of bytes from another.
+std::size_t digest_of(const void* data, std::size_t size);
 
 }  // namespace zerocount::hdf5

@@ -1,7 +1,12 @@
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "results/hdf5/file_driver.hpp"
 #include "results/hdf5/hdf5_detail.hpp"
 
 namespace zerocount::hdf5 {
@@ -15,18 +20,17 @@ constexpr unsigned deflate_level = 1;
 void quieten() {
   static const herr_t no_work_at_exit = H5dont_atexit();
   static_cast<void>(no_work_at_exit);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // a setting of the calling thread
+  demand(H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr));  // a setting of the calling thread
 }
 
-/// Object headers of version 2 carry checksums; later formats would lock out readers built on HDF5 1.8. Files
-/// are immutable once they have their name, so the library's own file locks (which fail on some cluster file
-/// systems) are off.
-Handle access_properties() {
-  Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_libver_bounds(properties.get(), H5F_LIBVER_V18, H5F_LIBVER_V18);
-  H5Pset_fclose_degree(properties.get(), H5F_CLOSE_STRONG);
-  H5Pset_file_locking(properties.get(), false, true);
-  return properties;
+ByteFile::Mode mode_of(Purpose purpose, bool create) {
+  if (purpose != Purpose::write) return ByteFile::Mode::read;
+  return create ? ByteFile::Mode::create : ByteFile::Mode::change;
+}
+
+std::shared_ptr<Origin> origin_of(const std::filesystem::path& path, Purpose purpose, bool create = false) {
+  auto bytes = std::make_shared<ByteFile>(path, mode_of(purpose, create));
+  return std::make_shared<Origin>(Origin{purpose, std::move(bytes), {}, false});
 }
 
 }  // namespace
@@ -37,9 +41,11 @@ std::string Group::path_to(const std::string& name) const {
 
 Group Group::create_group(const std::string& name) {
   const Handle properties = creation_properties(H5P_GROUP_CREATE);
-  return Group(own(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Gclose,
-                   fmt::format("the group '{}'", name)),
-               origin(), path_to(name));
+  Group group(own(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Gclose,
+                  fmt::format("the group '{}'", name)),
+              origin(), path_to(name));
+  group.written();  // even if it stays empty
+  return group;
 }
 
 Group Group::open_group(const std::string& name) const {
@@ -70,10 +76,12 @@ Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
   }
   const Handle text = text_type();
   const Id type = storage.element == Element::text ? text.get() : file_type(storage.element);
-  return Dataset(
+  Dataset dataset(
       own(H5Dcreate2(id(), name.c_str(), type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
           H5Dclose, problem),
       origin(), path_to(name));
+  dataset.written();  // even if it stays without values
+  return dataset;
 }
 
 Dataset Group::open_dataset(const std::string& name) const {
@@ -83,7 +91,9 @@ Dataset Group::open_dataset(const std::string& name) const {
 }
 
 bool Group::contains(const std::string& name) const {
-  return H5Lexists(id(), name.c_str(), H5P_DEFAULT) > 0;
+  const htri_t answer = H5Lexists(id(), name.c_str(), H5P_DEFAULT);
+  require(answer, "its list of members");
+  return answer > 0;
 }
 
 bool Group::is_group(const std::string& name) const {
@@ -104,45 +114,59 @@ std::vector<std::string> Group::children() const {
 }
 
 bool is_hdf5(const std::filesystem::path& path) {
-  quieten();
-  const htri_t answer = H5Fis_hdf5(path.c_str());
-  if (answer < 0) fail_on({path.string(), false}, "/", "its beginning cannot be read");
-  return answer > 0;
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  const std::shared_ptr<Origin> origin = origin_of(path, Purpose::read);
+  std::string beginning(signature.size(), '\0');
+  if (!origin->bytes->read(0, std::as_writable_bytes(std::span(beginning)))) fail_on(*origin, "/", "");
+  return beginning == signature;
 }
 
-File File::wrap(Id file, std::shared_ptr<const Origin> origin) {
-  if (file < 0) fail_on(*origin, "/", "it is cut short or its structure is broken");
-  Handle handle(file, H5Fclose);
-  const Id root = H5Gopen2(file, "/", H5P_DEFAULT);
-  if (root < 0) fail_on(*origin, "/", "the root group cannot be opened");
-  return File(std::move(handle), Handle(root, H5Gclose), std::move(origin));
+File File::open(std::shared_ptr<Origin> origin, bool create) {
+  quieten();
+  const std::string path = origin->bytes->path().string();
+  const Handle creation = creation_properties(H5P_FILE_CREATE);
+  const Handle access = access_properties(origin->bytes);
+  const unsigned flags = origin->bytes->writable() ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
+  Handle file(create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get())
+                     : H5Fopen(path.c_str(), flags, access.get()),
+              H5Fclose);
+  if (file.get() < 0) fail_on(*origin, "/", "it is cut short or its structure is broken");
+  Handle root(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose);
+  File opened(std::move(file), std::move(root), std::move(origin));
+  opened.require(static_cast<herr_t>(opened.id() < 0 ? -1 : 0), "the root group cannot be opened");
+  return opened;
 }
 
 File File::create(const std::filesystem::path& path) {
-  quieten();
-  const Handle creation = creation_properties(H5P_FILE_CREATE);
-  const Handle access = access_properties();
-  return wrap(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()),
-              std::make_shared<Origin>(Origin{path.string(), true}));
+  return open(origin_of(path, Purpose::write, true), true);
 }
 
 File File::open_to_read(const std::filesystem::path& path) {
-  quieten();
-  const Handle access = access_properties();
-  return wrap(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()),
-              std::make_shared<Origin>(Origin{path.string(), false}));
+  return open(origin_of(path, Purpose::read), false);
 }
 
-File File::open_to_change(const std::filesystem::path& path) {
-  quieten();
-  const Handle access = access_properties();
-  return wrap(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()),
-              std::make_shared<Origin>(Origin{path.string(), true}));
+File File::open_to_change(const std::filesystem::path& path, WrittenValues so_far) {
+  std::shared_ptr<Origin> origin = origin_of(path, Purpose::write);
+  origin->written = std::move(so_far);
+  return open(std::move(origin), false);
 }
 
-void File::close() {
-  handle_.close();
-  if (!file_.close()) fail("the rest of its contents");
+File::~File() {
+  release();  // the root, before its file
+  if (origin() && origin()->broken()) {
+    file_.abandon();
+    origin()->bytes->close();  // or the file would keep its place on the disk when its name is removed
+  }
+}
+
+WrittenValues File::close() {
+  if (origin().use_count() > 1) throw std::logic_error("a file is closed before the objects in it");
+  Origin& closing = *origin();
+  release();
+  if (!closing.broken() && !file_.close()) closing.incomplete = true;
+  if (closing.purpose == Purpose::write) closing.bytes->close();
+  if (closing.broken()) fail("the rest of its contents");
+  return std::move(closing.written);
 }
 
 }  // namespace zerocount::hdf5

@@ -1,45 +1,56 @@
-#include <cstdlib>
-#include <cstring>
-#include <system_error>
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "results/hdf5/hdf5_detail.hpp"
+#include "results/storage/durable_file.hpp"
 
 namespace zerocount::hdf5 {
 namespace {
 
-/// The system's error number in the library's record of its last failure, or 0. The record is the only
-/// witness: errno itself has been overwritten by then.
-int system_error() {
-  int number = 0;
-  const auto visit = [](unsigned, const H5E_error2_t* entry, void* found) -> herr_t {
-    constexpr const char* mark = "errno = ";
-    const char* at = entry->desc == nullptr ? nullptr : std::strstr(entry->desc, mark);
-    if (at != nullptr) *static_cast<int*>(found) = std::atoi(at + std::strlen(mark));
-    return 0;
-  };
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, visit, &number);
-  return number;
+std::size_t attribute_size(const Handle& attribute) {
+  const Handle space = made(H5Aget_space(attribute.get()), H5Sclose);
+  return static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.get())));
+}
+
+std::string place(const std::string& path) {
+  return path == "/" ? "" : " " + path;
 }
 
 }  // namespace
 
-void fail_on(const Origin& origin, const std::string& path, std::string_view problem) {
-  const int error = system_error();
-  const std::string reason = error == 0 ? std::string(problem) : std::system_category().message(error);
-  const std::string object = path == "/" ? "" : " " + path;
-  if (origin.writing) {
-    throw Failure(ExitCode::machine_failed,
-                  fmt::format("{}: cannot write{}: {}", origin.file, object, reason));
+void fail_on(Origin& origin, const std::string& path, std::string_view problem) {
+  const std::string file = origin.bytes->path().string();
+  if (const std::optional<IoFailure>& failure = origin.bytes->failure()) {
+    origin.incomplete = true;
+    fail_with(file, failure->action, failure->error);
   }
-  if (error != 0) {
-    throw Failure(ExitCode::machine_failed,
-                  fmt::format("{}: cannot read{}: {}", origin.file, object, reason));
+  switch (origin.purpose) {
+    case Purpose::read:
+      throw Failure(ExitCode::bad_data, fmt::format("{}: damaged:{}{} {}", file, place(path),
+                                                    place(path).empty() ? "" : ":", problem));
+    case Purpose::write:
+      origin.incomplete = true;
+      throw Failure(ExitCode::machine_failed,
+                    fmt::format("{}: cannot write{}: {}", file, place(path), problem));
+    case Purpose::read_back:
+      break;
   }
-  throw Failure(ExitCode::bad_data,
-                fmt::format("{}: damaged:{}{} {}", origin.file, object, object.empty() ? "" : ":", problem));
+  fail_read_back(file, fmt::format("{}: {}", path, problem));
+}
+
+Handle made(Id id, Handle::Close close) {
+  if (id < 0) {
+    throw Failure(ExitCode::machine_failed,
+                  "the HDF5 library cannot make what it needs to read or write a file (out of memory?)");
+  }
+  return {id, close};
+}
+
+void demand(herr_t status) {
+  made(status, nullptr);
 }
 
 Id file_type(Element element) {
@@ -61,19 +72,29 @@ Id file_type(Element element) {
 }
 
 Handle text_type() {
-  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.get(), H5T_VARIABLE);
-  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  Handle type = made(H5Tcopy(H5T_C_S1), H5Tclose);
+  demand(H5Tset_size(type.get(), H5T_VARIABLE));
+  demand(H5Tset_cset(type.get(), H5T_CSET_UTF8));
   return type;
 }
 
 Handle creation_properties(Id kind) {
-  Handle properties(H5Pcreate(kind), H5Pclose);
+  Handle properties = made(H5Pcreate(kind), H5Pclose);
   const unsigned order = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
-  H5Pset_obj_track_times(properties.get(), false);
-  H5Pset_attr_creation_order(properties.get(), order);
-  if (kind != H5P_DATASET_CREATE) H5Pset_link_creation_order(properties.get(), order);
+  demand(H5Pset_obj_track_times(properties.get(), false));
+  demand(H5Pset_attr_creation_order(properties.get(), order));
+  if (kind != H5P_DATASET_CREATE) demand(H5Pset_link_creation_order(properties.get(), order));
   return properties;
+}
+
+std::size_t row_size(Element element, std::span<const Size> extent) {
+  std::size_t size = size_of(element);
+  for (const Size length : extent.subspan(1)) size *= length;
+  return size;
+}
+
+std::size_t digest_of(const void* data, std::size_t size) {
+  return std::hash<std::string_view>{}({static_cast<const char*>(data), size});
 }
 
 Handle::Handle(Handle&& other) noexcept
@@ -93,65 +114,101 @@ bool Handle::close() {
   return close_(std::exchange(id_, none)) >= 0;
 }
 
+void Handle::abandon() {
+  id_ = none;
+}
+
+Object& Object::operator=(Object&& other) noexcept {
+  if (this != &other) {
+    release();
+    origin_ = std::move(other.origin_);
+    handle_ = std::move(other.handle_);
+    path_ = std::move(other.path_);
+  }
+  return *this;
+}
+
+void Object::release() noexcept {
+  if (!origin_) return;
+  if (origin_->broken()) handle_.abandon();
+  if (!handle_.close()) origin_->incomplete = true;
+}
+
+const std::string& Object::file_name() const {
+  return origin_->bytes->path().native();
+}
+
+WrittenObject& Object::written() const {
+  return origin_->written[path_];
+}
+
 void Object::fail(std::string_view problem) const {
   fail_on(*origin_, path_, problem);
 }
 
 Handle Object::own(Id id, Handle::Close close, std::string_view problem) const {
-  if (id < 0) fail(problem);
-  return Handle(id, close);
+  if (id < 0 || origin_->bytes->failure()) fail(problem);
+  return {id, close};
 }
 
-void Object::require(herr_t status, std::string_view problem) const {
-  if (status < 0) fail(problem);
+void Object::require(int status, std::string_view problem) const {
+  if (status < 0 || origin_->bytes->failure()) fail(problem);
 }
 
 bool Object::has_attribute(const std::string& name) const {
-  return H5Aexists(id(), name.c_str()) > 0;
+  const htri_t answer = H5Aexists(id(), name.c_str());
+  require(answer, "its list of attributes cannot be read");
+  return answer > 0;
 }
 
 void Object::write_attribute(const std::string& name, Id type, Id from, Id space, const void* data) {
   const std::string problem = fmt::format("attribute '{}'", name);
-  const Handle attribute =
+  Handle attribute =
       own(H5Acreate2(id(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, problem);
   require(H5Awrite(attribute.get(), from, data), problem);
+  if (!attribute.close()) fail(problem);
 }
 
 void Object::set_text(const std::string& name, const std::string& value) {
   const Handle type = text_type();
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle space = made(H5Screate(H5S_SCALAR), H5Sclose);
   const char* data = value.c_str();
   write_attribute(name, type.get(), type.get(), space.get(), &data);
+  written().attributes[name] = value;
 }
 
 void Object::set_integer(const std::string& name, std::int64_t value) {
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle space = made(H5Screate(H5S_SCALAR), H5Sclose);
   write_attribute(name, H5T_STD_I64LE, H5T_NATIVE_INT64, space.get(), &value);
+  written().attributes[name] = std::vector<std::int64_t>{value};
 }
 
 void Object::set_unsigned(const std::string& name, std::uint64_t value) {
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle space = made(H5Screate(H5S_SCALAR), H5Sclose);
   write_attribute(name, H5T_STD_U64LE, H5T_NATIVE_UINT64, space.get(), &value);
+  written().attributes[name] = value;
 }
 
 void Object::set_integers(const std::string& name, Element element, std::span<const std::int64_t> values) {
   const Size size = values.size();
-  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  const Handle space = made(H5Screate_simple(1, &size, nullptr), H5Sclose);
   write_attribute(name, file_type(element), H5T_NATIVE_INT64, space.get(), values.data());
+  written().attributes[name] = std::vector<std::int64_t>(values.begin(), values.end());
 }
 
 Handle Object::open_attribute(const std::string& name) const {
-  Handle attribute = own(H5Aopen(id(), name.c_str(), H5P_DEFAULT), H5Aclose,
-                         fmt::format("the attribute '{}' is missing", name));
-  const Handle space(H5Aget_space(attribute.get()), H5Sclose);
-  if (H5Sget_simple_extent_npoints(space.get()) != 1) {
-    fail(fmt::format("the attribute '{}' is not a single value", name));
-  }
+  return own(H5Aopen(id(), name.c_str(), H5P_DEFAULT), H5Aclose,
+             fmt::format("the attribute '{}' is missing", name));
+}
+
+Handle Object::open_single(const std::string& name) const {
+  Handle attribute = open_attribute(name);
+  if (attribute_size(attribute) != 1) fail(fmt::format("the attribute '{}' is not a single value", name));
   return attribute;
 }
 
 std::string Object::text(const std::string& name) const {
-  const Handle attribute = open_attribute(name);
+  const Handle attribute = open_single(name);
   const std::string problem = fmt::format("the attribute '{}' is not a readable text", name);
   const Handle type = text_type();
   char* data = nullptr;
@@ -161,8 +218,16 @@ std::string Object::text(const std::string& name) const {
   return value;
 }
 
-std::int64_t Object::integer(const std::string& name) const {
+std::vector<std::int64_t> Object::integers(const std::string& name) const {
   const Handle attribute = open_attribute(name);
+  std::vector<std::int64_t> values(attribute_size(attribute));
+  require(H5Aread(attribute.get(), H5T_NATIVE_INT64, values.data()),
+          fmt::format("the attribute '{}' is not a list of numbers", name));
+  return values;
+}
+
+std::int64_t Object::integer(const std::string& name) const {
+  const Handle attribute = open_single(name);
   std::int64_t value = 0;
   require(H5Aread(attribute.get(), H5T_NATIVE_INT64, &value),
           fmt::format("the attribute '{}' is not a number", name));
@@ -170,7 +235,7 @@ std::int64_t Object::integer(const std::string& name) const {
 }
 
 std::uint64_t Object::unsigned_integer(const std::string& name) const {
-  const Handle attribute = open_attribute(name);
+  const Handle attribute = open_single(name);
   std::uint64_t value = 0;
   require(H5Aread(attribute.get(), H5T_NATIVE_UINT64, &value),
           fmt::format("the attribute '{}' is not a number", name));

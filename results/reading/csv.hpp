@@ -5,8 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "results/storage/durable_file.hpp"
-#include "results/storage/file_descriptor.hpp"
+#include "results/storage/output_file.hpp"
 
 namespace zerocount {
 
@@ -20,28 +19,25 @@ std::string csv_field(std::string_view text);
 /// nothing).
 std::string head_with_unit(std::string_view name, std::string_view unit);
 
-/// A table in the form of RFC 4180, but with lines that end in a single line feed. It stands at PATH.part
-/// until publish(), and is removed if that never comes.
+/// A table in the form of RFC 4180, but with lines that end in a single line feed. It is an
+/// OutputFile: it stands at PATH.part until publish(), and is removed if that never comes.
 /// @throws Failure (machine_failed) with the path and the reason, from every function.
 class CsvFile {
  public:
-  explicit CsvFile(const std::filesystem::path& path);
+  explicit CsvFile(const std::filesystem::path& path) : file_(path) {}
 
   void add(double value);
   void add(std::int64_t value);
   void add(std::string_view text);  ///< quoted where it must be
   void end_row();
-  void finish();   ///< brings the rest to the disk; nothing can be added after it
-  void publish();  ///< gives the finished file its name
+  void finish() { file_.finish(); }    ///< see OutputFile; nothing can be added after it
+  void publish() { file_.publish(); }  ///< gives the finished file its name
 
  private:
   void separate();
-  void flush();
 
-  std::filesystem::path path_;
-  UnfinishedFile part_;
-  FileDescriptor file_;
-  std::string buffer_;
+  OutputFile file_;
+  std::string row_;
   bool row_started_{false};
 };
 

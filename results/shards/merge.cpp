@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,10 +11,10 @@
 #include "results/layout/statistic_io.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/shards/concatenate.hpp"
+#include "results/shards/finish.hpp"
 #include "results/shards/profile_tables.hpp"
 #include "results/shards/rig_tables.hpp"
 #include "results/storage/durable_file.hpp"
-#include "results/storage/seal.hpp"
 
 namespace zerocount {
 namespace {
@@ -98,8 +99,9 @@ void write_points(hdf5::File& file, const Study& study) {
 }
 
 /// Writes everything but the statistics and the mark that the file is finished.
-void write_trials_of(std::span<const ShardInfo> shards, const Study& study, const fs::path& part,
-                     RowRange rows, const Provenance& provenance, const Renumbering& renumber) {
+hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const Study& study,
+                                    const fs::path& part, RowRange rows, const Provenance& provenance,
+                                    const Renumbering& renumber) {
   hdf5::File file = hdf5::File::create(part);
   write_header(file, make_header(study, FileKind::study, rows, provenance));
   write_points(file, study);
@@ -113,12 +115,20 @@ void write_trials_of(std::span<const ShardInfo> shards, const Study& study, cons
   if (!study.retained_trials.empty()) {
     concatenate(file, on_axis(trace_table(study.trace_extras), axis), shards, 1, 0, renumber);
   }
-  file.close();
+  return file.close();
 }
 
-void write_statistics(const fs::path& part, const Study& study, RowRange rows,
-                      const StoredStatistics& statistics) {
-  hdf5::File file = hdf5::File::open_to_change(part);
+StoredStatistics statistics_of(const fs::path& part, const hdf5::WrittenValues& written,
+                               const StatisticsOfPoints& statistics) {
+  try {
+    return statistics(StudyFile(part, Require::unfinished));
+  } catch (const Failure&) {
+    hdf5::require_written(part, written);  // or it is the writing that failed, and no shard
+    throw;
+  }
+}
+
+void write_point_statistics(hdf5::File& file, const Study& study, const StoredStatistics& statistics) {
   TableIo io = TableIo::open(file, point_table(study.axes, {}));
   const AxisKind axis = study.units.axis;
   const Table described = on_axis(point_table({}, statistics.points), axis);
@@ -130,14 +140,21 @@ void write_statistics(const fs::path& part, const Study& study, RowRange rows,
     }
     io.add(described.columns[1 + index]).write(0, io.rows(), statistic.values.data());
   }
+}
+
+/// @param written what the file holds; returned with what is added
+hdf5::WrittenValues write_statistics(const fs::path& part, const Study& study, RowRange rows,
+                                     hdf5::WrittenValues written, const StoredStatistics& statistics) {
+  hdf5::File file = hdf5::File::open_to_change(part, std::move(written));
+  write_point_statistics(file, study, statistics);
   for (StatisticTable table : statistics.tables) {
-    for (PointColumn& column : table.columns) column = on_axis(std::move(column), axis);
-    write_statistic_table(file, table, io.rows());
+    for (PointColumn& column : table.columns) column = on_axis(std::move(column), study.units.axis);
+    write_statistic_table(file, table, point_count(study));
   }
   if (statistics.groups) statistics.groups(file);
   if (study.rigs > 0 && rows == all_rows(study)) write_rig_counts(file, study);
   mark_finished(file);
-  file.close();
+  return file.close();
 }
 
 }  // namespace
@@ -165,12 +182,11 @@ void merge_shards(std::span<const ShardInfo> shards, const Study& study, const f
   if (fs::exists(output, error))
     fail(ExitCode::bad_input, output, "exists already; remove it or name another output");
   const UnfinishedFile part(output);
-  write_trials_of(ordered, study, part.path(), rows, of_all(ordered, provenance), renumber);
+  hdf5::WrittenValues written =
+      write_trials_of(ordered, study, part.path(), rows, of_all(ordered, provenance), renumber);
   StoredStatistics stored;
-  if (statistics && rows == all_rows(study)) stored = statistics(StudyFile(part.path(), Require::unfinished));
-  write_statistics(part.path(), study, rows, stored);
-  seal(part.path());
-  publish(output);
+  if (statistics && rows == all_rows(study)) stored = statistics_of(part.path(), written, statistics);
+  finish_results(output, write_statistics(part.path(), study, rows, std::move(written), stored));
 }
 
 }  // namespace zerocount

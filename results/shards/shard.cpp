@@ -9,8 +9,8 @@
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/reading/study_file.hpp"
+#include "results/shards/finish.hpp"
 #include "results/storage/durable_file.hpp"
-#include "results/storage/seal.hpp"
 
 namespace zerocount {
 namespace {
@@ -127,9 +127,7 @@ void write_shard(const fs::path& path, const Study& study, std::int64_t first_ro
   write_jerks(file, results);
   if (!study.retained_trials.empty()) write_trace(file, study.trace_extras, results);
   mark_finished(file);
-  file.close();
-  seal(part.path());
-  publish(path);
+  finish_results(path, file.close());
 }
 
 std::vector<fs::path> shard_files(const fs::path& directory) {

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "core/failure.hpp"
+#include "results/storage/output_file.hpp"
 
 namespace zerocount {
 namespace {
@@ -18,15 +19,21 @@ fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-void synchronise_directory(const fs::path& path) {
-  const FileDescriptor directory(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+/// Brings the name `path` to the disk.
+void synchronise_name(const fs::path& path) {
+  const FileDescriptor directory(::open(directory_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // Some file systems have no fsync of directories and say EINVAL: the names are as safe there as they can
   // be.
   if (!directory.valid() || (::fsync(directory.get()) != 0 && errno != EINVAL))
-    fail_with(path, "write", errno);
+    fail_with(path, "bring its name to the disk", errno);
 }
 
 }  // namespace
+
+void fail_read_back(const fs::path& path, std::string_view what) {
+  throw Failure(ExitCode::machine_failed,
+                fmt::format("{}: what was written is not what is read back: {}", path.string(), what));
+}
 
 void fail_with(const fs::path& path, std::string_view action, int error) {
   throw Failure(ExitCode::machine_failed, fmt::format("{}: cannot {}: {}", path.string(), action,
@@ -54,12 +61,14 @@ void require_new(const fs::path& path) {
 
 void publish(const fs::path& path) {
   const fs::path part = part_of(path);
-  {
-    const FileDescriptor file(::open(part.c_str(), O_RDONLY | O_CLOEXEC));
-    if (!file.valid() || ::fsync(file.get()) != 0) fail_with(part, "write", errno);
-  }
-  if (::rename(part.c_str(), path.c_str()) != 0) fail_with(path, "write", errno);
-  synchronise_directory(directory_of(path));
+  if (::rename(part.c_str(), path.c_str()) != 0)
+    fail_with(part, fmt::format("rename to {}", path.filename().string()), errno);
+  synchronise_name(path);
+}
+
+void synchronise(const fs::path& path, const FileDescriptor& file) {
+  if (::fsync(file.get()) != 0) fail_with(path, "bring to the disk", errno);
+  ::posix_fadvise(file.get(), 0, 0, POSIX_FADV_DONTNEED);  // an advice; not every file system takes it
 }
 
 void write_all(const fs::path& path, const FileDescriptor& file, std::string_view text) {
@@ -72,14 +81,10 @@ void write_all(const fs::path& path, const FileDescriptor& file, std::string_vie
 }
 
 void replace_file(const fs::path& path, std::string_view bytes) {
-  const UnfinishedFile unfinished(path);
-  {
-    const FileDescriptor file(
-        ::open(unfinished.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (!file.valid()) fail_with(path, "write", errno);
-    write_all(path, file, bytes);
-  }
-  publish(path);
+  OutputFile file(path);
+  file.write(bytes);
+  file.finish();
+  file.publish();
 }
 
 void make_directory(const fs::path& path) {
@@ -92,7 +97,7 @@ void make_directory(const fs::path& path) {
     if (errno == EEXIST && fs::is_directory(path, ignored)) return;
     fail_with(path, "make the directory", errno);
   }
-  synchronise_directory(directory_of(path));
+  synchronise_name(path);
 }
 
 }  // namespace zerocount

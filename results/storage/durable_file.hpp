@@ -30,9 +30,16 @@ class UnfinishedFile {
 /// machine_failed with the system's reason where that cannot be found out.
 void require_new(const std::filesystem::path& path);
 
-/// Brings the finished file part_of(path) to the disk and gives it its name `path`.
-/// @throws Failure (machine_failed) with the path and the system's reason.
+/// Gives the finished file part_of(path), which is on the disk, its name `path`, durably; what had it before
+/// is replaced.
+/// @throws Failure (machine_failed) with the path and the system's reason. Where it is only the folder that
+/// cannot be brought to the disk, the file has its name already.
 void publish(const std::filesystem::path& path);
+
+/// Brings what was written to an open file to the disk, and has the system drop its copy in memory, so that
+/// the file is then read from the disk.
+/// @throws Failure (machine_failed) with the path and the system's reason.
+void synchronise(const std::filesystem::path& path, const FileDescriptor& file);
 
 /// Writes all of `text` at the file's position; `path` is its name in messages.
 /// @throws Failure (machine_failed) with the path and the system's reason.
@@ -45,6 +52,9 @@ void replace_file(const std::filesystem::path& path, std::string_view bytes);
 /// Makes the directory and those above it, durably.
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void make_directory(const std::filesystem::path& path);
+
+/// @throws Failure (machine_failed): what was written to the file is not what is there.
+[[noreturn]] void fail_read_back(const std::filesystem::path& path, std::string_view what);
 
 /// @throws Failure (machine_failed): "PATH: cannot ACTION: reason of `error`" (an errno).
 [[noreturn]] void fail_with(const std::filesystem::path& path, std::string_view action, int error);

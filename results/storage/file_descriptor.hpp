@@ -18,12 +18,14 @@ class FileDescriptor {
   }
   FileDescriptor(const FileDescriptor&) = delete;
   FileDescriptor& operator=(const FileDescriptor&) = delete;
-  ~FileDescriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
+  ~FileDescriptor() { close(); }
 
   int get() const { return number_; }
   bool valid() const { return number_ >= 0; }
+
+  /// False, with errno, where the system reports a failure: some file systems say only here that a write
+  /// failed. Closing twice is harmless.
+  bool close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0; }
 
  private:
   int number_{-1};

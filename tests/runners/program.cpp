@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 /// Starts the program with its output going to these files.
 pid_t start(const std::vector<std::string>& words, const fs::path& directory, const fs::path& out,
-            const fs::path& err) {
+            const fs::path& err, const std::vector<std::string>& environment = {}) {
   const pid_t process = fork();
   if (process != 0) return process;
   const int out_file = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -26,6 +26,7 @@ pid_t start(const std::vector<std::string>& words, const fs::path& directory, co
   std::vector<char*> arguments{const_cast<char*>(ZEROCOUNT_PROGRAM)};
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  for (const std::string& variable : environment) putenv(const_cast<char*>(variable.c_str()));
   execv(arguments[0], arguments.data());
   _exit(127);
 }
@@ -38,11 +39,12 @@ int wait_for(pid_t process) {
 
 }  // namespace
 
-ProgramResult zerocount_program(const std::vector<std::string>& words, const fs::path& directory) {
+ProgramResult zerocount_program(const std::vector<std::string>& words, const fs::path& directory,
+                                const std::vector<std::string>& environment) {
   const TemporaryFolder outputs;
   const fs::path out = outputs.path() / "out";
   const fs::path err = outputs.path() / "err";
-  const int code = wait_for(start(words, directory, out, err));
+  const int code = wait_for(start(words, directory, out, err, environment));
   return {code, read_bytes(out), read_bytes(err)};
 }
 

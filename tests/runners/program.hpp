@@ -18,8 +18,9 @@ struct ProgramResult {
 };
 
 /// Runs `zerocount` with these words, in `directory`, and waits for it.
-ProgramResult zerocount_program(const std::vector<std::string>& words,
-                                const std::filesystem::path& directory);
+/// @param environment further variables, as NAME=VALUE
+ProgramResult zerocount_program(const std::vector<std::string>& words, const std::filesystem::path& directory,
+                                const std::vector<std::string>& environment = {});
 
 /// A `zerocount` that is running.
 class RunningProgram {

@@ -29,20 +29,22 @@ void read_all(const fs::path& path) {
 /// Files with a seal and checksums that are right, and values that cannot be.
 class SoundValues : public ::testing::Test {
  protected:
+  template <class Value>
+  static void write_row(hdf5::Dataset column, std::int64_t row, Value value) {
+    const std::vector<hdf5::Size> extent = column.extent();
+    const std::vector<Value> values(extent.size() > 1 ? extent[1] : 1, value);
+    column.write(row, 1, values.data());
+  }
+
   /// A copy of the sample whose `dataset` has `value` in its `row` (all moves of it), sealed anew.
   template <class Value>
   fs::path forged(const std::string& dataset, std::int64_t row, Value value) const {
     fs::path path = directory / "forged.h5";
     fs::copy_file(original, path, fs::copy_options::overwrite_existing);
     unseal(path);
-    {
-      hdf5::File file = hdf5::File::open_to_change(path);
-      hdf5::Dataset column = file.open_dataset(dataset);
-      const std::vector<hdf5::Size> extent = column.extent();
-      const std::vector<Value> values(extent.size() > 1 ? extent[1] : 1, value);
-      column.write(row, 1, values.data());
-      file.close();
-    }
+    hdf5::File file = hdf5::File::open_to_change(path);
+    write_row(file.open_dataset(dataset), row, value);
+    file.close();
     seal(path);
     return path;
   }

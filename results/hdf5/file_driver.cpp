@@ -1,0 +1,127 @@
+#include "results/hdf5/file_driver.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <new>
+#include <span>
+
+#include "results/hdf5/hdf5_detail.hpp"
+
+namespace zerocount::hdf5 {
+namespace {
+
+constexpr herr_t success = 0;
+constexpr herr_t failure = -1;
+constexpr haddr_t max_address = (haddr_t{1} << 63) - 1;
+
+/// What the library knows an open file by.
+struct DriverFile : H5FD_t {
+  std::shared_ptr<ByteFile> bytes;
+  haddr_t allocated{0};  ///< the end of what the library has given out
+};
+
+/// What access_properties() carry to open_file().
+struct DriverInfo {
+  const std::shared_ptr<ByteFile>* bytes{nullptr};
+};
+
+DriverFile& own_file(H5FD_t* file) {
+  return *static_cast<DriverFile*>(file);
+}
+
+const DriverFile& own_file(const H5FD_t* file) {
+  return *static_cast<const DriverFile*>(file);
+}
+
+H5FD_t* open_file(const char*, unsigned, hid_t properties, haddr_t) {
+  const auto* info = static_cast<const DriverInfo*>(H5Pget_driver_info(properties));
+  auto* file = info == nullptr ? nullptr : new (std::nothrow) DriverFile;
+  if (file != nullptr) file->bytes = *info->bytes;
+  return file;
+}
+
+herr_t close_file(H5FD_t* file) {
+  delete &own_file(file);
+  return success;
+}
+
+/// The abilities of the library's own driver for files (sec2): they say where it puts things in the file.
+herr_t query(const H5FD_t*, unsigned long* flags) {
+  *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
+           H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+  return success;
+}
+
+haddr_t allocated_end(const H5FD_t* file, H5FD_mem_t) {
+  return own_file(file).allocated;
+}
+
+herr_t set_allocated_end(H5FD_t* file, H5FD_mem_t, haddr_t address) {
+  own_file(file).allocated = address;
+  return success;
+}
+
+haddr_t file_end(const H5FD_t* file, H5FD_mem_t) {
+  return own_file(file).bytes->size();
+}
+
+herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void* buffer) {
+  return own_file(file).bytes->read(address, {static_cast<std::byte*>(buffer), size}) ? success : failure;
+}
+
+herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, const void* buffer) {
+  try {
+    own_file(file).bytes->write(address, {static_cast<const std::byte*>(buffer), size});
+    return success;
+  } catch (const std::exception&) {
+    return failure;  // no memory for what could not be written
+  }
+}
+
+herr_t truncate(H5FD_t* file, hid_t, hbool_t) {
+  DriverFile& own = own_file(file);
+  if (own.allocated != own.bytes->size()) own.bytes->resize(own.allocated);
+  return success;
+}
+
+H5FD_class_t driver_class() {
+  H5FD_class_t driver{};
+  driver.name = "zerocount";
+  driver.maxaddr = max_address;
+  driver.fc_degree = H5F_CLOSE_STRONG;
+  driver.fapl_size = sizeof(DriverInfo);
+  driver.open = open_file;
+  driver.close = close_file;
+  driver.query = query;
+  driver.get_eoa = allocated_end;
+  driver.set_eoa = set_allocated_end;
+  driver.get_eof = file_end;
+  driver.read = read;
+  driver.write = write;
+  driver.truncate = truncate;
+  constexpr H5FD_mem_t map[] = H5FD_FLMAP_DICHOTOMY;
+  static_assert(std::size(map) == H5FD_MEM_NTYPES);
+  std::copy(std::begin(map), std::end(map), driver.fl_map);
+  return driver;
+}
+
+Id driver() {
+  static const H5FD_class_t description = driver_class();
+  static const Id id = H5FDregister(&description);
+  return id;
+}
+
+}  // namespace
+
+Handle access_properties(const std::shared_ptr<ByteFile>& bytes) {
+  Handle properties = made(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  const DriverInfo info{&bytes};
+  demand(H5Pset_driver(properties.get(), driver(), &info));
+  demand(H5Pset_libver_bounds(properties.get(), H5F_LIBVER_V18, H5F_LIBVER_V18));
+  demand(H5Pset_fclose_degree(properties.get(), H5F_CLOSE_STRONG));
+  demand(H5Pset_file_locking(properties.get(), false, true));
+  return properties;
+}
+
+}  // namespace zerocount::hdf5

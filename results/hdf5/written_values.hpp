@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+/// What was handed over to be written to a file, for a comparison with what is read from it.
+namespace zerocount::hdf5 {
+
+using AttributeValue = std::variant<std::string, std::uint64_t, std::vector<std::int64_t>>;
+
+/// Rows [first, first + rows) of a dataset.
+struct WrittenRows {
+  std::int64_t first{0};
+  std::int64_t rows{0};
+  std::size_t digest{0};  ///< of the bytes of their elements
+};
+
+/// A group or a dataset.
+struct WrittenObject {
+  std::map<std::string, AttributeValue> attributes;
+  std::vector<WrittenRows> rows;
+  std::vector<std::string> texts;  ///< all elements of a dataset of texts
+  bool is_scale{false};
+  std::vector<std::pair<unsigned, std::string>> scales;  ///< dimension, and the path of its scale
+};
+
+/// By path.
+using WrittenValues = std::map<std::string, WrittenObject>;
+
+}  // namespace zerocount::hdf5

@@ -1,0 +1,100 @@
+#include "results/storage/byte_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include "results/storage/durable_file.hpp"
+
+namespace zerocount {
+namespace {
+
+int open_flags(ByteFile::Mode mode) {
+  switch (mode) {
+    case ByteFile::Mode::read:
+      return O_RDONLY | O_CLOEXEC;
+    case ByteFile::Mode::create:
+      return O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC;
+    case ByteFile::Mode::change:
+      return O_RDWR | O_CLOEXEC;
+  }
+  return O_RDONLY;
+}
+
+/// Copies the part of `source`, which stands at `source_offset`, that falls into `target`.
+void copy_overlap(std::uint64_t source_offset, std::span<const std::byte> source, std::uint64_t offset,
+                  std::span<std::byte> target) {
+  const std::uint64_t first = std::max(source_offset, offset);
+  const std::uint64_t end = std::min(source_offset + source.size(), offset + target.size());
+  if (first >= end) return;
+  const std::span<const std::byte> shared = source.subspan(first - source_offset, end - first);
+  std::copy(shared.begin(), shared.end(), target.subspan(first - offset).begin());
+}
+
+}  // namespace
+
+ByteFile::ByteFile(std::filesystem::path path, Mode mode)
+    : path_(std::move(path)), mode_(mode), file_(::open(path_.c_str(), open_flags(mode), 0666)) {
+  const char* const action = writable() ? "open for writing" : "read";
+  if (!file_.valid()) fail_with(path_, action, errno);
+  struct stat status {};
+  if (::fstat(file_.get(), &status) != 0) fail_with(path_, action, errno);
+  size_ = static_cast<std::uint64_t>(status.st_size);
+}
+
+bool ByteFile::read(std::uint64_t offset, std::span<std::byte> bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t size =
+        ::pread(file_.get(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+    if (size < 0 && errno == EINTR) continue;
+    if (size < 0) {
+      note({"read", errno});
+      return false;
+    }
+    if (size == 0) break;
+    done += static_cast<std::size_t>(size);
+  }
+  std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(done), bytes.end(), std::byte{0});
+  for (const Unwritten& kept : unwritten_) copy_overlap(kept.offset, kept.bytes, offset, bytes);
+  return true;
+}
+
+void ByteFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
+  size_ = std::max<std::uint64_t>(size_, offset + bytes.size());
+  while (!failure_ && !bytes.empty()) {
+    const ssize_t size = ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (size < 0 && errno == EINTR) continue;
+    if (size <= 0) {
+      note({"write", size < 0 ? errno : EIO});
+      break;
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(size));
+    offset += static_cast<std::uint64_t>(size);
+  }
+  if (!bytes.empty()) unwritten_.push_back({offset, {bytes.begin(), bytes.end()}});
+}
+
+void ByteFile::resize(std::uint64_t size) {
+  size_ = size;
+  if (failure_) return;
+  int result = 0;
+  do {
+    result = ::ftruncate(file_.get(), static_cast<off_t>(size));
+  } while (result != 0 && errno == EINTR);
+  if (result != 0) note({"write", errno});
+}
+
+void ByteFile::close() {
+  if (writable() && !failure_ && ::fsync(file_.get()) != 0) note({"bring to the disk", errno});
+  if (!file_.close()) note({"close", errno});
+}
+
+void ByteFile::note(const IoFailure& failure) {
+  if (!failure_) failure_ = failure;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,53 @@
+#include "results/storage/output_file.hpp"
+
+#include <cerrno>
+#include <span>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/failure.hpp"
+#include "results/storage/file_contents.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::size_t buffer_size = std::size_t{1} << 16;
+
+}  // namespace
+
+OutputFile::OutputFile(const std::filesystem::path& path)
+    : path_(path),
+      part_(path),
+      file_(::open(part_.path().c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+  if (!file_.valid()) fail_with(part_.path(), "open for writing", errno);
+}
+
+void OutputFile::write(std::string_view text) {
+  buffer_ += text;
+  if (buffer_.size() >= buffer_size) flush();
+}
+
+void OutputFile::flush() {
+  write_all(part_.path(), file_, buffer_);
+  written_.add(std::as_bytes(std::span(buffer_)));
+  size_ += buffer_.size();
+  buffer_.clear();
+}
+
+void OutputFile::finish() {
+  flush();
+  synchronise(part_.path(), file_);
+  if (::lseek(file_.get(), 0, SEEK_SET) != 0) fail_with(part_.path(), "read back", errno);
+  const bool same = size_of_file(part_.path(), file_) == size_ &&
+                    sha256_of(part_.path(), file_, size_) == written_.digest();
+  if (!same) fail_read_back(part_.path(), "its bytes differ");
+  if (!file_.close()) fail_with(part_.path(), "close", errno);
+}
+
+void OutputFile::publish() {
+  zerocount::publish(path_);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,126 @@
+// What was written is there, or it is said that it is not.
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "results/hdf5/hdf5.hpp"
+#include "results/layout/table_io.hpp"
+#include "tests/results/failures.hpp"
+#include "tests/support/raw_hdf5.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t rows = 40000;  // three chunks
+
+Table numbers_table() {
+  return {"numbers",
+          {"row", "1", "row", Element::int64, {}, ""},
+          std::nullopt,
+          {{"value", "m", "a value", Element::int64, {}, ""}}};
+}
+
+/// Writes some of everything that results files have.
+void fill(hdf5::File& file) {
+  file.set_text("name", "µ");
+  file.set_integer("number", -3);
+  file.set_unsigned("seed", UINT64_MAX);
+  hdf5::Dataset labels = file.create_dataset("labels", {Element::text, {2}, {2}});
+  labels.write_texts(std::vector<std::string>{"one", "two"});
+  TableIo table = TableIo::create(file, numbers_table(), rows, 1);
+  table.number_rows(0);
+  std::vector<std::int64_t> values(rows);
+  std::iota(values.begin(), values.end(), 1000);
+  for (std::int64_t first = 0; first < rows; first += 10000)
+    table.column(0).write(first, 10000, &values[static_cast<std::size_t>(first)]);
+  TableIo::create(file, {"nothing", {"row", "1", "row", Element::int64, {}, ""}, std::nullopt, {}}, 0, 1);
+}
+
+hdf5::WrittenValues write_file(const fs::path& path) {
+  hdf5::File file = hdf5::File::create(path);
+  fill(file);
+  return file.close();
+}
+
+TEST(WrittenFile, IsFoundAsItWasWritten) {
+  const TemporaryFolder folder;
+  const hdf5::WrittenValues written = write_file(folder / "file.h5");
+  hdf5::require_written(folder / "file.h5", written);
+  EXPECT_TRUE(written.contains("/numbers/value"));
+  EXPECT_TRUE(written.contains("/nothing/row"));
+}
+
+TEST(WrittenFile, IsFoundAsItWasWrittenAndAddedTo) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "file.h5";
+  hdf5::WrittenValues before = write_file(path);
+  hdf5::File file = hdf5::File::open_to_change(path, std::move(before));
+  file.set_integer("finished", 1);
+  const hdf5::WrittenValues written = file.close();
+  EXPECT_TRUE(written.at("/").attributes.contains("finished"));
+  EXPECT_TRUE(written.contains("/numbers/value"));
+  hdf5::require_written(path, written);
+}
+
+/// Each of these changes one thing that a file was to hold.
+TEST(WrittenFile, IsRefusedWhereAnythingDiffers) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "file.h5";
+  const hdf5::WrittenValues written = write_file(path);
+  const auto refused = [&](const std::string& words,
+                           const std::function<void(hdf5::WrittenValues&)>& change) {
+    hdf5::WrittenValues other = written;
+    change(other);
+    expect_failure(ExitCode::machine_failed, "file.h5: what was written is not what is read back: " + words,
+                   [&] { hdf5::require_written(path, other); });
+  };
+  refused("/: the attribute 'name' differs", [](auto& values) { values["/"].attributes["name"] = "u"; });
+  refused("/: the attribute 'seed' differs",
+          [](auto& values) { values["/"].attributes["seed"] = std::uint64_t{1}; });
+  refused("/: the attribute 'other' is missing", [](auto& values) { values["/"].attributes["other"] = "u"; });
+  refused("/labels: its texts differ", [](auto& values) { values["/labels"].texts[1] = "three"; });
+  refused("/numbers/value: rows 10000 to 19999 differ",
+          [](auto& values) { values["/numbers/value"].rows[1].digest ^= 1; });
+  refused("/numbers/value: its axis /labels is missing",
+          [](auto& values) { values["/numbers/value"].scales.emplace_back(0, "/labels"); });
+  refused("/labels: it is no axis", [](auto& values) { values["/labels"].is_scale = true; });
+  refused("/", [](auto& values) { values["/more"]; });
+}
+
+TEST(WrittenFile, IsRefusedWhereAChunkIsZeros) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "file.h5";
+  const hdf5::WrittenValues written = write_file(path);
+  std::string bytes = read_bytes(path);
+  bytes.replace(chunk_address(path, "numbers/value"), 100, 100, '\0');
+  write_bytes(path, bytes);
+  expect_failure(ExitCode::machine_failed,
+                 "file.h5: what was written is not what is read back: /numbers/value",
+                 [&] { hdf5::require_written(path, written); });
+}
+
+TEST(WrittenFile, FailsOnAFullDiskWithTheSystemsReason) {
+  expect_failure(ExitCode::machine_failed, "/dev/full: cannot write: No space left on device", [] {
+    hdf5::File file = hdf5::File::create("/dev/full");
+    fill(file);
+    file.close();
+  });
+}
+
+TEST(WrittenFile, IsClosedAfterWhatIsInIt) {
+  const TemporaryFolder folder;
+  hdf5::File file = hdf5::File::create(folder / "file.h5");
+  const hdf5::Group group = file.create_group("group");
+  EXPECT_THROW(file.close(), std::logic_error);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

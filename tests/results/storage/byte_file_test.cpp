@@ -1,0 +1,84 @@
+#include "results/storage/byte_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/results/failures.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+std::string random_text(std::mt19937& random, std::size_t size) {
+  std::string text(size, ' ');
+  std::generate(text.begin(), text.end(), [&] { return static_cast<char>('a' + random() % 26); });
+  return text;
+}
+
+std::string read_text(ByteFile& file, std::size_t offset, std::size_t size) {
+  std::string text(size, '?');
+  EXPECT_TRUE(file.read(offset, std::as_writable_bytes(std::span(text))));
+  return text;
+}
+
+/// Writes at random places, and expects to read what was written there last, and zeros elsewhere.
+void expect_reads_what_was_written(ByteFile& file, std::mt19937& random) {
+  std::string expected(2000, '\0');
+  for (int i = 0; i < 200; ++i) {
+    const std::size_t offset = random() % 1900;
+    const std::string text = random_text(random, random() % 100);
+    file.write(offset, std::as_bytes(std::span(text)));
+    expected.replace(offset, text.size(), text);
+    const std::size_t first = random() % 1500;
+    const std::size_t size = random() % 500;
+    EXPECT_EQ(read_text(file, first, size), expected.substr(first, size));
+  }
+  EXPECT_EQ(read_text(file, 0, expected.size()), expected);
+}
+
+TEST(ByteFile, ReadsWhatWasWritten) {
+  const TemporaryFolder folder;
+  std::mt19937 random(7);
+  ByteFile file(folder / "file", ByteFile::Mode::create);
+  expect_reads_what_was_written(file, random);
+  const std::uint64_t size = file.size();
+  file.resize(1000);
+  EXPECT_EQ(file.size(), 1000U);
+  EXPECT_LT(file.size(), size);
+  file.close();
+  EXPECT_FALSE(file.failure());
+  EXPECT_EQ(std::filesystem::file_size(folder / "file"), 1000U);
+}
+
+TEST(ByteFile, ReadsWhatWasToBeWrittenAfterAWriteHasFailed) {
+  std::mt19937 random(8);
+  ByteFile file("/dev/full", ByteFile::Mode::change);
+  expect_reads_what_was_written(file, random);
+  ASSERT_TRUE(file.failure());
+  EXPECT_EQ(file.failure()->action, "write");
+  EXPECT_EQ(file.failure()->error, ENOSPC);
+}
+
+TEST(ByteFile, KeepsTheFirstFailure) {
+  ByteFile file("/dev/full", ByteFile::Mode::change);
+  file.note({"close", EIO});
+  file.write(0, std::as_bytes(std::span("text")));
+  file.note({"write", EBADF});
+  EXPECT_EQ(file.failure()->action, "close");
+  EXPECT_EQ(file.failure()->error, EIO);
+}
+
+TEST(ByteFile, SaysWhyItCannotBeOpened) {
+  const TemporaryFolder folder;
+  expect_failure(ExitCode::machine_failed, "nowhere: cannot read: No such file",
+                 [&] { ByteFile(folder / "nowhere", ByteFile::Mode::read); });
+  expect_failure(ExitCode::machine_failed, "cannot open for writing: Is a directory",
+                 [&] { ByteFile(folder.path(), ByteFile::Mode::create); });
+}
+
+}  // namespace
+}  // namespace zerocount::testing

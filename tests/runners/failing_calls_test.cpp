@@ -1,0 +1,215 @@
+// One call of the system fails at a time: a write that fails must never pass. Whatever call it is, the
+// command ends with exit code 5 and a message that names the file, and nothing wrong stands in place: the
+// output is the one from before (or none), or the right one.
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <functional>
+#include <map>
+#include <regex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "results/reading/study_file.hpp"
+#include "tests/runners/program.hpp"
+#include "tests/support/raw_hdf5.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How a call fails.
+struct Fault {
+  std::string error;  ///< see failing_calls.cpp
+  bool lasting{false};
+};
+
+const std::array<Fault, 4> faults{Fault{std::to_string(ENOSPC), false}, Fault{std::to_string(EIO), true},
+                                  Fault{std::to_string(EIO), false}, Fault{std::to_string(ENOSPC), true}};
+
+/// A command that writes, and what it writes, in the test's folder.
+struct Writer {
+  std::vector<std::string> words;
+  std::vector<std::string> outputs;
+  std::string before;   ///< what stands in each output before; nothing if it is empty
+  bool resumes{false};  ///< what it left behind is used by the next attempt
+};
+
+/// The content of an output that must be right: the datasets of a results file, whose attributes tell the
+/// time, or the text of any other file, without the date of a record of baselines.
+std::map<std::string, std::string> content_of(const fs::path& path) {
+  if (path.extension() == ".yaml") {
+    return {{"", std::regex_replace(read_bytes(path), std::regex("date: [^\n]*"), "")}};
+  }
+  if (path.extension() != ".h5") return {{"", read_bytes(path)}};
+  const StudyFile file(path);  // checks the seal
+  return stored_datasets(path);
+}
+
+class FailingCalls : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("study.yaml", small_manifest(8));
+    folder_.write("retained.yaml", small_manifest(8, "retain: {trials: [0]}\n"));
+  }
+
+  void complete(const std::vector<std::string>& words) const {
+    const ProgramResult result = zerocount_program(words, folder_.path());
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+
+  ProgramResult run_with(const Writer& writer, const std::string& calls, long at, const Fault& fault) const {
+    const std::string folder = folder_.path().string();
+    std::vector<std::string> environment{std::string("LD_PRELOAD=") + ZEROCOUNT_FAILING_CALLS,
+                                         "ASAN_OPTIONS=verify_asan_link_order=0:detect_leaks=0",
+                                         "FAIL_UNDER=" + folder,
+                                         "FAIL_CALLS=" + calls,
+                                         "FAIL_AT=" + std::to_string(at),
+                                         "FAIL_ERROR=" + fault.error,
+                                         "FAIL_COUNT=" + (counts_ / "count").string()};
+    if (fault.lasting) environment.emplace_back("FAIL_LASTING=1");
+    return zerocount_program(writer.words, folder_.path(), environment);
+  }
+
+  /// Puts the outputs as they were before.
+  void restore(const Writer& writer) const {
+    for (const std::string& output : writer.outputs) {
+      fs::remove_all(folder_ / (output + ".shards"));
+      fs::remove(folder_ / output);
+      if (!writer.before.empty()) folder_.write(output, writer.before);
+    }
+  }
+
+  /// The number of calls of a run without a fault, whose outputs are the right ones.
+  long count_calls(const Writer& writer, const std::string& calls) {
+    restore(writer);
+    const ProgramResult result = run_with(writer, calls, 0, faults[0]);
+    EXPECT_EQ(result.code, 0) << result.err;
+    right_.clear();
+    for (const std::string& output : writer.outputs) right_[output] = content_of(folder_ / output);
+    return std::atol(read_bytes(counts_ / "count").c_str());
+  }
+
+  bool is_right(const std::string& output) const { return content_of(folder_ / output) == right_.at(output); }
+
+  void expect_nothing_wrong(const Writer& writer, const ProgramResult& result) const {
+    EXPECT_TRUE(result.code == 0 || result.code == 5) << result.code << ": " << result.err;
+    for (const std::string& output : writer.outputs) {
+      const bool exists = fs::exists(folder_ / output);
+      const bool untouched = writer.before.empty() ? !exists : read_bytes(folder_ / output) == writer.before;
+      EXPECT_TRUE((result.code != 0 && untouched) || (exists && is_right(output))) << output;
+      EXPECT_FALSE(fs::exists(folder_ / (output + ".part"))) << output;
+    }
+    if (result.code != 5) return;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(result.err.find("HDF5"), std::string::npos) << result.err;
+    const auto says = [&](const std::string& words) { return result.err.find(words) != std::string::npos; };
+    EXPECT_TRUE(says("study.yaml") ||
+                std::any_of(writer.outputs.begin(), writer.outputs.end(),
+                            [&](const fs::path& output) { return says(output.begin()->string()); }))
+        << result.err;
+    EXPECT_TRUE(says("cannot ") || says(": what was written is not what is read back: ")) << result.err;
+  }
+
+  void expect_next_attempt_ends_right(const Writer& writer) const {
+    const bool all_there =
+        std::all_of(writer.outputs.begin(), writer.outputs.end(),
+                    [&](const std::string& output) { return fs::exists(folder_ / output); });
+    if (!writer.resumes && !all_there) restore(writer);
+    if (!writer.resumes && all_there) return;
+    const ProgramResult result = zerocount_program(writer.words, folder_.path());
+    EXPECT_EQ(result.code, 0) << result.err;
+    for (const std::string& output : writer.outputs) EXPECT_TRUE(is_right(output)) << output;
+  }
+
+  /// Fails the calls one by one, every `step`-th of them, each in `ways` of the ways, which take turns.
+  void fail_calls(const Writer& writer, const std::string& calls, std::span<const Fault> faults,
+                  std::size_t ways, long step = 1) {
+    const long count = count_calls(writer, calls);
+    ASSERT_GT(count, 0);
+    for (long at = 1; at <= count; at += step) {
+      for (std::size_t way = 0; way < ways; ++way) {
+        const Fault& fault = faults[(static_cast<std::size_t>(at / step) + way) % faults.size()];
+        SCOPED_TRACE(writer.words.front() + ", call " + std::to_string(at) + " of " + std::to_string(count) +
+                     ", error " + fault.error + (fault.lasting ? ", lasting" : ""));
+        restore(writer);
+        expect_nothing_wrong(writer, run_with(writer, calls, at, fault));
+        if (at / step % 8 == 0) expect_next_attempt_ends_right(writer);
+        if (HasFailure()) return;
+      }
+    }
+  }
+
+  static Writer run() {
+    return {{"run", "study.yaml", "-o", "out.h5", "-q", "--threads", "1"}, {"out.h5"}, "", true};
+  }
+
+  Writer merge() const {
+    complete({"run", "retained.yaml", "-o", "a.h5", "-q", "--shard", "1/2"});
+    complete({"run", "retained.yaml", "-o", "b.h5", "-q", "--shard", "2/2"});
+    return {{"merge", "a.h5", "b.h5", "-o", "out.h5"}, {"out.h5"}, "", false};
+  }
+
+  void make_input() const { complete({"run", "retained.yaml", "-o", "in.h5", "-q"}); }
+
+  TemporaryFolder folder_;
+  TemporaryFolder counts_;
+  std::map<std::string, std::map<std::string, std::string>> right_;
+};
+
+// In these, a call fails in one of four ways, which take turns: ENOSPC or EIO, once or from then on.
+TEST_F(FailingCalls, ThatWriteDuringARun) {
+  fail_calls(run(), "writes", faults, 1);
+}
+
+TEST_F(FailingCalls, ThatWriteDuringAMerge) {
+  fail_calls(merge(), "writes", faults, 1);
+}
+
+TEST_F(FailingCalls, ThatWriteDuringAnExport) {
+  make_input();
+  const Writer tables{{"export", "in.h5", "-o", "out"},
+                      {"out/points.csv", "out/trials.csv", "out/outcomes.csv", "out/jerks.csv",
+                       "out/profiles.csv", "out/trace.csv"},
+                      "",
+                      false};
+  fail_calls(tables, "writes", faults, 1);
+}
+
+TEST_F(FailingCalls, ThatWriteOtherOutputs) {
+  make_input();
+  const std::string before = "what stood there before";
+  fail_calls({{"report", "in.h5", "-o", "out.html"}, {"out.html"}, before, false}, "writes", faults, 4);
+  fail_calls({{"trace", "in.h5", "-o", "out.csv"}, {"out.csv"}, "", false}, "writes", faults, 4);
+  fail_calls({{"compare", "in.h5", "in.h5", "--json", "out.json"}, {"out.json"}, before, false}, "writes",
+             faults, 4);
+  fail_calls(
+      {{"baseline", "in.h5", "-o", "out.h5", "--reason", "first"}, {"out.h5", "out.h5.log.yaml"}, "", false},
+      "writes", faults, 4);
+}
+
+// The disk says that it has written, and has not.
+TEST_F(FailingCalls, ThatSayTheyHaveWritten) {
+  fail_calls(run(), "writes", std::array{Fault{"lost", false}}, 1, 9);
+}
+
+TEST_F(FailingCalls, ThatReadWhatWasJustWritten) {
+  fail_calls(run(), "reads", std::array{Fault{std::to_string(EIO), false}}, 1, 31);
+}
+
+// Takes ten minutes.
+TEST_F(FailingCalls, DISABLED_AllInEveryWay) {
+  fail_calls(run(), "writes", faults, faults.size());
+  fail_calls(run(), "writes", std::array{Fault{"lost", false}}, 1);
+  fail_calls(run(), "reads", faults, 2);
+  fail_calls(merge(), "writes", faults, faults.size());
+  fail_calls(merge(), "writes", std::array{Fault{"lost", false}}, 1);
+  fail_calls(merge(), "reads", faults, 2);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

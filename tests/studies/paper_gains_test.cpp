@@ -62,20 +62,23 @@ TEST(PaperGains, TheTrialsThatAreStoppedWouldNotHaveComeBack) {
   }
 }
 
-TEST(PaperGains, EveryTrialHasAFrictionAndAStartOfItsOwn) {
+TEST(PaperGains, EveryAxisHasAFrictionOfItsOwnAndEveryMoveAStartOfItsOwn) {
   const Study study = shipped_study("paper-gains");
+  ASSERT_GE(study.rigs, 100);
   ASSERT_GE(study.trials, 10000);
   std::set<double> k1, k2, beta, exponent, preload;
-  constexpr std::size_t looked_at = 200;
-  for (std::size_t index = 0; index < looked_at; ++index) {
-    const TrialParameters p = trial_of(study, "a", static_cast<std::int64_t>(index));
+  for (std::int64_t index = 0; index < 2 * study.rigs; ++index) {
+    const TrialParameters p = trial_of(study, "a", index);
     k1.insert(friction_at(p.friction, p.initial.position).k1);
     k2.insert(p.friction.uniform.k2);
     beta.insert(p.friction.uniform.beta);
     exponent.insert(p.friction.uniform.n);
     preload.insert(p.initial.preload);
   }
-  for (const auto& values : {k1, k2, beta, exponent, preload}) EXPECT_EQ(values.size(), looked_at);
+  const auto rigs = static_cast<std::size_t>(study.rigs);
+  for (const auto& values : {k2, beta, exponent}) EXPECT_EQ(values.size(), rigs);
+  EXPECT_EQ(k1.size(), 2 * rigs) << "by place on the rotor";
+  EXPECT_EQ(preload.size(), 2 * rigs);
 }
 
 }  // namespace

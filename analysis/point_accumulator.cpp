@@ -46,6 +46,16 @@ auto tolerance_limits(const ClusteredSample& slowest, const StatisticsOptions& o
   return limits;
 }
 
+/// Without bounds of the mean, and without limits.
+SettlingStatistics settling_statistics(const ClusteredSample& sample, double confidence) {
+  const Tally<double>& times = sample.observed();
+  const auto settled = [&](double probability) {
+    return clustered_quantile(sample, probability, confidence);
+  };
+  return {times.size,    sample.size(), mean(times),  smallest(times), largest(times),
+          settled(0.05), settled(0.25), settled(0.5), settled(0.75),   settled(0.95)};
+}
+
 RandomStream bootstrap_stream(const BootstrapDraws& draws, std::string_view name) {
   return {random_key(draws.seed, name), draws.stream};
 }
@@ -92,6 +102,7 @@ PointAccumulator::PointAccumulator(MoveKind kind)
     : kind_(kind),
       rigs_(static_cast<std::size_t>(kind.rigs)),
       settling_times_(kind.rigs),
+      final_settling_times_(kind.rigs),
       slowest_times_(kind.rigs),
       final_errors_(kind.rigs) {}
 
@@ -130,6 +141,7 @@ void PointAccumulator::add_moves(const TrialOutcome& trial) {
   if (!kind_.open_loop) {
     if (!rigs_.empty()) add_to_rig(moves);
     add_times(moves);
+    add_final_times(moves);
     if (kind_.final_error_known) add_errors(moves);
   }
   counted_.stable += std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.stable; });
@@ -165,13 +177,25 @@ void PointAccumulator::add_times(const std::vector<MoveOutcome>& moves) {
   }
   settling_totals_.add(cluster_of(kind_, counted_.trials), sum, static_cast<double>(values_.size()));
   settling_times_.add_trial(counted_.trials, values_, std::ssize(moves));
-  const bool all_arrived = values_.size() == moves.size();  // sorted by now
+  const bool all_arrived = values_.size() == moves.size();
   if (all_arrived) {
-    values_.assign(1, values_.back());
+    values_.assign(1, *std::max_element(values_.begin(), values_.end()));
   } else {
     values_.clear();
   }
   slowest_times_.add_trial(counted_.trials, values_, 1);
+}
+
+void PointAccumulator::add_final_times(const std::vector<MoveOutcome>& moves) {
+  values_.clear();
+  double sum = 0.0;
+  for (const MoveOutcome& move : moves) {
+    if (!was_run(move) || std::isnan(move.final_settling_time)) continue;
+    values_.push_back(move.final_settling_time);
+    sum += move.final_settling_time;
+  }
+  final_settling_totals_.add(cluster_of(kind_, counted_.trials), sum, static_cast<double>(values_.size()));
+  final_settling_times_.add_trial(counted_.trials, values_, std::ssize(moves));
 }
 
 void PointAccumulator::add_errors(const std::vector<MoveOutcome>& moves) {
@@ -249,15 +273,9 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
                        : success_claim(successes, result.judged, confidence);
   }
 
-  const ClusteredSample settling = settling_times_.sample();
-  const Tally<double>& times = settling.observed();
-  const auto settled = [&](double probability) {
-    return clustered_quantile(settling, probability, confidence);
-  };
-  result.settling_time = {
-      times.size,     settling.size(), mean(times),   smallest(times),
-      largest(times), settled(0.05),   settled(0.25), settled(0.5),
-      settled(0.75),  settled(0.95),   not_asked_for, tolerance_limits(slowest_times_.sample(), options)};
+  result.settling_time = settling_statistics(settling_times_.sample(), confidence);
+  result.settling_time.tolerance = tolerance_limits(slowest_times_.sample(), options);
+  result.final_settling_time = settling_statistics(final_settling_times_.sample(), confidence);
 
   const ClusteredSample errors = final_errors_.sample();
   result.final_error = {errors.size(), mean(errors.observed()), largest(errors.observed()),
@@ -279,6 +297,9 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
   if (options.bootstrap && result.judged > 0) {
     result.settling_time.mean_bounds = clustered_mean_bounds(
         settling_totals_, bootstrap_stream(*options.bootstrap, "bootstrap/settling_time.mean"), confidence);
+    result.final_settling_time.mean_bounds = clustered_mean_bounds(
+        final_settling_totals_, bootstrap_stream(*options.bootstrap, "bootstrap/final_settling_time.mean"),
+        confidence);
     result.jerk_count.mean_bounds = clustered_count_bounds(
         jerk_totals_, bootstrap_stream(*options.bootstrap, "bootstrap/jerk_count.mean"), confidence);
   }

@@ -44,18 +44,21 @@ class PointAccumulator {
   void add_moves(const TrialOutcome& trial);
   void add_to_rig(const std::vector<MoveOutcome>& moves);
   void add_times(const std::vector<MoveOutcome>& moves);
+  void add_final_times(const std::vector<MoveOutcome>& moves);
   void add_errors(const std::vector<MoveOutcome>& moves);
   void add_measures(const MoveOutcome& move);
   void add_jerks(const MoveOutcome& move, std::span<const Jerk> jerks);
 
   MoveKind kind_;
-  PointSummary counted_;                ///< the fields that are plain counts and moments
-  std::vector<RigTrials> rigs_;         ///< [rig]
-  TrialClusters settling_times_;        ///< of moves with a target
-  ClusterTotals settling_totals_;       ///< of the moves that arrived
-  TrialClusters slowest_times_;         ///< of trials: of the move that took longest
-  TrialClusters final_errors_;          ///< of moves with a known error
-  Tally<double> amplitudes_, periods_;  ///< of oscillations, counts and s
+  PointSummary counted_;                 ///< the fields that are plain counts and moments
+  std::vector<RigTrials> rigs_;          ///< [rig]
+  TrialClusters settling_times_;         ///< of moves with a target
+  ClusterTotals settling_totals_;        ///< of the moves that arrived
+  TrialClusters final_settling_times_;   ///< likewise
+  ClusterTotals final_settling_totals_;  ///< of the moves that stayed at zero error
+  TrialClusters slowest_times_;          ///< of trials: of the move that took longest
+  TrialClusters final_errors_;           ///< of moves with a known error
+  Tally<double> amplitudes_, periods_;   ///< of oscillations, counts and s
   Tally<std::int64_t> jerk_counts_;
   ClusterTotals jerk_totals_;  ///< of trials
   Tally<double> jerk_intervals_;

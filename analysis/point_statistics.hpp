@@ -139,6 +139,7 @@ struct PointSummary {
   RigStatistics rigs;  ///< how the rigs differ; of a study with rigs
 
   SettlingStatistics settling_time;
+  SettlingStatistics final_settling_time;  ///< until zero for good; n: moves that ended at zero error
   JerkCountStatistics jerk_count;
   JerkIntervalStatistics jerk_interval;
   JerkSlowing jerk_slowing;

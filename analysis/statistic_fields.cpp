@@ -140,6 +140,55 @@ std::vector<StatisticField> outcome_and_jerk_fields() {
   };
 }
 
+/// Of the time from which the error is 0 to the end of the move.
+std::vector<StatisticField> final_settling_fields() {
+  return {
+      {"final_settling_time", "n", "1", "moves that ended at zero error, of which mean, min and max are",
+       true, [](S s) { return to_double(s.final_settling_time.n); }},
+      {"final_settling_time", "moves", "1", "moves with a target, of which the quantiles are", true,
+       [](S s) { return to_double(s.final_settling_time.moves); }},
+      {"final_settling_time", "mean", "s",
+       "mean time until the error is zero for good, of the moves that ended at zero error", false,
+       [](S s) { return s.final_settling_time.mean; }},
+      {"final_settling_time", "min", "s", "shortest time until the error is zero for good", false,
+       [](S s) { return s.final_settling_time.min; }},
+      {"final_settling_time", "p05", "s",
+       "5 % quantile of the time until the error is zero for good, of all moves with a target, NaN if not "
+       "within the hold",
+       false, [](S s) { return s.final_settling_time.p05.value; }},
+      {"final_settling_time", "p25", "s",
+       "25 % quantile of the time until the error is zero for good, of all moves with a target, NaN if not "
+       "within the hold",
+       false, [](S s) { return s.final_settling_time.p25.value; }},
+      {"final_settling_time", "median", "s",
+       "median of the time until the error is zero for good, of all moves with a target, NaN if not within "
+       "the hold",
+       false, [](S s) { return s.final_settling_time.median.value; }},
+      {"final_settling_time", "median_low", "s",
+       "lower 95 % order-statistic bound of final_settling_time_median, NaN if not within the hold", false,
+       [](S s) { return s.final_settling_time.median.low; }},
+      {"final_settling_time", "median_high", "s",
+       "upper 95 % order-statistic bound of final_settling_time_median, NaN if not within the hold", false,
+       [](S s) { return s.final_settling_time.median.high; }},
+      {"final_settling_time", "p75", "s",
+       "75 % quantile of the time until the error is zero for good, of all moves with a target, NaN if not "
+       "within the hold",
+       false, [](S s) { return s.final_settling_time.p75.value; }},
+      {"final_settling_time", "p95", "s",
+       "95 % quantile of the time until the error is zero for good, of all moves with a target, NaN if not "
+       "within the hold",
+       false, [](S s) { return s.final_settling_time.p95.value; }},
+      {"final_settling_time", "p95_low", "s",
+       "lower 95 % order-statistic bound of final_settling_time_p95, NaN if not within the hold", false,
+       [](S s) { return s.final_settling_time.p95.low; }},
+      {"final_settling_time", "p95_high", "s",
+       "upper 95 % order-statistic bound of final_settling_time_p95, NaN if not within the hold", false,
+       [](S s) { return s.final_settling_time.p95.high; }},
+      {"final_settling_time", "max", "s", "longest time until the error is zero for good", false,
+       [](S s) { return s.final_settling_time.max; }},
+  };
+}
+
 std::vector<StatisticField> rig_fields() {
   return {
       {"rigs", "n", "1", "rigs that the trials ran on", true, [](S s) { return to_double(s.rigs.n); }},
@@ -160,6 +209,8 @@ std::vector<StatisticField> rig_fields() {
 
 std::vector<StatisticField> fields_of_all_studies() {
   std::vector<StatisticField> all = outcome_and_jerk_fields();
+  const std::vector<StatisticField> final_settling = final_settling_fields();
+  all.insert(all.end(), final_settling.begin(), final_settling.end());
   const std::span<const StatisticField> measures = measure_statistic_fields();
   all.insert(all.end(), measures.begin(), measures.end());
   return all;
@@ -168,13 +219,19 @@ std::vector<StatisticField> fields_of_all_studies() {
 }  // namespace
 
 std::span<const StatisticField> mean_bound_fields() {
-  static constexpr std::array<StatisticField, 4> fields{{
+  static constexpr std::array<StatisticField, 6> fields{{
       {"settling_time", "mean_low", "s",
        "lower bound of the mean settling time of the moves that arrived: Student and studentised bootstrap",
        false, [](S s) { return s.settling_time.mean_bounds.low; }},
       {"settling_time", "mean_high", "s",
        "upper bound of the mean settling time of the moves that arrived: Student and studentised bootstrap",
        false, [](S s) { return s.settling_time.mean_bounds.high; }},
+      {"final_settling_time", "mean_low", "s",
+       "lower bound of final_settling_time_mean: Student and studentised bootstrap", false,
+       [](S s) { return s.final_settling_time.mean_bounds.low; }},
+      {"final_settling_time", "mean_high", "s",
+       "upper bound of final_settling_time_mean: Student and studentised bootstrap", false,
+       [](S s) { return s.final_settling_time.mean_bounds.high; }},
       {"jerk_count", "mean_low", "1",
        "lower bound of the mean number of jerks per trial: Student and studentised bootstrap, Garwood for "
        "few",

@@ -127,6 +127,32 @@ TEST(PointStatistics, StoppedTrialsCountInEveryRateAndTheirMovesAsFarAsTheyWereR
   EXPECT_NEAR(statistics.holding_torque.mean, (4 * 0.01 + 2 * 0.03) / 6.0, 1e-15);
 }
 
+TEST(PointStatistics, FinalSettlingTimesAreOfAllMovesToo) {
+  PointAccumulator point;
+  for (int i = 1; i <= 100; ++i) {
+    MoveOutcome move = move_that(i <= 60 ? Outcome::zero_count : Outcome::one_count, 0.01);
+    if (i <= 60) move.final_settling_time = i / 2000.0;
+    point.add({{move}}, {});
+  }
+  const SettlingStatistics final = point.statistics().final_settling_time;
+  EXPECT_EQ(final.n, 60);
+  EXPECT_EQ(final.moves, 100);
+  EXPECT_EQ(final.median.value, 50 / 2000.0);
+  EXPECT_TRUE(std::isnan(final.p75.value));
+  EXPECT_NEAR(final.mean, 30.5 / 2000.0, 1e-15);
+}
+
+TEST(PointStatistics, LimitsOnRigsAreOfTheSlowestMove) {
+  PointAccumulator on_rigs({.rigs = 100}), plain;
+  for (int trial = 0; trial < 100; ++trial) {
+    const TrialOutcome moves{{move_that(Outcome::zero_count, 0.5), move_that(Outcome::zero_count, 0.01)}};
+    on_rigs.add(moves, {});
+    plain.add(moves, {});
+  }
+  EXPECT_EQ(plain.statistics().settling_time.tolerance[0].within, 0.5);
+  EXPECT_EQ(on_rigs.statistics().settling_time.tolerance[0].within, 0.5);
+}
+
 TEST(PointStatistics, QuantilesOfSettlingTimesAreOfAllMovesAndTheRestOfThoseThatArrived) {
   PointAccumulator point;
   for (int i = 1; i <= 100; ++i) point.add({{move_that(Outcome::zero_count, i / 2000.0)}}, {});

@@ -58,10 +58,11 @@ TEST(WidenedMeasures, AreThoseOfTheSamplesOfEachMove) {
       expect_same(measured.oscillation_period, expected.oscillation_period, 1e-12, "period");
       expect_same(measured.true_error, expected.true_error, 1e-8, "true_error");
       expect_same(measured.jerk_agreement, expected.jerk_agreement, 1e-15, "jerk_agreement");
-      // The deepest may lie between two samples, but no two reversals fit there.
+      // The deepest may lie between two samples. Two reversals fit there at most, half a period of the spring
+      // being longer than a sample: while the rotor creeps, dxs/dt may touch zero and come back at once.
       const std::int64_t depth = deepest_sample(trial, span);
       EXPECT_GE(measured.reversal_depth, depth);
-      EXPECT_LE(measured.reversal_depth, depth + 1);
+      EXPECT_LE(measured.reversal_depth, depth + 2);
     });
   });
 }

@@ -1,13 +1,20 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "analysis/theory_prediction.hpp"
+#include "core/loop/controller.hpp"
 #include "core/theory/gains.hpp"
 #include "core/theory/sampled_stability.hpp"
+#include "core/theory/sliding_loop.hpp"
 #include "core/theory/stability.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/plan/low_end.hpp"
 #include "experiments/study.hpp"
 #include "runners/commands.hpp"
 #include "runners/cost.hpp"
@@ -22,11 +29,16 @@ constexpr const char* check_help =
     "plan (design points, trials, cost) and what the theory says of each design point: the\n"
     "bounds of the paper's criteria (6) and (7) on ki, which know of no sampling, delay or\n"
     "amplifier, the bound of the sampled loop about the lowest stiffness k1, which has them,\n"
-    "and the rules for the DAC and the sample rate.\n"
+    "and the rules for the DAC and the sample rate. Both bounds are also given at the lowest k1\n"
+    "of the study: the low end of its distribution, or the lowest along the profiles. The\n"
+    "slowest time constant with which the sampled loop approaches its target, at k1 and k1 + k2,\n"
+    "stands beside the hold. While the rotor slides, the bandwidth is the highest frequency at\n"
+    "which the open loop has gain 1.\n"
     "\n"
     "Example: zerocount check experiments/manifests/paper-gains.yaml\n";
 
 constexpr std::int64_t most_trials_examined = 200;
+constexpr std::int64_t most_trials_examined_closely = 20;
 constexpr std::int64_t points_shown = 20;
 
 /// A quantity over the trials of a point.
@@ -45,6 +57,15 @@ std::string text(const Range& range) {
   return fmt::format("{:.3g} … {:.3g}", range.low, range.high);
 }
 
+/// One phase of the control while the rotor slides, over the trials.
+struct SlidingPhase {
+  std::string_view name;
+  Range bandwidth;      // Hz
+  Range phase_margin;   // degrees
+  bool stable{true};    // in every trial
+  bool unstable{true};  // in every trial
+};
+
 /// What section 3 of the paper says of the trials of a design point.
 struct PointTheory {
   std::string_view outside;                               // why it says nothing of them; empty where it does
@@ -57,6 +78,13 @@ struct PointTheory {
   bool fine_enough{true};        // the DAC, in every trial
   bool fast_enough{true};        // the sampling, in every trial
   TheoryPrediction prediction;
+
+  LowEnd low_end;                    // of k1, for which the next two are
+  Range lowest_k1;                   // of the profiles, or the low end
+  Range low_stable, low_sampled;     // bounds there, gain_unit
+  Range slowest;                     // time constant of the approach, s
+  double hold{0.0};                  // of the shortest move, s
+  std::vector<SlidingPhase> phases;  // of the control
 };
 
 /// A gain of the trapezoidal rule (N m/count) in the unit of the manifest.
@@ -94,6 +122,53 @@ std::string_view why_outside(const TrialParameters& first) {
   return "friction.model none has no spring, which criteria (6) and (7) are about";
 }
 
+LinearDrive drive_of(const TrialParameters& p) {
+  return {1.0 + p.dac.gain_error, p.amplifier.bandwidth};
+}
+
+void add_sliding(SlidingPhase& phase, ControlPhase which, const TrialParameters& p) {
+  const ControllerParameters controller = controller_in_phase(p.controller, which);
+  const GainCrossover crossover = sliding_crossover(p.plant, p.encoder, controller, drive_of(p));
+  if (!std::isnan(crossover.frequency)) {
+    phase.bandwidth.add(crossover.frequency);
+    phase.phase_margin.add(crossover.phase_margin);
+  }
+  const bool stable = stable_while_sliding(p.plant, p.encoder, controller, drive_of(p));
+  phase.stable = phase.stable && stable;
+  phase.unstable = phase.unstable && !stable;
+}
+
+/// The loops at the softest and the stiffest that the trial's contact can be, as far as they are stable.
+void add_time_constants(Range& slowest, const TrialParameters& p, const FrictionParameters& contact) {
+  for (const double stiffness : {contact.k1, contact.k1 + contact.k2}) {
+    const double tau = slowest_time_constant(
+        stiffness, p.plant, p.encoder, controller_in_phase(p.controller, ControlPhase::fine), drive_of(p));
+    if (std::isfinite(tau) && tau > 0.0) slowest.add(tau);
+  }
+}
+
+/// What holds for each of the trials examined, beyond the paper: the sampled loop at the lowest k1, its time
+/// constants, and the loop while it slides.
+void examine_beyond(const Study& study, std::int64_t point, PointTheory& theory) {
+  theory.low_end = low_end(study, point, "friction.k1");
+  const TrialParameters first = study_trial(study, point, 0).parameters;
+  theory.hold = static_cast<double>(samples_of_move(first, 0)) / first.controller.sample_rate;
+  theory.phases.push_back({has_coarse_phase(first.controller) ? "fine phase" : "loop", {}, {}});
+  if (has_coarse_phase(first.controller)) theory.phases.push_back({"coarse phase", {}, {}});
+  for (std::int64_t index = 0; index < std::min(study.trials, most_trials_examined_closely); ++index) {
+    const TrialParameters p = study_trial(study, point, index).parameters;
+    FrictionParameters contact = friction_at(p.friction, p.initial.position);
+    add_time_constants(theory.slowest, p, contact);
+    contact.k1 = theory.low_end.kind == LowEnd::Kind::profile ? lowest_k1(p.friction) : theory.low_end.value;
+    theory.lowest_k1.add(contact.k1);
+    const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
+    theory.low_stable.add(as_given(study.units, p, bounds.stable_below));
+    theory.low_sampled.add(as_given(study.units, p, sampled_bound(contact.k1, p)));
+    add_sliding(theory.phases[0], ControlPhase::fine, p);
+    if (theory.phases.size() > 1) add_sliding(theory.phases[1], ControlPhase::coarse, p);
+  }
+}
+
 PointTheory examine(const Study& study, std::int64_t point) {
   PointTheory theory;
   theory.outside = why_outside(study_trial(study, point, 0).parameters);
@@ -126,7 +201,43 @@ PointTheory examine(const Study& study, std::int64_t point) {
   }
   theory.sampled_below.add(as_given(study.units, softest, sampled_bound(k1.low, softest)));
   theory.sampled_below.add(as_given(study.units, stiffest, sampled_bound(k1.high, stiffest)));
+  examine_beyond(study, point, theory);
   return theory;
+}
+
+std::string_view source_of(LowEnd::Kind kind) {
+  switch (kind) {
+    case LowEnd::Kind::number:
+      return "the one of the manifest";
+    case LowEnd::Kind::support:
+      return "the low end of its distribution";
+    case LowEnd::Kind::tail:
+      return "the 0.1 % quantile of its distribution";
+    case LowEnd::Kind::profile:
+      break;
+  }
+  return "the lowest along the profiles";
+}
+
+std::string describe_beyond(const PointTheory& theory) {
+  std::string out =
+      fmt::format("    at the lowest k1, {} ({}): (6) stable below {:.3g} {}, sampled loop below {:.3g} {}\n",
+                  text({theory.lowest_k1.low, theory.lowest_k1.low}), source_of(theory.low_end.kind),
+                  theory.low_stable.low, theory.gain_unit, theory.low_sampled.low, theory.gain_unit);
+  if (theory.slowest.low <= theory.slowest.high) {
+    out += fmt::format("    slowest time constant         {} s, hold {:.4g} s{}\n", text(theory.slowest),
+                       theory.hold,
+                       theory.slowest.high > theory.hold ? ": moves may end before they arrive" : "");
+  }
+  for (const SlidingPhase& phase : theory.phases) {
+    const bool crosses = phase.bandwidth.low <= phase.bandwidth.high;
+    out += fmt::format("    while sliding, the {} {}{}\n", phase.name,
+                       crosses ? fmt::format("crosses gain 1 at {} Hz with a phase margin of {}°: ",
+                                             text(phase.bandwidth), text(phase.phase_margin))
+                               : "has no gain crossover: ",
+                       phase.stable ? "stable" : (phase.unstable ? "unstable" : "unstable in some trials"));
+  }
+  return out;
 }
 
 std::string describe(const PointTheory& theory) {
@@ -146,7 +257,7 @@ std::string describe(const PointTheory& theory) {
                      text(theory.sample_rate),
                      theory.fast_enough ? "ten times that, as advised"
                                         : "in some trials below ten times that, which is advised");
-  return out;
+  return out + describe_beyond(theory);
 }
 
 /// The input columns of which `belongs` holds, after `title`; nothing where there are none.
@@ -204,23 +315,19 @@ ExitCode check(const Arguments& arguments) {
   const std::int64_t shown =
       arguments.has("all-points") ? point_count(study) : std::min(point_count(study), points_shown);
   for (std::int64_t point = 0; point < shown; ++point) {
-    fmt::print("  point {}: {}\n{}", point, study.point_labels[static_cast<std::size_t>(point)],
-               describe(examine(study, point)));
+    const PointTheory theory = examine(study, point);
+    const std::string& label = study.point_labels[static_cast<std::size_t>(point)];
+    fmt::print("  point {}: {}\n{}", point, label, describe(theory));
+    if (theory.slowest.high > theory.hold) {
+      fmt::print(
+          stderr,
+          "warning: point {} ({}): the loop's slowest time constant, {:.3g} s, exceeds the hold of {:.4g} s; "
+          "moves may end before they arrive\n",
+          point, label, theory.slowest.high, theory.hold);
+    }
   }
   if (shown < point_count(study)) {
     fmt::print("  … and {} more points (--all-points shows them)\n", point_count(study) - shown);
-  }
-  const TrialParameters first = study_trial(study, 0, 0).parameters;
-  if (!first.friction.profiled.empty() && predict(first).applies) {
-    const AxisKind axis = study.units.axis;
-    const std::int64_t rigs = std::clamp<std::int64_t>(study.rigs, 1, most_trials_examined);
-    double lowest = lowest_k1(first.friction);
-    for (std::int64_t rig = 1; rig < rigs; ++rig) {
-      lowest = std::min(lowest, lowest_k1(study_trial(study, 0, rig).parameters.friction));
-    }
-    fmt::print("\nLowest k1 {}{} (point 0): {:.4g} {}; the paper advises to use it in (6).\n",
-               text_on(axis, "along the rotor"), rigs > 1 ? fmt::format(" of {} rigs", rigs) : "", lowest,
-               unit_on(axis, "N m/rad"));
   }
   return ExitCode::success;
 }

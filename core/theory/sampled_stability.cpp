@@ -1,42 +1,16 @@
 #include "core/theory/sampled_stability.hpp"
 
-#include <numbers>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <Eigen/Dense>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "core/theory/gains.hpp"
+#include "core/theory/held_plant.hpp"
 
 namespace zerocount {
 namespace {
-
-/// The driven rotor over one sample, x ← A·x + b·v with x = (count, change of count per sample at the current
-/// velocity, and where the amplifier lags, its torque).
-struct HeldPlant {
-  Eigen::MatrixXd A;  ///< of counts and N m
-  Eigen::VectorXd b;  ///< counts/(N m); 1 for the torque
-};
-
-/// Exact discretisation: exp([F g; 0 0]) holds A in its upper left block and b above its last entry, with
-/// time in samples.
-HeldPlant discretise(double stiffness, const PlantParameters& plant, double dx, double T,
-                     const LinearDrive& drive) {
-  const bool lags = drive.bandwidth > 0.0;
-  const Eigen::Index states = lags ? 3 : 2;
-  constexpr Eigen::Index torque = 2;  // the amplifier's, or its input where it does not lag
-  Eigen::MatrixXd generator = Eigen::MatrixXd::Zero(states + 1, states + 1);
-  generator(0, 1) = 1.0;
-  generator(1, 0) = -stiffness * T * T / plant.inertia;
-  generator(1, 1) = -plant.presliding_damping * T / plant.inertia;
-  generator(1, torque) = T * T / plant.inertia / dx;
-  if (lags) {
-    const double rate = 2.0 * std::numbers::pi * drive.bandwidth * T;
-    generator(torque, torque) = -rate;
-    generator(torque, states) = rate;
-  }
-  const Eigen::MatrixXd flow = generator.exp();
-  return {flow.topLeftCorner(states, states), drive.gain * flow.topRightCorner(states, 1)};
-}
 
 /// The one-sample map of (the driven rotor, last count, integral, pending torques newest first), target 0.
 Eigen::MatrixXd closed_loop(const HeldPlant& plant, const ControllerParameters& controller) {
@@ -67,6 +41,12 @@ Eigen::MatrixXd closed_loop(const HeldPlant& plant, const ControllerParameters& 
   return map;
 }
 
+HeldPlant presliding_plant(double stiffness, const PlantParameters& plant, const EncoderParameters& encoder,
+                           const ControllerParameters& controller, const LinearDrive& drive) {
+  return hold_plant(stiffness, plant.presliding_damping, plant.inertia, fine_resolution(encoder),
+                    sample_time(controller), drive);
+}
+
 double spectral_radius(const HeldPlant& plant, const ControllerParameters& controller) {
   return closed_loop(plant, controller).eigenvalues().cwiseAbs().maxCoeff();
 }
@@ -76,20 +56,33 @@ double spectral_radius(const HeldPlant& plant, const ControllerParameters& contr
 double sampled_spectral_radius(double stiffness, const PlantParameters& plant,
                                const EncoderParameters& encoder, const ControllerParameters& controller,
                                const LinearDrive& drive) {
-  const double T = sample_time(controller);
-  return spectral_radius(discretise(stiffness, plant, fine_resolution(encoder), T, drive), controller);
+  return spectral_radius(presliding_plant(stiffness, plant, encoder, controller, drive), controller);
+}
+
+double slowest_time_constant(double stiffness, const PlantParameters& plant, const EncoderParameters& encoder,
+                             const ControllerParameters& controller, const LinearDrive& drive) {
+  const HeldPlant held = presliding_plant(stiffness, plant, encoder, controller, drive);
+  Eigen::MatrixXd map = closed_loop(held, controller);
+  const Eigen::Index integral = held.A.rows() + 1;
+  if (controller.ki == 0.0) map(integral, integral) = 0.0;
+  const Eigen::VectorXcd eigenvalues = map.eigenvalues();
+  if (!(eigenvalues.cwiseAbs().maxCoeff() < 1.0)) return std::numeric_limits<double>::infinity();
+  double slowest = 0.0;
+  for (const auto& z : eigenvalues) {
+    if (z.imag() == 0.0) slowest = std::max(slowest, z.real());
+  }
+  return slowest > 0.0 ? -sample_time(controller) / std::log(slowest) : 0.0;
 }
 
 double sampled_critical_integral_gain(double stiffness, const PlantParameters& plant,
                                       const EncoderParameters& encoder, ControllerParameters controller,
                                       const LinearDrive& drive) {
-  const double dx = fine_resolution(encoder);
-  const HeldPlant held = discretise(stiffness, plant, dx, sample_time(controller), drive);
+  const HeldPlant held = presliding_plant(stiffness, plant, encoder, controller, drive);
   const auto stable = [&](double ki) {
     controller.ki = ki;
     return spectral_radius(held, controller) < 1.0;
   };
-  double low = 1e-6 * (stiffness * dx + controller.kp);  // N m/count
+  double low = 1e-6 * (stiffness * fine_resolution(encoder) + controller.kp);  // N m/count
   if (!stable(low)) return 0.0;
   constexpr double step = 1.02;
   double high = low * step;

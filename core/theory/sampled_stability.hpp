@@ -27,6 +27,16 @@ double sampled_spectral_radius(double stiffness, const PlantParameters& plant,
                                const EncoderParameters& encoder, const ControllerParameters& controller,
                                const LinearDrive& drive = {});
 
+/// The slowest time constant with which the sampled loop about a spring of `stiffness` (N m/rad) approaches
+/// its target, s: −T/ln z of the largest real eigenvalue z in (0, 1), which decays as exp(−t/τ); 0 where
+/// there is none. Infinite where the loop is not stable. Modes that oscillate are left to the bounds of
+/// stability. The integral of a controller without integral gain, which does not decay and does nothing, does
+/// not count.
+///
+/// An integral control that is slow has τ ≈ T·(k·Δx + kp)/(2·ki).
+double slowest_time_constant(double stiffness, const PlantParameters& plant, const EncoderParameters& encoder,
+                             const ControllerParameters& controller, const LinearDrive& drive = {});
+
 /// Digital integral gain (N m/count) below which the sampled loop about a spring of `stiffness` (N m/rad) is
 /// stable: the end of the interval of stable gains that begins at 0, to 1e-9 relative. 0 where the loop
 /// without integral is unstable already. The gain `controller.ki` does not enter.

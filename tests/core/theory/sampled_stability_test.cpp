@@ -192,5 +192,55 @@ TEST(SampledStability, NoIntegralGainIsStableWhereTheLoopWithoutIntegralIsNot) {
   EXPECT_EQ(sampled_critical_integral_gain(110.0, rig, paper_encoder, controller), 0.0);
 }
 
+// A slow integral control: T·(k·Δx + kp)/(2·ki), to the first order in T/τ and in what the rotor itself
+// takes.
+TEST(SlowestTimeConstant, OfASlowIntegralIsInProportionToTheStiffness) {
+  for (const double stiffness : {110.0, 860.0}) {
+    for (const double kp : {0.0, 6.21e-4}) {
+      ControllerParameters controller;
+      controller.kp = kp;
+      controller.ki = 5e-8;
+      const double expected =
+          (stiffness * fine_resolution(encoder) + kp) / (2.0 * controller.ki * controller.sample_rate);
+      EXPECT_NEAR(slowest_time_constant(stiffness, rig, encoder, controller), expected, 0.02 * expected);
+    }
+  }
+}
+
+TEST(SlowestTimeConstant, IsThatOfTheDecayInTime) {
+  for (const double ki : {3e-7, 1e-6, 5e-6}) {
+    ControllerParameters controller;
+    controller.ki = ki;
+    LinearLoop loop(110.0, rig, controller, {});
+    const double tau = slowest_time_constant(110.0, rig, encoder, controller);
+    const int samples = static_cast<int>(tau * controller.sample_rate) + 1;
+    const auto largest_over = [&](int size) {
+      double largest = 0.0;
+      for (int k = 0; k < size; ++k) {
+        loop.step();
+        largest = std::max(largest, loop.size());
+      }
+      return largest;
+    };
+    const int stretch = std::max(40 * samples, 200);
+    largest_over(5 * samples);
+    const double before = largest_over(stretch);
+    const double after = largest_over(stretch);
+    const double elapsed = static_cast<double>(stretch) / controller.sample_rate;
+    EXPECT_NEAR(elapsed / std::log(before / after), tau, 0.1 * tau) << ki;
+  }
+}
+
+TEST(SlowestTimeConstant, IsInfiniteBeyondTheBound) {
+  ControllerParameters controller;
+  const double bound = sampled_critical_integral_gain(110.0, rig, encoder, controller);
+  controller.ki = 1.001 * bound;
+  EXPECT_TRUE(std::isinf(slowest_time_constant(110.0, rig, encoder, controller)));
+  controller.ki = 0.9 * bound;
+  EXPECT_TRUE(std::isfinite(slowest_time_constant(110.0, rig, encoder, controller)));
+  controller.ki = 0.0;
+  EXPECT_TRUE(std::isfinite(slowest_time_constant(110.0, rig, encoder, controller)));
+}
+
 }  // namespace
 }  // namespace zerocount

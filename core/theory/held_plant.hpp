@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/plant/parameters.hpp"
+#include "core/theory/sampled_stability.hpp"
+
+namespace zerocount {
+
+/// The driven rotor over one sample: x ← A·x + b·v with x = (count, change of the count per sample at the
+/// current velocity, and where the amplifier lags, its torque), v the torque decided (N m).
+struct HeldPlant {
+  Eigen::MatrixXd A;  ///< of counts and N m
+  Eigen::VectorXd b;  ///< counts/(N m); 1 for the torque
+};
+
+/// Exact discretisation of J·θ¨ + damping·θ˙ + stiffness·θ = u with the drive's input held over each sample.
+/// @param stiffness N m/rad. @param damping N m s/rad. @param inertia J, kg m².
+/// @param count_angle Δx, rad. @param sample_time T, s.
+HeldPlant hold_plant(double stiffness, double damping, double inertia, double count_angle, double sample_time,
+                     const LinearDrive& drive);
+
+}  // namespace zerocount

@@ -201,7 +201,7 @@ TEST(SlowestTimeConstant, OfASlowIntegralIsInProportionToTheStiffness) {
       controller.kp = kp;
       controller.ki = 5e-8;
       const double expected =
-          (stiffness * fine_resolution(encoder) + kp) / (2.0 * controller.ki * controller.sample_rate);
+          (stiffness * fine_resolution(paper_encoder) + kp) / (2.0 * controller.ki * controller.sample_rate);
       EXPECT_NEAR(slowest_time_constant(stiffness, rig, encoder, controller), expected, 0.02 * expected);
     }
   }
@@ -212,7 +212,7 @@ TEST(SlowestTimeConstant, IsThatOfTheDecayInTime) {
     ControllerParameters controller;
     controller.ki = ki;
     LinearLoop loop(110.0, rig, controller, {});
-    const double tau = slowest_time_constant(110.0, rig, encoder, controller);
+    const double tau = slowest_time_constant(110.0, rig, paper_encoder, controller);
     const int samples = static_cast<int>(tau * controller.sample_rate) + 1;
     const auto largest_over = [&](int size) {
       double largest = 0.0;
@@ -233,7 +233,7 @@ TEST(SlowestTimeConstant, IsThatOfTheDecayInTime) {
 
 TEST(SlowestTimeConstant, IsInfiniteBeyondTheBound) {
   ControllerParameters controller;
-  const double bound = sampled_critical_integral_gain(110.0, rig, encoder, controller);
+  const double bound = sampled_critical_integral_gain(110.0, rig, paper_encoder, controller);
   controller.ki = 1.001 * bound;
   EXPECT_TRUE(std::isinf(slowest_time_constant(110.0, rig, encoder, controller)));
   controller.ki = 0.9 * bound;

@@ -202,7 +202,8 @@ TEST(SlowestTimeConstant, OfASlowIntegralIsInProportionToTheStiffness) {
       controller.ki = 5e-8;
       const double expected =
           (stiffness * fine_resolution(paper_encoder) + kp) / (2.0 * controller.ki * controller.sample_rate);
-      EXPECT_NEAR(slowest_time_constant(stiffness, rig, encoder, controller), expected, 0.02 * expected);
+      EXPECT_NEAR(slowest_time_constant(stiffness, rig, paper_encoder, controller), expected,
+                  0.02 * expected);
     }
   }
 }
@@ -235,11 +236,11 @@ TEST(SlowestTimeConstant, IsInfiniteBeyondTheBound) {
   ControllerParameters controller;
   const double bound = sampled_critical_integral_gain(110.0, rig, paper_encoder, controller);
   controller.ki = 1.001 * bound;
-  EXPECT_TRUE(std::isinf(slowest_time_constant(110.0, rig, encoder, controller)));
+  EXPECT_TRUE(std::isinf(slowest_time_constant(110.0, rig, paper_encoder, controller)));
   controller.ki = 0.9 * bound;
-  EXPECT_TRUE(std::isfinite(slowest_time_constant(110.0, rig, encoder, controller)));
+  EXPECT_TRUE(std::isfinite(slowest_time_constant(110.0, rig, paper_encoder, controller)));
   controller.ki = 0.0;
-  EXPECT_TRUE(std::isfinite(slowest_time_constant(110.0, rig, encoder, controller)));
+  EXPECT_TRUE(std::isfinite(slowest_time_constant(110.0, rig, paper_encoder, controller)));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 /// One clean case that always succeeds, and one that may be given another gain.
 std::string gains(const std::string& gain, int trials, const std::string& seed = "3") {
   return "zerocount: 1\nname: gains\nseed: " + seed + "\ntrials: " + std::to_string(trials) +
-         "\nfriction: {k2: {uniform: [600, 900]}}\n"
+         "\nfriction: {beta: 2.0e+5, k2: {uniform: [600, 900]}}\n"
          "command: {targets: [{integers: [1, 10]}], hold: 0.15}\n"
          "initial: {encoder_phase: {uniform: [0, 1]}}\n"
          "verdict: {dwell: 0.02, window: 0.02}\n"

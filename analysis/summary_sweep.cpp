@@ -43,7 +43,7 @@ std::string last_parts(const std::string& path, std::size_t parts) {
 std::string short_name(const SweepAxis& axis, const std::vector<const SweepAxis*>& swept) {
   const auto sections = std::count(axis.name.begin(), axis.name.end(), '.');
   for (std::size_t parts = 1; parts <= static_cast<std::size_t>(sections); ++parts) {
-    const std::string name = last_parts(axis.name, parts);
+    std::string name = last_parts(axis.name, parts);
     const bool is_index = name.find_first_not_of("0123456789.") == std::string::npos;
     const bool unique = std::none_of(swept.begin(), swept.end(), [&](const SweepAxis* other) {
       return other != &axis && last_parts(other->name, parts) == name;

@@ -85,6 +85,7 @@ std::vector<UndecidedMoves> undecided_moves(const StudyFile& file, const Study& 
     }
   }
   std::vector<UndecidedMoves> results;
+  results.reserve(points.size());
   for (PointMoves& point : points) results.push_back(point.result());
   return results;
 }

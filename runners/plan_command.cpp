@@ -131,6 +131,7 @@ constexpr std::array<std::int64_t, 8> listed_trials_per_rig{1, 2, 5, 10, 20, 50,
 
 std::vector<RigPlan> halfwidth_plans(const PlanRequest& request) {
   std::vector<RigPlan> plans;
+  plans.reserve(listed_trials_per_rig.size());
   for (const std::int64_t trials : listed_trials_per_rig) {
     plans.push_back(
         {rigs_for_halfwidth(*request.halfwidth, request.confidence,

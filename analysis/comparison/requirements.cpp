@@ -115,6 +115,7 @@ void judge_quality(RequirementResult& result, const std::vector<bool>& quality, 
 void judge_quantile(RequirementResult& result, std::vector<double> times, std::int64_t rigs,
                     double probability, double confidence, double failing) {
   std::vector<bool> in_time;
+  in_time.reserve(times.size());
   for (const double time : times) in_time.push_back(time <= result.limit);
   std::sort(times.begin(), times.end());
   const auto n = static_cast<double>(times.size());

@@ -29,7 +29,7 @@ std::optional<Distribution> read_drawn_mean(const Field& field, Problems& proble
   }
   const DistributionForm* form = find_form(field, entries.front(), {}, expected, problems);
   if (form == nullptr) return std::nullopt;
-  const auto distribution = read_distribution(*form, entry_of(field, entries.front()), problems);
+  auto distribution = read_distribution(*form, entry_of(field, entries.front()), problems);
   if (!distribution) return std::nullopt;
   if (!contains(above(0.0), support(*distribution)) || !extremes_are_inside(*distribution, above(0.0))) {
     problems.add(

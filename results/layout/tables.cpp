@@ -25,6 +25,7 @@ Column value_of_profile(const std::string& name, const std::string& unit) {
 
 std::vector<Column> input_columns(const std::vector<InputColumn>& inputs) {
   std::vector<Column> columns;
+  columns.reserve(inputs.size());
   for (const InputColumn& input : inputs) {
     columns.push_back({input_column_name(input.name), input.unit, input.meaning, Element::float64, {}, {}});
   }

@@ -23,6 +23,7 @@ std::vector<double> places_over_period(double period, std::int64_t count) {
 void write_one_rotor(hdf5::File& file, const RealisedProfile& realised, const Study& study) {
   const std::vector<double> theta = places_over_period(study.period, profile_angles);
   std::vector<double> value;
+  value.reserve(theta.size());
   for (const double angle : theta) value.push_back(value_at(*realised.profile, angle));
   TableIo io = TableIo::create(file, on_axis(profile_table(realised.name, realised.unit), study.units.axis),
                                profile_angles, 1);

@@ -21,6 +21,7 @@
 #include "analysis/undecided.hpp"
 #include "core/failure.hpp"
 #include "experiments/language/manifest_keys.hpp"
+#include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 
 namespace zerocount {
@@ -163,7 +164,7 @@ StoredStatistics stored_statistics(const StudyFile& file, const Study& study) {
 
 StudySummary summarise(const StudyFile& file, double confidence, bool bootstrap) {
   const FileHeader& header = file.header();
-  const Study study = parse_study(header.manifest, file.path().string() + ":/manifest", header.overrides);
+  const Study study = recorded_study(header, file.path());
   StudySummary summary;
   summary.name = header.name;
   summary.labels = file.point_labels();

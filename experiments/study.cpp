@@ -4,6 +4,7 @@
 #include <cstring>
 #include <deque>
 #include <fstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "experiments/designs/sha256.hpp"
 #include "experiments/language/manifest.hpp"
 #include "experiments/language/overrides.hpp"
+#include "experiments/parameters/earlier_defaults.hpp"
 
 namespace zerocount {
 namespace {
@@ -61,6 +63,11 @@ Study load_study(const std::filesystem::path& manifest, const std::vector<std::s
 }
 
 Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides) {
+  return parse_study(std::move(text), source, overrides, newest_version);
+}
+
+Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
+                  std::int64_t version) {
   if (text.size() > largest_manifest) refuse_size(source);
   Problems problems;
   YamlPointer root = parse_yaml(text, source, false, problems);
@@ -72,7 +79,7 @@ Study parse_study(std::string text, std::string_view source, const std::vector<s
 
   std::deque<std::string> override_sources;
   root = apply_overrides(root, overrides, override_sources, problems);
-  Study study = read_manifest(*root, problems);
+  Study study = read_manifest(*root, version, problems);
   problems.raise_if_any();
 
   study.manifest_sha256 = sha256_hex(text);

@@ -174,6 +174,11 @@ Study load_study(const std::filesystem::path& manifest, const std::vector<std::s
 /// As load_study, from text; `source` stands for the file's name in messages.
 Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides = {});
 
+/// The same with the defaults of the programs that wrote results files of `version`
+/// (parameters/earlier_defaults.hpp).
+Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
+                  std::int64_t version);
+
 /// The parameters of trial `index` (0 … trials − 1) at design point `point` (0 … points − 1). A pure function
 /// of the study, safe to call from any thread.
 StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "analysis/jerks/jerk_report.hpp"
+#include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/commands.hpp"
 #include "runners/option_values.hpp"
@@ -27,8 +28,7 @@ ExitCode print_jerks(const Arguments& arguments) {
   const std::int64_t creep_trials =
       arguments.whole_number("creep-trials", 0, 1'000'000).value_or(default_creep_trials);
   const StudyFile file(arguments.operands()[0]);
-  const FileHeader& header = file.header();
-  const Study study = parse_study(header.manifest, file.path().string() + ":/manifest", header.overrides);
+  const Study study = recorded_study(file.header(), file.path());
   const std::vector<std::int64_t> points = whole_number_options(arguments, "point");
   const JerkReport report = jerk_report(file, study, points, confidence, creep_trials);
   fmt::print("{}", format == "json" ? jerk_json_text(report) : jerk_text(report));

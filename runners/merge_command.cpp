@@ -40,9 +40,7 @@ void require_everything(const std::vector<ShardInfo>& parts, const Study& study)
 ExitCode merge(const Arguments& arguments) {
   const fs::path output = output_place(arguments);
   const std::vector<fs::path> inputs(arguments.operands().begin(), arguments.operands().end());
-  const FileHeader header = first_header(inputs);
-  Study study = parse_study(header.manifest, inputs.front().string() + ":/manifest", header.overrides);
-  study.engine = header.engine;
+  const Study study = recorded_study(first_header(inputs), inputs.front());
   const OutputLock lock(output);
   const std::vector<ShardInfo> parts = merge_inputs(inputs, study);
   require_everything(parts, study);

@@ -7,6 +7,7 @@
 
 #include "core/trial/trial.hpp"
 #include "experiments/study.hpp"
+#include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_file.hpp"
@@ -99,8 +100,7 @@ ExitCode trace(const Arguments& arguments) {
     arguments.refuse("option '--set' goes with a manifest, not with a results file");
 
   const Study study =
-      file ? parse_study(file->header().manifest, input + ":/manifest", file->header().overrides)
-           : load_study(input, arguments.values("set"));
+      file ? recorded_study(file->header(), input) : load_study(input, arguments.values("set"));
   const std::int64_t point = index_option(arguments, "point", point_count(study), study.name);
   const std::int64_t index = index_option(arguments, "trial", study.trials, study.name);
   const RowRange row{point * study.trials + index, 1};

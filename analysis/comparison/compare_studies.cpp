@@ -190,8 +190,9 @@ void note_unpaired_trials(StudyComparison& result) {
 
 StudyComparison compare_studies(const StudyFile& baseline, const StudyFile& current, const GateRules& rules) {
   const std::vector<MatchedPoint> points = match_points(baseline, current);
-  const ManifestValues old_values = manifest_values(baseline.header(), baseline.path().string());
-  const ManifestValues new_values = manifest_values(current.header(), current.path().string());
+  ManifestValues old_values = manifest_values(baseline.header(), baseline.path().string());
+  ManifestValues new_values = manifest_values(current.header(), current.path().string());
+  write_changed_defaults(old_values, baseline.header().version, new_values, current.header().version);
   require_same_kind(baseline, current, old_values, new_values);
 
   StudyComparison result;

@@ -1,12 +1,15 @@
 #include "analysis/comparison/manifest_differences.hpp"
 
+#include <algorithm>
 #include <deque>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/failure.hpp"
+#include "experiments/language/manifest_keys.hpp"
 #include "experiments/language/overrides.hpp"
+#include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 
 namespace zerocount {
@@ -20,6 +23,19 @@ void collect(const YamlNode& node, const std::string& path, ManifestValues& valu
   for (const YamlEntry& entry : node.entries) {
     collect(*entry.value, path.empty() ? entry.key : path + "." + entry.key, values);
   }
+}
+
+/// Whether the manifest gives the parameter a value, or one to every point of a grid.
+bool gives(const ManifestValues& values, std::string_view parameter) {
+  return std::any_of(values.begin(), values.end(), [&](const auto& entry) {
+    return is_within(entry.first, parameter) ||
+           is_within(entry.first, fmt::format("sweep.grid.{}", parameter));
+  });
+}
+
+void write_default(ManifestValues& values, const Parameter& parameter, std::int64_t version) {
+  if (gives(values, parameter.name)) return;
+  values[std::string(parameter.name)] = fmt::format("{}", default_value_in(parameter, version));
 }
 
 }  // namespace
@@ -39,6 +55,17 @@ ManifestValues manifest_values(const FileHeader& header, const std::string& sour
   ManifestValues values;
   if (root) collect(*root, "", values);
   return values;
+}
+
+void write_changed_defaults(ManifestValues& baseline, std::int64_t baseline_version, ManifestValues& current,
+                            std::int64_t current_version) {
+  for (const EarlierDefault& earlier : earlier_defaults()) {
+    const Parameter& parameter = parameter_table()[find_parameter(earlier.name).value()];
+    if (default_value_in(parameter, baseline_version) == default_value_in(parameter, current_version))
+      continue;
+    write_default(baseline, parameter, baseline_version);
+    write_default(current, parameter, current_version);
+  }
 }
 
 std::string value_or(const ManifestValues& values, const std::string& key, const std::string& absent) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,6 +17,11 @@ using ManifestValues = std::map<std::string, std::string>;
 /// @param source the file that the header is of, for messages
 /// @throws Failure (bad_data) where the manifest is no YAML that this program accepts.
 ManifestValues manifest_values(const FileHeader& header, const std::string& source);
+
+/// Writes into the values of two files of different format versions the defaults that changed between these
+/// versions, where a manifest leaves the parameter out: two equal manifests need not be of the same trials.
+void write_changed_defaults(ManifestValues& baseline, std::int64_t baseline_version, ManifestValues& current,
+                            std::int64_t current_version);
 
 /// The value of a key that is a text or a number; `absent` where it is missing.
 std::string value_or(const ManifestValues& values, const std::string& key, const std::string& absent);

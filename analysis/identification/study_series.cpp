@@ -4,6 +4,7 @@
 #include "core/failure.hpp"
 #include "core/trial/random_history.hpp"
 #include "experiments/study.hpp"
+#include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 
 namespace zerocount {
@@ -44,8 +45,7 @@ PlantStart start_of(const TrialParameters& trial, const SeriesChoice& choice) {
 RawSeries read_study_series(const std::filesystem::path& path, std::int64_t point, std::int64_t index,
                             const SeriesChoice& choice) {
   const StudyFile file(path, Require::any_part);
-  const Study study =
-      parse_study(file.header().manifest, path.string() + ":/manifest", file.header().overrides);
+  const Study study = recorded_study(file.header(), path);
   if (point >= point_count(study) || index >= study.trials) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: has no point {}, trial {}; it has {} points of {} trials", path.string(),

@@ -8,6 +8,7 @@
 
 #include "analysis/anytime_bounds.hpp"
 #include "analysis/study_statistics.hpp"
+#include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 
 namespace zerocount {
@@ -34,10 +35,7 @@ ConfidenceInterval success_bounds_of(const PointSummary& point, bool stopped_by_
 }  // namespace
 
 ReportedStudy reported_study(const StudyFile& file) {
-  const FileHeader& header = file.header();
-  ReportedStudy reported{file,
-                         parse_study(header.manifest, file.path().string() + ":/manifest", header.overrides),
-                         summarise(file)};
+  ReportedStudy reported{file, recorded_study(file.header(), file.path()), summarise(file)};
   reported.bounds_name = reported.study.stop   ? "bounds that hold at whatever trial one stops"
                          : reported.study.rigs ? "Korn-Graubard bounds"
                                                : "Clopper-Pearson bounds";

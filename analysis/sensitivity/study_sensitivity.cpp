@@ -9,6 +9,7 @@
 #include "analysis/sensitivity/trial_outputs.hpp"
 #include "core/failure.hpp"
 #include "experiments/designs/random_key.hpp"
+#include "results/layout/header.hpp"
 
 namespace zerocount {
 namespace {
@@ -58,7 +59,7 @@ PointInputs point_inputs(const StudyFile& file, const Study& study, std::int64_t
 StudySensitivity study_sensitivity(const StudyFile& file, const SensitivityQuestion& question) {
   check_confidence(question.confidence);
   const FileHeader& header = file.header();
-  const Study study = parse_study(header.manifest, file.path().string() + ":/manifest", header.overrides);
+  const Study study = recorded_study(header, file.path());
   const std::vector<SensitivityOutput> outputs = outputs_asked(question);
   const std::vector<std::string> labels = file.point_labels();
   // The resampling is the same for all outputs and points, as the trials are.

@@ -249,9 +249,9 @@ void report_unknown_keys(Manifest& m) {
 
 }  // namespace
 
-Study read_manifest(const YamlNode& root, Problems& problems) {
+Study read_manifest(const YamlNode& root, std::int64_t version, Problems& problems) {
   auto plan = std::make_shared<StudyPlan>();
-  Manifest m{.root = {&root, ""}, .reading = {problems, *plan}};
+  Manifest m{.root = {&root, ""}, .reading = {problems, *plan, version}};
   if (root.kind != YamlNode::Kind::map) {
     add_wrong_type({&root, "manifest"}, "a map with the keys zerocount, name, seed, trials, command",
                    problems);

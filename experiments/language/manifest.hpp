@@ -15,6 +15,7 @@ constexpr std::int64_t max_rigs = std::int64_t{1} << 32;
 
 /// Understands the manifest `root`: everything of a Study but its text, overrides and hashes. What is wrong
 /// goes to `problems`; where there is any, the study is not to be used.
-Study read_manifest(const YamlNode& root, Problems& problems);
+/// @param version of the results files whose defaults stand for what the manifest leaves out.
+Study read_manifest(const YamlNode& root, std::int64_t version, Problems& problems);
 
 }  // namespace zerocount

@@ -7,6 +7,7 @@
 
 #include "experiments/language/manifest_keys.hpp"
 #include "experiments/language/slots.hpp"
+#include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/yaml/unknown_key.hpp"
 
 namespace zerocount {
@@ -108,7 +109,7 @@ void take_defaults(SectionReading& s) {
   for (std::size_t row = 0; row < table.size(); ++row) {
     const bool known = has_default(table[row]) && exists_on(table[row], s.plan().units.axis);
     s.plan().base[row] = unreadable_value();
-    if (known) s.plan().base[row].number = default_value(table[row]);
+    if (known) s.plan().base[row].number = default_value_in(table[row], s.reading.version);
     if (table[row].only_on && !known) s.plan().base[row].number = 0.0;
   }
 }

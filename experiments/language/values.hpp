@@ -23,6 +23,7 @@ struct ProfileRequest {
 struct Reading {
   Problems& problems;
   StudyPlan& plan;                         ///< gets the distributions
+  std::int64_t version;                    ///< of the results files whose defaults are taken
   bool has_rigs{false};                    ///< the study has the key `rigs`
   std::vector<ProfileRequest> profiles{};  ///< [index of a value of kind profile]
   std::vector<std::string> warnings{};     ///< what is allowed but may surprise

@@ -174,6 +174,12 @@ FileHeader read_header(const hdf5::File& file) {
   return header;
 }
 
+Study recorded_study(const FileHeader& header, const std::filesystem::path& path) {
+  Study study = parse_study(header.manifest, path.string() + ":/manifest", header.overrides, header.version);
+  study.engine = header.engine;
+  return study;
+}
+
 void require_same_study(const std::filesystem::path& path, const FileHeader& header, const Study& study) {
   if (header.study_sha256 != study.study_sha256) {
     throw ForeignFile(path, fmt::format("of another study: '{}' with other contents or overrides, not '{}'",

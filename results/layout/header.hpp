@@ -60,6 +60,11 @@ void mark_finished(hdf5::File& file);
 /// @throws ForeignFile for another format or a newer version, Failure (bad_data) for damage.
 FileHeader read_header(const hdf5::File& file);
 
+/// The study whose trials the file `path` holds: its manifest with its overrides, the defaults of its format
+/// version and its engine. Whoever needs the study of a results file takes it from here.
+/// @throws Failure (bad_input) as parse_study does.
+Study recorded_study(const FileHeader& header, const std::filesystem::path& path);
+
 /// @throws ForeignFile unless `header`, of the file `path`, is of this study, by this build of the program
 /// (see same_build) and the study's engine, and of the current version of the layout.
 void require_same_study(const std::filesystem::path& path, const FileHeader& header, const Study& study);

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "results/reading/study_file.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/version_1_file.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -68,6 +70,17 @@ TEST_F(Compare, AHigherGainIsARegression) {
   EXPECT_EQ(json["manifest_differences"][0]["key"], "sweep.cases.high.controller.ki");
   const auto back = compared("b", "a", 0);  // the other way round it is an improvement
   EXPECT_GT(back["counts"]["improved"].get<int>(), 0);
+}
+
+// Both manifests leave β out, and between the programs that ran them its default changed.
+TEST_F(Compare, TellsTheDefaultsThatChangedSinceAnEarlierFormatVersion) {
+  const std::filesystem::path earlier = version_1_file(folder_.path());
+  study("now", StudyFile(earlier).header().manifest);
+  const auto json = nlohmann::json::parse(run({"compare", "version-1.h5", "now.h5", "--format", "json"}).out);
+  ASSERT_EQ(json["manifest_differences"].size(), 1u);
+  EXPECT_EQ(json["manifest_differences"][0]["key"], "friction.beta");
+  EXPECT_EQ(json["manifest_differences"][0]["baseline"], "200000");
+  EXPECT_EQ(json["manifest_differences"][0]["current"], "100000");
 }
 
 TEST_F(Compare, TooFewTrialsAreInconclusiveAndSayHowManyWouldDo) {

@@ -105,12 +105,21 @@ TEST_F(Trace, ReplaysFromTheFileAloneAndEqualsTheRetainedRecord) {
 }
 
 // Its manifest leaves β out, and the default of β has changed since.
-TEST_F(Trace, TellsThatAFileOfFormatVersion1HadOtherDefaults) {
-  version_1_file(folder_.path());
+TEST_F(Trace, ReplaysAFileOfFormatVersion1WithTheDefaultsOfItsTime) {
+  const std::filesystem::path path = version_1_file(folder_.path());
   for (const char* point : {"0", "1"}) {
-    const ProgramResult replay = run({"trace", "version-1.h5", "--point", point, "--trial", "1"});
-    EXPECT_EQ(replay.code, 4) << replay.err;
-    EXPECT_NE(replay.err.find("the replay is not the recorded trial"), std::string::npos) << replay.err;
+    for (const char* trial : {"0", "1", "2"}) {
+      const ProgramResult replay = run({"trace", "version-1.h5", "--point", point, "--trial", trial});
+      EXPECT_EQ(replay.code, 0) << replay.err;
+    }
+  }
+  const std::vector<TraceRecord> kept = StudyFile(path).trace_at(0, 200);
+  const auto json =
+      nlohmann::json::parse(run({"trace", "version-1.h5", "--trial", "1", "--format", "json"}).out);
+  ASSERT_EQ(json["samples"].size(), kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    EXPECT_EQ(json["samples"][i]["count"].get<std::int64_t>(), kept[i].count);
+    EXPECT_NEAR(json["samples"][i]["theta"].get<double>(), kept[i].theta, 1e-14);
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "experiments/parameters/earlier_defaults.hpp"
+#include "results/layout/header.hpp"
 #include "results/reading/export.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/results/walk.hpp"
@@ -67,6 +69,29 @@ TEST_F(Version1, HasSampleRecordsWhoseReferenceIsTheTarget) {
     EXPECT_EQ(record.error, record.target - record.count);
     EXPECT_EQ(record.phase, ControlPhase::fine);
     EXPECT_EQ(record.drive_torque, record.torque);
+  }
+}
+
+TEST_F(Version1, IsOfAStudyWithTheDefaultsOfItsTime) {
+  const StudyTrial recorded = study_trial(recorded_study(file.header(), file.path()), 0, 1);
+  EXPECT_EQ(recorded.parameters.friction.uniform.beta, 2.0e5);
+  EXPECT_EQ(recorded.parameters.friction.uniform.alpha, FrictionParameters{}.alpha);
+  const Study today = parse_study(file.header().manifest, "today.yaml", file.header().overrides);
+  EXPECT_EQ(study_trial(today, 0, 1).parameters.friction.uniform.beta, FrictionParameters{}.beta);
+}
+
+TEST(EarlierDefaults, AreOfEarlierVersionsAndAreNoLongerTheDefault) {
+  for (const EarlierDefault& earlier : earlier_defaults()) {
+    EXPECT_GE(earlier.until_version, 1) << earlier.name;
+    EXPECT_LT(earlier.until_version, format_version) << earlier.name;
+    const auto row = find_parameter(earlier.name);
+    ASSERT_TRUE(row) << earlier.name;
+    const Parameter& parameter = parameter_table()[*row];
+    EXPECT_TRUE(contains(parameter.range, earlier.value)) << earlier.name;
+    EXPECT_EQ(default_value_in(parameter, earlier.until_version), earlier.value) << earlier.name;
+    EXPECT_NE(default_value_in(parameter, earlier.until_version + 1), earlier.value) << earlier.name;
+    EXPECT_EQ(default_value_in(parameter, format_version), default_value(parameter)) << earlier.name;
+    EXPECT_EQ(default_value_in(parameter, newest_version), default_value(parameter)) << earlier.name;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "analysis/text.hpp"
+#include "core/theory/stability.hpp"
 #include "core/trial/last_half.hpp"
 #include "core/trial/parameters.hpp"
 #include "results/layout/table_io.hpp"
@@ -19,14 +20,67 @@ namespace {
 /// Proportion of the moves still falling for which the advised hold is long enough.
 constexpr double advised_proportion = 0.9;
 
-/// Rounded up to two significant digits.
+/// Rounded up to two significant digits, to the double that is nearest to them.
 double rounded_up(double value) {
-  const double digit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
-  return std::ceil(value / digit - 1e-9) * digit;
+  const double decimals = 1.0 - std::floor(std::log10(value));
+  const double scale = std::pow(10.0, std::abs(decimals));
+  if (decimals < 0.0) return std::ceil(value / scale - 1e-9) * scale;
+  return std::ceil(value * scale - 1e-9) / scale;
 }
 
 bool falls(const MoveOutcome& move) {
   return std::abs(move.final_error) < std::abs(move.midway_error);
+}
+
+/// Whether the count went towards its target all through the last half, but for one count to either side.
+/// With a last error of 2 counts or more the error has then kept its sign.
+bool falls_with_ripple(const MoveOutcome& move) {
+  const auto fallen = static_cast<double>(std::abs(move.midway_error) - std::abs(move.final_error));
+  return falls(move) && std::abs(move.final_error) >= 2 && 2.0 * move.oscillation_amplitude <= fallen + 2.0;
+}
+
+/// τ of the errors recorded in the middle and at the end of the hold, s; see time_to_zero.
+double decay_time_constant(std::int64_t midway_error, std::int64_t final_error, std::int64_t samples,
+                           double sample_time) {
+  const double elapsed = static_cast<double>(samples - 1 - first_of_last_half(samples)) * sample_time;
+  return elapsed /
+         std::log(static_cast<double>(std::abs(midway_error)) / static_cast<double>(std::abs(final_error)));
+}
+
+/// What a longer hold adds to the way of a move: the move before it arrives too, so that this one has all of
+/// its step to go. ln of the step over the error it started with, at least 0. Under a profiled reference the
+/// error does not start with the step.
+double log_of_longer_way(const TrialParameters& parameters, std::size_t number, std::int64_t error_before) {
+  const std::vector<std::int64_t>& targets = parameters.command.targets;
+  if (number == 0 || parameters.command.profile.shape != ReferenceShape::step) return 0.0;
+  const std::int64_t step = targets[number] - targets[number - 1];
+  const std::int64_t start = step + error_before;
+  if (step == 0 || start == 0) return 0.0;
+  return std::max(0.0, std::log(std::abs(static_cast<double>(step) / static_cast<double>(start))));
+}
+
+/// Time for which the count chatters on the edge of the target, s. With each count that the error falls, kp
+/// takes kp off the torque, and the rotor falls back over the edge: the error is then 1 for a proportion of
+/// the time that decays with T·kp/(2·ki), as the integral takes over. One excursion lasts about a period of
+/// the contact's natural frequency, so that there is none within a dwell once the proportion is
+/// 1/(frequency·dwell).
+double chatter_time(const TrialParameters& p) {
+  const FrictionParameters contact = friction_at(p.friction, p.initial.position);
+  const double frequency = natural_frequency(contact.k1 + contact.k2, p.plant);
+  const double decays = std::max(0.0, std::log(frequency * p.verdict.dwell));
+  return p.controller.kp / (2.0 * p.controller.ki * p.controller.sample_rate) * decays;
+}
+
+/// Hold that the move is expected to need, s.
+/// @param error_before last error of the move before it.
+double needed_hold(const MoveOutcome& move, std::size_t number, std::int64_t error_before,
+                   const TrialParameters& p) {
+  const std::int64_t samples = samples_of_move(p, number);
+  const double sample_time = 1.0 / p.controller.sample_rate;
+  return time_to_zero(move.midway_error, move.final_error, samples, sample_time) +
+         decay_time_constant(move.midway_error, move.final_error, samples, sample_time) *
+             log_of_longer_way(p, number, error_before) +
+         chatter_time(p) + std::max(p.verdict.dwell, p.verdict.window);
 }
 
 /// What is gathered of a point.
@@ -34,18 +88,24 @@ struct PointMoves {
   UndecidedMoves counts;
   std::vector<double> needed;  ///< holds, s
 
-  void add(const MoveOutcome& move, std::size_t number, const TrialParameters& parameters);
+  void add(const MoveOutcome& move, std::size_t number, std::int64_t error_before,
+           const TrialParameters& parameters);
   UndecidedMoves result();
 };
 
-void PointMoves::add(const MoveOutcome& move, std::size_t number, const TrialParameters& parameters) {
-  ++counts.off_target;
+void PointMoves::add(const MoveOutcome& move, std::size_t number, std::int64_t error_before,
+                     const TrialParameters& parameters) {
+  const bool off_target = move.outcome == Outcome::off_target;
+  counts.off_target += off_target;
   if (!falls(move)) return;
-  ++counts.still_falling;
-  if (!(parameters.controller.ki > 0.0)) return;
-  const double zero = time_to_zero(move.midway_error, move.final_error, samples_of_move(parameters, number),
-                                   1.0 / parameters.controller.sample_rate);
-  needed.push_back(zero + std::max(parameters.verdict.dwell, parameters.verdict.window));
+  ++(off_target ? counts.still_falling : counts.falling_with_ripple);
+  if (parameters.controller.ki > 0.0) needed.push_back(needed_hold(move, number, error_before, parameters));
+}
+
+/// Whether a longer hold may be what the move lacks.
+bool may_be_undecided(const MoveOutcome& move) {
+  return move.outcome == Outcome::off_target ||
+         (move.outcome == Outcome::oscillating && falls_with_ripple(move));
 }
 
 UndecidedMoves PointMoves::result() {
@@ -61,11 +121,9 @@ UndecidedMoves PointMoves::result() {
 
 double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::int64_t samples,
                     double sample_time) {
-  const auto midway = static_cast<double>(std::abs(midway_error));
-  const auto final = static_cast<double>(std::abs(final_error));
   const auto last = static_cast<double>(samples - 1) * sample_time;
-  const double elapsed = static_cast<double>(samples - 1 - first_of_last_half(samples)) * sample_time;
-  return last + elapsed * std::log(2.0 * final) / std::log(midway / final);
+  return last + decay_time_constant(midway_error, final_error, samples, sample_time) *
+                    std::log(2.0 * static_cast<double>(std::abs(final_error)));
 }
 
 std::vector<UndecidedMoves> undecided_moves(const StudyFile& file, const Study& study) {
@@ -78,10 +136,11 @@ std::vector<UndecidedMoves> undecided_moves(const StudyFile& file, const Study& 
     const RowRange block{first, std::min(rows_at_once, file.rows().end() - first)};
     const std::vector<MoveOutcome> outcomes = file.outcomes(block);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      if (outcomes[i].outcome != Outcome::off_target) continue;
+      if (!may_be_undecided(outcomes[i])) continue;
       const std::int64_t row = block.first + static_cast<std::int64_t>(i / moves);
       points[static_cast<std::size_t>(row / trials)].add(
-          outcomes[i], i % moves, study_trial(study, row / trials, row % trials).parameters);
+          outcomes[i], i % moves, i % moves == 0 ? 0 : outcomes[i - 1].final_error,
+          study_trial(study, row / trials, row % trials).parameters);
     }
   }
   std::vector<UndecidedMoves> results;
@@ -90,16 +149,25 @@ std::vector<UndecidedMoves> undecided_moves(const StudyFile& file, const Study& 
   return results;
 }
 
+bool any_undecided(const UndecidedMoves& moves) {
+  return moves.off_target > 0 || moves.falling_with_ripple > 0;
+}
+
 std::string undecided_sentence(const UndecidedMoves& moves) {
-  if (moves.off_target == 0) return {};
-  const std::string off =
+  if (!any_undecided(moves)) return {};
+  std::string text =
       fmt::format("{} of {} moves ended more than one count off their target without oscillating",
                   moves.off_target, moves.moves);
-  if (moves.still_falling == 0)
-    return off + "; in none of them was the error still falling: they have stalled";
-  std::string text =
-      off + fmt::format("; the error was still falling in {} of {} moves at the end of the hold",
+  if (moves.still_falling > 0) {
+    text += fmt::format("; the error was still falling in {} of {} moves at the end of the hold",
                         moves.still_falling, moves.moves);
+  } else if (moves.off_target > 0) {
+    text += "; in none of them was the error still falling: they have stalled";
+  }
+  if (moves.falling_with_ripple > 0) {
+    text += fmt::format("; it was falling, with a ripple of one count, in {} more that count as oscillating",
+                        moves.falling_with_ripple);
+  }
   if (!std::isnan(moves.advised_hold)) text += fmt::format("; hold ≥ about {:.4g} s", moves.advised_hold);
   return text;
 }
@@ -109,6 +177,10 @@ SummarySection undecided_section(std::span<const PointSummary> points,
   SummarySection section{.key = "undecided", .json = {}, .columns = {}, .text = {}};
   PointColumn off_target{"undecided_moves", "1", "moves that ended off target", {}};
   PointColumn falling{"still_falling_moves", "1", "of them, with an error that was still falling", {}};
+  PointColumn ripple{"falling_with_ripple_moves",
+                     "1",
+                     "moves that count as oscillating with an error that was still falling, but for a ripple",
+                     {}};
   PointColumn hold{"hold_at_least", "s", "hold that most of these are expected to need", {}};
   bool any = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -116,11 +188,13 @@ SummarySection undecided_section(std::span<const PointSummary> points,
     section.json.push_back({{"moves", point.moves},
                             {"off_target", point.off_target},
                             {"still_falling", point.still_falling},
+                            {"falling_with_ripple", point.falling_with_ripple},
                             {"hold_at_least", point.advised_hold}});
     off_target.values.push_back(static_cast<double>(point.off_target));
     falling.values.push_back(static_cast<double>(point.still_falling));
+    ripple.values.push_back(static_cast<double>(point.falling_with_ripple));
     hold.values.push_back(point.advised_hold);
-    if (point.off_target == 0) continue;
+    if (!any_undecided(point)) continue;
     any = true;
     section.text += fmt::format("{}: {}\n", printable(labels[i]), undecided_sentence(point));
   }
@@ -130,7 +204,7 @@ SummarySection undecided_section(std::span<const PointSummary> points,
         "error "
         "was still\nfalling\n";
   }
-  section.columns = {std::move(off_target), std::move(falling), std::move(hold)};
+  section.columns = {std::move(off_target), std::move(falling), std::move(ripple), std::move(hold)};
   return section;
 }
 

@@ -32,7 +32,8 @@ constexpr const char* check_help =
     "and the rules for the DAC and the sample rate. Both bounds are also given at the lowest k1\n"
     "of the study: the low end of its distribution, or the lowest along the profiles. The\n"
     "slowest time constant with which the sampled loop approaches its target, at k1 and k1 + k2,\n"
-    "stands beside the hold. While the rotor slides, the bandwidth is the highest frequency at\n"
+    "and the time that the longest move needs with it stand beside the hold. While the rotor slides, the "
+    "bandwidth is the highest frequency at\n"
     "which the open loop has gain 1.\n"
     "\n"
     "Example: zerocount check experiments/manifests/paper-gains.yaml\n";
@@ -56,6 +57,12 @@ std::string text(const Range& range) {
   if (range.low == range.high) return fmt::format("{:.3g}", range.low);
   return fmt::format("{:.3g} … {:.3g}", range.low, range.high);
 }
+
+/// When a step of the target has decayed to zero counts, and that was seen.
+struct Arrival {
+  std::int64_t step{0};  // counts; 0: there is none
+  double time{0.0};      // from its start, s
+};
 
 /// One phase of the control while the rotor slides, over the trials.
 struct SlidingPhase {
@@ -83,6 +90,7 @@ struct PointTheory {
   Range lowest_k1;                   // of the profiles, or the low end
   Range low_stable, low_sampled;     // bounds there, gain_unit
   Range slowest;                     // time constant of the approach, s
+  Arrival longest;                   // of the moves, at this rate
   double hold{0.0};                  // of the shortest move, s
   std::vector<SlidingPhase> phases;  // of the control
 };
@@ -138,13 +146,37 @@ void add_sliding(SlidingPhase& phase, ControlPhase which, const TrialParameters&
   phase.unstable = phase.unstable && !stable;
 }
 
-/// The loops at the softest and the stiffest that the trial's contact can be, as far as they are stable.
-void add_time_constants(Range& slowest, const TrialParameters& p, const FrictionParameters& contact) {
+/// Of the loops at the softest and the stiffest that the trial's contact can be, as far as they are stable.
+Range time_constants(const TrialParameters& p, const FrictionParameters& contact) {
+  Range slowest;
   for (const double stiffness : {contact.k1, contact.k1 + contact.k2}) {
     const double tau = slowest_time_constant(
         stiffness, p.plant, p.encoder, controller_in_phase(p.controller, ControlPhase::fine), drive_of(p));
     if (std::isfinite(tau) && tau > 0.0) slowest.add(tau);
   }
+  return slowest;
+}
+
+/// The largest error that the fine phase begins a move with, counts; 0 where no move is a step.
+std::int64_t longest_step(const TrialParameters& p) {
+  if (p.command.profile.shape != ReferenceShape::step) return 0;
+  std::int64_t longest = 0;
+  std::int64_t before = 0;
+  for (const std::int64_t target : p.command.targets) {
+    longest = std::max(longest, std::abs(target - before));
+    before = target;
+  }
+  if (!has_coarse_phase(p.controller)) return longest;
+  return std::min(longest, static_cast<std::int64_t>(p.controller.coarse.fine_within));
+}
+
+/// The error decays with the time constant `tau` (s), and the count reads 0 from half a count on.
+void add_arrival(Arrival& longest, const TrialParameters& p, double tau) {
+  const std::int64_t step = longest_step(p);
+  if (step == 0) return;
+  const double time =
+      tau * std::log(2.0 * static_cast<double>(step)) + std::max(p.verdict.dwell, p.verdict.window);
+  if (time > longest.time) longest = {step, time};
 }
 
 /// What holds for each of the trials examined, beyond the paper: the sampled loop at the lowest k1, its time
@@ -158,7 +190,12 @@ void examine_beyond(const Study& study, std::int64_t point, PointTheory& theory)
   for (std::int64_t index = 0; index < std::min(study.trials, most_trials_examined_closely); ++index) {
     const TrialParameters p = study_trial(study, point, index).parameters;
     FrictionParameters contact = friction_at(p.friction, p.initial.position);
-    add_time_constants(theory.slowest, p, contact);
+    const Range slowest = time_constants(p, contact);
+    if (slowest.low <= slowest.high) {
+      theory.slowest.add(slowest.low);
+      theory.slowest.add(slowest.high);
+      add_arrival(theory.longest, p, slowest.high);
+    }
     contact.k1 = theory.low_end.kind == LowEnd::Kind::profile ? lowest_k1(p.friction) : theory.low_end.value;
     theory.lowest_k1.add(contact.k1);
     const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
@@ -219,15 +256,27 @@ std::string_view source_of(LowEnd::Kind kind) {
   return "the lowest along the profiles";
 }
 
+bool may_be_too_slow(const PointTheory& theory) {
+  return theory.slowest.high > theory.hold || theory.longest.time > theory.hold;
+}
+
+/// "a move of 30 counts needs about 1 s"; empty where no move is a step.
+std::string arrival_text(const Arrival& longest) {
+  if (longest.step == 0) return {};
+  return fmt::format("a move of {} count{} needs about {:.2g} s", longest.step, longest.step == 1 ? "" : "s",
+                     longest.time);
+}
+
 std::string describe_beyond(const PointTheory& theory) {
   std::string out =
       fmt::format("    at the lowest k1, {} ({}): (6) stable below {:.3g} {}, sampled loop below {:.3g} {}\n",
                   text({theory.lowest_k1.low, theory.lowest_k1.low}), source_of(theory.low_end.kind),
                   theory.low_stable.low, theory.gain_unit, theory.low_sampled.low, theory.gain_unit);
   if (theory.slowest.low <= theory.slowest.high) {
-    out += fmt::format("    slowest time constant         {} s, hold {:.4g} s{}\n", text(theory.slowest),
-                       theory.hold,
-                       theory.slowest.high > theory.hold ? ": moves may end before they arrive" : "");
+    const std::string arrival = arrival_text(theory.longest);
+    out += fmt::format("    slowest time constant         {} s{}{}, hold {:.4g} s{}\n", text(theory.slowest),
+                       arrival.empty() ? "" : "; ", arrival, theory.hold,
+                       may_be_too_slow(theory) ? ": moves may end before they arrive" : "");
   }
   for (const SlidingPhase& phase : theory.phases) {
     const bool crosses = phase.bandwidth.low <= phase.bandwidth.high;
@@ -306,6 +355,17 @@ void print_plan(const Study& study) {
   print_what_differs(study);
 }
 
+void warn_of_slowness(std::int64_t point, const std::string& label, const PointTheory& theory) {
+  const std::string arrival = arrival_text(theory.longest);
+  const std::string slow =
+      theory.slowest.high > theory.hold
+          ? fmt::format("the loop's slowest time constant, {:.3g} s, exceeds the hold of {:.4g} s{}{}",
+                        theory.slowest.high, theory.hold, arrival.empty() ? "" : "; ", arrival)
+          : fmt::format("the loop's slowest time constant is {:.3g} s; {}, longer than the hold of {:.4g} s",
+                        theory.slowest.high, arrival, theory.hold);
+  fmt::print(stderr, "warning: point {} ({}): {}: moves may end before they arrive\n", point, label, slow);
+}
+
 ExitCode check(const Arguments& arguments) {
   const Study study = load_study(arguments.operands()[0], arguments.values("set"));
   warn(study);
@@ -318,13 +378,7 @@ ExitCode check(const Arguments& arguments) {
     const PointTheory theory = examine(study, point);
     const std::string& label = study.point_labels[static_cast<std::size_t>(point)];
     fmt::print("  point {}: {}\n{}", point, label, describe(theory));
-    if (theory.slowest.high > theory.hold) {
-      fmt::print(
-          stderr,
-          "warning: point {} ({}): the loop's slowest time constant, {:.3g} s, exceeds the hold of {:.4g} s; "
-          "moves may end before they arrive\n",
-          point, label, theory.slowest.high, theory.hold);
-    }
+    if (may_be_too_slow(theory)) warn_of_slowness(point, label, theory);
   }
   if (shown < point_count(study)) {
     fmt::print("  … and {} more points (--all-points shows them)\n", point_count(study) - shown);

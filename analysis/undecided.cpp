@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "analysis/text.hpp"
-#include "core/theory/stability.hpp"
+#include "core/theory/slow_approach.hpp"
 #include "core/trial/last_half.hpp"
 #include "core/trial/parameters.hpp"
 #include "results/layout/table_io.hpp"
@@ -59,18 +59,6 @@ double log_of_longer_way(const TrialParameters& parameters, std::size_t number, 
   return std::max(0.0, std::log(std::abs(static_cast<double>(step) / static_cast<double>(start))));
 }
 
-/// Time for which the count chatters on the edge of the target, s. With each count that the error falls, kp
-/// takes kp off the torque, and the rotor falls back over the edge: the error is then 1 for a proportion of
-/// the time that decays with T·kp/(2·ki), as the integral takes over. One excursion lasts about a period of
-/// the contact's natural frequency, so that there is none within a dwell once the proportion is
-/// 1/(frequency·dwell).
-double chatter_time(const TrialParameters& p) {
-  const FrictionParameters contact = friction_at(p.friction, p.initial.position);
-  const double frequency = natural_frequency(contact.k1 + contact.k2, p.plant);
-  const double decays = std::max(0.0, std::log(frequency * p.verdict.dwell));
-  return p.controller.kp / (2.0 * p.controller.ki * p.controller.sample_rate) * decays;
-}
-
 /// Hold that the move is expected to need, s.
 /// @param error_before last error of the move before it.
 double needed_hold(const MoveOutcome& move, std::size_t number, std::int64_t error_before,
@@ -80,7 +68,8 @@ double needed_hold(const MoveOutcome& move, std::size_t number, std::int64_t err
   return time_to_zero(move.midway_error, move.final_error, samples, sample_time) +
          decay_time_constant(move.midway_error, move.final_error, samples, sample_time) *
              log_of_longer_way(p, number, error_before) +
-         chatter_time(p) + std::max(p.verdict.dwell, p.verdict.window);
+         chatter_time(p.plant, friction_at(p.friction, p.initial.position), p.controller, p.verdict.dwell) +
+         std::max(p.verdict.dwell, p.verdict.window);
 }
 
 /// What is gathered of a point.

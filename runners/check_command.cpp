@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/theory/gains.hpp"
 #include "core/theory/sampled_stability.hpp"
 #include "core/theory/sliding_loop.hpp"
+#include "core/theory/slow_approach.hpp"
 #include "core/theory/stability.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/plan/low_end.hpp"
@@ -32,7 +34,7 @@ constexpr const char* check_help =
     "and the rules for the DAC and the sample rate. Both bounds are also given at the lowest k1\n"
     "of the study: the low end of its distribution, or the lowest along the profiles. The\n"
     "slowest time constant with which the sampled loop approaches its target, at k1 and k1 + k2,\n"
-    "and the time that the longest move needs with it stand beside the hold. While the rotor slides, the "
+    "and the time that the slowest of the moves needs stand beside the hold. While the rotor slides, the "
     "bandwidth is the highest frequency at\n"
     "which the open loop has gain 1.\n"
     "\n"
@@ -58,9 +60,9 @@ std::string text(const Range& range) {
   return fmt::format("{:.3g} … {:.3g}", range.low, range.high);
 }
 
-/// When a step of the target has decayed to zero counts, and that was seen.
+/// When a move has arrived, and that was seen.
 struct Arrival {
-  std::int64_t step{0};  // counts; 0: there is none
+  std::int64_t step{0};  // of the target, counts; 0: there is none
   double time{0.0};      // from its start, s
 };
 
@@ -90,7 +92,7 @@ struct PointTheory {
   Range lowest_k1;                   // of the profiles, or the low end
   Range low_stable, low_sampled;     // bounds there, gain_unit
   Range slowest;                     // time constant of the approach, s
-  Arrival longest;                   // of the moves, at this rate
+  Arrival longest;                   // of the moves, in the trials
   double hold{0.0};                  // of the shortest move, s
   std::vector<SlidingPhase> phases;  // of the control
 };
@@ -157,26 +159,31 @@ Range time_constants(const TrialParameters& p, const FrictionParameters& contact
   return slowest;
 }
 
-/// The largest error that the fine phase begins a move with, counts; 0 where no move is a step.
-std::int64_t longest_step(const TrialParameters& p) {
-  if (p.command.profile.shape != ReferenceShape::step) return 0;
-  std::int64_t longest = 0;
+/// The errors that moves begin with in the fine phase, counts; none where the reference is no step.
+std::set<std::int64_t> steps_of(const TrialParameters& p) {
+  std::set<std::int64_t> steps;
+  if (p.command.profile.shape != ReferenceShape::step) return steps;
+  const auto largest = has_coarse_phase(p.controller)
+                           ? static_cast<std::int64_t>(p.controller.coarse.fine_within)
+                           : std::numeric_limits<std::int64_t>::max();
   std::int64_t before = 0;
   for (const std::int64_t target : p.command.targets) {
-    longest = std::max(longest, std::abs(target - before));
+    steps.insert(std::min(std::abs(target - before), largest));
     before = target;
   }
-  if (!has_coarse_phase(p.controller)) return longest;
-  return std::min(longest, static_cast<std::int64_t>(p.controller.coarse.fine_within));
+  steps.erase(0);
+  return steps;
 }
 
-/// The error decays with the time constant `tau` (s), and the count reads 0 from half a count on.
-void add_arrival(Arrival& longest, const TrialParameters& p, double tau) {
-  const std::int64_t step = longest_step(p);
-  if (step == 0) return;
-  const double time =
-      tau * std::log(2.0 * static_cast<double>(step)) + std::max(p.verdict.dwell, p.verdict.window);
-  if (time > longest.time) longest = {step, time};
+/// The trial's move that takes longest if its integral control is slow, with what it is judged by.
+void add_arrivals(Arrival& longest, const TrialParameters& p, const FrictionParameters& contact) {
+  if (!(p.controller.ki > 0.0)) return;
+  const double judged = chatter_time(p.plant, contact, p.controller, p.verdict.dwell) +
+                        std::max(p.verdict.dwell, p.verdict.window);
+  for (const std::int64_t step : steps_of(p)) {
+    const double time = slow_arrival_time(step, contact, p.encoder, p.controller) + judged;
+    if (time > longest.time) longest = {step, time};
+  }
 }
 
 /// What holds for each of the trials examined, beyond the paper: the sampled loop at the lowest k1, its time
@@ -194,7 +201,7 @@ void examine_beyond(const Study& study, std::int64_t point, PointTheory& theory)
     if (slowest.low <= slowest.high) {
       theory.slowest.add(slowest.low);
       theory.slowest.add(slowest.high);
-      add_arrival(theory.longest, p, slowest.high);
+      add_arrivals(theory.longest, p, contact);
     }
     contact.k1 = theory.low_end.kind == LowEnd::Kind::profile ? lowest_k1(p.friction) : theory.low_end.value;
     theory.lowest_k1.add(contact.k1);

@@ -1,5 +1,5 @@
 """Every relative link of the documentation leads to a file that is there, and to a heading of it; the shipped studies that
-a page names are there.
+a page names are there, and each has a row or a heading in README.md or docs.
 
 usage: links.py ROOT
 """
@@ -40,13 +40,23 @@ def problems_of(root, page):
             yield f"{page.relative_to(root)}: {name}: there is no such shipped study"
 
 
+def answered_studies(root):
+    """The studies that have a row of a table, or a heading, in the README or in docs."""
+    found = set()
+    for page in [root / "README.md", *sorted((root / "docs").glob("*.md"))]:
+        for line in FENCED.sub("", page.read_text(encoding="utf-8")).splitlines():
+            if line.startswith(("|", "#")):
+                found.update(re.findall(r"`([\w-]+)`", line))
+    return found
+
+
 def main(root):
     pages = [p for p in sorted(root.rglob("*.md")) if not SKIPPED & set(p.relative_to(root).parts)]
     problems = [problem for page in pages for problem in problems_of(root, page)]
-    documented = "".join(page.read_text(encoding="utf-8") for page in pages)
+    answered = answered_studies(root)
     for manifest in sorted((root / "experiments" / "manifests").glob("*.yaml")):
-        if f"`{manifest.stem}`" not in documented:
-            problems.append(f"{manifest.relative_to(root)}: no page tells what it answers")
+        if manifest.stem not in answered:
+            problems.append(f"{manifest.relative_to(root)}: no row or heading of README.md or docs tells what it answers")
     print("\n".join(problems) or f"{len(pages)} pages")
     return 1 if problems or not pages else 0
 

@@ -42,6 +42,7 @@ constexpr const char* check_help =
 
 constexpr std::int64_t most_trials_examined = 200;
 constexpr std::int64_t most_trials_examined_closely = 20;
+constexpr std::int64_t most_rigs_examined = 10'000;
 constexpr std::int64_t points_shown = 20;
 
 /// A quantity over the trials of a point.
@@ -89,6 +90,7 @@ struct PointTheory {
   TheoryPrediction prediction;
 
   LowEnd low_end;                    // of k1, for which the next two are
+  std::int64_t rigs{0};              // whose profiles were examined; 0 without rigs
   Range lowest_k1;                   // of the profiles, or the low end
   Range low_stable, low_sampled;     // bounds there, gain_unit
   Range slowest;                     // time constant of the approach, s
@@ -186,6 +188,32 @@ void add_arrivals(Arrival& longest, const TrialParameters& p, const FrictionPara
   }
 }
 
+/// Criterion (6) where the trial's contact has this k1.
+void add_low_end(const Study& study, const TrialParameters& p, double k1, PointTheory& theory) {
+  FrictionParameters contact = friction_at(p.friction, p.initial.position);
+  contact.k1 = k1;
+  theory.lowest_k1.add(k1);
+  const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
+  theory.low_stable.add(as_given(study.units, p, bounds.stable_below));
+}
+
+/// The lowest k1 of the rotors of all rigs: trial i is on rig i mod rigs. The sampled loop, whose bound takes
+/// longer to find, at the lowest of them.
+void examine_rotors(const Study& study, std::int64_t point, PointTheory& theory) {
+  theory.rigs = std::min(study.rigs, most_rigs_examined);
+  TrialParameters softest;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::int64_t rig = 0; rig < theory.rigs; ++rig) {
+    const TrialParameters p = study_trial(study, point, rig).parameters;
+    const double k1 = lowest_k1(p.friction);
+    add_low_end(study, p, k1, theory);
+    if (k1 >= lowest) continue;
+    lowest = k1;
+    softest = p;
+  }
+  if (theory.rigs > 0) theory.low_sampled.add(as_given(study.units, softest, sampled_bound(lowest, softest)));
+}
+
 /// What holds for each of the trials examined, beyond the paper: the sampled loop at the lowest k1, its time
 /// constants, and the loop while it slides.
 void examine_beyond(const Study& study, std::int64_t point, PointTheory& theory) {
@@ -196,21 +224,21 @@ void examine_beyond(const Study& study, std::int64_t point, PointTheory& theory)
   if (has_coarse_phase(first.controller)) theory.phases.push_back({"coarse phase", {}, {}});
   for (std::int64_t index = 0; index < std::min(study.trials, most_trials_examined_closely); ++index) {
     const TrialParameters p = study_trial(study, point, index).parameters;
-    FrictionParameters contact = friction_at(p.friction, p.initial.position);
+    const FrictionParameters contact = friction_at(p.friction, p.initial.position);
     const Range slowest = time_constants(p, contact);
     if (slowest.low <= slowest.high) {
       theory.slowest.add(slowest.low);
       theory.slowest.add(slowest.high);
       add_arrivals(theory.longest, p, contact);
     }
-    contact.k1 = theory.low_end.kind == LowEnd::Kind::profile ? lowest_k1(p.friction) : theory.low_end.value;
-    theory.lowest_k1.add(contact.k1);
-    const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
-    theory.low_stable.add(as_given(study.units, p, bounds.stable_below));
-    theory.low_sampled.add(as_given(study.units, p, sampled_bound(contact.k1, p)));
+    const double k1 =
+        theory.low_end.kind == LowEnd::Kind::profile ? lowest_k1(p.friction) : theory.low_end.value;
+    add_low_end(study, p, k1, theory);
+    theory.low_sampled.add(as_given(study.units, p, sampled_bound(k1, p)));
     add_sliding(theory.phases[0], ControlPhase::fine, p);
     if (theory.phases.size() > 1) add_sliding(theory.phases[1], ControlPhase::coarse, p);
   }
+  if (theory.low_end.kind == LowEnd::Kind::profile) examine_rotors(study, point, theory);
 }
 
 PointTheory examine(const Study& study, std::int64_t point) {
@@ -249,8 +277,8 @@ PointTheory examine(const Study& study, std::int64_t point) {
   return theory;
 }
 
-std::string_view source_of(LowEnd::Kind kind) {
-  switch (kind) {
+std::string source_of(const PointTheory& theory) {
+  switch (theory.low_end.kind) {
     case LowEnd::Kind::number:
       return "the one of the manifest";
     case LowEnd::Kind::support:
@@ -260,7 +288,8 @@ std::string_view source_of(LowEnd::Kind kind) {
     case LowEnd::Kind::profile:
       break;
   }
-  return "the lowest along the profiles";
+  if (theory.rigs == 0) return "the lowest along the profiles";
+  return fmt::format("the lowest along the profiles of {} rigs", theory.rigs);
 }
 
 bool may_be_too_slow(const PointTheory& theory) {
@@ -277,7 +306,7 @@ std::string arrival_text(const Arrival& longest) {
 std::string describe_beyond(const PointTheory& theory) {
   std::string out =
       fmt::format("    at the lowest k1, {} ({}): (6) stable below {:.3g} {}, sampled loop below {:.3g} {}\n",
-                  text({theory.lowest_k1.low, theory.lowest_k1.low}), source_of(theory.low_end.kind),
+                  text({theory.lowest_k1.low, theory.lowest_k1.low}), source_of(theory),
                   theory.low_stable.low, theory.gain_unit, theory.low_sampled.low, theory.gain_unit);
   if (theory.slowest.low <= theory.slowest.high) {
     const std::string arrival = arrival_text(theory.longest);

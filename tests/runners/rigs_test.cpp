@@ -1,10 +1,14 @@
 // Studies with rigs, from the manifest to the file and back.
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/friction/profile.hpp"
+#include "experiments/study.hpp"
 #include "results/reading/first_difference.hpp"
 #include "results/reading/study_file.hpp"
 #include "tests/runners/program.hpp"
@@ -56,6 +60,34 @@ TEST_F(RigStudy, CheckSaysHowManyTrialsARigHasAndWhatItIsThatDiffers) {
         "the same in all trials of a point: controller.ki\n"}) {
     EXPECT_NE(result.out.find(line), std::string::npos) << line << result.out;
   }
+}
+
+// Of 200 rigs the softest is none of the first 20.
+TEST_F(RigStudy, CheckGivesTheBoundsAtTheSoftestRotorOfAllRigs) {
+  std::string text = machines;
+  text.replace(text.find("trials: 40\nrigs: 8"), 18, "trials: 200\nrigs: 200");
+  write_bytes(folder_ / "m.yaml", text);
+  const Study study = load_study(folder_ / "m.yaml");
+  double lowest = 1e9;
+  std::int64_t softest = 0;
+  for (std::int64_t rig = 0; rig < study.rigs; ++rig) {
+    const std::shared_ptr<const Profile> rotor = study.profiles.at(0).of_rig(rig);
+    for (int i = 0; i < 4096; ++i) {
+      const double k1 = value_at(*rotor, i * study.period / 4096);
+      if (k1 >= lowest) continue;
+      lowest = k1;
+      softest = rig;
+    }
+  }
+  ASSERT_GE(softest, 20);
+
+  // (6) of an integral control: ki < c·k1/J·Δx·T/2, with the numbers of the paper's rig.
+  const double bound = 0.2 * lowest / 5.54e-4 * (study.period / 1'620'000) * 0.25e-3;
+  const std::string expected = fmt::format(
+      "at the lowest k1, {:.3g} (the lowest along the profiles of 200 rigs): (6) stable below {:.3g} ",
+      lowest, bound);
+  const std::string out = program({"check", "m.yaml"}).out;
+  EXPECT_NE(out.find(expected), std::string::npos) << expected << "\n" << out;
 }
 
 TEST_F(RigStudy, TheFileIsTheSameHoweverItWasRun) {

@@ -28,17 +28,6 @@ double rounded_up(double value) {
   return std::ceil(value * scale - 1e-9) / scale;
 }
 
-bool falls(const MoveOutcome& move) {
-  return std::abs(move.final_error) < std::abs(move.midway_error);
-}
-
-/// Whether the count went towards its target all through the last half, but for one count to either side.
-/// With a last error of 2 counts or more the error has then kept its sign.
-bool falls_with_ripple(const MoveOutcome& move) {
-  const auto fallen = static_cast<double>(std::abs(move.midway_error) - std::abs(move.final_error));
-  return falls(move) && std::abs(move.final_error) >= 2 && 2.0 * move.oscillation_amplitude <= fallen + 2.0;
-}
-
 /// τ of the errors recorded in the middle and at the end of the hold, s; see time_to_zero.
 double decay_time_constant(std::int64_t midway_error, std::int64_t final_error, std::int64_t samples,
                            double sample_time) {
@@ -77,25 +66,8 @@ struct PointMoves {
   UndecidedMoves counts;
   std::vector<double> needed;  ///< holds, s
 
-  void add(const MoveOutcome& move, std::size_t number, std::int64_t error_before,
-           const TrialParameters& parameters);
   UndecidedMoves result();
 };
-
-void PointMoves::add(const MoveOutcome& move, std::size_t number, std::int64_t error_before,
-                     const TrialParameters& parameters) {
-  const bool off_target = move.outcome == Outcome::off_target;
-  counts.off_target += off_target;
-  if (!falls(move)) return;
-  ++(off_target ? counts.still_falling : counts.falling_with_ripple);
-  if (parameters.controller.ki > 0.0) needed.push_back(needed_hold(move, number, error_before, parameters));
-}
-
-/// Whether a longer hold may be what the move lacks.
-bool may_be_undecided(const MoveOutcome& move) {
-  return move.outcome == Outcome::off_target ||
-         (move.outcome == Outcome::oscillating && falls_with_ripple(move));
-}
 
 UndecidedMoves PointMoves::result() {
   if (needed.empty()) return counts;
@@ -119,46 +91,25 @@ std::vector<UndecidedMoves> undecided_moves(const StudyFile& file, const Study& 
   const std::int64_t trials = file.header().trials;
   const auto moves = static_cast<std::size_t>(file.moves());
   std::vector<PointMoves> points(study.point_labels.size());
-  for (PointMoves& point : points) point.counts.moves = trials * file.moves();
   const std::int64_t rows_at_once = chunk_rows(file.moves());
   for (std::int64_t first = 0; first < file.rows().end(); first += rows_at_once) {
     const RowRange block{first, std::min(rows_at_once, file.rows().end() - first)};
     const std::vector<MoveOutcome> outcomes = file.outcomes(block);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      if (!may_be_undecided(outcomes[i])) continue;
       const std::int64_t row = block.first + static_cast<std::int64_t>(i / moves);
-      points[static_cast<std::size_t>(row / trials)].add(
-          outcomes[i], i % moves, i % moves == 0 ? 0 : outcomes[i - 1].final_error,
-          study_trial(study, row / trials, row % trials).parameters);
+      PointMoves& point = points[static_cast<std::size_t>(row / trials)];
+      add_move(point.counts, outcomes[i]);
+      if (!is_still_falling(outcomes[i])) continue;
+      const TrialParameters parameters = study_trial(study, row / trials, row % trials).parameters;
+      if (!(parameters.controller.ki > 0.0)) continue;
+      point.needed.push_back(
+          needed_hold(outcomes[i], i % moves, i % moves == 0 ? 0 : outcomes[i - 1].final_error, parameters));
     }
   }
   std::vector<UndecidedMoves> results;
   results.reserve(points.size());
   for (PointMoves& point : points) results.push_back(point.result());
   return results;
-}
-
-bool any_undecided(const UndecidedMoves& moves) {
-  return moves.off_target > 0 || moves.falling_with_ripple > 0;
-}
-
-std::string undecided_sentence(const UndecidedMoves& moves) {
-  if (!any_undecided(moves)) return {};
-  std::string text =
-      fmt::format("{} of {} moves ended more than one count off their target without oscillating",
-                  moves.off_target, moves.moves);
-  if (moves.still_falling > 0) {
-    text += fmt::format("; the error was still falling in {} of {} moves at the end of the hold",
-                        moves.still_falling, moves.moves);
-  } else if (moves.off_target > 0) {
-    text += "; in none of them was the error still falling: they have stalled";
-  }
-  if (moves.falling_with_ripple > 0) {
-    text += fmt::format("; it was falling, with a ripple of one count, in {} more that count as oscillating",
-                        moves.falling_with_ripple);
-  }
-  if (!std::isnan(moves.advised_hold)) text += fmt::format("; hold ≥ about {:.4g} s", moves.advised_hold);
-  return text;
 }
 
 SummarySection undecided_section(std::span<const PointSummary> points,
@@ -188,10 +139,7 @@ SummarySection undecided_section(std::span<const PointSummary> points,
     section.text += fmt::format("{}: {}\n", printable(labels[i]), undecided_sentence(point));
   }
   if (any) {
-    section.text +=
-        "Such moves are undecided: neither stable nor shown unstable. A longer hold decides those whose "
-        "error "
-        "was still\nfalling\n";
+    section.text += fmt::format("{}\n", undecided_meaning);
   }
   section.columns = {std::move(off_target), std::move(falling), std::move(ripple), std::move(hold)};
   return section;

@@ -30,13 +30,6 @@ double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::in
 /// The undecided moves of every point of a study.
 std::vector<UndecidedMoves> undecided_moves(const StudyFile& file, const Study& study);
 
-/// Whether there is anything to say of undecided moves.
-bool any_undecided(const UndecidedMoves& moves);
-
-/// "the error was still falling in 2700 of 3000 moves at the end of the hold; hold ≥ about 2.1 s", and what
-/// else there is to say of undecided moves; empty where there are none.
-std::string undecided_sentence(const UndecidedMoves& moves);
-
 /// The section "undecided" of a summary. Its JSON is {"moves", "off_target", "still_falling",
 /// "falling_with_ripple", "hold_at_least"}; its columns are undecided_moves, still_falling_moves,
 /// falling_with_ripple_moves and hold_at_least; its text is a sentence for each point that has undecided

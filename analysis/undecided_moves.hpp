@@ -2,6 +2,10 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
+#include <string_view>
+
+#include "core/trial/outcome.hpp"
 
 namespace zerocount {
 
@@ -18,5 +22,27 @@ struct UndecidedMoves {
   /// nothing in their control brings the error to zero.
   double advised_hold{std::numeric_limits<double>::quiet_NaN()};
 };
+
+/// Whether a longer hold may be what a move lacks: it is off target, or counts as oscillating, with an error
+/// that fell in the last half of its hold.
+bool is_still_falling(const MoveOutcome& move);
+
+/// Counts a move.
+void add_move(UndecidedMoves& counts, const MoveOutcome& move);
+
+/// The moves of both, without an advised hold.
+UndecidedMoves sum_of(const UndecidedMoves& one, const UndecidedMoves& other);
+
+/// Whether there is anything to say of undecided moves.
+bool any_undecided(const UndecidedMoves& moves);
+
+/// "the error was still falling in 2700 of 3000 moves at the end of the hold; hold ≥ about 2.1 s", and what
+/// else there is to say of undecided moves; empty where there are none.
+std::string undecided_sentence(const UndecidedMoves& moves);
+
+/// What undecided moves mean.
+inline constexpr std::string_view undecided_meaning =
+    "Such moves are undecided: neither stable nor shown unstable. A longer hold decides those whose error "
+    "was still falling";
 
 }  // namespace zerocount

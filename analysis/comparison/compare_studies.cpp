@@ -99,6 +99,8 @@ PointComparison compare_point(const StudyComparison& comparison, const GateRules
   result.current_point = point.current;
   result.baseline_trials = baseline.trials;
   result.current_trials = current.trials;
+  result.baseline_undecided = baseline.undecided;
+  result.current_undecided = current.undecided;
   const bool paired = comparison.layer != ComparisonLayer::two_samples;
   if (paired) result.pairs = std::min(baseline.trials, current.trials);
   result.measures = paired ? compare_measures(rules, point.label, first_trials(baseline, result.pairs),
@@ -176,6 +178,21 @@ GateVerdict verdict_of(StudyComparison& result) {
   return worst == GateVerdict::not_measured ? GateVerdict::inconclusive : worst;
 }
 
+void note_undecided_moves(StudyComparison& result) {
+  UndecidedMoves before, after;
+  for (const PointComparison& point : result.points) {
+    before = sum_of(before, point.baseline_undecided);
+    after = sum_of(after, point.current_undecided);
+  }
+  if (!any_undecided(before) && !any_undecided(after)) return;
+  const auto text = [](const UndecidedMoves& moves) {
+    return any_undecided(moves) ? undecided_sentence(moves) : fmt::format("none of {} moves", moves.moves);
+  };
+  result.notes.push_back(fmt::format("undecided in the baseline: {}", text(before)));
+  result.notes.push_back(fmt::format("undecided in the file: {}", text(after)));
+  result.notes.emplace_back(undecided_meaning);
+}
+
 void note_unpaired_trials(StudyComparison& result) {
   const std::int64_t before = result.baseline.trials;
   const std::int64_t after = result.current.trials;
@@ -212,6 +229,7 @@ StudyComparison compare_studies(const StudyFile& baseline, const StudyFile& curr
   }
   note_unpaired_trials(result);
   compare_points(result, rules, baseline, current, points, rigs_of(old_values), rigs_of(new_values));
+  note_undecided_moves(result);
   if (rigs_of(old_values) > 0 || rigs_of(new_values) > 0) {
     result.notes.push_back(
         "the trials of a rig are not independent: tests and bounds are over rigs, and what decides is more "

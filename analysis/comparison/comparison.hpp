@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/proportion.hpp"
+#include "analysis/undecided_moves.hpp"
 
 /// What the comparison of a results file with a baseline found: see README.md of this folder for the method.
 namespace zerocount {
@@ -73,6 +74,8 @@ struct PointComparison {
   std::int64_t current_point{0};
   std::int64_t baseline_trials{0};
   std::int64_t current_trials{0};
+  UndecidedMoves baseline_undecided;  ///< of all moves of the file
+  UndecidedMoves current_undecided;
   std::int64_t pairs{0};  ///< trials that were compared one by one; 0 where they were not
   GateVerdict verdict{GateVerdict::not_measured};
   std::vector<MeasureComparison> measures;

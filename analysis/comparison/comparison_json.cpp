@@ -59,6 +59,13 @@ Json requirement_json(const RequirementResult& requirement) {
           {"trials_to_decide", trials_json(requirement.trials_to_decide)}};
 }
 
+Json undecided_json(const UndecidedMoves& moves) {
+  return {{"moves", moves.moves},
+          {"off_target", moves.off_target},
+          {"still_falling", moves.still_falling},
+          {"falling_with_ripple", moves.falling_with_ripple}};
+}
+
 Json point_json(const PointComparison& point) {
   Json json{{"label", point.label},
             {"verdict", word_of(point.verdict)},
@@ -67,6 +74,8 @@ Json point_json(const PointComparison& point) {
             {"baseline_trials", point.baseline_trials},
             {"current_trials", point.current_trials},
             {"pairs", point.pairs},
+            {"baseline_undecided", undecided_json(point.baseline_undecided)},
+            {"current_undecided", undecided_json(point.current_undecided)},
             {"measures", Json::array()},
             {"requirements", Json::array()}};
   for (const MeasureComparison& measure : point.measures) json["measures"].push_back(measure_json(measure));

@@ -24,12 +24,24 @@ std::string p_text(double p) {
   return p < 1e-4 ? "< 1e-4" : fmt::format("{:.2g}", p);
 }
 
-/// The note, what would decide, and whether it is better.
-std::string remarks(std::string note, const std::optional<double>& trials, bool improved) {
+/// The notes that are not empty, what would decide, and whether it is better.
+std::string remarks(std::string note, const std::string& undecided, const std::optional<double>& trials,
+                    bool improved) {
   const auto add = [&](const std::string& remark) { note += (note.empty() ? "" : "; ") + remark; };
+  if (!undecided.empty()) add(undecided);
   if (improved) add("improved");
   if (trials) add(fmt::format("{} trials would decide", trials_text(*trials)));
   return note;
+}
+
+/// "undecided: 12 of 300 moves in the baseline, 4 of 300 in the file" beside a proportion of stable trials;
+/// empty where there are none.
+std::string undecided_remark(const PointComparison& point, std::string_view quantity) {
+  const UndecidedMoves& before = point.baseline_undecided;
+  const UndecidedMoves& after = point.current_undecided;
+  if (quantity != "stable_rate" || before.off_target + after.off_target == 0) return {};
+  return fmt::format("undecided: {} of {} moves in the baseline, {} of {} in the file", before.off_target,
+                     before.moves, after.off_target, after.moves);
 }
 
 ComparisonRow row_of(const PointComparison& point, const MeasureComparison& measure) {
@@ -44,7 +56,8 @@ ComparisonRow row_of(const PointComparison& point, const MeasureComparison& meas
   row.margin = (measure.both_ways ? "± " : "") + text(measure.margin);
   row.p = p_text(measure.adjusted_p);
   row.verdict = word_of(measure.verdict);
-  row.note = remarks(measure.note, measure.trials_to_decide, measure.improved);
+  row.note = remarks(measure.note, undecided_remark(point, measure.measure), measure.trials_to_decide,
+                     measure.improved);
   row.noteworthy = measure.verdict != GateVerdict::passed || measure.improved;
   return row;
 }
@@ -63,7 +76,7 @@ ComparisonRow row_of(const PointComparison& point, const RequirementResult& requ
   row.margin = fmt::format("{} {}", requirement.at_least ? "≥" : "≤", text(requirement.limit));
   row.p = "–";
   row.verdict = word_of(requirement.verdict);
-  row.note = remarks("", requirement.trials_to_decide, false);
+  row.note = remarks("", undecided_remark(point, requirement.quantity), requirement.trials_to_decide, false);
   row.noteworthy = requirement.verdict != GateVerdict::passed;
   return row;
 }

@@ -21,6 +21,7 @@ PointTrials gather_trials(std::span<const MoveOutcome> outcomes, std::int64_t mo
       result.settling_time.push_back(one->arrived ? one->settling_time
                                                   : std::numeric_limits<double>::quiet_NaN());
       jerks += static_cast<double>(one->jerk_count);
+      add_move(result.undecided, *one);
     }
     result.jerks.push_back(jerks);
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/comparison/gate_rules.hpp"
+#include "analysis/undecided_moves.hpp"
 #include "core/trial/outcome.hpp"
 #include "results/reading/study_file.hpp"
 
@@ -19,6 +20,7 @@ struct PointTrials {
   std::vector<bool> stable;           ///< [trial] every move was stable
   std::vector<double> settling_time;  ///< [trial][move], flattened, s; NaN where it did not arrive
   std::vector<double> jerks;          ///< [trial] of all moves
+  UndecidedMoves undecided;           ///< of all moves
   std::int64_t rigs{0};  ///< that the trials run on, trial i on rig i mod rigs; 0: no trials share a rig
 };
 
@@ -30,7 +32,7 @@ PointTrials gather_trials(std::span<const MoveOutcome> outcomes, std::int64_t mo
 /// @throws Failure (bad_data) where the file is damaged.
 PointTrials read_point_trials(const StudyFile& file, std::int64_t point);
 
-/// The first `trials` of them.
+/// The first `trials` of them. `undecided` stays that of all.
 PointTrials first_trials(const PointTrials& all, std::int64_t trials);
 
 /// Whether the trials have the quality of a share, [trial].

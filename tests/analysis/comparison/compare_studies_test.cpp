@@ -5,6 +5,7 @@
 #include <functional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include "analysis/comparison/matching.hpp"
@@ -76,6 +77,50 @@ TEST_F(ComparedStudies, EqualDataPass) {
   EXPECT_TRUE(result.manifest_differences.empty());
   ASSERT_EQ(result.points.size(), 2u);
   EXPECT_EQ(result.points[0].measures[0].test, "equal to the bit");
+}
+
+/// good_trials, of which every `step`-th move ended off target; in every second of those the error was still
+/// falling.
+std::vector<TrialRecord> trials_with_undecided_moves(std::size_t step) {
+  std::vector<TrialRecord> all = good_trials();
+  for (std::size_t row = 0; row < all.size(); row += step) {
+    MoveOutcome& move = all[row].outcome.moves[0];
+    move = MoveOutcome{};
+    move.outcome = Outcome::off_target;
+    move.midway_error = row % (2 * step) == 0 ? 9 : 5;
+    move.final_error = 5;
+  }
+  return all;
+}
+
+// Whether stability has changed is not known of moves that are neither stable nor shown unstable.
+TEST_F(ComparedStudies, UndecidedMovesOfBothFilesAreCounted) {
+  const StudyFile none = write("none.h5", study_of(), good_trials());
+  const StudyFile some = write("some.h5", study_of("", 2), trials_with_undecided_moves(6));
+  const StudyFile many = write("many.h5", study_of("", 3), trials_with_undecided_moves(3));
+  const StudyComparison result = compare_studies(some, many);
+  for (const PointComparison& point : result.points) {
+    EXPECT_EQ(point.baseline_undecided.moves, trials);
+    EXPECT_EQ(point.baseline_undecided.off_target, 20);
+    EXPECT_EQ(point.baseline_undecided.still_falling, 10);
+    EXPECT_EQ(point.current_undecided.off_target, 40);
+    EXPECT_EQ(point.current_undecided.still_falling, 20);
+  }
+  const auto notes_of = [](const StudyComparison& comparison) {
+    return fmt::format("{}", fmt::join(comparison.notes, "\n"));
+  };
+  EXPECT_EQ(notes_of(result),
+            "undecided in the baseline: 40 of 240 moves ended more than one count off their target without "
+            "oscillating; the error was still falling in 20 of 240 moves at the end of the hold\n"
+            "undecided in the file: 80 of 240 moves ended more than one count off their target without "
+            "oscillating; the error was still falling in 40 of 240 moves at the end of the hold\n"
+            "Such moves are undecided: neither stable nor shown unstable. A longer hold decides those whose "
+            "error was still falling");
+  EXPECT_NE(notes_of(compare_studies(none, some)).find("undecided in the baseline: none of 240 moves\n"),
+            std::string::npos);
+  EXPECT_NE(notes_of(compare_studies(some, none)).find("undecided in the file: none of 240 moves\n"),
+            std::string::npos);
+  EXPECT_EQ(notes_of(compare_studies(none, none)).find("undecided"), std::string::npos);
 }
 
 TEST_F(ComparedStudies, OneBitIsFoundAndNamed) {

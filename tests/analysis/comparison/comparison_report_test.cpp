@@ -69,6 +69,30 @@ TEST(ComparisonReport, OfManyRowsOnlyTheNoteworthyAreShown) {
   EXPECT_NE(table.find("(60 rows that simply passed are not shown)"), std::string::npos) << table;
 }
 
+TEST(ComparisonReport, EveryFormThatSpeaksOfStabilitySaysHowManyMovesAreUndecided) {
+  StudyComparison comparison = sample();
+  const std::string remark = "undecided: 12 of 300 moves in the baseline, 4 of 280 in the file";
+  EXPECT_EQ(comparison_table(comparison).find("undecided"), std::string::npos);
+  comparison.points[0].baseline_undecided = {.moves = 300, .off_target = 12, .still_falling = 9};
+  comparison.points[0].current_undecided = {.moves = 280, .off_target = 4, .still_falling = 0};
+  comparison.points[0].measures[3].verdict = GateVerdict::inconclusive;  // the stable rate
+  comparison.notes = {"undecided in the file"};
+  for (const std::string& text :
+       {comparison_table(comparison), comparison_markdown(comparison), comparison_junit(comparison)}) {
+    EXPECT_NE(text.find(remark), std::string::npos) << text;
+    EXPECT_EQ(text.find(remark), text.rfind(remark)) << "beside the stable rate alone\n" << text;
+  }
+  EXPECT_NE(comparison_table(comparison).find("undecided in the file"), std::string::npos);
+  EXPECT_NE(comparison_markdown(comparison).find("undecided in the file"), std::string::npos);
+  const auto json = nlohmann::json::parse(comparison_json(comparison));
+  EXPECT_EQ(
+      json["points"][0]["baseline_undecided"],
+      nlohmann::json({{"moves", 300}, {"off_target", 12}, {"still_falling", 9}, {"falling_with_ripple", 0}}));
+  EXPECT_EQ(
+      json["points"][0]["current_undecided"],
+      nlohmann::json({{"moves", 280}, {"off_target", 4}, {"still_falling", 0}, {"falling_with_ripple", 0}}));
+}
+
 TEST(ComparisonReport, TheJsonReadsBack) {
   const auto json = nlohmann::json::parse(comparison_json(sample()));
   EXPECT_EQ(json["verdict"], "regression");

@@ -3,6 +3,7 @@
 #include "analysis/anytime_bounds.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include <boost/math/special_functions/beta.hpp>
@@ -100,6 +101,29 @@ TEST(AnytimeBounds, CoverHoweverOftenOneLooks) {
       EXPECT_LT(looks.fixed_covered_always, 340) << p;  // those of one look do not
     }
   }
+}
+
+// Each look is after a whole round of the rigs, whose probabilities of success differ: the bounds are those
+// of their mean.
+TEST(AnytimeBounds, CoverTheMeanOverTheRigsHoweverOftenOneLooks) {
+  constexpr int studies = 400;
+  std::mt19937_64 engine(18);
+  int covered = 0;
+  for (int study = 0; study < studies; ++study) {
+    std::vector<double> rigs(20);
+    for (double& p : rigs) p = std::sqrt(std::uniform_real_distribution<double>()(engine));
+    const double mean = std::accumulate(rigs.begin(), rigs.end(), 0.0) / 20.0;
+    std::int64_t successes = 0;
+    bool always = true, narrow = false;
+    for (std::int64_t trials = 20; always && !narrow; trials += 20) {
+      for (const double p : rigs) successes += std::bernoulli_distribution(p)(engine);
+      const ConfidenceInterval bounds = anytime_bounds(successes, trials, 0.95);
+      always = bounds.low <= mean && mean <= bounds.high;
+      narrow = bounds.high - bounds.low <= 0.08;
+    }
+    covered += always;
+  }
+  EXPECT_GE(covered, 368);
 }
 
 TEST(ProjectedTrials, AreEnoughAndNotMore) {

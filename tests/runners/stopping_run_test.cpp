@@ -181,6 +181,52 @@ TEST_F(StoppingRun, SummarySaysWhereTheGoalWasNotReached) {
   EXPECT_NE(table.out.find("ended by max_trials before all was known"), std::string::npos) << table.out;
 }
 
+// With rigs, how well the mean over these rigs is known decides, and all of them have run equally many trials
+// whenever it is looked at.
+TEST_F(StoppingRun, EndsAfterAWholeRoundOfItsRigs) {
+  const std::string rigs = "rigs: 10\n";
+  folder_.write("study.yaml", stopping_manifest() + rigs);
+  folder_.write("plain.yaml", manifest("") + rigs);
+  complete("study.yaml", "out.h5");
+  const StudyFile file(at("out.h5"));
+  const std::int64_t trials = file.header().trials;
+  EXPECT_GT(trials, block);
+  EXPECT_LT(trials, 2000);
+  EXPECT_TRUE(narrow(file, trials));
+  EXPECT_FALSE(narrow(file, trials - block));
+  const StoredRigs on_rigs = file.rigs().value();
+  ASSERT_EQ(on_rigs.trials.size(), 20U);
+  for (const std::int64_t of_rig : on_rigs.trials) EXPECT_EQ(of_rig, trials / 10);
+  complete("plain.yaml", "plain.h5", {"--set", "trials=" + std::to_string(trials)});
+  const auto stopped = stored_datasets(at("out.h5"));
+  for (const auto& [path, bytes] : stored_datasets(at("plain.h5"))) {
+    if (path.find("manifest") == std::string::npos && path.find("overrides") == std::string::npos) {
+      EXPECT_TRUE(stopped.at(path) == bytes) << path;
+    }
+  }
+}
+
+// What more trials narrowed is the mean over these rigs; of all rigs less is known.
+TEST_F(StoppingRun, SummaryKeepsTheBoundsOfTheseRigsApartFromThoseOfAll) {
+  folder_.write("study.yaml", stopping_manifest() + "rigs: 10\n");
+  complete("study.yaml", "out.h5");
+  const ProgramResult result = zerocount_program({"summary", "out.h5", "--format", "json"}, folder_.path());
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto points = nlohmann::json::parse(result.out).at("points");
+  bool differ = false;
+  for (const auto& point : points) {
+    EXPECT_EQ(point.at("stopped").at("of_rigs"), 10);
+    EXPECT_LE(point.at("stopped").at("halfwidth").get<double>(), halfwidth);
+    const double of_all =
+        point.at("success_rate_high").get<double>() - point.at("success_rate_low").get<double>();
+    differ = differ || of_all > 2.0 * halfwidth;
+  }
+  EXPECT_TRUE(differ) << result.out;
+  EXPECT_NE(zerocount_program({"summary", "out.h5"}, folder_.path())
+                .out.find("these bounds are of the mean over the 10 rigs of the study"),
+            std::string::npos);
+}
+
 /// Every trial of the file can be run again from it.
 TEST_F(StoppingRun, CanBeReplayedFromItsFile) {
   folder_.write("study.yaml", stopping_manifest());

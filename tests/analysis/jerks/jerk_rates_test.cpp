@@ -1,5 +1,6 @@
 #include "analysis/jerks/jerk_rates.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -125,6 +126,65 @@ TEST(JerkRates, BoundsCoverTheMeanRateOfTrialsThatDiffer) {
   const RateCoverage covered = coverage(10.0, [](auto& random) { return random() % 2 == 0 ? 20.0 : 0.0; });
   EXPECT_LT(covered.poisson, 0.9);
   EXPECT_GE(covered.reported, 0.925);
+}
+
+/// 400 moves on 40 rigs, of which about half jerk: trial i runs on rig i mod 40.
+std::vector<ObservedMove> moves_on_rigs(std::mt19937_64& random) {
+  constexpr std::int64_t rigs = 40;
+  std::vector<double> own(rigs);
+  for (double& rate : own) rate = random() % 2 == 0 ? 20.0 : 0.0;
+  std::vector<ObservedMove> moves;
+  for (std::int64_t trial = 0; trial < 10 * rigs; ++trial) {
+    const double rate = own[static_cast<std::size_t>(trial % rigs)];
+    moves.push_back(random_move(trial, 400, random, [rate](double) { return rate; }));
+    moves.back().cluster = trial % rigs;
+  }
+  return moves;
+}
+
+// All trials of a rig have its friction: there are 40 values, not 400.
+TEST(JerkRates, BoundsCoverTheMeanRateOfRigsThatDiffer) {
+  constexpr double truth = 10.0;
+  constexpr int rounds = 300;
+  std::mt19937_64 random(113);
+  double over_trials = 0.0, over_rigs = 0.0;
+  for (int round = 0; round < rounds; ++round) {
+    JerkRates rigs(true), trials;
+    for (ObservedMove& move : moves_on_rigs(random)) {
+      rigs.add(move);
+      move.cluster = move.trial;
+      trials.add(move);
+    }
+    const auto covers = [&](const JerkRates& rates) {
+      const std::vector<JerkRate> all = rates.rates(0.95);
+      const ConfidenceInterval& bounds = all.at(all.size() - 2).bounds;
+      return bounds.low <= truth && truth <= bounds.high;
+    };
+    over_trials += covers(trials);
+    over_rigs += covers(rigs);
+  }
+  EXPECT_LT(over_trials, 0.7 * rounds);
+  EXPECT_GE(over_rigs, (0.95 - 0.038) * rounds);  // three standard errors
+}
+
+// The rigs come round again: in which order their moves come does not matter.
+TEST(JerkRates, OfRigsAreThoseOfTheirMovesInAnyOrder) {
+  std::mt19937_64 random(114);
+  std::vector<ObservedMove> moves = moves_on_rigs(random);
+  JerkRates in_turn(true), rig_by_rig;
+  for (const ObservedMove& move : moves) in_turn.add(move);
+  std::stable_sort(moves.begin(), moves.end(),
+                   [](const ObservedMove& a, const ObservedMove& b) { return a.cluster < b.cluster; });
+  for (const ObservedMove& move : moves) rig_by_rig.add(move);
+  const std::vector<JerkRate> found = in_turn.rates(0.95), expected = rig_by_rig.rates(0.95);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].jerks, expected[i].jerks);
+    EXPECT_EQ(found[i].moves, expected[i].moves);
+    EXPECT_NEAR(found[i].dispersion, expected[i].dispersion, 1e-9 * expected[i].dispersion);
+    EXPECT_NEAR(found[i].bounds.low, expected[i].bounds.low, 1e-9);
+    EXPECT_NEAR(found[i].bounds.high, expected[i].bounds.high, 1e-9);
+  }
 }
 
 TEST(JerkRates, WithoutAJerkThereIsAnUpperBound) {

@@ -19,15 +19,15 @@ zerocount: 1
 name: jerking
 seed: 11
 trials: 80
-friction:
-  k1: {uniform: [90, 130]}
-  k2: {uniform: [600, 900]}
-  alpha: {log_uniform: [0.25, 2.0]}
-  lambda: {log_uniform: [3, 20]}
-command: {targets: [{integers: [5, 30]}, {integers: [-30, 30]}], hold: 1.5}
-initial: {encoder_phase: {uniform: [0, 1]}}
+{rigs}friction:
+  k1: {{uniform: [90, 130]}}
+  k2: {{uniform: [600, 900]}}
+  alpha: {{log_uniform: [0.25, 2.0]}}
+  lambda: {{log_uniform: [3, 20]}}
+command: {{targets: [{{integers: [5, 30]}}, {{integers: [-30, 30]}}], hold: 1.5}}
+initial: {{encoder_phase: {{uniform: [0, 1]}}}}
 sweep:
-  cases: {low: {controller.ki: 3.85e-5}, high: {controller.ki: 9.45e-5, controller.kp: 6.21e-4}}
+  cases: {{low: {{controller.ki: 3.85e-5}}, high: {{controller.ki: 9.45e-5, controller.kp: 6.21e-4}}}}
 """
 
 confidence = 0.9
@@ -77,22 +77,26 @@ def judge_share(found, hits, events, place):
     close(found["share_high"], stats.beta.isf(tail, p * n + 1, n - p * n) if p < 1 else 1.0, place)
 
 
-def judge_point(found, file, point):
+def judge_point(found, file, point, rigs):
+    """@param rigs that the trials run on, trial i on rig i mod rigs; 0: each trial is a cluster of its own."""
     rows = numpy.flatnonzero(file["trial/point"][:] == point)
     arrival = file["outcome/arrival"][rows]
     arrived = file["outcome/arrived"][rows].astype(bool) & (file["outcome/outcome"][rows] != 3)
     holding = numpy.sign(file["outcome/holding_torque"][rows])
     jerk = {name: file["jerk/" + name][:] for name in ("trial", "move", "onset", "duration", "magnitude", "direction")}
     trials = len(rows)
+    clusters = rigs or trials
     edges = 10.0 ** (numpy.arange(-30, 20) / 5.0)
-    exposure, onsets = numpy.zeros((trials, len(edges))), numpy.zeros((trials, len(edges)))
+    exposure, onsets = numpy.zeros((clusters, len(edges))), numpy.zeros((clusters, len(edges)))
     intervals, owners = [], []
-    agreeing, one_count, jerks = numpy.zeros(trials), numpy.zeros(trials), numpy.zeros(trials)
+    agreeing, one_count, jerks = numpy.zeros(clusters), numpy.zeros(clusters), numpy.zeros(clusters)
+    jerking_trials = set()
     excess = variance = 0.0
     scores = []
-    for i, row in enumerate(rows):
+    for trial, row in enumerate(rows):
+        i = trial % clusters
         for move in range(arrival.shape[1]):
-            if not arrived[i, move]:
+            if not arrived[trial, move]:
                 continue
             own = (jerk["trial"] == row) & (jerk["move"] == move)
             onset = numpy.rint(jerk["onset"][own] * rate).astype(int)
@@ -100,16 +104,17 @@ def judge_point(found, file, point):
             error = numpy.zeros(samples, bool)
             for first, count in zip(onset, length):
                 error[first:first + count] = True
-            k = numpy.arange(arrival[i, move] + dwell, samples)
+            k = numpy.arange(arrival[trial, move] + dwell, samples)
             k = k[~error[k - 1]]
-            since = (k - arrival[i, move]) / rate
+            since = (k - arrival[trial, move]) / rate
             place = numpy.searchsorted(edges, since * (1 + 1e-12), side="right") - 1
             numpy.add.at(exposure[i], place, 1.0 / rate)
             begins = error[k]
             numpy.add.at(onsets[i], place[begins], 1.0)
             assert begins.sum() == len(onset)
             jerks[i] += len(onset)
-            agreeing[i] += (jerk["direction"][own] == holding[i, move]).sum()
+            jerking_trials |= {trial} if len(onset) else set()
+            agreeing[i] += (jerk["direction"][own] == holding[trial, move]).sum()
             one_count[i] += (jerk["magnitude"][own] == 1).sum()
             intervals += list(numpy.diff(onset) / rate)
             owners += [i] * max(0, len(onset) - 1)
@@ -124,7 +129,7 @@ def judge_point(found, file, point):
                 variance += spread
                 scores.append((later.sum() - expected) / numpy.sqrt(spread))
     assert found["jerks"] == jerks.sum() and found["arrived"] == arrived.sum()
-    assert found["trials_with_jerks"] == (jerks > 0).sum()
+    assert found["trials_with_jerks"] == len(jerking_trials)
 
     used = numpy.flatnonzero(exposure.sum(axis=0) > 0)
     assert len(used) == len(found["rates"])
@@ -148,11 +153,11 @@ def judge_point(found, file, point):
     assert found["interval"]["n"] == len(intervals)
     close(found["interval"]["mean"], intervals.mean(), "mean interval")
     ordered = numpy.sort(intervals)
-    per_trial = numpy.bincount(owners, minlength=trials)
+    per_cluster = numpy.bincount(owners, minlength=clusters)
     for name, p in (("p05", 0.05), ("p50", 0.5), ("p95", 0.95)):
         value = numpy.quantile(intervals, p, method="inverted_cdf")
         close(found["interval"][name], value, name)
-        n = int(adjusted(numpy.bincount(owners, intervals <= value, minlength=trials), per_trial))
+        n = int(adjusted(numpy.bincount(owners, intervals <= value, minlength=clusters), per_cluster))
         low = int(stats.binom.ppf(tail, n, p))
         high = int(stats.binom.ppf(1 - tail, n, p)) + 1
         low_rank, high_rank = int(numpy.floor(low * len(ordered) / n)), int(numpy.ceil(high * len(ordered) / n))
@@ -169,23 +174,30 @@ def judge_point(found, file, point):
     return int(jerks.sum())
 
 
-def main():
-    zerocount = os.path.abspath(sys.argv[1])
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        pathlib.Path("study.yaml").write_text(manifest, encoding="utf-8")
-        subprocess.run([zerocount, "run", "study.yaml", "-o", "study.h5"], check=True, stderr=subprocess.DEVNULL)
-        words = [zerocount, "jerks", "study.h5", "--format", "json", "--confidence", str(confidence), "--creep-trials", "5"]
-        report = json.loads(subprocess.check_output(words, text=True))
-        assert report["name"] == "jerking" and report["confidence"] == confidence
-        with h5py.File("study.h5") as file:
-            counts = [judge_point(found, file, found["point"]) for found in report["points"]]
-        os.chdir("/")
+def judge_study(zerocount, rigs):
+    text = manifest.format(rigs=f"rigs: {rigs}\n" if rigs else "")
+    pathlib.Path("study.yaml").write_text(text, encoding="utf-8")
+    output = f"study-{rigs}.h5"
+    subprocess.run([zerocount, "run", "study.yaml", "-o", output], check=True, stderr=subprocess.DEVNULL)
+    words = [zerocount, "jerks", output, "--format", "json", "--confidence", str(confidence), "--creep-trials", "5"]
+    report = json.loads(subprocess.check_output(words, text=True))
+    assert report["name"] == "jerking" and report["confidence"] == confidence
+    with h5py.File(output) as file:
+        counts = [judge_point(found, file, found["point"], rigs) for found in report["points"]]
     assert len(counts) == 2 and min(counts) > 30, counts
     for found in report["points"]:
         creep = found["creep"]
         assert creep["foretold"] == creep["ended"] and creep["lasting_foretold"] == creep["lasting"], creep
-    print(f"{counts} jerks agree")
+    print(f"{counts} jerks agree, {rigs} rigs")
+
+
+def main():
+    zerocount = os.path.abspath(sys.argv[1])
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        for rigs in (0, 16):
+            judge_study(zerocount, rigs)
+        os.chdir("/")
 
 
 main()

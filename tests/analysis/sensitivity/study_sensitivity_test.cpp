@@ -5,6 +5,7 @@
 #include <functional>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -121,6 +122,58 @@ TEST(StudySensitivity, OfAnyOtherDesignHasWhatEachExplainsAlone) {
   EXPECT_TRUE(encloses(factor(success, "friction.k1").first_order, 1.0 / 3.0));
   EXPECT_TRUE(std::isnan(factor(success, "friction.k1").total.value));
   EXPECT_FALSE(factor(success, "friction.alpha").matters);
+}
+
+/// `trials` on 40 rigs, which differ in all three factors.
+std::string manifest_of_rigs(std::int64_t trials, int seed) {
+  std::string text = manifest(fmt::format("rigs: 40\n"));
+  const auto replace = [&](const std::string& old, const std::string& now) {
+    text.replace(text.find(old), old.size(), now);
+  };
+  replace("saltelli", "monte_carlo");
+  replace("trials: 2000", fmt::format("trials: {}", trials));
+  replace("seed: 5", fmt::format("seed: {}", seed));
+  return text;
+}
+
+// More trials on the same rigs show nothing more of what differs between rigs.
+TEST(StudySensitivity, OfRigsIsThatOfTheirFirstTrials) {
+  for (const int seed : {1, 2, 3}) {
+    const OutputSensitivity many =
+        MadeUpStudy(manifest_of_rigs(800, seed), both_in_upper_half).about("success");
+    const OutputSensitivity first =
+        MadeUpStudy(manifest_of_rigs(40, seed), both_in_upper_half).about("success");
+    EXPECT_EQ(many.trials, 40);
+    EXPECT_EQ(many.mean, first.mean);
+    ASSERT_EQ(many.factors.size(), first.factors.size());
+    for (const FactorSensitivity& expected : first.factors) {
+      const FactorSensitivity& found = factor(many, expected.name);
+      for (const auto number : {&FactorSensitivity::first_order, &FactorSensitivity::rank_correlation,
+                                &FactorSensitivity::partial_rank_correlation}) {
+        EXPECT_EQ((found.*number).value, (expected.*number).value) << expected.name;
+        EXPECT_EQ((found.*number).low, (expected.*number).low) << expected.name;
+        EXPECT_EQ((found.*number).high, (expected.*number).high) << expected.name;
+      }
+    }
+    ASSERT_FALSE(many.notes.empty());
+    EXPECT_EQ(many.notes.front(),
+              "of each of the 40 rigs the first trial is used: the others are not independent of it");
+  }
+}
+
+// An output by which rigs differ for another reason: taken for independent, 20 trials of every rig show an
+// influence of factors that have none.
+TEST(StudySensitivity, ARigsOwnTraitIsNotTakenForTheInfluenceOfAnother) {
+  int alarms = 0;
+  constexpr int studies = 25;
+  for (int seed = 1; seed <= studies; ++seed) {
+    const OutputSensitivity success =
+        MadeUpStudy(manifest_of_rigs(800, seed), [](std::span<const double> inputs) {
+          return std::vector{move_with(true), move_with(inputs[k1] > 1.5)};
+        }).about("success");
+    alarms += factor(success, "friction.alpha").matters;
+  }
+  EXPECT_LE(alarms, 7);  // of 25 at 5 % for each of two tests
 }
 
 TEST(StudySensitivity, WhatDoesNotVaryIsLeftOutAndNamed) {

@@ -34,5 +34,11 @@ int main(int count, char** words) {
     print("no rigs, few jerks", {.success_mean = 0.99, .trial_effect = 0.3, .jerks = 0.01},
           {.trials = 200, .moves = moves});
   }
+  for (const std::int64_t rigs : {20, 100}) {
+    print(fmt::format("{} rigs, 90 % without a failure, the others at 0.7", rigs).c_str(),
+          {.weak_rigs = 0.1, .weak_success = 0.7}, {.rigs = rigs, .trials = 20 * rigs, .moves = 1});
+    print(fmt::format("{} rigs, standard deviation 0.1 between them, mean 0.97", rigs).c_str(),
+          {.success_mean = 0.97, .success_sd = 0.1}, {.rigs = rigs, .trials = 20 * rigs, .moves = 1});
+  }
   return 0;
 }

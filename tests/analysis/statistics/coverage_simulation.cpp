@@ -22,7 +22,10 @@ constexpr double alike = 0.5;  // probability that a trial decides once for all 
 /// The law of the zero moves of rigs.
 class SuccessLaw {
  public:
-  explicit SuccessLaw(const Population& population) : mean_(population.success_mean) {
+  explicit SuccessLaw(const Population& population)
+      : mean_(population.success_mean),
+        weak_rigs_(population.weak_rigs),
+        weak_success_(population.weak_success) {
     if (population.success_sd == 0.0) return;
     const double size = mean_ * (1.0 - mean_) / (population.success_sd * population.success_sd) - 1.0;
     a_ = mean_ * size;
@@ -30,6 +33,7 @@ class SuccessLaw {
   }
   template <class Random>
   double draw(Random& random) const {
+    if (weak_rigs_ > 0.0) return std::bernoulli_distribution(weak_rigs_)(random) ? weak_success_ : 1.0;
     return a_ > 0.0 ? boost::random::beta_distribution<double>(a_, b_)(random) : mean_;
   }
   /// Probability that a trial of a rig with q succeeds.
@@ -39,6 +43,7 @@ class SuccessLaw {
   /// Mean over rigs.
   template <class Function>
   double mean_over_rigs(Function function) const {
+    if (weak_rigs_ > 0.0) return weak_rigs_ * function(weak_success_) + (1.0 - weak_rigs_) * function(1.0);
     if (a_ == 0.0) return function(mean_);
     constexpr int nodes = 4000;
     const boost::math::beta_distribution<double> beta(a_, b_);
@@ -49,13 +54,14 @@ class SuccessLaw {
   /// Proportion of rigs with q ≥ bound.
   double rigs_at_least(double bound) const {
     if (bound <= 0.0) return 1.0;
+    if (weak_rigs_ > 0.0) return bound <= weak_success_ ? 1.0 : 1.0 - weak_rigs_;
     if (a_ == 0.0) return mean_ >= bound ? 1.0 : 0.0;
     return boost::math::cdf(
         boost::math::complement(boost::math::beta_distribution<double>(a_, b_), std::min(bound, 1.0)));
   }
 
  private:
-  double mean_, a_{0.0}, b_{0.0};
+  double mean_, weak_rigs_, weak_success_, a_{0.0}, b_{0.0};
 };
 
 /// The law of the settling times of all moves of all rigs.

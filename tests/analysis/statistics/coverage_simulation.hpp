@@ -9,13 +9,16 @@ namespace zerocount::testing {
 /// Trials whose rigs and trials differ by known laws.
 ///
 /// Rig i holds zero in a move with the probability qᵢ, beta distributed between rigs with the mean
-/// `success_mean` and the standard deviation `success_sd`; half of the trials decide once for all of their
+/// `success_mean` and the standard deviation `success_sd`, or, where there are weak rigs, `weak_success` for
+/// these and 1 for all others; half of the trials decide once for all of their
 /// moves, the others for each. The logarithm of a settling time is the sum of normal effects of rig, trial
 /// and move; times are rounded up to samples of 0.5 ms, and a time beyond the hold of 1 s never arrives. The
 /// jerks of a trial are Poisson numbers with gamma distributed effects of rig and trial.
 struct Population {
   double success_mean{0.9};
   double success_sd{0.0};
+  double weak_rigs{0.0};  ///< proportion of all rigs; 0: the beta distribution holds
+  double weak_success{0.7};
   double rig_effect{0.0};    ///< standard deviation of ln(settling time) between rigs
   double trial_effect{0.0};  ///< likewise between trials of a rig
   double move_effect{0.5};   ///< likewise between moves of a trial

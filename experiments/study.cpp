@@ -1,9 +1,6 @@
 #include "experiments/study.hpp"
 
-#include <cerrno>
-#include <cstring>
 #include <deque>
-#include <fstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +10,7 @@
 #include "experiments/language/manifest.hpp"
 #include "experiments/language/overrides.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
+#include "experiments/yaml/text_file.hpp"
 
 namespace zerocount {
 namespace {
@@ -21,29 +19,6 @@ namespace {
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}:1:1: manifest: the file is too large; expected at most {} bytes", source,
                             largest_manifest));
-}
-
-// At most one byte more than a manifest may have, so that a huge or endless file is refused at once.
-std::string read_file(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: there is no such file; expected a manifest", path.string()));
-  }
-  if (std::filesystem::is_directory(status)) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: this is a directory; expected a manifest", path.string()));
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::string text(largest_manifest + 1, '\0');
-  if (file) file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!file.is_open() || file.bad()) {
-    throw Failure(ExitCode::machine_failed,
-                  fmt::format("{}: the manifest cannot be read: {}", path.string(), std::strerror(errno)));
-  }
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
 }
 
 // Text and overrides as one text; neither can contain the separator.
@@ -59,7 +34,7 @@ std::string joined(const std::string& text, const std::vector<std::string>& over
 }  // namespace
 
 Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides) {
-  return parse_study(read_file(manifest), manifest.string(), overrides);
+  return parse_study(read_text(manifest, largest_manifest, "a manifest"), name_of_text(manifest), overrides);
 }
 
 Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides) {

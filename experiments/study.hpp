@@ -165,6 +165,10 @@ inline std::int64_t rig_of(const Study& study, std::int64_t trial_index) {
   return trial_index % study.rigs;
 }
 
+/// Whether the trials of a study stay what they are when `trials` grows. Those of a Latin hypercube do not:
+/// it is laid out for its number of trials.
+bool trials_stay_when_extended(Design design);
+
 /// Reads, checks and understands a manifest.
 /// @throws Failure (bad_input) whose message lists every error, one a line, as
 ///         `file:line:column: path: what; expected`; likewise where there is no such file, or it is a

@@ -21,6 +21,7 @@
 #include "runners/commands.hpp"
 #include "runners/cost.hpp"
 #include "runners/progress.hpp"
+#include "runners/study_size.hpp"
 #include "runners/warnings.hpp"
 
 namespace zerocount {
@@ -28,7 +29,7 @@ namespace {
 
 constexpr const char* check_help =
     "Reports every error of the manifest, each with its place. If there is none, prints the\n"
-    "plan (design points, trials, cost) and what the theory says of each design point: the\n"
+    "plan (design points, trials, cost, size) and what the theory says of each design point: the\n"
     "bounds of the paper's criteria (6) and (7) on ki, which know of no sampling, delay or\n"
     "amplifier, the bound of the sampled loop about the lowest stiffness k1, which has them,\n"
     "and the rules for the DAC and the sample rate. Both bounds are also given at the lowest k1\n"
@@ -388,6 +389,10 @@ void print_plan(const Study& study) {
   fmt::print("  {:.4g} samples at {:.0f} ns: about {} on {} core{}\n", cost.samples,
              1e9 * cost.seconds_per_sample, duration_text(cost.seconds()), cost.cores,
              cost.cores == 1 ? "" : "s");
+  const StudySize size = measure_size(study);
+  fmt::print("  results file about {}; while it runs up to {} on the disk and {} of memory\n",
+             bytes_text(size.file_bytes), bytes_text(size.file_bytes + size.shard_bytes),
+             bytes_text(size.memory_bytes));
   print_what_differs(study);
 }
 

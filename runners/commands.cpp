@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "results/layout/build_info.hpp"
+#include "runners/output_place.hpp"
 
 namespace zerocount {
 namespace {
@@ -26,14 +27,19 @@ std::string overview() {
   for (const Command& command : commands())
     text += fmt::format("  {:<12} {}\n", command.spec.name, command.summary);
   text +=
-      "\n'zerocount COMMAND --help' explains a command; 'zerocount --version' says which program this "
-      "is.\n\n";
+      "\n'zerocount COMMAND --help' explains a command; 'zerocount --version' (-V) says which program this "
+      "is.\nWhere a manifest, a table or a page is read or written, - is standard input or output.\n\n";
   return text + exit_codes_help();
 }
 
 std::string help_of(const Command& command) {
-  return fmt::format("usage: zerocount {} {} [options]\n\n{}\n\n{}\nOptions:\n{}\n{}", command.spec.name,
-                     command.spec.operands, command.summary, command.help, options_help(command.spec),
+  const auto& options = command.spec.options;
+  const bool writes = std::any_of(options.begin(), options.end(), [](const OptionSpec& option) {
+    return option.name == force_option().name;
+  });
+  return fmt::format("usage: zerocount {} {} [options]\n\n{}\n\n{}{}\nOptions:\n{}\n{}", command.spec.name,
+                     command.spec.operands, command.summary, command.help,
+                     writes ? fmt::format("\n{}", overwriting_rule) : "", options_help(command.spec),
                      exit_codes_help());
 }
 
@@ -68,7 +74,7 @@ ExitCode run_command_line(std::span<const std::string> words) {
   if (verb == "--help" || verb == "-h" || verb == "help") {
     return print(words.size() > 1 ? help_of(find_command(words[1])) : overview());
   }
-  if (verb == "--version") {
+  if (verb == "--version" || verb == "-V") {
     const Provenance provenance = current_provenance();
     return print(fmt::format("zerocount {} ({}, {})\n", provenance.zerocount_version, provenance.git_commit,
                              provenance.compiler));

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -7,7 +8,7 @@
 
 #include "analysis/comparison/compare_studies.hpp"
 #include "analysis/comparison/comparison_report.hpp"
-#include "results/storage/durable_file.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "runners/commands.hpp"
 #include "runners/output_place.hpp"
 
@@ -38,34 +39,57 @@ ExitCode code_of(GateVerdict verdict) {
   return verdict == GateVerdict::regression ? ExitCode::regression : ExitCode::inconclusive;
 }
 
-void write_where_asked(const Arguments& arguments, const char* option, const std::string& text) {
-  if (const std::optional<std::string> path = arguments.value(option)) replace_file(*path, text);
+/// A form of the comparison, and the option that names a file for it.
+struct ComparisonForm {
+  std::string name;
+  std::string (*text)(const StudyComparison&);
+};
+
+const std::vector<ComparisonForm>& forms() {
+  static const std::vector<ComparisonForm> all{{"table", comparison_table},
+                                               {"json", comparison_json},
+                                               {"junit", comparison_junit},
+                                               {"markdown", comparison_markdown}};
+  return all;
 }
 
-void protect(const Arguments& arguments, const std::optional<std::string>& margins) {
+/// A place for one form of the comparison.
+struct FormPlace {
+  const ComparisonForm& form;
+  std::filesystem::path place;
+};
+
+/// Where the forms go. What --format says goes to standard output, unless another form was sent there.
+std::vector<FormPlace> places_of(const Arguments& arguments, const std::optional<std::string>& margins) {
+  const std::string format = arguments.one_of("format", {"table", "json", "junit", "markdown"});
   std::vector<std::filesystem::path> inputs{arguments.operands()[0], arguments.operands()[1]};
   if (margins) inputs.emplace_back(*margins);
   std::vector<std::filesystem::path> outputs;
-  for (const char* const option : {"json", "junit", "markdown"}) {
-    if (const std::optional<std::string> path = arguments.value(option)) outputs.emplace_back(*path);
+  if (arguments.has("format")) outputs.emplace_back("-");
+  std::vector<FormPlace> places;
+  for (const ComparisonForm& form : forms()) {
+    if (form.name == "table") continue;
+    const std::optional<std::filesystem::path> place = text_place(arguments, form.name);
+    if (!place) continue;
+    places.push_back({form, *place});
+    outputs.push_back(*place);
   }
-  protect_from_outputs(arguments, inputs, outputs);
+  require_places(arguments, inputs, outputs);
+  const bool taken = std::any_of(places.begin(), places.end(),
+                                 [](const FormPlace& place) { return is_standard_stream(place.place); });
+  const auto printed = std::find_if(forms().begin(), forms().end(),
+                                    [&](const ComparisonForm& form) { return form.name == format; });
+  if (!taken) places.push_back({*printed, "-"});
+  return places;
 }
 
 ExitCode compare(const Arguments& arguments) {
-  const std::string format = arguments.one_of("format", {"table", "json", "junit", "markdown"});
   const std::optional<std::string> margins = arguments.value("margins");
-  protect(arguments, margins);
+  const std::vector<FormPlace> places = places_of(arguments, margins);
   const StudyComparison result =
       compare_files(arguments.operands()[0], arguments.operands()[1],
                     margins ? std::optional<std::filesystem::path>(*margins) : std::nullopt);
-  write_where_asked(arguments, "json", comparison_json(result));
-  write_where_asked(arguments, "junit", comparison_junit(result));
-  write_where_asked(arguments, "markdown", comparison_markdown(result));
-  if (format == "table") fmt::print("{}", comparison_table(result));
-  if (format == "json") fmt::print("{}", comparison_json(result));
-  if (format == "junit") fmt::print("{}", comparison_junit(result));
-  if (format == "markdown") fmt::print("{}", comparison_markdown(result));
+  for (const FormPlace& place : places) write_text(place.place, place.form.text(result));
   return code_of(result.verdict);
 }
 
@@ -80,7 +104,8 @@ Command compare_command() {
             {"format", "FORMAT", "of standard output: table (default), json, junit or markdown"},
             {"json", "FILE", "write the JSON there too"},
             {"junit", "FILE", "write JUnit XML there too"},
-            {"markdown", "FILE", "write the Markdown summary there too"}}},
+            {"markdown", "FILE", "write the Markdown summary there too"},
+            force_option()}},
           "compare a results file with a baseline: the regression gate",
           compare_help,
           compare};

@@ -28,14 +28,20 @@ EarlierShards choose_shards(const std::vector<ShardInfo>& sound, RowRange wanted
   return shards;
 }
 
-EarlierShards earlier_shards(const fs::path& directory, const Study& study, RowRange wanted) {
+EarlierShards earlier_shards(const fs::path& directory, const Study& study, RowRange wanted,
+                             ForeignShards foreign) {
   ShardSurvey survey = list_shards(directory, study);
   for (const ShardProblem& bad : survey.problems) {
+    if (bad.kind == ShardProblem::Kind::foreign && foreign == ForeignShards::remove) {
+      std::error_code ignored;
+      fs::remove(bad.path, ignored);
+      continue;
+    }
     if (bad.kind == ShardProblem::Kind::foreign) {
       throw Failure(
           ExitCode::bad_input,
           fmt::format("{}: holds another unfinished run, which this one must not touch ({}); finish that run "
-                      "first, give another name with -o, or remove the folder",
+                      "first, give another name with -o, or remove it with --force",
                       directory.string(), bad.problem));
     }
     fs::path aside = bad.path;

@@ -4,6 +4,7 @@
 #include "results/reading/export.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/commands.hpp"
+#include "runners/output_place.hpp"
 
 namespace zerocount {
 namespace {
@@ -20,7 +21,8 @@ constexpr const char* export_help =
 ExitCode export_file(const Arguments& arguments) {
   const std::string directory = arguments.required("output");
   const StudyFile file(arguments.operands()[0]);
-  export_csv(file, directory, repeatability_exports(file));
+  export_csv(file, directory, repeatability_exports(file),
+             arguments.has("force") ? ExistingFiles::replace : ExistingFiles::refuse);
   fmt::print(stderr, "wrote the tables to {}\n", directory);
   return ExitCode::success;
 }
@@ -28,7 +30,11 @@ ExitCode export_file(const Arguments& arguments) {
 }  // namespace
 
 Command export_command() {
-  return {{"export", "FILE -o DIR", 1, 1, {{"output,o", "DIR", "the folder for the tables (required)"}}},
+  return {{"export",
+           "FILE -o DIR",
+           1,
+           1,
+           {{"output,o", "DIR", "the folder for the tables (required)"}, force_option()}},
           "write a results file's tables as CSV",
           export_help,
           export_file};

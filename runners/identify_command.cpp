@@ -15,8 +15,10 @@
 #include "analysis/identification/identification_report.hpp"
 #include "analysis/identification/manifest_fragment.hpp"
 #include "analysis/identification/raw_series.hpp"
-#include "results/storage/durable_file.hpp"
+#include "results/reading/study_file.hpp"
 #include "runners/commands.hpp"
+#include "runners/option_values.hpp"
+#include "runners/output_place.hpp"
 
 namespace zerocount {
 namespace {
@@ -136,17 +138,9 @@ bool holds_results(const std::string& path) {
   return signature == "\x89HDF\r\n\x1a\n" || std::filesystem::path(path).extension() == ".h5";
 }
 
-std::vector<std::int64_t> point_options(const Arguments& arguments) {
+std::vector<std::int64_t> points_of(const Arguments& arguments, const std::string& path) {
   std::vector<std::int64_t> points;
-  for (const std::string& text : arguments.values("point")) {
-    std::int64_t point = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, point);
-    if (error != std::errc{} || stop != end || point < 0) {
-      arguments.refuse(fmt::format("option '--point': '{}' is no whole number from 0", text));
-    }
-    points.push_back(point);
-  }
+  if (arguments.has("point")) points = point_options(arguments, StudyFile(path).point_labels());
   if (points.empty()) points.push_back(0);
   return points;
 }
@@ -167,7 +161,7 @@ std::vector<TestRecord> read_records(const Arguments& arguments) {
     }
     constexpr std::int64_t most = std::int64_t{1} << 53;
     const std::int64_t index = arguments.whole_number("trial", 0, most).value_or(0);
-    for (const std::int64_t point : point_options(arguments)) {
+    for (const std::int64_t point : points_of(arguments, path)) {
       records.push_back(checked_record(read_study_series(path, point, index, choice), any_magnitude));
     }
   }
@@ -177,17 +171,14 @@ std::vector<TestRecord> read_records(const Arguments& arguments) {
 ExitCode identify_records(const Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"text", "json", "yaml"});
   const IdentificationOptions options = identification_options(arguments);
-  if (arguments.has("output")) require_new(arguments.required("output"));
+  const std::optional<std::filesystem::path> output = text_place(arguments, "output");
+  require_places(arguments, {arguments.operands().begin(), arguments.operands().end()},
+                 output ? std::vector{*output} : std::vector<std::filesystem::path>{});
   const Identification found = identify(read_records(arguments), options);
   const std::string report = format == "json"   ? identification_json(found)
                              : format == "yaml" ? manifest_fragment(found)
                                                 : identification_text(found);
-  if (arguments.has("output")) {
-    require_new(arguments.required("output"));
-    replace_file(arguments.required("output"), report);
-  } else {
-    fmt::print("{}", report);
-  }
+  write_text(output.value_or("-"), report);
   if (!found.checks.passed) {
     fmt::print(
         stderr,
@@ -218,10 +209,12 @@ Command identify_command() {
             {"hardening", "XH", "work hardening before the test, rad (default 0)"},
             {"fix", "KEY=VALUE", "a parameter that is known, as friction.n=2; may be repeated", true},
             {"any-magnitude", "", "believe values that look as if they were in other units"},
-            {"point", "P", "design point in a results file (default 0); may be repeated", true},
+            {"point", "P", "design point in a results file, by label or number (default 0); may be repeated",
+             true},
             {"trial", "I", "trial of the point (default 0)"},
             {"format", "FORMAT", "text (default), json or yaml"},
-            {"output,o", "FILE", "write there instead of to standard output"}}},
+            {"output,o", "FILE", "write there instead of to standard output"},
+            force_option()}},
           "identify friction, damping and inertia from material tests",
           identify_help,
           identify_records};

@@ -29,7 +29,7 @@ ExitCode print_jerks(const Arguments& arguments) {
       arguments.whole_number("creep-trials", 0, 1'000'000).value_or(default_creep_trials);
   const StudyFile file(arguments.operands()[0]);
   const Study study = recorded_study(file.header(), file.path());
-  const std::vector<std::int64_t> points = whole_number_options(arguments, "point");
+  const std::vector<std::int64_t> points = point_options(arguments, study.point_labels);
   const JerkReport report = jerk_report(file, study, points, confidence, creep_trials);
   fmt::print("{}", format == "json" ? jerk_json_text(report) : jerk_text(report));
   if (any_arrival(report)) return ExitCode::success;
@@ -44,7 +44,7 @@ Command jerks_command() {
            "FILE",
            1,
            1,
-           {{"point", "P", "a design point by its number; may be given several times (default: all)", true},
+           {{"point", "P", "design point, by label or number; may be repeated (default: all)", true},
             {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"},
             {"creep-trials", "N", "trials of each point to run again beside creep (default 20)"},
             {"format", "FORMAT", "table (default) or json"}}},

@@ -40,6 +40,7 @@ void require_everything(const std::vector<ShardInfo>& parts, const Study& study)
 ExitCode merge(const Arguments& arguments) {
   const fs::path output = output_place(arguments);
   const std::vector<fs::path> inputs(arguments.operands().begin(), arguments.operands().end());
+  require_places(arguments, inputs, {output});
   const Study study = recorded_study(first_header(inputs), inputs.front());
   const OutputLock lock(output);
   const std::vector<ShardInfo> parts = merge_inputs(inputs, study);
@@ -52,11 +53,14 @@ ExitCode merge(const Arguments& arguments) {
 }  // namespace
 
 Command merge_command() {
-  return {
-      {"merge", "PART... -o FILE", 1, 100000, {{"output,o", "FILE", "the results file to make (required)"}}},
-      "join the parts of a study that was run in parts",
-      merge_help,
-      merge};
+  return {{"merge",
+           "PART... -o FILE",
+           1,
+           100000,
+           {{"output,o", "FILE", "the results file to make (required)"}, force_option()}},
+          "join the parts of a study that was run in parts",
+          merge_help,
+          merge};
 }
 
 }  // namespace zerocount

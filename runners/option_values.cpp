@@ -1,9 +1,11 @@
 #include "runners/option_values.hpp"
 
+#include <algorithm>
 #include <charconv>
-#include <string>
 
 #include <fmt/format.h>
+
+#include "experiments/yaml/nearest_name.hpp"
 
 namespace zerocount {
 namespace {
@@ -18,6 +20,19 @@ std::optional<Number> parsed(const std::string& text) {
   return number;
 }
 
+/// A label goes before a number, for a label may be one.
+std::int64_t point_named(const Arguments& arguments, const std::string& text,
+                         std::span<const std::string> labels) {
+  const auto found = std::find(labels.begin(), labels.end(), text);
+  if (found != labels.end()) return found - labels.begin();
+  const std::optional<std::int64_t> number = parsed<std::int64_t>(text);
+  if (number && *number >= 0 && *number < std::ssize(labels)) return *number;
+  const std::string_view near = nearest_name(text, labels);
+  arguments.refuse(
+      fmt::format("option '--point': '{}' is no design point; expected a number from 0 to {}, or a label{}",
+                  text, std::ssize(labels) - 1, near.empty() ? "" : fmt::format(" such as '{}'", near)));
+}
+
 }  // namespace
 
 std::optional<double> probability_option(const Arguments& arguments, std::string_view option) {
@@ -30,16 +45,16 @@ std::optional<double> probability_option(const Arguments& arguments, std::string
   return number;
 }
 
-std::vector<std::int64_t> whole_number_options(const Arguments& arguments, std::string_view option) {
-  std::vector<std::int64_t> numbers;
-  for (const std::string& text : arguments.values(option)) {
-    const std::optional<std::int64_t> number = parsed<std::int64_t>(text);
-    if (!number || *number < 0) {
-      arguments.refuse(fmt::format("option '--{}': '{}' is no whole number from 0 on", option, text));
-    }
-    numbers.push_back(*number);
-  }
-  return numbers;
+std::vector<std::int64_t> point_options(const Arguments& arguments, std::span<const std::string> labels) {
+  std::vector<std::int64_t> points;
+  for (const std::string& text : arguments.values("point"))
+    points.push_back(point_named(arguments, text, labels));
+  return points;
+}
+
+std::optional<std::int64_t> point_option(const Arguments& arguments, std::span<const std::string> labels) {
+  const std::vector<std::int64_t> points = point_options(arguments, labels);
+  return points.empty() ? std::nullopt : std::optional(points.front());
 }
 
 }  // namespace zerocount

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,8 +16,13 @@ namespace zerocount {
 /// @throws Failure (bad_input) for anything else.
 std::optional<double> probability_option(const Arguments& arguments, std::string_view option);
 
-/// All values of an option that may be repeated: whole numbers, 0 or more.
+/// The design points that --point names, each by its label or by its number from 0; none where it is not
+/// given.
+/// @param labels of all points, in their order
 /// @throws Failure (bad_input) for anything else.
-std::vector<std::int64_t> whole_number_options(const Arguments& arguments, std::string_view option);
+std::vector<std::int64_t> point_options(const Arguments& arguments, std::span<const std::string> labels);
+
+/// As point_options, of an option that cannot be repeated.
+std::optional<std::int64_t> point_option(const Arguments& arguments, std::span<const std::string> labels);
 
 }  // namespace zerocount

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -5,15 +6,17 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/comparison/compare_studies.hpp"
 #include "analysis/comparison/margins_file.hpp"
 #include "analysis/report/report.hpp"
 #include "core/failure.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "results/reading/study_file.hpp"
-#include "results/storage/durable_file.hpp"
 #include "runners/child_process.hpp"
 #include "runners/commands.hpp"
+#include "runners/option_values.hpp"
 #include "runners/output_place.hpp"
 #include "runners/replay.hpp"
 
@@ -25,7 +28,8 @@ constexpr const char* report_help =
     "with bounds, stability maps with the criteria (6) and (7), settling times, jerks, what\n"
     "matters, single trials that are run again, the figures of the paper that the study can\n"
     "show, and what was run. The page holds everything and asks for nothing from anywhere;\n"
-    "it prints, and is read on a phone, by day and by night. An existing page is replaced.\n"
+    "it prints, and is read on a phone, by day and by night. Print it from\n"
+    "a browser for a PDF.\n"
     "\n"
     "With a baseline, the page also has what 'zerocount compare' would say. The exit code\n"
     "does not: for that there is 'compare'.\n"
@@ -35,7 +39,7 @@ constexpr const char* report_help =
 constexpr const char* plot_help =
     "Draws one figure of the report by itself, for a paper. It is drawn by node, and made a\n"
     "PNG by rsvg-convert (Debian: nodejs, librsvg2-bin). Without --figure the names of the\n"
-    "figures that this study has are printed. An existing picture is replaced.\n"
+    "figures that this study has are printed.\n"
     "\n"
     "Example: zerocount plot gains.h5 --figure success -o success.svg\n";
 
@@ -52,7 +56,7 @@ std::vector<std::string> check(const StudyFile& file, const ReplayedTrial& repla
 
 StudyReport report_of(const Arguments& arguments, const StudyFile& file) {
   ReportOptions options;
-  options.focus = arguments.whole_number("point", 0, std::int64_t{1} << 53);
+  options.focus = point_option(arguments, file.point_labels());
   const auto margins = arguments.value("margins");
   if (const auto baseline = arguments.value("baseline")) {
     const GateRules rules = margins ? read_gate_rules(*margins, file.point_labels()) : GateRules{};
@@ -66,21 +70,29 @@ StudyReport report_of(const Arguments& arguments, const StudyFile& file) {
   return report;
 }
 
-/// The output, which is none of the files that are read.
-std::filesystem::path picture_or_page(const Arguments& arguments) {
-  std::filesystem::path output = output_place(arguments);
+/// The output, whose name ends in one of `extensions` and which is none of the files that are read.
+std::filesystem::path picture_or_page(const Arguments& arguments,
+                                      const std::vector<std::string>& extensions) {
+  arguments.required("output");
+  std::filesystem::path output = *text_place(arguments, "output");
+  const std::string extension = output.extension().string();
+  if (!is_standard_stream(output) &&
+      std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
+    arguments.refuse(fmt::format("option '--output': '{}' does not end in {}", output.string(),
+                                 fmt::join(extensions, " or ")));
+  }
   std::vector<std::filesystem::path> inputs{arguments.operands()[0]};
   for (const char* const option : {"baseline", "margins"}) {
     if (const auto path = arguments.value(option)) inputs.emplace_back(*path);
   }
-  protect_from_outputs(arguments, inputs, {output});
+  require_places(arguments, inputs, {output});
   return output;
 }
 
 ExitCode write_report(const Arguments& arguments) {
-  const std::filesystem::path output = picture_or_page(arguments);
+  const std::filesystem::path output = picture_or_page(arguments, {".html", ".htm"});
   const StudyFile file(arguments.operands()[0]);
-  replace_file(output, html_page(report_of(arguments, file).page));
+  write_text(output, html_page(report_of(arguments, file).page));
   return ExitCode::success;
 }
 
@@ -118,14 +130,11 @@ ExitCode plot(const Arguments& arguments) {
     for (const std::string& name : figure_names(report_of(arguments, file).page)) fmt::print("{}\n", name);
     return ExitCode::success;
   }
-  const std::filesystem::path output = picture_or_page(arguments);
-  const std::string extension = output.extension().string();
-  if (extension != ".svg" && extension != ".png") {
-    arguments.refuse(fmt::format("option '--output': '{}' is neither .svg nor .png", output.string()));
-  }
+  const std::filesystem::path output = picture_or_page(arguments, {".svg", ".png"});
   const StudyFile file(input);
   const StudyReport report = report_of(arguments, file);
-  replace_file(output, picture(find_figure(report.page, arguments.required("figure")), extension == ".png"));
+  const bool png = output.extension() == ".png";
+  write_text(output, picture(find_figure(report.page, arguments.required("figure")), png));
   return ExitCode::success;
 }
 
@@ -136,28 +145,31 @@ Command report_command() {
            "FILE",
            1,
            1,
-           {{"output,o", "PAGE", "the page, such as report.html (required)"},
+           {{"output,o", "PAGE", "the page, such as report.html; - is standard output (required)"},
             {"baseline", "FILE", "compare with these results"},
             {"margins", "FILE", "the margins and requirements of that comparison"},
-            {"point", "P", "design point whose trials are shown one by one (default: the best)"}}},
+            {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
+            force_option()}},
           "write one HTML page on a results file",
           report_help,
           write_report};
 }
 
 Command plot_command() {
-  return {{"plot",
-           "FILE",
-           1,
-           1,
-           {{"figure", "NAME", "which figure"},
-            {"output,o", "PICTURE", "where to: a name that ends in .svg or .png"},
-            {"baseline", "FILE", "compare with these results"},
-            {"margins", "FILE", "the margins and requirements of that comparison"},
-            {"point", "P", "design point whose trials are shown one by one (default: the best)"}}},
-          "draw one figure of the report as SVG or PNG",
-          plot_help,
-          plot};
+  return {
+      {"plot",
+       "FILE",
+       1,
+       1,
+       {{"figure", "NAME", "which figure"},
+        {"output,o", "PICTURE", "where to: a name that ends in .svg or .png; - is standard output, as SVG"},
+        {"baseline", "FILE", "compare with these results"},
+        {"margins", "FILE", "the margins and requirements of that comparison"},
+        {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
+        force_option()}},
+      "draw one figure of the report as SVG or PNG",
+      plot_help,
+      plot};
 }
 
 }  // namespace zerocount

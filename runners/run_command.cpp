@@ -17,11 +17,14 @@
 #include "runners/assemble.hpp"
 #include "runners/commands.hpp"
 #include "runners/earlier_shards.hpp"
+#include "runners/existing_output.hpp"
+#include "runners/extension.hpp"
 #include "runners/interruption.hpp"
 #include "runners/output_place.hpp"
 #include "runners/progress.hpp"
 #include "runners/stopping_run.hpp"
 #include "runners/study_runner.hpp"
+#include "runners/study_size.hpp"
 #include "runners/warnings.hpp"
 
 namespace zerocount {
@@ -34,7 +37,9 @@ constexpr const char* run_help =
     "Finished trials go to shards in FILE.shards/ while the run goes on; at the end they\n"
     "become FILE. A run that was interrupted or killed goes on where it stopped when the\n"
     "same command is given again. The data do not depend on the number of threads, on\n"
-    "--shard, or on interruptions.\n"
+    "--shard, or on interruptions. Where FILE holds the same study with fewer trials, only\n"
+    "the others are run, and join them. Before it begins, the run looks whether the disk has\n"
+    "room for its shards and its file; --force begins all the same.\n"
     "\n"
     "Examples:\n"
     "  zerocount run experiments/manifests/paper-gains.yaml -o gains.h5\n"
@@ -62,74 +67,68 @@ RowRange part_of(const Arguments& arguments, const std::string& text, const Stud
   return {start(part - 1), start(part) - start(part - 1)};
 }
 
-/// Whether `output` holds these rows already.
-/// @throws Failure (bad_input) where it holds anything else: nothing is ever overwritten.
-bool already_there(const fs::path& output, const Study& study, RowRange wanted) {
-  std::error_code error;
-  if (!fs::exists(fs::symlink_status(output, error))) return false;
-  const auto refuse = [&](std::string_view what) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: {}; give another name with -o, or remove the file first", output.string(), what));
-  };
-  FileHeader header;
-  try {
-    header = StudyFile(output, Require::any_part).header();
-  } catch (const Failure& failure) {
-    refuse(fmt::format("exists, and is no usable results file ({})", failure.what()));
-  }
-  if (header.engine != study.engine) {
-    refuse(fmt::format("holds the results of the {} engine, and this run is for the {} engine",
-                       name_of(header.engine), name_of(study.engine)));
-  }
-  if (header.study_sha256 != study.study_sha256) {
-    refuse("holds the results of another manifest (or of other --set values)");
-  }
-  if (!(header.rows == wanted)) {
-    refuse(fmt::format("holds trials {} to {} of this study, and this run is for {} to {}", header.rows.first,
-                       header.rows.end() - 1, wanted.first, wanted.end() - 1));
-  }
-  return true;
-}
+/// What a run is for.
+struct RunRequest {
+  Study study;
+  fs::path output;
+  RowRange wanted;  ///< rows of the study
+  int threads{0};
+  bool quiet{false};
+  bool force{false};
+};
 
-ExitCode run(const Arguments& arguments) {
-  const fs::path output = output_place(arguments);
-  Study study = load_study(arguments.operands()[0], arguments.values("set"));
-  study.engine =
+RunRequest run_request(const Arguments& arguments) {
+  RunRequest request;
+  request.output = output_place(arguments);
+  request.study = load_study(arguments.operands()[0], arguments.values("set"));
+  request.study.engine =
       arguments.one_of("engine", {"batch", "reference"}) == "batch" ? Engine::batch : Engine::reference;
-  warn(study);
   const std::optional<std::string> part = arguments.value("shard");
-  const RowRange wanted = part ? part_of(arguments, *part, study) : all_rows(study);
-  const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
-  const bool quiet = arguments.has("quiet");
-
-  if (study.stop && part) {
+  request.wanted = part ? part_of(arguments, *part, request.study) : all_rows(request.study);
+  if (request.study.stop && part) {
     arguments.refuse(
         "option '--shard': how many trials a study with `stop` takes can only be decided in one run");
   }
+  request.threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
+  request.quiet = arguments.has("quiet");
+  request.force = arguments.has("force");
+  return request;
+}
 
-  const InterruptionWatch interruption;
-  const OutputLock lock(output);
-  if (study.stop) return run_until_sure(study, output, {threads, quiet}, interruption.token());
-  const fs::path directory = shards_directory(output);
-  if (already_there(output, study, wanted)) {
-    // Left by a run that died at its very end; what is not of this study stays.
-    remove_shards(directory, choose_shards(list_shards(directory, study).shards, wanted).all);
-    if (!quiet) fmt::print(stderr, "{}: complete already, nothing to run\n", output.string());
-    return ExitCode::success;
+/// The shards that are there before the first trial is run.
+EarlierShards prepare_shards(const RunRequest& request, const fs::path& directory, ExistingUse existing) {
+  const ForeignShards foreign = request.force ? ForeignShards::remove : ForeignShards::refuse;
+  EarlierShards earlier = earlier_shards(directory, request.study, request.wanted, foreign);
+  const std::int64_t missing = total_rows(missing_ranges(earlier.usable, request.wanted));
+  if (!request.force) require_room(request.output, request.study, missing);
+  if (existing != ExistingUse::extend) return earlier;
+  const StudyFile file(request.output);
+  if (!request.quiet) {
+    fmt::print(stderr, "{}: its {} trials at each point are kept, and {} are added\n",
+               request.output.string(), file.header().trials, request.study.trials - file.header().trials);
   }
+  const std::vector<RowRange> ranges = missing_ranges(earlier.usable, request.wanted);
+  for (ShardInfo& shard : copy_trials(file, request.study, directory, ranges)) {
+    earlier.all.push_back(shard.path);
+    earlier.usable.push_back(std::move(shard));
+  }
+  return earlier;
+}
+
+void run_rows(const RunRequest& request, ExistingUse existing, const std::stop_token& stop) {
+  const fs::path directory = shards_directory(request.output);
   make_directory(directory);
-  EarlierShards earlier = earlier_shards(directory, study, wanted);
+  EarlierShards earlier = prepare_shards(request, directory, existing);
+  const RowRange wanted = request.wanted;
   const std::vector<RowRange> missing = missing_ranges(earlier.usable, wanted);
   const std::int64_t kept = wanted.count - total_rows(missing);
 
-  Progress progress(wanted.count, kept, samples_per_trial(study), quiet);
+  Progress progress(wanted.count, kept, samples_per_trial(request.study), request.quiet);
   std::int64_t done = kept;
   RunSettings settings;
-  settings.threads = threads;
+  settings.threads = request.threads;
   settings.finished = [&](std::int64_t trials) { progress.update(done += trials); };
-  const std::vector<ShardInfo> written =
-      run_trials(study, missing, directory, settings, interruption.token());
+  const std::vector<ShardInfo> written = run_trials(request.study, missing, directory, settings, stop);
   progress.finish(done);
 
   if (done < wanted.count) {
@@ -142,11 +141,33 @@ ExitCode run(const Arguments& arguments) {
   shards.insert(shards.end(), written.begin(), written.end());
   std::sort(shards.begin(), shards.end(),
             [](const ShardInfo& a, const ShardInfo& b) { return a.rows.first < b.rows.first; });
-  assemble(shards, study, output, wanted);
+  assemble(shards, request.study, request.output, wanted);
   for (const ShardInfo& shard : written) earlier.all.push_back(shard.path);
   remove_shards(directory, earlier.all);
-  if (!quiet) fmt::print(stderr, "wrote {}\n", output.string());
-  return ExitCode::success;
+  if (!request.quiet) fmt::print(stderr, "wrote {}\n", request.output.string());
+}
+
+ExitCode run(const Arguments& arguments) {
+  const RunRequest request = run_request(arguments);
+  warn(request.study);
+  const InterruptionWatch interruption;
+  const OutputLock lock(request.output);
+  const ExistingUse existing =
+      request.force ? ExistingUse::none : use_of_existing(request.output, request.study, request.wanted);
+  if (existing == ExistingUse::complete) {
+    // Left by a run that died at its very end; what is not of this study stays.
+    const fs::path directory = shards_directory(request.output);
+    remove_shards(directory, choose_shards(list_shards(directory, request.study).shards, request.wanted).all);
+    if (!request.quiet) fmt::print(stderr, "{}: complete already, nothing to run\n", request.output.string());
+    return ExitCode::success;
+  }
+  if (!request.study.stop) {
+    run_rows(request, existing, interruption.token());
+    return ExitCode::success;
+  }
+  const ForeignShards foreign = request.force ? ForeignShards::remove : ForeignShards::refuse;
+  return run_until_sure(request.study, request.output, {request.threads, request.quiet, foreign},
+                        interruption.token());
 }
 
 }  // namespace
@@ -163,7 +184,8 @@ Command run_command() {
             {"shard", "I/N", "run only the I-th of N parts, into a part file for 'zerocount merge'"},
             {"set", "KEY=VALUE",
              "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
-            {"quiet,q", "", "say nothing of progress"}}},
+            {"quiet,q", "", "say nothing of progress"},
+            {"force", "", "replace FILE and unfinished runs of it, and do not ask for room on the disk"}}},
           "run a study: manifest in, results file out",
           run_help,
           run};

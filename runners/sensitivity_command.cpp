@@ -39,10 +39,11 @@ std::string full_help() {
 ExitCode print_sensitivity(const Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"table", "json", "csv"});
   SensitivityQuestion question;
-  question.points = whole_number_options(arguments, "point");
+  const StudyFile file(arguments.operands()[0]);
+  question.points = point_options(arguments, file.point_labels());
   question.outputs = arguments.values("output");
   question.confidence = probability_option(arguments, "confidence").value_or(question.confidence);
-  const StudySensitivity sensitivity = study_sensitivity(StudyFile(arguments.operands()[0]), question);
+  const StudySensitivity sensitivity = study_sensitivity(file, question);
   if (format == "table") fmt::print("{}", sensitivity_table(sensitivity));
   if (format == "json") fmt::print("{}", sensitivity_json(sensitivity));
   if (format == "csv") fmt::print("{}", sensitivity_csv(sensitivity));
@@ -57,7 +58,7 @@ Command sensitivity_command() {
        "FILE",
        1,
        1,
-       {{"point,p", "P", "design point; may be repeated (default: all)", true},
+       {{"point,p", "P", "design point, by label or number; may be repeated (default: all)", true},
         {"output", "NAME", "output of the trials; may be repeated (default: success, settling_time)", true},
         {"confidence", "C", "confidence of the bounds, above 0 and up to 0.999 (default 0.95)"},
         {"format", "FORMAT", "table (default), json or csv"}}},

@@ -9,7 +9,6 @@
 #include "results/reading/study_file.hpp"
 #include "results/storage/durable_file.hpp"
 #include "runners/assemble.hpp"
-#include "runners/earlier_shards.hpp"
 #include "runners/progress.hpp"
 #include "runners/study_runner.hpp"
 
@@ -17,8 +16,6 @@ namespace zerocount {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view decided_key = "stop.max_trials=";
 
 /// The successes of every point, block by block.
 class Successes {
@@ -108,35 +105,6 @@ Study decided_study(const Study& study, std::int64_t trials) {
   return decided;
 }
 
-/// Whether `output` is there and what this study came to.
-/// @throws Failure (bad_input) where it is anything else.
-bool already_decided(const fs::path& output, const Study& study) {
-  std::error_code error;
-  if (!fs::exists(fs::symlink_status(output, error))) return false;
-  const auto refuse = [&](std::string_view what) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: {}; give another name with -o, or remove the file first", output.string(), what));
-  };
-  FileHeader header;
-  try {
-    header = StudyFile(output).header();
-  } catch (const Failure& failure) {
-    refuse(fmt::format("exists, and is no usable results file ({})", failure.what()));
-  }
-  const bool decided =
-      !header.overrides.empty() && header.overrides.back().compare(0, decided_key.size(), decided_key) == 0;
-  if (decided) header.overrides.pop_back();
-  if (!decided || header.manifest_sha256 != study.manifest_sha256 || header.overrides != study.overrides) {
-    refuse("holds the results of another manifest (or of other --set values)");
-  }
-  if (header.engine != study.engine) {
-    refuse(fmt::format("holds the results of the {} engine, and this run is for the {} engine",
-                       name_of(header.engine), name_of(study.engine)));
-  }
-  return true;
-}
-
 /// Joins the shards, whose rows are those of `study`, into the file of `decided`.
 void assemble_decided(const std::vector<ShardInfo>& shards, const Study& study, const Study& decided,
                       const fs::path& output) {
@@ -156,13 +124,8 @@ void assemble_decided(const std::vector<ShardInfo>& shards, const Study& study, 
 ExitCode run_until_sure(const Study& study, const fs::path& output, const StoppingRunSettings& settings,
                         const std::stop_token& stop) {
   const fs::path directory = shards_directory(output);
-  if (already_decided(output, study)) {
-    remove_shards(directory, choose_shards(list_shards(directory, study).shards, all_rows(study)).all);
-    if (!settings.quiet) fmt::print(stderr, "{}: complete already, nothing to run\n", output.string());
-    return ExitCode::success;
-  }
   make_directory(directory);
-  EarlierShards earlier = earlier_shards(directory, study, all_rows(study));
+  EarlierShards earlier = earlier_shards(directory, study, all_rows(study), settings.foreign);
   std::vector<ShardInfo> shards = std::move(earlier.usable);
   Successes successes(study);
   std::int64_t done = 0;

@@ -36,12 +36,6 @@ constexpr std::size_t most_bytes_per_shard = std::size_t{64} << 20;
 constexpr std::chrono::duration<double> shortest_wait{0.5};
 constexpr std::chrono::duration<double> longest_wait{20.0};
 
-std::size_t bytes_of(const TrialResult& result) {
-  return sizeof result + result.inputs.size() * sizeof(double) +
-         result.outcome.moves.size() * sizeof(MoveOutcome) + result.jerks.size() * sizeof(Jerk) +
-         result.trace.size() * sizeof(SampleRecord);
-}
-
 /// Hands out the rows of the ranges in blocks that do not cross from one range into the next.
 class BlockSource {
  public:
@@ -113,7 +107,27 @@ class ShardWriter {
   Clock::time_point run_begun_{Clock::now()};
 };
 
+/// Trials that a thread takes at once, of a run of `rows` trials.
+std::int64_t block_size_of(const Study& study, std::int64_t rows, int threads) {
+  const BlockLimits limits = study.engine == Engine::batch ? batch_block : reference_block;
+  const double size = limits.samples / std::max(samples_per_trial(study), 1.0);
+  // A short run is spread over the threads, too.
+  const std::int64_t share = rows / (std::int64_t{4} * threads) + 1;
+  return std::clamp(static_cast<std::int64_t>(size), std::int64_t{1},
+                    std::min(limits.trials, std::max<std::int64_t>(share, 256)));
+}
+
+int threads_to_use(int asked) {
+  return asked > 0 ? asked : oneapi::tbb::info::default_concurrency();
+}
+
 }  // namespace
+
+std::size_t bytes_of(const TrialResult& result) {
+  return sizeof result + result.inputs.size() * sizeof(double) +
+         result.outcome.moves.size() * sizeof(MoveOutcome) + result.jerks.size() * sizeof(Jerk) +
+         result.trace.size() * sizeof(SampleRecord);
+}
 
 double samples_per_trial(const Study& study) {
   double total = 0.0;
@@ -125,20 +139,28 @@ double samples_per_trial(const Study& study) {
   return total / static_cast<double>(asked);
 }
 
+double peak_memory(const Study& study, double bytes_of_trial, double record_bytes, int threads) {
+  constexpr double program = 40e6;  // with its libraries, the lanes and the statistics; measured
+  const int workers = threads_to_use(threads);
+  const std::int64_t rows = trial_count(study);
+  const double in_work = 4.0 * workers * static_cast<double>(block_size_of(study, rows, workers));
+  const double waiting = std::min(static_cast<double>(most_trials_per_shard),
+                                  static_cast<double>(most_bytes_per_shard) / bytes_of_trial);
+  // A shard is written from copies of its columns.
+  const double records = std::min(record_bytes, static_cast<double>(most_bytes_per_shard));
+  return program + 3.0 * records +
+         bytes_of_trial * std::min(in_work + 2.0 * waiting, 3.0 * static_cast<double>(rows));
+}
+
 std::vector<ShardInfo> run_trials(const Study& study, std::span<const RowRange> ranges,
                                   const std::filesystem::path& directory, const RunSettings& settings,
                                   std::stop_token stop) {
   namespace tbb = oneapi::tbb;
-  const int threads = settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
+  const int threads = threads_to_use(settings.threads);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
 
-  const BlockLimits limits = study.engine == Engine::batch ? batch_block : reference_block;
-  const double block_size = limits.samples / std::max(samples_per_trial(study), 1.0);
-  // A short run is spread over the threads, too.
-  const std::int64_t share = total_rows(ranges) / (std::int64_t{4} * threads) + 1;
-  BlockSource source(ranges, std::clamp(static_cast<std::int64_t>(block_size), std::int64_t{1},
-                                        std::min(limits.trials, std::max<std::int64_t>(share, 256))));
+  BlockSource source(ranges, block_size_of(study, total_rows(ranges), threads));
   ShardWriter writer(study, directory);
 
   const auto next_block = [&](tbb::flow_control& control) -> RowRange {

@@ -20,6 +20,15 @@ TrialResult run_study_trial(const Study& study, std::int64_t row);
 /// Number of samples of a trial: the mean over the first trials of up to 64 points.
 double samples_per_trial(const Study& study);
 
+/// Bytes that a result takes in memory.
+std::size_t bytes_of(const TrialResult& result);
+
+/// Estimate of the peak memory of run_trials over the whole study, bytes.
+/// @param bytes_of_trial mean of bytes_of(), without sample records. @param record_bytes of all sample
+/// records.
+/// @param threads 0: all that the machine has.
+double peak_memory(const Study& study, double bytes_of_trial, double record_bytes, int threads);
+
 struct RunSettings {
   int threads{0};  ///< 0: all that the machine has
   std::function<void(std::int64_t trials)>

@@ -7,11 +7,13 @@
 
 #include "core/trial/trial.hpp"
 #include "experiments/study.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
-#include "results/storage/durable_file.hpp"
 #include "results/storage/output_file.hpp"
 #include "runners/commands.hpp"
+#include "runners/option_values.hpp"
+#include "runners/output_place.hpp"
 #include "runners/replay.hpp"
 #include "runners/trace_writer.hpp"
 
@@ -42,12 +44,11 @@ bool is_results_file(const std::string& path) {
   return signed_as_hdf5 || (file.gcount() > 0 && std::filesystem::path(path).extension() == ".h5");
 }
 
-std::int64_t index_option(const Arguments& arguments, const char* name, std::int64_t size,
-                          const std::string& study) {
-  const std::int64_t value = arguments.whole_number(name, 0, std::int64_t{1} << 53).value_or(0);
-  if (value >= size) {
-    arguments.refuse(
-        fmt::format("option '--{}': {} is too high; '{}' has {} to {}", name, value, study, 0, size - 1));
+std::int64_t trial_option(const Arguments& arguments, const Study& study) {
+  const std::int64_t value = arguments.whole_number("trial", 0, std::int64_t{1} << 53).value_or(0);
+  if (value >= study.trials) {
+    arguments.refuse(fmt::format("option '--trial': {} is too high; '{}' has 0 to {}", value, study.name,
+                                 study.trials - 1));
   }
   return value;
 }
@@ -69,7 +70,6 @@ TrialResult write_trace(const TraceSubject& subject, const TraceWriter::Sink& si
 
 /// Writes the trace to a file that has its name only when it is whole.
 TrialResult write_trace_file(const TraceSubject& subject, const std::filesystem::path& path, bool json) {
-  require_new(path);
   OutputFile file(path);
   TrialResult result = write_trace(
       subject, [&file](std::string_view text) { file.write(text); }, json);
@@ -93,6 +93,8 @@ TrialResult recorded_trial(const StudyFile& file, RowRange row) {
 
 ExitCode trace(const Arguments& arguments) {
   const std::string input = arguments.operands()[0];
+  const std::optional<std::filesystem::path> output = text_place(arguments, "output");
+  if (output) require_places(arguments, {input}, {*output});
   const bool json = arguments.one_of("format", {"csv", "json"}) == "json";
   std::optional<StudyFile> file;
   if (is_results_file(input)) file.emplace(input, Require::any_part);
@@ -101,16 +103,16 @@ ExitCode trace(const Arguments& arguments) {
 
   const Study study =
       file ? recorded_study(file->header(), input) : load_study(input, arguments.values("set"));
-  const std::int64_t point = index_option(arguments, "point", point_count(study), study.name);
-  const std::int64_t index = index_option(arguments, "trial", study.trials, study.name);
+  const std::int64_t point = point_option(arguments, study.point_labels).value_or(0);
+  const std::int64_t index = trial_option(arguments, study);
   const RowRange row{point * study.trials + index, 1};
   if (file && (row.first < file->rows().first || row.end() > file->rows().end())) {
     arguments.refuse(fmt::format("{} is a part of the study and does not hold that trial", input));
   }
   const StudyTrial trial = study_trial(study, point, index);
   const TraceSubject subject{study, point, index, trial};
-  const TrialResult replayed = arguments.has("output")
-                                   ? write_trace_file(subject, arguments.required("output"), json)
+  const TrialResult replayed = output && !is_standard_stream(*output)
+                                   ? write_trace_file(subject, *output, json)
                                    : write_trace(subject, print_text, json);
   if (!file) return ExitCode::success;
 
@@ -130,10 +132,11 @@ Command trace_command() {
            "MANIFEST|FILE",
            1,
            1,
-           {{"point", "P", "design point, from 0 (default 0)"},
+           {{"point", "P", "design point, by label or number from 0 (default 0)"},
             {"trial", "I", "trial of the point, from 0 (default 0)"},
             {"format", "FORMAT", "csv (default) or json"},
             {"output,o", "FILE", "write there instead of to standard output"},
+            force_option(),
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true}}},
           "run one trial again, sample by sample",
           trace_help,

@@ -1,7 +1,9 @@
 #include "analysis/comparison/manifest_differences.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <deque>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -36,6 +38,19 @@ bool gives(const ManifestValues& values, std::string_view parameter) {
 void write_default(ManifestValues& values, const Parameter& parameter, std::int64_t version) {
   if (gives(values, parameter.name)) return;
   values[std::string(parameter.name)] = fmt::format("{}", default_value_in(parameter, version));
+}
+
+std::optional<double> number_in(const std::string& text) {
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stop != end) return std::nullopt;
+  return value;
+}
+
+bool same_value(const std::string& one, const std::string& other) {
+  const std::optional<double> number = number_in(one);
+  return one == other || (number && number == number_in(other));
 }
 
 }  // namespace
@@ -81,7 +96,7 @@ std::vector<ManifestDifference> manifest_differences(const ManifestValues& basel
   std::vector<ManifestDifference> differences;
   for (const std::string& key : keys) {
     ManifestDifference difference{key, value_or(baseline, key, ""), value_or(current, key, "")};
-    if (difference.baseline != difference.current) differences.push_back(std::move(difference));
+    if (!same_value(difference.baseline, difference.current)) differences.push_back(std::move(difference));
   }
   return differences;
 }

@@ -26,7 +26,8 @@ void write_changed_defaults(ManifestValues& baseline, std::int64_t baseline_vers
 /// The value of a key that is a text or a number; `absent` where it is missing.
 std::string value_or(const ManifestValues& values, const std::string& key, const std::string& absent);
 
-/// The keys on which the two disagree, by name.
+/// The keys on which the two disagree, by name. Comments, spacing, the order of keys and the notation of a
+/// number are no differences.
 std::vector<ManifestDifference> manifest_differences(const ManifestValues& baseline,
                                                      const ManifestValues& current);
 

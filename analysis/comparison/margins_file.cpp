@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <optional>
 #include <regex>
@@ -16,6 +15,7 @@
 #include "experiments/parameters/interval.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 #include "experiments/yaml/scalars.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "experiments/yaml/unknown_key.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 
@@ -198,22 +198,6 @@ GateRules read_rules(const Field& top, std::span<const std::string> labels, Prob
   return rules;
 }
 
-std::string text_of(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: there is no such file; expected margins in YAML", path.string()));
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::string text(largest_manifest + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!file.is_open() || file.bad()) {
-    throw Failure(ExitCode::machine_failed, fmt::format("{}: cannot be read", path.string()));
-  }
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
-}
-
 }  // namespace
 
 GateRules parse_gate_rules(const std::string& text, std::string_view source,
@@ -236,7 +220,7 @@ GateRules parse_gate_rules(const std::string& text, std::string_view source,
 }
 
 GateRules read_gate_rules(const std::filesystem::path& path, std::span<const std::string> labels) {
-  return parse_gate_rules(text_of(path), path.string(), labels);
+  return parse_gate_rules(read_text(path, largest_manifest, "margins in YAML"), name_of_text(path), labels);
 }
 
 }  // namespace zerocount

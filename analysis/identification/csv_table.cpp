@@ -1,37 +1,20 @@
 #include "analysis/identification/csv_table.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
 #include "analysis/text.hpp"
 #include "core/failure.hpp"
-#include "results/storage/durable_file.hpp"
+#include "experiments/yaml/text_file.hpp"
 
 namespace zerocount {
 namespace {
 
 constexpr std::size_t most_faults_listed = 5;
-
-std::string read_text_file(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    throw Failure(ExitCode::bad_input, fmt::format("{}: no such file", path.string()));
-  }
-  if (std::filesystem::is_directory(path, error)) {
-    throw Failure(ExitCode::bad_input, fmt::format("{}: is a directory; expected a table", path.string()));
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail_with(path, "read", errno);
-  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (file.bad()) fail_with(path, "read", EIO);
-  return text;
-}
+constexpr std::size_t largest_table = std::size_t{1} << 31;  // bytes
 
 /// Without blanks and quotation marks around it.
 std::string_view trimmed(std::string_view text) {
@@ -65,7 +48,12 @@ double number_of(std::string_view text) {
 
 }  // namespace
 
-CsvTable::CsvTable(const std::filesystem::path& path) : name_(path.string()), text_(read_text_file(path)) {
+CsvTable::CsvTable(const std::filesystem::path& path)
+    : name_(name_of_text(path)), text_(read_text(path, largest_table, "a table")) {
+  if (text_.size() > largest_table) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: the file is too large; expected at most {} bytes", name_, largest_table));
+  }
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   std::size_t at = text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
   for (std::size_t number = 1; at < text_.size(); ++number) {

@@ -20,6 +20,18 @@ double design_uniform(Design design, const SlotRandomness& randomness, std::uint
   return open_uniform(random_bits(numbers, index, Draw::trial));
 }
 
+bool trials_stay_when_extended(Design design) {
+  switch (design) {
+    case Design::latin_hypercube:
+      return false;
+    case Design::monte_carlo:
+    case Design::sobol:
+    case Design::saltelli:
+      break;
+  }
+  return true;
+}
+
 RandomKey sobol_place_key(std::uint64_t seed) {
   return random_key(seed, "rigs/places");
 }

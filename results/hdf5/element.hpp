@@ -31,4 +31,8 @@ constexpr std::size_t size_of(Element element) {
   return 0;
 }
 
+/// How a dataset is stored: shuffled and deflated, or as it is. What is not compressed is written faster and
+/// takes more room.
+enum class Compression { deflate, none };
+
 }  // namespace zerocount

@@ -105,9 +105,6 @@ class Object {
 };
 
 /// How a new dataset is stored.
-/// Shuffled and deflated, or as it is. What is not compressed is written faster and takes more room.
-enum class Compression { deflate, none };
-
 struct Storage {
   Element element{Element::float64};
   std::vector<Size> extent;  ///< empty: a scalar

@@ -67,7 +67,7 @@ std::int64_t chunk_rows(std::int64_t width) {
 }
 
 TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t width,
-                        hdf5::Compression compression) {
+                        Compression compression) {
   hdf5::Group group = make_group(root, table.group);
   hdf5::Dataset scale = make_scale(group, table.rows, rows);
   TableIo io(std::move(group), std::move(scale));

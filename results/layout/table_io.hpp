@@ -29,7 +29,7 @@ class TableIo {
   /// used as it is. A table without rows is made extendible, because
   /// the netCDF library knows a length of zero only of an unlimited dimension.
   static TableIo create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t width,
-                        hdf5::Compression compression = hdf5::Compression::deflate);
+                        Compression compression = Compression::deflate);
   /// Opens the columns of `table`, and checks that they have its element types and equal sizes.
   static TableIo open(const hdf5::Group& root, const Table& table);
 
@@ -54,7 +54,7 @@ class TableIo {
 
   std::int64_t rows_{0};
   std::int64_t width_{1};
-  hdf5::Compression compression_{hdf5::Compression::deflate};
+  Compression compression_{Compression::deflate};
   hdf5::Group group_;
   hdf5::Dataset row_scale_;
   std::optional<hdf5::Dataset> second_scale_;

@@ -226,7 +226,7 @@ std::vector<ExportedTable> tables_of(const StudyFile& file) {
 }  // namespace
 
 std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& directory,
-                                 const std::vector<ExportedTable>& further) {
+                                 const std::vector<ExportedTable>& further, ExistingFiles existing) {
   std::vector<ExportedTable> tables = tables_of(file);
   tables.insert(tables.end(), further.begin(), further.end());
   std::vector<fs::path> paths(tables.size());
@@ -240,9 +240,10 @@ std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& director
   make_directory(directory);
   for (const fs::path& path : paths) {
     std::error_code ignored;
-    if (fs::exists(path, ignored)) {
-      throw Failure(ExitCode::bad_input,
-                    fmt::format("{}: exists already; remove it or name another directory", path.string()));
+    if (existing == ExistingFiles::refuse && fs::exists(fs::symlink_status(path, ignored))) {
+      throw Failure(ExitCode::bad_input, fmt::format("{}: exists already; --force replaces it, or name "
+                                                     "another directory",
+                                                     path.string()));
     }
   }
   // None has its name before all are whole: a failure leaves nothing that would stop the next attempt.

@@ -16,6 +16,9 @@ struct ExportedTable {
   std::function<void(const StudyFile&, CsvFile&)> write;  ///< all its rows
 };
 
+/// What becomes of files that have the names of tables already.
+enum class ExistingFiles { refuse, replace };
+
 /// Writes the tables of a results file as CSV into `directory`, which is made if need be: points.csv,
 /// trials.csv, outcomes.csv (one row per move), jerks.csv, profiles.csv where there are profiles, trace.csv
 /// where trials are retained, and the CSV files of those statistic_groups() that there are; then `further`
@@ -24,9 +27,10 @@ struct ExportedTable {
 /// differs from profile to profile. Enumerations are written as their words. Memory is bounded. The files get
 /// their names when all of them are whole.
 /// @return the files, in that order
-/// @throws Failure: bad_input where one of the files exists, bad_data where the results are damaged,
-/// machine_failed where a file cannot be written.
+/// @throws Failure: bad_input where one of the files exists and is not to be replaced, bad_data where the
+/// results are damaged, machine_failed where a file cannot be written.
 std::vector<std::filesystem::path> export_csv(const StudyFile& file, const std::filesystem::path& directory,
-                                              const std::vector<ExportedTable>& further = {});
+                                              const std::vector<ExportedTable>& further = {},
+                                              ExistingFiles existing = ExistingFiles::refuse);
 
 }  // namespace zerocount

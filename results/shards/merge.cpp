@@ -178,9 +178,6 @@ void merge_shards(std::span<const ShardInfo> shards, const Study& study, const f
   std::sort(ordered.begin(), ordered.end(),
             [](const ShardInfo& left, const ShardInfo& right) { return left.rows.first < right.rows.first; });
   require_cover(ordered, rows, output);
-  std::error_code error;
-  if (fs::exists(output, error))
-    fail(ExitCode::bad_input, output, "exists already; remove it or name another output");
   const UnfinishedFile part(output);
   hdf5::WrittenValues written =
       write_trials_of(ordered, study, part.path(), rows, of_all(ordered, provenance), renumber);

@@ -32,12 +32,13 @@ FileHeader first_header(std::span<const std::filesystem::path> inputs);
 ///
 /// The shards, found sound by list_shards or merge_inputs, must cover `rows` exactly. Memory is bounded
 /// whatever their number; the bytes of every dataset depend on the study and `rows` alone. `statistics` is
-/// called once, where the file is the whole study. The file gets its name only when it is whole on the disk.
+/// called once, where the file is the whole study. The file gets its name only when it is whole on the disk;
+/// what had it before is replaced.
 /// Its git_commit is that of `provenance`, or of a shard whose build had changes that were not committed.
 /// `renumber` is for shards that were written under other rows: the rows in ShardInfo are those of the file,
 /// and it turns the rows that stand in the shards into those.
-/// @throws Failure: bad_data for gaps, overlaps and damaged shards; bad_input where `output` exists;
-/// machine_failed with the path and the reason where it cannot be written.
+/// @throws Failure: bad_data for gaps, overlaps and damaged shards; machine_failed with the path and the
+/// reason where it cannot be written.
 void merge_shards(std::span<const ShardInfo> shards, const Study& study, const std::filesystem::path& output,
                   RowRange rows, const StatisticsOfPoints& statistics,
                   const Provenance& provenance = current_provenance(), const Renumbering& renumber = {});

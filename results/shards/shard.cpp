@@ -17,9 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Shards are read once more and gone.
-constexpr hdf5::Compression compression = hdf5::Compression::none;
-
 void require_fit(const Study& study, std::int64_t first_row, std::span<const TrialResult> results) {
   if (results.empty() || first_row < 0 || first_row + std::ssize(results) > trial_count(study)) {
     throw std::invalid_argument("a shard needs trials of its study");
@@ -33,7 +30,8 @@ void require_fit(const Study& study, std::int64_t first_row, std::span<const Tri
   }
 }
 
-void write_trials(hdf5::File& file, const Study& study, std::span<const TrialResult> results) {
+void write_trials(hdf5::File& file, const Study& study, std::span<const TrialResult> results,
+                  Compression compression) {
   const std::int64_t rows = std::ssize(results);
   TableIo io = TableIo::create(file, trial_table(study.input_columns), rows, 1, compression);
   io.number_rows(results.front().row);
@@ -53,7 +51,8 @@ void write_trials(hdf5::File& file, const Study& study, std::span<const TrialRes
   }
 }
 
-void write_outcomes(hdf5::File& file, const Study& study, std::span<const TrialResult> results) {
+void write_outcomes(hdf5::File& file, const Study& study, std::span<const TrialResult> results,
+                    Compression compression) {
   std::vector<MoveOutcome> moves;
   for (const TrialResult& result : results) {
     moves.insert(moves.end(), result.outcome.moves.begin(), result.outcome.moves.end());
@@ -65,7 +64,7 @@ void write_outcomes(hdf5::File& file, const Study& study, std::span<const TrialR
   write_records(io, outcome_fields(format_version, extras), 0, std::span<const MoveOutcome>(moves));
 }
 
-void write_jerks(hdf5::File& file, std::span<const TrialResult> results) {
+void write_jerks(hdf5::File& file, std::span<const TrialResult> results, Compression compression) {
   std::vector<JerkRecord> jerks;
   for (const TrialResult& result : results) {
     for (const Jerk& jerk : result.jerks) jerks.push_back({jerk, result.row});
@@ -75,7 +74,8 @@ void write_jerks(hdf5::File& file, std::span<const TrialResult> results) {
   write_records(io, jerk_fields(), 0, std::span<const JerkRecord>(jerks));
 }
 
-void write_trace(hdf5::File& file, const TraceExtras& extras, std::span<const TrialResult> results) {
+void write_trace(hdf5::File& file, const TraceExtras& extras, std::span<const TrialResult> results,
+                 Compression compression) {
   std::vector<TraceRecord> records;
   for (const TrialResult& result : results) {
     for (const SampleRecord& record : result.trace) records.push_back({record, result.row});
@@ -117,15 +117,16 @@ fs::path shard_path(const fs::path& directory, RowRange rows) {
 }
 
 void write_shard(const fs::path& path, const Study& study, std::int64_t first_row,
-                 std::span<const TrialResult> results, const Provenance& provenance) {
+                 std::span<const TrialResult> results, const Provenance& provenance,
+                 Compression compression) {
   require_fit(study, first_row, results);
   const UnfinishedFile part(path);
   hdf5::File file = hdf5::File::create(part.path());
   write_header(file, make_header(study, FileKind::shard, {first_row, std::ssize(results)}, provenance));
-  write_trials(file, study, results);
-  write_outcomes(file, study, results);
-  write_jerks(file, results);
-  if (!study.retained_trials.empty()) write_trace(file, study.trace_extras, results);
+  write_trials(file, study, results, compression);
+  write_outcomes(file, study, results, compression);
+  write_jerks(file, results, compression);
+  if (!study.retained_trials.empty()) write_trace(file, study.trace_extras, results, compression);
   mark_finished(file);
   finish_results(path, file.close());
 }

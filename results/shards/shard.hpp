@@ -9,6 +9,7 @@
 #include "core/trial/outcome.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study.hpp"
+#include "results/hdf5/element.hpp"
 #include "results/layout/build_info.hpp"
 #include "results/layout/row_range.hpp"
 
@@ -29,12 +30,16 @@ std::filesystem::path shards_directory(const std::filesystem::path& output);
 /// Where in `directory` the shard of these rows belongs.
 std::filesystem::path shard_path(const std::filesystem::path& directory, RowRange rows);
 
+/// Shards are read once more and gone.
+inline constexpr Compression shard_compression = Compression::none;
+
 /// Writes the results of the rows first_row, first_row + 1, … as one shard at `path`. The shard gets its name
 /// only when it is whole on the disk.
 /// @throws Failure (machine_failed) with the path and the reason; std::invalid_argument where the results
 /// are not those rows in order, or do not fit the study.
 void write_shard(const std::filesystem::path& path, const Study& study, std::int64_t first_row,
-                 std::span<const TrialResult> results, const Provenance& provenance = current_provenance());
+                 std::span<const TrialResult> results, const Provenance& provenance = current_provenance(),
+                 Compression compression = shard_compression);
 
 /// A shard (or a part of a study) that is whole and of the study.
 struct ShardInfo {

@@ -183,10 +183,11 @@ TEST_F(FailingCalls, ThatWriteDuringAnExport) {
 TEST_F(FailingCalls, ThatWriteOtherOutputs) {
   make_input();
   const std::string before = "what stood there before";
-  fail_calls({{"report", "in.h5", "-o", "out.html"}, {"out.html"}, before, false}, "writes", faults, 4);
-  fail_calls({{"trace", "in.h5", "-o", "out.csv"}, {"out.csv"}, "", false}, "writes", faults, 4);
-  fail_calls({{"compare", "in.h5", "in.h5", "--json", "out.json"}, {"out.json"}, before, false}, "writes",
+  fail_calls({{"report", "in.h5", "-o", "out.html", "--force"}, {"out.html"}, before, false}, "writes",
              faults, 4);
+  fail_calls({{"trace", "in.h5", "-o", "out.csv"}, {"out.csv"}, "", false}, "writes", faults, 4);
+  fail_calls({{"compare", "in.h5", "in.h5", "--json", "out.json", "--force"}, {"out.json"}, before, false},
+             "writes", faults, 4);
   fail_calls(
       {{"baseline", "in.h5", "-o", "out.h5", "--reason", "first"}, {"out.h5", "out.h5.log.yaml"}, "", false},
       "writes", faults, 4);

@@ -342,15 +342,20 @@ TEST(Merge, RecordsThatAShardWasMadeFromChangedSources) {
   EXPECT_EQ(StudyFile(directory / "all.h5").header().provenance.git_commit, "a1b2-dirty");
 }
 
-TEST(Merge, NeverOverwrites) {
+TEST(Merge, ReplacesAnEarlierFileOnlyWhenItIsWhole) {
   const TemporaryFolder directory;
   const Study study = sample_study();
   const fs::path path = write_sample_file(directory.path(), study);
-  const std::string before = read_bytes(path);
-  const std::vector<fs::path> inputs{shards_directory(path)};
-  expect_failure(ExitCode::bad_input, "exists already",
-                 [&] { merge_shards(merge_inputs(inputs, study), study, path, all_rows(study), {}); });
-  EXPECT_TRUE(read_bytes(path) == before);
+  const std::string whole = read_bytes(path);
+  const std::vector<ShardInfo> shards = merge_inputs(std::vector<fs::path>{shards_directory(path)}, study);
+  const StatisticsOfPoints failing = [](const StudyFile&) -> StoredStatistics {
+    throw std::runtime_error("no");
+  };
+  EXPECT_THROW(merge_shards(shards, study, path, all_rows(study), failing), std::runtime_error);
+  EXPECT_TRUE(read_bytes(path) == whole);
+  directory.write(path.filename().string(), "an earlier file");
+  merge_shards(shards, study, path, all_rows(study), {});
+  EXPECT_EQ(StudyFile(path).rows(), all_rows(study));
 }
 
 TEST(Merge, LeavesNothingWhereTheStatisticsFail) {

@@ -1,0 +1,181 @@
+// A run whose output exists: it is complete, or is extended by more trials, or is refused with what differs.
+#include <csignal>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "results/reading/study_file.hpp"
+#include "tests/runners/program.hpp"
+#include "tests/support/raw_hdf5.hpp"
+#include "tests/support/version_1_file.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ExistingOutput : public ::testing::Test {
+ protected:
+  fs::path at(const std::string& name) const { return folder_.path() / name; }
+
+  ProgramResult run(const std::string& manifest, const std::string& output,
+                    std::vector<std::string> more = {}) {
+    std::vector<std::string> words{"run", manifest, "-o", output};
+    words.insert(words.end(), more.begin(), more.end());
+    return zerocount_program(words, folder_.path());
+  }
+
+  void complete(const std::string& manifest, const std::string& output, std::vector<std::string> more = {}) {
+    const ProgramResult result = run(manifest, output, std::move(more));
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_FALSE(fs::exists(at(output + ".shards")));
+  }
+
+  void expect_same_datasets(const std::string& one, const std::string& other) const {
+    const auto left = stored_datasets(at(one));
+    const auto right = stored_datasets(at(other));
+    ASSERT_EQ(left.size(), right.size());
+    for (const auto& [path, bytes] : left) EXPECT_TRUE(right.at(path) == bytes) << path;
+  }
+
+  /// Expects exit code 2, every text in the message, and the bytes of the file as they were.
+  void expect_refused(const std::vector<std::string>& more, const std::vector<std::string>& texts) {
+    const std::string before = folder_.read("out.h5");
+    const ProgramResult result = run("study.yaml", "out.h5", more);
+    EXPECT_EQ(result.code, 2) << result.err;
+    EXPECT_EQ(result.out, "");
+    for (const std::string& text : texts) EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("--force"), std::string::npos) << result.err;
+    EXPECT_TRUE(folder_.read("out.h5") == before);
+    EXPECT_FALSE(fs::exists(at("out.h5.shards")));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ExistingOutput, IsExtendedToWhatARunOfAllItsTrialsGives) {
+  std::mt19937 random(20);
+  const auto between = [&](int low, int high) {
+    return std::uniform_int_distribution<int>(low, high)(random);
+  };
+  for (const char* design : {"monte_carlo", "sobol", "monte_carlo", "sobol"}) {
+    const int rigs = between(0, 1) == 1 ? between(2, 40) : 1;
+    const int fewer = rigs * between(1, 300 / rigs);
+    const int more = fewer + rigs * between(1, 300 / rigs);
+    std::string keys = fmt::format("retain: {{trials: [0, {}]}}\n", fewer - 1);
+    if (std::string(design) == "sobol") keys += "design: sobol\n";
+    if (rigs > 1) keys += fmt::format("rigs: {}\n", rigs);
+    const std::string name = fmt::format("{}-{}-{}", design, fewer, more);
+    SCOPED_TRACE(name + "\n" + keys);
+    folder_.write("study.yaml", small_manifest(fewer, keys));
+    const std::string first = fmt::format("trials={}", fewer);
+    const std::string all = fmt::format("trials={}", more);
+    complete("study.yaml", name + ".h5", {"--set", first});
+    complete("study.yaml", name + ".h5", {"--set", all});
+    complete("study.yaml", name + "-fresh.h5", {"--set", all});
+    expect_same_datasets(name + "-fresh.h5", name + ".h5");
+  }
+}
+
+TEST_F(ExistingOutput, OfTheDesignSaltelliIsExtendedByRows) {
+  folder_.write("study.yaml", small_manifest(60, "design: saltelli\n"));  // rows of 4 factors and 2
+  complete("study.yaml", "out.h5");
+  complete("study.yaml", "out.h5", {"--set", "trials=120"});
+  complete("study.yaml", "fresh.h5", {"--set", "trials=120"});
+  expect_same_datasets("fresh.h5", "out.h5");
+}
+
+TEST_F(ExistingOutput, ThatIsCompleteStaysAsItIs) {
+  folder_.write("study.yaml", small_manifest(4));
+  complete("study.yaml", "out.h5");
+  const std::string before = folder_.read("out.h5");
+  const ProgramResult again = run("study.yaml", "out.h5");
+  EXPECT_EQ(again.code, 0);
+  EXPECT_NE(again.err.find("nothing to run"), std::string::npos);
+  EXPECT_TRUE(folder_.read("out.h5") == before);
+}
+
+TEST_F(ExistingOutput, SaysWhatItKeepsAndRunsOnlyTheOthers) {
+  folder_.write("study.yaml", small_manifest(20));
+  complete("study.yaml", "out.h5");
+  folder_.write("more.yaml", "# with a comment, and another notation\n" + small_manifest(25));
+  const ProgramResult result = run("more.yaml", "out.h5");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.err.find("its 20 trials at each point are kept, and 5 are added"), std::string::npos)
+      << result.err;
+}
+
+TEST_F(ExistingOutput, AnExtensionThatIsKilledLosesNothing) {
+  folder_.write("study.yaml", small_manifest(100));
+  complete("study.yaml", "out.h5");
+  const std::string before = folder_.read("out.h5");
+  for (const int signal : {SIGINT, SIGKILL}) {
+    RunningProgram program({"run", "study.yaml", "--set", "trials=200000", "-o", "out.h5", "--threads", "1"},
+                           folder_.path());
+    while (!fs::exists(at("out.h5.shards"))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    program.send(signal);
+    EXPECT_NE(program.wait(), 0);
+    EXPECT_TRUE(folder_.read("out.h5") == before);
+  }
+  EXPECT_EQ(zerocount_program({"summary", "out.h5"}, folder_.path()).code, 0);
+  // The shards of the longer study are in the way of another one, until they are given up.
+  EXPECT_EQ(run("study.yaml", "out.h5", {"--set", "trials=150"}).code, 2);
+  complete("study.yaml", "out.h5", {"--set", "trials=150", "--force"});
+  complete("study.yaml", "fresh.h5", {"--set", "trials=150"});
+  expect_same_datasets("fresh.h5", "out.h5");
+}
+
+TEST_F(ExistingOutput, IsRefusedWithWhatDiffers) {
+  folder_.write("study.yaml", small_manifest(20));
+  complete("study.yaml", "out.h5");
+  expect_refused({"--set", "seed=43"}, {"another study", "seed is 42 there and 43 here"});
+  expect_refused({"--set", "plant.inertia=6e-4", "--set", "seed=43"},
+                 {"plant.inertia is 6e-4 here, and not given there", "seed is 42 there"});
+  expect_refused({"--set", "trials=30", "--set", "seed=43"}, {"trials is 20 there and 30 here", "seed"});
+  expect_refused({"--set", "trials=10"}, {"has 20 trials", "the study 10"});
+  expect_refused({"--engine", "reference"}, {"batch engine", "reference engine"});
+  expect_refused({"--shard", "1/2"}, {"trials 0 to 39", "0 to 19"});
+}
+
+TEST_F(ExistingOutput, OfALatinHypercubeCannotBeExtended) {
+  folder_.write("study.yaml", small_manifest(20, "design: latin_hypercube\n"));
+  complete("study.yaml", "out.h5");
+  expect_refused({"--set", "trials=40"}, {"latin_hypercube", "laid out for their number"});
+}
+
+TEST_F(ExistingOutput, OfAPartCannotBeExtended) {
+  folder_.write("study.yaml", small_manifest(20));
+  complete("study.yaml", "out.h5", {"--shard", "1/2"});
+  expect_refused({"--set", "trials=40"}, {"a part of a study"});
+}
+
+TEST_F(ExistingOutput, ThatIsNoResultsFileIsRefused) {
+  folder_.write("study.yaml", small_manifest(4));
+  folder_.write("out.h5", "my notes");
+  expect_refused({}, {"no usable results file"});
+  complete("study.yaml", "out.h5", {"--force"});
+}
+
+TEST_F(ExistingOutput, OfAnEarlierFormatIsRefused) {
+  const fs::path earlier = version_1_file(folder_.path());
+  fs::copy(earlier, at("out.h5"), fs::copy_options::overwrite_existing);
+  folder_.write("study.yaml", StudyFile(at("out.h5")).header().manifest);
+  expect_refused({}, {"out.h5"});
+}
+
+TEST_F(ExistingOutput, IsReplacedWithForceWhateverItHolds) {
+  folder_.write("study.yaml", small_manifest(20));
+  complete("study.yaml", "fresh.h5");
+  complete("study.yaml", "out.h5", {"--set", "seed=43"});
+  complete("study.yaml", "out.h5", {"--force"});
+  expect_same_datasets("fresh.h5", "out.h5");
+}
+
+}  // namespace
+}  // namespace zerocount::testing

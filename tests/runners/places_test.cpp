@@ -1,0 +1,154 @@
+// Where verbs read and write: one rule for what exists already, "-" for the standard streams, names that tell
+// the kind of a file.
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/runners/program.hpp"
+#include "tests/support/raw_hdf5.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A verb that writes `output`.
+struct Writing {
+  std::string output;
+  std::vector<std::string> words;
+};
+
+class Places : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("study.yaml", small_manifest(40));
+    ASSERT_EQ(program({"run", "study.yaml", "-o", "all.h5"}).code, 0);
+    for (const char* part : {"1", "2"}) {
+      ASSERT_EQ(program({"run", "study.yaml", "-o", std::string("part") + part + ".h5", "--shard",
+                         std::string(part) + "/2"})
+                    .code,
+                0);
+    }
+    folder_.write(
+        "levels.yaml",
+        "zerocount: 1\nname: levels\ntrials: 1\ncommand: {torque_levels: [0.001, 0.002], hold: 0.2}\n");
+  }
+
+  ProgramResult program(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+
+  /// Exit code of a line for the shell, in the folder; $Z is the program.
+  int shell(const std::string& line) {
+    const std::string command =
+        fmt::format("cd {} && Z={} && {} 2> err", folder_.path().string(), ZEROCOUNT_PROGRAM, line);
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+
+  fs::path at(const std::string& name) const { return folder_.path() / name; }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Places, NoVerbReplacesWhatExistsWithoutForce) {
+  const std::vector<Writing> writing{
+      {"run.h5", {"run", "study.yaml", "-o", "run.h5"}},
+      {"merged.h5", {"merge", "part1.h5", "part2.h5", "-o", "merged.h5"}},
+      {"tables/trials.csv", {"export", "all.h5", "-o", "tables"}},
+      {"report.html", {"report", "all.h5", "-o", "report.html"}},
+      {"success.svg", {"plot", "all.h5", "--figure", "success", "-o", "success.svg"}},
+      {"trace.csv", {"trace", "all.h5", "-o", "trace.csv"}},
+      {"gate.json", {"compare", "all.h5", "all.h5", "--json", "gate.json"}},
+      {"gate.xml", {"compare", "all.h5", "all.h5", "--junit", "gate.xml"}},
+      {"gate.md", {"compare", "all.h5", "all.h5", "--markdown", "gate.md"}}};
+  for (const Writing& verb : writing) {
+    SCOPED_TRACE(verb.words[0] + " to " + verb.output);
+    if (verb.words[0] == "export") fs::create_directory(at("tables"));
+    folder_.write(verb.output, "my notes");
+    const ProgramResult refused = program(verb.words);
+    EXPECT_EQ(refused.code, 2) << refused.err;
+    EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
+    EXPECT_EQ(folder_.read(verb.output), "my notes");
+
+    std::vector<std::string> forced = verb.words;
+    forced.emplace_back("--force");
+    const ProgramResult replaced = program(forced);
+    EXPECT_EQ(replaced.code, 0) << replaced.err;
+    EXPECT_NE(folder_.read(verb.output), "my notes");
+
+    const ProgramResult help = program({verb.words[0], "--help"});
+    EXPECT_NE(help.out.find("is not replaced without --force"), std::string::npos) << help.out;
+  }
+}
+
+TEST_F(Places, AnInputIsNeverReplaced) {
+  const ProgramResult traced = program({"trace", "study.yaml", "-o", "study.yaml", "--force"});
+  EXPECT_EQ(traced.code, 2) << traced.err;
+  const ProgramResult merged = program({"merge", "part1.h5", "part2.h5", "-o", "part1.h5", "--force"});
+  EXPECT_EQ(merged.code, 2) << merged.err;
+  EXPECT_EQ(folder_.read("study.yaml"), small_manifest(40));
+}
+
+TEST_F(Places, ADashIsTheStandardInput) {
+  EXPECT_EQ(shell("$Z run - -q -o piped.h5 < study.yaml"), 0) << folder_.read("err");
+  EXPECT_EQ(stored_datasets(at("piped.h5")), stored_datasets(at("all.h5")));
+  EXPECT_EQ(shell("$Z check - < study.yaml > checked && grep -q '80 trials\\|40 trials' checked"), 0)
+      << folder_.read("err");
+  EXPECT_EQ(
+      shell("$Z trace - --trial 3 < study.yaml > piped.csv && $Z trace all.h5 --trial 3 | cmp - piped.csv"),
+      0)
+      << folder_.read("err");
+  EXPECT_EQ(shell("echo 'margins: {success_rate: 0.2}' | $Z compare all.h5 all.h5 --margins - > gate.txt"), 0)
+      << folder_.read("err");
+  EXPECT_EQ(shell("printf 'zerocount: 1\\nname: broken\\nseeds: 3\\n' | $Z check -"), 2);
+  EXPECT_NE(folder_.read("err").find("<stdin>:3"), std::string::npos) << folder_.read("err");
+}
+
+TEST_F(Places, ADashIsTheStandardOutput) {
+  EXPECT_TRUE(program({"report", "all.h5", "-o", "-"}).out.starts_with("<!DOCTYPE html>"));
+  EXPECT_TRUE(program({"plot", "all.h5", "--figure", "success", "-o", "-"}).out.starts_with("<svg"));
+  EXPECT_EQ(program({"trace", "all.h5", "-o", "-"}).out, program({"trace", "all.h5"}).out);
+  const std::string json = program({"compare", "all.h5", "all.h5", "--json", "-"}).out;
+  EXPECT_TRUE(nlohmann::json::accept(json)) << json;
+  EXPECT_EQ(program({"run", "study.yaml", "-o", "-"}).code, 2);
+}
+
+TEST_F(Places, TheNameOfAnOutputIsTheKindOfItsContents) {
+  for (const char* name : {"report.pdf", "report", "report.svg"}) {
+    const ProgramResult result = program({"report", "all.h5", "-o", name});
+    EXPECT_EQ(result.code, 2) << name;
+    EXPECT_NE(result.err.find(".html"), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(at(name)));
+  }
+  const ProgramResult plotted = program({"plot", "all.h5", "--figure", "success", "-o", "success.pdf"});
+  EXPECT_EQ(plotted.code, 2);
+  EXPECT_NE(plotted.err.find(".svg"), std::string::npos) << plotted.err;
+}
+
+TEST_F(Places, APointIsNamedByItsLabelOrItsNumber) {
+  const std::string by_number = program({"trace", "all.h5", "--point", "1", "--trial", "2"}).out;
+  EXPECT_EQ(program({"trace", "all.h5", "--point", "high", "--trial", "2"}).out, by_number);
+  EXPECT_EQ(program({"trace", "study.yaml", "--point", "high", "--trial", "2"}).out, by_number);
+  EXPECT_NE(program({"trace", "all.h5", "--point", "low", "--trial", "2"}).out, by_number);
+  EXPECT_EQ(program({"jerks", "all.h5", "--point", "high"}).out,
+            program({"jerks", "all.h5", "--point", "1"}).out);
+  const ProgramResult wrong = program({"trace", "all.h5", "--point", "hihg"});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("'high'"), std::string::npos) << wrong.err;
+  EXPECT_EQ(program({"trace", "all.h5", "--point", "2"}).code, 2);
+}
+
+TEST_F(Places, TheVersionHasAShortOption) {
+  const ProgramResult result = program({"-V"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.out, program({"--version"}).out);
+  EXPECT_NE(result.out.find("zerocount"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -100,7 +100,6 @@ std::int64_t cluster_of(const MoveKind& kind, std::int64_t trial) {
 
 PointAccumulator::PointAccumulator(MoveKind kind)
     : kind_(kind),
-      rigs_(static_cast<std::size_t>(kind.rigs)),
       settling_times_(kind.rigs),
       final_settling_times_(kind.rigs),
       slowest_times_(kind.rigs),
@@ -139,7 +138,7 @@ void PointAccumulator::add_moves(const TrialOutcome& trial) {
   counted_.moves += static_cast<std::int64_t>(moves.size());
   ++(counted_.outcomes.*counter_of(worst_outcome(moves)));
   if (!kind_.open_loop) {
-    if (!rigs_.empty()) add_to_rig(moves);
+    if (kind_.rigs > 0) add_to_rig(moves);
     add_times(moves);
     add_final_times(moves);
     if (kind_.final_error_known) add_errors(moves);
@@ -156,7 +155,9 @@ void PointAccumulator::add_moves(const TrialOutcome& trial) {
 }
 
 void PointAccumulator::add_to_rig(const std::vector<MoveOutcome>& moves) {
-  RigTrials& rig = rigs_[static_cast<std::size_t>(counted_.trials) % rigs_.size()];
+  const auto number = static_cast<std::size_t>(counted_.trials % kind_.rigs);
+  if (number >= rigs_.size()) rigs_.resize(number + 1);
+  RigTrials& rig = rigs_[number];
   const auto zero = std::count_if(moves.begin(), moves.end(),
                                   [](const MoveOutcome& m) { return m.outcome == Outcome::zero_count; });
   ++rig.trials;
@@ -254,7 +255,7 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
   result.confidence = confidence;
   for (LevelStatistics& level : result.levels) level.confidence = confidence;
   result.judged = kind_.open_loop ? 0 : result.trials;
-  if (!rigs_.empty() && result.judged > 0) {
+  if (kind_.rigs > 0 && result.judged > 0) {
     result.success_rate = rate_on_rigs(rigs_, &RigTrials::successes, confidence);
     result.stable_rate = rate_on_rigs(rigs_, &RigTrials::stable, confidence);
     result.rigs = rig_statistics(rigs_, confidence);

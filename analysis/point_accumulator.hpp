@@ -51,7 +51,7 @@ class PointAccumulator {
 
   MoveKind kind_;
   PointSummary counted_;                 ///< the fields that are plain counts and moments
-  std::vector<RigTrials> rigs_;          ///< [rig]
+  std::vector<RigTrials> rigs_;          ///< [rig], of those that have trials
   TrialClusters settling_times_;         ///< of moves with a target
   ClusterTotals settling_totals_;        ///< of the moves that arrived
   TrialClusters final_settling_times_;   ///< likewise

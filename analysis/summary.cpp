@@ -29,6 +29,12 @@ void require_consistent(const StudySummary& summary) {
   }
 }
 
+std::string unfinished_sentence(const StudySummary& summary) {
+  if (!summary.unfinished) return {};
+  return fmt::format("unfinished: of the {} of {} trials that the run has finished so far",
+                     summary.unfinished->finished, summary.unfinished->trials);
+}
+
 std::string observed_at(const StudySummary& summary, std::int64_t point) {
   const auto entry = summary.observed.find(summary.labels[static_cast<std::size_t>(point)]);
   return entry != summary.observed.end() ? entry->second : std::string{};

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ struct SummarySection {
   std::string text;                          ///< below the table, whole lines
 };
 
+/// How far a run has come.
+struct UnfinishedStudy {
+  std::int64_t finished{0};  ///< trials that the summary is of
+  std::int64_t trials{0};    ///< of the study; the most that there may be, if `stop` decides
+};
+
 /// What a summary says of a study. Vectors by point have the length of `points`.
 struct StudySummary {
   std::string name;                             ///< of the study
@@ -34,6 +41,7 @@ struct StudySummary {
   std::vector<PointSummary> points;             ///< [point]
   std::vector<TheoryPrediction> predictions{};  ///< [point], or empty where not computed
   StudyFeatures features{};                     ///< what the table has columns for
+  std::optional<UnfinishedStudy> unfinished{};  ///< where the run has not ended
   std::vector<SummarySection> sections{};
 };
 
@@ -44,11 +52,15 @@ void require_consistent(const StudySummary& summary);
 /// What was observed on the real rig at `point`; empty where nothing was.
 std::string observed_at(const StudySummary& summary, std::int64_t point);
 
+/// "unfinished: of the 12000 of 50000 trials that the run has finished so far"; empty for a complete study.
+std::string unfinished_sentence(const StudySummary& summary);
+
 /// The table for people: a row per point in aligned columns, of an open-loop study a row per point and level,
 /// a legend below, then the sections. UTF-8, one line per row.
 std::string summary_table(const StudySummary& summary);
 
-/// {"name", "design", "conservative_bounds", "confidence", "points": [{"point", "label", "axes": {…}, …}]}
+/// {"name", "design", "conservative_bounds", "confidence", "unfinished" (only of an unfinished study:
+/// {"finished", "trials"}), "points": [{"point", "label", "axes": {…}, …}]}
 /// with the names of statistic_fields() and mean_bound_fields(), by group; points of an open-loop study have
 /// "levels": […] with the names of level_fields(); each section has its key. Whole numbers are integers, NaN
 /// is null, every other number reads back to the same double.

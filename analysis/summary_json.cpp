@@ -69,11 +69,14 @@ nlohmann::ordered_json summary_json(const StudySummary& summary) {
     for (const SummarySection& section : summary.sections) point[section.key] = section.json[i];
     points.push_back(std::move(point));
   }
-  return {{"name", summary.name},
-          {"design", summary.design},
-          {"conservative_bounds", summary.features.spread_trials},
-          {"confidence", summary.confidence},
-          {"points", std::move(points)}};
+  nlohmann::ordered_json json{{"name", summary.name},
+                              {"design", summary.design},
+                              {"conservative_bounds", summary.features.spread_trials},
+                              {"confidence", summary.confidence}};
+  if (const auto& unfinished = summary.unfinished)
+    json["unfinished"] = {{"finished", unfinished->finished}, {"trials", unfinished->trials}};
+  json["points"] = std::move(points);
+  return json;
 }
 
 std::string summary_json_text(const StudySummary& summary) {

@@ -42,7 +42,8 @@ std::vector<std::string> observations(const StudySummary& summary) {
 std::string summary_table(const StudySummary& summary) {
   require_consistent(summary);
   const bool levels = summary.features.open_loop;
-  std::string text = printable(summary.name) + "\n\n" +
+  const std::string unfinished = unfinished_sentence(summary);
+  std::string text = printable(summary.name) + "\n" + (unfinished.empty() ? "" : unfinished + "\n") + "\n" +
                      aligned_table(levels ? level_columns(summary) : loop_columns(summary)) +
                      nonfinite_notes(summary) + "\n" + (levels ? level_legend() : loop_legend(summary));
   for (const SummarySection& section : summary.sections) {

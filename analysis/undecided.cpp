@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -61,21 +62,13 @@ double needed_hold(const MoveOutcome& move, std::size_t number, std::int64_t err
          std::max(p.verdict.dwell, p.verdict.window);
 }
 
-/// What is gathered of a point.
-struct PointMoves {
-  UndecidedMoves counts;
-  std::vector<double> needed;  ///< holds, s
-
-  UndecidedMoves result();
-};
-
-UndecidedMoves PointMoves::result() {
-  if (needed.empty()) return counts;
+/// @param needed holds, s; put into another order
+double advised_hold(std::vector<double>& needed) {
+  if (needed.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto rank =
       static_cast<std::ptrdiff_t>(std::ceil(advised_proportion * static_cast<double>(needed.size())) - 1.0);
   std::nth_element(needed.begin(), needed.begin() + rank, needed.end());
-  counts.advised_hold = rounded_up(needed[static_cast<std::size_t>(rank)]);
-  return counts;
+  return rounded_up(needed[static_cast<std::size_t>(rank)]);
 }
 
 }  // namespace
@@ -87,29 +80,32 @@ double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::in
                     std::log(2.0 * static_cast<double>(std::abs(final_error)));
 }
 
-std::vector<UndecidedMoves> undecided_moves(const StudyFile& file, const Study& study) {
-  const std::int64_t trials = file.header().trials;
+UndecidedAccumulator::UndecidedAccumulator(const Study& study)
+    : study_(study), counts_(study.point_labels.size()), needed_(study.point_labels.size()) {}
+
+void UndecidedAccumulator::add(const StudyFile& file, RowRange rows) {
   const auto moves = static_cast<std::size_t>(file.moves());
-  std::vector<PointMoves> points(study.point_labels.size());
   const std::int64_t rows_at_once = chunk_rows(file.moves());
-  for (std::int64_t first = 0; first < file.rows().end(); first += rows_at_once) {
-    const RowRange block{first, std::min(rows_at_once, file.rows().end() - first)};
+  for (std::int64_t first = rows.first; first < rows.end(); first += rows_at_once) {
+    const RowRange block{first, std::min(rows_at_once, rows.end() - first)};
     const std::vector<MoveOutcome> outcomes = file.outcomes(block);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       const std::int64_t row = block.first + static_cast<std::int64_t>(i / moves);
-      PointMoves& point = points[static_cast<std::size_t>(row / trials)];
-      add_move(point.counts, outcomes[i]);
+      const std::int64_t point = row / study_.trials;
+      add_move(counts_[static_cast<std::size_t>(point)], outcomes[i]);
       if (!is_still_falling(outcomes[i])) continue;
-      const TrialParameters parameters = study_trial(study, row / trials, row % trials).parameters;
+      const TrialParameters parameters = study_trial(study_, point, row % study_.trials).parameters;
       if (!(parameters.controller.ki > 0.0)) continue;
-      point.needed.push_back(
+      needed_[static_cast<std::size_t>(point)].push_back(
           needed_hold(outcomes[i], i % moves, i % moves == 0 ? 0 : outcomes[i - 1].final_error, parameters));
     }
   }
-  std::vector<UndecidedMoves> results;
-  results.reserve(points.size());
-  for (PointMoves& point : points) results.push_back(point.result());
-  return results;
+}
+
+std::vector<UndecidedMoves> UndecidedAccumulator::moves() {
+  std::vector<UndecidedMoves> points = counts_;
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].advised_hold = advised_hold(needed_[i]);
+  return points;
 }
 
 SummarySection undecided_section(std::span<const PointSummary> points,

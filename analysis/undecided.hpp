@@ -27,8 +27,23 @@ namespace zerocount {
 double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::int64_t samples,
                     double sample_time);
 
-/// The undecided moves of every point of a study.
-std::vector<UndecidedMoves> undecided_moves(const StudyFile& file, const Study& study);
+/// Counts the undecided moves of a study, from one results file or several.
+class UndecidedAccumulator {
+ public:
+  /// @param study stays as long as this.
+  explicit UndecidedAccumulator(const Study& study);
+
+  /// @param rows of the file @throws Failure (bad_data) where the file is damaged.
+  void add(const StudyFile& file, RowRange rows);
+
+  /// [point] of the study
+  std::vector<UndecidedMoves> moves();
+
+ private:
+  const Study& study_;
+  std::vector<UndecidedMoves> counts_;       ///< [point], without the advised hold
+  std::vector<std::vector<double>> needed_;  ///< [point] holds that the moves still falling need, s
+};
 
 /// The section "undecided" of a summary. Its JSON is {"moves", "off_target", "still_falling",
 /// "falling_with_ripple", "hold_at_least"}; its columns are undecided_moves, still_falling_moves,

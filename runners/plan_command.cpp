@@ -13,7 +13,7 @@
 #include "analysis/sample_size.hpp"
 #include "analysis/statistics/rig_plan.hpp"
 #include "analysis/statistics/rig_statistics.hpp"
-#include "analysis/study_statistics.hpp"
+#include "analysis/study_summary.hpp"
 #include "analysis/text.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/commands.hpp"

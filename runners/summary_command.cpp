@@ -1,13 +1,21 @@
+#include <filesystem>
+#include <string>
+#include <system_error>
+
 #include <fmt/format.h>
 
-#include "analysis/study_statistics.hpp"
+#include "analysis/study_summary.hpp"
 #include "analysis/summary.hpp"
+#include "core/failure.hpp"
 #include "results/reading/study_file.hpp"
+#include "results/shards/shard.hpp"
 #include "runners/commands.hpp"
 #include "runners/option_values.hpp"
 
 namespace zerocount {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* summary_help =
     "Prints a row per design point: how many trials were stable and ended at zero counts of\n"
@@ -16,16 +24,37 @@ constexpr const char* summary_help =
     "manifest says so; of an open-loop study, a row per design point and torque level. Below the\n"
     "table stands what the trials show of all axes that the manifest describes. json and csv hold\n"
     "more than the table. What is stored in the file has 95 % bounds; other ones are found anew.\n"
+    "While FILE is being made, or after its run was interrupted, the summary is of the trials\n"
+    "that are finished so far, and says so.\n"
     "\n"
     "Example: zerocount summary gains.h5 --format json\n";
+
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+/// The summary of the file, or of the run that is making it.
+StudySummary summary_of(const fs::path& path, double confidence, bool with_means) {
+  const fs::path shards = shards_directory(path);
+  if (!is_there(path) && is_there(shards)) {
+    try {
+      return summarise_unfinished(shards, confidence, with_means);
+    } catch (const Failure&) {
+      if (!is_there(path)) throw;  // otherwise the run has ended meanwhile, and its shards are gone
+    }
+  }
+  return summarise(StudyFile(path), confidence, with_means);
+}
 
 ExitCode summarise_file(const Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"table", "json", "csv"});
   const double confidence = probability_option(arguments, "confidence").value_or(summary_confidence);
   const bool with_means = format != "table";  // the table shows no bounds of means
-  const StudySummary summary = summarise(StudyFile(arguments.operands()[0]), confidence, with_means);
+  const StudySummary summary = summary_of(arguments.operands()[0], confidence, with_means);
   if (format == "table") fmt::print("{}", summary_table(summary));
   if (format == "json") fmt::print("{}", summary_json_text(summary));
+  if (format == "csv" && summary.unfinished) fmt::print(stderr, "{}\n", unfinished_sentence(summary));
   if (format == "csv") fmt::print("{}", summary_csv(summary));
   return ExitCode::success;
 }

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "analysis/anytime_bounds.hpp"
-#include "analysis/study_statistics.hpp"
+#include "analysis/study_summary.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 

@@ -12,7 +12,7 @@ namespace zerocount {
 class TrialClusters {
  public:
   /// @param rigs 0: no trials share a rig
-  explicit TrialClusters(std::int64_t rigs = 0) : rigs_(static_cast<std::size_t>(rigs)) {}
+  explicit TrialClusters(std::int64_t rigs = 0) : rigs_in_all_(rigs) {}
 
   /// Adds a trial with `size` values, of which those in `observed` are known and the rest larger than all
   /// others.
@@ -27,7 +27,8 @@ class TrialClusters {
     Tally<double> observed;
     std::int64_t size{0};
   };
-  std::vector<Rig> rigs_;
+  std::int64_t rigs_in_all_;
+  std::vector<Rig> rigs_;   ///< those that have trials
   ClusteredSample trials_;  ///< without rigs
 };
 

@@ -195,7 +195,6 @@ std::vector<JerkRecord> StudyFile::jerks_at(std::int64_t first, std::int64_t cou
   return jerks;
 }
 
-/// Position of the first jerk of a trial not before `row`: the table is ordered by trial.
 std::int64_t StudyFile::first_jerk_from(std::int64_t row) const {
   const hdf5::Dataset& trial = jerks_.column(0);
   std::int64_t low = 0;

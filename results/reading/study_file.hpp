@@ -91,6 +91,8 @@ class StudyFile {
   /// By position in the table.
   std::vector<JerkRecord> jerks_at(std::int64_t first, std::int64_t count) const;
   std::vector<JerkRecord> jerks(RowRange rows) const;  ///< of these trials
+  /// Position of the first jerk of a trial not before `row`: the table is ordered by trial.
+  std::int64_t first_jerk_from(std::int64_t row) const;
 
   bool has_trace() const { return trace_.has_value(); }
   std::int64_t trace_count() const { return trace_ ? trace_->rows() : 0; }
@@ -107,7 +109,6 @@ class StudyFile {
 
  private:
   std::int64_t local(RowRange rows) const;
-  std::int64_t first_jerk_from(std::int64_t row) const;
 
   std::filesystem::path path_;
   hdf5::File file_;

@@ -15,7 +15,7 @@
 
 #include "analysis/repeatability_export.hpp"
 #include "analysis/repeatability_trial.hpp"
-#include "analysis/study_statistics.hpp"
+#include "analysis/study_summary.hpp"
 #include "analysis/summary.hpp"
 #include "core/failure.hpp"
 #include "tests/analysis/sequence_studies.hpp"

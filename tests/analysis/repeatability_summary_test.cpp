@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/study_statistics.hpp"
+#include "analysis/study_summary.hpp"
 #include "analysis/summary.hpp"
 #include "tests/analysis/sequence_studies.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -11,6 +11,7 @@
 
 #include "analysis/point_accumulator.hpp"
 #include "analysis/point_columns.hpp"
+#include "analysis/study_summary.hpp"
 #include "analysis/summary.hpp"
 #include "core/failure.hpp"
 #include "results/reading/study_file.hpp"

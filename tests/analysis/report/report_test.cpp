@@ -12,6 +12,7 @@
 #include "analysis/comparison/compare_studies.hpp"
 #include "analysis/report/report_figures.hpp"
 #include "analysis/study_statistics.hpp"
+#include "analysis/study_summary.hpp"
 #include "tests/analysis/report/run_studies.hpp"
 #include "tests/analysis/study_files.hpp"
 #include "tests/results/failures.hpp"

@@ -1,0 +1,139 @@
+// The summary of a run that has not ended: of its finished trials, and it says so.
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+class UnfinishedSummary : public ::testing::Test {
+ protected:
+  fs::path at(const std::string& name) const { return folder_.path() / name; }
+
+  ProgramResult program(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder_.path());
+  }
+
+  void complete(const std::string& output, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"run", "study.yaml", "-o", output};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = program(words);
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+
+  /// Makes the I-th of four parts of the study a finished shard of out.h5.
+  void finish_quarter(int i) {
+    fs::create_directories(at("out.h5.shards"));
+    const std::string name = "quarter" + std::to_string(i) + ".h5";
+    complete(name, {"--shard", std::to_string(i) + "/4"});
+    fs::rename(at(name), at("out.h5.shards") / name);
+  }
+
+  nlohmann::json json_of(const std::string& file) {
+    const ProgramResult result = program({"summary", file, "--format", "json"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return nlohmann::json::parse(result.out, nullptr, false);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(UnfinishedSummary, HasTheStatisticsOfTheTrialsThatAreFinished) {
+  for (const char* rigs : {"", "rigs: 30\n"}) {
+    SCOPED_TRACE(rigs);
+    folder_.write("study.yaml", small_manifest(60, rigs));
+    complete("half.h5", {"--set", "trials=30", "--force"});
+    complete("whole.h5", {"--force"});
+    fs::remove_all(at("out.h5.shards"));
+    for (const int quarter : {1, 2, 3}) finish_quarter(quarter);
+    const nlohmann::json summary = json_of("out.h5");
+    EXPECT_EQ(summary["unfinished"], (nlohmann::json{{"finished", 90}, {"trials", 120}}));
+    ASSERT_EQ(summary["points"].size(), 2U);
+    EXPECT_EQ(summary["points"][0], json_of("whole.h5")["points"][0]);
+    EXPECT_EQ(summary["points"][1], json_of("half.h5")["points"][1]);
+    EXPECT_FALSE(json_of("whole.h5").contains("unfinished"));
+  }
+}
+
+TEST_F(UnfinishedSummary, CountsTheRigsThatHaveTrials) {
+  folder_.write("study.yaml", small_manifest(60, "rigs: 60\n"));
+  finish_quarter(1);
+  const nlohmann::json point = json_of("out.h5")["points"][0];
+  EXPECT_EQ(point["trials"], 30);
+  EXPECT_EQ(point["rigs"]["n"], 30);
+  // Each has one trial.
+  EXPECT_EQ(point["rigs"]["without_failure"], point["success_rate"]);
+}
+
+TEST_F(UnfinishedSummary, LeavesOutTrialsThatOthersAreMissingBefore) {
+  folder_.write("study.yaml", small_manifest(60));
+  for (const int quarter : {1, 4}) finish_quarter(quarter);
+  const nlohmann::json summary = json_of("out.h5");
+  EXPECT_EQ(summary["unfinished"]["finished"], 30);
+  ASSERT_EQ(summary["points"].size(), 1U);
+  EXPECT_EQ(summary["points"][0]["label"], "low");
+  EXPECT_EQ(summary["points"][0]["trials"], 30);
+}
+
+TEST_F(UnfinishedSummary, WhereAPointHasNoTrialYetItsRatesAreUnknown) {
+  folder_.write("study.yaml", small_manifest(60));
+  for (const int quarter : {2, 3}) finish_quarter(quarter);
+  const nlohmann::json summary = json_of("out.h5");
+  ASSERT_EQ(summary["points"].size(), 2U);
+  EXPECT_EQ(summary["points"][0]["trials"], 0);
+  EXPECT_TRUE(summary["points"][0]["success_rate"].is_null());
+  EXPECT_EQ(summary["points"][1]["trials"], 30);
+  EXPECT_EQ(program({"summary", "out.h5"}).code, 0);
+}
+
+TEST_F(UnfinishedSummary, IsThereWhileTheRunGoesOnAndAfterItWasInterrupted) {
+  folder_.write("study.yaml", small_manifest(200000));
+  RunningProgram run({"run", "study.yaml", "-o", "out.h5", "--threads", "1"}, folder_.path());
+  while (!fs::exists(at("out.h5.shards")) || fs::is_empty(at("out.h5.shards")))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1200));  // a shard is written after half a second
+  const ProgramResult during = program({"summary", "out.h5"});
+  run.send(SIGINT);
+  EXPECT_EQ(run.wait(), 130);
+  EXPECT_EQ(during.code, 0) << during.err;
+  EXPECT_NE(during.out.find("unfinished"), std::string::npos) << during.out;
+  EXPECT_NE(during.out.find("of 400000 trials"), std::string::npos) << during.out;
+  const ProgramResult after = program({"summary", "out.h5", "--format", "csv"});
+  EXPECT_EQ(after.code, 0) << after.err;
+  EXPECT_EQ(after.out.find("unfinished"), std::string::npos);
+  EXPECT_NE(after.err.find("unfinished"), std::string::npos) << after.err;
+}
+
+TEST_F(UnfinishedSummary, OfARunThatHasFinishedNothingIsRefused) {
+  folder_.write("study.yaml", small_manifest(20));
+  fs::create_directories(at("out.h5.shards"));
+  const ProgramResult result = program({"summary", "out.h5"});
+  EXPECT_EQ(result.code, 4) << result.err;
+  EXPECT_NE(result.err.find("no trial of this run is finished yet"), std::string::npos) << result.err;
+}
+
+TEST_F(UnfinishedSummary, OfDamagedOrForeignShardsIsRefusedWithTheirName) {
+  folder_.write("study.yaml", small_manifest(20));
+  finish_quarter(1);
+  complete("quarter2.h5", {"--shard", "2/4", "--set", "seed=43"});
+  fs::rename(at("quarter2.h5"), at("out.h5.shards/quarter2.h5"));
+  const ProgramResult foreign = program({"summary", "out.h5"});
+  EXPECT_EQ(foreign.code, 4);
+  EXPECT_NE(foreign.err.find("quarter2.h5"), std::string::npos) << foreign.err;
+  folder_.write("out.h5.shards/quarter2.h5", "damaged");
+  const ProgramResult damaged = program({"summary", "out.h5"});
+  EXPECT_EQ(damaged.code, 4);
+  EXPECT_NE(damaged.err.find("quarter2.h5"), std::string::npos) << damaged.err;
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -79,7 +79,8 @@ struct SlidingPhase {
 
 /// What section 3 of the paper says of the trials of a design point.
 struct PointTheory {
-  std::string_view outside;                               // why it says nothing of them; empty where it does
+  std::string_view outside;  // why it says nothing of them; empty where it does
+  bool free{false};          // outside, and the rotor has no spring: the next two are of the loop without one
   Range ki, stable_below, sampled_below, unstable_above;  // gain_unit; sampled_below of softest and stiffest
   std::string gain_unit;                                  // that of controller.ki in the manifest
   Range dac_resolution, dac_bound;                        // torque_unit
@@ -114,10 +115,29 @@ double as_given(const StudyUnits& units, const TrialParameters& p, double ki) {
   return ki;
 }
 
+LinearDrive drive_of(const TrialParameters& p) {
+  return {1.0 + p.dac.gain_error, p.amplifier.bandwidth};
+}
+
 /// ki below which the trial's sampled loop is stable about a spring of `stiffness` (N m/rad), N m/count.
 double sampled_bound(double stiffness, const TrialParameters& p) {
-  return sampled_critical_integral_gain(stiffness, p.plant, p.encoder, p.controller,
-                                        {1.0 + p.dac.gain_error, p.amplifier.bandwidth});
+  return sampled_critical_integral_gain(stiffness, p.plant, p.encoder, p.controller, drive_of(p));
+}
+
+/// What remains to be said of a loop without a spring: its sampled bound and time constant.
+void examine_free(const Study& study, std::int64_t point, PointTheory& theory) {
+  const TrialParameters first = study_trial(study, point, 0).parameters;
+  theory.free = first.friction.model == FrictionModel::none && first.command.torque.levels.empty();
+  if (!theory.free) return;
+  theory.hold = static_cast<double>(samples_of_move(first, 0)) / first.controller.sample_rate;
+  for (std::int64_t index = 0; index < std::min(study.trials, most_trials_examined_closely); ++index) {
+    const TrialParameters p = study_trial(study, point, index).parameters;
+    const ControllerParameters fine = controller_in_phase(p.controller, ControlPhase::fine);
+    theory.ki.add(as_given(study.units, p, p.controller.ki));
+    theory.sampled_below.add(as_given(study.units, p, sampled_bound(0.0, p)));
+    const double tau = slowest_time_constant(0.0, p.plant, p.encoder, fine, drive_of(p));
+    if (std::isfinite(tau) && tau > 0.0) theory.slowest.add(tau);
+  }
 }
 
 /// Form of the command and friction model are the same in all trials of a point.
@@ -133,10 +153,6 @@ std::string_view why_outside(const TrialParameters& first) {
       break;
   }
   return "friction.model none has no spring, which criteria (6) and (7) are about";
-}
-
-LinearDrive drive_of(const TrialParameters& p) {
-  return {1.0 + p.dac.gain_error, p.amplifier.bandwidth};
 }
 
 void add_sliding(SlidingPhase& phase, ControlPhase which, const TrialParameters& p) {
@@ -245,8 +261,11 @@ void examine_beyond(const Study& study, std::int64_t point, PointTheory& theory)
 PointTheory examine(const Study& study, std::int64_t point) {
   PointTheory theory;
   theory.outside = why_outside(study_trial(study, point, 0).parameters);
-  if (!theory.outside.empty()) return theory;
   theory.gain_unit = unit_of(parameter_table()[find_parameter("controller.ki").value()], study.units);
+  if (!theory.outside.empty()) {
+    examine_free(study, point, theory);
+    return theory;
+  }
   theory.torque_unit = unit_on(study.units.axis, "N m");
   TrialParameters softest;
   TrialParameters stiffest;
@@ -326,12 +345,40 @@ std::string describe_beyond(const PointTheory& theory) {
   return out;
 }
 
+/// What the sampled loop says of the integral gain.
+std::string sampled_verdict(const PointTheory& theory) {
+  if (theory.ki.high < theory.sampled_below.low) return "stable";
+  return theory.ki.low >= theory.sampled_below.high ? "unstable" : "unstable in some trials";
+}
+
+std::string describe_outside(const PointTheory& theory) {
+  std::string out = fmt::format("    the criteria are not about it: {}\n", theory.outside);
+  if (!theory.free) return out;
+  out += fmt::format("    ki                            {} {}: sampled loop {}\n", text(theory.ki),
+                     theory.gain_unit, sampled_verdict(theory));
+  out +=
+      fmt::format("    sampled loop, below           {} {}\n", text(theory.sampled_below), theory.gain_unit);
+  if (theory.slowest.low <= theory.slowest.high) {
+    out += fmt::format("    slowest time constant         {} s, hold {:.4g} s{}\n", text(theory.slowest),
+                       theory.hold, may_be_too_slow(theory) ? ": moves may end before they arrive" : "");
+  }
+  return out;
+}
+
+/// What criteria (6) and (7) and the sampled loop say of the integral gain.
+std::string gain_verdict(const PointTheory& theory) {
+  if (theory.ki.low == 0.0 && theory.ki.high == 0.0)
+    return "no integral control: the error stays wherever friction holds the rest of the torque";
+  return fmt::format("by (6) and (7) {}; sampled loop at k1 {}", verdict(theory.prediction),
+                     sampled_verdict(theory));
+}
+
 std::string describe(const PointTheory& theory) {
-  if (!theory.outside.empty()) return fmt::format("    the theory is not about it: {}\n", theory.outside);
+  if (!theory.outside.empty()) return describe_outside(theory);
   std::string out;
   const std::string& unit = theory.gain_unit;
   out += fmt::format("    ki                            {} {}: {}\n", text(theory.ki), unit,
-                     verdict(theory.prediction));
+                     gain_verdict(theory));
   out += fmt::format("    (6) stable below              {} {}\n", text(theory.stable_below), unit);
   out += fmt::format("    sampled loop at k1, below     {} {}\n", text(theory.sampled_below), unit);
   out += fmt::format("    (7) unstable above            {} {}\n", text(theory.unstable_above), unit);
@@ -411,7 +458,7 @@ ExitCode check(const Arguments& arguments) {
   const Study study = load_study(arguments.operands()[0], arguments.values("set"));
   warn(study);
   print_plan(study);
-  fmt::print("\nTheory, over the first {} trials of each point, each with the k1 and k2 it starts on:\n",
+  fmt::print("\nTheory, over the first {} trials of each point, each with the friction it starts on:\n",
              std::min(study.trials, most_trials_examined));
   const std::int64_t shown =
       arguments.has("all-points") ? point_count(study) : std::min(point_count(study), points_shown);

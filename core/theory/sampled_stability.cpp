@@ -71,7 +71,8 @@ double slowest_time_constant(double stiffness, const PlantParameters& plant, con
   for (const auto& z : eigenvalues) {
     if (z.imag() == 0.0) slowest = std::max(slowest, z.real());
   }
-  return slowest > 0.0 ? -sample_time(controller) / std::log(slowest) : 0.0;
+  constexpr double gone_at_once = 1e-6;  // eigenvalues that are 0, but for rounding
+  return slowest > gone_at_once ? -sample_time(controller) / std::log(slowest) : 0.0;
 }
 
 double sampled_critical_integral_gain(double stiffness, const PlantParameters& plant,

@@ -28,7 +28,7 @@ double sampled_spectral_radius(double stiffness, const PlantParameters& plant,
                                const LinearDrive& drive = {});
 
 /// The slowest time constant with which the sampled loop about a spring of `stiffness` (N m/rad) approaches
-/// its target, s: −T/ln z of the largest real eigenvalue z in (0, 1), which decays as exp(−t/τ); 0 where
+/// its target, s: −T/ln z of the largest real eigenvalue z in (1e-6, 1), which decays as exp(−t/τ); 0 where
 /// there is none. Infinite where the loop is not stable. Modes that oscillate are left to the bounds of
 /// stability. The integral of a controller without integral gain, which does not decay and does nothing, does
 /// not count.

@@ -115,23 +115,24 @@ TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
   folder_.write("models.yaml", head + "command: {targets: [5]}\n" +
                                    "sweep: {grid: {friction.model: [coulomb, none, spring]}}\n");
   const std::string open = run({"check", "open.yaml"}).out;
-  EXPECT_NE(open.find("  point 0: all\n    the theory is not about it: the loop is open\n"),
+  EXPECT_NE(open.find("  point 0: all\n    the criteria are not about it: the loop is open\n"),
             std::string::npos)
       << open;
   for (const char* bound : {"(6)", "(7)", "sampled loop", "DAC", "natural frequency", "N m/count"}) {
     EXPECT_EQ(open.find(bound), std::string::npos) << bound;
   }
   const std::string models = run({"check", "models.yaml"}).out;
-  EXPECT_NE(models.find("  point 0: friction.model=coulomb\n"
-                        "    the theory is not about it: friction.model coulomb has no spring before it "
-                        "slides\n"
-                        "  point 1: friction.model=none\n"
-                        "    the theory is not about it: friction.model none has no spring, which criteria "
-                        "(6) and (7) are about\n"
-                        "  point 2: friction.model=spring\n"
-                        "    ki  "),
-            std::string::npos)
+  EXPECT_NE(
+      models.find("  point 0: friction.model=coulomb\n"
+                  "    the criteria are not about it: friction.model coulomb has no spring before it "
+                  "slides\n"
+                  "  point 1: friction.model=none\n"
+                  "    the criteria are not about it: friction.model none has no spring, which criteria "
+                  "(6) and (7) are about\n"
+                  "    ki                            3.85e-05 N m/count: sampled loop unstable\n"),
+      std::string::npos)
       << models;
+  EXPECT_NE(models.find("  point 2: friction.model=spring\n    ki  "), std::string::npos) << models;
 }
 
 // One count of the coarse encoder is 18.75 of the fine one: k1·Δx is 0.008 N m, not 4.27e-4.
@@ -144,6 +145,18 @@ TEST_F(CommandLine, CheckTakesTheCountThatIsFedBackForTheRuleOfTheDac) {
                      "encoder: holds\n"),
             std::string::npos)
       << out;
+}
+
+TEST_F(CommandLine, CheckTellsTheCriteriaFromTheSampledLoop) {
+  const std::string head = "zerocount: 1\nname: rig\nseed: 1\ntrials: 10\ncommand: {targets: [5]}\n";
+  folder_.write("rig.yaml", head + "friction: {k1: 110}\n");
+  const std::string between = run({"check", "rig.yaml", "--set", "controller.ki=3.8e-5"}).out;
+  EXPECT_NE(between.find("by (6) and (7) stable; sampled loop at k1 unstable"), std::string::npos) << between;
+  const std::string low = run({"check", "rig.yaml", "--set", "controller.ki=1e-5"}).out;
+  EXPECT_NE(low.find("by (6) and (7) stable; sampled loop at k1 stable"), std::string::npos) << low;
+  const std::string none = run({"check", "rig.yaml", "--set", "controller.ki=0"}).out;
+  EXPECT_NE(none.find("no integral control"), std::string::npos) << none;
+  EXPECT_EQ(none.find("slowest time constant"), std::string::npos) << none;
 }
 
 TEST_F(CommandLine, ParametersAndSchemaComeFromTheSameTable) {

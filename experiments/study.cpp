@@ -31,10 +31,28 @@ std::string joined(const std::string& text, const std::vector<std::string>& over
   return all;
 }
 
+/// Files that were made with overrides without effect are read all the same.
+void require_effect(const Study& study, std::string_view source) {
+  Problems problems;
+  std::deque<std::string> sources;
+  const YamlPointer written = parse_yaml(study.manifest_text, source, false, problems);
+  const YamlPointer root = apply_overrides(written, study.overrides, sources, problems);
+  report_swept_overrides(*root, study.overrides, sources, problems);
+  problems.raise_if_any();
+}
+
 }  // namespace
 
 Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides) {
-  return parse_study(read_text(manifest, largest_manifest, "a manifest"), name_of_text(manifest), overrides);
+  const std::string source = name_of_text(manifest);
+  std::string text = read_text(manifest, largest_manifest, "a manifest");
+  if (text.starts_with("\x89HDF")) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: a file in the HDF5 format, such as results; expected a manifest", source));
+  }
+  Study study = parse_study(std::move(text), source, overrides);
+  require_effect(study, source);
+  return study;
 }
 
 Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <initializer_list>
 #include <optional>
 
 #include <fmt/format.h>
@@ -80,6 +81,40 @@ YamlPointer replaced(const YamlPointer& node, const Override& change, std::strin
   return *child ? copy : nullptr;
 }
 
+/// Whether the dotted path is `swept` or lies below it.
+bool is_given_with(std::string_view path, std::string_view swept) {
+  return path.starts_with(swept) && (path.size() == swept.size() || path[swept.size()] == '.');
+}
+
+/// The map that keys lead to; null where there is none.
+const YamlNode* map_at(const YamlNode& root, std::initializer_list<std::string_view> keys) {
+  const YamlNode* node = &root;
+  for (const std::string_view key : keys) {
+    if (node->kind != YamlNode::Kind::map) return nullptr;
+    const YamlEntry* const entry = find_entry(*node, key);
+    if (!entry || !entry->value) return nullptr;
+    node = entry->value.get();
+  }
+  return node->kind == YamlNode::Kind::map ? node : nullptr;
+}
+
+bool gives(const YamlNode* map, std::string_view path) {
+  return map && std::any_of(map->entries.begin(), map->entries.end(),
+                            [&](const YamlEntry& entry) { return is_given_with(path, entry.key); });
+}
+
+/// Where the sweep gives the key at every point: "sweep.grid" or "sweep.cases"; empty where it does not.
+std::string_view sweep_that_gives(const YamlNode& root, std::string_view key) {
+  if (gives(map_at(root, {"sweep", "grid"}), key)) return "sweep.grid";
+  const YamlNode* const cases = map_at(root, {"sweep", "cases"});
+  if (!cases || cases->entries.empty()) return {};
+  const bool all = std::all_of(cases->entries.begin(), cases->entries.end(), [&](const YamlEntry& entry) {
+    const bool map = entry.value && entry.value->kind == YamlNode::Kind::map;
+    return map && gives(entry.value.get(), key);
+  });
+  return all ? "sweep.cases" : "";
+}
+
 bool is_well_formed(std::string_view key) {
   return !key.empty() && key.front() != '.' && key.back() != '.' && key.find("..") == std::string_view::npos;
 }
@@ -111,6 +146,20 @@ YamlPointer apply_overrides(YamlPointer root, const std::vector<std::string>& ov
     if (const YamlPointer changed = replaced(root, {key, value, {source}}, key, problems)) root = changed;
   }
   return root;
+}
+
+void report_swept_overrides(const YamlNode& root, const std::vector<std::string>& overrides,
+                            std::deque<std::string>& sources, Problems& problems) {
+  for (const std::string& text : overrides) {
+    const std::string key = text.substr(0, text.find('='));
+    const std::string_view sweep = sweep_that_gives(root, key);
+    if (sweep.empty()) continue;
+    const bool grid = sweep == "sweep.grid";
+    problems.add(
+        {sources.emplace_back("--set " + text.substr(0, 200))}, key,
+        fmt::format("{} gives it at every point, so this would change nothing", sweep),
+        grid ? fmt::format("sweep.grid.{}=[...]", key) : fmt::format("sweep.cases.NAME.{}=...", key));
+  }
 }
 
 }  // namespace zerocount

@@ -15,4 +15,9 @@ namespace zerocount {
 YamlPointer apply_overrides(YamlPointer root, const std::vector<std::string>& overrides,
                             std::deque<std::string>& sources, Problems& problems);
 
+/// Reports the overrides of `root`, in which they stand, that change nothing, because a grid or every case of
+/// the sweep gives the key at all points.
+void report_swept_overrides(const YamlNode& root, const std::vector<std::string>& overrides,
+                            std::deque<std::string>& sources, Problems& problems);
+
 }  // namespace zerocount

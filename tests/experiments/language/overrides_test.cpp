@@ -1,6 +1,7 @@
 #include "experiments/language/overrides.hpp"
 
 #include <cmath>
+#include <deque>
 
 #include <gtest/gtest.h>
 
@@ -97,6 +98,35 @@ TEST(Overrides, MistakesNameTheOverride) {
   EXPECT_EQ(override_failure({"verdict.dwell=3"}),
             "--set verdict.dwell=3: verdict.dwell: 3 s can be longer than the hold of 1 s; expected at most "
             "command.hold");
+}
+
+TEST(Overrides, ThatTheSweepGivesAtEveryPointAreReported) {
+  const auto report = [](const std::string& sweep, const std::string& change) -> std::string {
+    Problems problems;
+    std::deque<std::string> sources;
+    const std::string text = "sweep: " + sweep;
+    report_swept_overrides(*parse_yaml(text, "study.yaml", false, problems), {change}, sources, problems);
+    try {
+      problems.raise_if_any();
+    } catch (const Failure& failure) {
+      return failure.what();
+    }
+    return "";
+  };
+  const std::string grid = "{grid: {controller.ki: [1.0e-5, 2.0e-5]}}\n";
+  EXPECT_EQ(
+      report(grid, "controller.ki=3e-5"),
+      "--set controller.ki=3e-5: controller.ki: sweep.grid gives it at every point, so this would change "
+      "nothing; expected sweep.grid.controller.ki=[...]");
+  EXPECT_EQ(report(grid, "controller={kp: 3e-5}"), "");
+  EXPECT_NE(report("{grid: {friction.k1: [1, 2]}}\n", "friction.k1.uniform=[1, 2]"), "");
+  EXPECT_EQ(report(grid, "controller.kp=3e-5"), "");
+  EXPECT_EQ(report(grid, "controller.k=3e-5"), "");
+  EXPECT_EQ(report(grid, "sweep.grid.controller.ki=[3e-5]"), "");
+  const std::string all = "{cases: {a: {controller.ki: 1.0e-5}, b: {controller.ki: 2.0e-5}}}\n";
+  EXPECT_NE(report(all, "controller.ki=3e-5").find("sweep.cases gives it"), std::string::npos);
+  const std::string some = "{cases: {a: {controller.ki: 1.0e-5}, b: {controller.kp: 2.0e-5}}}\n";
+  EXPECT_EQ(report(some, "controller.ki=3e-5"), "");
 }
 
 TEST(Overrides, AllMistakesAreToldAfterThoseOfTheFile) {

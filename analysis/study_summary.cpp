@@ -108,7 +108,7 @@ class FinishedTrials {
       summary.predictions.push_back(
           point_prediction(study_, static_cast<std::int64_t>(point), counts_[point]));
     add_assurance(summary);
-    summary.unfinished = UnfinishedStudy{count_, trial_count(study_)};
+    summary.unfinished = UnfinishedStudy{count_, trial_count(study_), point_count(study_)};
     return summary;
   }
 

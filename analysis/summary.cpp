@@ -31,8 +31,11 @@ void require_consistent(const StudySummary& summary) {
 
 std::string unfinished_sentence(const StudySummary& summary) {
   if (!summary.unfinished) return {};
-  return fmt::format("unfinished: of the {} of {} trials that the run has finished so far",
-                     summary.unfinished->finished, summary.unfinished->trials);
+  const std::int64_t without = summary.unfinished->points - std::ssize(summary.points);
+  return fmt::format(
+      "unfinished: of the {} of {} trials that the run has finished so far{}", summary.unfinished->finished,
+      summary.unfinished->trials,
+      without > 0 ? fmt::format("; {} of {} points have none yet", without, summary.unfinished->points) : "");
 }
 
 std::string observed_at(const StudySummary& summary, std::int64_t point) {

@@ -28,6 +28,7 @@ struct SummarySection {
 struct UnfinishedStudy {
   std::int64_t finished{0};  ///< trials that the summary is of
   std::int64_t trials{0};    ///< of the study; the most that there may be, if `stop` decides
+  std::int64_t points{0};    ///< of the study, with trials or without
 };
 
 /// What a summary says of a study. Vectors by point have the length of `points`.
@@ -52,7 +53,8 @@ void require_consistent(const StudySummary& summary);
 /// What was observed on the real rig at `point`; empty where nothing was.
 std::string observed_at(const StudySummary& summary, std::int64_t point);
 
-/// "unfinished: of the 12000 of 50000 trials that the run has finished so far"; empty for a complete study.
+/// "unfinished: of the 12000 of 50000 trials that the run has finished so far; 3 of 5 points have none yet";
+/// empty for a complete study.
 std::string unfinished_sentence(const StudySummary& summary);
 
 /// The table for people: a row per point in aligned columns, of an open-loop study a row per point and level,

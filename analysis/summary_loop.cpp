@@ -23,6 +23,19 @@ bool any_undecided(const StudySummary& summary) {
                      [](const PointSummary& point) { return point.outcomes.off_target > 0; });
 }
 
+/// Trials that ended within one count and are not stable.
+std::int64_t unsettled(const PointSummary& point) {
+  return point.outcomes.zero_count + point.outcomes.one_count - point.stable;
+}
+
+/// Whether these are many enough at some point to have a column.
+bool any_unsettled(const StudySummary& summary) {
+  constexpr double min_proportion = 0.02;
+  return std::any_of(summary.points.begin(), summary.points.end(), [](const PointSummary& point) {
+    return static_cast<double>(unsettled(point)) > min_proportion * static_cast<double>(point.judged);
+  });
+}
+
 /// A column with a cell for each point.
 template <typename Cell>
 TextColumn by_point(const StudySummary& summary, std::string head, Cell cell) {
@@ -38,6 +51,10 @@ void add_outcomes(std::vector<TextColumn>& columns, const StudySummary& summary)
   if (any_undecided(summary)) {
     columns.push_back(
         by_point(summary, "undecided", [](Point p) { return percentage(p.outcomes.off_target, p.judged); }));
+  }
+  if (any_unsettled(summary)) {
+    columns.push_back(
+        by_point(summary, "unsettled", [](Point p) { return percentage(unsettled(p), p.judged); }));
   }
   columns.push_back(
       by_point(summary, "zero-count", [](Point p) { return percentage(p.outcomes.zero_count, p.judged); }));
@@ -151,6 +168,11 @@ std::string loop_legend(const StudySummary& summary) {
     legend +=
         "undecided: share of trials whose worst move ended off target, stalled or still on its way: neither "
         "stable nor\nshown unstable\n";
+  }
+  if (any_unsettled(summary)) {
+    legend +=
+        "unsettled: share of trials that ended within one count without being stable: a move had not arrived "
+        "yet, hunts by\none count, or had left by more than one; all other trials oscillated\n";
   }
   if (features.stopping) {
     legend +=

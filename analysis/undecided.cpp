@@ -54,9 +54,10 @@ double log_of_longer_way(const TrialParameters& parameters, std::size_t number, 
 double needed_hold(const MoveOutcome& move, std::size_t number, std::int64_t error_before,
                    const TrialParameters& p) {
   const std::int64_t samples = samples_of_move(p, number);
+  const std::int64_t final_error = std::max<std::int64_t>(std::abs(move.final_error), 1);
   const double sample_time = 1.0 / p.controller.sample_rate;
-  return time_to_zero(move.midway_error, move.final_error, samples, sample_time) +
-         decay_time_constant(move.midway_error, move.final_error, samples, sample_time) *
+  return time_to_zero(move.midway_error, final_error, samples, sample_time) +
+         decay_time_constant(move.midway_error, final_error, samples, sample_time) *
              log_of_longer_way(p, number, error_before) +
          chatter_time(p.plant, friction_at(p.friction, p.initial.position), p.controller, p.verdict.dwell) +
          std::max(p.verdict.dwell, p.verdict.window);
@@ -69,6 +70,12 @@ double advised_hold(std::vector<double>& needed) {
       static_cast<std::ptrdiff_t>(std::ceil(advised_proportion * static_cast<double>(needed.size())) - 1.0);
   std::nth_element(needed.begin(), needed.begin() + rank, needed.end());
   return rounded_up(needed[static_cast<std::size_t>(rank)]);
+}
+
+/// A converter that clips keeps moves from their targets, too.
+std::string clipping_remark(const PointSummary& point) {
+  if (point.saturated == 0) return {};
+  return fmt::format("; the converter clipped in {} of {} trials", point.saturated, point.trials);
 }
 
 }  // namespace
@@ -117,6 +124,10 @@ SummarySection undecided_section(std::span<const PointSummary> points,
                      "1",
                      "moves that count as oscillating with an error that was still falling, but for a ripple",
                      {}};
+  PointColumn arriving{"about_to_arrive_moves",
+                       "1",
+                       "moves whose error had fallen to within one count, and that had not arrived",
+                       {}};
   PointColumn hold{"hold_at_least", "s", "hold that most of these are expected to need", {}};
   bool any = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -125,19 +136,23 @@ SummarySection undecided_section(std::span<const PointSummary> points,
                             {"off_target", point.off_target},
                             {"still_falling", point.still_falling},
                             {"falling_with_ripple", point.falling_with_ripple},
+                            {"about_to_arrive", point.about_to_arrive},
                             {"hold_at_least", point.advised_hold}});
     off_target.values.push_back(static_cast<double>(point.off_target));
     falling.values.push_back(static_cast<double>(point.still_falling));
     ripple.values.push_back(static_cast<double>(point.falling_with_ripple));
+    arriving.values.push_back(static_cast<double>(point.about_to_arrive));
     hold.values.push_back(point.advised_hold);
     if (!any_undecided(point)) continue;
     any = true;
-    section.text += fmt::format("{}: {}\n", printable(labels[i]), undecided_sentence(point));
+    section.text += fmt::format("{}: {}{}\n", printable(labels[i]), undecided_sentence(point),
+                                clipping_remark(points[i]));
   }
   if (any) {
     section.text += fmt::format("{}\n", undecided_meaning);
   }
-  section.columns = {std::move(off_target), std::move(falling), std::move(ripple), std::move(hold)};
+  section.columns = {std::move(off_target), std::move(falling), std::move(ripple), std::move(arriving),
+                     std::move(hold)};
   return section;
 }
 

@@ -46,9 +46,9 @@ class UndecidedAccumulator {
 };
 
 /// The section "undecided" of a summary. Its JSON is {"moves", "off_target", "still_falling",
-/// "falling_with_ripple", "hold_at_least"}; its columns are undecided_moves, still_falling_moves,
-/// falling_with_ripple_moves and hold_at_least; its text is a sentence for each point that has undecided
-/// moves.
+/// "falling_with_ripple", "about_to_arrive", "hold_at_least"}; its columns are undecided_moves,
+/// still_falling_moves, falling_with_ripple_moves, about_to_arrive_moves and hold_at_least; its text is a
+/// sentence for each point that has undecided moves.
 /// @param labels [point]
 SummarySection undecided_section(std::span<const PointSummary> points,
                                  const std::vector<std::string>& labels);

@@ -19,29 +19,51 @@ bool falls_with_ripple(const MoveOutcome& move) {
   return falls(move) && std::abs(move.final_error) >= 2 && 2.0 * move.oscillation_amplitude <= fallen + 2.0;
 }
 
+/// Whether the error fell to within one count, which was not yet held for long enough. One that was within
+/// one count all through the last half hunts.
+bool is_about_to_arrive(const MoveOutcome& move) {
+  return !move.arrived && std::abs(move.midway_error) >= 2 && falls(move);
+}
+
+/// The count that a move still falling belongs to; null where it is none.
+std::int64_t UndecidedMoves::*falling_count(const MoveOutcome& move) {
+  switch (move.outcome) {
+    case Outcome::off_target:
+      return falls(move) ? &UndecidedMoves::still_falling : nullptr;
+    case Outcome::oscillating:
+      return falls_with_ripple(move) ? &UndecidedMoves::falling_with_ripple : nullptr;
+    case Outcome::zero_count:
+    case Outcome::one_count:
+      return is_about_to_arrive(move) ? &UndecidedMoves::about_to_arrive : nullptr;
+    case Outcome::nonfinite:
+    case Outcome::open_loop:
+      break;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 bool is_still_falling(const MoveOutcome& move) {
-  if (move.outcome == Outcome::off_target) return falls(move);
-  return move.outcome == Outcome::oscillating && falls_with_ripple(move);
+  return falling_count(move) != nullptr;
 }
 
 void add_move(UndecidedMoves& counts, const MoveOutcome& move) {
-  const bool off_target = move.outcome == Outcome::off_target;
   ++counts.moves;
-  counts.off_target += off_target;
-  if (is_still_falling(move)) ++(off_target ? counts.still_falling : counts.falling_with_ripple);
+  counts.off_target += move.outcome == Outcome::off_target;
+  if (const auto count = falling_count(move)) ++(counts.*count);
 }
 
 UndecidedMoves sum_of(const UndecidedMoves& one, const UndecidedMoves& other) {
   return {.moves = one.moves + other.moves,
           .off_target = one.off_target + other.off_target,
           .still_falling = one.still_falling + other.still_falling,
-          .falling_with_ripple = one.falling_with_ripple + other.falling_with_ripple};
+          .falling_with_ripple = one.falling_with_ripple + other.falling_with_ripple,
+          .about_to_arrive = one.about_to_arrive + other.about_to_arrive};
 }
 
 bool any_undecided(const UndecidedMoves& moves) {
-  return moves.off_target > 0 || moves.falling_with_ripple > 0;
+  return moves.off_target > 0 || moves.falling_with_ripple > 0 || moves.about_to_arrive > 0;
 }
 
 std::string undecided_sentence(const UndecidedMoves& moves) {
@@ -58,6 +80,10 @@ std::string undecided_sentence(const UndecidedMoves& moves) {
   if (moves.falling_with_ripple > 0) {
     text += fmt::format("; it was falling, with a ripple of one count, in {} more that count as oscillating",
                         moves.falling_with_ripple);
+  }
+  if (moves.about_to_arrive > 0) {
+    text += fmt::format("; it had fallen to within one count, without arrival, in {} more",
+                        moves.about_to_arrive);
   }
   if (!std::isnan(moves.advised_hold)) text += fmt::format("; hold ≥ about {:.4g} s", moves.advised_hold);
   return text;

@@ -18,13 +18,15 @@ struct UndecidedMoves {
   /// Moves that count as oscillating whose error fell likewise and kept its sign, with a ripple of a count:
   /// a proportional gain makes the count chatter on the edges that it passes.
   std::int64_t falling_with_ripple{0};
+  /// Moves whose error fell to within one count in the last half of the hold, and that had not arrived.
+  std::int64_t about_to_arrive{0};
   /// Hold that most of those whose error still fell are expected to need, s; NaN where there are none, or
   /// nothing in their control brings the error to zero.
   double advised_hold{std::numeric_limits<double>::quiet_NaN()};
 };
 
-/// Whether a longer hold may be what a move lacks: it is off target, or counts as oscillating, with an error
-/// that fell in the last half of its hold.
+/// Whether a longer hold may be what a move lacks: it did not arrive, with an error that fell in the last
+/// half of its hold.
 bool is_still_falling(const MoveOutcome& move);
 
 /// Counts a move.

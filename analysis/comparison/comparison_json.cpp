@@ -63,7 +63,8 @@ Json undecided_json(const UndecidedMoves& moves) {
   return {{"moves", moves.moves},
           {"off_target", moves.off_target},
           {"still_falling", moves.still_falling},
-          {"falling_with_ripple", moves.falling_with_ripple}};
+          {"falling_with_ripple", moves.falling_with_ripple},
+          {"about_to_arrive", moves.about_to_arrive}};
 }
 
 Json point_json(const PointComparison& point) {

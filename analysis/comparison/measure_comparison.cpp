@@ -162,16 +162,17 @@ void test_means(MeasureComparison& result, const ComparedValues& values, double 
   result.effect = worse.value;
 }
 
+/// @param values of trials, or of rigs
 void compare_mean(MeasureComparison& result, const ComparedValues& values, GateQuantity quantity, bool paired,
-                  double confidence) {
+                  bool over_rigs, double confidence) {
   result.baseline_n = std::ssize(values.baseline);
   result.current_n = std::ssize(values.current);
   if (result.baseline_n > 0) result.baseline = mean_of(values.baseline);
   if (result.current_n > 0) result.current = mean_of(values.current);
-  result.test = test_of_means(paired, false);
+  result.test = test_of_means(paired, over_rigs);
   if (std::min(result.baseline_n, result.current_n) < least_values) {
-    result.note =
-        fmt::format("fewer than {} trials have a value{}", least_values, paired ? " in both files" : "");
+    result.note = fmt::format("fewer than {} {} have a value{}", least_values, over_rigs ? "rigs" : "trials",
+                              paired ? " in both files" : "");
     return;
   }
   test_means(result, values, unit_of(quantity, result), paired, confidence);
@@ -208,8 +209,7 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
                     paired, rules.confidence);
     } else {
       compare_mean(result, compared_values(baseline, current, measure.quantity, paired), measure.quantity,
-                   paired, rules.confidence);
-      if (rigs) result.test = test_of_means(paired, true);
+                   paired, rigs, rules.confidence);
     }
     const GateMargin margin = margin_of(rules, label, measure);
     result.margin = margin.absolute;

@@ -65,7 +65,7 @@ TEST(TimeToZero, DecidesMostMovesOfASlowLoop) {
 TEST(Undecided, AreToldWithTheHoldThatWouldDecideThem) {
   EXPECT_EQ(undecided_sentence({.moves = 3000}), "");
   EXPECT_EQ(
-      undecided_sentence({3000, 2736, 2700, 0, 2.1}),
+      undecided_sentence({3000, 2736, 2700, 0, 0, 2.1}),
       "2736 of 3000 moves ended more than one count off their target without oscillating; the error was "
       "still falling in 2700 of 3000 moves at the end of the hold; hold ≥ about 2.1 s");
   EXPECT_EQ(
@@ -76,15 +76,17 @@ TEST(Undecided, AreToldWithTheHoldThatWouldDecideThem) {
 
 TEST(Undecided, AreToldOfMovesThatOnlySeemToOscillate) {
   EXPECT_EQ(
-      undecided_sentence({300, 184, 183, 53, 1.5}),
+      undecided_sentence({300, 184, 183, 53, 29, 1.5}),
       "184 of 300 moves ended more than one count off their target without oscillating; the error was still "
       "falling in 183 of 300 moves at the end of the hold; it was falling, with a ripple of one count, in 53 "
-      "more that count as oscillating; hold ≥ about 1.5 s");
+      "more that count as oscillating; it had fallen to within one count, without arrival, in 29 more; hold "
+      "≥ "
+      "about 1.5 s");
 }
 
 TEST(Undecided, SectionHasALineForEachPointThatHasSome) {
   std::vector<PointSummary> points(2);
-  points[1].undecided = {3000, 2736, 2700, 0, 2.1};
+  points[1].undecided = {3000, 2736, 2700, 0, 0, 2.1};
   const SummarySection section = undecided_section(points, {"fast", "slow"});
   EXPECT_EQ(section.text.find("fast"), std::string::npos);
   EXPECT_NE(section.text.find("slow: 2736 of 3000"), std::string::npos);

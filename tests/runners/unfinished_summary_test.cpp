@@ -81,6 +81,7 @@ TEST_F(UnfinishedSummary, LeavesOutTrialsThatOthersAreMissingBefore) {
   EXPECT_EQ(summary["unfinished"]["finished"], 30);
   ASSERT_EQ(summary["points"].size(), 1U);
   EXPECT_EQ(summary["points"][0]["label"], "low");
+  EXPECT_NE(program({"summary", "out.h5"}).out.find("1 of 2 points have none yet"), std::string::npos);
   EXPECT_EQ(summary["points"][0]["trials"], 30);
 }
 

@@ -57,9 +57,10 @@ bool on_rigs(std::span<const PointSummary> points) {
 
 std::vector<PointColumn> columns_of(std::span<const PointSummary> points) {
   std::vector<PointColumn> columns{
-      column_of(points, "success_at_least", "1", "share of axes (with rigs: of trials) that succeed at least",
+      column_of(points, "success_at_least", "1",
+                "proportion of axes (with rigs: of trials) that succeed at least",
                 [](const PointSummary& point) { return point.claim.success_at_least; }),
-      column_of(points, "failure_at_most", "1", "share of axes (with rigs: of trials) that fail at most",
+      column_of(points, "failure_at_most", "1", "proportion of axes (with rigs: of trials) that fail at most",
                 [](const PointSummary& point) { return point.claim.failure_at_most; })};
   for (std::size_t i = 0; i < std::size(tolerance_contents); ++i) {
     const double content = tolerance_contents[i];

@@ -17,6 +17,7 @@ constexpr const char* baseline_help =
     "place of an earlier baseline. The file is copied as it is, with its seal. The reason is\n"
     "recorded, with the build, the trials, the checksums and how the new baseline compares\n"
     "with the one it replaces, at the end of OUTPUT.log.yaml: commit both files together.\n"
+    "An earlier baseline is replaced without --force: the reason stands for it.\n"
     "\n"
     "Example: zerocount baseline new.h5 -o results/baselines/paper-gains.h5 --reason \"ki of case a "
     "raised\"\n";

@@ -28,7 +28,8 @@ std::string overview() {
     text += fmt::format("  {:<12} {}\n", command.spec.name, command.summary);
   text +=
       "\n'zerocount COMMAND --help' explains a command; 'zerocount --version' (-V) says which program this "
-      "is.\nWhere a manifest, a table or a page is read or written, - is standard input or output.\n\n";
+      "is.\nWhere a manifest, a table or a page is read or written, - is standard input or output.\n";
+  text += fmt::format("{}\n", overwriting_rule);
   return text + exit_codes_help();
 }
 

@@ -1,10 +1,13 @@
 #include "runners/earlier_shards.hpp"
 
+#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "core/failure.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/study_differences.hpp"
 
 namespace zerocount {
 namespace {
@@ -13,6 +16,17 @@ namespace fs = std::filesystem;
 
 /// Ending of the name of a damaged shard that was set aside.
 constexpr const char* set_aside = ".damaged";
+
+/// What differs in its study, as far as that can be read; otherwise the problem as it was found.
+std::string why_foreign(const ShardProblem& bad, const Study& study) {
+  try {
+    const FileHeader header = StudyFile(bad.path, Require::any_part).header();
+    const std::vector<ManifestDifference> differences = study_differences(bad.path, header, study);
+    return differences.empty() ? bad.problem : differences_text(differences);
+  } catch (const Failure&) {
+    return bad.problem;
+  }
+}
 
 }  // namespace
 
@@ -42,7 +56,7 @@ EarlierShards earlier_shards(const fs::path& directory, const Study& study, RowR
           ExitCode::bad_input,
           fmt::format("{}: holds another unfinished run, which this one must not touch ({}); finish that run "
                       "first, give another name with -o, or remove it with --force",
-                      directory.string(), bad.problem));
+                      directory.string(), why_foreign(bad, study)));
     }
     fs::path aside = bad.path;
     aside += set_aside;

@@ -8,19 +8,16 @@
 
 #include <fmt/format.h>
 
-#include "analysis/comparison/manifest_differences.hpp"
 #include "core/failure.hpp"
 #include "experiments/language/manifest_keys.hpp"
 #include "results/layout/build_info.hpp"
 #include "results/reading/study_file.hpp"
-#include "runners/stopping_run.hpp"
+#include "runners/study_differences.hpp"
 
 namespace zerocount {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t max_differences_listed = 5;
 
 [[noreturn]] void refuse(const fs::path& output, std::string_view what) {
   throw Failure(ExitCode::bad_input, fmt::format("{}: {}; --force replaces it, or give another name with -o",
@@ -33,35 +30,6 @@ FileHeader header_of(const fs::path& output) {
   } catch (const Failure& failure) {
     refuse(output, fmt::format("exists, and is no usable results file ({})", failure.what()));
   }
-}
-
-/// What differs between the study of the file and this one, both as they were given: without the number of
-/// trials that a stopping rule came to, and with the defaults that have changed since the file was made.
-std::vector<ManifestDifference> differences_from(const fs::path& output, FileHeader header,
-                                                 const Study& study, RowRange wanted) {
-  if (study.stop && !header.overrides.empty() && header.overrides.back().starts_with(decided_key))
-    header.overrides.pop_back();
-  ManifestValues there = manifest_values(header, output.string());
-  ManifestValues here = manifest_values(make_header(study, FileKind::study, wanted, {}), study.name);
-  write_changed_defaults(there, header.version, here, format_version);
-  return manifest_differences(there, here);
-}
-
-std::string described(const ManifestDifference& difference) {
-  if (difference.baseline.empty())
-    return fmt::format("{} is {} here, and not given there", difference.key, difference.current);
-  if (difference.current.empty())
-    return fmt::format("{} is {} there, and not given here", difference.key, difference.baseline);
-  return fmt::format("{} is {} there and {} here", difference.key, difference.baseline, difference.current);
-}
-
-std::string described(const std::vector<ManifestDifference>& differences) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(differences.size(), max_differences_listed); ++i)
-    text += (i > 0 ? ", " : "") + described(differences[i]);
-  if (differences.size() > max_differences_listed)
-    text += fmt::format(", and {} more", differences.size() - max_differences_listed);
-  return text;
 }
 
 /// @throws Failure (bad_input) where the trials of the file cannot be those of the longer study.
@@ -90,7 +58,7 @@ ExistingUse use_of_existing(const fs::path& output, const Study& study, RowRange
   std::error_code error;
   if (!fs::exists(fs::symlink_status(output, error))) return ExistingUse::none;
   const FileHeader header = header_of(output);
-  const std::vector<ManifestDifference> differences = differences_from(output, header, study, wanted);
+  const std::vector<ManifestDifference> differences = study_differences(output, header, study);
   if (header.engine != study.engine) {
     refuse(output, fmt::format("holds the results of the {} engine, and this run is for the {} engine",
                                name_of(header.engine), name_of(study.engine)));
@@ -100,7 +68,8 @@ ExistingUse use_of_existing(const fs::path& output, const Study& study, RowRange
     require_extensible(output, header, study);
     return ExistingUse::extend;
   }
-  if (!differences.empty()) refuse(output, "holds the results of another study: " + described(differences));
+  if (!differences.empty())
+    refuse(output, "holds the results of another study: " + differences_text(differences));
   if (!study.stop && !(header.rows == wanted)) {
     refuse(output, fmt::format("holds trials {} to {} of this study, and this run is for {} to {}",
                                header.rows.first, header.rows.end() - 1, wanted.first, wanted.end() - 1));

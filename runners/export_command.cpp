@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "analysis/repeatability_export.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "results/reading/export.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/commands.hpp"
@@ -20,6 +21,10 @@ constexpr const char* export_help =
 
 ExitCode export_file(const Arguments& arguments) {
   const std::string directory = arguments.required("output");
+  if (is_standard_stream(directory)) {
+    arguments.refuse(
+        "option '--output': the tables are several files and cannot go to standard output; name a folder");
+  }
   const StudyFile file(arguments.operands()[0]);
   export_csv(file, directory, repeatability_exports(file),
              arguments.has("force") ? ExistingFiles::replace : ExistingFiles::refuse);

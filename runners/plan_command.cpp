@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* plan_help =
     "Says how many trials a claim needs, before they are run. With --success: how many show that at\n"
-    "least this share of axes succeeds, if none, one, two, … of them fail; with --true-success also\n"
+    "least this proportion of axes succeeds, if none, one, two, … of them fail; with --true-success also\n"
     "the chance that they do, and with --power the plan that has this chance. With --halfwidth: how\n"
     "many bring the bounds of a rate so close.\n"
     "With rigs, the trials of one rig are not independent. --rigs-share says how many rigs, and trials\n"
@@ -274,7 +274,7 @@ Command plan_command() {
            "[PILOT]",
            0,
            1,
-           {{"success", "P", "share of axes that is to be shown to succeed at least"},
+           {{"success", "P", "proportion of axes that is to be shown to succeed at least"},
             {"confidence", "LEVEL", "of the claim, or of the bounds (default 0.95)"},
             {"failures", "K", "list plans for 0 to K failures (default 3)"},
             {"true-success", "P", "share that succeeds in truth: says the chance of each plan"},

@@ -185,7 +185,8 @@ Command run_command() {
             {"set", "KEY=VALUE",
              "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
             {"quiet,q", "", "say nothing of progress"},
-            {"force", "", "replace FILE and unfinished runs of it, and do not ask for room on the disk"}}},
+            {"force", "",
+             "replace FILE, drop unfinished runs of other studies, and do not ask for room on the disk"}}},
           "run a study: manifest in, results file out",
           run_help,
           run};

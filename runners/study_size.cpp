@@ -28,6 +28,8 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t max_sampled_trials = 512;
 constexpr double max_sampled_samples = 4e5;  // some hundredths of a second
+/// Without compression a trial takes this much more than its values: chunks, and copies of its columns.
+constexpr double storage_factor = 2.0;
 constexpr std::int64_t sampled_places = 8;
 
 /// A folder that is removed with what is in it.
@@ -130,6 +132,18 @@ double table_bytes(const Study& study) {
   return statistics + statistics_of_point * static_cast<double>(point_count(study)) + profiles;
 }
 
+/// More than the files of a study take, without writing any.
+double file_bytes_at_most(const Study& study) {
+  double bytes_of_trial = 0.0;
+  const std::vector<TrialResult> trials = sampled_trials(study);
+  for (const TrialResult& trial : trials)
+    bytes_of_trial += static_cast<double>(bytes_of(trial)) / static_cast<double>(trials.size());
+  const double records = static_cast<double>(std::ssize(study.retained_trials) * point_count(study)) *
+                         samples_per_trial(study) * static_cast<double>(sizeof(SampleRecord));
+  const double once = bytes_of_trial * static_cast<double>(trial_count(study)) + records + table_bytes(study);
+  return 2.0 * storage_factor * once;  // the shards, and the results file
+}
+
 /// None where the folder for temporary files has no room.
 std::optional<StudySize> measured_size(const Study& study) {
   try {
@@ -168,11 +182,12 @@ void require_room(const fs::path& output, const Study& study, std::int64_t missi
   std::error_code error;
   const fs::space_info space = fs::space(folder, error);
   if (error) return;  // not known: a write that fails is found out
+  const auto available = static_cast<double>(space.available);
+  if (file_bytes_at_most(study) < available) return;
   const std::optional<StudySize> size = measured_size(study);
   if (!size) return;
   const double shards =
       size->shard_bytes * static_cast<double>(missing) / static_cast<double>(trial_count(study));
-  const auto available = static_cast<double>(space.available);
   if (shards + size->file_bytes <= available) return;
   throw Failure(
       ExitCode::machine_failed,

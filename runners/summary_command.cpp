@@ -7,8 +7,8 @@
 #include "analysis/study_summary.hpp"
 #include "analysis/summary.hpp"
 #include "core/failure.hpp"
+#include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
-#include "results/shards/shard.hpp"
 #include "runners/commands.hpp"
 #include "runners/option_values.hpp"
 
@@ -44,7 +44,12 @@ StudySummary summary_of(const fs::path& path, double confidence, bool with_means
       if (!is_there(path)) throw;  // otherwise the run has ended meanwhile, and its shards are gone
     }
   }
-  return summarise(StudyFile(path), confidence, with_means);
+  StudySummary summary = summarise(StudyFile(path), confidence, with_means);
+  if (is_there(shards)) {
+    fmt::print(stderr, "note: a run that is to replace {} has not ended ({}); this is of the file as it is\n",
+               path.string(), shards.string());
+  }
+  return summary;
 }
 
 ExitCode summarise_file(const Arguments& arguments) {

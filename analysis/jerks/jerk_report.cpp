@@ -14,7 +14,7 @@ JerkReport jerk_report(const StudyFile& file, const Study& study, std::vector<st
     points.resize(static_cast<std::size_t>(point_count(study)));
     std::iota(points.begin(), points.end(), 0);
   }
-  JerkReport report{.name = study.name, .confidence = confidence, .points = {}};
+  JerkReport report{.name = study.name, .axis = study.units.axis, .confidence = confidence, .points = {}};
   for (const std::int64_t point : points) {
     PointJerks jerks{.point = point, .label = {}, .statistics = {}, .creep = {}, .creep_agreement = {}};
     jerks.statistics = jerk_statistics(file, study, point, confidence);

@@ -14,6 +14,7 @@ namespace zerocount {
 /// Everything that is told of a study.
 struct JerkReport {
   std::string name;  ///< of the study
+  AxisKind axis{AxisKind::rotary};
   double confidence{summary_confidence};
   std::vector<PointJerks> points;
 };

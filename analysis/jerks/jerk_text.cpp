@@ -73,7 +73,7 @@ std::string creep_text(const CreepComparison& creep, const CreepAgreement& agree
   return text + "\n";
 }
 
-std::string point_text(const PointJerks& point, const std::string& level) {
+std::string point_text(const PointJerks& point, const std::string& level, AxisKind axis) {
   const JerkStatistics& jerks = point.statistics;
   std::string text =
       fmt::format("{}\n{} jerks in {} of {} trials; {} of {} moves arrived", printable(point.label),
@@ -83,7 +83,8 @@ std::string point_text(const PointJerks& point, const std::string& level) {
   if (!jerks.rates.empty()) text += rate_table(jerks.rates, level) + "\n";
   text += intervals_text(jerks.intervals) + slowing_text(jerks.slowing, level);
   if (jerks.jerks > 0) {
-    text += fmt::format("in the direction of the holding torque: {}\n", share_text(jerks.agreement));
+    text += text_on(axis,
+                    fmt::format("in the direction of the holding torque: {}\n", share_text(jerks.agreement)));
     text += fmt::format("of one count: {}; largest {} counts; median duration {} s\n",
                         share_text(jerks.magnitudes.one_count), jerks.magnitudes.max,
                         short_number(jerks.magnitudes.median_duration));
@@ -106,7 +107,7 @@ constexpr const char* legend =
 std::string jerk_text(const JerkReport& report) {
   const std::string level = fmt::format("{:.6g} %", 100.0 * report.confidence);
   std::string text = printable(report.name) + "\n\n";
-  for (const PointJerks& point : report.points) text += point_text(point, level);
+  for (const PointJerks& point : report.points) text += point_text(point, level, report.axis);
   return text + legend;
 }
 

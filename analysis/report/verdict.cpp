@@ -189,12 +189,12 @@ void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, s
     lines.push_back("No move was disturbed by a jerk after it arrived.");
     return;
   }
-  lines.push_back(
+  lines.push_back(text_on(
+      reported.file.axis(),
       fmt::format("After arrival there were {} jerks per trial; {} of them went in the direction of the "
-                  "holding torque, {} were of "
-                  "one count.",
+                  "holding torque, {} were of one count.",
                   short_number(point.jerk_count.mean), share_text(point.jerk_agreement),
-                  share_text(point.jerk_one_count_share)));
+                  share_text(point.jerk_one_count_share))));
 }
 
 void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) {

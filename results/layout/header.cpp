@@ -211,10 +211,26 @@ void require_same_study(const std::filesystem::path& path, const FileHeader& hea
   }
 }
 
+std::filesystem::path shards_directory(const std::filesystem::path& output) {
+  std::filesystem::path directory = output;
+  directory += ".shards";
+  return directory;
+}
+
 hdf5::File open_results(const std::filesystem::path& path, Seal seal) {
   std::error_code ignored;
+  if (path == "-") {
+    throw Failure(ExitCode::bad_input, "-: a results file cannot be read from standard input; name the file");
+  }
   if (!std::filesystem::exists(path, ignored)) {
-    throw Failure(ExitCode::bad_input, fmt::format("{}: no such file", path.string()));
+    const std::filesystem::path shards = shards_directory(path);
+    const bool unfinished = std::filesystem::exists(shards, ignored);
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: no such file{}", path.string(),
+                              unfinished ? fmt::format("; the run that makes it has not ended ({}): "
+                                                       "'zerocount summary' shows what it has finished",
+                                                       shards.string())
+                                         : ""));
   }
   if (std::filesystem::is_directory(path, ignored)) {
     throw Failure(ExitCode::bad_input,

@@ -69,6 +69,9 @@ Study recorded_study(const FileHeader& header, const std::filesystem::path& path
 /// (see same_build) and the study's engine, and of the current version of the layout.
 void require_same_study(const std::filesystem::path& path, const FileHeader& header, const Study& study);
 
+/// The folder of the shards of a run that makes `output`: OUTPUT.shards.
+std::filesystem::path shards_directory(const std::filesystem::path& output);
+
 /// Whether a file must have its seal (see seal.hpp) to be opened.
 enum class Seal { required, not_yet };
 

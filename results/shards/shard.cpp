@@ -106,12 +106,6 @@ bool by_rows(const ShardInfo& left, const ShardInfo& right) {
 
 }  // namespace
 
-fs::path shards_directory(const fs::path& output) {
-  fs::path directory = output;
-  directory += ".shards";
-  return directory;
-}
-
 fs::path shard_path(const fs::path& directory, RowRange rows) {
   return directory / fmt::format("trials-{:012}-{:012}.h5", rows.first, rows.end() - 1);
 }

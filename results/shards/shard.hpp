@@ -11,6 +11,7 @@
 #include "experiments/study.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/layout/build_info.hpp"
+#include "results/layout/header.hpp"
 #include "results/layout/row_range.hpp"
 
 namespace zerocount {
@@ -23,9 +24,6 @@ struct TrialResult {
   std::vector<Jerk> jerks;          ///< by move and onset
   std::vector<SampleRecord> trace;  ///< every sample of a retained trial; otherwise empty
 };
-
-/// The folder of an output's shards, OUTPUT.shards.
-std::filesystem::path shards_directory(const std::filesystem::path& output);
 
 /// Where in `directory` the shard of these rows belongs.
 std::filesystem::path shard_path(const std::filesystem::path& directory, RowRange rows);

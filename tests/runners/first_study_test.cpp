@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -47,6 +48,10 @@ class FirstStudy : public ::testing::Test {
   ProgramResult run(const std::vector<std::string>& words) const {
     return zerocount_program(words, folder_.path());
   }
+  /// The points of the summary.
+  nlohmann::json points_of(const std::string& file) const {
+    return nlohmann::json::parse(run({"summary", file, "--format", "json"}).out)["points"];
+  }
 
   std::string text_;
   TemporaryFolder folder_;
@@ -78,10 +83,67 @@ TEST_F(FirstStudy, ItsCommandsWork) {
   EXPECT_EQ(verbs, (std::vector<std::string>{"check", "run", "summary", "report"}));
   EXPECT_NE(folder_.read("my-axis.html").find("</html>"), std::string::npos);
 
-  const auto summary = nlohmann::json::parse(run({"summary", "my-axis.h5", "--format", "json"}).out);
-  ASSERT_EQ(summary["points"].size(), 8U);
-  const auto rate = [&](std::size_t point) { return summary["points"][point]["success_rate"].get<double>(); };
+  const auto points = points_of("my-axis.h5");
+  ASSERT_EQ(points.size(), 8U);
+  const auto rate = [&](std::size_t point) { return points[point]["success_rate"].get<double>(); };
   EXPECT_GT(rate(0), rate(7));  // a higher integral gain, and fewer moves that hold zero counts
+}
+
+/// A proportion in %, as the README has it.
+std::string percent(double proportion) {
+  return fmt::format("{:.1f}", 100.0 * proportion);
+}
+
+/// The success rate of a point with its bounds, as the README has it.
+std::string success_of(const nlohmann::json& point) {
+  const auto part = [&point](const char* name) { return percent(point[name].get<double>()); };
+  return fmt::format("{} % [{}, {}]", part("success_rate"), part("success_rate_low"),
+                     part("success_rate_high"));
+}
+
+// The whole study, as the reader runs it.
+TEST_F(FirstStudy, ItsTableSaysWhatTheReadmeSays) {
+  ASSERT_EQ(run({"run", "my-axis.yaml", "-o", "my-axis.h5", "--quiet"}).code, 0);
+  const auto points = points_of("my-axis.h5");
+  ASSERT_EQ(points.size(), 8U);
+  std::string text = text_;
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const auto expect_said = [&text](const std::string& words) {
+    EXPECT_NE(text.find(words), std::string::npos) << words;
+  };
+  for (const std::size_t p : {0, 3}) {
+    expect_said(success_of(points[p]));
+    expect_said(fmt::format("{:.3f} s", points[p]["settling_time"]["median"].get<double>()));
+  }
+  EXPECT_GT(points[3]["success_rate_high"].get<double>(), points[0]["success_rate_low"].get<double>());
+  for (const auto& point : points) {
+    EXPECT_LE(point["success_rate"].get<double>(), points[0]["success_rate"].get<double>());
+  }
+  for (std::size_t p = 0; p < 4; ++p) {
+    EXPECT_EQ(points[p]["zero_count"].get<int>() + points[p]["one_count"].get<int>(), 2000) << p;
+  }
+  const auto stable = [&points](std::size_t p) { return percent(points[p]["stable_rate"].get<double>()); };
+  expect_said(fmt::format("criterion (6) holds in {} % of the trials, {} % are stable, at 100 000 {} %.",
+                          percent(points[4]["prediction"]["stable_share"].get<double>()), stable(4),
+                          stable(7)));
+}
+
+TEST_F(FirstStudy, CreepLimitsTheGainsThatAreStable) {
+  ASSERT_EQ(run({"run", "my-axis.yaml", "-o", "still.h5", "--quiet", "--set", "trials=400", "--set",
+                 "friction.alpha=0"})
+                .code,
+            0);
+  const auto points = points_of("still.h5");
+  for (std::size_t p = 0; p < 4; ++p) EXPECT_EQ(points[p]["success_rate"].get<double>(), 1.0) << p;
+  EXPECT_LT(points[4]["success_rate"].get<double>(), 0.95) << "here it is the loop";
+}
+
+TEST_F(FirstStudy, WaitingLongerHelps) {
+  ASSERT_EQ(run({"run", "my-axis.yaml", "-o", "long.h5", "--quiet", "--set", "trials=400", "--set",
+                 "command.hold=2", "--set", "sweep={}", "--set", "controller.ki=18053"})
+                .code,
+            0);
+  EXPECT_GT(points_of("long.h5")[0]["success_rate"].get<double>(), 0.83) << "0.76 with 0.5 s per move";
 }
 
 }  // namespace

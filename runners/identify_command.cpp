@@ -29,7 +29,7 @@ constexpr const char* identify_help =
     "and the inertia from the ringing after a step of the torque, alpha, lambda and n from\n"
     "creep at held torques; all are fitted together, with 95 % confidence intervals. A record\n"
     "may hold only some of these: what it leaves open is said, with the reason. Several\n"
-    "records are taken for tests of one contact.\n"
+    "records are taken for tests of one contact. Records of linear axes are not taken yet.\n"
     "\n"
     "A table (CSV) has the columns t (s), torque or drive_torque (N m), and theta (rad) or\n"
     "count, for which --counts-per-revolution is needed; 'zerocount trace' writes such tables.\n"

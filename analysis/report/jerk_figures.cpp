@@ -92,11 +92,12 @@ Figure raster(const ReportedStudy& reported, std::int64_t point) {
   std::int64_t number = 0;
   for (const JerkingMove& move : moves.shown) left_out += add_jerks(data, reported.file, move, number++);
   std::string caption = fmt::format(
-      "Every mark is the onset of a jerk, every row a move of point {}, from its arrival on. Creep under the "
-      "holding "
-      "torque makes the rotor jerk in one direction, and ever less often: marks should thin out to the right "
-      "and be "
-      "of one colour. ",
+      "Every mark is the onset of a jerk, every row a move of point {}, from its arrival on. Jerks that "
+      "creep "
+      "alone causes all go one way and come ever less often: their marks are of one colour and thin out to "
+      "the "
+      "right. Marks of both colours, or that grow denser, have another cause as well, such as a coarse "
+      "converter. ",
       reported.summary.labels[static_cast<std::size_t>(point)]);
   if (std::ssize(moves.shown) < moves.all) {
     caption += fmt::format("A sample: {} of the {} moves with jerks, an even spread in their order. ",

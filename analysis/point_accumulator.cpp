@@ -143,8 +143,8 @@ void PointAccumulator::add_moves(const TrialOutcome& trial) {
     add_final_times(moves);
     if (kind_.final_error_known) add_errors(moves);
   }
-  counted_.stable += std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.stable; });
-  counted_.arrived += std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.arrived; });
+  counted_.stable += was_stable(moves);
+  counted_.arrived += has_arrived(moves);
   counted_.broke_away +=
       std::any_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.broke_away; });
   counted_.saturated +=
@@ -158,11 +158,11 @@ void PointAccumulator::add_to_rig(const std::vector<MoveOutcome>& moves) {
   const auto number = static_cast<std::size_t>(counted_.trials % kind_.rigs);
   if (number >= rigs_.size()) rigs_.resize(number + 1);
   RigTrials& rig = rigs_[number];
-  const auto zero = std::count_if(moves.begin(), moves.end(),
-                                  [](const MoveOutcome& m) { return m.outcome == Outcome::zero_count; });
+  const auto zero =
+      std::count_if(moves.begin(), moves.end(), [](const MoveOutcome& m) { return is_success(m.outcome); });
   ++rig.trials;
-  rig.successes += zero == std::ssize(moves);
-  rig.stable += std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.stable; });
+  rig.successes += succeeded(moves);
+  rig.stable += was_stable(moves);
   rig.moves += std::ssize(moves);
   rig.zero_moves += zero;
 }

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include <boost/math/distributions/binomial.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 
+#include "analysis/statistics/normal.hpp"
 #include "core/failure.hpp"
 
 namespace zerocount {
@@ -63,8 +63,7 @@ ConfidenceInterval wilson(std::int64_t successes, std::int64_t trials, double co
   if (trials == 0) return {0.0, 1.0};
   const double n = static_cast<double>(trials);
   const double p = static_cast<double>(successes) / n;
-  const double z =
-      boost::math::quantile(boost::math::normal_distribution<double>(), 0.5 * (1.0 + confidence));
+  const double z = two_sided_normal_quantile(confidence);
   const double scale = 1.0 + z * z / n;
   const double centre = (p + z * z / (2.0 * n)) / scale;
   const double half_width = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / scale;

@@ -37,4 +37,7 @@ std::string aligned_table(const std::vector<TextColumn>& columns);
 std::string aligned_table(const std::vector<std::vector<std::string>>& cells,
                           const std::vector<bool>& numeric);
 
+/// As text or a quoted attribute of HTML or XML: & < > " ' escaped.
+std::string escaped_markup(std::string_view text);
+
 }  // namespace zerocount

@@ -25,13 +25,10 @@ class Successes {
 
   void add(const ShardInfo& shard) {
     const StudyFile file(shard.path, Require::any_part);
-    const auto moves = static_cast<std::size_t>(study_.moves);
     const std::vector<MoveOutcome> outcomes = file.outcomes(file.rows());
     for (std::int64_t i = 0; i < file.rows().count; ++i) {
       const auto first = outcomes.begin() + i * study_.moves;
-      const bool success = std::all_of(first, first + static_cast<std::ptrdiff_t>(moves),
-                                       [](const auto& move) { return move.outcome == Outcome::zero_count; });
-      if (success) count(file.rows().first + i);
+      if (succeeded(std::span(first, first + study_.moves))) count(file.rows().first + i);
     }
   }
 

@@ -12,26 +12,7 @@ namespace {
 
 /// As text or an attribute of XML; what XML cannot hold is replaced.
 std::string xml(std::string_view text) {
-  std::string escaped;
-  for (const char c : printable(text)) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
+  return escaped_markup(printable(text));
 }
 
 /// What the case holds beside its name.

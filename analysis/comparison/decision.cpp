@@ -4,10 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include <boost/math/distributions/normal.hpp>
-
 #include "analysis/comparison/false_discovery.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/statistics/normal.hpp"
 
 namespace zerocount {
 namespace {
@@ -15,10 +14,6 @@ namespace {
 /// Probability with which the number of trials that would decide does decide.
 constexpr double planned_power = 0.8;
 constexpr double most_trials = 1e9;
-
-double normal_quantile(double probability) {
-  return boost::math::quantile(boost::math::normal_distribution<double>(), probability);
-}
 
 std::vector<MeasureComparison*> tested_measures(std::span<PointComparison> points) {
   std::vector<MeasureComparison*> tested;

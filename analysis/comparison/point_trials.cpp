@@ -12,10 +12,10 @@ PointTrials gather_trials(std::span<const MoveOutcome> outcomes, std::int64_t mo
   result.trials = std::ssize(outcomes) / moves;
   result.moves = moves;
   for (auto move = outcomes.begin(); move != outcomes.end(); move += moves) {
-    const auto all = [&](auto quality) { return std::all_of(move, move + moves, quality); };
-    result.zero_count.push_back(all([](const MoveOutcome& m) { return m.outcome == Outcome::zero_count; }));
-    result.arrived.push_back(all([](const MoveOutcome& m) { return m.arrived; }));
-    result.stable.push_back(all([](const MoveOutcome& m) { return m.stable; }));
+    const std::span<const MoveOutcome> trial(move, move + moves);
+    result.zero_count.push_back(succeeded(trial));
+    result.arrived.push_back(has_arrived(trial));
+    result.stable.push_back(was_stable(trial));
     double jerks = 0.0;
     for (auto one = move; one != move + moves; ++one) {
       result.settling_time.push_back(one->arrived ? one->settling_time

@@ -6,17 +6,13 @@
 #include <cstdint>
 #include <vector>
 
-#include <boost/math/distributions/normal.hpp>
+#include "analysis/statistics/normal.hpp"
 
 namespace zerocount {
 namespace {
 
 constexpr std::size_t most_exact_ranks = 200;
 constexpr std::int64_t most_exact_lattice = 4'000'000;
-
-double upper_normal(double z) {
-  return boost::math::cdf(boost::math::complement(boost::math::normal_distribution<double>(), z));
-}
 
 /// Twice the mean ranks of the sizes of these differences, which are whole.
 struct DoubledRanks {
@@ -68,7 +64,7 @@ double normal_tail(const DoubledRanks& doubled) {
     mean += 0.5 * static_cast<double>(rank);
     variance += 0.25 * static_cast<double>(rank) * static_cast<double>(rank);
   }
-  return upper_normal((static_cast<double>(doubled.positive) - mean - 1.0) / std::sqrt(variance));
+  return normal_upper_tail((static_cast<double>(doubled.positive) - mean - 1.0) / std::sqrt(variance));
 }
 
 /// How the pooled samples rise: the sizes of the groups of equal values, as where they end, and the largest

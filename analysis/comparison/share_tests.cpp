@@ -7,15 +7,12 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/complement.hpp>
 #include <boost/math/distributions/hypergeometric.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <boost/math/tools/roots.hpp>
+
+#include "analysis/statistics/normal.hpp"
 
 namespace zerocount {
 namespace {
-
-double normal_quantile(double probability) {
-  return boost::math::quantile(boost::math::normal_distribution<double>(), probability);
-}
 
 /// Tango's statistic Z(λ).
 double score(const PairedFailures& failures, double difference) {

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "analysis/identification/record_parts.hpp"
+#include "analysis/statistics/median.hpp"
 #include "core/failure.hpp"
 
 namespace zerocount {
@@ -49,9 +51,7 @@ double travel(const TestRecord& record) {
 double usual_interval(const std::vector<double>& time) {
   std::vector<double> over_two;
   for (std::size_t k = 2; k < time.size(); ++k) over_two.push_back(0.5 * (time[k] - time[k - 2]));
-  const auto middle = over_two.begin() + static_cast<std::ptrdiff_t>(over_two.size() / 2);
-  std::nth_element(over_two.begin(), middle, over_two.end());
-  return *middle;
+  return upper_median(std::move(over_two));
 }
 
 void check_gaps(const RawSeries& series) {

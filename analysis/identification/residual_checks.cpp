@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/statistics/median.hpp"
+
 namespace zerocount {
 namespace {
 
@@ -63,13 +65,11 @@ std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::Ve
     const double left = record.reading[k] - path[static_cast<Eigen::Index>(k)];
     off[k] = record.counted ? std::max(std::abs(left + 0.5) - 0.5, 0.0) : std::abs(left);
   }
-  std::vector<double> sorted = off;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(samples / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
   constexpr double deviations = 12.0;
   constexpr double deviation_over_median = 1.4826;  // of a normal distribution
   constexpr double arithmetic = 1e-3;
-  const double least = (record.counted ? 1.5 : arithmetic) + deviations * deviation_over_median * *middle;
+  const double least =
+      (record.counted ? 1.5 : arithmetic) + deviations * deviation_over_median * upper_median(off);
   constexpr std::size_t near = 3;
   constexpr std::size_t far = 6;
   for (std::size_t k = far; k + far < samples; ++k) {

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "analysis/identification/starting_point.hpp"
+#include "analysis/statistics/median.hpp"
 
 namespace zerocount {
 namespace {
@@ -60,12 +61,6 @@ double softening_travel(const Chord& chord, const Line& line, double share, doub
   return least;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Where there is no slow branch to look at: the softest of the steps, and otherwise the largest torque over
 /// the largest angle, with a guess of how the spring softens.
 SpringEstimate secant_estimate(std::span<const TestRecord> records, std::span<const RecordParts> parts) {
@@ -118,9 +113,9 @@ SpringEstimate estimate_spring(std::span<const TestRecord> records, std::span<co
   }
   if (slopes.empty()) return secant_estimate(records, parts);
   SpringEstimate estimate;
-  estimate.k1 = median(slopes);
-  estimate.offset = offsets.empty() ? 0.01 * estimate.k1 * records[0].unit : median(offsets);
-  estimate.beta = rates.empty() ? 1.0 / records[0].unit : median(rates);
+  estimate.k1 = upper_median(slopes);
+  estimate.offset = offsets.empty() ? 0.01 * estimate.k1 * records[0].unit : upper_median(offsets);
+  estimate.beta = rates.empty() ? 1.0 / records[0].unit : upper_median(rates);
   return estimate;
 }
 

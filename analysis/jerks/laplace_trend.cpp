@@ -3,9 +3,8 @@
 #include <cmath>
 #include <numeric>
 
-#include <boost/math/distributions/normal.hpp>
-
 #include "analysis/proportion.hpp"
+#include "analysis/statistics/normal.hpp"
 
 namespace zerocount {
 
@@ -23,7 +22,7 @@ double laplace_score(const LaplaceTerm& term) {
 
 LaplaceSum::LaplaceSum(double confidence) {
   require_confidence(confidence);
-  critical_ = boost::math::quantile(boost::math::normal_distribution<double>(), confidence);
+  critical_ = normal_quantile(confidence);
 }
 
 void LaplaceSum::add(const LaplaceTerm& term) {
@@ -44,7 +43,7 @@ LaplaceSummary LaplaceSum::summary() const {
   if (result.moves == 0) return result;
   result.summed = excess_ / std::sqrt(variance_);
   result.stouffer = scores_ / std::sqrt(static_cast<double>(result.moves));
-  result.p_slowing = boost::math::cdf(boost::math::normal_distribution<double>(), result.summed);
+  result.p_slowing = normal_upper_tail(-result.summed);
   return result;
 }
 

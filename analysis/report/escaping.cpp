@@ -29,29 +29,7 @@ std::string cleaned(std::string_view text) {
 }  // namespace
 
 std::string html_text(std::string_view text) {
-  std::string escaped;
-  for (const char letter : cleaned(text)) {
-    switch (letter) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += letter;
-    }
-  }
-  return escaped;
+  return escaped_markup(cleaned(text));
 }
 
 std::string html_prose(std::string_view text) {

@@ -108,7 +108,7 @@ struct Sectors {
   void add(const EndOnRotor& end) {
     const auto sector = static_cast<std::size_t>(end.angle / period * static_cast<double>(trials.size()));
     ++trials[std::min(sector, trials.size() - 1)];
-    successes[std::min(sector, trials.size() - 1)] += end.outcome == Outcome::zero_count;
+    successes[std::min(sector, trials.size() - 1)] += is_success(end.outcome);
   }
 };
 
@@ -175,7 +175,7 @@ Figure rotor_figure(const ReportedStudy& reported, const StoredProfile& stored, 
   std::vector<EndOnRotor> failures;
   visit_ends(reported, shown, column, [&](const EndOnRotor& end) {
     sectors.add(end);
-    if (end.outcome != Outcome::zero_count) failures.push_back(end);
+    if (!is_success(end.outcome)) failures.push_back(end);
   });
   FigureData trials{"trials",
                     {{"trial", "trial of the point", "1"},

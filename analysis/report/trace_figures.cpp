@@ -54,7 +54,7 @@ RowsOfPoint rows_to_show(const ReportedStudy& reported) {
                    worst = rank;
                    rows.worst = row;
                  }
-                 const bool failed = rank.outcome != Outcome::zero_count;
+                 const bool failed = !is_success(rank.outcome);
                  if (failed && rows.first_failure < 0) rows.first_failure = row;
                  const bool typical = std::any_of(moves.begin(), moves.end(), [&](const MoveOutcome& move) {
                    return move.arrived && move.settling_time == median;
@@ -89,7 +89,7 @@ std::int64_t first_failure_of_study(const ReportedStudy& reported) {
     if (summary.outcomes.zero_count == summary.trials) continue;
     visit_trials(reported.file, rows_of(reported, static_cast<std::int64_t>(point)),
                  [&](std::int64_t row, std::span<const MoveOutcome> moves) {
-                   if (first < 0 && worst_outcome(moves) != Outcome::zero_count) first = row;
+                   if (first < 0 && !succeeded(moves)) first = row;
                  });
   }
   return first;

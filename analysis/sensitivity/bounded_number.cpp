@@ -3,11 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/normal.hpp>
-#include <fmt/format.h>
-
-#include "core/failure.hpp"
-
 namespace zerocount {
 
 BoundedNumber held_share(BoundedNumber number) {
@@ -18,14 +13,6 @@ BoundedNumber held_share(BoundedNumber number) {
   if (number.value < 0.0) number.high -= number.value;
   return {std::clamp(number.value, 0.0, 1.0), std::clamp(number.low, 0.0, 1.0),
           std::clamp(number.high, 0.0, 1.0)};
-}
-
-double two_sided_normal_quantile(double confidence) {
-  if (!(confidence > 0.0 && confidence < 1.0)) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("a confidence of {}; expected one between 0 and 1", confidence));
-  }
-  return boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
 }
 
 }  // namespace zerocount

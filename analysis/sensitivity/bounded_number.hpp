@@ -22,8 +22,4 @@ inline bool excludes_zero(const BoundedNumber& number) {
 /// given.
 BoundedNumber held_share(BoundedNumber number);
 
-/// Quantile of the standard normal at (1 + confidence)/2.
-/// @throws Failure (bad_input) for a confidence outside (0, 1).
-double two_sided_normal_quantile(double confidence);
-
 }  // namespace zerocount

@@ -10,6 +10,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "analysis/sensitivity/rank_correlation.hpp"
+#include "analysis/statistics/normal.hpp"
 
 namespace zerocount {
 namespace {

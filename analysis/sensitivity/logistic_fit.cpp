@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "analysis/sensitivity/factor_matrix.hpp"
+#include "analysis/statistics/normal.hpp"
 
 namespace zerocount {
 namespace {

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <numeric>
 
+#include "analysis/statistics/normal.hpp"
+
 namespace zerocount {
 namespace {
 

@@ -44,15 +44,15 @@ bool is_judged(const MoveOutcome& move) {
 
 double success(Moves moves) {
   if (!all_of(moves, is_judged)) return none;
-  return all_of(moves, [](const MoveOutcome& m) { return m.outcome == Outcome::zero_count; }) ? 1.0 : 0.0;
+  return succeeded(moves) ? 1.0 : 0.0;
 }
 double arrived(Moves moves) {
   if (!all_of(moves, is_judged)) return none;
-  return all_of(moves, [](const MoveOutcome& m) { return m.arrived; }) ? 1.0 : 0.0;
+  return has_arrived(moves) ? 1.0 : 0.0;
 }
 double stable(Moves moves) {
   if (!all_of(moves, is_judged)) return none;
-  return all_of(moves, [](const MoveOutcome& m) { return m.stable; }) ? 1.0 : 0.0;
+  return was_stable(moves) ? 1.0 : 0.0;
 }
 double broke_away(Moves moves) {
   return all_of(moves, [](const MoveOutcome& m) { return !m.broke_away; }) ? 0.0 : 1.0;

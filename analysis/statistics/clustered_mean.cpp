@@ -6,10 +6,10 @@
 #include <limits>
 #include <numeric>
 
-#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "analysis/jerks/poisson_bounds.hpp"
+#include "analysis/statistics/normal.hpp"
 
 namespace zerocount {
 namespace {
@@ -158,9 +158,7 @@ ConfidenceInterval clustered_count_bounds(const ClusterTotals& totals, const Ran
   }
   if (clusters < 2.0) return {unknown_bound, unknown_bound};
   const Estimate estimate = estimate_of(totals, std::vector<std::int32_t>(totals.sums.size(), 1), clusters);
-  const boost::math::normal_distribution<double> normal;
-  const double shorter =
-      boost::math::quantile(normal, 0.5 * (1.0 + confidence)) / student_limit(clusters - 1.0, confidence);
+  const double shorter = two_sided_normal_quantile(confidence) / student_limit(clusters - 1.0, confidence);
   const double events = count / overdispersion(totals, estimate) * shorter * shorter;
   const ConfidenceInterval bounds = poisson_bounds(events, confidence);
   const double scale = estimate.mean / events;

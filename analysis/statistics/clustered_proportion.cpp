@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/beta.hpp>
+
+#include "analysis/statistics/normal.hpp"
 
 namespace zerocount {
 namespace {
@@ -42,8 +43,7 @@ double upper_bound(double proportion, double events, double tail) {
 }
 
 ConfidenceInterval wilson_bounds(double p, double events, double tail) {
-  const double z =
-      boost::math::quantile(boost::math::complement(boost::math::normal_distribution<double>(), tail));
+  const double z = -normal_quantile(tail);
   const double scale = 1.0 + z * z / events;
   const double centre = (p + z * z / (2.0 * events)) / scale;
   const double half_width = z * std::sqrt(p * (1.0 - p) / events + z * z / (4.0 * events * events)) / scale;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -108,6 +109,25 @@ inline Outcome worst_outcome(std::span<const MoveOutcome> moves) {
     if (severity(move.outcome) > severity(worst)) worst = move.outcome;
   }
   return worst;
+}
+
+/// Whether a move succeeded, or a trial with this worst outcome: it ended with a zero count.
+constexpr bool is_success(Outcome outcome) {
+  return outcome == Outcome::zero_count;
+}
+
+/// Whether a trial succeeded: all of its moves did.
+inline bool succeeded(std::span<const MoveOutcome> moves) {
+  return std::all_of(moves.begin(), moves.end(),
+                     [](const MoveOutcome& move) { return is_success(move.outcome); });
+}
+
+/// Whether a trial was stable, or arrived: all of its moves were, or did.
+inline bool was_stable(std::span<const MoveOutcome> moves) {
+  return std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& move) { return move.stable; });
+}
+inline bool has_arrived(std::span<const MoveOutcome> moves) {
+  return std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& move) { return move.arrived; });
 }
 
 }  // namespace zerocount

@@ -22,7 +22,7 @@ Table verdict_table() {
 
 bool succeeded(Flags::const_iterator moves, std::int64_t count) {
   return std::all_of(moves, moves + count,
-                     [](std::int8_t move) { return move == static_cast<std::int8_t>(Outcome::zero_count); });
+                     [](std::int8_t move) { return is_success(static_cast<Outcome>(move)); });
 }
 
 }  // namespace

@@ -251,12 +251,5 @@ TEST(LogisticFit, NeedsBothAnswersAndEnoughOfThem) {
   EXPECT_EQ(fit_of({1, 2, 3, 4}, {0, 1, 0, 1}).status, LogisticFit::Status::too_few);
 }
 
-TEST(TwoSidedNormalQuantile, RefusesWhatIsNoConfidence) {
-  EXPECT_NEAR(two_sided_normal_quantile(0.95), 1.959963984540054, 1e-14);
-  for (const double confidence : {0.0, 1.0, -0.1, std::nan("")}) {
-    EXPECT_THROW(two_sided_normal_quantile(confidence), Failure);
-  }
-}
-
 }  // namespace
 }  // namespace zerocount

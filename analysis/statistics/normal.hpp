@@ -1,0 +1,16 @@
+#pragma once
+
+/// The standard normal distribution.
+namespace zerocount {
+
+/// Quantile at the probability p in (0, 1).
+double normal_quantile(double p);
+
+/// P(Z > z).
+double normal_upper_tail(double z);
+
+/// Quantile at (1 + confidence)/2: ± this holds with the confidence.
+/// @throws Failure (bad_input) for a confidence outside (0, 1).
+double two_sided_normal_quantile(double confidence);
+
+}  // namespace zerocount

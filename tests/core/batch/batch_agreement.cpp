@@ -4,15 +4,21 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <variant>
 
 #include <fmt/core.h>
 
+#include "results/layout/layout.hpp"
 #include "tests/core/batch/reversal_depths.hpp"
 
 namespace zerocount::testing {
 namespace {
 
 constexpr double accuracy = 1e-6;  // counts, before a slide
+
+double value_of(const RecordField<MoveOutcome>& field, const MoveOutcome& move) {
+  return std::visit([&move](auto member) { return static_cast<double>(move.*member); }, field.member);
+}
 
 /// What the comparison of one trial has found so far.
 class Comparison {
@@ -115,43 +121,20 @@ void Comparison::compare_after_slide(const SampleRecord& a, const BatchSample& b
   result_.share_after = std::max(result_.share_after, difference / allowed());
 }
 
+/// Every measure of the table is the same, but for positions, which agree to the accuracy of θ, and the
+/// depth, which has a rule of its own.
 void Comparison::compare_move(std::size_t number, const MoveOutcome& a, const MoveOutcome& b) {
   std::string text;
-  const auto same = [&text](const char* name, double x, double y) {
-    if (x != y && !(std::isnan(x) && std::isnan(y))) text += fmt::format(" {} {} and {}", name, x, y);
-  };
-  same("outcome", static_cast<double>(a.outcome), static_cast<double>(b.outcome));
-  same("arrived", a.arrived, b.arrived);
-  same("stable", a.stable, b.stable);
-  same("broke_away", a.broke_away, b.broke_away);
-  same("saturated", a.saturated, b.saturated);
-  same("stopped", a.stopped, b.stopped);
-  same("arrival", static_cast<double>(a.arrival), static_cast<double>(b.arrival));
-  same("settling_time", a.settling_time, b.settling_time);
-  same("final_settling_time", a.final_settling_time, b.final_settling_time);
-  same("zero_fraction", a.zero_fraction, b.zero_fraction);
-  same("oscillation_amplitude", a.oscillation_amplitude, b.oscillation_amplitude);
-  same("oscillation_period", a.oscillation_period, b.oscillation_period);
-  same("midway_error", static_cast<double>(a.midway_error), static_cast<double>(b.midway_error));
-  same("travel_time", a.travel_time, b.travel_time);
-  same("overshoot", static_cast<double>(a.overshoot), static_cast<double>(b.overshoot));
-  same("final_error", static_cast<double>(a.final_error), static_cast<double>(b.final_error));
-  same("holding_torque", a.holding_torque, b.holding_torque);
-  same("peak_torque", a.peak_torque, b.peak_torque);
-  same("phase_changes", static_cast<double>(a.phase_changes), static_cast<double>(b.phase_changes));
-  same("encoder_disagreement", static_cast<double>(a.encoder_disagreement),
-       static_cast<double>(b.encoder_disagreement));
-  same("jerk_count", static_cast<double>(a.jerk_count), static_cast<double>(b.jerk_count));
-  same("jerk_agreement", a.jerk_agreement, b.jerk_agreement);
-  const auto near = [&](const char* name, double x, double y) {  // counts
-    if (std::isnan(x) && std::isnan(y)) return;
-    const double difference = std::abs(x - y);
-    if (!(difference < allowed())) text += fmt::format(" {} {} count and {}", name, x, y);
-    if (!slid_) result_.floating = std::max(result_.floating, difference);
-  };
-  near("final_position", a.final_position / resolution_, b.final_position / resolution_);
-  near("creep", a.creep / resolution_, b.creep / resolution_);
-  near("true_error", a.true_error, b.true_error);
+  for (const RecordField<MoveOutcome>& field : outcome_fields(format_version, {.stopped = true})) {
+    const std::string& name = field.column.name;
+    const double x = value_of(field, a);
+    const double y = value_of(field, b);
+    if (name == "reversal_depth" || x == y || (std::isnan(x) && std::isnan(y))) continue;
+    const bool is_position = field.column.unit == "rad" || name == "true_error";
+    const double difference = std::abs(x - y) / (field.column.unit == "rad" ? resolution_ : 1.0);  // counts
+    if (!is_position || !(difference < allowed())) text += fmt::format(" {} {} and {}", name, x, y);
+    if (is_position && !slid_) result_.floating = std::max(result_.floating, difference);
+  }
   if (!text.empty()) {
     fail(&BatchAgreement::other_measures, fmt::format("move {}:{}", number, text));
   } else if (a.reversal_depth != b.reversal_depth && result_.depth_by_steps == 0) {

@@ -8,47 +8,47 @@ std::vector<Parameter> command_rows() {
       .low = -largest_count, .high = largest_count, .low_included = true, .high_included = true};
   return {
       list_of(whole_row("command.targets", "count", "target of each move, from the start of the trial",
-                        required, targets, first_sobol_dimension_of_moves)),
+                        required, targets)),
 
       list_of(real_row("command.torque.levels", "N m", "open loop: torque that each move goes to and holds",
-                       required, all_numbers(), first_sobol_dimension_of_moves)),
+                       required, all_numbers())),
       stored_at(
           real_row("command.torque.rate", "N m/s", "rate at which the torque goes from level to level",
-                   assumed, above(0), 56),
+                   assumed, above(0)),
           [](auto& p) -> auto& { return p.command.torque.rate; }),
       stored_at(
           word_row("command.torque.through",
                    "whether the torque is rounded by the converter, with its errors, or as commanded",
-                   assumed, {"dac", "exact"}, first_sobol_dimension_beyond_moves + 3),
+                   assumed, {"dac", "exact"}),
           [](auto& p) -> auto& { return p.command.torque.through; }),
 
       list_of(whole_row("command.sequence.targets", "count",
                         "targets of a sequence in ascending order, from the start of the trial", required,
-                        targets, first_sobol_dimension_of_moves)),
+                        targets)),
       whole_row("command.sequence.overrun", "count",
                 "how far beyond the first and the last target a sequence turns round", required,
-                closed(1, largest_count), 57),
+                closed(1, largest_count)),
 
       stored_at(
           real_row("command.hold", "s",
                    "time for which each target is held, or each torque level once it is reached", assumed,
-                   above(0), 26),
+                   above(0)),
           [](auto& p) -> auto& { return p.command.hold; }),
       stored_at(
           word_row("command.profile.shape", "how the reference goes to the next target", assumed,
-                   {"step", "trapezoidal", "s_curve"}, first_sobol_dimension_beyond_moves + 4),
+                   {"step", "trapezoidal", "s_curve"}),
           [](auto& p) -> auto& { return p.command.profile.shape; }),
       stored_at(
           real_row("command.profile.velocity_limit", "rad/s", "limit of the reference's velocity", assumed,
-                   above(0), 53),
+                   above(0)),
           [](auto& p) -> auto& { return p.command.profile.velocity_limit; }),
       stored_at(
           real_row("command.profile.acceleration_limit", "rad/s^2", "limit of the reference's acceleration",
-                   assumed, above(0), 54),
+                   assumed, above(0)),
           [](auto& p) -> auto& { return p.command.profile.acceleration_limit; }),
       stored_at(
           real_row("command.profile.jerk_limit", "rad/s^3",
-                   "limit of the rate of the reference's acceleration, with s_curve", assumed, above(0), 55),
+                   "limit of the rate of the reference's acceleration, with s_curve", assumed, above(0)),
           [](auto& p) -> auto& { return p.command.profile.jerk_limit; }),
   };
 }

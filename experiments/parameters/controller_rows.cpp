@@ -5,75 +5,72 @@ std::vector<Parameter> controller_rows() {
   constexpr std::string_view integral_alone = "paper, section 4 (integral control alone)";
   return {
       stored_at(
-          real_row("controller.sample_rate", "Hz", "sampling rate of the loop", "paper, section 4", above(0),
-                   20),
+          real_row("controller.sample_rate", "Hz", "sampling rate of the loop", "paper, section 4", above(0)),
           [](auto& p) -> auto& { return p.controller.sample_rate; }),
       stored_at(
-          in_si(
-              real_row("controller.kp", "N m/count", "proportional gain", integral_alone, closed(0, 1e6), 21),
-              "N m/rad", "proportional gain"),
+          in_si(real_row("controller.kp", "N m/count", "proportional gain", integral_alone, closed(0, 1e6)),
+                "N m/rad", "proportional gain"),
           [](auto& p) -> auto& { return p.controller.kp; }),
       stored_at(
           in_si(real_row("controller.ki", "N m/count", "integral gain k_ID of the trapezoidal rule",
-                         "paper, section 4 (a)", closed(0, 1e6), 22),
+                         "paper, section 4 (a)", closed(0, 1e6)),
                 "N m/(rad s)", "integral gain"),
           [](auto& p) -> auto& { return p.controller.ki; }),
       stored_at(
           in_si(real_row("controller.kd", "N m/count", "gain on the difference of successive counts",
-                         integral_alone, closed(0, 1e6), 23),
+                         integral_alone, closed(0, 1e6)),
                 "N m s/rad", "derivative gain"),
           [](auto& p) -> auto& { return p.controller.kd; }),
       stored_at(
           whole_row("controller.delay", "sample", "samples between deciding a torque and applying it",
-                    assumed, closed(0, 100), 24),
+                    assumed, closed(0, 100)),
           [](auto& p) -> auto& { return p.controller.delay; }),
       stored_at(
           word_row("controller.anti_windup", "what keeps the integral inside the converter's range", assumed,
-                   {"clamp", "none"}, 25),
+                   {"clamp", "none"}),
           [](auto& p) -> auto& { return p.controller.anti_windup; }),
       stored_at(
           word_row("controller.encoder", "encoder that closes the loop; with a coarse phase, in the fine one",
-                   "paper, section 4", {"fine", "coarse"}, first_sobol_dimension_beyond_moves + 1),
+                   "paper, section 4", {"fine", "coarse"}),
           [](auto& p) -> auto& { return p.controller.encoder; }),
 
       stored_at(
           in_si(real_row("controller.coarse.kp", "N m/count", "proportional gain of the coarse phase",
-                         assumed, closed(0, 1e6), 46),
+                         assumed, closed(0, 1e6)),
                 "N m/rad", "proportional gain of the coarse phase"),
           [](auto& p) -> auto& { return p.controller.coarse.kp; }),
       stored_at(
           in_si(real_row("controller.coarse.ki", "N m/count", "integral gain of the coarse phase", assumed,
-                         closed(0, 1e6), 47),
+                         closed(0, 1e6)),
                 "N m/(rad s)", "integral gain of the coarse phase"),
           [](auto& p) -> auto& { return p.controller.coarse.ki; }),
       stored_at(
           in_si(real_row("controller.coarse.kd", "N m/count",
                          "gain of the coarse phase on the difference of successive counts", assumed,
-                         closed(0, 1e6), 48),
+                         closed(0, 1e6)),
                 "N m s/rad", "derivative gain of the coarse phase"),
           [](auto& p) -> auto& { return p.controller.coarse.kd; }),
       stored_at(
           word_row("controller.coarse.encoder", "encoder that closes the loop in the coarse phase", assumed,
-                   {"fine", "coarse"}, first_sobol_dimension_beyond_moves + 2),
+                   {"fine", "coarse"}),
           [](auto& p) -> auto& { return p.controller.coarse.encoder; }),
       stored_at(
           real_row("controller.coarse.fine_within", "count",
-                   "largest |error| with which the fine phase is entered", assumed, closed(0, largest_count),
-                   49),
+                   "largest |error| with which the fine phase is entered", assumed, closed(0, largest_count)),
           [](auto& p) -> auto& { return p.controller.coarse.fine_within; }),
       stored_at(
           real_row("controller.coarse.fine_rate", "count/sample",
                    "largest change of the count per sample with which the fine phase is entered", assumed,
-                   at_least(0), 50),
+                   at_least(0)),
           [](auto& p) -> auto& { return p.controller.coarse.fine_rate; }),
       stored_at(
           real_row("controller.coarse.fine_dwell", "s", "time for which both must have held", assumed,
-                   at_least(0), 51),
+                   at_least(0)),
           [](auto& p) -> auto& { return p.controller.coarse.fine_dwell; }),
       stored_at(
           real_row("controller.coarse.coarse_beyond", "count",
                    "|error| beyond which the coarse phase is entered; 1e12: there is none", assumed,
-                   closed(0, largest_count), 52),
+                   closed(0, largest_count)),
           [](auto& p) -> auto& { return p.controller.coarse.coarse_beyond; }),
   };
 }

@@ -9,9 +9,8 @@
 
 namespace zerocount {
 
-// The rows of the table of parameters, section by section. A new row of numbers takes the next free Sobol
-// dimension, those beyond the moves'. A word is never drawn: a new one takes its dimension beyond
-// the moves', the next of which is 9 more than the first.
+// The rows of the table of parameters, section by section. A new row also goes to the end of the
+// order in which parameters have Sobol dimensions (sobol_order.cpp).
 
 std::vector<Parameter> plant_rows();
 std::vector<Parameter> friction_rows();
@@ -30,27 +29,26 @@ constexpr double largest_count = 1e12;
 
 /// A row of real numbers.
 inline Parameter real_row(std::string_view name, std::string_view unit, std::string_view meaning,
-                          std::string_view source, const Interval& range, std::size_t sobol_dimension) {
-  return {name, unit, meaning, source, ParameterKind::real, range, {}, sobol_dimension};
+                          std::string_view source, const Interval& range) {
+  return {name, unit, meaning, source, ParameterKind::real, range, {}};
 }
 
 /// A row of whole numbers.
 inline Parameter whole_row(std::string_view name, std::string_view unit, std::string_view meaning,
-                           std::string_view source, const Interval& range, std::size_t sobol_dimension) {
-  return {name, unit, meaning, source, ParameterKind::whole_number, range, {}, sobol_dimension};
+                           std::string_view source, const Interval& range) {
+  return {name, unit, meaning, source, ParameterKind::whole_number, range, {}};
 }
 
 /// A row of words, in the order of the enumeration's values.
 inline Parameter word_row(std::string_view name, std::string_view meaning, std::string_view source,
-                          std::vector<std::string_view> words, std::size_t sobol_dimension) {
+                          std::vector<std::string_view> words) {
   const Interval range = closed(0, static_cast<double>(words.size() - 1));
-  return {name, "1", meaning, source, ParameterKind::enumeration, range, std::move(words), sobol_dimension};
+  return {name, "1", meaning, source, ParameterKind::enumeration, range, std::move(words)};
 }
 
 /// A row of `true` or `false`.
-inline Parameter truth_row(std::string_view name, std::string_view meaning, std::string_view source,
-                           std::size_t sobol_dimension) {
-  return {name, "1", meaning, source, ParameterKind::truth, closed(0, 1), {"false", "true"}, sobol_dimension};
+inline Parameter truth_row(std::string_view name, std::string_view meaning, std::string_view source) {
+  return {name, "1", meaning, source, ParameterKind::truth, closed(0, 1), {"false", "true"}};
 }
 
 /// Completes a row with the way to and from the trial's parameters: `At` returns a reference to the field.

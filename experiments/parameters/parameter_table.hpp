@@ -25,7 +25,7 @@ struct Parameter {
   ParameterKind kind{ParameterKind::real};
   Interval range;                       ///< of the values allowed
   std::vector<std::string_view> words;  ///< of an enumeration or a truth value, in the order of its numbers
-  std::size_t sobol_dimension{0};       ///< fixed for ever, so that a new row changes no other's draws
+  std::size_t sobol_dimension{0};       ///< by sobol_order.hpp; of a list, that of its first value
   double FrictionParameters::*profiled{nullptr};  ///< where a profile goes; null where none is allowed
   std::string_view si_unit{};         ///< of a gain with controller.units: si; empty for other parameters
   std::string_view si_meaning{};      ///< likewise

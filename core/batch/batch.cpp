@@ -3,17 +3,17 @@
 #include "core/batch/lane_work.hpp"
 #include "core/loop/controller.hpp"
 #include "core/loop/dac.hpp"
+#include "core/loop/measurement.hpp"
 
 namespace zerocount {
 namespace {
 
 constexpr int longest_delay = 64;
 
-bool ideal(const EncoderErrors& e) {
-  return e.eccentricity == 0.0 && e.interpolation == 0.0 && e.noise == 0.0 && e.missed == 0.0;
-}
+// What lanes can run, as lists of what they know. Each enumeration has all of its words here, and each
+// structure all of its members: the compiler refuses one that is added later until it is decided here.
 
-bool lanes_have(FrictionModel model) {
+bool lanes_know(FrictionModel model) {
   switch (model) {
     case FrictionModel::presliding:
     case FrictionModel::spring:
@@ -25,16 +25,51 @@ bool lanes_have(FrictionModel model) {
   return false;
 }
 
+bool lanes_know(ReferenceShape shape) {
+  switch (shape) {
+    case ReferenceShape::step:
+      return true;
+    case ReferenceShape::trapezoidal:
+    case ReferenceShape::s_curve:
+      break;
+  }
+  return false;
+}
+
+bool lanes_know(EncoderChoice encoder) {
+  switch (encoder) {
+    case EncoderChoice::fine:
+      return true;
+    case EncoderChoice::coarse:
+      break;
+  }
+  return false;
+}
+
+bool lanes_know(const AmplifierParameters& amplifier) {
+  const auto& [bandwidth] = amplifier;
+  return bandwidth == 0.0;
+}
+
+bool lanes_know(const ControllerParameters& controller) {
+  const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse] = controller;
+  return delay <= longest_delay && lanes_know(encoder) && !has_coarse_phase(controller);
+}
+
+bool lanes_know(const CommandParameters& command) {
+  const auto& [targets, hold, profile, torque] = command;
+  return !targets.empty() && lanes_know(profile.shape) && torque.levels.empty();
+}
+
 }  // namespace
 
 bool runs_in_lanes(const TrialParameters& p) {
-  const bool plain_loop = p.command.torque.levels.empty() && !p.command.targets.empty() &&
-                          p.command.profile.shape == ReferenceShape::step &&
-                          !has_coarse_phase(p.controller) && p.controller.encoder == EncoderChoice::fine &&
-                          p.controller.delay <= longest_delay;
-  const bool plain_devices = ideal(p.encoder.fine_errors) && ideal(p.encoder.coarse_errors) &&
-                             !has_errors(p.dac) && p.amplifier.bandwidth == 0.0;
-  return plain_loop && plain_devices && lanes_have(p.friction.model) && samples_of_move(p, 0) > 0;
+  const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial, verdict, randomness] =
+      p;
+  [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping] = plant;
+  return lanes_know(friction.model) && !has_errors(encoder.fine_errors) &&
+         !has_errors(encoder.coarse_errors) && !has_errors(dac) && lanes_know(amplifier) &&
+         lanes_know(controller) && lanes_know(command) && samples_of_move(p, 0) > 0;
 }
 
 BatchEngine::BatchEngine(const BatchSettings& settings)

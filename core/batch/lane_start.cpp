@@ -21,9 +21,10 @@ void start_loop(LoopLanes& l, int lane, const TrialParameters& p) {
   l.kp[lane] = p.controller.kp;
   l.ki[lane] = p.controller.ki;
   l.kd[lane] = p.controller.kd;
-  const bool clamped = p.controller.anti_windup == AntiWindup::clamp;
-  l.lowest_integral[lane] = clamped ? lowest_torque(p.dac) : -infinity;
-  l.highest_integral[lane] = clamped ? highest_torque(p.dac) : infinity;
+  const TorqueRange range =
+      integral_range(p.controller.anti_windup, lowest_torque(p.dac), highest_torque(p.dac));
+  l.lowest_integral[lane] = range.lowest;
+  l.highest_integral[lane] = range.highest;
   l.dac_resolution[lane] = p.dac.resolution;
   l.lowest_code[lane] = static_cast<double>(lowest_code(p.dac));
   l.highest_code[lane] = static_cast<double>(highest_code(p.dac));

@@ -5,8 +5,6 @@
 namespace zerocount {
 namespace {
 
-constexpr double never = 1e12;  // counts: the value that says that there is no coarse phase
-
 PidGains fine_gains(const ControllerParameters& p) {
   return {p.kp, p.ki, has_coarse_phase(p) ? 0.0 : p.kd};
 }
@@ -15,16 +13,21 @@ PidGains coarse_gains(const ControllerParameters& p) {
   return {p.coarse.kp, p.coarse.ki, p.coarse.kd};
 }
 
-TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest) {
-  constexpr double unbounded = std::numeric_limits<double>::infinity();
-  if (anti_windup == AntiWindup::none) return {-unbounded, unbounded};
-  return {lowest, highest};
-}
-
 }  // namespace
 
+TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest) {
+  constexpr double unbounded = std::numeric_limits<double>::infinity();
+  switch (anti_windup) {
+    case AntiWindup::clamp:
+      return {lowest, highest};
+    case AntiWindup::none:
+      break;
+  }
+  return {-unbounded, unbounded};
+}
+
 bool has_coarse_phase(const ControllerParameters& parameters) {
-  return parameters.coarse.coarse_beyond < never;
+  return parameters.coarse.coarse_beyond < std::numeric_limits<double>::infinity();
 }
 
 Controller::Controller(const ControllerParameters& parameters, double fine_per_coarse, double integral,

@@ -9,8 +9,11 @@
 
 namespace zerocount {
 
-/// Whether the control has two phases: coarse_beyond is below 1e12 counts, which stands for never.
+/// Whether the control has two phases: whether any error is beyond coarse_beyond.
 bool has_coarse_phase(const ControllerParameters& parameters);
+
+/// What anti-windup clamps the integral to. @param lowest, highest the DAC's range, N m.
+TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest);
 
 /// The control of the count: one PID law, or one for each of two phases (PhaseSwitch), each fed back from its
 /// own encoder. Errors and counts are fine ones; a coarse encoder's count is taken times fine/coarse.

@@ -28,7 +28,8 @@ DacOutput convert(const DacParameters& dac, double torque) {
 }
 
 bool has_errors(const DacParameters& dac) {
-  return dac.offset != 0.0 || dac.gain_error != 0.0 || dac.nonlinearity != 0.0 || dac.noise != 0.0;
+  const auto& [bits, resolution, offset, gain_error, nonlinearity, noise] = dac;
+  return offset != 0.0 || gain_error != 0.0 || nonlinearity != 0.0 || noise != 0.0;
 }
 
 double torque_with_errors(const DacParameters& dac, std::int64_t code) {

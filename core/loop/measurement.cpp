@@ -13,12 +13,12 @@ namespace {
 /// Whole numbers of a double end here. Only absurd errors of an encoder come so far.
 constexpr double farthest_count = 0x1p52;
 
-bool has_errors(const EncoderErrors& errors) {
-  return errors.eccentricity != 0.0 || errors.interpolation != 0.0 || errors.noise != 0.0 ||
-         errors.missed != 0.0;
-}
-
 }  // namespace
+
+bool has_errors(const EncoderErrors& errors) {
+  const auto& [eccentricity, eccentricity_angle, interpolation, interpolation_period, noise, missed] = errors;
+  return eccentricity != 0.0 || interpolation != 0.0 || noise != 0.0 || missed != 0.0;
+}
 
 bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReading& reading) {
   const double ratio = fine.resolution / coarse.resolution;

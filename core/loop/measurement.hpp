@@ -9,6 +9,9 @@
 
 namespace zerocount {
 
+/// Whether the encoder reads anything else than an ideal one.
+bool has_errors(const EncoderErrors& errors);
+
 /// Whether the two counts are possible at one and the same rotor angle: whether two ideal encoders show them
 /// anywhere. In coarse counts, the fine count c stands for the range [(c − phase)·q + phase, that + q) with q
 /// the coarse counts in a fine one, and the coarse count n for [n, n + 1): they must overlap, and by more

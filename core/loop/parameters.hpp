@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <numbers>
 
 namespace zerocount {
@@ -64,10 +65,11 @@ struct CoarsePhaseParameters {
   double ki{2.0e-6};                           ///< of the trapezoidal rule, N m/count
   double kd{6.0e-3};                           ///< on the difference of successive counts, N m/count
   EncoderChoice encoder{EncoderChoice::fine};  ///< that closes the loop in the coarse phase
-  double fine_within{100.0};   ///< largest |error| with which the fine phase is entered, counts
-  double fine_rate{1.0};       ///< largest change of the count per sample with which it is entered, counts
-  double fine_dwell{0.01};     ///< time for which both must have held, s
-  double coarse_beyond{1e12};  ///< |error| beyond which the coarse phase is entered, counts; 1e12: never
+  double fine_within{100.0};  ///< largest |error| with which the fine phase is entered, counts
+  double fine_rate{1.0};      ///< largest change of the count per sample with which it is entered, counts
+  double fine_dwell{0.01};    ///< time for which both must have held, s
+  /// |error| beyond which the coarse phase is entered, counts; by default never.
+  double coarse_beyond{std::numeric_limits<double>::infinity()};
 };
 
 /// PID control of the count.

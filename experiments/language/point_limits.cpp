@@ -37,9 +37,9 @@ ValueLimits limits_of(const StudyPlan& plan, const Value& value) {
 }
 
 bool can_have_coarse_phase(const ValueLimits& coarse_beyond) {
-  ControllerParameters controller;
-  controller.coarse.coarse_beyond = coarse_beyond.low;
-  return has_coarse_phase(controller);
+  TrialParameters trial;
+  parameter_table()[find_parameter("controller.coarse.coarse_beyond").value()].set(trial, coarse_beyond.low);
+  return has_coarse_phase(trial.controller);
 }
 
 std::vector<std::size_t> slots_named(std::span<const std::string_view> names) {

@@ -67,7 +67,7 @@ std::vector<Parameter> controller_rows() {
           real_row("controller.coarse.fine_dwell", "s", "time for which both must have held", assumed,
                    at_least(0)),
           [](auto& p) -> auto& { return p.controller.coarse.fine_dwell; }),
-      stored_at(
+      or_never(
           real_row("controller.coarse.coarse_beyond", "count",
                    "|error| beyond which the coarse phase is entered; 1e12: there is none", assumed,
                    closed(0, largest_count)),

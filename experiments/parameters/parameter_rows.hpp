@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -58,6 +60,17 @@ Parameter stored_at(Parameter row, At) {
   row.set = [](TrialParameters& parameters, double value) {
     auto& field = At{}(parameters);
     field = static_cast<std::remove_reference_t<decltype(field)>>(value);
+  };
+  return row;
+}
+
+/// The same of a limit in counts, which no count exceeds where it is largest_count: in the trial's parameters
+/// that limit is infinite.
+template <class At>
+Parameter or_never(Parameter row, At) {
+  row.get = [](const TrialParameters& parameters) { return std::min(At{}(parameters), largest_count); };
+  row.set = [](TrialParameters& parameters, double value) {
+    At{}(parameters) = value < largest_count ? value : std::numeric_limits<double>::infinity();
   };
   return row;
 }

@@ -72,7 +72,7 @@ std::vector<ControlPhase> phases_by_the_rule(const ControllerParameters& p, cons
 /// The whole control by the rule: every torque from the whole time since the last change of the phase.
 Decisions decide_by_the_rule(const ControllerParameters& p, const Recording& r) {
   Decisions all;
-  const bool two_phases = p.coarse.coarse_beyond != 1e12;
+  const bool two_phases = std::isfinite(p.coarse.coarse_beyond);
   all.phases =
       two_phases ? phases_by_the_rule(p, r) : std::vector<ControlPhase>(r.samples(), ControlPhase::fine);
   std::size_t since = 0;

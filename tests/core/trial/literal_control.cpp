@@ -58,7 +58,7 @@ std::vector<ControlPhase> phases(const TrialParameters& p, const LiteralFeedback
 
 std::vector<LiteralDecision> literal_decisions(const TrialParameters& p, const Samples& samples) {
   const ControllerParameters& c = p.controller;
-  const bool two_phases = c.coarse.coarse_beyond < 1e12;
+  const bool two_phases = std::isfinite(c.coarse.coarse_beyond);
   const LiteralFeedback fine = feedback_by(c.encoder, p, samples);
   const LiteralFeedback coarse = feedback_by(c.coarse.encoder, p, samples);
   const std::vector<ControlPhase> phase =

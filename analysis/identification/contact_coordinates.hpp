@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/friction/parameters.hpp"
-#include "core/plant/parameters.hpp"
+#include "core/motion/parameters.hpp"
 
 namespace zerocount {
 

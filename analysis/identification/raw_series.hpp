@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/identification/test_record.hpp"
-#include "core/plant/plant_start.hpp"
+#include "core/motion/plant_start.hpp"
 
 namespace zerocount {
 

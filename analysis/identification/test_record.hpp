@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/plant/plant_start.hpp"
-#include "core/plant/torque_course.hpp"
+#include "core/motion/plant_start.hpp"
+#include "core/motion/torque_course.hpp"
 
 namespace zerocount {
 

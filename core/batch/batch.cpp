@@ -1,6 +1,7 @@
 #include "core/batch/batch.hpp"
 
 #include "core/batch/lane_work.hpp"
+#include "core/friction/law.hpp"
 #include "core/loop/controller.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/measurement.hpp"
@@ -12,18 +13,6 @@ constexpr int longest_delay = 64;
 
 // What lanes can run, as lists of what they know. Each enumeration has all of its words here, and each
 // structure all of its members: the compiler refuses one that is added later until it is decided here.
-
-bool lanes_know(FrictionModel model) {
-  switch (model) {
-    case FrictionModel::presliding:
-    case FrictionModel::spring:
-      return true;
-    case FrictionModel::coulomb:
-    case FrictionModel::none:
-      break;
-  }
-  return false;
-}
 
 bool lanes_know(ReferenceShape shape) {
   switch (shape) {
@@ -67,7 +56,7 @@ bool runs_in_lanes(const TrialParameters& p) {
   const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial, verdict, randomness] =
       p;
   [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping] = plant;
-  return lanes_know(friction.model) && !has_errors(encoder.fine_errors) &&
+  return traits_of(friction.model).runs_in_lanes && !has_errors(encoder.fine_errors) &&
          !has_errors(encoder.coarse_errors) && !has_errors(dac) && lanes_know(amplifier) &&
          lanes_know(controller) && lanes_know(command) && samples_of_move(p, 0) > 0;
 }

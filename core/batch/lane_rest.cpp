@@ -30,7 +30,7 @@ struct RestAhead {
   double elapsed;  ///< of the swing, s
 };
 
-RestAhead rest_ahead(const Plant::Rest& rest) {
+RestAhead rest_ahead(const LanePlant::Rest& rest) {
   RestAhead ahead{rest.creep, rest.swing, rest.time};
   if (ahead.creep.rate > 0.0) ahead.creep.rate = creep_rate_after(rest.creep, rest.time);
   return ahead;
@@ -38,7 +38,7 @@ RestAhead rest_ahead(const Plant::Rest& rest) {
 
 /// The time (s) for which the count surely stays: until creep, with whatever swings then, comes to its edge.
 /// Zero where what swings could come to an edge by itself.
-double time_within_count(const Tile& tile, int lane, const RestAhead& rest, const Plant& plant) {
+double time_within_count(const Tile& tile, int lane, const RestAhead& rest, const LanePlant& plant) {
   const LoopLanes& l = tile.loop;
   const double low = (l.count[lane] - l.phase[lane]) * l.resolution[lane];
   const Swing::State swing = swing_at(rest.swing, rest.elapsed);
@@ -59,14 +59,14 @@ double time_within_count(const Tile& tile, int lane, const RestAhead& rest, cons
 }
 
 /// The number of samples, from the last processed one, at which the count is likely to be the same still.
-double samples_within_count(const Tile& tile, int lane, const Plant& plant, double to_first) {
+double samples_within_count(const Tile& tile, int lane, const LanePlant& plant, double to_first) {
   const double time = time_within_count(tile, lane, rest_ahead(*plant.rest()), plant);
   if (time == HUGE_VAL) return tile.time.samples_left[lane];
   return std::max(std::ceil((time - to_first) * tile.time.sample_rate[lane]), 0.0);
 }
 
 /// Whether the lane's plant is where its last rest has left it, and nothing has moved the lane since.
-bool stands(const Tile& tile, int lane, const Plant& plant) {
+bool stands(const Tile& tile, int lane, const LanePlant& plant) {
   if (!plant.rest()) return false;
   const PlantMotion motion = plant.motion();
   return motion.elongation == tile.motion.elongation[lane] &&
@@ -87,7 +87,7 @@ void pass_samples(Tile& tile, int lane, double samples) {
 
 bool rest(Tile& tile, int lane, LaneTrial& trial, const PassedSample& passed) {
   TimeLanes& time = tile.time;
-  Plant& plant = *trial.plant;
+  LanePlant& plant = *trial.plant;
   const double torque = tile.motion.torque[lane];
   if (tile.motion.rest_torque[lane] != torque) {
     if (!stands(tile, lane, plant)) load_motion(tile, lane, trial);
@@ -95,7 +95,7 @@ bool rest(Tile& tile, int lane, LaneTrial& trial, const PassedSample& passed) {
     if (!plant.come_to_rest(torque, tile.motion.turning[lane] != 0.0)) return false;
     trial.deepest = std::max(trial.deepest, plant.deepest());
   }
-  std::optional<Plant> before;
+  std::optional<LanePlant> before;
   if (passed) before = plant;
 
   const double most = time.samples_left[lane];

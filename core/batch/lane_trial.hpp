@@ -13,6 +13,9 @@
 
 namespace zerocount::batch {
 
+/// The lanes' friction law: that of the models which run in lanes.
+using LanePlant = PlantWith<PreslidingFriction>;
+
 /// What a lane has beside its numbers in the tile: its trial, and what the kernels have no use for.
 struct LaneTrial {
   const TrialParameters* parameters{nullptr};
@@ -23,7 +26,7 @@ struct LaneTrial {
 
   /// The contact. Its spring always remembers the reversals of the lane; the rest of it is that of the lane
   /// only between load() and store().
-  std::optional<Plant> plant;
+  std::optional<LanePlant> plant;
   double rest_tolerance{0.0};           ///< MotionTolerance::elongation, rad
   double breakaway_spring_torque{0.0};  ///< σb of the slide, N m
 
@@ -55,7 +58,7 @@ void close_loop(Tile& tile, int lane, LaneTrial& trial);
 void end_creep(Tile& tile, int lane, LaneTrial& trial);
 void start_slide(Tile& tile, int lane, LaneTrial& trial);
 void end_slide(Tile& tile, int lane, LaneTrial& trial);
-/// By Plant::advance to the next stop.
+/// By LanePlant::advance to the next stop.
 /// @returns whether the motion could be followed.
 bool advance_by_reference(Tile& tile, int lane, LaneTrial& trial);
 

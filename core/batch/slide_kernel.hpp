@@ -6,7 +6,7 @@
 namespace zerocount::batch {
 
 /// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series carry. Notes
-/// velocity_zero, at_stop, and beyond_kernel where the slide begins at ω = 0. See Plant::slide.
+/// velocity_zero, at_stop, and beyond_kernel where the slide begins at ω = 0. See PreslidingFriction::slide.
 ///
 /// Far above the Stribeck velocity, where (ω/ωs)² > 64, friction is that of Coulomb to the last bit; those
 /// lanes go apart, with `Fast`, and step until (ω/ωs)² is down to 42: exp(−42) = 6e-19.

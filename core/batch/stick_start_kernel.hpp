@@ -6,7 +6,7 @@
 namespace zerocount::batch {
 
 /// What has to be settled before a step of a lane whose hook sticks: evaluates the branch, and notes may_rest
-/// alone, or slides, or any of ends_creep and turns. See Plant::stick.
+/// alone, or slides, or any of ends_creep and turns. See PreslidingFriction::stick.
 template <class P>
 void stick_start_kernel(Tile& tile, LaneList list) {
   using Truth = typename P::Truth;

@@ -1,15 +1,27 @@
 #pragma once
 
+#include <string_view>
+#include <vector>
+
 namespace zerocount {
 
-/// The friction between rotor and bearing.
+struct LawTraits;
+
+/// The friction between rotor and bearing: a law of FrictionLaws (laws.hpp), in the same order.
 enum class FrictionModel {
-  presliding,  ///< hysteretic spring and creep (paper, section 2)
-  spring,      ///< the hysteretic spring alone: creep is off, as with alpha 0 at every contact
-  coulomb,     ///< Amonton–Coulomb with a static level: no displacement at all until |torque| exceeds the
-               ///< breakaway, and then the sliding of the two above
-  none         ///< an air bearing: a rotor with viscous damping, and no contact
+  presliding,  ///< PreslidingFriction
+  spring,      ///< SpringFriction
+  coulomb,     ///< CoulombFriction
+  none         ///< NoFriction
 };
+
+/// What the law says of itself.
+const LawTraits& traits_of(FrictionModel model);
+
+/// The words of friction.model, in the order of FrictionModel.
+std::vector<std::string_view> friction_model_words();
+
+// By the contact parameters that the law uses:
 
 /// Whether the contact is a spring before it slides.
 bool has_spring(FrictionModel model);

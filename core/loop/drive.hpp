@@ -7,7 +7,7 @@
 
 #include "core/loop/dac.hpp"
 #include "core/loop/parameters.hpp"
-#include "core/plant/torque_course.hpp"
+#include "core/motion/torque_course.hpp"
 #include "core/random/random_numbers.hpp"
 #include "core/random/trial_randomness.hpp"
 

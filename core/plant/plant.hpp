@@ -1,207 +1,119 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
-#include <optional>
 
-#include "core/friction/creep.hpp"
-#include "core/friction/parameters.hpp"
-#include "core/friction/spring.hpp"
-#include "core/plant/creep_at_rest.hpp"
-#include "core/plant/events.hpp"
-#include "core/plant/parameters.hpp"
-#include "core/plant/plant_start.hpp"
-#include "core/plant/swing.hpp"
-#include "core/plant/torque_course.hpp"
+#include "core/friction/laws.hpp"
 
 namespace zerocount {
 
-/// What of the plant's motion is below notice.
-struct MotionTolerance {
-  /// Elongation (rad) that a Taylor step may leave out, and by which hardening must be exceeded before creep
-  /// starts. A trial uses 1e-11 of a fine count.
-  double elongation{4e-16};
-  /// Elongation (rad) that may be left out where the rotor comes to rest: an oscillation of that amplitude
-  /// counts as rest, and a loop of the spring that is open by no more counts as closed. A trial uses 1e-8 of
-  /// a fine count.
-  double rest{4e-14};
-};
-
-/// The motion of a plant at an instant, but for what the spring remembers.
-struct PlantMotion {
-  double elongation{0.0};  ///< xs, rad
-  double omega{0.0};       ///< ω, rad/s
-  CreepState creep{};
-  bool creeping{false};            ///< the creep law is on
-  double creep_onset_torque{0.0};  ///< |σ| at which it sets in while it is off, N m
-  double hook{0.0};                ///< rad
-  bool sliding{false};
-  double slide_theta{0.0};              ///< θ, rad
-  double slide_direction{0.0};          ///< −1, 1
-  double breakaway_spring_torque{0.0};  ///< σb, N m
-};
-
-/// The rotor with its contact: the pre-sliding motion (paper, eq. 4, with creep) while the hook sticks,
-/// sliding (paper, eq. 3) after breakaway, and the changes between them.
-///
-/// The motion is integrated by Taylor series with every kink located in time: reversals, loop closures, the
-/// start and end of creep, breakaway, re-stick.
-///
-/// Rest rule. Without one, an oscillation would die out for ever, and rounding would make the elongation rate
-/// flip its sign in the end. Let δσ and δω be what σ and ω differ by from those of a rotor that only creep
-/// moves under the present torque (CreepAtRest; without creep σ = u and ω = 0), ε = MotionTolerance::rest,
-/// ωn² = (k1 + k2)/J, and A the amplitude with
-///
-///   ((δσ + c·δω)/J)² + (ωn·δω)² = (A·ωn²)².
-///
-/// Where A < ε and |δσ| < 2ε·dσ/dxs, σ and ω are set to those of the creeping rotor, which follows
-/// CreepAtRest for as long as the torque stays. What is left out is an oscillation of amplitude ε.
-///
-/// At a reversal this happens earlier already, where β·A² < ε. A loop of the spring of the size A is open by
-/// some β·A², so the spring of what is left of the oscillation is the straight line of stiffness k1 + k2: it
-/// is a Swing about CreepAtRest, whose reversals are not remembered but for the first. (Not where creep or
-/// the hook would notice: where within twice the amplitude creep sets in or ends, or the hook breaks away.)
-///
-/// Both conditions are on the energy of the oscillation, which only falls, and the second is asked at
-/// reversals only: so which reversal is the last one to be remembered does not depend on where steps end.
-///
-/// Where the torque moves, the elongation is held while |dxs/dt| < ε·ωn and |d²xs/dt²| < ε·ωn², with ε =
-/// MotionTolerance::elongation, from half of that acceleration until the torque has brought it to the whole;
-/// creep follows its exact solution at constant torque. The elongation is then never further than ε·(k1 +
-/// k2)/k1 from the one that balances the torque.
-///
-/// FrictionModel::coulomb has no elongation and no creep: the rotor stands while |u| ≤ breakaway, and slides
-/// towards sgn(u) from the instant at which |u| passes it.
-///
-/// FrictionModel::none has no contact: the rotor always slides, without friction but for the damping c, by
-/// free_motion().
-class Plant {
+/// A rotor under a motor's torque with a friction law, which the plant takes on from step to step.
+template <FrictionLaw Law>
+class PlantWith : public Law {
  public:
-  Plant(const PlantParameters& plant, FrictionAlongRotor friction, const PlantStart& start,
-        MotionTolerance tolerance);
+  PlantWith(const PlantParameters& plant, const FrictionAlongRotor& friction, const PlantStart& start,
+            const MotionTolerance& tolerance)
+      : Law(plant, friction, start, tolerance), inertia_(plant.inertia), tolerance_(tolerance.elongation) {}
 
   /// Applies the torque for `duration` (s).
-  void advance(const TorqueCourse& torque, double duration);
-
-  // For an engine that follows the motion itself and leaves to this class what is rare.
-  PlantMotion motion() const;
-  /// Takes over where another has followed the motion to. The spring must be on the same branch.
-  void set_motion(const PlantMotion& motion);
-  /// The hook starts to slide in `direction` (−1, 1).
-  void break_away(double direction);
-  /// The hook sticks, where the slide has come to ω = 0.
-  void re_stick();
-  /// At rest under a constant torque: since when, and how it began.
-  struct Rest {
-    double torque;      ///< u, N m
-    CreepAtRest creep;  ///< from then on
-    CreepState start;   ///< of such creep, then
-    Swing swing;        ///< about it
-    double time;        ///< since then, s
-  };
-
-  /// By the rest rule, under the constant torque `torque` (N m). Where true, `advance` with that torque
-  /// follows it in one step.
-  /// @param at_reversal dxs/dt is zero now, exactly.
-  bool come_to_rest(double torque, bool at_reversal);
-  /// None while the rotor is not at rest.
-  const std::optional<Rest>& rest() const { return rest_; }
-  /// θ (rad) at rest, after another `time` (s) of it.
-  double theta_at_rest(double time) const;
-  /// At rest, its elongation is that of the creeping rotor, without what swings about it.
-  HystereticSpring& spring() { return spring_; }
-
-  /// θ, rad.
-  double theta() const { return sliding_ ? slide_theta_ : hook_ + elongation() + creep_.extension; }
-  /// ω, rad/s.
-  double omega() const { return omega_; }
-  /// Of the present contact, or of the last one while sliding.
-  const CreepState& creep() const { return creep_; }
-  const HystereticSpring& spring() const { return spring_; }
-  const FrictionParameters& contact() const { return contact_; }
-  /// FrictionModel::none always slides.
-  bool sliding() const { return sliding_; }
-  /// Whether sliding is that of a hook which had to break away.
-  bool has_hook() const { return has_breakaway(friction_.model); }
-
-  /// Since the start.
-  std::int64_t breakaways() const { return breakaways_; }
-  /// Largest stack depth since the last forget_deepest().
-  std::int64_t deepest() const { return deepest_; }
-  void forget_deepest() { deepest_ = static_cast<std::int64_t>(spring_.depth()); }
+  void advance(const TorqueCourse& torque, double duration) {
+    TorqueCourse ahead = torque;
+    bool moves = !is_constant(ahead);
+    double remaining = duration;
+    for (int step = 0; remaining > 0.0 && finite_; ++step) {
+      if (step == max_steps) finite_ = false;
+      const double used = step_on(ahead, remaining);
+      remaining = used < remaining ? remaining - used : 0.0;
+      if (moves) {
+        moves = duration - remaining < time_constants_to_settle / ahead.rate;
+        ahead = moves ? course_after(ahead, used) : constant_torque(ahead.settled);
+      }
+      finite_ = finite_ && std::isfinite(this->theta()) && std::isfinite(this->omega());
+    }
+  }
 
   /// False once the motion could not be followed any more (non-finite, or steps without end); it stays false.
   bool finite() const { return finite_; }
 
  private:
-  /// Of the spring: dxs/dt (rad/s), and d²xs/dt² (rad/s²; exact where dxs/dt is zero).
-  struct Elongation {
-    double rate;
-    double acceleration;
-  };
+  /// More steps than this within one torque step mean that the motion cannot be followed. A ringing trial of
+  /// the paper's rig takes about three.
+  static constexpr int max_steps = 200000;
 
-  /// What of the motion is not that of a rotor that only creep moves.
-  struct Excess {
-    CreepAtRest creep;  ///< the motion of such a rotor
-    double torque;      ///< δσ, N m
-    double velocity;    ///< δω, rad/s
-    double amplitude;   ///< A, rad
-  };
+  /// A torque has settled when this many time constants have passed: exp(−37) is below the rounding of 1.
+  static constexpr double time_constants_to_settle = 37.0;
 
-  // Each returns the time used, at most `duration`.
-  double step_on(const TorqueCourse& torque, double duration);  // one of those below
-  double stick(const TorqueCourse& torque, double duration);
-  double stand(const TorqueCourse& torque, double duration);  // stick of FrictionModel::coulomb
-  double slide(const TorqueCourse& torque, double duration);
-  double move_freely(const TorqueCourse& torque, double duration);  // FrictionModel::none
+  /// @returns the time used, at most `duration`.
+  double step_on(const TorqueCourse& torque, double duration) {
+    if constexpr (SmoothMotion<Law>) {
+      return taylor_step<Law>(*this, inertia_, torque, tolerance_, duration).time;
+    } else {
+      return this->step(torque, duration);
+    }
+  }
 
-  Elongation elongation_under(double torque, double creep_rate_now) const;
-  bool begin_rest(double torque, const Elongation& elongation, bool stood);
-  std::optional<Excess> excess_over_rest(double torque, const Elongation& elongation, double largest) const;
-  bool swings_freely(double torque, const Excess& excess) const;
-  SwingLaw swing_law(const Excess& excess) const;
-  Swing begin_swing(const Excess& excess);
-  CreepState slow_creep(double sign) const;
-  double creep_left_out(const SwingLaw& law, const Excess& excess) const;
-  void settle(const Excess& excess, bool stood);
-  std::optional<CreepAtRest> slow_motion(double torque, double sign) const;
-  double elongation() const { return spring_.elongation() + swing_.elongation; }
-  bool leave_rest();
-  double switch_creep();
-  void go_on_at_rest(double duration);
-  bool at_rest(const Elongation& elongation) const;
-  double time_at_rest(const Elongation& elongation, const TorqueCourse& torque, double duration) const;
-  int slides_towards(double torque) const;
-  void pass(Event event);
-  void hold_at_rest(double duration);
-  void end_creep();
-  double creep_rate() const;
-
-  bool torque_drives(double direction, const TorqueCourse& torque) const;
-
-  PlantParameters plant_;
-  FrictionAlongRotor friction_;
-  double position_;
-  MotionTolerance tolerance_;
-
-  FrictionParameters contact_;
-  std::int64_t contact_number_{0};
-  HystereticSpring spring_;  // stays without elongation where the model has no spring
-  CreepState creep_;
-  bool creeping_{false};
-  double creep_onset_torque_{0.0};  // |σ| at which creep starts, while it is off
-  double hook_{0.0};
-  double omega_{0.0};
-  std::optional<Rest> rest_;
-  Swing::State swing_{0.0, 0.0, 0.0};  // not zero at rest only
-
-  bool sliding_{false};
-  double slide_theta_{0.0};
-  double slide_direction_{0.0};
-  double breakaway_spring_torque_{0.0};  // σb
-
-  std::int64_t breakaways_{0};
-  std::int64_t deepest_{0};
+  double inertia_;
+  double tolerance_;
   bool finite_{true};
+};
+
+/// What a plant shows at an instant.
+struct PlantReading {
+  double theta{0.0};      ///< θ, rad
+  double omega{0.0};      ///< ω, rad/s
+  CreepState creep{};     ///< of the present contact, or of the last one while sliding
+  std::int64_t depth{0};  ///< of the stack of reversal points
+  bool sliding{false};
+};
+
+/// The plant of a trial: with the law of its friction.model.
+class Plant {
+ public:
+  Plant(const PlantParameters& plant, const FrictionAlongRotor& friction, const PlantStart& start,
+        const MotionTolerance& tolerance);
+
+  /// Applies the torque for `duration` (s).
+  void advance(const TorqueCourse& torque, double duration) {
+    std::visit([&](auto& plant) { plant.advance(torque, duration); }, plant_);
+  }
+
+  PlantReading read() const {
+    return std::visit(
+        [](const auto& plant) {
+          return PlantReading{plant.theta(), plant.omega(), plant.creep(), plant.depth(), plant.sliding()};
+        },
+        plant_);
+  }
+  double theta() const {
+    return std::visit([](const auto& plant) { return plant.theta(); }, plant_);
+  }  ///< rad
+  double omega() const {
+    return std::visit([](const auto& plant) { return plant.omega(); }, plant_);
+  }  ///< rad/s
+  bool sliding() const {
+    return std::visit([](const auto& plant) { return plant.sliding(); }, plant_);
+  }
+  /// False once the motion could not be followed any more; it stays false.
+  bool finite() const {
+    return std::visit([](const auto& plant) { return plant.finite(); }, plant_);
+  }
+  /// Whether sliding is that of a hook which had to break away.
+  bool has_hook() const { return has_hook_; }
+  /// Since the start.
+  std::int64_t breakaways() const {
+    return std::visit([](const auto& plant) { return plant.breakaways(); }, plant_);
+  }
+  /// Largest depth of the stack of reversal points since the last forget_deepest().
+  std::int64_t deepest() const {
+    return std::visit([](const auto& plant) { return plant.deepest(); }, plant_);
+  }
+  void forget_deepest() {
+    std::visit([](auto& plant) { plant.forget_deepest(); }, plant_);
+  }
+
+ private:
+  FrictionLaws::Variant<PlantWith> plant_;
+  bool has_hook_;
 };
 
 }  // namespace zerocount

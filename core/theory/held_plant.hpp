@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "core/plant/parameters.hpp"
+#include "core/motion/parameters.hpp"
 #include "core/theory/sampled_stability.hpp"
 
 namespace zerocount {

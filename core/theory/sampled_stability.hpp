@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/loop/parameters.hpp"
-#include "core/plant/parameters.hpp"
+#include "core/motion/parameters.hpp"
 
 /// Stability of the sampled loop about a spring of constant stiffness, the count taken as a continuous
 /// quantity: what remains of the loop when friction, encoder and DAC are made linear, but sampling, hold and

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/loop/parameters.hpp"
-#include "core/plant/parameters.hpp"
+#include "core/motion/parameters.hpp"
 #include "core/theory/sampled_stability.hpp"
 
 /// The loop while the rotor slides. There is no spring then: the plant is 1/(J·s² + cs·s), and the friction

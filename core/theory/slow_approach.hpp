@@ -4,7 +4,7 @@
 
 #include "core/friction/parameters.hpp"
 #include "core/loop/parameters.hpp"
-#include "core/plant/parameters.hpp"
+#include "core/motion/parameters.hpp"
 
 /// How an integral control that is slow brings the error to zero: the torque follows the spring without
 /// swinging.

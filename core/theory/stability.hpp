@@ -2,7 +2,7 @@
 
 #include "core/friction/parameters.hpp"
 #include "core/loop/parameters.hpp"
-#include "core/plant/parameters.hpp"
+#include "core/motion/parameters.hpp"
 
 /// The stability criteria and design rules of Lin, Pan and Hsieh (2002), "Precision-limit positioning of
 /// direct drive systems with the existence of friction", sections 3 and 4 ("the paper").

@@ -6,7 +6,7 @@
 
 #include "core/friction/parameters.hpp"
 #include "core/loop/parameters.hpp"
-#include "core/plant/parameters.hpp"
+#include "core/motion/parameters.hpp"
 #include "core/random/trial_randomness.hpp"
 
 namespace zerocount {

@@ -41,15 +41,16 @@ SampleRecord Rig::read(std::int64_t k) {
   SampleRecord record;
   record.k = k;
   record.t = static_cast<double>(k) * sample_time_;
-  record.theta = plant_.theta();
-  record.omega = plant_.omega();
+  const PlantReading plant = plant_.read();
+  record.theta = plant.theta;
+  record.omega = plant.omega;
   const EncoderReading reading = measurement_.read(k, record.theta);
   record.count = reading.fine;
   record.coarse_count = reading.coarse;
-  record.xp = plant_.creep().extension;
-  record.xh = plant_.creep().hardening;
-  record.depth = static_cast<std::int64_t>(plant_.spring().depth());
-  record.mode = plant_.sliding() ? HookMode::slide : HookMode::stick;
+  record.xp = plant.creep.extension;
+  record.xh = plant.creep.hardening;
+  record.depth = plant.depth;
+  record.mode = plant.sliding ? HookMode::slide : HookMode::stick;
   return record;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/friction/law.hpp"
+
 namespace zerocount {
 namespace {
 
@@ -21,19 +23,6 @@ bool is_word(const ValueLimits& limits) {
 
 FrictionModel friction_model(const ValueLimits& limits) {
   return static_cast<FrictionModel>(static_cast<int>(limits.low));
-}
-
-/// Whether J·dω/dt = u − c·ω − … holds at any time.
-bool has_presliding_damping(FrictionModel model) {
-  switch (model) {
-    case FrictionModel::presliding:
-    case FrictionModel::spring:
-    case FrictionModel::none:
-      return true;
-    case FrictionModel::coulomb:
-      break;
-  }
-  return false;
 }
 
 bool can_be_positive(const ValueLimits& limits) {
@@ -156,7 +145,7 @@ std::vector<EffectRule> rules_of_the_model() {
        .warn_only = true},
       {.keys = {"plant.presliding_damping"},
        .depends_on = {"friction.model"},
-       .has_effect = [](Limits l) { return has_presliding_damping(friction_model(l[0])); },
+       .has_effect = [](Limits l) { return traits_of(friction_model(l[0])).has_presliding_damping; },
        .what = "it has no effect: friction.model is coulomb at every point",
        .off_at_zero = true,
        .warn_only = true},

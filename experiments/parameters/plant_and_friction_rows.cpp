@@ -37,7 +37,7 @@ std::vector<Parameter> friction_rows() {
                    "friction of the bearing: before it slides a spring and creep, the spring alone, or no "
                    "motion at "
                    "all; none is an air bearing",
-                   assumed, {"presliding", "spring", "coulomb", "none"}),
+                   assumed, friction_model_words()),
           [](auto& p) -> auto& { return p.friction.model; }),
       friction<&P::k1>(real_row("friction.k1", "N m/rad", "lowest tangent stiffness of the friction spring",
                                 "paper, section 4", above(0))),

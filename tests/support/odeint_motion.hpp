@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/friction/parameters.hpp"
-#include "core/plant/parameters.hpp"
+#include "core/motion/parameters.hpp"
 #include "core/trial/parameters.hpp"
 
 namespace zerocount::testing {

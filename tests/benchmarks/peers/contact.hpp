@@ -6,7 +6,7 @@
 
 #include "core/friction/parameters.hpp"
 #include "core/friction/spring.hpp"
-#include "core/plant/parameters.hpp"
+#include "core/motion/parameters.hpp"
 #include "core/trial/parameters.hpp"
 #include "tests/benchmarks/peers/motion_law.hpp"
 

@@ -178,7 +178,7 @@ TEST(PlantUnderAnAmplifier, FollowsATorqueTooSlowToBeNoticedAtOnce) {
   const double promised = rig_tolerance.elongation * (friction.k1 + friction.k2) / friction.k1;
   for (const double duration : {sample, 1.0, 200.0}) {  // in one step, or in many
     for (const double rate : {1e-8, 1e-6, 1e-4}) {
-      Plant plant(rotor, spring_alone(), {}, rig_tolerance);
+      PreslidingPlant plant(rotor, spring_alone(), {}, rig_tolerance);
       TorqueCourse course{0.0, 0.02, rate};
       const double end = std::min(200.0, 20000 * duration);
       for (double t = 0.0; t < end - 0.5 * duration; t += duration) {
@@ -197,7 +197,7 @@ TEST(PlantUnderAnAmplifier, FollowsATorqueTooSlowToBeNoticedAtOnce) {
 
 TEST(PlantUnderAnAmplifier, RestsOnceTheTorqueHasSettled) {
   for (const double rate : {50.0, 5000.0, 5e5}) {
-    Plant plant({}, spring_alone(), {}, rig_tolerance);
+    PreslidingPlant plant({}, spring_alone(), {}, rig_tolerance);
     TorqueCourse course{0.0, 0.02, rate};
     for (int k = 0; k < 4000; ++k) {
       plant.advance(course, sample);

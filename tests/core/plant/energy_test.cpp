@@ -26,7 +26,7 @@ struct EnergyLedger {
   double work{0.0};        // by the torque, J
   double dissipated{0.0};  // by the dampers and sliding friction, J
 
-  double loss_power(const Plant& plant) const {
+  double loss_power(const auto& plant) const {
     const double omega = plant.omega();
     if (!plant.sliding()) return rotor.presliding_damping * omega * omega;
     const double coulomb = friction.coulomb_ratio * friction.breakaway;
@@ -35,10 +35,10 @@ struct EnergyLedger {
            rotor.sliding_damping * omega * omega;
   }
 
-  double kinetic(const Plant& plant) const { return 0.5 * rotor.inertia * plant.omega() * plant.omega(); }
+  double kinetic(const auto& plant) const { return 0.5 * rotor.inertia * plant.omega() * plant.omega(); }
 
   /// One short step, by Simpson's rule.
-  TorqueCourse step(Plant& plant, const TorqueCourse& course, double dt) {
+  TorqueCourse step(auto& plant, const TorqueCourse& course, double dt) {
     const TorqueCourse middle = course_after(course, 0.5 * dt);
     const TorqueCourse end = course_after(course, dt);
     const auto sum = [&](double a, double b, double c) { return dt / 6.0 * (a + 4.0 * b + c); };
@@ -86,7 +86,8 @@ TEST_P(EnergyBalance, HoldsThroughBreakawayAndReStickOnAnElasticSpring) {
   EnergyLedger ledger;
   ledger.friction = elastic();
   const PlantStart& start = GetParam().start;
-  Plant plant(ledger.rotor, of_model(FrictionModel::spring, ledger.friction), start, tolerance);
+  PlantWith<SpringFriction> plant(ledger.rotor, of_model(FrictionModel::spring, ledger.friction), start,
+                                  tolerance);
   const auto stored = [&](double torque) { return 0.5 * torque * torque / ledger.friction.k1; };
   // A slide begins with the spring at the breakaway torque.
   const double at_start = ledger.kinetic(plant) + stored(start.sliding ? ledger.friction.breakaway : 0.0);
@@ -136,7 +137,8 @@ TEST(HystereticEnergy, IsLostAndNeverComesBack) {
       EnergyLedger ledger;
       ledger.friction.alpha = alpha;
       ledger.friction.breakaway = 10.0;
-      Plant plant(ledger.rotor, of_model(FrictionModel::presliding, ledger.friction), {}, tolerance);
+      PlantWith<PreslidingFriction> plant(ledger.rotor, of_model(FrictionModel::presliding, ledger.friction),
+                                          {}, tolerance);
       StopElements spring(ledger.friction, 2000);
       TorqueCourse course{0.0, 0.0, rate};
       double lost = 0.0;

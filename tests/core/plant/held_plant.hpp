@@ -11,8 +11,12 @@ inline constexpr double count = 2.0 * std::numbers::pi / 1620000;  ///< of the f
 inline constexpr double sample = 5e-4;                             ///< s
 inline constexpr MotionTolerance rig_tolerance{1e-10 * count};
 
+/// Where the state of the contact is looked at, with or without creep.
+using PreslidingPlant = PlantWith<PreslidingFriction>;
+
 /// Holds a constant torque (N m) for `duration` (s).
-inline void hold(Plant& plant, double torque, double duration) {
+template <class AnyPlant>
+void hold(AnyPlant& plant, double torque, double duration) {
   plant.advance(constant_torque(torque), duration);
 }
 

@@ -92,7 +92,7 @@ void compare_motion(const Family& family, std::uint64_t index, Differences& wors
   OdeintMotion judge(rig, start.history);
   ASSERT_EQ(plant.theta(), 0.0) << name;
   ASSERT_EQ(plant.sliding(), judge.sliding()) << name;
-  ASSERT_EQ(static_cast<std::int64_t>(plant.spring().depth()), judge.depth()) << name;
+  ASSERT_EQ(plant.read().depth, judge.depth()) << name;
   Draws draws(77 + index);
   RandomDrive drive(draws, rig, family.drive);
   double travel = 0.0;
@@ -108,9 +108,9 @@ void compare_motion(const Family& family, std::uint64_t index, Differences& wors
     ASSERT_LE(difference, allowed) << fmt::format("{} interval {}: {} counts apart", name, k,
                                                   difference / count);
     ASSERT_EQ(plant.sliding(), judge.sliding()) << name << " interval " << k;
-    ASSERT_NEAR(plant.creep().extension, static_cast<double>(judge.state()[2]), allowed) << name;
+    ASSERT_NEAR(plant.read().creep.extension, static_cast<double>(judge.state()[2]), allowed) << name;
     if (!plant.sliding()) {
-      ASSERT_NEAR(plant.creep().hardening, static_cast<double>(judge.state()[3]), allowed) << name;
+      ASSERT_NEAR(plant.read().creep.hardening, static_cast<double>(judge.state()[3]), allowed) << name;
     }
     double& share = slid ? worst.after : worst.before;
     share = std::max(share, difference / (slid ? allowed : count));

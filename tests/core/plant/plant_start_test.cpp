@@ -1,5 +1,5 @@
 // What the plant finds at t = 0: a moving rotor, arrival from sliding, a history of the spring.
-#include "core/plant/plant_start.hpp"
+#include "core/motion/plant_start.hpp"
 
 #include <cmath>
 #include <memory>
@@ -26,7 +26,7 @@ TEST(PlantWithVelocity, RingsOnALinearSpringAsTheClosedFormSays) {
   friction.uniform.breakaway = 1e6;
   const PlantParameters rotor;
   const double velocity = -0.7;
-  Plant plant(rotor, friction, {.velocity = velocity}, rig_tolerance);
+  PreslidingPlant plant(rotor, friction, {.velocity = velocity}, rig_tolerance);
   const double decay = rotor.presliding_damping / (2.0 * rotor.inertia);
   const double frequency = std::sqrt(friction.uniform.k1 / rotor.inertia - decay * decay);
   EXPECT_EQ(plant.omega(), velocity);
@@ -40,10 +40,10 @@ TEST(PlantWithVelocity, RingsOnALinearSpringAsTheClosedFormSays) {
 
 TEST(PlantWithVelocity, BreaksAwayAtOnceWhereTheDamperOvercomesTheHook) {
   for (const double side : {1.0, -1.0}) {
-    Plant holding({}, {}, {.velocity = side * 0.99 * breakaway / damping}, rig_tolerance);
+    PreslidingPlant holding({}, {}, {.velocity = side * 0.99 * breakaway / damping}, rig_tolerance);
     hold(holding, 0.0, 1e-7);
     EXPECT_FALSE(holding.sliding());
-    Plant sliding({}, {}, {.velocity = side * 1.01 * breakaway / damping}, rig_tolerance);
+    PreslidingPlant sliding({}, {}, {.velocity = side * 1.01 * breakaway / damping}, rig_tolerance);
     EXPECT_FALSE(sliding.sliding());
     hold(sliding, 0.0, 1e-7);
     EXPECT_TRUE(sliding.sliding());
@@ -55,8 +55,8 @@ TEST(PlantWithVelocity, BreaksAwayAtOnceWhereTheDamperOvercomesTheHook) {
 // that remembers no more than one that begins with nothing.
 TEST(PlantWithVelocity, BreaksAwayFromAPreloadAsFromNone) {
   for (const double preload : {0.11, -0.11, 0.17, -0.17, 0.23}) {
-    Plant one({}, {}, {.velocity = 1.2 * breakaway / damping}, rig_tolerance);
-    Plant other({}, {}, {.preload = preload, .velocity = 1.2 * breakaway / damping}, rig_tolerance);
+    PreslidingPlant one({}, {}, {.velocity = 1.2 * breakaway / damping}, rig_tolerance);
+    PreslidingPlant other({}, {}, {.preload = preload, .velocity = 1.2 * breakaway / damping}, rig_tolerance);
     for (int k = 0; k < 60; ++k) {
       hold(one, -0.05, sample);
       hold(other, -0.05, sample);
@@ -75,7 +75,7 @@ TEST(PlantArrivingFromSliding, SlidesFromTheStartAndSticksWithTheBreakawayTorque
     PlantStart start;
     start.velocity = side * 0.4;
     start.sliding = true;
-    Plant plant({}, {}, start, rig_tolerance);
+    PreslidingPlant plant({}, {}, start, rig_tolerance);
     EXPECT_TRUE(plant.sliding());
     EXPECT_EQ(plant.theta(), 0.0);
     EXPECT_EQ(plant.omega(), start.velocity);
@@ -92,7 +92,7 @@ TEST(PlantArrivingFromSliding, StopsWhereTheClosedFormSays) {
   rotor.sliding_damping = 0.0;
   FrictionAlongRotor friction;
   friction.uniform.coulomb_ratio = 1.0;
-  Plant plant(rotor, friction, {.velocity = 0.5, .sliding = true}, rig_tolerance);
+  PreslidingPlant plant(rotor, friction, {.velocity = 0.5, .sliding = true}, rig_tolerance);
   const double deceleration = (breakaway + 0.05) / rotor.inertia;
   const double stop = 0.5 / deceleration;
   hold(plant, -0.05, (1.0 - 1e-9) * stop);
@@ -111,8 +111,8 @@ TEST(PlantArrivingFromSliding, HasNoContactToRemember) {
   full.hardening = 1e-5;
   full.preload = 0.1;
   full.history = {0.05, -0.02};
-  Plant one({}, {}, bare, rig_tolerance);
-  Plant other({}, {}, full, rig_tolerance);
+  PreslidingPlant one({}, {}, bare, rig_tolerance);
+  PreslidingPlant other({}, {}, full, rig_tolerance);
   for (int k = 0; k < 50; ++k) {
     hold(one, 0.02, sample);
     hold(other, 0.02, sample);
@@ -127,7 +127,7 @@ TEST(PlantArrivingFromSliding, TakesTheBreakawayTorqueOfTheRotorAngle) {
       {&FrictionParameters::breakaway,
        std::make_shared<const Profile>(Profile{Marginal::normal, 0.2, 0.05, {0.0, 1.0}, {0.0, 0.5}})});
   const double angle = 1.25;
-  Plant plant({}, friction, {.position = angle, .velocity = 0.3, .sliding = true}, rig_tolerance);
+  PreslidingPlant plant({}, friction, {.position = angle, .velocity = 0.3, .sliding = true}, rig_tolerance);
   const double level = 0.2 + 0.05 * (std::cos(angle) + 0.5 * std::sin(angle));
   EXPECT_DOUBLE_EQ(plant.contact().breakaway, level);
   while (plant.sliding()) hold(plant, 0.0, 1e-7);
@@ -142,7 +142,7 @@ TEST(PlantWithHistory, StandsAtZeroWithoutTorque) {
     start.preload = trial % 3 == 0 ? 0.0 : torque(random);
     start.hardening = trial % 2 == 0 ? 0.0 : 1e-6;
     for (int i = 0; i <= trial; ++i) start.history.push_back(torque(random));
-    Plant plant({}, {}, start, rig_tolerance);
+    PreslidingPlant plant({}, {}, start, rig_tolerance);
     EXPECT_EQ(plant.theta(), 0.0);
     EXPECT_NEAR(plant.spring().torque(), 0.0, 1e-15);
     EXPECT_EQ(plant.creep().extension, 0.0);
@@ -155,10 +155,10 @@ TEST(PlantWithHistory, StandsAtZeroWithoutTorque) {
 }
 
 TEST(PlantWithHistory, IsThePreloadedOneWhereThePreloadIsItsOnlyLevel) {
-  Plant preloaded({}, {}, {.preload = -0.12}, rig_tolerance);
+  PreslidingPlant preloaded({}, {}, {.preload = -0.12}, rig_tolerance);
   PlantStart start;
   start.history = {-0.12};
-  Plant loaded({}, {}, start, rig_tolerance);
+  PreslidingPlant loaded({}, {}, start, rig_tolerance);
   EXPECT_EQ(loaded.spring().depth(), preloaded.spring().depth());
   EXPECT_NEAR(loaded.spring().elongation(), preloaded.spring().elongation(), 1e-19);
   for (int k = 0; k < 200; ++k) {
@@ -173,12 +173,12 @@ TEST(PlantWithHistory, ForgetsWhatALargerTorqueHasWipedOut) {
   plain.history = {0.2, -0.1, 0.06};
   PlantStart full;
   full.history = {0.05, -0.1, 0.03, 0.2, 0.1, 0.15, -0.1, -0.02, -0.06, 0.06, -0.01, 0.02};
-  Plant one({}, {}, plain, rig_tolerance);
-  Plant other({}, {}, full, rig_tolerance);
+  PreslidingPlant one({}, {}, plain, rig_tolerance);
+  PreslidingPlant other({}, {}, full, rig_tolerance);
   EXPECT_EQ(one.spring().depth(), 3u);
   EXPECT_EQ(other.spring().depth(), 5u);  // and, inside, the last two
   full.history.resize(10);
-  EXPECT_EQ(Plant({}, {}, full, rig_tolerance).spring().depth(), 3u);
+  EXPECT_EQ(PreslidingPlant({}, {}, full, rig_tolerance).spring().depth(), 3u);
   for (int k = 0; k < 100; ++k) {
     hold(one, -0.15, sample);
     hold(other, -0.15, sample);
@@ -192,7 +192,7 @@ TEST(PlantWithHistory, HoldsAnyNumberOfReversals) {
   for (int i = 0; i < reversals; ++i) {
     start.history.push_back((i % 2 == 0 ? 0.25 : -0.25) * (1.0 - static_cast<double>(i) / reversals));
   }
-  Plant plant({}, {}, start, rig_tolerance);
+  PreslidingPlant plant({}, {}, start, rig_tolerance);
   EXPECT_EQ(plant.spring().depth(), static_cast<std::size_t>(reversals));
   EXPECT_NEAR(plant.spring().torque(), 0.0, 1e-15);
   plant.advance({0.0, 0.28, 20.0}, 1.0);
@@ -212,8 +212,8 @@ TEST(PlantWithHistory, MirrorsBitForBit) {
     mirrored.preload = -start.preload;
     mirrored.velocity = -start.velocity;
     for (const double level : start.history) mirrored.history.push_back(-level);
-    Plant plant({}, {}, start, rig_tolerance);
-    Plant mirror({}, {}, mirrored, rig_tolerance);
+    PreslidingPlant plant({}, {}, start, rig_tolerance);
+    PreslidingPlant mirror({}, {}, mirrored, rig_tolerance);
     for (int k = 0; k < 100; ++k) {
       const TorqueCourse course{torque(random), 3.0 * torque(random), 2000.0};
       plant.advance(course, sample);
@@ -230,8 +230,8 @@ TEST(PlantOnASpringAlone, IsThePreslidingOneWithoutCreepBitForBit) {
   FrictionAlongRotor presliding;
   presliding.uniform.alpha = 0.0;
   const PlantStart start{.hardening = 3e-6, .preload = 0.1, .velocity = 0.2};
-  Plant one({}, spring, start, rig_tolerance);
-  Plant other({}, presliding, start, rig_tolerance);
+  PreslidingPlant one({}, spring, start, rig_tolerance);
+  PreslidingPlant other({}, presliding, start, rig_tolerance);
   std::mt19937 random(13);
   std::normal_distribution<double> torque(0.0, 0.6);
   for (int k = 0; k < 500; ++k) {

@@ -24,7 +24,7 @@ TEST(PlantOnALinearSpring, OscillatesAsTheClosedFormSays) {
   friction.k2 = 1e-12;
   friction.breakaway = 1e6;
   const PlantParameters rotor;
-  Plant plant(rotor, without_creep(friction), {}, rig_tolerance);
+  PreslidingPlant plant(rotor, without_creep(friction), {}, rig_tolerance);
   const double u = 0.05;
   const double decay = rotor.presliding_damping / (2.0 * rotor.inertia);
   const double frequency = std::sqrt(friction.k1 / rotor.inertia - decay * decay);
@@ -39,7 +39,7 @@ TEST(PlantOnALinearSpring, OscillatesAsTheClosedFormSays) {
 }
 
 TEST(PlantAtConstantTorque, EndsOnTheUnloadingLoopsAndStays) {
-  Plant plant({}, without_creep(), {}, rig_tolerance);
+  PreslidingPlant plant({}, without_creep(), {}, rig_tolerance);
   for (int k = 0; k < 2000; ++k) hold(plant, 0.02, sample);
   const double theta = plant.theta();
   const std::size_t depth = plant.spring().depth();
@@ -52,7 +52,7 @@ TEST(PlantAtConstantTorque, EndsOnTheUnloadingLoopsAndStays) {
 
 TEST(PlantAtConstantTorque, CreepsAsTheExactSolutionOnceTheSpringIsStill) {
   const FrictionParameters friction;
-  Plant plant({}, {friction, {}}, {}, rig_tolerance);
+  PreslidingPlant plant({}, {friction, {}}, {}, rig_tolerance);
   const double u = 0.02;
   for (int k = 0; k < 400; ++k) hold(plant, u, sample);
   const CreepState start = plant.creep();
@@ -74,8 +74,8 @@ TEST(Plant, MovesAlikeInOneStepOrInPieces) {
   std::mt19937 random(21);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int trial = 0; trial < 20; ++trial) {
-    Plant whole({}, {{}, {}}, {}, rig_tolerance);
-    Plant pieces({}, {{}, {}}, {}, rig_tolerance);
+    PreslidingPlant whole({}, {{}, {}}, {}, rig_tolerance);
+    PreslidingPlant pieces({}, {{}, {}}, {}, rig_tolerance);
     for (int k = 0; k < 200; ++k) {
       const double u = 0.2 * (unit(random) - 0.5);
       hold(whole, u, sample);
@@ -94,8 +94,8 @@ TEST(Plant, MovesAlikeInOneStepOrInPieces) {
 TEST(Plant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
   std::mt19937 random(22);
   std::normal_distribution<double> torque(0.0, 0.4);
-  Plant plant({}, {{}, {}}, {.preload = 0.05}, rig_tolerance);
-  Plant mirror({}, {{}, {}}, {.preload = -0.05}, rig_tolerance);
+  PreslidingPlant plant({}, {{}, {}}, {.preload = 0.05}, rig_tolerance);
+  PreslidingPlant mirror({}, {{}, {}}, {.preload = -0.05}, rig_tolerance);
   for (int k = 0; k < 3000; ++k) {
     const double u = torque(random);
     hold(plant, u, sample);
@@ -107,7 +107,7 @@ TEST(Plant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
 }
 
 TEST(PlantThroughBreakawayAndReStick, StartsANewContactWithTheTorqueOfTheOld) {
-  Plant plant({}, {{}, {}}, {}, rig_tolerance);
+  PreslidingPlant plant({}, {{}, {}}, {}, rig_tolerance);
   while (!plant.sliding()) hold(plant, 0.4, 1e-6);
   const double torque = plant.spring().torque();
   const double hook_torque = torque + 0.2 * plant.omega();
@@ -129,7 +129,7 @@ TEST(PlantOnAProfile, TakesTheParametersWhereItSticks) {
   FrictionAlongRotor friction;
   friction.profiled.push_back({&FrictionParameters::k1, profile});
   const double start = 1.25;
-  Plant plant({}, friction, {.position = start}, rig_tolerance);
+  PreslidingPlant plant({}, friction, {.position = start}, rig_tolerance);
   EXPECT_DOUBLE_EQ(plant.contact().k1, 100.0 + 20.0 * (std::cos(start) + 0.5 * std::sin(start)));
   const double before = plant.contact().k1;
   for (int k = 0; k < 100; ++k) hold(plant, 0.45, sample);
@@ -144,34 +144,39 @@ TEST(PlantOnAProfile, TakesTheParametersWhereItSticks) {
 TEST(Plant, GivesUpLoudlyOnAMotionItCannotFollow) {
   PlantParameters rotor;
   rotor.inertia = 1e-200;
-  Plant plant(rotor, {{}, {}}, {}, rig_tolerance);
+  PreslidingPlant plant(rotor, {{}, {}}, {}, rig_tolerance);
   hold(plant, 0.1, sample);
   EXPECT_FALSE(plant.finite());
 }
 
 // Torque beyond any breakaway, until the hook slides, and none until it sticks again.
-void slide_once(Plant& plant, double torque) {
+template <class AnyPlant>
+void slide_once(AnyPlant& plant, double torque) {
   for (int k = 0; k < 1000 && !plant.sliding(); ++k) hold(plant, torque, sample);
   for (int k = 0; k < 100000 && plant.sliding(); ++k) hold(plant, 0.0, sample);
 }
 
-TEST(PlantWithContactsThatDiffer, HasTheNextContactAtEachReStick) {
-  for (const FrictionModel model : {FrictionModel::presliding, FrictionModel::coulomb}) {
-    FrictionAlongRotor friction{{}, {}, model};
-    friction.per_contact.push_back({&FrictionParameters::breakaway,
-                                    [](double u) { return 0.2 + 0.2 * u; },
-                                    {.key = {1, 2}, .stream = 3},
-                                    17});
-    Plant plant({}, friction, {}, rig_tolerance);
-    EXPECT_EQ(plant.contact().breakaway, FrictionParameters{}.breakaway);
-    for (int contact = 1; contact <= 20; ++contact) {
-      slide_once(plant, contact % 2 == 0 ? 0.5 : -0.5);
-      ASSERT_EQ(plant.breakaways(), contact);
-      const double u = open_uniform(random_bits_at({.key = {1, 2}, .stream = 3}, 17, contact));
-      EXPECT_EQ(plant.contact().breakaway, 0.2 + 0.2 * u);
-      EXPECT_EQ(plant.contact().k1, FrictionParameters{}.k1);
-    }
+template <class Law>
+void expect_next_contact_at_each_re_stick() {
+  FrictionAlongRotor friction{};
+  friction.per_contact.push_back({&FrictionParameters::breakaway,
+                                  [](double u) { return 0.2 + 0.2 * u; },
+                                  {.key = {1, 2}, .stream = 3},
+                                  17});
+  PlantWith<Law> plant({}, friction, {}, rig_tolerance);
+  EXPECT_EQ(plant.contact().breakaway, FrictionParameters{}.breakaway);
+  for (int contact = 1; contact <= 20; ++contact) {
+    slide_once(plant, contact % 2 == 0 ? 0.5 : -0.5);
+    ASSERT_EQ(plant.breakaways(), contact);
+    const double u = open_uniform(random_bits_at({.key = {1, 2}, .stream = 3}, 17, contact));
+    EXPECT_EQ(plant.contact().breakaway, 0.2 + 0.2 * u);
+    EXPECT_EQ(plant.contact().k1, FrictionParameters{}.k1);
   }
+}
+
+TEST(PlantWithContactsThatDiffer, HasTheNextContactAtEachReStick) {
+  expect_next_contact_at_each_re_stick<PreslidingFriction>();
+  expect_next_contact_at_each_re_stick<CoulombFriction>();
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "core/plant/free_motion.hpp"
+#include "core/friction/free_motion.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "core/plant/creep_at_rest.hpp"
+#include "core/friction/creep_at_rest.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Small swings in closed form: against the exact solution of their linear equations by a matrix exponential,
 // and by what they must be consistent with in themselves.
-#include "core/plant/swing.hpp"
+#include "core/friction/swing.hpp"
 
 #include <cmath>
 #include <random>

@@ -19,12 +19,14 @@
 namespace zerocount::testing {
 namespace {
 
+using PreslidingPlant = PlantWith<PreslidingFriction>;
+
 double count_of(const TrialParameters& rig) {
   return 2.0 * std::numbers::pi / rig.encoder.fine;
 }
 
 /// A rig at the start of a trial, with the tolerances of one.
-Plant plant_of(const TrialParameters& rig) {
+PreslidingPlant plant_of(const TrialParameters& rig) {
   return {rig.plant, rig.friction, plant_start(rig), motion_tolerance(count_of(rig))};
 }
 
@@ -44,7 +46,7 @@ std::vector<Hold> random_holds(Draws& draws, const TrialParameters& rig) {
   return holds;
 }
 
-void hold(Plant& plant, double torque, double duration) {
+void hold(PreslidingPlant& plant, double torque, double duration) {
   plant.advance(constant_torque(torque), duration);
 }
 
@@ -59,7 +61,7 @@ TEST(PlantAtRest, IsWhereTheFullEquationsHaveIt) {
   for (std::uint64_t index = 0; index < 40; ++index) {
     const TrialParameters rig = rig_number(index);
     Draws draws(index);
-    Plant plant = plant_of(rig);
+    PreslidingPlant plant = plant_of(rig);
     OdeintMotion judge(rig);
     for (const Hold& h : random_holds(draws, rig)) {
       for (double left = h.duration; left > 0.0;) {
@@ -85,7 +87,7 @@ TEST(PlantAtRest, StaysWithTheFullEquationsForSeconds) {
     TrialParameters rig = rig_number(4 * index + 1);
     rig.friction.uniform.alpha = 0.3 + static_cast<double>(index);
     rig.initial.preload = rig.initial.hardening = 0.0;
-    Plant plant = plant_of(rig);
+    PreslidingPlant plant = plant_of(rig);
     OdeintMotion judge(rig);
     const double torque = 0.012 + 0.002 * static_cast<double>(index);
     double moved = 0.0;
@@ -109,12 +111,12 @@ TEST(PlantAtRest, RemembersTheSameReversalsInPiecesOfAnyLength) {
   for (std::uint64_t index = 0; index < 120; ++index) {
     const TrialParameters rig = rig_number(1000 + index);
     Draws draws(2000 + index);
-    Plant whole = plant_of(rig);
-    Plant samples = plant_of(rig);
-    Plant pieces = plant_of(rig);
+    PreslidingPlant whole = plant_of(rig);
+    PreslidingPlant samples = plant_of(rig);
+    PreslidingPlant pieces = plant_of(rig);
     for (const Hold& h : random_holds(draws, rig)) {
       const int steps = static_cast<int>(h.duration / 5e-4);
-      for (Plant* plant : {&whole, &samples, &pieces}) plant->forget_deepest();
+      for (PreslidingPlant* plant : {&whole, &samples, &pieces}) plant->forget_deepest();
       hold(whole, h.torque, 5e-4 * steps);
       for (int k = 0; k < steps; ++k) {
         hold(samples, h.torque, 5e-4);
@@ -122,7 +124,7 @@ TEST(PlantAtRest, RemembersTheSameReversalsInPiecesOfAnyLength) {
         hold(pieces, h.torque, part);
         hold(pieces, h.torque, 5e-4 - part);
       }
-      for (const Plant* plant : {&samples, &pieces}) {
+      for (const PreslidingPlant* plant : {&samples, &pieces}) {
         EXPECT_EQ(plant->spring().depth(), whole.spring().depth()) << index;
         EXPECT_EQ(plant->deepest(), whole.deepest()) << index;
         EXPECT_NEAR(plant->theta(), whole.theta(), 3e-8 * count_of(rig)) << index;
@@ -139,7 +141,7 @@ TEST(PlantAtRest, IsNotWhileItSwings) {
   for (const double alpha : {0.0, 0.5}) {
     TrialParameters rig;
     rig.friction.uniform.alpha = alpha;
-    Plant plant = plant_of(rig);
+    PreslidingPlant plant = plant_of(rig);
     EXPECT_FALSE(plant.come_to_rest(0.012, false));
     hold(plant, 0.012, 5e-4);
     EXPECT_FALSE(plant.come_to_rest(0.012, false));
@@ -167,7 +169,7 @@ TEST(PlantAtRest, WaitsWhereSwingsMakeCreep) {
     // Creep of 10 to 3000 counts.
     const double creep = std::exp(draws.uniform(std::log(10.0), std::log(3000.0))) * count_of(rig);
     contact.lambda = std::pow(torque, contact.n) / creep;
-    Plant plant = plant_of(rig);
+    PreslidingPlant plant = plant_of(rig);
     OdeintMotion judge(rig);
     for (int i = 0; i < 60; ++i) {
       hold(plant, torque, 0.01);
@@ -187,7 +189,7 @@ TEST(PlantAtRest, RemembersASlowUnloading) {
     TrialParameters rig;
     rig.encoder.fine = 10000;
     rig.friction.uniform.alpha = 0.0;
-    Plant plant = plant_of(rig);
+    PreslidingPlant plant = plant_of(rig);
     hold(plant, direction * 0.05, 1.0);
     HystereticSpring spring = plant.spring();
     const double before = spring.elongation();
@@ -206,7 +208,7 @@ TEST(PlantAtRest, CreepsInOneDirection) {
   for (std::uint64_t index = 0; index < 20; ++index) {
     TrialParameters rig = rig_number(4 * index + 1);
     Draws draws(index);
-    Plant plant = plant_of(rig);
+    PreslidingPlant plant = plant_of(rig);
     const double torque = 0.02 * draws.uniform(0.3, 1.0) * (index % 2 == 0 ? 1.0 : -1.0);
     hold(plant, torque, 0.5);
     if (!plant.come_to_rest(torque, false)) continue;

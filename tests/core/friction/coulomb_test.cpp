@@ -12,6 +12,8 @@
 namespace zerocount {
 namespace {
 
+using CoulombPlant = PlantWith<CoulombFriction>;
+
 using testing::hold;
 
 constexpr MotionTolerance coulomb_tolerance{4e-16};
@@ -33,7 +35,7 @@ double next_after(double value) {
 TEST(CoulombPlant, StandsExactlyWhileTheTorqueIsWithinTheLevel) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> torque(-level, level);
-  Plant plant({}, coulomb(0.5), {}, coulomb_tolerance);
+  CoulombPlant plant({}, coulomb(0.5), {}, coulomb_tolerance);
   double now = 0.0;
   for (int k = 0; k < 1000; ++k) {
     const TorqueCourse course{now, torque(random), 1e4 * std::abs(torque(random))};
@@ -51,12 +53,11 @@ TEST(CoulombPlant, KnowsNoPreslidingState) {
   start.hardening = 1e-5;
   start.preload = 0.1;
   start.history = {0.2, -0.1};
-  Plant plant({}, coulomb(), start, coulomb_tolerance);
+  CoulombPlant plant({}, coulomb(), start, coulomb_tolerance);
   for (const double torque : {0.0, 0.5, -0.2, -0.6}) {
     EXPECT_EQ(plant.creep().extension, 0.0);
     EXPECT_EQ(plant.creep().hardening, 0.0);
-    EXPECT_EQ(plant.spring().depth(), 0u);
-    EXPECT_EQ(plant.spring().torque(), 0.0);
+    EXPECT_EQ(plant.depth(), 0);
     hold(plant, torque, 0.01);
   }
   EXPECT_NE(plant.theta(), 0.0);
@@ -72,7 +73,7 @@ TEST(CoulombPlant, SlidesAndStopsAsTheClosedFormSays) {
     rotor.sliding_damping = 1e-3 * std::pow(10.0, 2.0 * unit(random));
     const double relaxation = rotor.inertia / rotor.sliding_damping;
     const double side = unit(random) < 0.5 ? -1.0 : 1.0;
-    Plant plant(rotor, coulomb(), {}, coulomb_tolerance);
+    CoulombPlant plant(rotor, coulomb(), {}, coulomb_tolerance);
 
     const double drive = level * (1.0 + 3.0 * unit(random));
     const double t = 0.02 * unit(random);
@@ -103,7 +104,7 @@ TEST(CoulombPlant, ReversesAtOnceWhereTheTorqueOvercomesTheLevel) {
   PlantParameters rotor;
   rotor.sliding_damping = 0.0;
   const double omega = 1.0;
-  Plant plant(rotor, coulomb(), {.velocity = omega}, coulomb_tolerance);
+  CoulombPlant plant(rotor, coulomb(), {.velocity = omega}, coulomb_tolerance);
   const double torque = -0.5;
   const double braking = (0.5 + level) / rotor.inertia;
   const double backwards = (0.5 - level) / rotor.inertia;
@@ -119,7 +120,7 @@ TEST(CoulombPlant, SlidesOnAtOnceWhereTheNewContactIsWeaker) {
       Profile{Marginal::normal, level, 0.2, {0.0, 0.0}, {0.0, -1.0}});  // falls with the angle
   FrictionAlongRotor friction = coulomb();
   friction.profiled.push_back({&FrictionParameters::breakaway, weaker});
-  Plant plant({}, friction, {.velocity = 5.0}, coulomb_tolerance);
+  CoulombPlant plant({}, friction, {.velocity = 5.0}, coulomb_tolerance);
   const double torque = level - 0.03;
   hold(plant, torque, 1.0);
   EXPECT_TRUE(plant.sliding());
@@ -132,10 +133,10 @@ TEST(CoulombPlant, SlidesOnAtOnceWhereTheNewContactIsWeaker) {
 
 TEST(CoulombPlant, NeedsTheStaticLevelToStartButNotToGoOn) {
   const double between = 0.9 * level;
-  Plant standing({}, coulomb(0.8), {}, coulomb_tolerance);
+  CoulombPlant standing({}, coulomb(0.8), {}, coulomb_tolerance);
   hold(standing, between, 1.0);
   EXPECT_EQ(standing.theta(), 0.0);
-  Plant moving({}, coulomb(0.8), {.velocity = 1.0}, coulomb_tolerance);
+  CoulombPlant moving({}, coulomb(0.8), {.velocity = 1.0}, coulomb_tolerance);
   hold(moving, between, 1.0);
   EXPECT_GT(moving.omega(), 1.0);
 }
@@ -154,12 +155,12 @@ TEST(CoulombPlant, IsReleasedByAnAmplifierAtTheExactInstant) {
         std::log((course.now - course.settled) / (side * level - course.settled)) / course.rate;
     const double excess = (course.settled - side * level) / rotor.inertia;
     for (const double t : {0.1, 1.0, 3.0, 30.0}) {
-      Plant standing(rotor, coulomb(), {}, coulomb_tolerance);
+      CoulombPlant standing(rotor, coulomb(), {}, coulomb_tolerance);
       standing.advance(course, 0.9999999 * release);
       ASSERT_EQ(standing.theta(), 0.0);
       ASSERT_FALSE(standing.sliding());
       const double since = t / course.rate;
-      Plant plant(rotor, coulomb(), {}, coulomb_tolerance);
+      CoulombPlant plant(rotor, coulomb(), {}, coulomb_tolerance);
       plant.advance(course, release + since);
       const double omega = excess * (since + std::expm1(-t) / course.rate);
       const double theta =
@@ -200,7 +201,7 @@ TEST(CoulombPlant, FollowsEveryTorqueAtTheVeryLevel) {
           {2.0 * beyond, side * level, 1e4},
       };
       for (const TorqueCourse& course : courses) {
-        Plant plant({}, coulomb(ratio), {}, coulomb_tolerance);
+        CoulombPlant plant({}, coulomb(ratio), {}, coulomb_tolerance);
         for (int k = 0; k < 20; ++k) plant.advance(course_after(course, k * 5e-4), 5e-4);
         ASSERT_TRUE(plant.finite()) << ratio << ' ' << course.now << ' ' << course.settled;
         const bool moves = std::abs(course.now) > 1.5 * level || std::abs(course.settled) > 1.5 * level;
@@ -233,8 +234,8 @@ TEST(CoulombPlant, SlidesUnderTheSameLawAsThePreslidingOne) {
 // Nothing could give way to a velocity but sliding.
 TEST(CoulombPlant, SlidesAtTheStartWithAVelocityWhateverTheMode) {
   for (const double omega : {2.0, -0.3, 1e-6}) {
-    Plant sliding({}, coulomb(0.6), {.velocity = omega, .sliding = true}, coulomb_tolerance);
-    Plant sticking({}, coulomb(0.6), {.velocity = omega, .sliding = false}, coulomb_tolerance);
+    CoulombPlant sliding({}, coulomb(0.6), {.velocity = omega, .sliding = true}, coulomb_tolerance);
+    CoulombPlant sticking({}, coulomb(0.6), {.velocity = omega, .sliding = false}, coulomb_tolerance);
     EXPECT_TRUE(sticking.sliding());
     for (int k = 0; k < 5; ++k) {
       hold(sliding, 0.1, 5e-4);
@@ -248,8 +249,8 @@ TEST(CoulombPlant, SlidesAtTheStartWithAVelocityWhateverTheMode) {
 TEST(CoulombPlant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
   std::mt19937 random(4);
   std::normal_distribution<double> torque(0.0, 0.4);
-  Plant plant({}, coulomb(0.7), {.velocity = 0.1}, coulomb_tolerance);
-  Plant mirror({}, coulomb(0.7), {.velocity = -0.1}, coulomb_tolerance);
+  CoulombPlant plant({}, coulomb(0.7), {.velocity = 0.1}, coulomb_tolerance);
+  CoulombPlant mirror({}, coulomb(0.7), {.velocity = -0.1}, coulomb_tolerance);
   double now = 0.0;
   for (int k = 0; k < 3000; ++k) {
     const TorqueCourse course{now, torque(random), 3000.0};

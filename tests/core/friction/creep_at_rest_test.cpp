@@ -1,6 +1,6 @@
 // Creep at rest in closed form, against the full equations of motion integrated by Boost.odeint in 64-bit
 // mantissas, over random rigs.
-#include "core/plant/creep_at_rest.hpp"
+#include "core/friction/creep_at_rest.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include "core/friction/creep.hpp"
 #include "core/friction/parameters.hpp"
-#include "core/plant/parameters.hpp"
+#include "core/motion/parameters.hpp"
 
 namespace zerocount {
 

@@ -1,5 +1,5 @@
 // A rotor on an air bearing, against the textbook's solution in a hundred digits.
-#include "core/plant/free_motion.hpp"
+#include "core/friction/free_motion.hpp"
 
 #include <cmath>
 #include <random>
@@ -113,9 +113,9 @@ TEST(FreePlant, HasNoContact) {
   Plant plant({}, no_friction(), start, tolerance);
   for (int k = 0; k < 100; ++k) {
     EXPECT_TRUE(plant.sliding());
-    EXPECT_EQ(plant.creep().extension, 0.0);
-    EXPECT_EQ(plant.creep().hardening, 0.0);
-    EXPECT_EQ(plant.spring().depth(), 0u);
+    EXPECT_EQ(plant.read().creep.extension, 0.0);
+    EXPECT_EQ(plant.read().creep.hardening, 0.0);
+    EXPECT_EQ(plant.read().depth, 0);
     plant.advance(pushes.next().torque, 5e-4);
   }
   EXPECT_EQ(plant.breakaways(), 0);

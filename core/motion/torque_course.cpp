@@ -1,4 +1,4 @@
-#include "core/plant/torque_course.hpp"
+#include "core/motion/torque_course.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // The course of a first-order amplifier: its value, its rest, its instants and its series.
-#include "core/plant/torque_course.hpp"
+#include "core/motion/torque_course.hpp"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/plant/parameters.hpp"
-#include "core/plant/torque_course.hpp"
+#include "core/motion/parameters.hpp"
+#include "core/motion/torque_course.hpp"
 
 namespace zerocount {
 

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/plant/plant.hpp"
+#include "core/friction/presliding.hpp"
 
 namespace zerocount {
 
-bool Plant::come_to_rest(double torque, bool at_reversal) {
+bool PreslidingFriction::come_to_rest(double torque, bool at_reversal) {
   const bool stood = leave_rest();
   const double creep_rate_now = switch_creep();
   if (at_reversal) omega_ = creep_rate_now;
@@ -14,7 +14,7 @@ bool Plant::come_to_rest(double torque, bool at_reversal) {
 }
 
 /// @returns whether nothing swung any more: the rotor stood, but for creep.
-bool Plant::leave_rest() {
+bool PreslidingFriction::leave_rest() {
   if (!rest_) return false;
   const bool stood = !(rest_->time < rest_->swing.unnoticed_after);
   spring_.place(elongation());
@@ -25,7 +25,7 @@ bool Plant::leave_rest() {
 
 /// Whether the rotor is at rest under the constant torque `torque` (N m); if so, puts it there.
 /// @param stood it has been at rest until now, under another torque.
-bool Plant::begin_rest(double torque, const Elongation& elongation, bool stood) {
+bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation, bool stood) {
   const bool turns = elongation.rate == 0.0;
   const double largest = turns ? std::sqrt(tolerance_.rest / contact_.beta) : 0.0;
   const std::optional<Excess> excess =
@@ -46,7 +46,7 @@ bool Plant::begin_rest(double torque, const Elongation& elongation, bool stood) 
   } else if (creeping_) {
     end_creep();
   }
-  deepest_ = std::max(deepest_, static_cast<std::int64_t>(spring_.depth()));
+  deepest_ = std::max(deepest_, depth());
   swing_ = swing_at(swing, 0.0);
   CreepAtRest slow = creep;
   slow.rate += creep.g1 * creep.sign * swing_.extension;
@@ -55,13 +55,14 @@ bool Plant::begin_rest(double torque, const Elongation& elongation, bool stood) 
 }
 
 /// What creep comes to without the present swing.
-CreepState Plant::slow_creep(double sign) const {
+CreepState PreslidingFriction::slow_creep(double sign) const {
   return {creep_.extension - swing_.extension, creep_.hardening - sign * swing_.extension};
 }
 
 /// None where the amplitude is above `largest` (rad), or creep as fast as the swings.
-std::optional<Plant::Excess> Plant::excess_over_rest(double torque, const Elongation& elongation,
-                                                     double largest) const {
+std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(double torque,
+                                                                               const Elongation& elongation,
+                                                                               double largest) const {
   const double inertia = plant_.inertia;
   const double damping = plant_.presliding_damping;
   const double stiffest = contact_.k1 + contact_.k2;
@@ -102,7 +103,7 @@ std::optional<Plant::Excess> Plant::excess_over_rest(double torque, const Elonga
 /// A rotor that is off by rounding alone stays: it may stand on the edge of a count. What is left of a swing
 /// is not remembered. But where the torque has changed on a rotor that stood, however little, the spring is
 /// loaded or unloaded by that, and has to remember it: a slow ramp is nothing but such steps.
-void Plant::settle(const Excess& excess, bool stood) {
+void PreslidingFriction::settle(const Excess& excess, bool stood) {
   if (!(std::abs(excess.torque) > tolerance_.elongation * (contact_.k1 + contact_.k2))) return;
   const double torque = excess.creep.sign * spring_torque_at_rate(excess.creep, excess.creep.rate);
   if (stood) {
@@ -114,7 +115,7 @@ void Plant::settle(const Excess& excess, bool stood) {
 
 /// Whether nothing but the spring, as stiff as it is at a reversal, the damper and some creep will have a say
 /// in the swings that are left. Asked at a reversal.
-bool Plant::swings_freely(double torque, const Excess& excess) const {
+bool PreslidingFriction::swings_freely(double torque, const Excess& excess) const {
   const double margin = 2.0 * excess.amplitude;
   const double torque_margin = margin * (contact_.k1 + contact_.k2);
   if (!(std::abs(torque) + torque_margin < contact_.breakaway)) return false;
@@ -130,7 +131,7 @@ bool Plant::swings_freely(double torque, const Excess& excess) const {
 
 /// About how far (rad) creep goes in the swings beyond what Swing has of it: Σ of the second order of σⁿ,
 /// which has one sign whatever that of the swing, and what creep recovers while it is ahead.
-double Plant::creep_left_out(const SwingLaw& law, const Excess& excess) const {
+double PreslidingFriction::creep_left_out(const SwingLaw& law, const Excess& excess) const {
   const double amplitude = excess.amplitude;
   const double stiffest = contact_.k1 + contact_.k2;
   const double per_time_squared = law.frequency * law.frequency + law.decay * law.decay;
@@ -140,7 +141,7 @@ double Plant::creep_left_out(const SwingLaw& law, const Excess& excess) const {
   return rectified + 2.0 * recovered;
 }
 
-SwingLaw Plant::swing_law(const Excess& excess) const {
+SwingLaw PreslidingFriction::swing_law(const Excess& excess) const {
   const double stiffest = contact_.k1 + contact_.k2;
   const double per_time = plant_.presliding_damping / plant_.inertia;
   SwingLaw law{0.0, 0.0, 0.0, contact_.k2 * contact_.beta / stiffest};
@@ -155,7 +156,7 @@ SwingLaw Plant::swing_law(const Excess& excess) const {
 }
 
 /// Makes the present elongation a reversal, and puts the spring to where the swings from it will end.
-Swing Plant::begin_swing(const Excess& excess) {
+Swing PreslidingFriction::begin_swing(const Excess& excess) {
   const CreepAtRest& creep = excess.creep;
   const double from = spring_.elongation();
   spring_.set_direction(-spring_.direction());
@@ -164,7 +165,7 @@ Swing Plant::begin_swing(const Excess& excess) {
 }
 
 /// The motion by creep alone, where it describes the coming motion to a tenth of the rest rule's amplitude.
-std::optional<CreepAtRest> Plant::slow_motion(double torque, double sign) const {
+std::optional<CreepAtRest> PreslidingFriction::slow_motion(double torque, double sign) const {
   const bool onwards = spring_.direction() == static_cast<int>(sign);
   const double stiffness =
       onwards ? stiffness_on(spring_.branch(), spring_.elongation()) : contact_.k1 + contact_.k2;
@@ -178,7 +179,7 @@ std::optional<CreepAtRest> Plant::slow_motion(double torque, double sign) const 
   return error < 0.1 * tolerance_.rest ? creep : std::nullopt;
 }
 
-double Plant::theta_at_rest(double time) const {
+double PreslidingFriction::theta_at_rest(double time) const {
   const CreepAtRest& creep = rest_->creep;
   const double later = rest_->time + time;
   double slow = hook_ + spring_.elongation() + slow_creep(creep.sign).extension;
@@ -193,7 +194,7 @@ double Plant::theta_at_rest(double time) const {
   return slow + swing.elongation + swing.extension;
 }
 
-void Plant::go_on_at_rest(double duration) {
+void PreslidingFriction::go_on_at_rest(double duration) {
   rest_->time += duration;
   const CreepAtRest& creep = rest_->creep;
   creep_ = slow_creep(creep.sign);

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+
+#include "core/friction/law.hpp"
+#include "core/friction/sliding.hpp"
+
+namespace zerocount {
+
+/// Amonton–Coulomb friction with a static level: the rotor stands, θ constant, while |u| ≤ Fs = breakaway. It
+/// slides towards sgn(u) from the instant at which |u| passes Fs, as Slide has it, until ω = 0; there the
+/// contact is new, with the parameters of that place.
+class CoulombFriction : public WithoutSpring {
+ public:
+  static constexpr std::string_view word = "coulomb";
+  static constexpr std::array<ContactField, 3> contact_parameters{&FrictionParameters::breakaway,
+                                                                  &FrictionParameters::coulomb_ratio,
+                                                                  &FrictionParameters::stribeck_velocity};
+  static constexpr bool has_presliding_damping = false;
+  static constexpr bool runs_in_lanes = false;
+
+  /// It slides at the start wherever velocity ≠ 0: nothing else could give way to it.
+  CoulombFriction(const PlantParameters& plant, FrictionAlongRotor friction, const PlantStart& start,
+                  const MotionTolerance& tolerance);
+
+  double step(const TorqueCourse& torque, double duration);
+
+  double theta() const { return theta_; }
+  double omega() const { return omega_; }
+  bool sliding() const { return sliding_; }
+  std::int64_t breakaways() const { return breakaways_; }
+  const FrictionParameters& contact() const { return contact_; }
+
+ private:
+  double stand(const TorqueCourse& torque, double duration);
+  double slide(const TorqueCourse& torque, double duration);
+  bool torque_drives(double direction, const TorqueCourse& torque) const;
+  void break_away(double direction);
+
+  PlantParameters plant_;
+  FrictionAlongRotor friction_;
+  double position_;
+  double tolerance_;
+  FrictionParameters contact_;
+  std::int64_t contact_number_{0};
+  double theta_{0.0};
+  double omega_;
+  bool sliding_;
+  double direction_;  // −1, 1
+  std::int64_t breakaways_{0};
+};
+
+}  // namespace zerocount

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "core/friction/creep.hpp"
+#include "core/friction/parameters.hpp"
+#include "core/motion/parameters.hpp"
+#include "core/motion/plant_start.hpp"
+#include "core/motion/taylor_step.hpp"
+#include "core/motion/tolerance.hpp"
+
+namespace zerocount {
+
+/// Which of a contact's parameters.
+using ContactField = double FrictionParameters::*;
+
+/// A friction law between rotor and bearing (README.md): its state, which includes that of the rotor, and how
+/// it moves. It is either itself a SmoothMotion, which the plant takes on from event to event, or it has
+/// step(torque, duration), which goes on by a step of its own choice, at most by `duration` (s), and returns
+/// the time used: by taylor_step of the smooth motion in force, or in closed form.
+template <class Law>
+concept FrictionLaw = std::constructible_from<Law, const PlantParameters&, const FrictionAlongRotor&,
+                                              const PlantStart&, const MotionTolerance&> &&
+                      (SmoothMotion<Law> ||
+                       requires(Law law, const TorqueCourse& torque, double duration) {
+                         { law.step(torque, duration) } -> std::same_as<double>;
+                       }) &&
+                      requires(Law law, const Law now) {
+  { Law::word } -> std::convertible_to<std::string_view>;                             // of friction.model
+  { Law::contact_parameters } -> std::convertible_to<std::span<const ContactField>>;  // that it uses
+  { Law::has_presliding_damping } -> std::convertible_to<bool>;  // J·dω/dt = u − c·ω − … at some time
+  { Law::runs_in_lanes } -> std::convertible_to<bool>;           // of the batch engine
+  { now.theta() } -> std::same_as<double>;                       // rad
+  { now.omega() } -> std::same_as<double>;                       // rad/s
+  { now.creep() } -> std::convertible_to<CreepState>;
+  { now.sliding() } -> std::same_as<bool>;
+  { now.depth() } -> std::same_as<std::int64_t>;       // of the stack of reversal points
+  { now.deepest() } -> std::same_as<std::int64_t>;     // the largest since forget_deepest()
+  { now.breakaways() } -> std::same_as<std::int64_t>;  // since the start
+  law.forget_deepest();
+};
+
+/// What a law without creep and memory says of them.
+struct WithoutSpring {
+  static CreepState creep() { return {}; }
+  static std::int64_t depth() { return 0; }
+  static std::int64_t deepest() { return 0; }
+  static void forget_deepest() {}
+};
+
+/// What is known of a law without its motion.
+struct LawTraits {
+  std::string_view word;
+  std::span<const ContactField> contact_parameters;
+  bool has_presliding_damping;
+  bool runs_in_lanes;
+};
+
+template <FrictionLaw Law>
+constexpr LawTraits traits_of() {
+  return {Law::word, Law::contact_parameters, Law::has_presliding_damping, Law::runs_in_lanes};
+}
+
+}  // namespace zerocount

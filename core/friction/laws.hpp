@@ -1,0 +1,21 @@
+#pragma once
+
+#include <variant>
+
+#include "core/friction/coulomb.hpp"
+#include "core/friction/none.hpp"
+#include "core/friction/presliding.hpp"
+
+namespace zerocount {
+
+template <FrictionLaw... Laws>
+struct LawList {
+  template <template <class> class Of>
+  using Variant = std::variant<Of<Laws>...>;  ///< one of a plant with each law, say
+  static constexpr std::array traits{traits_of<Laws>()...};
+};
+
+/// All laws, in the order of FrictionModel.
+using FrictionLaws = LawList<PreslidingFriction, SpringFriction, CoulombFriction, NoFriction>;
+
+}  // namespace zerocount

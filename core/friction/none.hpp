@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+
+#include "core/friction/free_motion.hpp"
+#include "core/friction/law.hpp"
+
+namespace zerocount {
+
+/// An air bearing: J·dω/dt = u − c·ω and nothing else, by free_motion(). There is no contact; the rotor
+/// always slides, and no hook can break away.
+class NoFriction : public WithoutSpring {
+ public:
+  static constexpr std::string_view word = "none";
+  static constexpr std::array<ContactField, 0> contact_parameters{};
+  static constexpr bool has_presliding_damping = true;
+  static constexpr bool runs_in_lanes = false;
+
+  NoFriction(const PlantParameters& plant, const FrictionAlongRotor&, const PlantStart& start,
+             const MotionTolerance&)
+      : plant_(plant), motion_{0.0, start.velocity} {}
+
+  double step(const TorqueCourse& torque, double duration) {
+    motion_ = free_motion(plant_, motion_, torque, duration);
+    return duration;
+  }
+
+  double theta() const { return motion_.theta; }
+  double omega() const { return motion_.omega; }
+  static bool sliding() { return true; }
+  static std::int64_t breakaways() { return 0; }
+
+ private:
+  PlantParameters plant_;
+  FreeMotion motion_;
+};
+
+}  // namespace zerocount

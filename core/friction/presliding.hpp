@@ -1,0 +1,201 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "core/friction/creep.hpp"
+#include "core/friction/creep_at_rest.hpp"
+#include "core/friction/law.hpp"
+#include "core/friction/spring.hpp"
+#include "core/friction/sticking.hpp"
+#include "core/friction/swing.hpp"
+
+namespace zerocount {
+
+/// State of the pre-sliding model and its rotor, without the reversal points of the spring.
+struct PlantMotion {
+  double elongation{0.0};  ///< xs, rad
+  double omega{0.0};       ///< ω, rad/s
+  CreepState creep{};
+  bool creeping{false};            ///< the creep law is on
+  double creep_onset_torque{0.0};  ///< |σ| at which it sets in while it is off, N m
+  double hook{0.0};                ///< rad
+  bool sliding{false};
+  double slide_theta{0.0};              ///< θ, rad
+  double slide_direction{0.0};          ///< −1, 1
+  double breakaway_spring_torque{0.0};  ///< σb, N m
+};
+
+/// The model of the paper: the pre-sliding motion (paper, eq. 4, with creep) while the hook sticks,
+/// sliding (paper, eq. 3) after breakaway, and the changes between them: Sticking and Slide.
+///
+/// Rest rule. Without one, an oscillation would die out for ever, and rounding would make the elongation rate
+/// flip its sign in the end. Let δσ and δω be what σ and ω differ by from those of a rotor that only creep
+/// moves under the present torque (CreepAtRest; without creep σ = u and ω = 0), ε = MotionTolerance::rest,
+/// ωn² = (k1 + k2)/J, and A the amplitude with
+///
+///   ((δσ + c·δω)/J)² + (ωn·δω)² = (A·ωn²)².
+///
+/// Where A < ε and |δσ| < 2ε·dσ/dxs, σ and ω are set to those of the creeping rotor, which follows
+/// CreepAtRest for as long as the torque stays. What is left out is an oscillation of amplitude ε.
+///
+/// At a reversal this happens earlier already, where β·A² < ε. A loop of the spring of the size A is open by
+/// some β·A², so the spring of what is left of the oscillation is the straight line of stiffness k1 + k2: it
+/// is a Swing about CreepAtRest, whose reversals are not remembered but for the first. (Not where creep or
+/// the hook would notice: where within twice the amplitude creep sets in or ends, or the hook breaks away.)
+///
+/// Both conditions are on the energy of the oscillation, which only falls, and the second is asked at
+/// reversals only: so which reversal is the last one to be remembered does not depend on where steps end.
+///
+/// Where the torque moves, the elongation is held while |dxs/dt| < ε·ωn and |d²xs/dt²| < ε·ωn², with ε =
+/// MotionTolerance::elongation, from half of that acceleration until the torque has brought it to the whole;
+/// creep follows its exact solution at constant torque. The elongation is then never further than ε·(k1 +
+/// k2)/k1 from the one that balances the torque.
+class PreslidingFriction {
+ public:
+  static constexpr std::string_view word = "presliding";
+  static constexpr std::array<ContactField, 9> contact_parameters{&FrictionParameters::breakaway,
+                                                                  &FrictionParameters::coulomb_ratio,
+                                                                  &FrictionParameters::stribeck_velocity,
+                                                                  &FrictionParameters::k1,
+                                                                  &FrictionParameters::k2,
+                                                                  &FrictionParameters::beta,
+                                                                  &FrictionParameters::alpha,
+                                                                  &FrictionParameters::lambda,
+                                                                  &FrictionParameters::n};
+  static constexpr bool has_presliding_damping = true;
+  static constexpr bool runs_in_lanes = true;
+
+  PreslidingFriction(const PlantParameters& plant, FrictionAlongRotor friction, const PlantStart& start,
+                     MotionTolerance tolerance);
+
+  double step(const TorqueCourse& torque, double duration) {
+    return sliding_ ? slide(torque, duration) : stick(torque, duration);
+  }
+
+  // For an engine that follows the motion itself and leaves to this class what is rare.
+  PlantMotion motion() const;
+  /// Takes over where another has followed the motion to. The spring must be on the same branch.
+  void set_motion(const PlantMotion& motion);
+  /// The hook starts to slide in `direction` (−1, 1).
+  void break_away(double direction);
+  /// The hook sticks, where the slide has come to ω = 0.
+  void re_stick();
+  /// At rest under a constant torque: since when, and how it began.
+  struct Rest {
+    double torque;      ///< u, N m
+    CreepAtRest creep;  ///< from then on
+    CreepState start;   ///< of such creep, then
+    Swing swing;        ///< about it
+    double time;        ///< since then, s
+  };
+
+  /// By the rest rule, under the constant torque `torque` (N m). Where true, `advance` with that torque
+  /// follows it in one step.
+  /// @param at_reversal dxs/dt is zero now, exactly.
+  bool come_to_rest(double torque, bool at_reversal);
+  /// None while the rotor is not at rest.
+  const std::optional<Rest>& rest() const { return rest_; }
+  /// θ (rad) at rest, after another `time` (s) of it.
+  double theta_at_rest(double time) const;
+  /// At rest, its elongation is that of the creeping rotor, without what swings about it.
+  HystereticSpring& spring() { return spring_; }
+
+  /// θ, rad.
+  double theta() const { return sliding_ ? slide_theta_ : hook_ + elongation() + creep_.extension; }
+  /// ω, rad/s.
+  double omega() const { return omega_; }
+  /// Of the present contact, or of the last one while sliding.
+  const CreepState& creep() const { return creep_; }
+  const HystereticSpring& spring() const { return spring_; }
+  const FrictionParameters& contact() const { return contact_; }
+  bool sliding() const { return sliding_; }
+
+  /// Since the start.
+  std::int64_t breakaways() const { return breakaways_; }
+  /// Largest stack depth since the last forget_deepest().
+  std::int64_t deepest() const { return deepest_; }
+  void forget_deepest() { deepest_ = depth(); }
+  std::int64_t depth() const { return static_cast<std::int64_t>(spring_.depth()); }
+
+ private:
+  /// Of the spring: dxs/dt (rad/s), and d²xs/dt² (rad/s²; exact where dxs/dt is zero).
+  struct Elongation {
+    double rate;
+    double acceleration;
+  };
+
+  /// Deviation of the motion from that of a rotor that only creep moves.
+  struct Excess {
+    CreepAtRest creep;  ///< the motion of such a rotor
+    double torque;      ///< δσ, N m
+    double velocity;    ///< δω, rad/s
+    double amplitude;   ///< A, rad
+  };
+
+  // Each returns the time used, at most `duration`.
+  double stick(const TorqueCourse& torque, double duration);
+  double slide(const TorqueCourse& torque, double duration);
+
+  Elongation elongation_under(double torque, double creep_rate_now) const;
+  bool begin_rest(double torque, const Elongation& elongation, bool stood);
+  std::optional<Excess> excess_over_rest(double torque, const Elongation& elongation, double largest) const;
+  bool swings_freely(double torque, const Excess& excess) const;
+  SwingLaw swing_law(const Excess& excess) const;
+  Swing begin_swing(const Excess& excess);
+  CreepState slow_creep(double sign) const;
+  double creep_left_out(const SwingLaw& law, const Excess& excess) const;
+  void settle(const Excess& excess, bool stood);
+  std::optional<CreepAtRest> slow_motion(double torque, double sign) const;
+  double elongation() const { return spring_.elongation() + swing_.elongation; }
+  bool leave_rest();
+  double switch_creep();
+  void go_on_at_rest(double duration);
+  bool at_rest(const Elongation& elongation) const;
+  double time_at_rest(const Elongation& elongation, const TorqueCourse& torque, double duration) const;
+  int slides_towards(double torque) const;
+  void pass(Sticking::Event event);
+  void hold_at_rest(double duration);
+  void end_creep();
+  double creep_rate() const;
+
+  PlantParameters plant_;
+  FrictionAlongRotor friction_;
+  double position_;
+  MotionTolerance tolerance_;
+
+  FrictionParameters contact_;
+  std::int64_t contact_number_{0};
+  HystereticSpring spring_;
+  CreepState creep_;
+  bool creeping_{false};
+  double creep_onset_torque_{0.0};  // |σ| at which creep starts, while it is off
+  double hook_{0.0};
+  double omega_{0.0};
+  std::optional<Rest> rest_;
+  Swing::State swing_{0.0, 0.0, 0.0};  // not zero at rest only
+
+  bool sliding_{false};
+  double slide_theta_{0.0};
+  double slide_direction_{0.0};
+  double breakaway_spring_torque_{0.0};  // σb
+
+  std::int64_t breakaways_{0};
+  std::int64_t deepest_{0};
+};
+
+/// The same without creep: α counts as 0 in every contact.
+class SpringFriction : public PreslidingFriction {
+ public:
+  using PreslidingFriction::PreslidingFriction;
+  static constexpr std::string_view word = "spring";
+  static constexpr std::array<ContactField, 6> contact_parameters{&FrictionParameters::breakaway,
+                                                                  &FrictionParameters::coulomb_ratio,
+                                                                  &FrictionParameters::stribeck_velocity,
+                                                                  &FrictionParameters::k1,
+                                                                  &FrictionParameters::k2,
+                                                                  &FrictionParameters::beta};
+};
+
+}  // namespace zerocount

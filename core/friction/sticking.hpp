@@ -1,0 +1,103 @@
+#pragma once
+
+#include "core/friction/creep.hpp"
+#include "core/friction/parameters.hpp"
+#include "core/friction/spring.hpp"
+#include "core/motion/taylor_step.hpp"
+
+namespace zerocount {
+
+/// Taylor series in time of the pre-sliding motion from the present state, on one branch.
+struct StickingSeries {
+  Series position{};         ///< xs, rad
+  Series elongation_rate{};  ///< dxs/dt, rad/s
+  Series omega{};            ///< ω, rad/s
+  Series extension{};        ///< xp, rad
+  Series hardening{};        ///< xh, rad
+  Series spring_torque{};    ///< σ, N m
+  Series creep_rate{};  ///< α·(|σ|ⁿ/λ − xh), the rate of xh while creep is on, rad/s; zero while it is off
+  Series exponent{};        ///< −y, the exponent of the branch law, dimensionless
+  Series slope{};           ///< −dy/dt, 1/s
+  Series softness{};        ///< exp(−y)
+  Series magnitude{};       ///< |σ|, N m
+  Series power{};           ///< |σ|ⁿ
+  double torque_sign{1.0};  ///< of σ: creep never lasts until σ = 0
+  double per_lambda{0.0};   ///< 1/λ
+};
+
+/// The motion while the hook holds (paper, eqs. 1, 2 and 4, with creep kept):
+///
+///   J·dω/dt = u − c·ω − σ(xs),   dxs/dt = ω − dxp/dt,   dxh/dt = α·(|σ|ⁿ/λ − xh),   dxp/dt = sgn(σ)·dxh/dt.
+///
+/// With y = softening_rate·|xs − xr| the branch of the spring is σ = σr + s·[k1·|xs − xr| +
+/// softening_torque·(1 − exp(−y))], so that the only exponential is that of y at the start of a step.
+struct Sticking {
+  using Expansion = StickingSeries;
+  enum class Event {
+    none,
+    reversal,      ///< the elongation turns
+    closure,       ///< the present branch ends
+    creep_on,      ///< |σ| reaches the onset of creep
+    creep_off,     ///< the hardening catches up with |σ|ⁿ/λ
+    breakaway,     ///< the hook starts to slide
+    velocity_zero  ///< ω = 0, which may start a slide in a contact already loaded beyond breakaway
+  };
+
+  const FrictionParameters& contact;
+  double damping;  ///< c, N m s/rad
+  HystereticSpring& spring;
+  CreepState& creep;
+  double& omega;              ///< rad/s
+  bool creeping;              ///< the creep law is on
+  double creep_onset_torque;  ///< |σ| (N m) at which creep starts, while it is off
+
+  StickingSeries start() const;
+  double expand(StickingSeries& s, std::size_t k, double torque) const {
+    expand_torque(s, k);
+    const double extension_rate = s.torque_sign * s.creep_rate[k];
+    s.elongation_rate[k] = s.omega[k] - extension_rate;
+    s.slope[k] = exponent_coefficient(s.elongation_rate[k]);
+    s.hardening[k + 1] = s.creep_rate[k] * reciprocal[k + 1];
+    s.extension[k + 1] = extension_rate * reciprocal[k + 1];
+    s.position[k + 1] = s.elongation_rate[k] * reciprocal[k + 1];
+    return torque - damping * s.omega[k] - s.spring_torque[k];
+  }
+  void complete(StickingSeries& series) const { expand_torque(series, series_order); }
+  NextEvent<Event> first_event(const StickingSeries& series, double step) const;
+  void go_to(const StickingSeries& series, const NextEvent<Event>& next);
+
+ private:
+  /// The coefficient of −y, the exponent of the branch, that follows that of xs.
+  double exponent_coefficient(double elongation_coefficient) const {
+    return -spring.branch().softening_rate * spring.branch().sign * elongation_coefficient;
+  }
+
+  /// Coefficient k ≥ 1 of |σ|ⁿ. The whole exponents 1 and 2 need no division by σ, which may be tiny.
+  static double torque_power_coefficient(const Series& magnitude, const Series& power, double n,
+                                         std::size_t k) {
+    if (n == 1.0) return magnitude[k];
+    if (n == 2.0) return square_coefficient(magnitude, k);
+    return power_coefficient(magnitude, power, n, k);
+  }
+
+  void expand_torque(StickingSeries& s, std::size_t k) const {
+    const SpringBranch& branch = spring.branch();
+    if (k > 0) {
+      s.exponent[k] = exponent_coefficient(s.position[k]);
+      s.softness[k] = exponential_coefficient(s.slope, s.softness, k);
+      s.spring_torque[k] = branch.k1 * s.position[k] - branch.sign * branch.softening_torque * s.softness[k];
+    }
+    if (!creeping) return;
+    s.magnitude[k] = s.torque_sign * s.spring_torque[k];
+    if (k > 0) s.power[k] = torque_power_coefficient(s.magnitude, s.power, contact.n, k);
+    // At k = 0 to the last bit as hardening_limit() has it, so that a reversal is at rest exactly.
+    const double limit = k == 0 ? s.power[0] / contact.lambda : s.power[k] * s.per_lambda;
+    s.creep_rate[k] = contact.alpha * (limit - s.hardening[k]);
+  }
+
+  void find_closure(const StickingSeries& series, NextEvent<Event>& next) const;
+  void find_creep_change(const StickingSeries& series, NextEvent<Event>& next) const;
+  void find_breakaway(const StickingSeries& series, NextEvent<Event>& next) const;
+};
+
+}  // namespace zerocount

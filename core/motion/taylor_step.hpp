@@ -1,0 +1,104 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "core/motion/torque_course.hpp"
+#include "core/numerics/power_series.hpp"
+
+namespace zerocount {
+
+/// The first event within a step: a kink of the motion, which ends the step. `Event` is an enumeration of a
+/// law's events that has `none`.
+template <class Event>
+struct NextEvent {
+  double time;  ///< s from the start of the step; its end where nothing happens
+  Event event{Event::none};
+
+  /// Takes `candidate` (s), if there is one, where it is not later than what is known.
+  void offer(std::optional<double> candidate, Event what) {
+    if (!candidate || *candidate > time) return;
+    time = *candidate;
+    event = what;
+  }
+};
+
+/// A motion J·dω/dt = u − F that is analytic in time up to its next event. F may depend on a state of its
+/// own, dz/dt = f(z, ω). The members:
+///
+///   Expansion                   Taylor coefficients of all that moves, among them
+///                               position (rad, its error is bounded), omega (rad/s) and exponent (that of
+///                               the motion's one exponential, dimensionless; 0 without one)
+///   start()                     the coefficients 0 of the state
+///   expand(series, k, u_k)      makes the coefficients k of what depends on the state, and those k + 1 of
+///   the
+///                               state except ω; returns the coefficient k of u − F, N m
+///   complete(series)            where there is one: makes the coefficients series_order that events need
+///   first_event(series, step)   the first event within `step` (s), located in time
+///   go_to(series, next)         takes the state to next.time, and passes next.event
+template <class Motion>
+concept SmoothMotion = requires(Motion motion, const Motion now, typename Motion::Expansion series,
+                                std::size_t k, double value, const NextEvent<typename Motion::Event> next) {
+  { series.position } -> std::same_as<Series&>;
+  { series.omega } -> std::same_as<Series&>;
+  { series.exponent } -> std::same_as<Series&>;
+  { now.start() } -> std::same_as<typename Motion::Expansion>;
+  { now.expand(series, k, value) } -> std::same_as<double>;
+  { now.first_event(series, value) } -> std::same_as<NextEvent<typename Motion::Event>>;
+  motion.go_to(series, next);
+};
+
+/// The Taylor series of a motion from its present state.
+/// @param inertia J, kg m². @param torque u(t), N m.
+template <SmoothMotion Motion>
+typename Motion::Expansion motion_series(const Motion& motion, double inertia, const TorqueCourse& torque) {
+  const Series applied = torque_series(torque);
+  const double per_inertia = 1.0 / inertia;
+  typename Motion::Expansion series = motion.start();
+  for (std::size_t k = 0; k < series_order; ++k) {
+    const double acceleration = motion.expand(series, k, applied[k]) * per_inertia;
+    series.omega[k + 1] = acceleration * reciprocal[k + 1];
+  }
+  if constexpr (requires { motion.complete(series); }) motion.complete(series);
+  return series;
+}
+
+/// The longest step t ≤ `longest` (s) over which both hold:
+/// - the last two terms of the series of a position, and those of its velocity times t, stay below
+/// `tolerance`·t/longest
+///   (rad), so that the steps of a whole interval leave out no more than `tolerance`. Two terms, because one
+///   may vanish by chance;
+/// - the exponent of the motion's one exponential grows by at most 6, or stays below −40. The terms zᵏ/k! of
+/// exp(z) rise up to
+///   k = z: beyond that growth the last terms kept may be small before the largest have come.
+/// The exp(−rt) of a torque that moves needs no such bound: where rt exceeds the order of the series, the
+/// last terms are the largest of all, and a step over which they are small is one over which all of it is.
+double step_within(const Series& position, const Series& velocity, const Series& exponent, double tolerance,
+                   double longest);
+
+/// Takes the motion on along its series to the end of a Taylor step or to its first event, whichever comes
+/// first.
+/// @param tolerance of the position, rad. @param duration longest step, s. @returns the time used and the
+/// event.
+template <SmoothMotion Motion>
+NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& series, Motion& motion,
+                                             double tolerance, double duration) {
+  const double step = step_within(series.position, series.omega, series.exponent, tolerance, duration);
+  const NextEvent<typename Motion::Event> next = motion.first_event(series, step);
+  motion.go_to(series, next);
+  return next;
+}
+
+/// The same by the series from the present state.
+template <SmoothMotion Motion>
+NextEvent<typename Motion::Event> taylor_step(Motion& motion, double inertia, const TorqueCourse& torque,
+                                              double tolerance, double duration) {
+  return step_along(motion_series(motion, inertia, torque), motion, tolerance, duration);
+}
+
+/// First time in (0, end] at which `series` changes sign, where a start at exactly zero does not count.
+std::optional<double> next_sign_change(std::span<const double> series, double end);
+
+}  // namespace zerocount

@@ -1,12 +1,10 @@
 # What every target of this project has in common.
 #
-# zerocount_target(<target>): C++20, include paths from the repository root (`#include "core/..."`), our warnings, and
-# no contraction of a·b + c into one rounding: the same source must give the same bits in every build, or the quantisers of
-# the loop would turn a last-bit difference into a different count.
+# zerocount_target(<target>): C++20, our warnings, and no contraction of a·b + c into one rounding: the same source must give
+# the same bits in every build, or the quantisers of the loop would turn a last-bit difference into a different count.
 function(zerocount_target target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
-  target_include_directories(${target} PUBLIC "${CMAKE_SOURCE_DIR}")
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   if(ZEROCOUNT_WARNINGS_AS_ERRORS)
@@ -16,7 +14,7 @@ function(zerocount_target target)
   # compiler's time counts for more.
   if(target MATCHES "tests?$")
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-  elseif(NOT target STREQUAL zerocount_core)
+  elseif(NOT target MATCHES "^zerocount_core_")
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
   endif()
   if(ZEROCOUNT_NATIVE)
@@ -62,14 +60,48 @@ function(zerocount_units variable largest)
   set(${variable} ${files} PARENT_SCOPE)
 endfunction()
 
-# zerocount_library(<name> SOURCES ... [ALONE ...] LINKS ...): one layer, as a static library zerocount_<name>. ALONE: sources
-# with compile options of their own.
-function(zerocount_library name)
+# zerocount_includes(<target> <visibility> <folder>): lets a target include the headers of one folder, by their path from the
+# repository root, and no others: a link to the folder stands alone in a directory of its own. What else a target may
+# include comes with the targets that it links.
+function(zerocount_includes target visibility folder)
+  string(MAKE_C_IDENTIFIER "${folder}" name)
+  set(root "${CMAKE_BINARY_DIR}/include/${name}")
+  get_filename_component(parent "${root}/${folder}" DIRECTORY)
+  file(MAKE_DIRECTORY "${parent}")
+  file(CREATE_LINK "${CMAKE_SOURCE_DIR}/${folder}" "${root}/${folder}" SYMBOLIC)
+  target_include_directories(${target} ${visibility} "${root}")
+endfunction()
+
+# zerocount_folder(SOURCES ... [ALONE ...] LINKS ...): the folder of this CMakeLists.txt as a library: core/friction is the target
+# zerocount::core::friction. ALONE: sources with compile options of their own.
+function(zerocount_folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LINKS" ${ARGN})
-  zerocount_units(${name}_units 12 ${ARG_SOURCES})
-  add_library(zerocount_${name} STATIC ${${name}_units} ${ARG_ALONE})
-  target_link_libraries(zerocount_${name} PUBLIC ${ARG_LINKS})
-  zerocount_target(zerocount_${name})
+  file(RELATIVE_PATH folder "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
+  string(MAKE_C_IDENTIFIER "zerocount_${folder}" target)
+  string(REPLACE "/" "::" alias "zerocount::${folder}")
+  if(ARG_SOURCES)
+    zerocount_units(units 12 ${ARG_SOURCES})
+    add_library(${target} STATIC ${units} ${ARG_ALONE})
+    target_link_libraries(${target} PUBLIC ${ARG_LINKS})
+    zerocount_target(${target})
+    zerocount_includes(${target} PUBLIC "${folder}")
+  else()
+    add_library(${target} INTERFACE)
+    target_link_libraries(${target} INTERFACE ${ARG_LINKS})
+    zerocount_includes(${target} INTERFACE "${folder}")
+  endif()
+  add_library(${alias} ALIAS ${target})
+endfunction()
+
+# zerocount_layer(<folder>...): the folders of a layer, lowest first, and all of them as one target, zerocount::core say.
+function(zerocount_layer)
+  get_filename_component(layer "${CMAKE_CURRENT_SOURCE_DIR}" NAME)
+  add_library(zerocount_${layer} INTERFACE)
+  add_library(zerocount::${layer} ALIAS zerocount_${layer})
+  foreach(folder IN LISTS ARGN)
+    add_subdirectory(${folder})
+    target_link_libraries(zerocount_${layer} INTERFACE zerocount::${layer}::${folder})
+  endforeach()
 endfunction()
 
 # zerocount_test(<name> SOURCES ... [ALONE ...] LINKS ...): one GoogleTest executable, each of its tests known to CTest.

@@ -7,8 +7,8 @@
 #include <system_error>
 #include <vector>
 
-#include "core/failure.hpp"
-#include "runners/commands.hpp"
+#include "core/failure/failure.hpp"
+#include "runners/commands/commands.hpp"
 
 namespace {
 

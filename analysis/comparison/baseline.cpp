@@ -11,8 +11,8 @@
 
 #include "analysis/comparison/compare_studies.hpp"
 #include "analysis/comparison/comparison_report.hpp"
-#include "core/failure.hpp"
-#include "experiments/designs/sha256.hpp"
+#include "core/failure/failure.hpp"
+#include "core/hash/sha256.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_file.hpp"

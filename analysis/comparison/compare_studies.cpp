@@ -15,7 +15,7 @@
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
 #include "analysis/comparison/requirements.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "results/reading/first_difference.hpp"
 
 namespace zerocount {

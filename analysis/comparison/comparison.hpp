@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/proportion.hpp"
-#include "analysis/undecided_moves.hpp"
+#include "analysis/measures/undecided_moves.hpp"
+#include "analysis/statistics/proportion.hpp"
 
 /// What the comparison of a results file with a baseline found: see README.md of this folder for the method.
 namespace zerocount {

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/comparison/comparison_report.hpp"
-#include "analysis/text.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount {
 namespace {

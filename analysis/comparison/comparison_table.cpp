@@ -5,7 +5,7 @@
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/comparison/comparison_rows.hpp"
-#include "analysis/text.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount {
 namespace {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "analysis/comparison/comparison_report.hpp"
-#include "analysis/text.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount {
 

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "core/failure.hpp"
-#include "experiments/language/manifest_keys.hpp"
-#include "experiments/language/overrides.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/manifest/overrides.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 

@@ -11,12 +11,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/failure.hpp"
-#include "experiments/parameters/interval.hpp"
+#include "core/failure/failure.hpp"
+#include "core/numerics/interval.hpp"
+#include "experiments/parameters/unknown_key.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 #include "experiments/yaml/scalars.hpp"
 #include "experiments/yaml/text_file.hpp"
-#include "experiments/yaml/unknown_key.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 
 namespace zerocount {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "analysis/proportion.hpp"
+#include "analysis/statistics/proportion.hpp"
 
 /// Tests and bounds of a difference of means by Student's t. A positive difference is for the worse.
 namespace zerocount {

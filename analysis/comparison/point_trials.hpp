@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/comparison/gate_rules.hpp"
-#include "analysis/undecided_moves.hpp"
+#include "analysis/measures/undecided_moves.hpp"
 #include "core/trial/outcome.hpp"
 #include "results/reading/study_file.hpp"
 

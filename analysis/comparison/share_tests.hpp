@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "analysis/proportion.hpp"
+#include "analysis/statistics/proportion.hpp"
 
 /// Tests of a share of trials that fail something, in a baseline and in what is compared with it. Effects and
 /// alternatives are for the worse: more failures than in the baseline.

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/identification/record_checks.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount {
 namespace {

@@ -10,7 +10,7 @@
 #include "analysis/identification/fit_refusals.hpp"
 #include "analysis/identification/reading_replicates.hpp"
 #include "analysis/identification/starting_point.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "analysis/identification/csv_table.hpp"
 #include "analysis/identification/raw_series.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/text.hpp"
-#include "core/failure.hpp"
+#include "analysis/text/text.hpp"
+#include "core/failure/failure.hpp"
 #include "experiments/yaml/text_file.hpp"
 
 namespace zerocount {

@@ -11,7 +11,7 @@
 #include "analysis/identification/missing_information.hpp"
 #include "analysis/identification/reading_replicates.hpp"
 #include "analysis/identification/residual_checks.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "analysis/identification/identification_report.hpp"
 #include "analysis/identification/manifest_fragment.hpp"
-#include "analysis/text.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "analysis/identification/record_parts.hpp"
 #include "analysis/statistics/median.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount {
 namespace {

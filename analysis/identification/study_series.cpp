@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include "analysis/identification/raw_series.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "core/trial/random_history.hpp"
-#include "experiments/study.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/jerks/poisson_bounds.hpp"
+#include "analysis/statistics/poisson_bounds.hpp"
 
 namespace zerocount {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "analysis/jerks/jerk_rates.hpp"
 #include "analysis/jerks/observed_move.hpp"
-#include "analysis/tally.hpp"
-#include "core/failure.hpp"
+#include "analysis/statistics/histogram.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount {
 namespace {

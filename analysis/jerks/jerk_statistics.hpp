@@ -8,10 +8,10 @@
 
 #include "analysis/jerks/creep_comparison.hpp"
 #include "analysis/jerks/laplace_trend.hpp"
-#include "analysis/proportion.hpp"
-#include "analysis/quantile.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
-#include "experiments/study.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/quantile.hpp"
+#include "experiments/study/study.hpp"
 #include "results/reading/study_file.hpp"
 
 /// The jerks of a design point: how often they come, at what intervals, whether they slow down, where they go

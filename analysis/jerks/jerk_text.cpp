@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/jerks/jerk_report.hpp"
-#include "analysis/text.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount {
 namespace {

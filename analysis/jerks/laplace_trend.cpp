@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "analysis/proportion.hpp"
 #include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/proportion.hpp"
 
 namespace zerocount {
 

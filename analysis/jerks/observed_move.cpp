@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "core/numerics/sign.hpp"
 #include "core/trial/divergence.hpp"
 #include "results/layout/table_io.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/trial/outcome.hpp"
-#include "experiments/study.hpp"
+#include "experiments/study/study.hpp"
 #include "results/reading/study_file.hpp"
 
 namespace zerocount {

@@ -9,7 +9,7 @@
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/report/escaping.hpp"
 #include "analysis/report/html_table.hpp"
-#include "analysis/text.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount {
 namespace {

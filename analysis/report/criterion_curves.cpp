@@ -6,10 +6,10 @@
 #include <functional>
 #include <optional>
 
+#include "analysis/measures/theory_prediction.hpp"
 #include "analysis/report/reported_study.hpp"
-#include "analysis/theory_prediction.hpp"
 #include "experiments/parameters/parameter_table.hpp"
-#include "experiments/plan/trial_completion.hpp"
+#include "experiments/study/trial_completion.hpp"
 
 namespace zerocount {
 namespace {

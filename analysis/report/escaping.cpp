@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "analysis/text.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount {
 namespace {

@@ -7,10 +7,10 @@
 #include "analysis/report/escaping.hpp"
 #include "analysis/report/html_table.hpp"
 #include "analysis/report/report_texts.hpp"
-#include "analysis/settling_text.hpp"
-#include "analysis/summary_parts.hpp"
-#include "analysis/text.hpp"
-#include "analysis/tolerance.hpp"
+#include "analysis/statistics/tolerance.hpp"
+#include "analysis/summary/settling_text.hpp"
+#include "analysis/summary/summary_parts.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount {
 namespace {

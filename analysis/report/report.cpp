@@ -11,7 +11,7 @@
 #include "analysis/report/report_figures.hpp"
 #include "analysis/report/report_texts.hpp"
 #include "analysis/report/sensitivity_section.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount {
 namespace {

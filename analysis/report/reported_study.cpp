@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/anytime_bounds.hpp"
-#include "analysis/study_summary.hpp"
+#include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/summary/study_summary.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 

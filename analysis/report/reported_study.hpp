@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/proportion.hpp"
-#include "analysis/summary.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/summary/summary.hpp"
 #include "core/trial/outcome.hpp"
-#include "experiments/study.hpp"
+#include "experiments/study/study.hpp"
 #include "results/reading/study_file.hpp"
 
 namespace zerocount {

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include "analysis/moments.hpp"
 #include "analysis/report/escaping.hpp"
 #include "analysis/report/html_table.hpp"
 #include "analysis/report/report_texts.hpp"
 #include "analysis/report/sweep_numbers.hpp"
-#include "analysis/text.hpp"
+#include "analysis/statistics/moments.hpp"
+#include "analysis/text/text.hpp"
 #include "results/layout/table_io.hpp"
 
 namespace zerocount {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/report_figures.hpp"
-#include "analysis/tally.hpp"
+#include "analysis/statistics/histogram.hpp"
 
 namespace zerocount {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "analysis/report/escaping.hpp"
 #include "analysis/report/report_texts.hpp"
-#include "analysis/sample_size.hpp"
-#include "analysis/text.hpp"
-#include "analysis/tolerance.hpp"
-#include "analysis/undecided.hpp"
+#include "analysis/statistics/sample_size.hpp"
+#include "analysis/statistics/tolerance.hpp"
+#include "analysis/summary/undecided.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount {
 namespace {

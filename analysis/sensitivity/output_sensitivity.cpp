@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/moments.hpp"
 #include "analysis/sensitivity/given_data_index.hpp"
 #include "analysis/sensitivity/logistic_fit.hpp"
 #include "analysis/sensitivity/partial_rank_correlation.hpp"
 #include "analysis/sensitivity/rank_correlation.hpp"
 #include "analysis/sensitivity/saltelli_indices.hpp"
 #include "analysis/sensitivity/used_trials.hpp"
+#include "analysis/statistics/moments.hpp"
 
 namespace zerocount {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "analysis/proportion.hpp"
 #include "analysis/sensitivity/bounded_number.hpp"
+#include "analysis/statistics/proportion.hpp"
 
 /// By how much two columns of independent pairs differ, as a share of what independent numbers would:
 /// D = Σ (x_r − y_r)²/(2N V), V the variance (divisor 2N) of all 2N numbers. The total index is D of A and

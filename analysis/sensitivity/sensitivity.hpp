@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/proportion.hpp"
 #include "analysis/sensitivity/bounded_number.hpp"
+#include "analysis/statistics/proportion.hpp"
 #include "results/reading/study_file.hpp"
 
 /// Which of the random parameters of a study drive what its trials do. Methods, formulas and sources:

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/sensitivity/output_sensitivity.hpp"
-#include "analysis/text.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/sensitivity/sensitivity.hpp"
-#include "analysis/text.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount {
 namespace {

@@ -7,7 +7,7 @@
 #include "analysis/sensitivity/output_sensitivity.hpp"
 #include "analysis/sensitivity/sensitivity.hpp"
 #include "analysis/sensitivity/trial_outputs.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "results/layout/header.hpp"
 

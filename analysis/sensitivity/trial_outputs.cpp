@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "results/layout/table_io.hpp"
 
 namespace zerocount {

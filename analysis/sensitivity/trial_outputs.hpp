@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/sensitivity/sensitivity.hpp"
-#include "experiments/study.hpp"
+#include "experiments/study/study.hpp"
 #include "results/reading/study_file.hpp"
 
 namespace zerocount {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "analysis/proportion.hpp"
+#include "analysis/statistics/proportion.hpp"
 #include "core/random/random_numbers.hpp"
 
 namespace zerocount {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "analysis/proportion.hpp"
+#include "analysis/statistics/proportion.hpp"
 
 namespace zerocount {
 

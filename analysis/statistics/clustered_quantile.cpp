@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/tolerance.hpp"
+#include "analysis/statistics/tolerance.hpp"
 
 namespace zerocount {
 namespace {

@@ -4,9 +4,9 @@
 #include <map>
 #include <span>
 
-#include "analysis/quantile.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
-#include "analysis/tally.hpp"
+#include "analysis/statistics/histogram.hpp"
+#include "analysis/statistics/quantile.hpp"
 
 namespace zerocount {
 

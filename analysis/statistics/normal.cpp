@@ -2,7 +2,7 @@
 
 #include <boost/math/distributions/normal.hpp>
 
-#include "analysis/proportion.hpp"
+#include "analysis/statistics/proportion.hpp"
 
 namespace zerocount {
 namespace {

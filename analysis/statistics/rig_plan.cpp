@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/rig_statistics.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount {
 namespace {

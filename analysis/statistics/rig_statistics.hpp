@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/proportion.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
-#include "analysis/tolerance.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/tolerance.hpp"
 
 /// How much rigs differ in their success: repeatability is what one rig does again and again, robustness
 /// what is the same on every rig.

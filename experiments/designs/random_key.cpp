@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/designs/sha256.hpp"
+#include "core/hash/sha256.hpp"
 
 namespace zerocount {
 

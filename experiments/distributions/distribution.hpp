@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "experiments/parameters/interval.hpp"
+#include "core/numerics/interval.hpp"
 
 namespace zerocount {
 

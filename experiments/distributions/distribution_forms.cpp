@@ -9,8 +9,8 @@
 #include <fmt/ranges.h>
 
 #include "experiments/distributions/distribution_faults.hpp"
+#include "experiments/parameters/unknown_key.hpp"
 #include "experiments/yaml/nearest_name.hpp"
-#include "experiments/yaml/unknown_key.hpp"
 
 namespace zerocount {
 namespace {

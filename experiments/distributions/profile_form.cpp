@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiments/distributions/distribution_forms.hpp"
-#include "experiments/yaml/unknown_key.hpp"
+#include "experiments/parameters/unknown_key.hpp"
 
 namespace zerocount {
 namespace {

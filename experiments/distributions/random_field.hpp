@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/friction/profile.hpp"
+#include "core/numerics/interval.hpp"
 #include "core/random/random_numbers.hpp"
-#include "experiments/parameters/interval.hpp"
 
 namespace zerocount {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/numerics/interval.hpp"
 #include "core/trial/parameters.hpp"
-#include "experiments/parameters/interval.hpp"
 #include "experiments/parameters/study_units.hpp"
 
 namespace zerocount {

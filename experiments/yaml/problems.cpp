@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount {
 

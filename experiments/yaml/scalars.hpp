@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "experiments/parameters/interval.hpp"
+#include "core/numerics/interval.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 
 namespace zerocount {

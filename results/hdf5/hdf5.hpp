@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/hdf5/written_values.hpp"
 

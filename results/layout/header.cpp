@@ -8,7 +8,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include "experiments/designs/sha256.hpp"
+#include "core/hash/sha256.hpp"
+#include "experiments/manifest/load_study.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_descriptor.hpp"
 #include "results/storage/seal.hpp"

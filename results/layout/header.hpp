@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/failure.hpp"
-#include "experiments/study.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/study/study.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/build_info.hpp"
 #include "results/layout/layout.hpp"

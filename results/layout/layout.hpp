@@ -11,7 +11,7 @@
 
 #include "core/trial/outcome.hpp"
 #include "core/trial/trial.hpp"
-#include "experiments/study.hpp"
+#include "experiments/study/study.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/hdf5/hdf5.hpp"
 

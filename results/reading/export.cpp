@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/reading/csv.hpp"

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "results/layout/statistic_io.hpp"
 #include "results/reading/sound_values.hpp"
 

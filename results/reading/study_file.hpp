@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/trial/outcome.hpp"
-#include "experiments/study.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/row_range.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/statistic_io.hpp"
 #include "results/layout/table_io.hpp"

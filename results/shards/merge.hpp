@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "experiments/study.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/build_info.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/row_range.hpp"

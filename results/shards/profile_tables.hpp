@@ -1,6 +1,6 @@
 #pragma once
 
-#include "experiments/study.hpp"
+#include "experiments/study/study.hpp"
 #include "results/hdf5/hdf5.hpp"
 
 namespace zerocount {

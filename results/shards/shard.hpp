@@ -8,7 +8,7 @@
 
 #include "core/trial/outcome.hpp"
 #include "core/trial/trial.hpp"
-#include "experiments/study.hpp"
+#include "experiments/study/study.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/layout/build_info.hpp"
 #include "results/layout/header.hpp"

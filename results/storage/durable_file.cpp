@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "results/storage/output_file.hpp"
 
 namespace zerocount {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-#include "experiments/designs/sha256.hpp"
+#include "core/hash/sha256.hpp"
 #include "results/storage/file_descriptor.hpp"
 
 /// What stands in an open file. All throw Failure (machine_failed) with the path and the system's reason.

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "results/storage/file_contents.hpp"
 
 namespace zerocount {

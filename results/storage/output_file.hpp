@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "experiments/designs/sha256.hpp"
+#include "core/hash/sha256.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_descriptor.hpp"
 

@@ -7,7 +7,7 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "results/storage/durable_file.hpp"
 
 namespace zerocount {

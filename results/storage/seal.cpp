@@ -9,7 +9,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_contents.hpp"
 #include "results/storage/file_descriptor.hpp"

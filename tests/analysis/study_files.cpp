@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "experiments/designs/sha256.hpp"
+#include "core/hash/sha256.hpp"
 #include "results/shards/merge.hpp"
 #include "results/shards/shard.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/trial/outcome.hpp"
-#include "experiments/study.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 #include "results/shards/merge.hpp"
 

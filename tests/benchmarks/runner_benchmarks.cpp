@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "runners/study_runner.hpp"
+#include "runners/study_run/study_runner.hpp"
 #include "tests/benchmarks/registration.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "experiments/manifest/load_study.hpp"
+
 namespace zerocount::testing {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/trial/parameters.hpp"
-#include "experiments/study.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::testing {
 

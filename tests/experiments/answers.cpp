@@ -8,7 +8,7 @@
 
 #include "core/trial/random_history.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
-#include "experiments/language/json_schema.hpp"
+#include "experiments/manifest/json_schema.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount {

@@ -2,7 +2,8 @@
 
 #include <stdexcept>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/manifest/load_study.hpp"
 
 namespace zerocount {
 

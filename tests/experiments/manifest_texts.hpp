@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount {
 

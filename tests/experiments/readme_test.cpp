@@ -8,8 +8,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/failure.hpp"
-#include "experiments/parameters/parameter_listing.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/manifest/parameter_listing.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "experiments/manifest/load_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount {

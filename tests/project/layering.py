@@ -1,4 +1,7 @@
-"""Each top-level folder includes only itself and those below it, and no type is defined in two headers."""
+"""Each folder includes only itself and those below it, and no type is defined in two headers.
+
+The order of the folders of a layer is that of zerocount_layer() in its CMakeLists.txt.
+"""
 
 import collections
 import pathlib
@@ -6,7 +9,8 @@ import re
 import sys
 
 LAYERS = ["core", "experiments", "results", "analysis", "runners"]  # lowest first
-INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"/]+)/', re.MULTILINE)
+LISTED = re.compile(r"^zerocount_layer\(([^)]*)\)", re.MULTILINE)
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)/[^"/]+"', re.MULTILINE)
 # core computes: no files, no streams, no threads.
 FORBIDDEN_IN_CORE = re.compile(
     r"^\s*#\s*include\s+<(fstream|iostream|cstdio|stdio\.h|filesystem|thread|mutex|future|atomic|hdf5\.h|(oneapi/)?tbb/.*)>",
@@ -42,17 +46,29 @@ def types_defined_twice(root):
             yield f"{name} is defined in {' and in '.join(map(str, sorted(paths)))}"
 
 
+def folders_in_order(root):
+    """All folders with sources, lowest first; what stands in the folder of a layer itself is above its folders."""
+    for layer in LAYERS:
+        listed = LISTED.search((root / layer / "CMakeLists.txt").read_text(encoding="utf-8"))
+        yield from (f"{layer}/{folder}" for folder in listed.group(1).split())
+        yield layer
+
+
 def problems(root):
     yield from types_defined_twice(root)
-    for level, layer in enumerate(LAYERS):
-        for path in sorted((root / layer).rglob("*.[ch]pp")):
-            text = path.read_text(encoding="utf-8")
-            for included in INCLUDE.findall(text):
-                if included not in LAYERS[: level + 1]:
-                    yield f"{path.relative_to(root)}: includes \"{included}/…\", which is not below {layer}/"
-            if layer == "core":
-                for header in FORBIDDEN_IN_CORE.findall(text):
-                    yield f"{path.relative_to(root)}: core has no I/O and no threads, but includes <{header[0]}>"
+    folders = list(folders_in_order(root))
+    for path in sorted(path for layer in LAYERS for path in (root / layer).rglob("*.[ch]pp")):
+        name, folder = path.relative_to(root), str(path.parent.relative_to(root))
+        if folder not in folders:
+            yield f"{name}: {folder} is in no zerocount_layer()"
+            continue
+        text = path.read_text(encoding="utf-8")
+        for included in INCLUDE.findall(text):
+            if included not in folders[: folders.index(folder) + 1]:
+                yield f"{name}: includes \"{included}/…\", which is not below {folder}"
+        if name.parts[0] == "core":
+            for header in FORBIDDEN_IN_CORE.findall(text):
+                yield f"{name}: core has no I/O and no threads, but includes <{header[0]}>"
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount::testing {
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <random>
 
-#include "experiments/designs/sha256.hpp"
-#include "experiments/plan/plan.hpp"
+#include "core/hash/sha256.hpp"
+#include "experiments/study/plan.hpp"
 #include "results/layout/header.hpp"
 
 namespace zerocount::testing {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/proportion.hpp"
+#include "analysis/statistics/proportion.hpp"
 #include "results/reading/study_file.hpp"
 #include "tests/runners/program.hpp"
 

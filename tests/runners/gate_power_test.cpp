@@ -10,7 +10,8 @@
 
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
-#include "runners/trial_runner.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "runners/study_run/trial_runner.hpp"
 
 namespace zerocount::testing {
 namespace {

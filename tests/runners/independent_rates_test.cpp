@@ -8,8 +8,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "experiments/study.hpp"
-#include "runners/study_runner.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
+#include "runners/study_run/study_runner.hpp"
 #include "tests/support/odeint_trial.hpp"
 
 namespace zerocount::testing {

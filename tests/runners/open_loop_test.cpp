@@ -8,7 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/trial/trial.hpp"
-#include "experiments/study.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
 #include "results/reading/study_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"

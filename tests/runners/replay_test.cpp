@@ -1,5 +1,5 @@
 // A replayed trial is held against the recorded one: inputs, measures, jerks.
-#include "runners/replay.hpp"
+#include "runners/commands/replay.hpp"
 
 #include <limits>
 

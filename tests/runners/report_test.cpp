@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "runners/child_process.hpp"
+#include "runners/commands/child_process.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 

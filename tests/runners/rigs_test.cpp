@@ -8,7 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/friction/profile.hpp"
-#include "experiments/study.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
 #include "results/reading/first_difference.hpp"
 #include "results/reading/study_file.hpp"
 #include "tests/runners/program.hpp"

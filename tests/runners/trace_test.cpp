@@ -5,12 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/trial/trial.hpp"
-#include "experiments/study.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/shards/shard.hpp"
-#include "runners/assemble.hpp"
-#include "runners/study_runner.hpp"
+#include "runners/study_run/assemble.hpp"
+#include "runners/study_run/study_runner.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/version_1_file.hpp"
 

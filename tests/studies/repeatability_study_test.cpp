@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "analysis/repeatability_trial.hpp"
+#include "analysis/iso230/repeatability_trial.hpp"
 #include "tests/studies/share_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 

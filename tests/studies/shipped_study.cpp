@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "experiments/manifest/load_study.hpp"
+
 namespace zerocount::testing {
 
 Study shipped_study(const std::string& name, const std::vector<std::string>& settings) {

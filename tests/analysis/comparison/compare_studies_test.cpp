@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "analysis/comparison/matching.hpp"
-#include "core/failure.hpp"
-#include "experiments/designs/sha256.hpp"
+#include "core/failure/failure.hpp"
+#include "core/hash/sha256.hpp"
 #include "results/storage/seal.hpp"
 #include "tests/analysis/study_files.hpp"
 #include "tests/support/temporary_folder.hpp"

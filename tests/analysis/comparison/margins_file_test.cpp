@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::testing {

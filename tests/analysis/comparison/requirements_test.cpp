@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/comparison/margins_file.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount::testing {
 namespace {

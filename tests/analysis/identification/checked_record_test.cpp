@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/identification/raw_series.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "core/plant/plant.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 

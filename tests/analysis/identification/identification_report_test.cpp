@@ -10,9 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/identification/manifest_fragment.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "experiments/distributions/distribution.hpp"
-#include "experiments/study.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::testing {
 namespace {

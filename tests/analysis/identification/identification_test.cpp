@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 #include "tests/analysis/identification/quasistatic_judge.hpp"
 

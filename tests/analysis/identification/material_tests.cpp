@@ -4,7 +4,7 @@
 #include <map>
 #include <numbers>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/plant/plant.hpp"
 

@@ -1,10 +1,10 @@
-#include "analysis/jerks/poisson_bounds.hpp"
+#include "analysis/statistics/poisson_bounds.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount {
 namespace {

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "experiments/manifest/load_study.hpp"
+
 namespace zerocount {
 namespace {
 

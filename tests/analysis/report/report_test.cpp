@@ -11,8 +11,9 @@
 
 #include "analysis/comparison/compare_studies.hpp"
 #include "analysis/report/report_figures.hpp"
-#include "analysis/study_statistics.hpp"
-#include "analysis/study_summary.hpp"
+#include "analysis/summary/study_statistics.hpp"
+#include "analysis/summary/study_summary.hpp"
+#include "experiments/manifest/load_study.hpp"
 #include "tests/analysis/report/run_studies.hpp"
 #include "tests/analysis/study_files.hpp"
 #include "tests/results/failures.hpp"

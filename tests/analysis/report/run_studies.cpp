@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/study_statistics.hpp"
+#include "analysis/summary/study_statistics.hpp"
 #include "core/trial/trial.hpp"
+#include "experiments/manifest/load_study.hpp"
 #include "results/shards/merge.hpp"
 
 namespace zerocount::testing {

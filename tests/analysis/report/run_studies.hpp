@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "experiments/study.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::testing {
 

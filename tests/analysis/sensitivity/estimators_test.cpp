@@ -14,7 +14,7 @@
 #include "analysis/sensitivity/partial_rank_correlation.hpp"
 #include "analysis/sensitivity/rank_correlation.hpp"
 #include "analysis/sensitivity/saltelli_indices.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "tests/analysis/sensitivity/test_functions.hpp"
 
 namespace zerocount {

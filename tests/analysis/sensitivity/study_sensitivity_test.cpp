@@ -10,7 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/sensitivity/sensitivity.hpp"
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/manifest/load_study.hpp"
 #include "results/shards/merge.hpp"
 #include "results/shards/shard.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -7,7 +7,8 @@
 #include <fmt/format.h>
 
 #include "experiments/designs/saltelli.hpp"
-#include "experiments/study.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -7,9 +7,9 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <gtest/gtest.h>
 
-#include "analysis/jerks/poisson_bounds.hpp"
-#include "analysis/mean_bounds.hpp"
-#include "core/failure.hpp"
+#include "analysis/statistics/mean_bounds.hpp"
+#include "analysis/statistics/poisson_bounds.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount {
 namespace {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "results/reading/csv.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "analysis/statistics/tolerance.hpp"
 #include "analysis/statistics/trial_clusters.hpp"
-#include "analysis/tolerance.hpp"
 #include "results/reading/csv.hpp"
 #include "tests/support/temporary_folder.hpp"
 

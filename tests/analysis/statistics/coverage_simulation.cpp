@@ -8,8 +8,8 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/random/beta_distribution.hpp>
 
-#include "analysis/mean_bounds.hpp"
-#include "analysis/point_accumulator.hpp"
+#include "analysis/measures/point_accumulator.hpp"
+#include "analysis/statistics/mean_bounds.hpp"
 
 namespace zerocount::testing {
 namespace {

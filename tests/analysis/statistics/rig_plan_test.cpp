@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/sample_size.hpp"
 #include "analysis/statistics/rig_statistics.hpp"
-#include "core/failure.hpp"
+#include "analysis/statistics/sample_size.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount {
 namespace {

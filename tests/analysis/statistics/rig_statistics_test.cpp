@@ -8,7 +8,7 @@
 #include <boost/random/beta_distribution.hpp>
 #include <gtest/gtest.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 
 namespace zerocount {
 namespace {

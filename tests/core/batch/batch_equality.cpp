@@ -15,8 +15,9 @@
 
 #include <fmt/core.h>
 
-#include "core/failure.hpp"
-#include "experiments/study.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
 #include "tests/core/batch/batch_agreement.hpp"
 
 namespace {

@@ -2,7 +2,8 @@
 
 #include <filesystem>
 
-#include "experiments/study.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::testing {
 

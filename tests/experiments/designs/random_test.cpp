@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "core/hash/sha256.hpp"
 #include "experiments/designs/random_key.hpp"
-#include "experiments/designs/sha256.hpp"
 
 namespace zerocount {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/language/manifest_keys.hpp"
-#include "experiments/parameters/parameter_listing.hpp"
+#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/manifest/parameter_listing.hpp"
 
 namespace zerocount {
 namespace {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "experiments/manifest/load_study.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/export.hpp"

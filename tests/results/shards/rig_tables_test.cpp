@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "results/reading/export.hpp"
 #include "results/reading/first_difference.hpp"
 #include "tests/results/samples.hpp"

@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/failure.hpp"
+#include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/export.hpp"
 #include "results/shards/merge.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/designs/sha256.hpp"
+#include "core/hash/sha256.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/support/temporary_folder.hpp"
 

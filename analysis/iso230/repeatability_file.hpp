@@ -1,0 +1,28 @@
+#pragma once
+
+#include "analysis/iso230/repeatability_statistics.hpp"
+#include "experiments/study/study.hpp"
+#include "results/hdf5/hdf5.hpp"
+#include "results/reading/study_file.hpp"
+
+/// The group /repeatability of a results file, described in results/README.md.
+namespace zerocount {
+
+/// Adds the group to a file that holds all trials of a study with a sequence: the values of ISO 230-2 of
+/// every trial, and their statistics at every design point.
+///
+/// The trials go by in blocks; then, of each point, one column is held at a time, 8 bytes a trial and target.
+/// @throws Failure (bad_data) where the file contradicts the study; machine_failed where it cannot be
+/// written.
+void write_repeatability(hdf5::File& file, const Study& study);
+
+/// The statistics of every design point from the values of the trials in the file.
+/// @throws Failure (bad_data) where they are not there or not those of the study.
+RepeatabilitySummary read_repeatability(const hdf5::Group& root, const Study& study,
+                                        double confidence = summary_confidence);
+
+/// As read_repeatability, of a complete results file.
+RepeatabilitySummary study_repeatability(const StudyFile& file, const Study& study,
+                                         double confidence = summary_confidence);
+
+}  // namespace zerocount

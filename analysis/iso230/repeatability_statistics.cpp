@@ -1,0 +1,82 @@
+#include "analysis/iso230/repeatability_statistics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace zerocount {
+namespace {
+
+constexpr double no_rank = std::numeric_limits<double>::quiet_NaN();
+
+/// The value of a rank from 1; NaN outside.
+double at_rank(std::span<const double> sorted, std::int64_t rank) {
+  if (rank < 1 || rank > std::ssize(sorted)) return no_rank;
+  return sorted[static_cast<std::size_t>(rank - 1)];
+}
+
+/// As quantile() of a Tally.
+Quantile sorted_quantile(std::span<const double> sorted, double probability, double confidence) {
+  const std::int64_t n = std::ssize(sorted);
+  const RankBounds bounds = quantile_rank_bounds(n, probability, confidence);
+  return {at_rank(sorted, quantile_rank(n, probability)), at_rank(sorted, bounds.low),
+          at_rank(sorted, bounds.high)};
+}
+
+}  // namespace
+
+ValueStatistics statistics_of(std::vector<double> values, double confidence) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  // Sorted before they are summed: the same mean in whatever order the trials come.
+  std::sort(values.begin(), values.end());
+  ValueStatistics result;
+  result.n = std::ssize(values);
+  result.median = sorted_quantile(values, 0.5, confidence);
+  result.p95 = sorted_quantile(values, 0.95, confidence);
+  if (values.empty()) return result;
+  result.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  result.max = values.back();
+  return result;
+}
+
+std::span<const ValueStatisticField> value_statistic_fields() {
+  using V = const ValueStatistics&;
+  static constexpr std::array<ValueStatisticField, 8> fields{{
+      {"mean", "mean of the", false, [](V v) { return v.mean; }},
+      {"median", "median of the", true, [](V v) { return v.median.value; }},
+      {"median_low", "lower 95 % order-statistic bound of the median of the", false,
+       [](V v) { return v.median.low; }},
+      {"median_high", "upper 95 % order-statistic bound of the median of the", false,
+       [](V v) { return v.median.high; }},
+      {"p95", "95 % quantile of the", true, [](V v) { return v.p95.value; }},
+      {"p95_low", "lower 95 % order-statistic bound of the 95 % quantile of the", false,
+       [](V v) { return v.p95.low; }},
+      {"p95_high", "upper 95 % order-statistic bound of the 95 % quantile of the", false,
+       [](V v) { return v.p95.high; }},
+      {"max", "largest", false, [](V v) { return v.max; }},
+  }};
+  return fields;
+}
+
+std::span<const ReportField<PointRepeatability>> point_repeatability_fields() {
+  using P = const PointRepeatability&;
+  static constexpr std::array<ReportField<PointRepeatability>, 6> fields{{
+      {"", "trials", "1", "trials of the point", true, [](P p) { return to_double(p.trials); }},
+      {"", "evaluated", "1", "trials without a nonfinite move, of which the values are", true,
+       [](P p) { return to_double(p.evaluated); }},
+      {"", "zero_repeatability", "1",
+       "trials whose repeatability by the fine encoder is exactly 0, NaN of a single cycle", true,
+       [](P p) { return p.zero_repeatability ? to_double(*p.zero_repeatability) : no_rank; }},
+      {"", "zero_repeatability_rate", "1", "zero_repeatability as a share of trials, NaN of a single cycle",
+       false, [](P p) { return p.zero_rate; }},
+      {"", "zero_repeatability_rate_low", "1", "lower 95 % Clopper-Pearson bound of zero_repeatability_rate",
+       false, [](P p) { return p.zero_bounds.low; }},
+      {"", "zero_repeatability_rate_high", "1", "upper 95 % Clopper-Pearson bound of zero_repeatability_rate",
+       false, [](P p) { return p.zero_bounds.high; }},
+  }};
+  return fields;
+}
+
+}  // namespace zerocount

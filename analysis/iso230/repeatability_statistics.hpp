@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "analysis/iso230/repeatability_trial.hpp"
+#include "analysis/statistics/moments.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/quantile.hpp"
+#include "analysis/text/report_field.hpp"
+
+namespace zerocount {
+
+/// How a value is distributed over the trials of a design point for which it is defined, in the value's unit;
+/// NaN where there are none.
+struct ValueStatistics {
+  std::int64_t n{0};  ///< those trials
+  double mean{std::numeric_limits<double>::quiet_NaN()};
+  double max{std::numeric_limits<double>::quiet_NaN()};
+  Quantile median;  ///< with order-statistic bounds
+  Quantile p95;     ///< likewise
+};
+
+/// Of values in any order; those that are NaN are left out.
+ValueStatistics statistics_of(std::vector<double> values, double confidence = summary_confidence);
+
+/// One number of ValueStatistics as it is reported, under "<value>_<name>" where there are no groups.
+struct ValueStatisticField {
+  std::string_view name;
+  std::string_view long_name;  ///< begins that of the number
+  bool of_targets;             ///< reported of the values of a target, too
+  double (*value)(const ValueStatistics&);
+};
+
+std::span<const ValueStatisticField> value_statistic_fields();
+
+/// The values of ISO 230-2 over the trials of a point, from one kind of deviation.
+struct SourceRepeatability {
+  std::vector<ValueStatistics> axis;                  ///< [axis_fields()]
+  std::vector<std::vector<ValueStatistics>> targets;  ///< [target][target_fields()]
+};
+
+/// What is reported of a design point of a study with a sequence of moves.
+struct PointRepeatability {
+  std::int64_t trials{0};
+  std::int64_t evaluated{0};  ///< trials whose motion was never lost: those that have values
+  /// Trials in which, by the encoder, all approaches of a target ended on the same count: R = 0, or R↑ or R↓
+  /// where there is one direction only. Nothing of a single cycle, which has no repeatability.
+  std::optional<std::int64_t> zero_repeatability{};
+  double zero_rate{std::numeric_limits<double>::quiet_NaN()};  ///< zero_repeatability / trials; NaN for n = 1
+  ConfidenceInterval zero_bounds{0.0, 1.0};                    ///< of zero_rate, Clopper–Pearson
+  std::vector<Moments> positions;                              ///< [target], counts
+  std::vector<SourceRepeatability> sources;                    ///< [deviation_sources()]
+};
+
+/// The numbers of a point that are neither of the axis nor of a target.
+std::span<const ReportField<PointRepeatability>> point_repeatability_fields();
+
+/// What the summary of a study with a sequence says of it.
+struct RepeatabilitySummary {
+  double confidence{summary_confidence};  ///< of all bounds
+  SequenceShape shape;
+  std::vector<PointRepeatability> points;  ///< [point]
+  AxisKind axis{AxisKind::rotary};         ///< whose units the deviations have
+};
+
+}  // namespace zerocount

@@ -1,0 +1,101 @@
+#include "analysis/measures/point_columns.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/measures/level_statistics.hpp"
+#include "analysis/measures/statistic_fields.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "core/failure/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, std::string_view column, const std::string& what) {
+  throw Failure(ExitCode::bad_data, fmt::format("{}: damaged: /point/{}: {}", file.string(), column, what));
+}
+
+const PointColumn& find_column(std::span<const PointColumn> columns, std::string_view name,
+                               const std::filesystem::path& file) {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [name](const PointColumn& column) { return column.name == name; });
+  if (found == columns.end()) fail(file, name, "the dataset is missing");
+  return *found;
+}
+
+/// How many of `trials` are the share: a whole number, because shares are made by rate().
+std::int64_t trials_of_share(double share, std::int64_t trials, std::string_view name,
+                             const std::filesystem::path& file) {
+  if (!(share >= 0.0 && share <= 1.0)) fail(file, name, fmt::format("{} is no share of trials", share));
+  return std::llround(share * static_cast<double>(trials));
+}
+
+}  // namespace
+
+std::vector<PointColumn> point_columns(std::span<const PointSummary> points, const StudyFeatures& features) {
+  std::vector<PointColumn> columns;
+  for (const StatisticField& field : statistic_fields(features)) {
+    PointColumn column{flat_name(field), std::string(field.unit), std::string(field.long_name), {}};
+    for (const PointSummary& point : points) column.values.push_back(field.value(point));
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+StatisticTable level_table(std::span<const PointSummary> points) {
+  StatisticTable table{&level_group(), points.empty() ? 1 : std::ssize(points.front().levels), {}};
+  for (const LevelField& field : level_fields()) {
+    PointColumn column{flat_name(field), std::string(field.unit), std::string(field.long_name), {}};
+    for (const PointSummary& point : points) {
+      for (const LevelStatistics& level : point.levels) column.values.push_back(field.value(level));
+    }
+    table.columns.push_back(std::move(column));
+  }
+  return table;
+}
+
+std::span<const PredictionField> prediction_fields() {
+  static constexpr std::array<PredictionField, 2> fields{
+      {{"predicted_stable_share", "trials in which criterion (6) holds, as a share of trials",
+        &TheoryPrediction::stable},
+       {"predicted_unstable_share", "trials in which criterion (7) is exceeded, as a share of trials",
+        &TheoryPrediction::unstable}}};
+  return fields;
+}
+
+std::vector<PointColumn> prediction_columns(std::span<const TheoryPrediction> predictions) {
+  std::vector<PointColumn> columns;
+  for (const PredictionField& field : prediction_fields()) {
+    PointColumn column{std::string(field.name), "1", std::string(field.long_name), {}};
+    for (const TheoryPrediction& prediction : predictions) {
+      column.values.push_back(rate(prediction.*field.trials, predicted_trials(prediction)));
+    }
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+std::vector<TheoryPrediction> predictions_of(std::span<const PointColumn> columns, std::int64_t trials,
+                                             const std::filesystem::path& file) {
+  std::vector<TheoryPrediction> predictions;
+  for (const PredictionField& field : prediction_fields()) {
+    const std::vector<double>& shares = find_column(columns, field.name, file).values;
+    predictions.resize(shares.size(), {trials, 0, 0, 0});
+    for (std::size_t point = 0; point < shares.size(); ++point) {
+      if (std::isnan(shares[point])) {
+        predictions[point].outside = trials;
+      } else {
+        predictions[point].*field.trials = trials_of_share(shares[point], trials, field.name, file);
+      }
+    }
+  }
+  return predictions;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "analysis/measures/point_statistics.hpp"
+#include "analysis/measures/study_features.hpp"
+#include "analysis/measures/theory_prediction.hpp"
+#include "results/layout/layout.hpp"
+
+namespace zerocount {
+
+/// The statistics of all points as columns of the results file's /point: one for each of statistic_fields(),
+/// by flat_name.
+std::vector<PointColumn> point_columns(std::span<const PointSummary> points,
+                                       const StudyFeatures& features = {});
+
+/// The levels of an open-loop study, of all its points, as the group /level of the results file: a column for
+/// each of level_fields(), by flat_name.
+StatisticTable level_table(std::span<const PointSummary> points);
+
+/// A share of trials that the criteria foretell, as it is reported. The list of them is the one source of the
+/// names in the CSV summary and in the results file.
+struct PredictionField {
+  std::string_view name;
+  std::string_view long_name;              ///< what it is, with its denominator
+  std::int64_t TheoryPrediction::*trials;  ///< the trials whose share it is
+};
+
+/// Where (6) holds, and where (7) is exceeded.
+std::span<const PredictionField> prediction_fields();
+
+/// The shares of prediction_fields() as columns of /point, NaN where the criteria are about no trial.
+std::vector<PointColumn> prediction_columns(std::span<const TheoryPrediction> predictions);
+
+/// The reverse of prediction_columns, [point]: the predictions behind the columns of those names, for points
+/// with `trials` trials each.
+/// @throws Failure (bad_data), with `file` in the message, where a column is missing or holds no shares.
+std::vector<TheoryPrediction> predictions_of(std::span<const PointColumn> columns, std::int64_t trials,
+                                             const std::filesystem::path& file);
+
+}  // namespace zerocount

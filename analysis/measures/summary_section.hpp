@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "results/layout/layout.hpp"
+
+namespace zerocount {
+
+/// A part of a summary that only some studies have, made apart from the rest.
+struct SummarySection {
+  std::string key;                           ///< its name in the JSON of each point
+  std::vector<nlohmann::ordered_json> json;  ///< [point]
+  std::vector<PointColumn> columns;          ///< of the CSV: a value per point
+  std::string text;                          ///< below the table, whole lines
+};
+
+}  // namespace zerocount

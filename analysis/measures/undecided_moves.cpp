@@ -1,0 +1,92 @@
+#include "analysis/measures/undecided_moves.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+namespace zerocount {
+namespace {
+
+bool falls(const MoveOutcome& move) {
+  return std::abs(move.final_error) < std::abs(move.midway_error);
+}
+
+/// Whether the count went towards its target all through the last half, but for one count to either side.
+/// With a last error of 2 counts or more the error has then kept its sign.
+bool falls_with_ripple(const MoveOutcome& move) {
+  const auto fallen = static_cast<double>(std::abs(move.midway_error) - std::abs(move.final_error));
+  return falls(move) && std::abs(move.final_error) >= 2 && 2.0 * move.oscillation_amplitude <= fallen + 2.0;
+}
+
+/// Whether the error fell to within one count, which was not yet held for long enough. One that was within
+/// one count all through the last half hunts.
+bool is_about_to_arrive(const MoveOutcome& move) {
+  return !move.arrived && std::abs(move.midway_error) >= 2 && falls(move);
+}
+
+/// The count that a move still falling belongs to; null where it is none.
+std::int64_t UndecidedMoves::*falling_count(const MoveOutcome& move) {
+  switch (move.outcome) {
+    case Outcome::off_target:
+      return falls(move) ? &UndecidedMoves::still_falling : nullptr;
+    case Outcome::oscillating:
+      return falls_with_ripple(move) ? &UndecidedMoves::falling_with_ripple : nullptr;
+    case Outcome::zero_count:
+    case Outcome::one_count:
+      return is_about_to_arrive(move) ? &UndecidedMoves::about_to_arrive : nullptr;
+    case Outcome::nonfinite:
+    case Outcome::open_loop:
+      break;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+bool is_still_falling(const MoveOutcome& move) {
+  return falling_count(move) != nullptr;
+}
+
+void add_move(UndecidedMoves& counts, const MoveOutcome& move) {
+  ++counts.moves;
+  counts.off_target += move.outcome == Outcome::off_target;
+  if (const auto count = falling_count(move)) ++(counts.*count);
+}
+
+UndecidedMoves sum_of(const UndecidedMoves& one, const UndecidedMoves& other) {
+  return {.moves = one.moves + other.moves,
+          .off_target = one.off_target + other.off_target,
+          .still_falling = one.still_falling + other.still_falling,
+          .falling_with_ripple = one.falling_with_ripple + other.falling_with_ripple,
+          .about_to_arrive = one.about_to_arrive + other.about_to_arrive};
+}
+
+bool any_undecided(const UndecidedMoves& moves) {
+  return moves.off_target > 0 || moves.falling_with_ripple > 0 || moves.about_to_arrive > 0;
+}
+
+std::string undecided_sentence(const UndecidedMoves& moves) {
+  if (!any_undecided(moves)) return {};
+  std::string text =
+      fmt::format("{} of {} moves ended more than one count off their target without oscillating",
+                  moves.off_target, moves.moves);
+  if (moves.still_falling > 0) {
+    text += fmt::format("; the error was still falling in {} of {} moves at the end of the hold",
+                        moves.still_falling, moves.moves);
+  } else if (moves.off_target > 0) {
+    text += "; in none of them was the error still falling: they have stalled";
+  }
+  if (moves.falling_with_ripple > 0) {
+    text += fmt::format("; it was falling, with a ripple of one count, in {} more that count as oscillating",
+                        moves.falling_with_ripple);
+  }
+  if (moves.about_to_arrive > 0) {
+    text += fmt::format("; it had fallen to within one count, without arrival, in {} more",
+                        moves.about_to_arrive);
+  }
+  if (!std::isnan(moves.advised_hold)) text += fmt::format("; hold ≥ about {:.4g} s", moves.advised_hold);
+  return text;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,79 @@
+#include "analysis/statistics/confidence_sequence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/special_functions/gamma.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+
+namespace zerocount {
+namespace {
+
+constexpr double prior = 0.5;  // both parameters of the mixture's Beta distribution
+
+double log_beta(double a, double b) {
+  using boost::math::lgamma;
+  return lgamma(a) + lgamma(b) - lgamma(a + b);
+}
+
+/// k·log(p), also where both are 0.
+double times_log(double k, double p) {
+  return k > 0.0 ? k * std::log(p) : 0.0;
+}
+
+/// The p at which the sign of `excess` changes between `inside` and `outside`, taken on the side of
+/// `outside`.
+template <class Excess>
+double crossing(Excess excess, double inside, double outside) {
+  const double low = std::min(inside, outside);
+  const double high = std::max(inside, outside);
+  if (!(excess(outside) > 0.0)) return outside;
+  std::uintmax_t iterations = 200;
+  const auto bracket = boost::math::tools::toms748_solve(
+      excess, low, high, boost::math::tools::eps_tolerance<double>(48), iterations);
+  return outside < inside ? bracket.first : bracket.second;
+}
+
+}  // namespace
+
+ConfidenceInterval anytime_bounds(std::int64_t successes, std::int64_t trials, double confidence) {
+  if (trials == 0) return {0.0, 1.0};
+  const auto s = static_cast<double>(successes);
+  const auto f = static_cast<double>(trials - successes);
+  const double limit = -std::log1p(-confidence);  // log of 1/(1 − confidence)
+  const double evidence = log_beta(s + prior, f + prior) - log_beta(prior, prior) - limit;
+  const auto excess = [&](double p) { return evidence - times_log(s, p) - times_log(f, 1.0 - p); };
+  const double share = s / (s + f);
+  constexpr double edge = 1e-300;
+  ConfidenceInterval bounds{0.0, 1.0};
+  if (successes > 0) bounds.low = crossing(excess, share < 1.0 ? share : std::nextafter(1.0, 0.0), edge);
+  if (successes < trials) {
+    bounds.high = crossing(excess, share > 0.0 ? share : edge, std::nextafter(1.0, 0.0));
+  }
+  return bounds;
+}
+
+std::int64_t projected_trials(std::int64_t successes, std::int64_t trials, double halfwidth,
+                              double confidence, std::int64_t block, std::int64_t most) {
+  const double share = trials > 0 ? static_cast<double>(successes) / static_cast<double>(trials) : 0.5;
+  const auto narrow = [&](std::int64_t blocks) {
+    const std::int64_t n = std::min(blocks * block, most);
+    const auto s = static_cast<std::int64_t>(std::llround(share * static_cast<double>(n)));
+    const ConfidenceInterval bounds = anytime_bounds(s, n, confidence);
+    return 0.5 * (bounds.high - bounds.low) <= halfwidth;
+  };
+  const std::int64_t most_blocks = (most + block - 1) / block;
+  std::int64_t wide = 0;
+  std::int64_t enough = 1;
+  while (enough < most_blocks && !narrow(enough)) {
+    wide = enough;
+    enough = std::min(2 * enough, most_blocks);
+  }
+  while (enough - wide > 1) {
+    const std::int64_t middle = wide + (enough - wide) / 2;
+    (narrow(middle) ? enough : wide) = middle;
+  }
+  return std::min(enough * block, most);
+}
+
+}  // namespace zerocount

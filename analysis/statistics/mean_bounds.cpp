@@ -1,0 +1,29 @@
+#include "analysis/statistics/mean_bounds.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <boost/math/distributions/students_t.hpp>
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+
+namespace zerocount {
+
+ConfidenceInterval student_t(const Moments& sample, double confidence) {
+  if (!(confidence > 0.0 && confidence < 1.0)) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("a confidence of {}; expected a number between 0 and 1", confidence));
+  }
+  if (sample.n < 2) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {unknown, unknown};
+  }
+  const auto n = static_cast<double>(sample.n);
+  const boost::math::students_t_distribution<double> distribution(n - 1.0);
+  const double t = boost::math::quantile(distribution, 0.5 * (1.0 + confidence));
+  const double half_width = t * sample.sd() / std::sqrt(n);
+  return {sample.mean - half_width, sample.mean + half_width};
+}
+
+}  // namespace zerocount

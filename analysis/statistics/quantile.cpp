@@ -1,0 +1,65 @@
+#include "analysis/statistics/quantile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <boost/math/distributions/binomial.hpp>
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+void require_inside_unit_interval(const char* what, double value) {
+  if (value > 0.0 && value < 1.0) return;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("a {} of {}; expected a number between 0 and 1", what, value));
+}
+
+/// Smallest k in [0, end) for which `holds`, which once true stays true; `end` where it never is.
+template <typename Predicate>
+std::int64_t first_where(std::int64_t end, const Predicate& holds) {
+  std::int64_t low = 0;
+  while (low < end) {
+    const std::int64_t middle = std::midpoint(low, end);
+    if (holds(middle)) {
+      end = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return end;
+}
+
+}  // namespace
+
+std::int64_t quantile_rank(std::int64_t observations, double probability) {
+  require_inside_unit_interval("quantile's probability", probability);
+  if (observations == 0) return 0;
+  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const double product = static_cast<double>(observations) * probability;
+  const auto rank = static_cast<std::int64_t>(std::ceil(product * (1.0 - rounding)));
+  return std::clamp<std::int64_t>(rank, 1, observations);
+}
+
+RankBounds quantile_rank_bounds(std::int64_t observations, double probability, double confidence) {
+  require_inside_unit_interval("quantile's probability", probability);
+  require_inside_unit_interval("confidence", confidence);
+  const std::int64_t n = observations;
+  const double tail = 0.5 * (1.0 - confidence);
+  const boost::math::binomial_distribution<double> below(static_cast<double>(n), probability);
+  const auto at_most = [&](std::int64_t k) { return boost::math::cdf(below, static_cast<double>(k)); };
+  const auto more_than = [&](std::int64_t k) {
+    return boost::math::cdf(boost::math::complement(below, static_cast<double>(k)));
+  };
+  // low − 1 is the last k with P(B ≤ k) ≤ tail, so low is the first k with P(B ≤ k) > tail.
+  const std::int64_t low = first_where(n, [&](std::int64_t k) { return at_most(k) > tail; });
+  // high − 1 is the first k with P(B > k) ≤ tail.
+  const std::int64_t high = 1 + first_where(n, [&](std::int64_t k) { return more_than(k) <= tail; });
+  return {low, high};
+}
+
+}  // namespace zerocount

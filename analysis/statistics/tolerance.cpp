@@ -1,0 +1,126 @@
+#include "analysis/statistics/tolerance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/distributions/binomial.hpp>
+#include <fmt/format.h>
+
+#include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/text/text.hpp"
+#include "core/failure/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr double rounding = 1e-9;  // of the last digit: what is 99.9 % but for rounding is 99.9 %
+
+/// Decimals that show two significant digits of `percent`; one from 1 % on, at most nine.
+int percent_decimals(double percent) {
+  if (!(percent > 0.0)) return 1;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(percent) + rounding)), 1, 9);
+}
+
+/// Without zeros at the end.
+std::string percent_with(double percent, int decimals) {
+  std::string number = fmt::format("{:.{}f}", percent, decimals);
+  number.erase(number.find_last_not_of('0') + 1);
+  if (number.back() == '.') number.pop_back();
+  return number + " %";
+}
+
+}  // namespace
+
+std::int64_t tolerance_rank(std::int64_t observations, double content, double confidence) {
+  require_confidence(confidence);
+  if (!(content > 0.0 && content < 1.0)) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("a content of {}; expected a number between 0 and 1", content));
+  }
+  const boost::math::binomial_distribution<double> within(static_cast<double>(observations), content);
+  std::int64_t low = 1;
+  std::int64_t high = observations + 1;
+  while (low < high) {
+    const std::int64_t rank = low + (high - low) / 2;
+    if (boost::math::cdf(within, static_cast<double>(rank - 1)) >= confidence) {
+      high = rank;
+    } else {
+      low = rank + 1;
+    }
+  }
+  return low;
+}
+
+SuccessClaim success_claim(std::int64_t successes, std::int64_t trials, double confidence) {
+  const std::int64_t failures = trials - successes;
+  return {trials,
+          failures,
+          confidence,
+          proportion_at_least(successes, trials, confidence),
+          proportion_at_most(failures, trials, confidence),
+          proportion_at_most(successes, trials, confidence)};
+}
+
+SuccessClaim success_claim_at_any_time(std::int64_t successes, std::int64_t trials, double confidence) {
+  require_confidence(confidence);
+  const ConfidenceInterval bounds = anytime_bounds(successes, trials, confidence);
+  return {trials, trials - successes, confidence, bounds.low, 1.0 - bounds.low, bounds.high};
+}
+
+SuccessClaim weaker_claim(const SuccessClaim& one, const SuccessClaim& other) {
+  SuccessClaim claim = one;
+  claim.success_at_least = std::min(one.success_at_least, other.success_at_least);
+  claim.failure_at_most = std::max(one.failure_at_most, other.failure_at_most);
+  claim.success_at_most = std::max(one.success_at_most, other.success_at_most);
+  return claim;
+}
+
+double rule_of_three(const SuccessClaim& claim) {
+  if (claim.failures > 0 || claim.trials == 0) return std::numeric_limits<double>::quiet_NaN();
+  return -std::log1p(-claim.confidence) / static_cast<double>(claim.rigs > 0 ? claim.rigs : claim.trials);
+}
+
+std::string percent_at_least(double share) {
+  const double percent = 100.0 * share;
+  const int decimals = percent_decimals(std::min(percent, 100.0 - percent));
+  const double unit = std::pow(10.0, decimals);
+  return percent_with(std::floor(percent * unit + rounding) / unit, decimals);
+}
+
+std::string percent_at_most(double share) {
+  const double percent = 100.0 * share;
+  const int decimals = percent_decimals(percent);
+  const double unit = std::pow(10.0, decimals);
+  return percent_with(std::ceil(percent * unit - rounding) / unit, decimals);
+}
+
+std::string claim_sentence(const SuccessClaim& claim) {
+  const std::string level = fmt::format("with {:.6g} % confidence", 100.0 * claim.confidence);
+  const std::string subject = claim.rigs > 0 ? "trials on all rigs" : "axes";
+  const std::string trials =
+      fmt::format("{} trials{}", claim.trials, claim.rigs > 0 ? fmt::format(" on {} rigs", claim.rigs) : "");
+  if (claim.failures == claim.trials) {
+    return fmt::format("at most {} of {} succeed, {} (no success in {})",
+                       percent_at_most(claim.success_at_most), subject, level, trials);
+  }
+  const std::string statement =
+      fmt::format("at least {} of {} succeed, {}", percent_at_least(claim.success_at_least), subject, level);
+  if (claim.failures > 0) {
+    return fmt::format("{} ({} {} in {})", statement, claim.failures,
+                       claim.failures == 1 ? "failure" : "failures", trials);
+  }
+  return fmt::format("{} (no failure in {}: not 100 %, but at most {} fail)", statement, trials,
+                     percent_at_most(claim.failure_at_most));
+}
+
+std::string settling_sentence(std::span<const ToleranceLimit> limits) {
+  std::string sentence;
+  for (const ToleranceLimit& limit : limits) {
+    if (std::isnan(limit.within)) continue;
+    sentence += fmt::format("{}{:.6g} % {}within {} s", sentence.empty() ? "" : ", ", 100.0 * limit.content,
+                            sentence.empty() ? "settle " : "", short_number(limit.within));
+  }
+  return sentence;
+}
+
+}  // namespace zerocount

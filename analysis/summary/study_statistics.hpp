@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/measures/point_accumulator.hpp"
+#include "analysis/measures/point_statistics.hpp"
+#include "analysis/measures/theory_prediction.hpp"
+#include "analysis/summary/summary.hpp"
+#include "experiments/study/study.hpp"
+#include "results/reading/study_file.hpp"
+
+namespace zerocount {
+
+/// Takes the trials of a study from one results file or several, in order of rows, and gives the statistics
+/// of its design points. Files are read once, in blocks. The memory does not grow with the number of trials
+/// (see PointAccumulator), only with the number of points.
+class StudyAccumulator {
+ public:
+  /// @param study stays as long as this. @param confidence of all bounds.
+  /// @param bootstrap whether to find bounds of means by resampling, which takes its time; its random numbers
+  /// are those of the study's seed.
+  /// @throws Failure (bad_input) for a confidence outside (0, 1).
+  StudyAccumulator(const Study& study, double confidence, bool bootstrap);
+
+  /// @param rows of the file, which follow those added before
+  /// @throws Failure (bad_data) where the file contradicts itself; the message names the trial.
+  void add(const StudyFile& file, RowRange rows);
+
+  /// [point], up to the last that has trials. Ends the adding.
+  std::vector<PointSummary> statistics();
+
+ private:
+  void begin_point(const MoveKind& kind);
+  void end_point();
+
+  const Study& study_;
+  double confidence_;
+  bool bootstrap_;
+  std::vector<PointSummary> points_;       ///< those that are complete
+  std::optional<PointAccumulator> point_;  ///< the one after them, once it has begun
+};
+
+/// The statistics of every design point of a complete results file, [point]; see StudyAccumulator.
+/// @throws Failure (bad_data) where trials are missing or the file contradicts itself; the message names the
+/// trial.
+/// @param study the study of the file.
+/// @param confidence of all bounds. @param bootstrap whether to find bounds of means by resampling, which
+/// takes its time; its random numbers are those of the study's seed.
+std::vector<PointSummary> study_statistics(const StudyFile& file, const Study& study,
+                                           double confidence = summary_confidence, bool bootstrap = false);
+
+/// What the criteria (6) and (7) say of the first `trials` of a point, from the parameters of each.
+TheoryPrediction point_prediction(const Study& study, std::int64_t point, std::int64_t trials);
+
+/// The same of all trials of every point, [point].
+std::vector<TheoryPrediction> study_predictions(const Study& study);
+
+/// Everything that the results file stores of its statistics: point_columns, prediction_columns, and the
+/// levels of an open-loop study. All bounds have 95 %.
+/// @param file holds all trials of `study`.
+StoredStatistics stored_statistics(const StudyFile& file, const Study& study);
+
+}  // namespace zerocount

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/measures/point_statistics.hpp"
+#include "analysis/measures/study_features.hpp"
+#include "analysis/measures/summary_section.hpp"
+#include "analysis/measures/theory_prediction.hpp"
+#include "experiments/study/study.hpp"
+#include "results/layout/layout.hpp"
+
+namespace zerocount {
+
+/// How far a run has come.
+struct UnfinishedStudy {
+  std::int64_t finished{0};  ///< trials that the summary is of
+  std::int64_t trials{0};    ///< of the study; the most that there may be, if `stop` decides
+  std::int64_t points{0};    ///< of the study, with trials or without
+};
+
+/// What a summary says of a study. Vectors by point have the length of `points`.
+struct StudySummary {
+  std::string name;                             ///< of the study
+  std::vector<std::string> labels;              ///< [point]
+  std::vector<SweepAxis> axes;                  ///< each with a value per point
+  std::map<std::string, std::string> observed;  ///< point label → what was observed on the real rig
+  std::string design{"monte_carlo"};            ///< its word in the manifest
+  double confidence{summary_confidence};        ///< of all bounds
+  std::vector<PointSummary> points;             ///< [point]
+  std::vector<TheoryPrediction> predictions{};  ///< [point], or empty where not computed
+  StudyFeatures features{};                     ///< what the table has columns for
+  std::optional<UnfinishedStudy> unfinished{};  ///< where the run has not ended
+  std::vector<SummarySection> sections{};
+};
+
+/// @throws Failure (bad_data) where labels, axes, statistics and predictions are not of the same points. The
+/// functions below call it.
+void require_consistent(const StudySummary& summary);
+
+/// What was observed on the real rig at `point`; empty where nothing was.
+std::string observed_at(const StudySummary& summary, std::int64_t point);
+
+/// "unfinished: of the 12000 of 50000 trials that the run has finished so far; 3 of 5 points have none yet";
+/// empty for a complete study.
+std::string unfinished_sentence(const StudySummary& summary);
+
+/// The table for people: a row per point in aligned columns, of an open-loop study a row per point and level,
+/// a legend below, then the sections. UTF-8, one line per row.
+std::string summary_table(const StudySummary& summary);
+
+/// {"name", "design", "conservative_bounds", "confidence", "unfinished" (only of an unfinished study:
+/// {"finished", "trials"}), "points": [{"point", "label", "axes": {…}, …}]}
+/// with the names of statistic_fields() and mean_bound_fields(), by group; points of an open-loop study have
+/// "levels": […] with the names of level_fields(); each section has its key. Whole numbers are integers, NaN
+/// is null, every other number reads back to the same double.
+nlohmann::ordered_json summary_json(const StudySummary& summary);
+
+/// summary_json as text, indented, ending with a line break.
+std::string summary_json_text(const StudySummary& summary);
+
+/// A line per point: point, label, axes, then statistic_fields() by flat_name, then the criteria's shares of
+/// trials, the observation and the columns of the sections. Of an open-loop study, a line per point and
+/// level: point, label, axes, level, then level_fields() by flat_name, and the observation. RFC 4180 with \n;
+/// NaN is `nan`; numbers read back to the same double.
+std::string summary_csv(const StudySummary& summary);
+
+}  // namespace zerocount

@@ -1,0 +1,88 @@
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "analysis/measures/outcome_counts.hpp"
+#include "analysis/measures/statistic_fields.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/summary/summary_parts.hpp"
+#include "analysis/text/report_json.hpp"
+#include "results/layout/layout.hpp"
+
+namespace zerocount {
+namespace {
+
+nlohmann::ordered_json axes_json(const StudySummary& summary, std::size_t point) {
+  nlohmann::ordered_json axes = nlohmann::ordered_json::object();
+  for (const SweepAxis& axis : summary.axes) {
+    if (axis.kind == SweepAxis::Kind::text) {
+      axes[axis.name] = axis.texts[point];
+    } else {
+      axes[axis.name] = axis.numbers[point];
+    }
+  }
+  return axes;
+}
+
+nlohmann::ordered_json moves_json(const PointSummary& statistics, const StudyFeatures& features) {
+  nlohmann::ordered_json moves = nlohmann::ordered_json::array();
+  for (const MoveCounts& move : statistics.by_move) {
+    nlohmann::ordered_json counts;
+    for (const FlagMeaning& outcome : outcome_words()) {
+      counts[outcome.word] = move.outcomes.*counter_of(static_cast<Outcome>(outcome.value));
+    }
+    counts["stable"] = move.stable;
+    counts["arrived"] = move.arrived;
+    counts["broke_away"] = move.broke_away;
+    counts["saturated"] = move.saturated;
+    if (features.stopping) counts["stopped"] = move.stopped;
+    moves.push_back(std::move(counts));
+  }
+  return moves;
+}
+
+nlohmann::ordered_json prediction_json(const TheoryPrediction& prediction) {
+  return {{"trials", prediction.trials},
+          {"stable", prediction.stable},
+          {"unstable", prediction.unstable},
+          {"stable_share", rate(prediction.stable, predicted_trials(prediction))},
+          {"unstable_share", rate(prediction.unstable, predicted_trials(prediction))},
+          {"verdict", verdict(prediction)}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json summary_json(const StudySummary& summary) {
+  require_consistent(summary);
+  nlohmann::ordered_json points = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < summary.points.size(); ++i) {
+    nlohmann::ordered_json point{{"point", i}, {"label", summary.labels[i]}, {"axes", axes_json(summary, i)}};
+    add_fields(point, statistic_fields(summary.features), summary.points[i]);
+    add_fields(point, mean_bound_fields(), summary.points[i]);
+    point["moves"] = moves_json(summary.points[i], summary.features);
+    if (summary.features.open_loop) point["levels"] = levels_json(summary.points[i]);
+    if (!summary.predictions.empty()) point["prediction"] = prediction_json(summary.predictions[i]);
+    if (const std::string seen = observed_at(summary, static_cast<std::int64_t>(i)); !seen.empty()) {
+      point["observed"] = seen;
+    }
+    for (const SummarySection& section : summary.sections) point[section.key] = section.json[i];
+    points.push_back(std::move(point));
+  }
+  nlohmann::ordered_json json{{"name", summary.name},
+                              {"design", summary.design},
+                              {"conservative_bounds", summary.features.spread_trials},
+                              {"confidence", summary.confidence}};
+  if (const auto& unfinished = summary.unfinished)
+    json["unfinished"] = {{"finished", unfinished->finished}, {"trials", unfinished->trials}};
+  json["points"] = std::move(points);
+  return json;
+}
+
+std::string summary_json_text(const StudySummary& summary) {
+  constexpr int indent = 2;
+  return summary_json(summary).dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+         "\n";
+}
+
+}  // namespace zerocount

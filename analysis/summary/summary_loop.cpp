@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "analysis/summary/settling_text.hpp"
+#include "analysis/summary/summary_parts.hpp"
+
+namespace zerocount {
+namespace {
+
+std::string interval_in_percent(const ConfidenceInterval& interval) {
+  return fmt::format("[{:.1f}, {:.1f}]", 100.0 * interval.low, 100.0 * interval.high);
+}
+
+std::int64_t rigs_without_failure(const PointSummary& point) {
+  return std::llround(point.rigs.without_failure * static_cast<double>(point.rigs.n));
+}
+
+bool any_undecided(const StudySummary& summary) {
+  return std::any_of(summary.points.begin(), summary.points.end(),
+                     [](const PointSummary& point) { return point.outcomes.off_target > 0; });
+}
+
+/// Trials that ended within one count and are not stable.
+std::int64_t unsettled(const PointSummary& point) {
+  return point.outcomes.zero_count + point.outcomes.one_count - point.stable;
+}
+
+/// Whether these are many enough at some point to have a column.
+bool any_unsettled(const StudySummary& summary) {
+  constexpr double min_proportion = 0.02;
+  return std::any_of(summary.points.begin(), summary.points.end(), [](const PointSummary& point) {
+    return static_cast<double>(unsettled(point)) > min_proportion * static_cast<double>(point.judged);
+  });
+}
+
+/// A column with a cell for each point.
+template <typename Cell>
+TextColumn by_point(const StudySummary& summary, std::string head, Cell cell) {
+  TextColumn column{std::move(head), true, {}};
+  for (const PointSummary& point : summary.points) column.cells.push_back(cell(point));
+  return column;
+}
+
+void add_outcomes(std::vector<TextColumn>& columns, const StudySummary& summary) {
+  using Point = const PointSummary&;
+  columns.push_back(by_point(summary, "trials", [](Point p) { return fmt::format("{}", p.trials); }));
+  columns.push_back(by_point(summary, "stable", [](Point p) { return percentage(p.stable, p.judged); }));
+  if (any_undecided(summary)) {
+    columns.push_back(
+        by_point(summary, "undecided", [](Point p) { return percentage(p.outcomes.off_target, p.judged); }));
+  }
+  if (any_unsettled(summary)) {
+    columns.push_back(
+        by_point(summary, "unsettled", [](Point p) { return percentage(unsettled(p), p.judged); }));
+  }
+  columns.push_back(
+      by_point(summary, "zero-count", [](Point p) { return percentage(p.outcomes.zero_count, p.judged); }));
+  columns.push_back(by_point(summary, bounds_head(summary),
+                             [](Point p) { return interval_in_percent(p.success_rate.clopper_pearson); }));
+  if (summary.features.rigs) {
+    columns.push_back(by_point(summary, "rigs w/o failure",
+                               [](Point p) { return percentage(rigs_without_failure(p), p.rigs.n); }));
+  }
+  columns.push_back(by_point(summary, "median (s)",
+                             [](Point p) { return settling_text(p, p.settling_time.median.value); }));
+  columns.push_back(
+      by_point(summary, "p95 (s)", [](Point p) { return settling_text(p, p.settling_time.p95.value); }));
+  columns.push_back(
+      by_point(summary, "arrived", [](Point p) { return percentage(p.settling_time.n, p.moves); }));
+  columns.push_back(
+      by_point(summary, "jerks/trial", [](Point p) { return short_number(p.jerk_count.mean); }));
+}
+
+/// What only some studies use.
+void add_features(std::vector<TextColumn>& columns, const StudySummary& summary) {
+  using Point = const PointSummary&;
+  const StudyFeatures& features = summary.features;
+  if (features.stopping) {
+    columns.push_back(by_point(summary, "stopped", [](Point p) { return percentage(p.stopped, p.trials); }));
+  }
+  if (features.travel) {
+    columns.push_back(
+        by_point(summary, "travel (s)", [](Point p) { return short_number(p.travel_time.mean); }));
+  }
+  if (features.final_error) {
+    columns.push_back(
+        by_point(summary, "|e| median", [](Point p) { return short_number(p.final_error.median.value); }));
+    columns.push_back(
+        by_point(summary, "|e| p95", [](Point p) { return short_number(p.final_error.p95.value); }));
+  }
+  if (features.phases) {
+    columns.push_back(by_point(summary, "phase changes",
+                               [](Point p) { return short_number(rate(p.phase_changes.total, p.trials)); }));
+  }
+  if (features.encoder_errors) {
+    columns.push_back(
+        by_point(summary, "|true e| mean", [](Point p) { return short_number(p.true_error.mean); }));
+    columns.push_back(
+        by_point(summary, "|true e| max", [](Point p) { return short_number(p.true_error.max); }));
+    columns.push_back(by_point(summary, "disagreeing",
+                               [](Point p) { return percentage(p.encoder_disagreement.trials, p.trials); }));
+  }
+}
+
+void add_predictions(std::vector<TextColumn>& columns, const StudySummary& summary) {
+  TextColumn holds{"(6) holds", true, {}}, exceeded{"(7) exceeded", true, {}};
+  for (const TheoryPrediction& prediction : summary.predictions) {
+    holds.cells.push_back(percentage(prediction.stable, predicted_trials(prediction)));
+    exceeded.cells.push_back(percentage(prediction.unstable, predicted_trials(prediction)));
+  }
+  columns.push_back(std::move(holds));
+  columns.push_back(std::move(exceeded));
+}
+
+}  // namespace
+
+std::vector<TextColumn> loop_columns(const StudySummary& summary) {
+  std::vector<TextColumn> columns = sweep_columns(summary);
+  add_outcomes(columns, summary);
+  add_features(columns, summary);
+  if (!summary.predictions.empty()) add_predictions(columns, summary);
+  if (const std::vector<std::string> observed = observations(summary); !observed.empty()) {
+    TextColumn column{"observed", false, {}};
+    for (const std::string& text : observed) column.cells.push_back(printable(text));
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+std::string design_line(const StudySummary& summary) {
+  const StudyFeatures& features = summary.features;
+  if (features.dependent_trials) {
+    return "The trials of a saltelli design are not independent: all bounds here are too narrow. They are "
+           "for\n"
+           "'zerocount sensitivity'";
+  }
+  std::string line = fmt::format("design: {}", summary.design);
+  if (features.rigs && !summary.points.empty()) {
+    line += fmt::format(
+        ", {} rigs: bounds are of all rigs that the manifest describes, and more trials on the same "
+        "rigs\nnarrow them only so far",
+        summary.points.front().rigs.n);
+  }
+  if (features.spread_trials) {
+    line += fmt::format(
+        "{} bounds are conservative: made for trials by chance, which vary more than those of this "
+        "design",
+        features.rigs ? ";" : ":");
+  }
+  return line;
+}
+
+std::string loop_legend(const StudySummary& summary) {
+  const StudyFeatures& features = summary.features;
+  std::string legend =
+      "stable: share of trials whose moves all arrived and stayed within one count\n"
+      "zero-count: share of trials whose moves all ended at zero error; bounds of it after " +
+      std::string(features.rigs ? "Korn and Graubard" : "Clopper and Pearson") +
+      ", in %\n"
+      "median, p95: settling time of all moves, those that never arrived being later than any time; arrived: "
+      "share of moves\n"
+      "jerks/trial: mean over all trials\n";
+  if (features.rigs) legend += "rigs w/o failure: share of rigs all of whose trials ended at zero error\n";
+  if (any_undecided(summary)) {
+    legend +=
+        "undecided: share of trials whose worst move ended off target, stalled or still on its way: neither "
+        "stable nor\nshown unstable\n";
+  }
+  if (any_unsettled(summary)) {
+    legend +=
+        "unsettled: share of trials that ended within one count without being stable: a move had not arrived "
+        "yet, hunts by\none count, or had left by more than one; all other trials oscillated\n";
+  }
+  if (features.stopping) {
+    legend +=
+        "stopped: share of trials that were ended where a move had diverged; they count as oscillating, and "
+        "what is\n"
+        "measured of their moves is up to there\n";
+  }
+  legend += design_line(summary) + "\n";
+  if (features.travel) legend += "travel: mean time that the reference takes to its target\n";
+  if (features.final_error) legend += "|e|: error at the last sample of the moves, in counts\n";
+  if (features.phases) legend += "phase changes: from coarse to fine control or back, mean over all trials\n";
+  if (features.encoder_errors) {
+    legend +=
+        "|true e|: distance from the rotor to the middle of the target's count at the last sample of the "
+        "moves,\n"
+        "whatever the encoder says, in counts\n"
+        "disagreeing: share of trials in which the coarse count was ever impossible given the fine one\n";
+  }
+  if (!summary.predictions.empty()) {
+    legend +=
+        "(6), (7): share of trials in which the paper's criterion (6) holds, which promises stability before "
+        "sliding, and\n"
+        "in which its criterion (7) is exceeded, which rules it out; by the friction where the trial "
+        "starts\n";
+  }
+  return legend;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/summary/summary_parts.hpp"
+
+namespace zerocount {
+namespace {
+
+/// More swept parameters than this make the table too wide: the labels alone tell the points apart.
+constexpr std::size_t max_swept_columns = 4;
+
+bool is_case(const SweepAxis& axis) {
+  return axis.name == "case";
+}
+
+/// Whether any two points have different values, or one of them a distribution.
+bool varies(const SweepAxis& axis) {
+  const auto differs = [](const auto& values) {
+    return std::any_of(values.begin(), values.end(), [&](const auto& v) { return !(v == values.front()); });
+  };
+  return axis.kind == SweepAxis::Kind::text ? differs(axis.texts) : differs(axis.numbers);
+}
+
+std::vector<const SweepAxis*> varying_parameters(const StudySummary& summary) {
+  std::vector<const SweepAxis*> found;
+  for (const SweepAxis& axis : summary.axes) {
+    if (!is_case(axis) && varies(axis)) found.push_back(&axis);
+  }
+  return found;
+}
+
+std::string last_parts(const std::string& path, std::size_t parts) {
+  std::size_t start = path.size();
+  for (; parts > 0 && start != std::string::npos && start > 0; --parts) start = path.rfind('.', start - 1);
+  return start == std::string::npos ? path : path.substr(start + 1);
+}
+
+/// The end of the dotted path that no other swept parameter has: "ki", or "coarse.kp" beside a "kp".
+std::string short_name(const SweepAxis& axis, const std::vector<const SweepAxis*>& swept) {
+  const auto sections = std::count(axis.name.begin(), axis.name.end(), '.');
+  for (std::size_t parts = 1; parts <= static_cast<std::size_t>(sections); ++parts) {
+    std::string name = last_parts(axis.name, parts);
+    const bool is_index = name.find_first_not_of("0123456789.") == std::string::npos;
+    const bool unique = std::none_of(swept.begin(), swept.end(), [&](const SweepAxis* other) {
+      return other != &axis && last_parts(other->name, parts) == name;
+    });
+    if (unique && !is_index) return name;
+  }
+  return axis.name;
+}
+
+TextColumn swept_column(const SweepAxis& axis, const std::vector<const SweepAxis*>& swept) {
+  const bool numeric = axis.kind == SweepAxis::Kind::number;
+  const std::string unit = numeric && axis.unit != "1" ? fmt::format(" ({})", axis.unit) : "";
+  TextColumn column{short_name(axis, swept) + unit, numeric, {}};
+  if (!numeric) {
+    column.cells = axis.texts;
+    return column;
+  }
+  for (const double value : axis.numbers) {
+    column.cells.push_back(std::isnan(value) ? "random" : fmt::format("{:.6g}", value));
+  }
+  return column;
+}
+
+/// Whether the labels are those of a grid, which name its values: "fast, controller.kp=0.0003".
+bool labels_name_values(const StudySummary& summary, const std::vector<const SweepAxis*>& swept) {
+  return std::any_of(swept.begin(), swept.end(), [&](const SweepAxis* axis) {
+    return std::all_of(summary.labels.begin(), summary.labels.end(), [axis](const std::string& label) {
+      return label.find(axis->name + "=") != std::string::npos;
+    });
+  });
+}
+
+/// "point": the label, unless other columns say the same; then the number of the point.
+TextColumn point_column(const StudySummary& summary, bool by_number) {
+  TextColumn column{"point", by_number, {}};
+  for (std::size_t i = 0; i < summary.labels.size(); ++i) {
+    column.cells.push_back(by_number ? fmt::format("{}", i) : printable(summary.labels[i]));
+  }
+  return column;
+}
+
+}  // namespace
+
+std::vector<TextColumn> sweep_columns(const StudySummary& summary) {
+  const std::vector<const SweepAxis*> swept = varying_parameters(summary);
+  if (swept.empty() || swept.size() > max_swept_columns) return {point_column(summary, false)};
+  const bool by_number = labels_name_values(summary, swept);
+  std::vector<TextColumn> columns{point_column(summary, by_number)};
+  const auto cases = std::find_if(summary.axes.begin(), summary.axes.end(), is_case);
+  if (by_number && cases != summary.axes.end()) {
+    TextColumn names{"case", false, {}};
+    for (const std::string& name : cases->texts) names.cells.push_back(printable(name));
+    columns.push_back(std::move(names));
+  }
+  for (const SweepAxis* axis : swept) columns.push_back(swept_column(*axis, swept));
+  return columns;
+}
+
+}  // namespace zerocount

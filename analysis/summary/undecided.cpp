@@ -1,0 +1,159 @@
+#include "analysis/summary/undecided.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/text/text.hpp"
+#include "core/theory/slow_approach.hpp"
+#include "core/trial/last_half.hpp"
+#include "core/trial/parameters.hpp"
+#include "results/layout/table_io.hpp"
+
+namespace zerocount {
+namespace {
+
+/// Proportion of the moves still falling for which the advised hold is long enough.
+constexpr double advised_proportion = 0.9;
+
+/// Rounded up to two significant digits, to the double that is nearest to them.
+double rounded_up(double value) {
+  const double decimals = 1.0 - std::floor(std::log10(value));
+  const double scale = std::pow(10.0, std::abs(decimals));
+  if (decimals < 0.0) return std::ceil(value / scale - 1e-9) * scale;
+  return std::ceil(value * scale - 1e-9) / scale;
+}
+
+/// τ of the errors recorded in the middle and at the end of the hold, s; see time_to_zero.
+double decay_time_constant(std::int64_t midway_error, std::int64_t final_error, std::int64_t samples,
+                           double sample_time) {
+  const double elapsed = static_cast<double>(samples - 1 - first_of_last_half(samples)) * sample_time;
+  return elapsed /
+         std::log(static_cast<double>(std::abs(midway_error)) / static_cast<double>(std::abs(final_error)));
+}
+
+/// What a longer hold adds to the way of a move: the move before it arrives too, so that this one has all of
+/// its step to go. ln of the step over the error it started with, at least 0. Under a profiled reference the
+/// error does not start with the step.
+double log_of_longer_way(const TrialParameters& parameters, std::size_t number, std::int64_t error_before) {
+  const std::vector<std::int64_t>& targets = parameters.command.targets;
+  if (number == 0 || parameters.command.profile.shape != ReferenceShape::step) return 0.0;
+  const std::int64_t step = targets[number] - targets[number - 1];
+  const std::int64_t start = step + error_before;
+  if (step == 0 || start == 0) return 0.0;
+  return std::max(0.0, std::log(std::abs(static_cast<double>(step) / static_cast<double>(start))));
+}
+
+/// Hold that the move is expected to need, s.
+/// @param error_before last error of the move before it.
+double needed_hold(const MoveOutcome& move, std::size_t number, std::int64_t error_before,
+                   const TrialParameters& p) {
+  const std::int64_t samples = samples_of_move(p, number);
+  const std::int64_t final_error = std::max<std::int64_t>(std::abs(move.final_error), 1);
+  const double sample_time = 1.0 / p.controller.sample_rate;
+  return time_to_zero(move.midway_error, final_error, samples, sample_time) +
+         decay_time_constant(move.midway_error, final_error, samples, sample_time) *
+             log_of_longer_way(p, number, error_before) +
+         chatter_time(p.plant, friction_at(p.friction, p.initial.position), p.controller, p.verdict.dwell) +
+         std::max(p.verdict.dwell, p.verdict.window);
+}
+
+/// @param needed holds, s; put into another order
+double advised_hold(std::vector<double>& needed) {
+  if (needed.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto rank =
+      static_cast<std::ptrdiff_t>(std::ceil(advised_proportion * static_cast<double>(needed.size())) - 1.0);
+  std::nth_element(needed.begin(), needed.begin() + rank, needed.end());
+  return rounded_up(needed[static_cast<std::size_t>(rank)]);
+}
+
+/// A converter that clips keeps moves from their targets, too.
+std::string clipping_remark(const PointSummary& point) {
+  if (point.saturated == 0) return {};
+  return fmt::format("; the converter clipped in {} of {} trials", point.saturated, point.trials);
+}
+
+}  // namespace
+
+double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::int64_t samples,
+                    double sample_time) {
+  const auto last = static_cast<double>(samples - 1) * sample_time;
+  return last + decay_time_constant(midway_error, final_error, samples, sample_time) *
+                    std::log(2.0 * static_cast<double>(std::abs(final_error)));
+}
+
+UndecidedAccumulator::UndecidedAccumulator(const Study& study)
+    : study_(study), counts_(study.point_labels.size()), needed_(study.point_labels.size()) {}
+
+void UndecidedAccumulator::add(const StudyFile& file, RowRange rows) {
+  const auto moves = static_cast<std::size_t>(file.moves());
+  const std::int64_t rows_at_once = chunk_rows(file.moves());
+  for (std::int64_t first = rows.first; first < rows.end(); first += rows_at_once) {
+    const RowRange block{first, std::min(rows_at_once, rows.end() - first)};
+    const std::vector<MoveOutcome> outcomes = file.outcomes(block);
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      const std::int64_t row = block.first + static_cast<std::int64_t>(i / moves);
+      const std::int64_t point = row / study_.trials;
+      add_move(counts_[static_cast<std::size_t>(point)], outcomes[i]);
+      if (!is_still_falling(outcomes[i])) continue;
+      const TrialParameters parameters = study_trial(study_, point, row % study_.trials).parameters;
+      if (!(parameters.controller.ki > 0.0)) continue;
+      needed_[static_cast<std::size_t>(point)].push_back(
+          needed_hold(outcomes[i], i % moves, i % moves == 0 ? 0 : outcomes[i - 1].final_error, parameters));
+    }
+  }
+}
+
+std::vector<UndecidedMoves> UndecidedAccumulator::moves() {
+  std::vector<UndecidedMoves> points = counts_;
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].advised_hold = advised_hold(needed_[i]);
+  return points;
+}
+
+SummarySection undecided_section(std::span<const PointSummary> points,
+                                 const std::vector<std::string>& labels) {
+  SummarySection section{.key = "undecided", .json = {}, .columns = {}, .text = {}};
+  PointColumn off_target{"undecided_moves", "1", "moves that ended off target", {}};
+  PointColumn falling{"still_falling_moves", "1", "of them, with an error that was still falling", {}};
+  PointColumn ripple{"falling_with_ripple_moves",
+                     "1",
+                     "moves that count as oscillating with an error that was still falling, but for a ripple",
+                     {}};
+  PointColumn arriving{"about_to_arrive_moves",
+                       "1",
+                       "moves whose error had fallen to within one count, and that had not arrived",
+                       {}};
+  PointColumn hold{"hold_at_least", "s", "hold that most of these are expected to need", {}};
+  bool any = false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const UndecidedMoves& point = points[i].undecided;
+    section.json.push_back({{"moves", point.moves},
+                            {"off_target", point.off_target},
+                            {"still_falling", point.still_falling},
+                            {"falling_with_ripple", point.falling_with_ripple},
+                            {"about_to_arrive", point.about_to_arrive},
+                            {"hold_at_least", point.advised_hold}});
+    off_target.values.push_back(static_cast<double>(point.off_target));
+    falling.values.push_back(static_cast<double>(point.still_falling));
+    ripple.values.push_back(static_cast<double>(point.falling_with_ripple));
+    arriving.values.push_back(static_cast<double>(point.about_to_arrive));
+    hold.values.push_back(point.advised_hold);
+    if (!any_undecided(point)) continue;
+    any = true;
+    section.text += fmt::format("{}: {}{}\n", printable(labels[i]), undecided_sentence(point),
+                                clipping_remark(points[i]));
+  }
+  if (any) {
+    section.text += fmt::format("{}\n", undecided_meaning);
+  }
+  section.columns = {std::move(off_target), std::move(falling), std::move(ripple), std::move(arriving),
+                     std::move(hold)};
+  return section;
+}
+
+}  // namespace zerocount

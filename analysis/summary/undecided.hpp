@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/measures/undecided_moves.hpp"
+#include "analysis/summary/summary.hpp"
+#include "experiments/study/study.hpp"
+#include "results/reading/study_file.hpp"
+
+/// Moves that are off target: stalled, or still on their way when their hold ended. They are undecided,
+/// neither stable nor shown unstable.
+namespace zerocount {
+
+/// Time from the start of a move at which an error that decays exponentially reads 0, s.
+///
+/// Under integral control the error e of a rotor on a spring of stiffness k obeys de/dt = −e/τ with
+/// τ = T·(k·Δx + kp)/(2·ki), once the torque has caught up with the friction. The rate comes from what was
+/// recorded, e_h at sample h = ⌈N/2⌉ and e_{N−1}, and the count reads 0 from half a count on:
+///
+///   t = t_{N−1} + τ·ln(2·|e_{N−1}|),  τ = (t_{N−1} − t_h)/ln(|e_h|/|e_{N−1}|).
+///
+/// @param midway_error e_h. @param final_error e_{N−1}; 1 ≤ |e_{N−1}| < |e_h|.
+/// @param samples N. @param sample_time T, s.
+double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::int64_t samples,
+                    double sample_time);
+
+/// Counts the undecided moves of a study, from one results file or several.
+class UndecidedAccumulator {
+ public:
+  /// @param study stays as long as this.
+  explicit UndecidedAccumulator(const Study& study);
+
+  /// @param rows of the file @throws Failure (bad_data) where the file is damaged.
+  void add(const StudyFile& file, RowRange rows);
+
+  /// [point] of the study
+  std::vector<UndecidedMoves> moves();
+
+ private:
+  const Study& study_;
+  std::vector<UndecidedMoves> counts_;       ///< [point], without the advised hold
+  std::vector<std::vector<double>> needed_;  ///< [point] holds that the moves still falling need, s
+};
+
+/// The section "undecided" of a summary. Its JSON is {"moves", "off_target", "still_falling",
+/// "falling_with_ripple", "about_to_arrive", "hold_at_least"}; its columns are undecided_moves,
+/// still_falling_moves, falling_with_ripple_moves, about_to_arrive_moves and hold_at_least; its text is a
+/// sentence for each point that has undecided moves.
+/// @param labels [point]
+SummarySection undecided_section(std::span<const PointSummary> points,
+                                 const std::vector<std::string>& labels);
+
+}  // namespace zerocount

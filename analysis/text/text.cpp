@@ -1,0 +1,183 @@
+#include "analysis/text/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace zerocount {
+namespace {
+
+constexpr char32_t replacement = 0xFFFD;
+constexpr std::string_view replacement_utf8 = "\xEF\xBF\xBD";
+
+struct CodePoint {
+  char32_t value{replacement};
+  std::size_t bytes{1};
+  bool valid{false};
+};
+
+/// The code point at the start of `text` (not empty); an invalid one takes one byte. Overlong forms,
+/// surrogates and values beyond U+10FFFF are invalid (RFC 3629).
+CodePoint decode(std::string_view text) {
+  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) return {lead, 1, true};
+  const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || text.size() < bytes) return {};
+  char32_t value = lead & (0xFFU >> (bytes + 1));
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80U) return {};
+    value = (value << 6U) | (byte(i) & 0x3FU);
+  }
+  constexpr std::array<char32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
+  if (value < least[bytes] || (value >= 0xD800 && value <= 0xDFFF) || value > 0x10FFFF) return {};
+  return {value, bytes, true};
+}
+
+struct CodeRange {
+  char32_t first, last;
+};
+
+bool in_any(char32_t value, const auto& ranges) {
+  return std::any_of(ranges.begin(), ranges.end(),
+                     [value](const CodeRange& range) { return value >= range.first && value <= range.last; });
+}
+
+/// Columns of a code point: the blocks of Unicode 15 that are wholly combining or wholly wide.
+std::size_t columns(char32_t value) {
+  constexpr std::array<CodeRange, 8> combining{{{0x0300, 0x036F},
+                                                {0x1AB0, 0x1AFF},
+                                                {0x1DC0, 0x1DFF},
+                                                {0x200B, 0x200F},
+                                                {0x20D0, 0x20FF},
+                                                {0xFE00, 0xFE0F},
+                                                {0xFE20, 0xFE2F},
+                                                {0xFEFF, 0xFEFF}}};
+  constexpr std::array<CodeRange, 9> wide{{{0x1100, 0x115F},
+                                           {0x2E80, 0x303E},
+                                           {0x3041, 0xA4CF},
+                                           {0xAC00, 0xD7A3},
+                                           {0xF900, 0xFAFF},
+                                           {0xFE30, 0xFE6F},
+                                           {0xFF01, 0xFF60},
+                                           {0x1F300, 0x1F64F},
+                                           {0x20000, 0x3FFFD}}};
+  if (in_any(value, combining)) return 0;
+  return in_any(value, wide) ? 2 : 1;
+}
+
+bool is_control(char32_t value) {
+  return value < 0x20 || (value >= 0x7F && value < 0xA0) || value == 0x2028 || value == 0x2029;
+}
+
+void append_padded(std::string& line, std::string_view cell, std::size_t width, bool to_the_right) {
+  const std::string padding(width - display_width(cell), ' ');
+  if (to_the_right) line += padding;
+  line += cell;
+  if (!to_the_right) line += padding;
+}
+
+void trim_right(std::string& line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+}
+
+}  // namespace
+
+std::string percentage(std::int64_t successes, std::int64_t trials) {
+  if (trials == 0) return "–";
+  if (successes == 0) return "0 %";
+  if (successes == trials) return "100 %";
+  const double percent = 100.0 * static_cast<double>(successes) / static_cast<double>(trials);
+  if (percent < 0.05) return "< 0.1 %";
+  if (percent >= 99.95) return "> 99.9 %";
+  return fmt::format("{:.1f} %", percent);
+}
+
+std::string short_number(double value) {
+  return std::isnan(value) ? "–" : fmt::format("{:.4g}", value);
+}
+
+std::size_t display_width(std::string_view text) {
+  std::size_t width = 0;
+  while (!text.empty()) {
+    const CodePoint point = decode(text);
+    width += columns(point.value);
+    text.remove_prefix(point.bytes);
+  }
+  return width;
+}
+
+std::string printable(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const CodePoint point = decode(text);
+    result += point.valid && !is_control(point.value) ? text.substr(0, point.bytes) : replacement_utf8;
+    text.remove_prefix(point.bytes);
+  }
+  return result;
+}
+
+std::string aligned_table(const std::vector<TextColumn>& columns) {
+  const std::size_t rows = columns.empty() ? 0 : columns.front().cells.size();
+  std::vector<std::vector<std::string>> cells(rows + 1);
+  std::vector<bool> numeric;
+  for (const TextColumn& column : columns) {
+    numeric.push_back(column.numeric);
+    cells[0].push_back(column.head);
+    for (std::size_t row = 0; row < rows; ++row) cells[row + 1].push_back(column.cells[row]);
+  }
+  return aligned_table(cells, numeric);
+}
+
+std::string aligned_table(const std::vector<std::vector<std::string>>& cells,
+                          const std::vector<bool>& numeric) {
+  std::vector<std::size_t> widths(numeric.size(), 0);
+  for (const auto& row : cells) {
+    for (std::size_t column = 0; column < widths.size(); ++column) {
+      widths[column] = std::max(widths[column], display_width(row[column]));
+    }
+  }
+  std::string table;
+  for (std::size_t row = 0; row < cells.size(); ++row) {
+    std::string line, rule;
+    for (std::size_t column = 0; column < widths.size(); ++column) {
+      if (column > 0) line += "  ", rule += "  ";
+      append_padded(line, cells[row][column], widths[column], numeric[column]);
+      for (std::size_t i = 0; i < widths[column]; ++i) rule += "─";
+    }
+    trim_right(line);
+    table += line + "\n";
+    if (row == 0) table += rule + "\n";
+  }
+  return table;
+}
+
+std::string escaped_markup(std::string_view text) {
+  std::string escaped;
+  for (const char letter : text) {
+    switch (letter) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += letter;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,278 @@
+#include "experiments/manifest/json_schema.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "experiments/distributions/distribution_forms.hpp"
+#include "experiments/manifest/drawn_per.hpp"
+#include "experiments/manifest/manifest.hpp"
+#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/manifest/sweep.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+#include "experiments/study/sequence.hpp"
+
+namespace zerocount {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json object_of(Json properties, Json required = Json::array()) {
+  Json schema{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+  if (!required.empty()) schema["required"] = std::move(required);
+  return schema;
+}
+
+Json list_of(Json item, std::size_t fewest) {
+  return {{"type", "array"}, {"items", std::move(item)}, {"minItems", fewest}};
+}
+
+Json list_of_exactly(Json item, std::size_t count) {
+  Json schema = list_of(std::move(item), count);
+  schema["maxItems"] = count;
+  return schema;
+}
+
+void limit(Json& schema, const Interval& range, bool whole) {
+  const auto number = [&](double value) -> Json {
+    return whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
+  };
+  if (std::isfinite(range.low))
+    schema[range.low_included ? "minimum" : "exclusiveMinimum"] = number(range.low);
+  if (std::isfinite(range.high))
+    schema[range.high_included ? "maximum" : "exclusiveMaximum"] = number(range.high);
+}
+
+Json number_in(const Interval& range) {
+  Json schema{{"type", "number"}};
+  limit(schema, range, false);
+  return schema;
+}
+
+Json distribution_schema(const DistributionForm& form) {
+  const Json number{{"type", form.whole_numbers ? "integer" : "number"}};
+  if (!form.by_key) {
+    return form.keys.empty() ? list_of(number, 1) : list_of_exactly(number, form.keys.size());
+  }
+  Json properties = Json::object();
+  for (const std::string_view key : form.keys) properties[std::string(key)] = number;
+  return object_of(std::move(properties), Json(form.keys));
+}
+
+Json form_schema(const DistributionForm& form) {
+  const std::string name(form.name);
+  return object_of({{name, distribution_schema(form)}}, {name});
+}
+
+Json profile_schema() {
+  Json means = Json::array({number_in(above(0))});
+  for (const DistributionForm& form : distribution_forms()) means.push_back(form_schema(form));
+  return object_of({{"mean", {{"anyOf", std::move(means)}}},
+                    {"cv", number_in({.low = 0, .high = 10, .high_included = true})},
+                    {"correlation_length", number_in(above(0))},
+                    {"marginal", {{"enum", {"normal", "lognormal"}}}}},
+                   {"mean", "cv", "correlation_length"});
+}
+
+// How often it is drawn; not every parameter may have every word.
+Json per_schema(std::span<const std::string_view> words) {
+  return {{"enum", words}, {"description", "how often it is drawn"}};
+}
+
+// One definition for each distribution: {"uniform": [low, high]}, with or without `per` beside it.
+Json definitions() {
+  const std::string per(per_key);
+  Json all = Json::object();
+  for (const DistributionForm& form : distribution_forms()) {
+    const std::string name(form.name);
+    all[name] = form_schema(form);
+    all[name]["properties"][per] = per_schema(per_words());
+    all[name]["description"] = form.meaning;
+  }
+  all["profile"] =
+      object_of({{"profile", profile_schema()}, {per, per_schema(per_words().first(2))}}, {"profile"});
+  all["profile"]["description"] = "friction along the rotor: a periodic random field";
+  return all;
+}
+
+Json reference(std::string_view name) {
+  return {{"$ref", "#/$defs/" + std::string(name)}};
+}
+
+// What may stand for one value of the parameter.
+Json value_schema(const Parameter& parameter) {
+  if (parameter.kind == ParameterKind::truth) return {{"type", "boolean"}};
+  if (parameter.kind == ParameterKind::enumeration) return {{"enum", parameter.words}};
+  const bool whole = parameter.kind == ParameterKind::whole_number;
+  Json number{{"type", whole ? "integer" : "number"}};
+  // The units are another key's business: a gain may be as large as in SI units.
+  limit(number, range_of(parameter, {.gains = GainUnits::si}), whole);
+  Json forms = Json::array({std::move(number)});
+  for (const DistributionForm& form : distribution_forms()) {
+    if (!whole || form.whole_numbers || form.keys.empty()) forms.push_back(reference(form.name));
+  }
+  if (parameter.profiled != nullptr) forms.push_back(reference("profile"));
+  return {{"anyOf", std::move(forms)}};
+}
+
+// Its meaning and its unit, on a rotary axis and, where that is another one, on a linear axis.
+std::string description_of(const Parameter& parameter) {
+  std::string description(parameter.meaning);
+  if (parameter.unit == "1") return description;
+  description += fmt::format(", {}", parameter.unit);
+  if (!parameter.si_unit.empty()) description += fmt::format(" ({} with units: si)", parameter.si_unit);
+  const std::string linear = unit_on(AxisKind::linear, parameter.unit);
+  if (parameter.only_on || linear == parameter.unit) return description;
+  return description + fmt::format("; {} on a linear axis", linear);
+}
+
+Json key_schema(const Parameter& parameter) {
+  Json schema = parameter.listed ? list_of(value_schema(parameter), 1) : value_schema(parameter);
+  if (parameter.listed) schema["maxItems"] = most_listed_values;
+  schema["description"] = description_of(parameter);
+  if (parameter.kind == ParameterKind::truth) {
+    schema["default"] = default_value(parameter) != 0.0;
+  } else if (parameter.kind == ParameterKind::enumeration) {
+    schema["default"] = default_text(parameter);
+  } else if (has_default(parameter)) {
+    schema["default"] = default_value(parameter);
+  }
+  return schema;
+}
+
+Json spacing_schema() {
+  const Json count{{"type", "integer"}, {"minimum", 2}, {"maximum", most_points}};
+  const auto spacing = [&](const Json& end) {
+    return Json{{"type", "array"}, {"prefixItems", {end, end, count}}, {"minItems", 3}, {"maxItems", 3}};
+  };
+  return {{"anyOf",
+           {object_of({{"linspace", spacing(number_in(all_numbers()))}}, {"linspace"}),
+            object_of({{"logspace", spacing(number_in(above(0)))}}, {"logspace"})}}};
+}
+
+// A dotted path as a regular expression; that of a list's element ends in an index.
+std::string pattern_of(const Parameter& parameter, bool element) {
+  std::string pattern = "^";
+  for (const char c : parameter.name) pattern += c == '.' ? std::string("\\.") : std::string(1, c);
+  return pattern + (element ? "\\.(0|[1-9][0-9]*)$" : "$");
+}
+
+Json sweep_schema() {
+  Json grid = Json::object();
+  Json assignments = Json::object();
+  for (const Parameter& parameter : parameter_table()) {
+    const Json value = value_schema(parameter);
+    const Json spaced = {{"anyOf", {list_of(value, 1), spacing_schema()}}};
+    const bool numeric = !has_words(parameter);
+    const Json whole_value = parameter.listed ? list_of(value, 1) : value;
+    assignments[pattern_of(parameter, false)] = whole_value;
+    grid[pattern_of(parameter, false)] = numeric && !parameter.listed ? spaced : list_of(whole_value, 1);
+    if (parameter.listed) {
+      assignments[pattern_of(parameter, true)] = value;
+      grid[pattern_of(parameter, true)] = spaced;
+    }
+  }
+  const auto by_pattern = [](Json patterns) {
+    return Json{
+        {"type", "object"}, {"patternProperties", std::move(patterns)}, {"additionalProperties", false}};
+  };
+  return object_of(
+      {{"grid", by_pattern(std::move(grid))},
+       {"cases", {{"type", "object"}, {"additionalProperties", by_pattern(std::move(assignments))}}}});
+}
+
+// The schema of each general key, without its description.
+Json general_schemas() {
+  const Json text{{"type", "string"}};
+  return {
+      {"zerocount", {{"const", manifest_version}}},
+      {"name", {{"type", "string"}, {"pattern", "\\S"}}},
+      {"description", text},
+      {"seed", {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<std::uint64_t>::max()}}},
+      {"trials", {{"type", "integer"}, {"minimum", 1}, {"maximum", std::int64_t{1} << 53}}},
+      {"rigs", {{"type", "integer"}, {"minimum", min_rigs}, {"maximum", max_rigs}}},
+      {"design", {{"enum", std::vector<std::string_view>(design_words().begin(), design_words().end())}}},
+      {"independent_points", {{"type", "boolean"}}},
+      {"retain",
+       object_of(
+           {{"trials",
+             {{"type", "array"}, {"items", {{"type", "integer"}, {"minimum", 0}}}, {"uniqueItems", true}}}})},
+      {"stop", object_of({{"success_rate_halfwidth",
+                           {{"type", "number"}, {"exclusiveMinimum", 0}, {"exclusiveMaximum", 0.5}}},
+                          {"confidence",
+                           {{"type", "number"},
+                            {"exclusiveMinimum", 0},
+                            {"exclusiveMaximum", 1},
+                            {"default", StoppingRule{}.confidence}}},
+                          {"min_trials", {{"type", "integer"}, {"minimum", 1}}},
+                          {"max_trials", {{"type", "integer"}, {"minimum", 1}}}},
+                         {"success_rate_halfwidth", "max_trials"})},
+      {"observed", {{"type", "object"}, {"additionalProperties", text}}},
+      {"sweep", sweep_schema()},
+      {"axis", {{"enum", axis_words()}, {"default", axis_words().front()}}},
+      {"travel", number_in(above(0))},
+      {"controller.units", {{"enum", gain_unit_words()}, {"default", gain_unit_words().front()}}},
+      {"command.sequence.cycles",
+       {{"type", "integer"},
+        {"minimum", 1},
+        {"maximum", most_sequence_moves},
+        {"default", SequenceCycle{}.cycles}}},
+      {"command.sequence.approach", {{"enum", approach_words()}, {"default", approach_words().front()}}}};
+}
+
+Json general_schema(const GeneralKey& key) {
+  static const Json schemas = general_schemas();
+  Json schema = schemas.at(std::string(key.name));
+  schema["description"] = key.meaning;
+  return schema;
+}
+
+// Exactly one of these keys.
+Json one_of_keys(std::span<const std::string_view> keys) {
+  Json forms = Json::array();
+  for (const std::string_view key : keys) forms.push_back({{"required", {key}}});
+  return forms;
+}
+
+// The map of the keys below this dotted path.
+Json section_schema(const std::string& path) {
+  Json properties = Json::object();
+  Json required = Json::array();
+  for (const std::string& key : keys_below(path)) {
+    const std::string name = fmt::format("{}.{}", path, key);
+    if (const auto row = find_parameter(name)) {
+      const Parameter& parameter = parameter_table()[*row];
+      properties[key] = key_schema(parameter);
+      const bool always = !has_default(parameter) && !parameter.only_on;
+      if (always && path != required_section) required.push_back(key);
+    } else if (const GeneralKey* general = find_general_key(name)) {
+      properties[key] = general_schema(*general);
+    } else {
+      properties[key] = section_schema(name);
+    }
+  }
+  Json schema = object_of(std::move(properties), std::move(required));
+  if (path == required_section) schema["oneOf"] = one_of_keys(command_forms());
+  return schema;
+}
+
+}  // namespace
+
+nlohmann::ordered_json json_schema() {
+  Json properties = Json::object();
+  Json required = Json::array();
+  for (const std::string& key : keys_below("")) {
+    const GeneralKey* general = find_general_key(key);
+    properties[key] = general != nullptr ? general_schema(*general) : section_schema(key);
+    if (general != nullptr && general->required) required.push_back(key);
+  }
+  required.push_back(required_section);
+  Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "zerocount manifest"}};
+  schema.update(object_of(std::move(properties), std::move(required)));
+  schema["$defs"] = definitions();
+  return schema;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,85 @@
+#include "experiments/manifest/load_study.hpp"
+
+#include <deque>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+#include "core/hash/sha256.hpp"
+#include "experiments/manifest/manifest.hpp"
+#include "experiments/manifest/overrides.hpp"
+#include "experiments/parameters/earlier_defaults.hpp"
+#include "experiments/yaml/text_file.hpp"
+
+namespace zerocount {
+namespace {
+
+[[noreturn]] void refuse_size(std::string_view source) {
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}:1:1: manifest: the file is too large; expected at most {} bytes", source,
+                            largest_manifest));
+}
+
+// Text and overrides as one text; neither can contain the separator.
+std::string joined(const std::string& text, const std::vector<std::string>& overrides) {
+  std::string all = text;
+  for (const std::string& override_text : overrides) {
+    all += '\0';
+    all += override_text;
+  }
+  return all;
+}
+
+/// Files that were made with overrides without effect are read all the same.
+void require_effect(const Study& study, std::string_view source) {
+  Problems problems;
+  std::deque<std::string> sources;
+  const YamlPointer written = parse_yaml(study.manifest_text, source, false, problems);
+  const YamlPointer root = apply_overrides(written, study.overrides, sources, problems);
+  report_swept_overrides(*root, study.overrides, sources, problems);
+  problems.raise_if_any();
+}
+
+}  // namespace
+
+Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides) {
+  const std::string source = name_of_text(manifest);
+  std::string text = read_text(manifest, largest_manifest, "a manifest");
+  if (text.starts_with("\x89HDF")) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: a file in the HDF5 format, such as results; expected a manifest", source));
+  }
+  Study study = parse_study(std::move(text), source, overrides);
+  require_effect(study, source);
+  return study;
+}
+
+Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides) {
+  return parse_study(std::move(text), source, overrides, newest_version);
+}
+
+Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
+                  std::int64_t version) {
+  if (text.size() > largest_manifest) refuse_size(source);
+  Problems problems;
+  YamlPointer root = parse_yaml(text, source, false, problems);
+  if (!root && problems.empty()) {
+    problems.add({source, 1, 1}, "manifest", "the manifest is empty",
+                 "the keys zerocount, name, seed, trials, command");
+  }
+  if (!root) problems.raise_if_any();
+
+  std::deque<std::string> override_sources;
+  root = apply_overrides(root, overrides, override_sources, problems);
+  Study study = read_manifest(*root, version, problems);
+  problems.raise_if_any();
+
+  study.manifest_sha256 = sha256_hex(text);
+  study.study_sha256 = sha256_hex(joined(text, overrides));
+  study.manifest_text = std::move(text);
+  study.overrides = overrides;
+  return study;
+}
+
+}  // namespace zerocount

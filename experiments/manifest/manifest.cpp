@@ -1,0 +1,284 @@
+#include "experiments/manifest/manifest.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiments/designs/saltelli.hpp"
+#include "experiments/manifest/checks.hpp"
+#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/manifest/sections.hpp"
+#include "experiments/manifest/stopping.hpp"
+#include "experiments/manifest/study_assembly.hpp"
+#include "experiments/manifest/study_units_reading.hpp"
+#include "experiments/manifest/sweep.hpp"
+#include "experiments/manifest/values.hpp"
+#include "experiments/parameters/unknown_key.hpp"
+#include "experiments/study/factors.hpp"
+#include "experiments/yaml/nearest_name.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr std::int64_t most_trials = std::int64_t{1} << 53;
+
+// The manifest while it is read.
+struct Manifest {
+  Field root;
+  Reading reading;
+  PlanPlaces places{};
+  std::vector<SweptAxis> axes{};
+  Study study{};
+
+  Problems& problems() { return reading.problems; }
+  StudyPlan& plan() { return reading.plan; }
+};
+
+// The value of a top-level key; where it is missing, null, which is reported if it is required.
+std::optional<Field> find_field(Manifest& m, std::string_view key) {
+  if (const YamlEntry* entry = find_entry(*m.root.node, key)) return entry_of(m.root, *entry);
+  return std::nullopt;
+}
+
+std::optional<Field> find_required(Manifest& m, std::string_view key, std::string_view expected) {
+  auto field = find_field(m, key);
+  if (!field) m.problems().add(m.root.node->place, key, "the key is missing", expected);
+  return field;
+}
+
+void read_version(Manifest& m) {
+  const auto field = find_required(m, "zerocount", fmt::format("zerocount: {}", manifest_version));
+  if (!field) return;
+  const auto version = read_whole(*field, std::numeric_limits<std::int64_t>::min(),
+                                  std::numeric_limits<std::int64_t>::max(), m.problems());
+  if (!version || *version == manifest_version) return;
+  const bool newer = *version > manifest_version;
+  m.problems().add(field->node->place, field->path,
+                   newer ? fmt::format("the manifest is of version {}, newer than this program", *version)
+                         : fmt::format("there is no version {} of manifests", *version),
+                   fmt::format("version {}{}", manifest_version, newer ? ", or a newer program" : ""));
+}
+
+void read_texts(Manifest& m) {
+  if (const auto field = find_required(m, "name", "a name for the study")) {
+    m.study.name = read_text(*field, m.problems()).value_or("");
+    if (field->node->kind == YamlNode::Kind::scalar &&
+        field->node->text.find_first_not_of(" \t\r\n") == std::string::npos) {
+      m.problems().add(field->node->place, field->path, "the name is empty", "a name for the study");
+    }
+  }
+  if (const auto field = find_field(m, "description")) {
+    m.study.description = read_text(*field, m.problems()).value_or("");
+  }
+}
+
+void read_design(Manifest& m) {
+  const auto field = find_field(m, "design");
+  if (!field) return;
+  const std::span<const std::string_view> words = design_words();
+  const auto word = std::find(words.begin(), words.end(), field->node->text);
+  if (field->node->kind == YamlNode::Kind::scalar && word != words.end()) {
+    m.study.design = static_cast<Design>(word - words.begin());
+  } else {
+    m.problems().add(field->node->place, field->path,
+                     fmt::format("{} is no design", in_quotes(flow_text(*field->node))),
+                     "monte_carlo, latin_hypercube, sobol or saltelli");
+  }
+}
+
+void read_numbers(Manifest& m) {
+  if (const auto field = find_required(m, "seed", "a whole number")) {
+    m.study.seed = read_seed(*field, m.problems()).value_or(0);
+  }
+  if (const auto field = find_required(m, "trials", "the number of trials at each design point")) {
+    m.study.trials = read_whole(*field, 1, most_trials, m.problems()).value_or(0);
+  }
+  if (const auto field = find_field(m, "rigs")) {
+    m.reading.has_rigs = true;
+    m.study.rigs = read_whole(*field, min_rigs, max_rigs, m.problems()).value_or(0);
+  }
+  if (const auto field = find_field(m, "independent_points")) {
+    m.study.independent_points = read_truth(*field, m.problems()).value_or(false);
+  }
+}
+
+void read_axes(Manifest& m) {
+  if (const auto field = find_field(m, "sweep")) m.axes = read_sweep(*field, m.reading);
+  for (const SweptAxis& axis : m.axes) {
+    if (axis.labels.empty()) continue;  // could not be read
+    m.plan().axes.push_back(axis.axis);
+    m.places.axes.push_back(axis.places);
+  }
+}
+
+void check_trial_count(Manifest& m) {
+  std::int64_t points = 1;
+  for (const PlanAxis& axis : m.plan().axes) points *= static_cast<std::int64_t>(option_count(axis));
+  const auto field = find_field(m, "trials");
+  if (field && m.study.trials > most_trials / points) {
+    m.problems().add(field->node->place, field->path,
+                     fmt::format("{} trials at {} points are too many", m.study.trials, points),
+                     fmt::format("at most {} trials in all", most_trials));
+  }
+}
+
+std::string nearest_multiples(std::int64_t number, std::int64_t of) {
+  const std::int64_t below = number / of * of;
+  return below == 0 ? std::to_string(of) : fmt::format("{} or {}", below, below + of);
+}
+
+// Of the design saltelli: whole rows, of as many trials as there are factors and two more.
+void check_rows(Manifest& m) {
+  const auto field = find_field(m, "trials");
+  if (m.study.design != Design::saltelli || !field || m.study.trials == 0) return;
+  const std::vector<std::string> names = factor_names(m.plan());
+  if (names.empty()) {
+    const Field design = find_field(m, "design").value();
+    m.problems().add(design.node->place, design.path, "nothing is drawn in this study",
+                     "a distribution for one parameter at least");
+    return;
+  }
+  const auto row = static_cast<std::int64_t>(saltelli_row_length(names.size()));
+  if (m.study.trials % row == 0) return;
+  m.problems().add(
+      field->node->place, field->path,
+      fmt::format("{} trials are no whole number of the rows of {} that the design saltelli has for {} "
+                  "factor{} ({})",
+                  m.study.trials, row, names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", ")),
+      fmt::format("a multiple of {}, such as {}", row, nearest_multiples(m.study.trials, row)));
+}
+
+void require_multiple_of_rigs(Manifest& m, const Field& field, std::int64_t trials) {
+  if (trials % m.study.rigs == 0) return;
+  m.problems().add(
+      field.node->place, field.path,
+      fmt::format("{} trials cannot be divided equally among {} rigs", trials, m.study.rigs),
+      fmt::format("a multiple of {}, such as {}", m.study.rigs, nearest_multiples(trials, m.study.rigs)));
+}
+
+// Every rig has equally many trials, at every look of a study that decides how many it takes.
+void check_rigs(Manifest& m) {
+  if (m.study.rigs == 0) return;
+  const auto trials = find_field(m, "trials");
+  const std::int64_t block = m.study.stop ? m.study.stop->block : m.study.trials;
+  if (trials && block > 0) require_multiple_of_rigs(m, *trials, block);
+  if (m.study.stop) {
+    const Field stop = find_field(m, "stop").value();
+    const YamlEntry* max_trials = find_entry(*stop.node, "max_trials");
+    if (max_trials != nullptr) {
+      require_multiple_of_rigs(m, entry_of(stop, *max_trials), m.study.stop->max_trials);
+    }
+  }
+  if (m.study.design == Design::saltelli) {
+    const Field design = find_field(m, "design").value();
+    m.problems().add(design.node->place, design.path,
+                     "the rows of this design change one factor at a time, and a rig shares its factors with "
+                     "the trials of other rows",
+                     "monte_carlo, latin_hypercube or sobol with rigs");
+  }
+}
+
+void read_retained(Manifest& m) {
+  const auto field = find_field(m, "retain");
+  if (!field || !check_map(*field, "retain: {trials: [..]}", m.problems())) return;
+  const std::vector<std::string> known{"trials"};
+  for (const YamlEntry& entry : field->node->entries) {
+    const Field list = entry_of(*field, entry);
+    if (entry.key != known.front()) {
+      add_unknown_key(*field, entry, known, m.problems());
+    } else if (check_list(list, "a list of trial indices", m.problems())) {
+      for (std::size_t i = 0; i < list.node->items.size(); ++i) {
+        const Field item = item_of(list, i);
+        const auto index = read_whole(item, 0, std::max<std::int64_t>(m.study.trials - 1, 0), m.problems());
+        if (index) m.study.retained_trials.push_back(*index);
+      }
+      std::vector<std::int64_t>& kept = m.study.retained_trials;
+      std::sort(kept.begin(), kept.end());
+      if (std::adjacent_find(kept.begin(), kept.end()) != kept.end()) {
+        m.problems().add(list.node->place, list.path, "a trial stands twice in the list", "each trial once");
+      }
+    }
+  }
+}
+
+// What was observed of a case holds at each of its points, unless the point has a text of its own.
+void read_observed(Manifest& m) {
+  const auto field = find_field(m, "observed");
+  if (!field || !check_map(*field, "a map from cases or point labels to texts", m.problems())) return;
+  const bool complete =
+      std::none_of(m.axes.begin(), m.axes.end(), [](const auto& axis) { return axis.labels.empty(); });
+  if (!complete) return;  // reported already
+  const std::vector<std::string> labels = label_points(m.axes);
+  const bool has_cases = !m.axes.empty() && m.axes.front().cases;
+  const std::vector<std::string> cases = has_cases ? m.axes.front().labels : std::vector<std::string>{};
+  std::vector<std::string> known = cases;
+  known.insert(known.end(), labels.begin(), labels.end());
+  const std::set<std::string> known_labels(labels.begin(), labels.end());
+  std::map<std::string, std::string> of_case;
+  for (const YamlEntry& entry : field->node->entries) {
+    const auto text = read_text(entry_of(*field, entry), m.problems());
+    if (known_labels.count(entry.key) > 0) {
+      m.study.observed[entry.key] = text.value_or("");
+    } else if (std::find(cases.begin(), cases.end(), entry.key) != cases.end()) {
+      of_case[entry.key] = text.value_or("");
+    } else {
+      m.problems().add(
+          entry.place, entry_of(*field, entry).path,
+          fmt::format("no case or point has this label, nearest known: {}", nearest_name(entry.key, known)),
+          "the name of a case or the label of a point");
+    }
+  }
+  for (std::size_t point = 0; !of_case.empty() && point < labels.size(); ++point) {
+    const auto text = of_case.find(cases[point / (labels.size() / cases.size())]);
+    if (text != of_case.end()) m.study.observed.emplace(labels[point], text->second);
+  }
+}
+
+void report_unknown_keys(Manifest& m) {
+  const std::vector<std::string> known = keys_below("");
+  for (const YamlEntry& entry : m.root.node->entries) {
+    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
+      add_unknown_key(m.root, entry, known, m.problems());
+    }
+  }
+}
+
+}  // namespace
+
+Study read_manifest(const YamlNode& root, std::int64_t version, Problems& problems) {
+  auto plan = std::make_shared<StudyPlan>();
+  Manifest m{.root = {&root, ""}, .reading = {problems, *plan, version}};
+  if (root.kind != YamlNode::Kind::map) {
+    add_wrong_type({&root, "manifest"}, "a map with the keys zerocount, name, seed, trials, command",
+                   problems);
+    return {};
+  }
+  report_unknown_keys(m);
+  read_version(m);
+  read_texts(m);
+  read_numbers(m);
+  read_design(m);
+  read_study_units(m.root, m.reading);
+  read_sections(m.root, m.reading, m.places);
+  read_axes(m);
+  read_retained(m);
+  if (const auto field = find_field(m, "stop")) read_stop(*field, most_trials, m.study, problems);
+  check_trial_count(m);
+  check_rigs(m);
+  read_observed(m);
+  realise_profiles(m.reading.profiles, m.study, *plan);
+  check_profiles(m.reading);
+  check_points(m.places, m.reading);
+  check_travel(m.root, m.reading);
+  if (problems.empty()) check_rows(m);
+  if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, m.study);
+  m.study.warnings = std::move(m.reading.warnings);
+  m.study.plan = std::move(plan);
+  return std::move(m.study);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,120 @@
+#include "experiments/manifest/manifest_keys.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "experiments/parameters/parameter_table.hpp"
+
+namespace zerocount {
+namespace {
+
+bool is_below(std::string_view name, std::string_view path) {
+  return path.empty() ||
+         (name.size() > path.size() && name.substr(0, path.size()) == path && name[path.size()] == '.');
+}
+
+void add_once(std::vector<std::string>& names, std::string_view name) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
+}
+
+// All that can be given a value.
+std::vector<std::string_view> value_paths() {
+  std::vector<std::string_view> paths;
+  for (const GeneralKey& key : general_keys()) {
+    if (key.name.find('.') == std::string_view::npos) paths.push_back(key.name);
+  }
+  for (const Parameter& parameter : parameter_table()) paths.push_back(parameter.name);
+  for (const GeneralKey& key : general_keys()) {
+    if (key.name.find('.') != std::string_view::npos) paths.push_back(key.name);
+  }
+  return paths;
+}
+
+}  // namespace
+
+std::span<const GeneralKey> general_keys() {
+  static constexpr std::array<GeneralKey, 17> keys{{
+      {"zerocount", "version of the manifest's format: 1", true},
+      {"name", "name of the study", true},
+      {"description", "what the study is for", false},
+      {"axis",
+       "rotary (default), or linear: m, N, kg, N/m ... in place of rad, N m, kg m^2, N m/rad "
+       "(zerocount parameters --axis linear)",
+       false},
+      {"travel", "of a linear axis with profiles: the length after which friction is the same again, m",
+       false},
+      {"seed", "seed of all random numbers, 0 to 2^64 - 1", true},
+      {"trials", "trials at each design point", true},
+      {"rigs",
+       "how many rigs the trials run on, trial i on rig i mod rigs; trials is a multiple of it (default: no "
+       "trials share a rig)",
+       false},
+      {"design", "how the trials are spread: monte_carlo (default), latin_hypercube, sobol or saltelli",
+       false},
+      {"independent_points",
+       "true: every design point has its own random numbers; false (default): all share those of trial i",
+       false},
+      {"retain", "trials whose sample-by-sample records are kept: {trials: [0, 1]}", false},
+      {"stop",
+       "trials are added, a block of `trials` at a time, until the success rate of every point is known: "
+       "{success_rate_halfwidth: 0.005, confidence: 0.95, min_trials: 1000, max_trials: 100000}",
+       false},
+      {"observed", "what was observed on the real rig, by case or point label", false},
+      {"sweep", "design points: grid (product of lists), cases (named), or both (product)", false},
+      {"controller.units",
+       "unit of kp, ki and kd, of the coarse phase too: count (default), per count and sample; or si: N "
+       "m/rad, "
+       "N m/(rad s) and N m s/rad, the same control at any sample rate",
+       false},
+      {"command.sequence.cycles", "how often a sequence goes to its targets (default 5)", false},
+      {"command.sequence.approach",
+       "from where a sequence goes to its targets: bidirectional (default: from both sides), positive (from "
+       "below) or negative (from above)",
+       false},
+  }};
+  return keys;
+}
+
+const GeneralKey* find_general_key(std::string_view path) {
+  const auto keys = general_keys();
+  const auto found =
+      std::find_if(keys.begin(), keys.end(), [&](const GeneralKey& key) { return key.name == path; });
+  return found == keys.end() ? nullptr : &*found;
+}
+
+std::span<const std::string_view> command_forms() {
+  static constexpr std::array<std::string_view, 3> forms{"targets", "torque", "sequence"};
+  return forms;
+}
+
+std::vector<std::string> keys_below(std::string_view path) {
+  const std::size_t start = path.empty() ? 0 : path.size() + 1;
+  std::vector<std::string> keys;
+  for (const std::string_view name : value_paths()) {
+    if (is_below(name, path)) add_once(keys, name.substr(start, name.find('.', start) - start));
+  }
+  return keys;
+}
+
+bool is_within(std::string_view path, std::string_view section) {
+  return path == section || (!section.empty() && is_below(path, section));
+}
+
+bool is_section(std::string_view path) {
+  const auto paths = value_paths();
+  return !path.empty() &&
+         std::any_of(paths.begin(), paths.end(), [&](std::string_view name) { return is_below(name, path); });
+}
+
+std::span<const std::string_view> design_words() {
+  static constexpr std::array<std::string_view, 4> words{"monte_carlo", "latin_hypercube", "sobol",
+                                                         "saltelli"};
+  return words;
+}
+
+std::span<const std::string_view> approach_words() {
+  static constexpr std::array<std::string_view, 3> words{"bidirectional", "positive", "negative"};
+  return words;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,165 @@
+#include "experiments/manifest/overrides.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <initializer_list>
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace zerocount {
+namespace {
+
+struct Override {
+  std::string_view path;  // of the whole key
+  YamlPointer value;
+  Place place;
+};
+
+// How many characters of `rest` are the next key of the map that `walked` leads to. A key may have dots in
+// it: those of the sweep, the names of its cases, and the labels under `observed`.
+std::size_t next_key_length(const YamlNode& map, std::string_view walked, std::string_view rest) {
+  std::size_t longest = 0;
+  for (const YamlEntry& entry : map.entries) {
+    const std::size_t size = entry.key.size();
+    const bool fits = rest.substr(0, size) == entry.key && (rest.size() == size || rest[size] == '.');
+    if (fits) longest = std::max(longest, size);
+  }
+  if (longest > 0) return longest;
+  const bool in_case = walked.rfind("sweep.cases.", 0) == 0;
+  if (walked == "sweep.grid" || walked == "observed" || in_case) return rest.size();
+  return std::min(rest.find('.'), rest.size());
+}
+
+std::optional<std::size_t> list_index(std::string_view text, std::size_t size) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (error != std::errc{} || end != text.data() + text.size() || index >= size) return std::nullopt;
+  return index;
+}
+
+// A copy of `node` in which what `rest` leads to is the override's value; null, once reported, where it leads
+// nowhere.
+YamlPointer replaced(const YamlPointer& node, const Override& change, std::string_view rest,
+                     Problems& problems) {
+  if (rest.empty()) return change.value;
+  const std::string_view walked =
+      change.path.substr(0, change.path.size() - rest.size() - (rest == change.path ? 0 : 1));
+  auto copy = node ? std::make_shared<YamlNode>(*node) : std::make_shared<YamlNode>();
+  if (!node) {
+    copy->kind = YamlNode::Kind::map;
+    copy->place = change.place;
+  }
+  std::size_t length = std::min(rest.find('.'), rest.size());
+  YamlPointer* child = nullptr;
+  if (copy->kind == YamlNode::Kind::list) {
+    const auto index = list_index(rest.substr(0, length), copy->items.size());
+    if (!index) {
+      problems.add(change.place, change.path,
+                   fmt::format("{} has no item {}", walked, in_quotes(rest.substr(0, length))),
+                   fmt::format("an index below {}", copy->items.size()));
+      return nullptr;
+    }
+    child = &copy->items[*index];
+  } else if (copy->kind == YamlNode::Kind::map) {
+    length = next_key_length(*copy, walked, rest);
+    const std::string_view key = rest.substr(0, length);
+    auto entry =
+        std::find_if(copy->entries.begin(), copy->entries.end(), [&](const auto& e) { return e.key == key; });
+    if (entry == copy->entries.end()) {
+      entry = copy->entries.insert(entry, {std::string(key), change.place, nullptr});
+    }
+    entry->place = change.place;
+    child = &entry->value;
+  } else {
+    problems.add(change.place, change.path, fmt::format("{} is neither a map nor a list", walked),
+                 "the key of a value");
+    return nullptr;
+  }
+  const std::string_view further = length == rest.size() ? "" : rest.substr(length + 1);
+  *child = replaced(*child, change, further, problems);
+  return *child ? copy : nullptr;
+}
+
+/// Whether the dotted path is `swept` or lies below it.
+bool is_given_with(std::string_view path, std::string_view swept) {
+  return path.starts_with(swept) && (path.size() == swept.size() || path[swept.size()] == '.');
+}
+
+/// The map that keys lead to; null where there is none.
+const YamlNode* map_at(const YamlNode& root, std::initializer_list<std::string_view> keys) {
+  const YamlNode* node = &root;
+  for (const std::string_view key : keys) {
+    if (node->kind != YamlNode::Kind::map) return nullptr;
+    const YamlEntry* const entry = find_entry(*node, key);
+    if (!entry || !entry->value) return nullptr;
+    node = entry->value.get();
+  }
+  return node->kind == YamlNode::Kind::map ? node : nullptr;
+}
+
+bool gives(const YamlNode* map, std::string_view path) {
+  return map && std::any_of(map->entries.begin(), map->entries.end(),
+                            [&](const YamlEntry& entry) { return is_given_with(path, entry.key); });
+}
+
+/// Where the sweep gives the key at every point: "sweep.grid" or "sweep.cases"; empty where it does not.
+std::string_view sweep_that_gives(const YamlNode& root, std::string_view key) {
+  if (gives(map_at(root, {"sweep", "grid"}), key)) return "sweep.grid";
+  const YamlNode* const cases = map_at(root, {"sweep", "cases"});
+  if (!cases || cases->entries.empty()) return {};
+  const bool all = std::all_of(cases->entries.begin(), cases->entries.end(), [&](const YamlEntry& entry) {
+    const bool map = entry.value && entry.value->kind == YamlNode::Kind::map;
+    return map && gives(entry.value.get(), key);
+  });
+  return all ? "sweep.cases" : "";
+}
+
+bool is_well_formed(std::string_view key) {
+  return !key.empty() && key.front() != '.' && key.back() != '.' && key.find("..") == std::string_view::npos;
+}
+
+}  // namespace
+
+YamlPointer apply_overrides(YamlPointer root, const std::vector<std::string>& overrides,
+                            std::deque<std::string>& sources, Problems& problems) {
+  for (const std::string& text : overrides) {
+    const std::string& source = sources.emplace_back("--set " + text.substr(0, 200));
+    const std::size_t equals = text.find('=');
+    const std::string key = text.substr(0, equals);
+    if (equals == std::string::npos || !is_well_formed(key) || text.size() > largest_manifest) {
+      problems.add({source}, "manifest", "this is no override", "--set key=value with the key's dotted path");
+      continue;
+    }
+    if (key == "zerocount") {
+      problems.add({source}, key, "the manifest's version cannot be overridden", "any other key");
+      continue;
+    }
+    const std::size_t before = problems.size();
+    YamlPointer value = parse_yaml(text.substr(equals + 1), source, true, problems);
+    if (!value && problems.size() == before) {
+      auto null = std::make_shared<YamlNode>();
+      null->place = {source};
+      value = null;
+    }
+    if (!value) continue;
+    if (const YamlPointer changed = replaced(root, {key, value, {source}}, key, problems)) root = changed;
+  }
+  return root;
+}
+
+void report_swept_overrides(const YamlNode& root, const std::vector<std::string>& overrides,
+                            std::deque<std::string>& sources, Problems& problems) {
+  for (const std::string& text : overrides) {
+    const std::string key = text.substr(0, text.find('='));
+    const std::string_view sweep = sweep_that_gives(root, key);
+    if (sweep.empty()) continue;
+    const bool grid = sweep == "sweep.grid";
+    problems.add(
+        {sources.emplace_back("--set " + text.substr(0, 200))}, key,
+        fmt::format("{} gives it at every point, so this would change nothing", sweep),
+        grid ? fmt::format("sweep.grid.{}=[...]", key) : fmt::format("sweep.cases.NAME.{}=...", key));
+  }
+}
+
+}  // namespace zerocount

@@ -1,0 +1,122 @@
+#include "experiments/manifest/parameter_listing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <boost/algorithm/string/replace.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiments/distributions/distribution_forms.hpp"
+#include "experiments/manifest/drawn_per.hpp"
+#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+
+namespace zerocount {
+namespace {
+
+using Row = std::vector<std::string>;
+
+struct Listing {
+  std::string title;
+  Row heads;
+  std::vector<Row> rows;
+};
+
+std::string allowed(const Parameter& parameter, const StudyUnits& units) {
+  if (has_words(parameter)) return fmt::format("{}", fmt::join(parameter.words, " | "));
+  return (parameter.kind == ParameterKind::whole_number ? "whole, " : "") +
+         notation(range_of(parameter, units));
+}
+
+Listing parameter_listing(const StudyUnits& units) {
+  Listing listing{"Parameters (left out of a manifest, they take their defaults)",
+                  {"name", "unit", "default", "allowed", "source of the default", "meaning"},
+                  {}};
+  for (const Parameter& p : parameter_table()) {
+    if (!exists_on(p, units.axis)) continue;
+    const std::string meaning = meaning_of(p, units) + (p.profiled != nullptr ? " [profile allowed]" : "");
+    listing.rows.push_back({std::string(p.name), unit_of(p, units), default_text(p, units), allowed(p, units),
+                            default_holds(p, units) ? std::string(p.source) : "-", meaning});
+  }
+  return listing;
+}
+
+Listing distribution_listing(const StudyUnits& units) {
+  Listing listing{"Distributions (in the place of any number)", {"name", "written", "meaning"}, {}};
+  for (const DistributionForm& form : distribution_forms()) {
+    listing.rows.push_back({std::string(form.name), fmt::format("{{{}: {}}}", form.name, form.shown),
+                            std::string(form.meaning)});
+  }
+  listing.rows.push_back(
+      {"profile", "{profile: {mean, cv, correlation_length, marginal}}",
+       text_on(units.axis, "friction along the rotor") +
+           fmt::format(": a periodic random field; correlation_length in {}, marginal normal or lognormal "
+                       "(default); the mean may be a distribution, drawn for each {}",
+                       unit_on(units.axis, "rad"), text_on(units.axis, "rotor"))});
+  listing.rows.push_back({std::string(per_key), fmt::format("{{…, per: {}}}", fmt::join(per_words(), " | ")),
+                          "beside any of these: how often it is drawn; contact for friction alone, study or "
+                          "rig for a profile"});
+  return listing;
+}
+
+Listing key_listing() {
+  Listing listing{"Other keys of a manifest", {"name", "required", "meaning"}, {}};
+  for (const GeneralKey& key : general_keys()) {
+    listing.rows.push_back({std::string(key.name), key.required ? "yes" : "no", std::string(key.meaning)});
+  }
+  return listing;
+}
+
+std::array<Listing, 3> listings(const StudyUnits& units) {
+  return {parameter_listing(units), distribution_listing(units), key_listing()};
+}
+
+std::string as_text(const Listing& listing) {
+  std::vector<std::size_t> widths(listing.heads.size(), 0);
+  std::vector<Row> lines{listing.heads};
+  lines.insert(lines.end(), listing.rows.begin(), listing.rows.end());
+  for (const Row& line : lines) {
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  std::string text = listing.title + "\n\n";
+  for (const Row& line : lines) {
+    std::string shown;
+    for (std::size_t i = 0; i < line.size(); ++i) shown += fmt::format("{:<{}}  ", line[i], widths[i]);
+    text += shown.substr(0, shown.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text + "\n";
+}
+
+// A bar would end the cell.
+std::string cell(const std::string& text) {
+  return boost::algorithm::replace_all_copy(text, "|", "\\|");
+}
+
+std::string as_markdown(const Listing& listing) {
+  std::string text = fmt::format("## {}\n\n| {} |\n|{}\n", listing.title, fmt::join(listing.heads, " | "),
+                                 fmt::join(std::vector<std::string>(listing.heads.size(), " --- |"), ""));
+  for (const Row& row : listing.rows) {
+    Row cells;
+    for (const std::string& entry : row) cells.push_back(cell(entry));
+    text += fmt::format("| {} |\n", fmt::join(cells, " | "));
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string parameters_as_text(const StudyUnits& units) {
+  std::string text;
+  for (const Listing& listing : listings(units)) text += as_text(listing);
+  return text;
+}
+
+std::string parameters_as_markdown(const StudyUnits& units) {
+  std::string text;
+  for (const Listing& listing : listings(units)) text += as_markdown(listing);
+  return text;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,65 @@
+#include "experiments/manifest/spacing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace zerocount {
+namespace {
+
+// To 15 digits, so that 2e-05 does not become 1.9999999999999998e-05 in a label.
+double without_rounding_noise(double value) {
+  return std::stod(fmt::format("{:.15g}", value));
+}
+
+double spaced(const Spacing& spacing, std::size_t i) {
+  if (i == 0) return spacing.from;
+  if (i + 1 == spacing.count) return spacing.to;
+  const double t = static_cast<double>(i) / static_cast<double>(spacing.count - 1);
+  if (!spacing.logarithmic) return without_rounding_noise(std::lerp(spacing.from, spacing.to, t));
+  return without_rounding_noise(std::exp(std::lerp(std::log(spacing.from), std::log(spacing.to), t)));
+}
+
+}  // namespace
+
+std::optional<Spacing> read_spacing(const Field& field, const std::string& name, std::size_t most,
+                                    Problems& problems) {
+  const bool logarithmic = name == "logspace";
+  const std::string expected = fmt::format("{}: [first value, last value, number of values]", name);
+  if (!check_list(field, expected, problems)) return std::nullopt;
+  if (field.node->items.size() != 3) {
+    problems.add(field.node->place, field.path,
+                 fmt::format("a list of {} stands here", field.node->items.size()), expected);
+    return std::nullopt;
+  }
+  const Interval range = logarithmic ? above(0.0) : all_numbers();
+  const auto from = read_real(item_of(field, 0), range, problems);
+  const auto to = read_real(item_of(field, 1), range, problems);
+  const auto count = read_whole(item_of(field, 2), 2, static_cast<std::int64_t>(most), problems);
+  if (!from || !to || !count) return std::nullopt;
+  if (*from == *to) {
+    problems.add(field.node->place, field.path, "the first and the last value are the same",
+                 "different values");
+    return std::nullopt;
+  }
+  return Spacing{*from, *to, static_cast<std::size_t>(*count), logarithmic};
+}
+
+std::vector<double> spaced_values(const Spacing& spacing) {
+  std::vector<double> values(spacing.count);
+  for (std::size_t i = 0; i < spacing.count; ++i) values[i] = spaced(spacing, i);
+  return values;
+}
+
+// 2.44211e-05 where the value is 2.44211060013514e-05.
+std::vector<std::string> spaced_labels(const std::string& name, const std::vector<double>& values) {
+  std::vector<std::string> labels;
+  labels.reserve(values.size());
+  for (const double value : values) labels.push_back(fmt::format("{}={:.6g}", name, value));
+  if (std::adjacent_find(labels.begin(), labels.end()) == labels.end()) return labels;
+  for (std::size_t i = 0; i < values.size(); ++i) labels[i] = fmt::format("{}={}", name, values[i]);
+  return labels;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,77 @@
+#include "experiments/manifest/stopping.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/parameters/unknown_key.hpp"
+
+namespace zerocount {
+namespace {
+
+const std::vector<std::string> keys{"success_rate_halfwidth", "confidence", "min_trials", "max_trials"};
+
+void require_key(const Field& map, const std::string& key, const std::string& expected, Problems& problems) {
+  if (find_entry(*map.node, key) != nullptr) return;
+  problems.add(map.node->place, fmt::format("{}.{}", map.path, key), "the key is missing", expected);
+}
+
+void read_key(const Field& field, const std::string& key, std::int64_t most, StoppingRule& rule,
+              Problems& problems) {
+  if (key == "success_rate_halfwidth") {
+    rule.success_rate_halfwidth = read_real(field, {.low = 0.0, .high = 0.5}, problems).value_or(0.1);
+  } else if (key == "confidence") {
+    rule.confidence = read_real(field, {.low = 0.0, .high = 1.0}, problems).value_or(rule.confidence);
+  } else if (key == "min_trials") {
+    rule.min_trials = read_whole(field, 1, most, problems).value_or(1);
+  } else {
+    rule.max_trials = read_whole(field, 1, most, problems).value_or(most);
+  }
+}
+
+void check_order(const Field& map, const StoppingRule& rule, Problems& problems) {
+  const YamlEntry* most = find_entry(*map.node, "max_trials");
+  const YamlEntry* least = find_entry(*map.node, "min_trials");
+  if (most != nullptr && rule.max_trials < rule.block) {
+    problems.add(most->value->place, entry_of(map, *most).path,
+                 fmt::format("{} trials are fewer than a block, which is the {} of `trials`", rule.max_trials,
+                             rule.block),
+                 fmt::format("at least {}", rule.block));
+  } else if (most != nullptr && least != nullptr && rule.min_trials > rule.max_trials) {
+    problems.add(least->value->place, entry_of(map, *least).path,
+                 fmt::format("{} trials are more than max_trials, {}", rule.min_trials, rule.max_trials),
+                 fmt::format("at most {}", rule.max_trials));
+  }
+}
+
+}  // namespace
+
+void read_stop(const Field& field, std::int64_t most, Study& study, Problems& problems) {
+  if (!check_map(field, "stop: {success_rate_halfwidth: 0.005, max_trials: 100000}", problems)) return;
+  StoppingRule rule;
+  rule.block = study.trials;
+  for (const YamlEntry& entry : field.node->entries) {
+    if (std::find(keys.begin(), keys.end(), entry.key) == keys.end()) {
+      add_unknown_key(field, entry, keys, problems);
+    } else {
+      read_key(entry_of(field, entry), entry.key, most, rule, problems);
+    }
+  }
+  require_key(field, keys[0], "half the width that the bounds of the success rate may have, 0 to 0.5",
+              problems);
+  require_key(field, keys[3], "the number of trials at a point at which the study ends in any case",
+              problems);
+  check_order(field, rule, problems);
+  if (study.design != Design::monte_carlo) {
+    problems.add(field.node->place, field.path,
+                 "trials can be added one block after the other only where each is drawn by itself",
+                 "design: monte_carlo");
+  }
+  study.stop = rule;
+  study.trials = rule.max_trials;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,59 @@
+#include "experiments/parameters/unknown_key.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiments/parameters/parameter_table.hpp"
+#include "experiments/yaml/nearest_name.hpp"
+
+namespace zerocount {
+namespace {
+
+// The last name of a dotted path.
+std::string_view last_name(std::string_view path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
+// The parameter, or the map of parameters, whose last name is `key`; or nothing.
+std::string_view same_name_elsewhere(std::string_view key) {
+  for (const Parameter& parameter : parameter_table()) {
+    if (last_name(parameter.name) == key) return parameter.name;
+  }
+  for (const Parameter& parameter : parameter_table()) {
+    const std::string_view map = parameter.name.substr(0, parameter.name.rfind('.'));
+    if (last_name(map) == key) return map;
+  }
+  return {};
+}
+
+// A slip of the pen in this map is more likely than a key that was meant for another.
+std::string_view nearest_key(std::string_view key, std::span<const std::string> known) {
+  const std::string_view here = nearest_name(key, known);
+  const std::string_view elsewhere = same_name_elsewhere(key);
+  return elsewhere.empty() || is_near(key, here) ? here : elsewhere;
+}
+
+}  // namespace
+
+void add_unknown_key(const Field& map, const YamlEntry& entry, std::span<const std::string> known,
+                     Problems& problems) {
+  const std::string path = entry_of(map, entry).path;
+  if (entry.key.find('.') != std::string::npos && find_parameter(path)) {
+    problems.add(
+        entry.place, path, "a dotted path stands in place of a key",
+        fmt::format("maps inside one another, as in {}: {{{}: ...}}",
+                    entry.key.substr(0, entry.key.find('.')), entry.key.substr(entry.key.find('.') + 1)));
+    return;
+  }
+  const std::string_view nearest = nearest_key(entry.key, known);
+  const std::string what =
+      nearest.empty() ? "unknown key" : fmt::format("unknown key, nearest known: {}", nearest);
+  constexpr std::size_t most_listed = 24;
+  const std::string expected =
+      known.size() <= most_listed
+          ? fmt::format("one of {}", fmt::join(known, ", "))
+          : std::string("a dotted path of the table of parameters, such as controller.ki");
+  problems.add(entry.place, path, what, expected);
+}
+
+}  // namespace zerocount

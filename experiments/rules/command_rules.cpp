@@ -1,0 +1,246 @@
+#include "experiments/rules/command_rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/loop/dac.hpp"
+#include "core/loop/reference.hpp"
+#include "experiments/parameters/parameter_rows.hpp"
+#include "experiments/study/slots.hpp"
+
+namespace zerocount {
+namespace {
+
+using Limits = std::span<const ValueLimits>;
+using Faults = std::vector<ValueFault>;
+
+constexpr double most_samples = 1e12;  // a year of computing; a slip of the keyboard
+
+std::string too_many_samples() {
+  return fmt::format("at most {} samples in a trial", most_samples);
+}
+
+// A distribution that reaches infinity is told of itself, not of all that it makes endless.
+ValueRule highest_value(std::string_view parameter, const std::string& expected) {
+  return {
+      {parameter}, false, [expected](Limits l, Limits) -> Faults {
+        if (std::isfinite(l[0].high)) return {};
+        return {{"its values have no upper limit, so that a trial can have any number of samples", expected}};
+      }};
+}
+
+std::vector<ValueRule> rules_of_samples() {
+  return {highest_value("command.hold", "a distribution of the hold with a highest value"),
+          highest_value("controller.sample_rate", "a distribution of the sample rate with a highest value")};
+}
+
+ValueRule samples_of_targets(double moves) {
+  return {{"command.hold", "controller.sample_rate"}, false, [moves](Limits l, Limits) -> Faults {
+            if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high)) return {};  // told already
+            if (l[0].high * l[1].high * moves <= most_samples) return {};
+            return {{fmt::format("{} moves of {} s at {} Hz can be more than {} samples", moves, l[0].high,
+                                 l[1].high, most_samples),
+                     too_many_samples()}};
+          }};
+}
+
+double farthest_apart(const ValueLimits& a, const ValueLimits& b) {
+  return std::max(a.high - b.low, b.high - a.low);
+}
+
+// From the start to the first value, from each to the next.
+double longest_way(Limits list) {
+  double way = 0.0;
+  ValueLimits last{};
+  for (const ValueLimits& next : list) {
+    way += farthest_apart(next, last);
+    last = next;
+  }
+  return way;
+}
+
+ValueRule limits_of_torque_levels() {
+  return {{}, true, [](Limits, Limits levels) -> Faults {
+            Faults faults;
+            for (std::size_t i = 0; i < levels.size(); ++i) {
+              if (std::isfinite(levels[i].low) && std::isfinite(levels[i].high)) continue;
+              faults.push_back({"its values have no limit, so that the torque can take for ever to the level",
+                                "a distribution of the level with a lowest and a highest value",
+                                {i}});
+            }
+            return faults;
+          }};
+}
+
+// The time of all ways together, s. Where the torque stays at 0, no rate is too small.
+double time_of_ramps(Limits levels, const ValueLimits& rate) {
+  const double way = longest_way(levels);
+  return way == 0.0 ? 0.0 : way / rate.low;
+}
+
+ValueRule lowest_rate_of_torque() {
+  return {{"command.torque.rate"}, true, [](Limits l, Limits levels) -> Faults {
+            if (std::isfinite(time_of_ramps(levels, l[0])) || !std::isfinite(longest_way(levels))) return {};
+            return {{"the rate can be so small that the torque takes for ever to a level",
+                     "a rate with a lowest value above 0"}};
+          }};
+}
+
+ValueRule samples_of_torque_levels() {
+  return {{"command.hold", "controller.sample_rate", "command.torque.rate"},
+          true,
+          [](Limits l, Limits levels) -> Faults {
+            const double ramps = time_of_ramps(levels, l[2]);
+            if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high) || !std::isfinite(ramps)) return {};
+            const double time = static_cast<double>(levels.size()) * l[0].high + ramps;
+            if (time * l[1].high <= most_samples) return {};
+            return {{fmt::format("{} levels held for {} s, and {} s on the way to them, can be more than {} "
+                                 "samples at {} Hz",
+                                 levels.size(), l[0].high, ramps, most_samples, l[1].high),
+                     too_many_samples()}};
+          }};
+}
+
+// Of what goes beyond the converter's range only a part is reached.
+ValueRule range_of_the_converter(const std::string& unit) {
+  return {
+      {"command.torque.through", "dac.bits", "dac.resolution"},
+      true,
+      [unit](Limits l, Limits levels) -> Faults {
+        if (l[0].low != static_cast<double>(TorquePath::dac)) return {};
+        const DacParameters dac{.bits = static_cast<int>(l[1].low), .resolution = l[2].low};
+        const double lowest = static_cast<double>(lowest_code(dac)) * dac.resolution;
+        const double highest = static_cast<double>(highest_code(dac)) * dac.resolution;
+        Faults faults;
+        for (std::size_t i = 0; i < levels.size(); ++i) {
+          if (levels[i].low >= lowest && levels[i].high <= highest) continue;
+          const double beyond = levels[i].high > highest ? levels[i].high : levels[i].low;
+          faults.push_back({fmt::format("{} {} can be beyond the converter's range from {:.6g} to {:.6g} {}, "
+                                        "and is clipped to it",
+                                        beyond, unit, lowest, highest, unit),
+                            "",
+                            {i}});
+        }
+        return faults;
+      },
+      true};
+}
+
+ValueRule order_of_targets() {
+  return {{}, true, [](Limits, Limits targets) -> Faults {
+            Faults faults;
+            for (std::size_t i = 1; i < targets.size(); ++i) {
+              if (targets[i].low > targets[i - 1].high) continue;
+              faults.push_back(
+                  {fmt::format("the target can be at {} counts, at or below the one before it, {} counts",
+                               targets[i].low, targets[i - 1].high),
+                   "targets in ascending order in every trial",
+                   {i, i - 1}});
+            }
+            return faults;
+          }};
+}
+
+ValueRule reach_of_the_overrun() {
+  return {{"command.sequence.overrun"}, true, [](Limits l, Limits targets) -> Faults {
+            const double farthest =
+                l[0].high + std::max(std::abs(targets.front().low), std::abs(targets.back().high));
+            if (farthest <= largest_count) return {};
+            return {{fmt::format("the sequence can go as far as {} counts", farthest),
+                     fmt::format("at most {} counts from the start", largest_count)}};
+          }};
+}
+
+// The longest way between two targets that follow on each other, from the start on, counts.
+double longest_step(Limits targets) {
+  double longest = 0.0;
+  ValueLimits last{};
+  for (const ValueLimits& next : targets) {
+    longest = std::max(longest, farthest_apart(next, last));
+    last = next;
+  }
+  return longest;
+}
+
+// That of a sequence, which goes beyond its targets to approach the next run of them.
+double longest_step_of_sequence(Limits targets, const ValueLimits& overrun, const SequenceCycle& cycle) {
+  const ValueLimits below{targets.front().low - overrun.high, targets.front().high - overrun.low};
+  const ValueLimits above{targets.back().low + overrun.low, targets.back().high + overrun.high};
+  const bool starts_below = cycle.approach != SequenceApproach::negative;
+  double longest = std::max(overrun.high, farthest_apart(starts_below ? below : above, {}));
+  for (std::size_t i = 1; i < targets.size(); ++i)
+    longest = std::max(longest, farthest_apart(targets[i], targets[i - 1]));
+  if (cycle.approach == SequenceApproach::bidirectional || cycle.cycles == 1) return longest;
+  return std::max(
+      longest, starts_below ? farthest_apart(targets.back(), below) : farthest_apart(targets.front(), above));
+}
+
+// The longest that a count of the fine encoder can be, rad or m, by the parameter that says it.
+double longest_count(AxisKind axis, const ValueLimits& encoder) {
+  switch (axis) {
+    case AxisKind::rotary:
+      break;
+    case AxisKind::linear:
+      return encoder.high;
+  }
+  return 2.0 * std::numbers::pi / encoder.low;
+}
+
+ValueRule time_of_travel(AxisKind axis, const std::optional<SequenceCycle>& sequence) {
+  enum : std::size_t { hold, window, shape, velocity, acceleration, jerk, fine, overrun };
+  ValueRule rule{{"command.hold", "verdict.window", "command.profile.shape", "command.profile.velocity_limit",
+                  "command.profile.acceleration_limit", "command.profile.jerk_limit",
+                  axis == AxisKind::linear ? "encoder.resolution" : "encoder.fine"},
+                 true,
+                 {}};
+  if (sequence) rule.between.emplace_back("command.sequence.overrun");
+  rule.find_faults = [axis, sequence](Limits l, Limits targets) -> Faults {
+    ReferenceProfile slowest;
+    slowest.shape = static_cast<ReferenceShape>(static_cast<int>(l[shape].low));
+    if (slowest.shape == ReferenceShape::step) return {};
+    slowest.velocity_limit = l[velocity].low;
+    slowest.acceleration_limit = l[acceleration].low;
+    slowest.jerk_limit = l[jerk].low;
+    const double counts =
+        sequence ? longest_step_of_sequence(targets, l[overrun], *sequence) : longest_step(targets);
+    const Reference travel(slowest, 0, static_cast<std::int64_t>(counts), longest_count(axis, l[fine]));
+    const double needed = travel.duration() + l[window].high;
+    if (needed <= l[hold].low) return {};
+    if (!std::isfinite(needed)) {
+      return {{"a limit of the profile can be so small that the travel takes for ever",
+               "limits of the profile with a lowest value above 0"}};
+    }
+    return {
+        {fmt::format("a travel of {} counts can take {:.6g} s, which leaves no window of {} s in the hold "
+                     "of {} s",
+                     counts, travel.duration(), l[window].high, l[hold].low),
+         fmt::format("command.hold at least {:.6g} s, or higher limits of the profile", needed)}};
+  };
+  return rule;
+}
+
+}  // namespace
+
+std::vector<ValueRule> command_rules(const StudyPlan& plan) {
+  std::vector<ValueRule> rules = rules_of_samples();
+  const auto add = [&rules](const std::vector<ValueRule>& more) {
+    rules.insert(rules.end(), more.begin(), more.end());
+  };
+  const auto listed = static_cast<std::int64_t>(plan.list.count);
+  if (plan.open_loop) {
+    add({limits_of_torque_levels(), lowest_rate_of_torque(), samples_of_torque_levels(),
+         range_of_the_converter(unit_on(plan.units.axis, "N m"))});
+  } else if (!plan.sequence) {
+    add({samples_of_targets(static_cast<double>(listed)), time_of_travel(plan.units.axis, {})});
+  } else {
+    add({samples_of_targets(static_cast<double>(sequence_move_count(*plan.sequence, listed))),
+         order_of_targets(), reach_of_the_overrun(), time_of_travel(plan.units.axis, plan.sequence)});
+  }
+  return rules;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,233 @@
+#include "experiments/rules/effect_rules.hpp"
+
+#include <algorithm>
+
+#include "core/friction/law.hpp"
+
+namespace zerocount {
+namespace {
+
+using Limits = std::span<const ValueLimits>;
+
+bool always(Limits) {
+  return true;
+}
+bool never(Limits) {
+  return false;
+}
+
+template <auto word>
+bool is_word(const ValueLimits& limits) {
+  return limits.low == static_cast<double>(word);
+}
+
+FrictionModel friction_model(const ValueLimits& limits) {
+  return static_cast<FrictionModel>(static_cast<int>(limits.low));
+}
+
+bool can_be_positive(const ValueLimits& limits) {
+  return limits.high > 0.0;
+}
+
+constexpr std::string_view the_loop_is_open = "it has no effect: the loop is open with command.torque";
+constexpr std::string_view a_closed_loop = "command.targets or command.sequence, or the key left out";
+
+std::vector<EffectRule> rules_of_the_command(const StudyPlan& plan) {
+  const bool open_loop = plan.open_loop;
+  return {
+      {.keys = {"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
+                "controller.encoder", "controller.coarse", "command.profile", "verdict"},
+       .has_effect = open_loop ? never : always,
+       .what = the_loop_is_open,
+       .expected = a_closed_loop},
+      {.keys = {"initial.integral"},
+       .has_effect = open_loop ? never : always,
+       .what = the_loop_is_open,
+       .expected = a_closed_loop,
+       .off_at_zero = true},
+      {.keys = {"command.torque"},
+       .has_effect = open_loop ? always : never,
+       .what = "it has no effect: there are no command.torque.levels",
+       .expected = "command.torque with its levels, or the key left out"},
+      {.keys = {"command.sequence"},
+       .has_effect = plan.sequence ? always : never,
+       .what = "it has no effect: there is no command.sequence",
+       .expected = "command.sequence with its targets, or the key left out"},
+      {.keys = {"dac"},
+       .depends_on = {"command.torque.through"},
+       .has_effect = [open_loop](Limits l) { return !open_loop || is_word<TorquePath::dac>(l[0]); },
+       .what = "it has no effect: the torque does not go through the converter at any point",
+       .expected = "command.torque.through: dac, or the key left out"},
+      {.keys = {"command.profile.velocity_limit", "command.profile.acceleration_limit"},
+       .depends_on = {"command.profile.shape"},
+       .has_effect = [](Limits l) { return !is_word<ReferenceShape::step>(l[0]); },
+       .what = "it has no effect: the reference is a step at every point",
+       .expected = "command.profile.shape: trapezoidal or s_curve, or the key left out"},
+      {.keys = {"command.profile.jerk_limit"},
+       .depends_on = {"command.profile.shape"},
+       .has_effect = [](Limits l) { return is_word<ReferenceShape::s_curve>(l[0]); },
+       .what = "it has no effect: the reference is an s_curve at no point",
+       .expected = "command.profile.shape: s_curve, or the key left out"},
+  };
+}
+
+// What describes an error has an effect where that error has an amplitude.
+EffectRule rule_of_an_error(std::string_view key, std::string_view amplitude, std::string_view expected) {
+  return {.keys = {key},
+          .depends_on = {amplitude},
+          .has_effect = [](Limits l) { return can_be_positive(l[0]); },
+          .what = "it has no effect: that error is 0 at every point",
+          .expected = expected};
+}
+
+std::vector<EffectRule> rules_of_the_loop() {
+  return {
+      {.keys = {"controller.coarse.kp", "controller.coarse.ki", "controller.coarse.kd",
+                "controller.coarse.encoder", "controller.coarse.fine_within", "controller.coarse.fine_rate",
+                "controller.coarse.fine_dwell"},
+       .depends_on = {"controller.coarse.coarse_beyond"},
+       .has_effect = [](Limits l) { return can_have_coarse_phase(l[0]); },
+       .what = "it has no effect: there is no coarse phase at any point",
+       .expected = "controller.coarse.coarse_beyond below 1e12, or the key left out"},
+      rule_of_an_error("encoder.fine_errors.eccentricity_angle", "encoder.fine_errors.eccentricity",
+                       "encoder.fine_errors.eccentricity above 0, or the key left out"),
+      rule_of_an_error("encoder.fine_errors.interpolation_period", "encoder.fine_errors.interpolation",
+                       "encoder.fine_errors.interpolation above 0, or the key left out"),
+      rule_of_an_error("encoder.coarse_errors.eccentricity_angle", "encoder.coarse_errors.eccentricity",
+                       "encoder.coarse_errors.eccentricity above 0, or the key left out"),
+      rule_of_an_error("encoder.coarse_errors.interpolation_period", "encoder.coarse_errors.interpolation",
+                       "encoder.coarse_errors.interpolation above 0, or the key left out"),
+  };
+}
+
+// Left in place, so that a study can be run with and without by one word.
+EffectRule rule_of_the_limit() {
+  return {.keys = {"verdict.limit"},
+          .depends_on = {"verdict.stop"},
+          .has_effect = [](Limits l) { return l[0].high > 0.0; },
+          .what = "it has no effect: verdict.stop is true at no point",
+          .warn_only = true};
+}
+
+std::vector<EffectRule> rules_of_the_contact() {
+  const auto both_positive = [](Limits l) { return can_be_positive(l[0]) && can_be_positive(l[1]); };
+  return {
+      {.keys = {"initial.hardening", "initial.preload", "initial.history"},
+       .depends_on = {"initial.mode"},
+       .has_effect = [](Limits l) { return is_word<InitialMode::stick>(l[0]); },
+       .what = "it has no effect: the hook slides at the start, at every point",
+       .expected = "initial.mode: stick, or the key left out",
+       .off_at_zero = true},
+      {.keys = {"initial.history.torque"},
+       .depends_on = {"initial.history.reversals", "initial.history.torque"},
+       .has_effect = both_positive,
+       .what = "it has no effect: there are no reversals to it at any point",
+       .expected = "initial.history.reversals at least 1, or the key left out",
+       .off_at_zero = true},
+      {.keys = {"initial.history.reversals"},
+       .depends_on = {"initial.history.reversals", "initial.history.torque"},
+       .has_effect = both_positive,
+       .what = "it has no effect: their torque is 0 at every point",
+       .expected = "initial.history.torque above 0, or the key left out",
+       .off_at_zero = true},
+  };
+}
+
+// Left in place, so that models can be compared by changing one word.
+std::vector<EffectRule> rules_of_the_model() {
+  return {
+      {.keys = {"plant.sliding_damping", "friction.breakaway", "friction.coulomb_ratio",
+                "friction.stribeck_velocity"},
+       .depends_on = {"friction.model"},
+       .has_effect = [](Limits l) { return has_breakaway(friction_model(l[0])); },
+       .what = "it has no effect: friction.model is none at every point",
+       .off_at_zero = true,
+       .warn_only = true},
+      {.keys = {"plant.presliding_damping"},
+       .depends_on = {"friction.model"},
+       .has_effect = [](Limits l) { return traits_of(friction_model(l[0])).has_presliding_damping; },
+       .what = "it has no effect: friction.model is coulomb at every point",
+       .off_at_zero = true,
+       .warn_only = true},
+      {.keys = {"friction.k1", "friction.k2", "friction.beta", "friction.alpha", "friction.lambda",
+                "friction.n", "initial.hardening", "initial.preload", "initial.history"},
+       .depends_on = {"friction.model"},
+       .has_effect = [](Limits l) { return has_spring(friction_model(l[0])); },
+       .what = "it has no effect: friction.model has no spring at any point",
+       .off_at_zero = true,
+       .warn_only = true},
+      {.keys = {"friction.alpha", "friction.lambda", "friction.n", "initial.hardening"},
+       .depends_on = {"friction.model"},
+       .has_effect = [](Limits l) { return has_creep(friction_model(l[0])); },
+       .what = "it has no effect: friction.model is presliding at no point",
+       .off_at_zero = true,
+       .warn_only = true},
+      {.keys = {"initial.mode"},
+       .depends_on = {"friction.model"},
+       .has_effect = [](Limits l) { return has_spring(friction_model(l[0])); },
+       .what = "it has no effect: friction.model has no spring at any point, and the rotor slides wherever "
+               "there is a velocity",
+       .off_at_zero = true,
+       .warn_only = true},
+  };
+}
+
+// A value may stand in a manifest from which a term of friction was taken away by another value.
+std::vector<EffectRule> rules_of_vanished_terms() {
+  return {
+      {.keys = {"friction.lambda", "friction.n", "initial.hardening"},
+       .depends_on = {"friction.model", "friction.alpha"},
+       .has_effect = [](Limits l) { return has_creep(friction_model(l[0])) && can_be_positive(l[1]); },
+       .what = "it has no effect: friction.alpha is 0 wherever friction.model is presliding",
+       .off_at_zero = true,
+       .warn_only = true},
+      {.keys = {"friction.beta"},
+       .depends_on = {"friction.model", "friction.k2"},
+       .has_effect = [](Limits l) { return has_spring(friction_model(l[0])) && can_be_positive(l[1]); },
+       .what = "it has no effect: friction.k2 is 0 wherever friction.model has a spring",
+       .warn_only = true},
+      {.keys = {"friction.stribeck_velocity"},
+       .depends_on = {"friction.coulomb_ratio"},
+       .has_effect = [](Limits l) { return l[0].low < 1.0; },
+       .what = "it has no effect: friction.coulomb_ratio is 1 at every point",
+       .warn_only = true},
+  };
+}
+
+// The place on the rotor selects from profiles and from the errors of encoders that are fixed on it.
+EffectRule rule_of_the_position(const StudyPlan& plan) {
+  const bool along_the_rotor = !plan.profiles.empty();
+  return {.keys = {"initial.position"},
+          .depends_on = {"encoder.fine_errors.eccentricity", "encoder.fine_errors.interpolation",
+                         "encoder.coarse_errors.eccentricity", "encoder.coarse_errors.interpolation"},
+          .has_effect =
+              [along_the_rotor](Limits l) {
+                return along_the_rotor || std::any_of(l.begin(), l.end(), can_be_positive);
+              },
+          .what =
+              "it has no effect: nothing differs along the rotor, neither friction by a profile nor an "
+              "encoder by its eccentricity or interpolation",
+          .off_at_zero = true,
+          .warn_only = true};
+}
+
+}  // namespace
+
+std::vector<EffectRule> effect_rules(const StudyPlan& plan) {
+  std::vector<EffectRule> rules = rules_of_the_command(plan);
+  rules.push_back(rule_of_the_position(plan));
+  rules.push_back(rule_of_the_limit());
+  for (const auto& more :
+       {rules_of_the_loop(), rules_of_the_contact(), rules_of_the_model(), rules_of_vanished_terms()}) {
+    rules.insert(rules.end(), more.begin(), more.end());
+  }
+  return rules;
+}
+
+bool can_have_effect(const StudyPlan& plan, const EffectRule& rule) {
+  return holds_somewhere(plan, rule.depends_on, [&](std::span<const ValueLimits> limits) {
+    return !are_readable(limits) || rule.has_effect(limits);
+  });
+}
+
+}  // namespace zerocount

@@ -1,0 +1,45 @@
+#include "experiments/study/draws.hpp"
+
+#include "experiments/designs/latin_hypercube.hpp"
+#include "experiments/designs/random_key.hpp"
+
+namespace zerocount {
+
+double design_uniform(Design design, const SlotRandomness& randomness, std::uint32_t stream,
+                      std::uint64_t index, std::uint64_t count) {
+  const RandomStream numbers{.key = randomness.key, .stream = stream};
+  switch (design) {
+    case Design::latin_hypercube:
+      return latin_uniform(index, count, numbers);
+    case Design::sobol:
+      return sobol_uniform(index, randomness.directions, numbers);
+    case Design::monte_carlo:
+    case Design::saltelli:
+      break;
+  }
+  return open_uniform(random_bits(numbers, index, Draw::trial));
+}
+
+bool trials_stay_when_extended(Design design) {
+  switch (design) {
+    case Design::latin_hypercube:
+      return false;
+    case Design::monte_carlo:
+    case Design::sobol:
+    case Design::saltelli:
+      break;
+  }
+  return true;
+}
+
+RandomKey sobol_place_key(std::uint64_t seed) {
+  return random_key(seed, "rigs/places");
+}
+
+std::uint64_t sobol_place(const RandomKey& key, std::uint64_t index, std::uint64_t rigs) {
+  const std::uint64_t round = index / rigs;
+  const RandomStream order{.key = key, .stream = static_cast<std::uint32_t>(round)};
+  return round * rigs + latin_stratum(index % rigs, rigs, order);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,60 @@
+#include "experiments/study/factors.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "experiments/study/point_limits.hpp"
+#include "experiments/study/slots.hpp"
+#include "experiments/study/study.hpp"
+
+namespace zerocount {
+namespace {
+
+using Limits = std::span<const ValueLimits>;
+
+bool is_drawn_somewhere(const StudyPlan& plan, std::size_t slot) {
+  bool drawn = false;
+  visit_points(plan, {&slot, 1}, [&](std::size_t point) {
+    const Value& value = *value_at_point(plan, slot, point);
+    drawn = value.kind == Value::Kind::distribution && value.per != Per::study;
+    return !drawn;
+  });
+  return drawn;
+}
+
+bool all_above_zero(Limits limits) {
+  return std::all_of(limits.begin(), limits.end(), [](const ValueLimits& l) { return l.high > 0.0; });
+}
+
+// Of the random numbers that trials draw while they run, see core/random/trial_randomness.hpp.
+bool draws_within_trials(const StudyPlan& plan) {
+  constexpr std::array<std::string_view, 5> noises{"encoder.fine_errors.noise", "encoder.fine_errors.missed",
+                                                   "encoder.coarse_errors.noise",
+                                                   "encoder.coarse_errors.missed", "dac.noise"};
+  constexpr std::array<std::string_view, 2> history{"initial.history.reversals", "initial.history.torque"};
+  return holds_somewhere(plan, history, all_above_zero) ||
+         std::any_of(noises.begin(), noises.end(), [&](std::string_view noise) {
+           return holds_somewhere(plan, {&noise, 1}, all_above_zero);
+         });
+}
+
+}  // namespace
+
+TrialFactors find_factors(const StudyPlan& plan) {
+  TrialFactors factors;
+  for (const std::size_t slot : slots_in_table_order(plan.list)) {
+    if (is_drawn_somewhere(plan, slot)) factors.slots.push_back(static_cast<std::uint32_t>(slot));
+  }
+  factors.within_trial = draws_within_trials(plan);
+  return factors;
+}
+
+std::vector<std::string> factor_names(const StudyPlan& plan) {
+  const TrialFactors factors = find_factors(plan);
+  std::vector<std::string> names;
+  for (const std::uint32_t slot : factors.slots) names.push_back(slot_name(slot, plan.list));
+  if (factors.within_trial) names.emplace_back(within_trial_factor);
+  return names;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "experiments/study/study.hpp"
+
+namespace zerocount {
+
+/// The lowest value that a parameter is designed for at a design point.
+struct LowEnd {
+  enum class Kind : std::uint8_t {
+    number,   ///< the parameter is one number
+    support,  ///< low end of its distribution
+    tail,     ///< 0.1 % quantile of a normal, truncated normal or lognormal distribution
+    profile   ///< along the rotor: that of the trial's own profile counts, and `value` is not set
+  };
+  Kind kind{Kind::number};
+  double value{0.0};  ///< in the parameter's unit
+};
+
+/// @param parameter name of a positive physical value, such as friction.k1.
+LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter);
+
+}  // namespace zerocount

@@ -1,0 +1,49 @@
+#include "experiments/study/plan.hpp"
+
+#include "experiments/parameters/parameter_table.hpp"
+
+namespace zerocount {
+
+void set_number(const StudyPlan& plan, std::size_t slot, double number, TrialParameters& to) {
+  const auto table = parameter_table();
+  if (slot < table.size()) {
+    if (table[slot].set != nullptr) table[slot].set(to, number);
+  } else if (plan.open_loop) {
+    to.command.torque.levels[slot - table.size()] = number;
+  } else if (!plan.sequence) {
+    to.command.targets[slot - table.size()] = static_cast<std::int64_t>(number);
+  }
+}
+
+std::size_t option_at(const StudyPlan& plan, std::size_t axis, std::size_t point) {
+  for (std::size_t faster = plan.axes.size() - 1; faster > axis; --faster)
+    point /= option_count(plan.axes[faster]);
+  return point % option_count(plan.axes[axis]);
+}
+
+const Value* value_at_point(const StudyPlan& plan, std::size_t slot, std::size_t point) {
+  for (std::size_t a = plan.axes.size(); a-- > 0;) {
+    const PlanAxis& axis = plan.axes[a];
+    const std::size_t option = option_at(plan, a, point);
+    for (std::size_t i = axis.first[option]; i < axis.first[option + 1]; ++i) {
+      if (axis.assignments[i].slot == slot) return &axis.assignments[i].value;
+    }
+  }
+  return &plan.base[slot];
+}
+
+std::vector<const Value*> values_at(const StudyPlan& plan, std::size_t point) {
+  std::vector<const Value*> values;
+  values.reserve(plan.base.size());
+  for (const Value& value : plan.base) values.push_back(&value);
+  for (std::size_t a = 0; a < plan.axes.size(); ++a) {
+    const PlanAxis& axis = plan.axes[a];
+    const std::size_t option = option_at(plan, a, point);
+    for (std::size_t i = axis.first[option]; i < axis.first[option + 1]; ++i) {
+      values[axis.assignments[i].slot] = &axis.assignments[i].value;
+    }
+  }
+  return values;
+}
+
+}  // namespace zerocount

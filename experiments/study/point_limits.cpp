@@ -1,0 +1,108 @@
+#include "experiments/study/point_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "core/loop/controller.hpp"
+#include "experiments/distributions/random_field.hpp"
+#include "experiments/study/slots.hpp"
+
+namespace zerocount {
+namespace {
+
+bool can_be_zero(const Distribution& distribution) {
+  if (const auto* choice = std::get_if<Choice>(&distribution)) {
+    return std::find(choice->values.begin(), choice->values.end(), 0.0) != choice->values.end();
+  }
+  return contains(support(distribution), 0.0);
+}
+
+bool assigns_any(const PlanAxis& axis, const std::vector<bool>& wanted) {
+  return std::any_of(axis.assignments.begin(), axis.assignments.end(),
+                     [&](const Assignment& assignment) { return wanted[assignment.slot]; });
+}
+
+}  // namespace
+
+ValueLimits limits_of(const StudyPlan& plan, const Value& value) {
+  if (value.kind == Value::Kind::number) return {value.number, value.number, value.number == 0.0};
+  if (value.kind == Value::Kind::distribution) {
+    const Distribution& distribution = plan.distributions[value.index];
+    const Interval values = support(distribution);
+    return {values.low, values.high, can_be_zero(distribution)};
+  }
+  const Interval values = plan.profiles[value.index]->all_limits();
+  return {values.low, values.high, contains(values, 0.0)};
+}
+
+bool can_have_coarse_phase(const ValueLimits& coarse_beyond) {
+  TrialParameters trial;
+  parameter_table()[find_parameter("controller.coarse.coarse_beyond").value()].set(trial, coarse_beyond.low);
+  return has_coarse_phase(trial.controller);
+}
+
+std::vector<std::size_t> slots_named(std::span<const std::string_view> names) {
+  std::vector<std::size_t> slots;
+  for (const std::string_view name : names) slots.push_back(find_parameter(name).value());
+  return slots;
+}
+
+std::vector<std::size_t> listed_slots(const ListedValues& list) {
+  std::vector<std::size_t> slots;
+  for (std::size_t i = 0; i < list.count; ++i) slots.push_back(listed_slot(i));
+  return slots;
+}
+
+void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
+                  const std::function<bool(std::size_t point)>& visit) {
+  struct Turning {
+    std::size_t options;
+    std::size_t stride;  // points from one option to the next
+    std::size_t option;
+  };
+  std::vector<bool> wanted(plan.base.size(), false);
+  for (const std::size_t slot : slots) wanted[slot] = true;
+  std::vector<Turning> turning;  // the axes that matter, the fastest first
+  std::size_t stride = 1;
+  for (std::size_t a = plan.axes.size(); a-- > 0;) {
+    const std::size_t options = option_count(plan.axes[a]);
+    if (assigns_any(plan.axes[a], wanted)) turning.push_back({options, stride, 0});
+    stride *= options;
+  }
+  for (std::size_t point = 0; visit(point);) {
+    auto axis = turning.begin();
+    for (; axis != turning.end() && axis->option + 1 == axis->options; ++axis) {
+      point -= axis->option * axis->stride;
+      axis->option = 0;
+    }
+    if (axis == turning.end()) return;
+    ++axis->option;
+    point += axis->stride;
+  }
+}
+
+std::vector<ValueLimits> limits_at(const StudyPlan& plan, std::span<const std::size_t> slots,
+                                   std::size_t point) {
+  std::vector<ValueLimits> limits;
+  limits.reserve(slots.size());
+  for (const std::size_t slot : slots) limits.push_back(limits_of(plan, *value_at_point(plan, slot, point)));
+  return limits;
+}
+
+bool are_readable(std::span<const ValueLimits> limits) {
+  return std::none_of(limits.begin(), limits.end(), [](const ValueLimits& l) { return std::isnan(l.low); });
+}
+
+bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> names,
+                     const std::function<bool(std::span<const ValueLimits>)>& holds) {
+  const std::vector<std::size_t> slots = slots_named(names);
+  bool found = false;
+  visit_points(plan, slots, [&](std::size_t point) {
+    found = holds(limits_at(plan, slots, point));
+    return !found;
+  });
+  return found;
+}
+
+}  // namespace zerocount

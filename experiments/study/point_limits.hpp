@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "experiments/study/plan.hpp"
+
+namespace zerocount {
+
+/// What a value can be over all trials of a design point: the support of its distribution, the limits of its
+/// profile, or the number itself. Those of a value that could not be read are NaN.
+struct ValueLimits {
+  double low{0.0};
+  double high{0.0};
+  bool can_be_zero{false};
+};
+
+ValueLimits limits_of(const StudyPlan& plan, const Value& value);
+
+/// Whether the control has a coarse phase in some trial, from the limits of controller.coarse.coarse_beyond.
+bool can_have_coarse_phase(const ValueLimits& coarse_beyond);
+
+/// Numbers of the slots of these parameters, by their dotted paths.
+std::vector<std::size_t> slots_named(std::span<const std::string_view> names);
+
+/// The slots of the list.
+std::vector<std::size_t> listed_slots(const ListedValues& list);
+
+/// Calls `visit` with design points that show every combination of values that the slots have at some point,
+/// until it returns false. Points that differ in other slots alone are left out.
+void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
+                  const std::function<bool(std::size_t point)>& visit);
+
+/// The limits of the parameters at a design point, in the order of `slots`.
+std::vector<ValueLimits> limits_at(const StudyPlan& plan, std::span<const std::size_t> slots,
+                                   std::size_t point);
+
+/// Whether all of these could be read.
+bool are_readable(std::span<const ValueLimits> limits);
+
+/// Whether `holds` for the limits of these parameters, in their order, at some design point.
+bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> names,
+                     const std::function<bool(std::span<const ValueLimits>)>& holds);
+
+}  // namespace zerocount

@@ -1,0 +1,175 @@
+#include <limits>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+#include "experiments/designs/saltelli.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+#include "experiments/study/plan.hpp"
+#include "experiments/study/study.hpp"
+#include "experiments/study/trial_completion.hpp"
+
+namespace zerocount {
+namespace {
+
+// The coordinates of what a trial draws.
+struct TrialDraws {
+  const Study& study;
+  std::uint64_t index;   ///< of the trial
+  std::uint64_t place;   ///< the point of the design that it takes
+  std::uint64_t rig;     ///< 0 where there are none
+  std::uint32_t stream;  ///< of what is drawn for a trial; all points share their rigs
+
+  const StudyPlan& plan() const { return *study.plan; }
+};
+
+TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t index) {
+  const auto trial = static_cast<std::uint64_t>(index);
+  const auto rigs = static_cast<std::uint64_t>(study.rigs);
+  const bool shuffled = study.design == Design::sobol && rigs > 0;
+  return {study, trial, shuffled ? sobol_place(study.plan->sobol_places, trial, rigs) : trial,
+          rigs > 0 ? static_cast<std::uint64_t>(rig_of(study, index)) : 0,
+          study.independent_points ? static_cast<std::uint32_t>(point) + 1 : 0};
+}
+
+// The trial whose number of this slot the trial has.
+std::uint64_t source_trial(const TrialDraws& draws, std::uint32_t slot) {
+  if (draws.study.design != Design::saltelli) return draws.place;
+  return saltelli_source(draws.index, draws.plan().factor_of[slot], factor_count(draws.plan().factors));
+}
+
+double drawn_uniform(const TrialDraws& draws, std::uint32_t slot, Per per) {
+  const Study& study = draws.study;
+  const SlotRandomness& randomness = draws.plan().randomness[slot];
+  switch (per) {
+    case Per::study:
+      return design_uniform(study.design, randomness, 0, 0, 1);
+    case Per::rig:
+      return design_uniform(study.design, randomness, 0, draws.rig, static_cast<std::uint64_t>(study.rigs));
+    case Per::trial:
+    case Per::contact:
+      break;
+  }
+  return design_uniform(study.design, randomness, draws.stream, source_trial(draws, slot),
+                        static_cast<std::uint64_t>(study.trials));
+}
+
+ContactParameter contact_parameter(const TrialDraws& draws, std::uint32_t slot, const Value& value) {
+  const SlotRandomness& randomness = draws.plan().randomness[slot];
+  const std::uint64_t trial =
+      draws.study.design == Design::saltelli ? source_trial(draws, slot) : draws.index;
+  const std::shared_ptr<const StudyPlan> plan = draws.study.plan;  // the trial may outlive the study
+  const std::size_t index = value.index;
+  return {parameter_table()[slot].profiled,
+          [plan, index](double u) { return quantile(plan->distributions[index], u); },
+          {.key = randomness.contacts, .stream = draws.stream},
+          trial};
+}
+
+std::uint64_t rotor_of(const TrialDraws& draws, const Value& profile) {
+  return profile.per == Per::rig ? draws.rig : 0;
+}
+
+double profile_mean(const TrialDraws& draws, const Value& value) {
+  if (value.kind != Value::Kind::profile) return std::numeric_limits<double>::quiet_NaN();
+  return draws.plan().profiles[value.index]->mean(static_cast<std::int64_t>(rotor_of(draws, value)));
+}
+
+// Which trial's the numbers are that it draws while it runs.
+std::uint64_t numbers_within_trial(const Study& study, std::uint64_t index) {
+  if (study.design != Design::saltelli) return index;
+  const TrialFactors& factors = study.plan->factors;
+  return saltelli_source(index, factors.slots.size(), factor_count(factors));
+}
+
+void set_sequence_targets(const Study& study, const std::vector<double>& numbers, StudyTrial& trial) {
+  static const std::size_t overrun = find_parameter("command.sequence.overrun").value();
+  const std::span<const double> targets = std::span(numbers).subspan(parameter_table().size());
+  for (std::size_t move = 0; move < study.sequence.size(); ++move) {
+    trial.parameters.command.targets[move] =
+        static_cast<std::int64_t>(sequence_position(study.sequence[move], targets, numbers[overrun]));
+  }
+}
+
+void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
+  if (point < 0 || point >= point_count(study)) {
+    throw Failure(ExitCode::bad_input, fmt::format("study {} has no design point {}; expected 0 to {}",
+                                                   study.name, point, point_count(study) - 1));
+  }
+  if (index < 0 || index >= study.trials) {
+    throw Failure(ExitCode::bad_input, fmt::format("study {} has no trial {}; expected 0 to {}", study.name,
+                                                   index, study.trials - 1));
+  }
+}
+
+}  // namespace
+
+StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index) {
+  check_exists(study, point, index);
+  const StudyPlan& plan = *study.plan;
+  const TrialDraws draws = draws_of(study, point, index);
+  const std::vector<const Value*> values = values_at(plan, static_cast<std::size_t>(point));
+  std::vector<double> numbers = plan.numbers;
+
+  StudyTrial trial{.parameters = plan.common, .inputs = {}};
+  trial.parameters.randomness.trial = numbers_within_trial(study, draws.index);
+  trial.parameters.randomness.stream = draws.stream;
+  const auto set = [&](std::size_t slot, double number) {
+    numbers[slot] = number;
+    set_number(plan, slot, number, trial.parameters);
+  };
+  for (const std::uint32_t slot : plan.input_slots) {
+    const Value& value = *values[slot];
+    if (value.kind == Value::Kind::number) {
+      set(slot, value.number);
+    } else if (value.kind == Value::Kind::distribution) {
+      set(slot, quantile(plan.distributions[value.index], drawn_uniform(draws, slot, value.per)));
+      if (value.per == Per::contact) {
+        trial.parameters.friction.per_contact.push_back(contact_parameter(draws, slot, value));
+      }
+    }
+  }
+  // The profiles last: where the trial starts on them is itself a parameter.
+  for (const std::uint32_t slot : plan.input_slots) {
+    const Value& value = *values[slot];
+    if (value.kind != Value::Kind::profile) continue;
+    const std::shared_ptr<const Profile> profile =
+        plan.profiles[value.index]->rotor(static_cast<std::int64_t>(rotor_of(draws, value)));
+    set(slot, value_at(*profile, trial.parameters.initial.position));
+    trial.parameters.friction.profiled.push_back({parameter_table()[slot].profiled, profile});
+  }
+  if (plan.sequence) set_sequence_targets(study, numbers, trial);
+  trial.inputs.reserve(plan.inputs.size());
+  for (const InputSource& source : plan.inputs) {
+    trial.inputs.push_back(source.profile_mean ? profile_mean(draws, *values[source.slot])
+                                               : numbers[source.slot]);
+  }
+  return trial;
+}
+
+StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index) {
+  StudyTrial trial = study_trial_as_given(study, point, index);
+  complete_trial(study.units, trial.parameters);
+  return trial;
+}
+
+std::vector<double> rig_inputs(const Study& study, std::int64_t rig) {
+  if (rig < 0 || rig >= study.rigs) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("study {} has no rig {}; expected 0 to {}", study.name, rig, study.rigs - 1));
+  }
+  const StudyPlan& plan = *study.plan;
+  const TrialDraws draws = draws_of(study, 0, rig);  // the first trial on it
+  std::vector<double> inputs;
+  inputs.reserve(plan.rig_inputs.size());
+  for (const InputSource& source : plan.rig_inputs) {
+    const Value& value = plan.base[source.slot];
+    inputs.push_back(source.profile_mean ? profile_mean(draws, value)
+                                         : quantile(plan.distributions[value.index],
+                                                    drawn_uniform(draws, source.slot, value.per)));
+  }
+  return inputs;
+}
+
+}  // namespace zerocount

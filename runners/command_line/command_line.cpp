@@ -1,0 +1,144 @@
+#include "runners/command_line/command_line.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include <boost/program_options.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/failure/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr const char* operand_key = "operand";
+
+std::string long_name(const OptionSpec& option) {
+  return option.name.substr(0, option.name.find(','));
+}
+
+/// Whether `given`, as the user wrote it ("--quiet"), is a flag.
+bool is_flag(const CommandSpec& spec, const std::string& given) {
+  return std::any_of(spec.options.begin(), spec.options.end(), [&](const OptionSpec& option) {
+    return option.value.empty() && given == "--" + long_name(option);
+  });
+}
+
+po::options_description describe(const CommandSpec& spec) {
+  po::options_description description;
+  for (const OptionSpec& option : spec.options) {
+    if (option.value.empty()) {
+      description.add_options()(option.name.c_str(), option.help.c_str());
+    } else {
+      auto* value = po::value<std::vector<std::string>>()->value_name(option.value)->composing();
+      description.add_options()(option.name.c_str(), value, option.help.c_str());
+    }
+  }
+  return description;
+}
+
+po::parsed_options parse(const CommandSpec& spec, const std::vector<std::string>& words) {
+  po::options_description all = describe(spec);
+  all.add_options()(operand_key, po::value<std::vector<std::string>>());
+  po::positional_options_description operands;
+  operands.add(operand_key, -1);
+  namespace style = po::command_line_style;
+  const int unguessed = style::unix_style & ~style::allow_guessing;
+  return po::command_line_parser(words).options(all).positional(operands).style(unguessed).run();
+}
+
+}  // namespace
+
+Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& words) : command_(spec.name) {
+  for (const OptionSpec& option : spec.options) values_.push_back({long_name(option), {}});
+  try {
+    for (const po::option& given : parse(spec, words).options) {
+      if (given.string_key == operand_key) {
+        if (given.position_key < 0) refuse(fmt::format("unknown option '--{}'", operand_key));
+        operands_.push_back(given.value.at(0));
+        continue;
+      }
+      for (auto& [name, values] : values_) {
+        if (name == given.string_key) values.push_back(given.value.empty() ? "" : given.value[0]);
+      }
+    }
+  } catch (const po::unknown_option& error) {
+    refuse(fmt::format("unknown option '{}'", error.get_option_name()));
+  } catch (const po::error_with_option_name& error) {
+    refuse(fmt::format("option '{}' {}", error.get_option_name(),
+                       is_flag(spec, error.get_option_name()) ? "takes no value" : "needs a value"));
+  } catch (const po::error&) {
+    refuse("the words of the command cannot be understood");
+  }
+  for (const OptionSpec& option : spec.options) {
+    if (!option.repeatable && values(long_name(option)).size() > 1) {
+      refuse(fmt::format("option '--{}' is given more than once", long_name(option)));
+    }
+  }
+  if (has("help")) return;
+  if (operands_.size() < spec.least_operands) refuse(fmt::format("{} expected", spec.operands));
+  if (operands_.size() > spec.most_operands) {
+    refuse(fmt::format("'{}' is one word too many", operands_[spec.most_operands]));
+  }
+}
+
+const std::vector<std::string>& Arguments::values(std::string_view option) const {
+  const auto found =
+      std::find_if(values_.begin(), values_.end(), [&](const auto& entry) { return entry.first == option; });
+  if (found == values_.end()) throw std::logic_error("option not declared");
+  return found->second;
+}
+
+std::optional<std::string> Arguments::value(std::string_view option) const {
+  const std::vector<std::string>& given = values(option);
+  return given.empty() ? std::nullopt : std::optional(given.front());
+}
+
+std::string Arguments::required(std::string_view option) const {
+  if (!has(option)) refuse(fmt::format("option '--{}' is missing", option));
+  if (values(option).front().empty()) refuse(fmt::format("option '--{}' is empty", option));
+  return values(option).front();
+}
+
+std::string Arguments::one_of(std::string_view option, const std::vector<std::string>& words) const {
+  std::string given = value(option).value_or(words.front());
+  if (std::find(words.begin(), words.end(), given) == words.end()) {
+    refuse(fmt::format("option '--{}': '{}' is none of {}", option, given, fmt::join(words, ", ")));
+  }
+  return given;
+}
+
+std::optional<std::int64_t> Arguments::whole_number(std::string_view option, std::int64_t low,
+                                                    std::int64_t high) const {
+  const std::optional<std::string> text = value(option);
+  if (!text) return std::nullopt;
+  std::int64_t number = 0;
+  const char* const end = text->data() + text->size();
+  const auto [stop, error] = std::from_chars(text->data(), end, number);
+  if (error != std::errc{} || stop != end || number < low || number > high) {
+    refuse(fmt::format("option '--{}': '{}' is no whole number from {} to {}", option, *text, low, high));
+  }
+  return number;
+}
+
+void Arguments::refuse(const std::string& problem) const {
+  throw Failure(ExitCode::bad_input,
+                fmt::format("zerocount {}: {}; see 'zerocount {} --help'", command_, problem, command_));
+}
+
+std::string options_help(const CommandSpec& spec) {
+  std::string text;
+  for (const OptionSpec& option : spec.options) {
+    const std::size_t comma = option.name.find(',');
+    std::string form = comma == std::string::npos ? "" : fmt::format("-{}, ", option.name.substr(comma + 1));
+    form += "--" + long_name(option);
+    if (!option.value.empty()) form += " " + option.value;
+    text += fmt::format("  {:<22} {}\n", form, option.help);
+  }
+  return text;
+}
+
+}  // namespace zerocount

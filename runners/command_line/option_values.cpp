@@ -1,0 +1,60 @@
+#include "runners/command_line/option_values.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "experiments/yaml/nearest_name.hpp"
+
+namespace zerocount {
+namespace {
+
+/// The whole of `text` as a number, or none.
+template <typename Number>
+std::optional<Number> parsed(const std::string& text) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || stop != end) return std::nullopt;
+  return number;
+}
+
+/// A label goes before a number, for a label may be one.
+std::int64_t point_named(const Arguments& arguments, const std::string& text,
+                         std::span<const std::string> labels) {
+  const auto found = std::find(labels.begin(), labels.end(), text);
+  if (found != labels.end()) return found - labels.begin();
+  const std::optional<std::int64_t> number = parsed<std::int64_t>(text);
+  if (number && *number >= 0 && *number < std::ssize(labels)) return *number;
+  const std::string_view near = nearest_name(text, labels);
+  arguments.refuse(
+      fmt::format("option '--point': '{}' is no design point; expected a number from 0 to {}, or a label{}",
+                  text, std::ssize(labels) - 1, near.empty() ? "" : fmt::format(" such as '{}'", near)));
+}
+
+}  // namespace
+
+std::optional<double> probability_option(const Arguments& arguments, std::string_view option) {
+  const std::optional<std::string> text = arguments.value(option);
+  if (!text) return std::nullopt;
+  const std::optional<double> number = parsed<double>(*text);
+  if (!number || !(*number > 0.0 && *number < 1.0)) {
+    arguments.refuse(fmt::format("option '--{}': '{}' is no number between 0 and 1", option, *text));
+  }
+  return number;
+}
+
+std::vector<std::int64_t> point_options(const Arguments& arguments, std::span<const std::string> labels) {
+  std::vector<std::int64_t> points;
+  for (const std::string& text : arguments.values("point"))
+    points.push_back(point_named(arguments, text, labels));
+  return points;
+}
+
+std::optional<std::int64_t> point_option(const Arguments& arguments, std::span<const std::string> labels) {
+  const std::vector<std::int64_t> points = point_options(arguments, labels);
+  return points.empty() ? std::nullopt : std::optional(points.front());
+}
+
+}  // namespace zerocount

@@ -1,0 +1,104 @@
+#include "runners/command_line/output_place.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+#include "experiments/yaml/text_file.hpp"
+#include "results/storage/durable_file.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path file_in_folder(const Arguments& arguments, std::string_view option) {
+  fs::path output = arguments.required(option);
+  std::error_code error;
+  if (!output.has_filename() || fs::is_directory(output, error)) {
+    arguments.refuse(
+        fmt::format("option '--{}': '{}' is a folder; name a file in it", option, output.string()));
+  }
+  const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
+  if (!fs::is_directory(folder, error)) {
+    throw Failure(ExitCode::machine_failed,
+                  fmt::format("{}: cannot be written: there is no folder {}; make it first", output.string(),
+                              folder.string()));
+  }
+  return output;
+}
+
+/// @throws Failure (bad_input) where `output` is one of the inputs or of the other outputs.
+void require_apart(const Arguments& arguments, const fs::path& output, std::span<const fs::path> inputs,
+                   std::span<const fs::path> others) {
+  std::error_code error;
+  for (const fs::path& input : inputs) {
+    if (fs::equivalent(input, output, error)) {
+      arguments.refuse(
+          fmt::format("{} is read, and must not be written over; name another output", output.string()));
+    }
+  }
+  for (const fs::path& other : others) {
+    if (fs::weakly_canonical(fs::absolute(output), error) ==
+        fs::weakly_canonical(fs::absolute(other), error)) {
+      arguments.refuse(fmt::format("{} is named for two outputs; name two files", output.string()));
+    }
+  }
+}
+
+/// @throws Failure (bad_input) where `output` is no regular file, or exists and --force is not given.
+void require_replaceable(const Arguments& arguments, const fs::path& output) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(output, error))) return;
+  if (fs::exists(output, error) && !fs::is_regular_file(output, error)) {
+    arguments.refuse(fmt::format("{} is no regular file; name a file to write", output.string()));
+  }
+  if (arguments.has("force")) return;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: exists already; --force replaces it, or name another", output.string()));
+}
+
+}  // namespace
+
+OptionSpec force_option() {
+  return {"force", "", "replace an output that exists already"};
+}
+
+fs::path output_place(const Arguments& arguments) {
+  if (is_standard_stream(arguments.required("output"))) {
+    arguments.refuse("option '--output': a results file cannot go to standard output; name a file");
+  }
+  return file_in_folder(arguments, "output");
+}
+
+std::optional<fs::path> text_place(const Arguments& arguments, std::string_view option) {
+  if (!arguments.has(option)) return std::nullopt;
+  fs::path place = arguments.required(option);
+  if (is_standard_stream(place)) return place;
+  return file_in_folder(arguments, option);
+}
+
+void require_places(const Arguments& arguments, const std::vector<fs::path>& inputs,
+                    const std::vector<fs::path>& outputs) {
+  if (std::count_if(inputs.begin(), inputs.end(), is_standard_stream) > 1) {
+    arguments.refuse("standard input (-) can be read only once");
+  }
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    require_apart(arguments, outputs[i], inputs, std::span(outputs).first(i));
+    if (!is_standard_stream(outputs[i])) require_replaceable(arguments, outputs[i]);
+  }
+}
+
+void write_text(const fs::path& place, std::string_view text) {
+  if (is_standard_stream(place)) {
+    fmt::print("{}", text);
+  } else {
+    replace_file(place, text);
+  }
+}
+
+}  // namespace zerocount

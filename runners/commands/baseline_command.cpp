@@ -1,0 +1,64 @@
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "analysis/comparison/baseline.hpp"
+#include "results/storage/output_lock.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/commands.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr const char* baseline_help =
+    "Makes a results file the baseline that later ones are compared with, or puts it in the\n"
+    "place of an earlier baseline. The file is copied as it is, with its seal. The reason is\n"
+    "recorded, with the build, the trials, the checksums and how the new baseline compares\n"
+    "with the one it replaces, at the end of OUTPUT.log.yaml: commit both files together.\n"
+    "An earlier baseline is replaced without --force: the reason stands for it.\n"
+    "\n"
+    "Example: zerocount baseline new.h5 -o results/baselines/paper-gains.h5 --reason \"ki of case a "
+    "raised\"\n";
+
+ExitCode baseline(const Arguments& arguments) {
+  const std::filesystem::path output = output_place(arguments);
+  const std::string reason = arguments.required("reason");
+  if (reason.find_first_not_of(" \t\n") == std::string::npos) {
+    arguments.refuse("option '--reason': it is empty; say why this becomes the baseline");
+  }
+  const std::filesystem::path file = arguments.operands()[0];
+  std::error_code error;
+  if (std::filesystem::equivalent(file, output, error)) {
+    arguments.refuse(
+        fmt::format("{} is the output itself; name a results file that was just made", file.string()));
+  }
+  const OutputLock lock(output);
+  const BaselineUpdate update = update_baseline(file, output, reason);
+  if (!update.changed) {
+    fmt::print(stderr, "{}: is this file already, nothing to do\n", output.string());
+    return ExitCode::success;
+  }
+  for (const std::string& warning : update.warnings)
+    fmt::print(stderr, "zerocount baseline: warning: {}\n", warning);
+  if (!update.comparison.empty()) fmt::print("compared with the baseline before: {}\n", update.comparison);
+  fmt::print(stderr, "wrote {} and recorded it in {}\n", output.string(), baseline_log(output).string());
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Command baseline_command() {
+  return {{"baseline",
+           "FILE -o OUTPUT --reason TEXT",
+           1,
+           1,
+           {{"output,o", "OUTPUT", "the baseline to make or to replace (required)"},
+            {"reason", "TEXT", "why, for the record (required)"}}},
+          "make a results file the baseline of later comparisons",
+          baseline_help,
+          baseline};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,89 @@
+#include "runners/commands/commands.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "results/layout/build_info.hpp"
+#include "runners/command_line/output_place.hpp"
+
+namespace zerocount {
+namespace {
+
+std::string exit_codes_help() {
+  std::string text = "Exit codes:\n";
+  for (const auto& [code, meaning] : exit_code_meanings) {
+    text += fmt::format("  {:>3}  {}\n", static_cast<int>(code), meaning);
+  }
+  return text;
+}
+
+std::string overview() {
+  std::string text =
+      "zerocount: how often does a positioning axis with friction hold exactly zero encoder counts of "
+      "error?\n\n"
+      "usage: zerocount COMMAND ...\n\n";
+  for (const Command& command : commands())
+    text += fmt::format("  {:<12} {}\n", command.spec.name, command.summary);
+  text +=
+      "\n'zerocount COMMAND --help' explains a command; 'zerocount --version' (-V) says which program this "
+      "is.\nWhere a manifest, a table or a page is read or written, - is standard input or output.\n";
+  text += fmt::format("{}\n", overwriting_rule);
+  return text + exit_codes_help();
+}
+
+std::string help_of(const Command& command) {
+  const auto& options = command.spec.options;
+  const bool writes = std::any_of(options.begin(), options.end(), [](const OptionSpec& option) {
+    return option.name == force_option().name;
+  });
+  return fmt::format("usage: zerocount {} {} [options]\n\n{}\n\n{}{}\nOptions:\n{}\n{}", command.spec.name,
+                     command.spec.operands, command.summary, command.help,
+                     writes ? fmt::format("\n{}", overwriting_rule) : "", options_help(command.spec),
+                     exit_codes_help());
+}
+
+ExitCode print(const std::string& text) {
+  fmt::print("{}", text);
+  return ExitCode::success;
+}
+
+Command find_command(const std::string& name) {
+  const std::vector<Command> all = commands();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Command& c) { return c.spec.name == name; });
+  if (found != all.end()) return *found;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("zerocount: '{}' is no command; see 'zerocount --help'", name));
+}
+
+}  // namespace
+
+std::vector<Command> commands() {
+  std::vector<Command> all{check_command(),  run_command(),         summary_command(),  trace_command(),
+                           merge_command(),  export_command(),      identify_command(), parameters_command(),
+                           schema_command(), jerks_command(),       compare_command(),  baseline_command(),
+                           plan_command(),   sensitivity_command(), report_command(),   plot_command()};
+  for (Command& command : all) command.spec.options.push_back({"help,h", "", "show this text"});
+  return all;
+}
+
+ExitCode run_command_line(std::span<const std::string> words) {
+  if (words.empty()) throw Failure(ExitCode::bad_input, overview());
+  const std::string& verb = words.front();
+  if (verb == "--help" || verb == "-h" || verb == "help") {
+    return print(words.size() > 1 ? help_of(find_command(words[1])) : overview());
+  }
+  if (verb == "--version" || verb == "-V") {
+    const Provenance provenance = current_provenance();
+    return print(fmt::format("zerocount {} ({}, {})\n", provenance.zerocount_version, provenance.git_commit,
+                             provenance.compiler));
+  }
+  const Command command = find_command(verb);
+  const Arguments arguments(command.spec, {words.begin() + 1, words.end()});
+  if (arguments.has("help")) return print(help_of(command));
+  return command.run(arguments);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/failure/failure.hpp"
+#include "runners/command_line/command_line.hpp"
+
+namespace zerocount {
+
+/// One verb of the command line.
+struct Command {
+  CommandSpec spec;
+  std::string summary;  ///< one line
+  std::string help;     ///< what it does, in full, with examples
+  ExitCode (*run)(const Arguments&){nullptr};
+};
+
+Command check_command();
+Command run_command();
+Command summary_command();
+Command trace_command();
+Command merge_command();
+Command export_command();
+Command compare_command();
+Command baseline_command();
+Command jerks_command();
+Command plan_command();
+Command identify_command();
+Command sensitivity_command();
+Command report_command();
+Command plot_command();
+Command parameters_command();
+Command schema_command();
+
+/// All verbs, in the order of the help.
+std::vector<Command> commands();
+
+/// Runs the program with the words after its name.
+/// @throws Failure with the message for the user and the exit code.
+ExitCode run_command_line(std::span<const std::string> words);
+
+}  // namespace zerocount

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/comparison/compare_studies.hpp"
+#include "analysis/comparison/comparison_report.hpp"
+#include "experiments/yaml/text_file.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/commands.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr const char* compare_help =
+    "The regression gate: is FILE as good as BASELINE? Every design point is judged by its rates\n"
+    "of success, arrival and stability, its settling times and its jerks.\n"
+    "\n"
+    "One study by one build must give data equal to the bit. Where trial i drew the same\n"
+    "random numbers in both, trials are compared one by one; otherwise distributions are.\n"
+    "A measure fails where it is significantly worse (false discoveries controlled over all\n"
+    "measures and points) and by more than its margin; it passes where it is shown to be worse\n"
+    "by less than the margin; otherwise it is inconclusive, with the number of trials that\n"
+    "would decide. The manifests may differ, as in a gain: points are matched by label.\n"
+    "\n"
+    "Margins and absolute requirements stand in a YAML file; what it leaves out has defaults\n"
+    "(analysis/comparison/README.md):\n"
+    "  margins: {success_rate: 0.01, settling_time: {relative: 0.05, absolute: 1.0e-3}}\n"
+    "  require: success_rate ≥ 0.995\n"
+    "  points: {b: {success_rate: 0.05}}\n"
+    "\n"
+    "Example: zerocount compare baseline.h5 new.h5 --margins gate.yaml --junit gate.xml\n";
+
+ExitCode code_of(GateVerdict verdict) {
+  if (verdict == GateVerdict::passed) return ExitCode::success;
+  return verdict == GateVerdict::regression ? ExitCode::regression : ExitCode::inconclusive;
+}
+
+/// A form of the comparison, and the option that names a file for it.
+struct ComparisonForm {
+  std::string name;
+  std::string (*text)(const StudyComparison&);
+};
+
+const std::vector<ComparisonForm>& forms() {
+  static const std::vector<ComparisonForm> all{{"table", comparison_table},
+                                               {"json", comparison_json},
+                                               {"junit", comparison_junit},
+                                               {"markdown", comparison_markdown}};
+  return all;
+}
+
+/// A place for one form of the comparison.
+struct FormPlace {
+  const ComparisonForm& form;
+  std::filesystem::path place;
+};
+
+/// Where the forms go. What --format says goes to standard output, unless another form was sent there.
+std::vector<FormPlace> places_of(const Arguments& arguments, const std::optional<std::string>& margins) {
+  const std::string format = arguments.one_of("format", {"table", "json", "junit", "markdown"});
+  std::vector<std::filesystem::path> inputs{arguments.operands()[0], arguments.operands()[1]};
+  if (margins) inputs.emplace_back(*margins);
+  std::vector<std::filesystem::path> outputs;
+  if (arguments.has("format")) outputs.emplace_back("-");
+  std::vector<FormPlace> places;
+  for (const ComparisonForm& form : forms()) {
+    if (form.name == "table") continue;
+    const std::optional<std::filesystem::path> place = text_place(arguments, form.name);
+    if (!place) continue;
+    places.push_back({form, *place});
+    outputs.push_back(*place);
+  }
+  require_places(arguments, inputs, outputs);
+  const bool taken = std::any_of(places.begin(), places.end(),
+                                 [](const FormPlace& place) { return is_standard_stream(place.place); });
+  const auto printed = std::find_if(forms().begin(), forms().end(),
+                                    [&](const ComparisonForm& form) { return form.name == format; });
+  if (!taken) places.push_back({*printed, "-"});
+  return places;
+}
+
+ExitCode compare(const Arguments& arguments) {
+  const std::optional<std::string> margins = arguments.value("margins");
+  const std::vector<FormPlace> places = places_of(arguments, margins);
+  const StudyComparison result =
+      compare_files(arguments.operands()[0], arguments.operands()[1],
+                    margins ? std::optional<std::filesystem::path>(*margins) : std::nullopt);
+  for (const FormPlace& place : places) write_text(place.place, place.form.text(result));
+  return code_of(result.verdict);
+}
+
+}  // namespace
+
+Command compare_command() {
+  return {{"compare",
+           "BASELINE FILE",
+           2,
+           2,
+           {{"margins", "FILE", "YAML file of margins and requirements"},
+            {"format", "FORMAT", "of standard output: table (default), json, junit or markdown"},
+            {"json", "FILE", "write the JSON there too"},
+            {"junit", "FILE", "write JUnit XML there too"},
+            {"markdown", "FILE", "write the Markdown summary there too"},
+            force_option()}},
+          "compare a results file with a baseline: the regression gate",
+          compare_help,
+          compare};
+}
+
+}  // namespace zerocount

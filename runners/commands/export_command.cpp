@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+
+#include "analysis/iso230/repeatability_export.hpp"
+#include "experiments/yaml/text_file.hpp"
+#include "results/reading/export.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/commands.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr const char* export_help =
+    "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv,\n"
+    "jerks.csv, profiles.csv where there are profiles, trace.csv where the study retains trials,\n"
+    "levels.csv of an open-loop study, and four tables repeatability_….csv of one with a\n"
+    "sequence of moves. The header row has the units, such as settling_time [s]; what has none is\n"
+    "dimensionless. Numbers read back to the same double.\n"
+    "\n"
+    "Example: zerocount export gains.h5 -o gains-csv\n";
+
+ExitCode export_file(const Arguments& arguments) {
+  const std::string directory = arguments.required("output");
+  if (is_standard_stream(directory)) {
+    arguments.refuse(
+        "option '--output': the tables are several files and cannot go to standard output; name a folder");
+  }
+  const StudyFile file(arguments.operands()[0]);
+  export_csv(file, directory, repeatability_exports(file),
+             arguments.has("force") ? ExistingFiles::replace : ExistingFiles::refuse);
+  fmt::print(stderr, "wrote the tables to {}\n", directory);
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Command export_command() {
+  return {{"export",
+           "FILE -o DIR",
+           1,
+           1,
+           {{"output,o", "DIR", "the folder for the tables (required)"}, force_option()}},
+          "write a results file's tables as CSV",
+          export_help,
+          export_file};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,223 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/identification/identification.hpp"
+#include "analysis/identification/identification_report.hpp"
+#include "analysis/identification/manifest_fragment.hpp"
+#include "analysis/identification/raw_series.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/commands.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr const char* identify_help =
+    "Identifies the rotor and its friction from material tests: records of torque, angle and\n"
+    "time without sliding. k1, k2 and beta come from slow loading and unloading, the damping\n"
+    "and the inertia from the ringing after a step of the torque, alpha, lambda and n from\n"
+    "creep at held torques; all are fitted together, with 95 % confidence intervals. A record\n"
+    "may hold only some of these: what it leaves open is said, with the reason. Several\n"
+    "records are taken for tests of one contact. Records of linear axes are not taken yet.\n"
+    "\n"
+    "A table (CSV) has the columns t (s), torque or drive_torque (N m), and theta (rad) or\n"
+    "count, for which --counts-per-revolution is needed; 'zerocount trace' writes such tables.\n"
+    "A results file has the records of the trials that its manifest retains; the encoder's\n"
+    "counts are taken. At its first sample the contact has not been loaded yet, or as\n"
+    "--preload and --hardening say.\n"
+    "\n"
+    "What is printed ends with the result as a piece of a manifest; --format yaml is that\n"
+    "alone. Records that cannot serve are refused with the reason and exit code 4, files that\n"
+    "are no such tables with 2; where nothing can be identified the exit code is 3.\n"
+    "\n"
+    "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
+    "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n";
+
+double number_option(const Arguments& arguments, const std::string& name, const std::string& text,
+                     double low) {
+  double number = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || stop != end || !std::isfinite(number) || number < low) {
+    arguments.refuse(fmt::format("option '--{}': '{}' is no number{}", name, text,
+                                 std::isfinite(low) ? fmt::format(" from {}", low) : ""));
+  }
+  return number;
+}
+
+std::optional<double> number_option(const Arguments& arguments, const std::string& name, double low) {
+  const std::optional<std::string> text = arguments.value(name);
+  if (!text) return std::nullopt;
+  return number_option(arguments, name, *text, low);
+}
+
+std::optional<std::string> column_option(const Arguments& arguments, const char* name,
+                                         const std::vector<std::string>& columns) {
+  if (!arguments.has(name)) return std::nullopt;
+  return arguments.one_of(name, columns);
+}
+
+/// What is slower than this is no amplifier of a positioning drive, and beyond what the samples can tell.
+std::optional<double> bandwidth_option(const Arguments& arguments) {
+  constexpr double least = 0.01;
+  const std::optional<double> bandwidth = number_option(arguments, "amplifier-bandwidth", 0.0);
+  if (bandwidth && *bandwidth > 0.0 && *bandwidth < least) {
+    arguments.refuse(
+        fmt::format("option '--amplifier-bandwidth': {:g} Hz; expected 0 (it follows at once), "
+                    "or {} Hz at least",
+                    *bandwidth, least));
+  }
+  return bandwidth;
+}
+
+std::optional<int> count_option(const Arguments& arguments, const char* name, int low, int high) {
+  const std::optional<std::int64_t> number = arguments.whole_number(name, low, high);
+  if (!number) return std::nullopt;
+  return static_cast<int>(*number);
+}
+
+SeriesChoice series_choice(const Arguments& arguments) {
+  constexpr double any = -std::numeric_limits<double>::infinity();
+  SeriesChoice choice;
+  choice.torque = column_option(arguments, "torque", {"torque", "drive_torque"});
+  choice.angle = column_option(arguments, "angle", {"count", "theta"});
+  choice.counts_per_revolution = number_option(arguments, "counts-per-revolution", 1.0);
+  choice.bandwidth = bandwidth_option(arguments);
+  choice.delay = count_option(arguments, "delay", 0, 1000000);
+  choice.dac_bits = count_option(arguments, "dac-bits", 2, 32);
+  choice.preload = number_option(arguments, "preload", any);
+  choice.hardening = number_option(arguments, "hardening", 0.0);
+  return choice;
+}
+
+/// "KEY=VALUE".
+KnownParameter known_parameter(const Arguments& arguments, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string key = text.substr(0, equals);
+  const auto found = std::find(coordinate_keys.begin(), coordinate_keys.end(), key);
+  if (equals == std::string::npos || found == coordinate_keys.end()) {
+    arguments.refuse(fmt::format("option '--fix': '{}' is not KEY=VALUE with KEY one of {}", text,
+                                 fmt::join(coordinate_keys, ", ")));
+  }
+  const auto coordinate = static_cast<Coordinate>(found - coordinate_keys.begin());
+  constexpr double least = std::numeric_limits<double>::min();
+  return {coordinate, number_option(arguments, "fix", text.substr(equals + 1),
+                                    coordinate == creep_exponent ? 1.0 : least)};
+}
+
+IdentificationOptions identification_options(const Arguments& arguments) {
+  IdentificationOptions options;
+  for (const std::string& text : arguments.values("fix")) {
+    options.known.push_back(known_parameter(arguments, text));
+    const auto same = [&](const KnownParameter& known) {
+      return known.coordinate == options.known.back().coordinate;
+    };
+    if (std::any_of(options.known.begin(), options.known.end() - 1, same)) {
+      arguments.refuse(fmt::format("option '--fix': '{}' is fixed twice", text.substr(0, text.find('='))));
+    }
+  }
+  return options;
+}
+
+/// Whether `path` is a results file, by its signature, or by its name where the signature may be damaged.
+bool holds_results(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string signature(8, '\0');
+  file.read(signature.data(), static_cast<std::streamsize>(signature.size()));
+  return signature == "\x89HDF\r\n\x1a\n" || std::filesystem::path(path).extension() == ".h5";
+}
+
+std::vector<std::int64_t> points_of(const Arguments& arguments, const std::string& path) {
+  std::vector<std::int64_t> points;
+  if (arguments.has("point")) points = point_options(arguments, StudyFile(path).point_labels());
+  if (points.empty()) points.push_back(0);
+  return points;
+}
+
+std::vector<TestRecord> read_records(const Arguments& arguments) {
+  const SeriesChoice choice = series_choice(arguments);
+  const bool any_magnitude = arguments.has("any-magnitude");
+  const std::vector<std::string>& paths = arguments.operands();
+  if ((arguments.has("point") || arguments.has("trial")) &&
+      std::none_of(paths.begin(), paths.end(), holds_results)) {
+    arguments.refuse("options '--point' and '--trial' go with a results file");
+  }
+  std::vector<TestRecord> records;
+  for (const std::string& path : paths) {
+    if (!holds_results(path)) {
+      records.push_back(checked_record(read_csv_series(path, choice), any_magnitude));
+      continue;
+    }
+    constexpr std::int64_t most = std::int64_t{1} << 53;
+    const std::int64_t index = arguments.whole_number("trial", 0, most).value_or(0);
+    for (const std::int64_t point : points_of(arguments, path)) {
+      records.push_back(checked_record(read_study_series(path, point, index, choice), any_magnitude));
+    }
+  }
+  return records;
+}
+
+ExitCode identify_records(const Arguments& arguments) {
+  const std::string format = arguments.one_of("format", {"text", "json", "yaml"});
+  const IdentificationOptions options = identification_options(arguments);
+  const std::optional<std::filesystem::path> output = text_place(arguments, "output");
+  require_places(arguments, {arguments.operands().begin(), arguments.operands().end()},
+                 output ? std::vector{*output} : std::vector<std::filesystem::path>{});
+  const Identification found = identify(read_records(arguments), options);
+  const std::string report = format == "json"   ? identification_json(found)
+                             : format == "yaml" ? manifest_fragment(found)
+                                                : identification_text(found);
+  write_text(output.value_or("-"), report);
+  if (!found.checks.passed) {
+    fmt::print(
+        stderr,
+        "zerocount identify: warning: lack of fit; the intervals hold only as far as the model does\n");
+  }
+  const bool any =
+      std::any_of(found.parameters.begin(), found.parameters.end(),
+                  [](const ParameterEstimate& p) { return p.status == EstimateStatus::estimated; });
+  if (any) return ExitCode::success;
+  fmt::print(stderr, "zerocount identify: nothing is identifiable from this\n");
+  return ExitCode::inconclusive;
+}
+
+}  // namespace
+
+Command identify_command() {
+  return {{"identify",
+           "DATA.csv|FILE...",
+           1,
+           64,
+           {{"counts-per-revolution", "N", "of the encoder whose counts the column count has"},
+            {"angle", "COLUMN", "count or theta, where both are there (default count, if N is given)"},
+            {"torque", "COLUMN", "torque or drive_torque, where both are there (default the latter)"},
+            {"amplifier-bandwidth", "HZ", "of the amplifier (default 0: it follows at once)"},
+            {"delay", "SAMPLES", "after which the column torque acts (default 0)"},
+            {"dac-bits", "BITS", "of the converter whose codes the column code has, to see it clip"},
+            {"preload", "TORQUE", "loaded slowly to this and let go before the test, N m (default 0)"},
+            {"hardening", "XH", "work hardening before the test, rad (default 0)"},
+            {"fix", "KEY=VALUE", "a parameter that is known, as friction.n=2; may be repeated", true},
+            {"any-magnitude", "", "believe values that look as if they were in other units"},
+            {"point", "P", "design point in a results file, by label or number (default 0); may be repeated",
+             true},
+            {"trial", "I", "trial of the point (default 0)"},
+            {"format", "FORMAT", "text (default), json or yaml"},
+            {"output,o", "FILE", "write there instead of to standard output"},
+            force_option()}},
+          "identify friction, damping and inertia from material tests",
+          identify_help,
+          identify_records};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "results/layout/header.hpp"
+#include "results/shards/merge.hpp"
+#include "results/storage/output_lock.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/commands.hpp"
+#include "runners/study_run/assemble.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* merge_help =
+    "Joins the parts of one study into its results file. An input is a part file made with\n"
+    "'run --shard', a shard, or a folder of shards. Together they must hold every trial of\n"
+    "the study once.\n"
+    "\n"
+    "Example: zerocount merge a.h5 b.h5 -o all.h5\n";
+
+void require_everything(const std::vector<ShardInfo>& parts, const Study& study) {
+  const std::vector<RowRange> missing = missing_ranges(parts, all_rows(study));
+  if (missing.empty()) return;
+  std::string ranges;
+  for (std::size_t i = 0; i < std::min<std::size_t>(missing.size(), 8); ++i) {
+    ranges += fmt::format("{}{} to {}", i > 0 ? ", " : "", missing[i].first, missing[i].end() - 1);
+  }
+  throw Failure(
+      ExitCode::bad_data,
+      fmt::format("the inputs do not hold the whole study: of its {} trials, {}{} are missing; run those "
+                  "parts and give them too",
+                  trial_count(study), ranges, missing.size() > 8 ? " and more" : ""));
+}
+
+ExitCode merge(const Arguments& arguments) {
+  const fs::path output = output_place(arguments);
+  const std::vector<fs::path> inputs(arguments.operands().begin(), arguments.operands().end());
+  require_places(arguments, inputs, {output});
+  const Study study = recorded_study(first_header(inputs), inputs.front());
+  const OutputLock lock(output);
+  const std::vector<ShardInfo> parts = merge_inputs(inputs, study);
+  require_everything(parts, study);
+  assemble(parts, study, output, all_rows(study));
+  fmt::print(stderr, "wrote {}\n", output.string());
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Command merge_command() {
+  return {{"merge",
+           "PART... -o FILE",
+           1,
+           100000,
+           {{"output,o", "FILE", "the results file to make (required)"}, force_option()}},
+          "join the parts of a study that was run in parts",
+          merge_help,
+          merge};
+}
+
+}  // namespace zerocount

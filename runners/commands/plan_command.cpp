@@ -1,0 +1,291 @@
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/rig_plan.hpp"
+#include "analysis/statistics/rig_statistics.hpp"
+#include "analysis/statistics/sample_size.hpp"
+#include "analysis/summary/study_summary.hpp"
+#include "analysis/text/text.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/commands/commands.hpp"
+
+namespace zerocount {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* plan_help =
+    "Says how many trials a claim needs, before they are run. With --success: how many show that at\n"
+    "least this proportion of axes succeeds, if none, one, two, … of them fail; with --true-success also\n"
+    "the chance that they do, and with --power the plan that has this chance. With --halfwidth: how\n"
+    "many bring the bounds of a rate so close.\n"
+    "With rigs, the trials of one rig are not independent. --rigs-share says how many rigs, and trials\n"
+    "on each, show that so many of all rigs succeed in --success of their trials. With --halfwidth,\n"
+    "--rig-sd is the standard deviation of the success probability between rigs: assumed, or measured\n"
+    "in a pilot FILE with rigs (of the point where it is largest, which then also gives the rate).\n"
+    "\n"
+    "Example: zerocount plan --success 0.999 --confidence 0.95\n"
+    "         zerocount plan --success 0.99 --true-success 0.995 --power 0.9\n"
+    "         zerocount plan --halfwidth 0.005\n"
+    "         zerocount plan --halfwidth 0.02 --rig-sd 0.1 --true-success 0.9\n"
+    "         zerocount plan --halfwidth 0.02 pilot.h5\n"
+    "         zerocount plan --success 0.97 --rigs-share 0.9\n";
+
+constexpr std::int64_t default_failures = 3;
+constexpr double worst_case_rate = 0.5;
+
+/// What the words ask for.
+struct PlanRequest {
+  double confidence{summary_confidence};
+  std::optional<double> success, true_success, power, halfwidth;
+  std::optional<double> rig_sd, rigs_share;
+  std::int64_t failures{default_failures};
+  std::string pilot;  ///< what rig_sd and the rate were measured in, for the text
+};
+
+/// The point of a pilot study whose rigs differ most gives the standard deviation and the rate.
+void measure_pilot(PlanRequest& request, const std::string& path) {
+  const StudySummary summary = summarise(StudyFile(path));
+  std::size_t most = summary.points.size();
+  for (std::size_t i = 0; i < summary.points.size(); ++i) {
+    const double sd = summary.points[i].rigs.success_sd;
+    if (std::isnan(sd)) continue;
+    if (most == summary.points.size() || sd > summary.points[most].rigs.success_sd) most = i;
+  }
+  if (most == summary.points.size()) {
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: says nothing of how rigs differ; expected the results of a study with `rigs` "
+                    "and several trials on each",
+                    path));
+  }
+  const PointSummary& point = summary.points[most];
+  const double rate = point.success_rate.value;
+  if (!(rate > 0.0 && rate < 1.0)) {
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: no point has both successes and failures; expected --rig-sd and --true-success "
+                    "in place of a pilot",
+                    path));
+  }
+  request.rig_sd = point.rigs.success_sd;
+  if (!request.true_success) request.true_success = rate;
+  request.pilot = fmt::format("{}, point {}", path, printable(summary.labels[most]));
+}
+
+PlanRequest request_of(const Arguments& arguments) {
+  PlanRequest request;
+  request.confidence = probability_option(arguments, "confidence").value_or(summary_confidence);
+  request.success = probability_option(arguments, "success");
+  request.true_success = probability_option(arguments, "true-success");
+  request.power = probability_option(arguments, "power");
+  request.halfwidth = probability_option(arguments, "halfwidth");
+  request.failures = arguments.whole_number("failures", 0, 1000).value_or(default_failures);
+  request.rigs_share = probability_option(arguments, "rigs-share");
+  request.rig_sd = probability_option(arguments, "rig-sd");
+  if (!arguments.operands().empty()) {
+    if (request.rig_sd) arguments.refuse("expected --rig-sd or a pilot FILE, not both");
+    if (!request.halfwidth) arguments.refuse("a pilot FILE needs --halfwidth");
+    measure_pilot(request, arguments.operands()[0]);
+  }
+  if (request.rig_sd && !request.halfwidth) arguments.refuse("option '--rig-sd' needs --halfwidth");
+  if (request.rigs_share && !request.success) arguments.refuse("option '--rigs-share' needs --success");
+  if (request.rigs_share && (request.power || request.true_success))
+    arguments.refuse("option '--rigs-share' plans without a failure: expected no --power or --true-success");
+  if (!request.success && !request.halfwidth) arguments.refuse("expected --success or --halfwidth");
+  if (request.power && !(request.success && request.true_success))
+    arguments.refuse("option '--power' needs --success and --true-success");
+  if (!request.success && arguments.has("failures")) arguments.refuse("option '--failures' needs --success");
+  return request;
+}
+
+std::vector<ClaimPlan> plans_of(const PlanRequest& request) {
+  std::vector<ClaimPlan> plans;
+  if (!request.success) return plans;
+  for (std::int64_t failures = 0; failures <= request.failures; ++failures)
+    plans.push_back({failures, trials_for_claim(*request.success, request.confidence, failures)});
+  if (!request.power) return plans;
+  const ClaimPlan strong =
+      plan_with_power(*request.success, request.confidence, *request.true_success, *request.power);
+  if (strong.failures > request.failures) plans.push_back(strong);
+  return plans;
+}
+
+/// The first plan with the power, if any is asked for.
+bool has_power(const PlanRequest& request, const ClaimPlan& plan) {
+  return request.power &&
+         chance_of_claim(plan.trials, plan.failures, *request.true_success) >= *request.power;
+}
+
+constexpr std::array<std::int64_t, 8> listed_trials_per_rig{1, 2, 5, 10, 20, 50, 100, 1000};
+
+std::vector<RigPlan> halfwidth_plans(const PlanRequest& request) {
+  std::vector<RigPlan> plans;
+  plans.reserve(listed_trials_per_rig.size());
+  for (const std::int64_t trials : listed_trials_per_rig) {
+    plans.push_back(
+        {rigs_for_halfwidth(*request.halfwidth, request.confidence,
+                            request.true_success.value_or(worst_case_rate), *request.rig_sd, trials),
+         trials});
+  }
+  return plans;
+}
+
+/// From the fewest rigs on: more rigs need fewer trials on each.
+std::vector<RigPlan> tolerance_plans(const PlanRequest& request) {
+  const std::int64_t fewest = fewest_rigs_for_tolerance(*request.rigs_share, request.confidence);
+  std::vector<RigPlan> plans;
+  for (const std::int64_t rigs : {fewest, fewest + (fewest + 1) / 2, 2 * fewest, 4 * fewest})
+    plans.push_back(plan_tolerance(*request.rigs_share, *request.success, request.confidence, rigs));
+  return plans;
+}
+
+Json rig_plans_json(const std::vector<RigPlan>& plans) {
+  Json json = Json::array();
+  for (const RigPlan& plan : plans) {
+    json.push_back({{"rigs", plan.rigs},
+                    {"trials_per_rig", plan.trials_per_rig},
+                    {"trials", plan.rigs * plan.trials_per_rig}});
+  }
+  return json;
+}
+
+std::string rig_plans_text(const std::vector<RigPlan>& plans) {
+  std::vector<TextColumn> columns{{"rigs", true, {}}, {"trials on each", true, {}}, {"trials", true, {}}};
+  for (const RigPlan& plan : plans) {
+    columns[0].cells.push_back(std::to_string(plan.rigs));
+    columns[1].cells.push_back(std::to_string(plan.trials_per_rig));
+    columns[2].cells.push_back(std::to_string(plan.rigs * plan.trials_per_rig));
+  }
+  return aligned_table(columns);
+}
+
+Json plan_json(const PlanRequest& request) {
+  Json json{{"confidence", request.confidence}};
+  if (request.rigs_share) {
+    json["success"] = *request.success;
+    json["rigs_share"] = *request.rigs_share;
+    json["rig_plans"] = rig_plans_json(tolerance_plans(request));
+  } else if (request.success) {
+    json["success"] = *request.success;
+    if (request.true_success) json["true_success"] = *request.true_success;
+    if (request.power) json["power"] = *request.power;
+    Json plans = Json::array();
+    for (const ClaimPlan& plan : plans_of(request)) {
+      Json entry{{"failures", plan.failures}, {"trials", plan.trials}};
+      if (request.true_success)
+        entry["chance"] = chance_of_claim(plan.trials, plan.failures, *request.true_success);
+      if (request.power) entry["has_power"] = has_power(request, plan);
+      plans.push_back(std::move(entry));
+    }
+    json["plans"] = std::move(plans);
+  }
+  if (request.halfwidth) {
+    const double rate = request.true_success.value_or(worst_case_rate);
+    json["halfwidth"] = {{"halfwidth", *request.halfwidth}, {"rate", rate}};
+    if (request.rig_sd) {
+      json["halfwidth"]["rig_sd"] = *request.rig_sd;
+      json["halfwidth"]["rig_plans"] = rig_plans_json(halfwidth_plans(request));
+    } else {
+      json["halfwidth"]["trials"] = trials_for_halfwidth(*request.halfwidth, request.confidence, rate);
+    }
+  }
+  return json;
+}
+
+std::string claim_text(const PlanRequest& request) {
+  std::vector<TextColumn> columns{{"failures at most", true, {}}, {"trials", true, {}}};
+  if (request.true_success) columns.push_back({"chance to show it", true, {}});
+  if (request.power) columns.push_back({"power", false, {}});
+  for (const ClaimPlan& plan : plans_of(request)) {
+    columns[0].cells.push_back(std::to_string(plan.failures));
+    columns[1].cells.push_back(std::to_string(plan.trials));
+    if (request.true_success)
+      columns[2].cells.push_back(
+          short_number(chance_of_claim(plan.trials, plan.failures, *request.true_success)));
+    if (request.power) columns[3].cells.push_back(has_power(request, plan) ? "enough" : "too little");
+  }
+  std::string text =
+      fmt::format("to show that at least {:.6g} % of axes succeed, with {:.6g} % confidence\n\n{}",
+                  100.0 * *request.success, 100.0 * request.confidence, aligned_table(columns));
+  if (request.true_success)
+    text += fmt::format("\nchance: if {:.6g} % of axes succeed in truth\n", 100.0 * *request.true_success);
+  return text;
+}
+
+std::string tolerance_text(const PlanRequest& request) {
+  return fmt::format(
+      "to show that at least {:.6g} % of rigs hold zero in at least {:.6g} % of moves, with {:.6g} % "
+      "confidence\n\n{}\nif no trial fails; trials of one move or more\n",
+      100.0 * *request.rigs_share, 100.0 * *request.success, 100.0 * request.confidence,
+      rig_plans_text(tolerance_plans(request)));
+}
+
+std::string rig_halfwidth_text(const PlanRequest& request, double rate) {
+  return fmt::format(
+      "to bring the {:.6g} % bounds of a success rate of {:.4g} % within ±{:.6g} %, with a standard "
+      "deviation of "
+      "{:.4g} %\nbetween rigs{}\n\n{}\nmore trials on a rig help little once they outnumber {:.3g}: what "
+      "differs "
+      "between rigs remains\n",
+      100.0 * request.confidence, 100.0 * rate, 100.0 * *request.halfwidth, 100.0 * *request.rig_sd,
+      request.pilot.empty() ? "" : " (" + request.pilot + ")", rig_plans_text(halfwidth_plans(request)),
+      rate * (1.0 - rate) / (*request.rig_sd * *request.rig_sd));
+}
+
+std::string halfwidth_text(const PlanRequest& request) {
+  const double rate = request.true_success.value_or(worst_case_rate);
+  if (request.rig_sd) return rig_halfwidth_text(request, rate);
+  return fmt::format("{} trials bring the {:.6g} % bounds of a rate of {:.6g} % within ±{:.6g} %{}\n",
+                     trials_for_halfwidth(*request.halfwidth, request.confidence, rate),
+                     100.0 * request.confidence, 100.0 * rate, 100.0 * *request.halfwidth,
+                     request.true_success ? "" : ", the worst case");
+}
+
+std::string plan_text(const PlanRequest& request) {
+  std::string text;
+  if (request.success) text += request.rigs_share ? tolerance_text(request) : claim_text(request);
+  if (request.success && request.halfwidth) text += "\n";
+  if (request.halfwidth) text += halfwidth_text(request);
+  return text;
+}
+
+ExitCode print_plan(const Arguments& arguments) {
+  const std::string format = arguments.one_of("format", {"table", "json"});
+  const PlanRequest request = request_of(arguments);
+  fmt::print("{}", format == "json" ? plan_json(request).dump(2) + "\n" : plan_text(request));
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Command plan_command() {
+  return {{"plan",
+           "[PILOT]",
+           0,
+           1,
+           {{"success", "P", "proportion of axes that is to be shown to succeed at least"},
+            {"confidence", "LEVEL", "of the claim, or of the bounds (default 0.95)"},
+            {"failures", "K", "list plans for 0 to K failures (default 3)"},
+            {"true-success", "P", "share that succeeds in truth: says the chance of each plan"},
+            {"power", "P", "find the plan with this chance"},
+            {"halfwidth", "H", "half the distance of the two-sided bounds of a rate"},
+            {"rigs-share", "P", "share of rigs that is to be shown to succeed in --success of their trials"},
+            {"rig-sd", "SD", "standard deviation of the success probability between rigs"},
+            {"format", "FORMAT", "table (default) or json"}}},
+          "say how many trials a claim needs",
+          plan_help,
+          print_plan};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,80 @@
+#include "runners/commands/replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "results/layout/layout.hpp"
+
+namespace zerocount {
+namespace {
+
+bool same(double a, double b, double allowed = 0.0) {
+  if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
+  return std::abs(a - b) <= std::max(allowed, 1e-9 * std::max(std::abs(a), std::abs(b)));
+}
+
+/// What a value of this column may differ by however small it is. A position in counts is the difference of
+/// large numbers, and known as well as θ is; θ itself is promised to 1e-6 count, which is more than this
+/// of any encoder of up to six million counts a revolution.
+double allowed_in(const Column& column) {
+  if (column.unit == "rad") return 1e-12;
+  return column.unit == "count" ? 1e-3 : 0.0;
+}
+
+/// Compares two lists of records field by field; `what` is what one record is called.
+template <class Record>
+void compare(const std::vector<RecordField<Record>>& fields, const std::vector<Record>& recorded,
+             const std::vector<Record>& replayed, std::string_view what, std::vector<std::string>& lines) {
+  if (recorded.size() != replayed.size()) {
+    lines.push_back(fmt::format("{}s: recorded {}, replayed {}", what, recorded.size(), replayed.size()));
+    return;
+  }
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    for (const RecordField<Record>& field : fields) {
+      const auto compare_member = [&](auto member) {
+        const auto before = static_cast<double>(recorded[i].*member);
+        const auto now = static_cast<double>(replayed[i].*member);
+        const bool real = std::is_same_v<decltype(member), double Record::*>;
+        if (real ? same(before, now, allowed_in(field.column)) : before == now) return;
+        lines.push_back(
+            fmt::format("{} {}: {}: recorded {}, replayed {}", what, i, field.column.name, before, now));
+      };
+      std::visit(compare_member, field.member);
+    }
+  }
+}
+
+/// The moves with the outcomes that a file of this version of the layout has for them.
+std::vector<MoveOutcome> moves_in_version(std::int64_t version, std::vector<MoveOutcome> moves) {
+  for (MoveOutcome& move : moves) move.outcome = outcome_in_version(version, move.outcome);
+  return moves;
+}
+
+std::vector<JerkRecord> jerk_records(const TrialResult& result) {
+  std::vector<JerkRecord> records;
+  for (const Jerk& jerk : result.jerks) records.push_back({jerk, result.row});
+  return records;
+}
+
+}  // namespace
+
+std::vector<std::string> differences(const std::vector<InputColumn>& inputs, const TrialResult& recorded,
+                                     const TrialResult& replayed,
+                                     const std::vector<RecordField<MoveOutcome>>& measures,
+                                     std::int64_t version) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (same(recorded.inputs.at(i), replayed.inputs.at(i))) continue;
+    lines.push_back(fmt::format("input {}: recorded {}, replayed {}", inputs[i].name, recorded.inputs[i],
+                                replayed.inputs[i]));
+  }
+  compare(measures, recorded.outcome.moves, moves_in_version(version, replayed.outcome.moves), "move", lines);
+  compare(jerk_fields(), jerk_records(recorded), jerk_records(replayed), "jerk", lines);
+  return lines;
+}
+
+}  // namespace zerocount

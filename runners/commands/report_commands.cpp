@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/comparison/compare_studies.hpp"
+#include "analysis/comparison/margins_file.hpp"
+#include "analysis/report/report.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/yaml/text_file.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/child_process.hpp"
+#include "runners/commands/commands.hpp"
+#include "runners/commands/replay.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr const char* report_help =
+    "Writes one HTML page on a results file: the verdict in words, success at every point\n"
+    "with bounds, stability maps with the criteria (6) and (7), settling times, jerks, what\n"
+    "matters, single trials that are run again, the figures of the paper that the study can\n"
+    "show, and what was run. The page holds everything and asks for nothing from anywhere;\n"
+    "it prints, and is read on a phone, by day and by night. Print it from\n"
+    "a browser for a PDF.\n"
+    "\n"
+    "With a baseline, the page also has what 'zerocount compare' would say. The exit code\n"
+    "does not: for that there is 'compare'.\n"
+    "\n"
+    "Example: zerocount report gains.h5 -o gains.html\n";
+
+constexpr const char* plot_help =
+    "Draws one figure of the report by itself, for a paper. It is drawn by node, and made a\n"
+    "PNG by rsvg-convert (Debian: nodejs, librsvg2-bin). Without --figure the names of the\n"
+    "figures that this study has are printed.\n"
+    "\n"
+    "Example: zerocount plot gains.h5 --figure success -o success.svg\n";
+
+/// What of a trial that was run again is not as the file has it.
+std::vector<std::string> check(const StudyFile& file, const ReplayedTrial& replayed) {
+  const RowRange row{replayed.result.row, 1};
+  TrialResult recorded;
+  recorded.row = row.first;
+  recorded.inputs = file.inputs_of(row.first);
+  recorded.outcome.moves = file.outcomes(row);
+  for (const JerkRecord& jerk : file.jerks(row)) recorded.jerks.push_back(jerk);
+  return differences(file.input_columns(), recorded, replayed.result, file.measures(), file.header().version);
+}
+
+StudyReport report_of(const Arguments& arguments, const StudyFile& file) {
+  ReportOptions options;
+  options.focus = point_option(arguments, file.point_labels());
+  const auto margins = arguments.value("margins");
+  if (const auto baseline = arguments.value("baseline")) {
+    const GateRules rules = margins ? read_gate_rules(*margins, file.point_labels()) : GateRules{};
+    options.comparison = compare_studies(StudyFile(*baseline), file, rules);
+  } else if (margins) {
+    arguments.refuse("option '--margins' needs '--baseline'");
+  }
+  options.check = [&file](const ReplayedTrial& replayed) { return check(file, replayed); };
+  StudyReport report = study_report(file, options);
+  for (const std::string& warning : report.warnings) fmt::print(stderr, "zerocount: warning: {}\n", warning);
+  return report;
+}
+
+/// The output, whose name ends in one of `extensions` and which is none of the files that are read.
+std::filesystem::path picture_or_page(const Arguments& arguments,
+                                      const std::vector<std::string>& extensions) {
+  arguments.required("output");
+  std::filesystem::path output = *text_place(arguments, "output");
+  const std::string extension = output.extension().string();
+  if (!is_standard_stream(output) &&
+      std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
+    arguments.refuse(fmt::format("option '--output': '{}' does not end in {}", output.string(),
+                                 fmt::join(extensions, " or ")));
+  }
+  std::vector<std::filesystem::path> inputs{arguments.operands()[0]};
+  for (const char* const option : {"baseline", "margins"}) {
+    if (const auto path = arguments.value(option)) inputs.emplace_back(*path);
+  }
+  require_places(arguments, inputs, {output});
+  return output;
+}
+
+ExitCode write_report(const Arguments& arguments) {
+  const std::filesystem::path output = picture_or_page(arguments, {".html", ".htm"});
+  const StudyFile file(arguments.operands()[0]);
+  write_text(output, html_page(report_of(arguments, file).page));
+  return ExitCode::success;
+}
+
+/// What a program made of `input`.
+std::string output_of(const std::vector<std::string>& words, std::string_view input,
+                      std::string_view package) {
+  const std::optional<ChildResult> result = run_child(words, input);
+  if (!result) {
+    throw Failure(
+        ExitCode::machine_failed,
+        fmt::format(
+            "zerocount plot: there is no {} here, which draws the figure; install it (Debian: apt-get "
+            "install {})",
+            words.front(), package));
+  }
+  if (result->code == 0 && !result->out.empty()) return result->out;
+  throw Failure(
+      ExitCode::machine_failed,
+      fmt::format("zerocount plot: {} failed with exit code {}; expected nodejs 18 or later and librsvg 2.50 "
+                  "or later",
+                  words.front(), result->code));
+}
+
+std::string picture(const Figure& figure, bool png) {
+  const std::string svg = output_of({"node", "-"}, drawing_program(figure), "nodejs");
+  // Three pixels to a point of the figure: 300 to the inch at a width of 140 mm.
+  return png ? output_of({"rsvg-convert", "--format", "png", "--zoom", "3"}, svg, "librsvg2-bin") : svg;
+}
+
+ExitCode plot(const Arguments& arguments) {
+  const std::string input = arguments.operands()[0];
+  if (!arguments.has("figure")) {
+    if (arguments.has("output")) arguments.refuse("option '--output' needs '--figure'");
+    const StudyFile file(input);
+    for (const std::string& name : figure_names(report_of(arguments, file).page)) fmt::print("{}\n", name);
+    return ExitCode::success;
+  }
+  const std::filesystem::path output = picture_or_page(arguments, {".svg", ".png"});
+  const StudyFile file(input);
+  const StudyReport report = report_of(arguments, file);
+  const bool png = output.extension() == ".png";
+  write_text(output, picture(find_figure(report.page, arguments.required("figure")), png));
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Command report_command() {
+  return {{"report",
+           "FILE",
+           1,
+           1,
+           {{"output,o", "PAGE", "the page, such as report.html; - is standard output (required)"},
+            {"baseline", "FILE", "compare with these results"},
+            {"margins", "FILE", "the margins and requirements of that comparison"},
+            {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
+            force_option()}},
+          "write one HTML page on a results file",
+          report_help,
+          write_report};
+}
+
+Command plot_command() {
+  return {
+      {"plot",
+       "FILE",
+       1,
+       1,
+       {{"figure", "NAME", "which figure"},
+        {"output,o", "PICTURE", "where to: a name that ends in .svg or .png; - is standard output, as SVG"},
+        {"baseline", "FILE", "compare with these results"},
+        {"margins", "FILE", "the margins and requirements of that comparison"},
+        {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
+        force_option()}},
+      "draw one figure of the report as SVG or PNG",
+      plot_help,
+      plot};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
+#include "results/shards/shard.hpp"
+#include "results/storage/durable_file.hpp"
+#include "results/storage/output_lock.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/commands.hpp"
+#include "runners/commands/warnings.hpp"
+#include "runners/study_run/assemble.hpp"
+#include "runners/study_run/earlier_shards.hpp"
+#include "runners/study_run/existing_output.hpp"
+#include "runners/study_run/extension.hpp"
+#include "runners/study_run/interruption.hpp"
+#include "runners/study_run/progress.hpp"
+#include "runners/study_run/stopping_run.hpp"
+#include "runners/study_run/study_runner.hpp"
+#include "runners/study_run/study_size.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* run_help =
+    "Runs the trials of the manifest on all cores, and writes them to the results file.\n"
+    "Finished trials go to shards in FILE.shards/ while the run goes on; at the end they\n"
+    "become FILE. A run that was interrupted or killed goes on where it stopped when the\n"
+    "same command is given again. The data do not depend on the number of threads, on\n"
+    "--shard, or on interruptions. Where FILE holds the same study with fewer trials, only\n"
+    "the others are run, and join them. Before it begins, the run looks whether the disk has\n"
+    "room for its shards and its file; --force begins all the same.\n"
+    "\n"
+    "Examples:\n"
+    "  zerocount run experiments/manifests/paper-gains.yaml -o gains.h5\n"
+    "  zerocount run study.yaml --set trials=100000 --set controller.ki=9.45e-5 -o out.h5\n"
+    "  zerocount run study.yaml --shard 1/2 -o a.h5     on one machine, and on another\n"
+    "  zerocount run study.yaml --shard 2/2 -o b.h5     then: zerocount merge a.h5 b.h5 -o all.h5\n";
+
+/// The rows of part `text` = "I/N", I from 1 to N: parts differ by at most one trial in size.
+RowRange part_of(const Arguments& arguments, const std::string& text, const Study& study) {
+  std::int64_t part = 0;
+  std::int64_t parts = 0;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, part);
+  const bool slash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '/';
+  const auto second = slash ? std::from_chars(first.ptr + 1, end, parts) : first;
+  const std::int64_t rows = trial_count(study);
+  if (!slash || second.ec != std::errc{} || second.ptr != end || part < 1 || part > parts) {
+    arguments.refuse(fmt::format("option '--shard': '{}' is not I/N with 1 ≤ I ≤ N, such as 2/8", text));
+  }
+  if (parts > rows) {
+    arguments.refuse(
+        fmt::format("option '--shard': the study has {} trials, which cannot make {} parts", rows, parts));
+  }
+  const auto start = [&](std::int64_t i) { return rows / parts * i + std::min(i, rows % parts); };
+  return {start(part - 1), start(part) - start(part - 1)};
+}
+
+/// What a run is for.
+struct RunRequest {
+  Study study;
+  fs::path output;
+  RowRange wanted;  ///< rows of the study
+  int threads{0};
+  bool quiet{false};
+  bool force{false};
+};
+
+RunRequest run_request(const Arguments& arguments) {
+  RunRequest request;
+  request.output = output_place(arguments);
+  request.study = load_study(arguments.operands()[0], arguments.values("set"));
+  request.study.engine =
+      arguments.one_of("engine", {"batch", "reference"}) == "batch" ? Engine::batch : Engine::reference;
+  const std::optional<std::string> part = arguments.value("shard");
+  request.wanted = part ? part_of(arguments, *part, request.study) : all_rows(request.study);
+  if (request.study.stop && part) {
+    arguments.refuse(
+        "option '--shard': how many trials a study with `stop` takes can only be decided in one run");
+  }
+  request.threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
+  request.quiet = arguments.has("quiet");
+  request.force = arguments.has("force");
+  return request;
+}
+
+/// The shards that are there before the first trial is run.
+EarlierShards prepare_shards(const RunRequest& request, const fs::path& directory, ExistingUse existing) {
+  const ForeignShards foreign = request.force ? ForeignShards::remove : ForeignShards::refuse;
+  EarlierShards earlier = earlier_shards(directory, request.study, request.wanted, foreign);
+  const std::int64_t missing = total_rows(missing_ranges(earlier.usable, request.wanted));
+  if (!request.force) require_room(request.output, request.study, missing);
+  if (existing != ExistingUse::extend) return earlier;
+  const StudyFile file(request.output);
+  if (!request.quiet) {
+    fmt::print(stderr, "{}: its {} trials at each point are kept, and {} are added\n",
+               request.output.string(), file.header().trials, request.study.trials - file.header().trials);
+  }
+  const std::vector<RowRange> ranges = missing_ranges(earlier.usable, request.wanted);
+  for (ShardInfo& shard : copy_trials(file, request.study, directory, ranges)) {
+    earlier.all.push_back(shard.path);
+    earlier.usable.push_back(std::move(shard));
+  }
+  return earlier;
+}
+
+void run_rows(const RunRequest& request, ExistingUse existing, const std::stop_token& stop) {
+  const fs::path directory = shards_directory(request.output);
+  make_directory(directory);
+  EarlierShards earlier = prepare_shards(request, directory, existing);
+  const RowRange wanted = request.wanted;
+  const std::vector<RowRange> missing = missing_ranges(earlier.usable, wanted);
+  const std::int64_t kept = wanted.count - total_rows(missing);
+
+  Progress progress(wanted.count, kept, samples_per_trial(request.study), request.quiet);
+  std::int64_t done = kept;
+  RunSettings settings;
+  settings.threads = request.threads;
+  settings.finished = [&](std::int64_t trials) { progress.update(done += trials); };
+  const std::vector<ShardInfo> written = run_trials(request.study, missing, directory, settings, stop);
+  progress.finish(done);
+
+  if (done < wanted.count) {
+    throw Failure(
+        ExitCode::interrupted,
+        fmt::format("interrupted: {} of {} trials are kept in {}; give the same command again to go on", done,
+                    wanted.count, directory.string()));
+  }
+  std::vector<ShardInfo> shards = std::move(earlier.usable);
+  shards.insert(shards.end(), written.begin(), written.end());
+  std::sort(shards.begin(), shards.end(),
+            [](const ShardInfo& a, const ShardInfo& b) { return a.rows.first < b.rows.first; });
+  assemble(shards, request.study, request.output, wanted);
+  for (const ShardInfo& shard : written) earlier.all.push_back(shard.path);
+  remove_shards(directory, earlier.all);
+  if (!request.quiet) fmt::print(stderr, "wrote {}\n", request.output.string());
+}
+
+ExitCode run(const Arguments& arguments) {
+  const RunRequest request = run_request(arguments);
+  warn(request.study);
+  const InterruptionWatch interruption;
+  const OutputLock lock(request.output);
+  const ExistingUse existing =
+      request.force ? ExistingUse::none : use_of_existing(request.output, request.study, request.wanted);
+  if (existing == ExistingUse::complete) {
+    // Left by a run that died at its very end; what is not of this study stays.
+    const fs::path directory = shards_directory(request.output);
+    remove_shards(directory, choose_shards(list_shards(directory, request.study).shards, request.wanted).all);
+    if (!request.quiet) fmt::print(stderr, "{}: complete already, nothing to run\n", request.output.string());
+    return ExitCode::success;
+  }
+  if (!request.study.stop) {
+    run_rows(request, existing, interruption.token());
+    return ExitCode::success;
+  }
+  const ForeignShards foreign = request.force ? ForeignShards::remove : ForeignShards::refuse;
+  return run_until_sure(request.study, request.output, {request.threads, request.quiet, foreign},
+                        interruption.token());
+}
+
+}  // namespace
+
+Command run_command() {
+  return {{"run",
+           "MANIFEST -o FILE",
+           1,
+           1,
+           {{"output,o", "FILE", "the results file to make (required)"},
+            {"threads", "N", "threads to use; default: all cores"},
+            {"engine", "NAME",
+             "batch (default): many trials at a time in vector lanes; reference: one after the other"},
+            {"shard", "I/N", "run only the I-th of N parts, into a part file for 'zerocount merge'"},
+            {"set", "KEY=VALUE",
+             "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
+            {"quiet,q", "", "say nothing of progress"},
+            {"force", "",
+             "replace FILE, drop unfinished runs of other studies, and do not ask for room on the disk"}}},
+          "run a study: manifest in, results file out",
+          run_help,
+          run};
+}
+
+}  // namespace zerocount

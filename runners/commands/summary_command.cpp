@@ -1,0 +1,81 @@
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "analysis/summary/study_summary.hpp"
+#include "analysis/summary/summary.hpp"
+#include "core/failure/failure.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/commands/commands.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* summary_help =
+    "Prints a row per design point: how many trials were stable and ended at zero counts of\n"
+    "error (with 95 % bounds), how long they took to settle, how often they jerked, what the\n"
+    "criteria (6) and (7) of the paper predict, and what was seen on the real rig where the\n"
+    "manifest says so; of an open-loop study, a row per design point and torque level. Below the\n"
+    "table stands what the trials show of all axes that the manifest describes. json and csv hold\n"
+    "more than the table. What is stored in the file has 95 % bounds; other ones are found anew.\n"
+    "While FILE is being made, or after its run was interrupted, the summary is of the trials\n"
+    "that are finished so far, and says so.\n"
+    "\n"
+    "Example: zerocount summary gains.h5 --format json\n";
+
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+/// The summary of the file, or of the run that is making it.
+StudySummary summary_of(const fs::path& path, double confidence, bool with_means) {
+  const fs::path shards = shards_directory(path);
+  if (!is_there(path) && is_there(shards)) {
+    try {
+      return summarise_unfinished(shards, confidence, with_means);
+    } catch (const Failure&) {
+      if (!is_there(path)) throw;  // otherwise the run has ended meanwhile, and its shards are gone
+    }
+  }
+  StudySummary summary = summarise(StudyFile(path), confidence, with_means);
+  if (is_there(shards)) {
+    fmt::print(stderr, "note: a run that is to replace {} has not ended ({}); this is of the file as it is\n",
+               path.string(), shards.string());
+  }
+  return summary;
+}
+
+ExitCode summarise_file(const Arguments& arguments) {
+  const std::string format = arguments.one_of("format", {"table", "json", "csv"});
+  const double confidence = probability_option(arguments, "confidence").value_or(summary_confidence);
+  const bool with_means = format != "table";  // the table shows no bounds of means
+  const StudySummary summary = summary_of(arguments.operands()[0], confidence, with_means);
+  if (format == "table") fmt::print("{}", summary_table(summary));
+  if (format == "json") fmt::print("{}", summary_json_text(summary));
+  if (format == "csv" && summary.unfinished) fmt::print(stderr, "{}\n", unfinished_sentence(summary));
+  if (format == "csv") fmt::print("{}", summary_csv(summary));
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Command summary_command() {
+  return {{"summary",
+           "FILE",
+           1,
+           1,
+           {{"format", "FORMAT", "table (default), json or csv"},
+            {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"}}},
+          "print the statistics of a results file",
+          summary_help,
+          summarise_file};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,147 @@
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/trial/trial.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
+#include "experiments/yaml/text_file.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
+#include "results/storage/output_file.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/output_place.hpp"
+#include "runners/commands/commands.hpp"
+#include "runners/commands/replay.hpp"
+#include "runners/commands/trace_writer.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr const char* trace_help =
+    "Runs one trial again and writes it sample by sample. From a results file the trial is\n"
+    "rebuilt from the manifest that the file holds; where its inputs, outcome or jerks are\n"
+    "not the recorded ones, the differences are listed and the exit code is 4.\n"
+    "\n"
+    "Columns: k, t (s), target, count, coarse_count, error (counts), code, torque (N m),\n"
+    "theta (rad), omega (rad/s), xp, xh (rad), depth (reversal points), mode (stick or\n"
+    "slide); values at the sampling instant, code and torque those decided there. Only where\n"
+    "the study uses them: reference (counts, that the control follows), phase (fine or\n"
+    "coarse), drive_torque (N m, of the motor; where it is not the code's, but for a delay of\n"
+    "a closed loop). A trial that is stopped early ends there. On a linear axis read N for N m\n"
+    "and m for rad.\n"
+    "\n"
+    "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
+
+/// Whether `path` is a results file, by its signature, or by its name where the signature may be damaged.
+bool is_results_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  char signature[8] = {};
+  file.read(signature, sizeof signature);
+  const bool signed_as_hdf5 = std::string_view(signature, 8) == std::string_view("\x89HDF\r\n\x1a\n", 8);
+  return signed_as_hdf5 || (file.gcount() > 0 && std::filesystem::path(path).extension() == ".h5");
+}
+
+std::int64_t trial_option(const Arguments& arguments, const Study& study) {
+  const std::int64_t value = arguments.whole_number("trial", 0, std::int64_t{1} << 53).value_or(0);
+  if (value >= study.trials) {
+    arguments.refuse(fmt::format("option '--trial': {} is too high; '{}' has 0 to {}", value, study.name,
+                                 study.trials - 1));
+  }
+  return value;
+}
+
+/// Runs the trial and writes its samples; what else is kept of it is returned.
+TrialResult write_trace(const TraceSubject& subject, const TraceWriter::Sink& sink, bool json) {
+  TraceWriter writer(sink, json);
+  writer.begin(subject);
+  TrialObservers observers;
+  observers.sample = [&](const SampleRecord& record) { writer.write(record); };
+  TrialResult result;
+  observers.jerk = [&](const Jerk& jerk) { result.jerks.push_back(jerk); };
+  result.row = subject.point * subject.study.trials + subject.index;
+  result.inputs = subject.trial.inputs;
+  result.outcome = run_trial(subject.trial.parameters, observers);
+  writer.end(result.outcome);
+  return result;
+}
+
+/// Writes the trace to a file that has its name only when it is whole.
+TrialResult write_trace_file(const TraceSubject& subject, const std::filesystem::path& path, bool json) {
+  OutputFile file(path);
+  TrialResult result = write_trace(
+      subject, [&file](std::string_view text) { file.write(text); }, json);
+  file.finish();
+  file.publish();
+  return result;
+}
+
+void print_text(std::string_view text) {
+  fmt::print("{}", text);
+}
+
+TrialResult recorded_trial(const StudyFile& file, RowRange row) {
+  TrialResult result;
+  result.row = row.first;
+  result.inputs = file.inputs_of(row.first);
+  result.outcome.moves = file.outcomes(row);
+  for (const JerkRecord& jerk : file.jerks(row)) result.jerks.push_back(jerk);
+  return result;
+}
+
+ExitCode trace(const Arguments& arguments) {
+  const std::string input = arguments.operands()[0];
+  const std::optional<std::filesystem::path> output = text_place(arguments, "output");
+  if (output) require_places(arguments, {input}, {*output});
+  const bool json = arguments.one_of("format", {"csv", "json"}) == "json";
+  std::optional<StudyFile> file;
+  if (is_results_file(input)) file.emplace(input, Require::any_part);
+  if (file && arguments.has("set"))
+    arguments.refuse("option '--set' goes with a manifest, not with a results file");
+
+  const Study study =
+      file ? recorded_study(file->header(), input) : load_study(input, arguments.values("set"));
+  const std::int64_t point = point_option(arguments, study.point_labels).value_or(0);
+  const std::int64_t index = trial_option(arguments, study);
+  const RowRange row{point * study.trials + index, 1};
+  if (file && (row.first < file->rows().first || row.end() > file->rows().end())) {
+    arguments.refuse(fmt::format("{} is a part of the study and does not hold that trial", input));
+  }
+  const StudyTrial trial = study_trial(study, point, index);
+  const TraceSubject subject{study, point, index, trial};
+  const TrialResult replayed = output && !is_standard_stream(*output)
+                                   ? write_trace_file(subject, *output, json)
+                                   : write_trace(subject, print_text, json);
+  if (!file) return ExitCode::success;
+
+  const std::vector<std::string> different = differences(study.input_columns, recorded_trial(*file, row),
+                                                         replayed, file->measures(), file->header().version);
+  if (different.empty()) return ExitCode::success;
+  std::string message =
+      fmt::format("{}: point {}, trial {}: the replay is not the recorded trial", input, point, index);
+  for (const std::string& line : different) message += "\n  " + line;
+  throw Failure(ExitCode::bad_data, message);
+}
+
+}  // namespace
+
+Command trace_command() {
+  return {{"trace",
+           "MANIFEST|FILE",
+           1,
+           1,
+           {{"point", "P", "design point, by label or number from 0 (default 0)"},
+            {"trial", "I", "trial of the point, from 0 (default 0)"},
+            {"format", "FORMAT", "csv (default) or json"},
+            {"output,o", "FILE", "write there instead of to standard output"},
+            force_option(),
+            {"set", "KEY=VALUE", "override a manifest key; may be repeated", true}}},
+          "run one trial again, sample by sample",
+          trace_help,
+          trace};
+}
+
+}  // namespace zerocount

@@ -1,0 +1,108 @@
+#include "runners/commands/trace_writer.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <variant>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "results/layout/layout.hpp"
+#include "results/reading/csv.hpp"
+
+namespace zerocount {
+namespace {
+
+std::vector<RecordField<TraceRecord>> columns_of(const TraceExtras& extras) {
+  std::vector<RecordField<TraceRecord>> columns = trace_fields(extras);
+  std::erase_if(columns, [](const RecordField<TraceRecord>& field) { return field.column.name == "trial"; });
+  return columns;
+}
+
+std::string value_text(const RecordField<TraceRecord>& field, const TraceRecord& record, bool json) {
+  const auto text = [&](auto member) -> std::string {
+    const auto value = record.*member;
+    using Value = std::remove_const_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, double>) {
+      return json && !std::isfinite(value) ? "null" : number_text(value);
+    } else if constexpr (std::is_enum_v<Value>) {
+      const std::string word = word_of(field.column, static_cast<std::int64_t>(value));
+      return json ? '"' + word + '"' : word;
+    } else {
+      return std::to_string(value);
+    }
+  };
+  return std::visit(text, field.member);
+}
+
+nlohmann::ordered_json outcome_json(const MoveOutcome& outcome,
+                                    const std::vector<RecordField<MoveOutcome>>& measures) {
+  nlohmann::ordered_json object;
+  for (const RecordField<MoveOutcome>& field : measures) {
+    const auto put = [&](auto member) {
+      const auto value = outcome.*member;
+      using Value = std::remove_const_t<decltype(value)>;
+      if constexpr (std::is_same_v<Value, double>) {
+        object[field.column.name] =
+            std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+      } else if constexpr (std::is_enum_v<Value>) {
+        object[field.column.name] = word_of(field.column, static_cast<std::int64_t>(value));
+      } else {
+        object[field.column.name] = value;
+      }
+    };
+    std::visit(put, field.member);
+  }
+  return object;
+}
+
+}  // namespace
+
+void TraceWriter::begin(const TraceSubject& subject) {
+  columns_ = columns_of(subject.study.trace_extras);
+  measures_ = outcome_fields(format_version, subject.study.outcome_extras);
+  if (json_) {
+    nlohmann::ordered_json inputs = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < subject.trial.inputs.size(); ++i) {
+      inputs[subject.study.input_columns[i].name] = subject.trial.inputs[i];
+    }
+    const std::string rig =
+        subject.study.rigs > 0 ? fmt::format(", \"rig\": {}", rig_of(subject.study, subject.index)) : "";
+    sink_(fmt::format("{{\"name\": {}, \"point\": {}, \"trial\": {}{},\n \"inputs\": {},\n \"samples\": [",
+                      nlohmann::json(subject.study.name).dump(), subject.point, subject.index, rig,
+                      inputs.dump()));
+    return;
+  }
+  std::string header;
+  for (const RecordField<TraceRecord>& field : columns_) {
+    header += (header.empty() ? "" : ",") + field.column.name;
+  }
+  sink_(header + "\n");
+}
+
+void TraceWriter::write(const SampleRecord& sample) {
+  const TraceRecord record{sample, 0};
+  std::string line;
+  for (const RecordField<TraceRecord>& field : columns_) {
+    if (!line.empty()) line += json_ ? ", " : ",";
+    if (json_) line += fmt::format("\"{}\": ", field.column.name);
+    line += value_text(field, record, json_);
+  }
+  if (json_) {
+    sink_(fmt::format("{}\n  {{{}}}", first_ ? "" : ",", line));
+  } else {
+    sink_(line + "\n");
+  }
+  first_ = false;
+}
+
+void TraceWriter::end(const TrialOutcome& outcome) {
+  if (!json_) return;
+  nlohmann::ordered_json moves = nlohmann::ordered_json::array();
+  for (const MoveOutcome& move : outcome.moves) moves.push_back(outcome_json(move, measures_));
+  sink_(fmt::format("],\n \"outcome\": {}}}\n", moves.dump()));
+}
+
+}  // namespace zerocount

@@ -1,0 +1,78 @@
+#include "runners/study_run/earlier_shards.hpp"
+
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+#include "results/reading/study_file.hpp"
+#include "runners/study_run/study_differences.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Ending of the name of a damaged shard that was set aside.
+constexpr const char* set_aside = ".damaged";
+
+/// What differs in its study, as far as that can be read; otherwise the problem as it was found.
+std::string why_foreign(const ShardProblem& bad, const Study& study) {
+  try {
+    const FileHeader header = StudyFile(bad.path, Require::any_part).header();
+    const std::vector<ManifestDifference> differences = study_differences(bad.path, header, study);
+    return differences.empty() ? bad.problem : differences_text(differences);
+  } catch (const Failure&) {
+    return bad.problem;
+  }
+}
+
+}  // namespace
+
+EarlierShards choose_shards(const std::vector<ShardInfo>& sound, RowRange wanted) {
+  EarlierShards shards;
+  std::int64_t covered = wanted.first;
+  for (const ShardInfo& shard : sound) {
+    shards.all.push_back(shard.path);
+    if (shard.rows.first < covered || shard.rows.end() > wanted.end()) continue;
+    covered = shard.rows.end();
+    shards.usable.push_back(shard);
+  }
+  return shards;
+}
+
+EarlierShards earlier_shards(const fs::path& directory, const Study& study, RowRange wanted,
+                             ForeignShards foreign) {
+  ShardSurvey survey = list_shards(directory, study);
+  for (const ShardProblem& bad : survey.problems) {
+    if (bad.kind == ShardProblem::Kind::foreign && foreign == ForeignShards::remove) {
+      std::error_code ignored;
+      fs::remove(bad.path, ignored);
+      continue;
+    }
+    if (bad.kind == ShardProblem::Kind::foreign) {
+      throw Failure(
+          ExitCode::bad_input,
+          fmt::format("{}: holds another unfinished run, which this one must not touch ({}); finish that run "
+                      "first, give another name with -o, or remove it with --force",
+                      directory.string(), why_foreign(bad, study)));
+    }
+    fs::path aside = bad.path;
+    aside += set_aside;
+    std::error_code error;
+    fs::rename(bad.path, aside, error);
+    fmt::print(stderr, "warning: {}; its trials are run again{}\n", bad.problem,
+               error ? "" : fmt::format(", and the file is kept as {}", aside.filename().string()));
+  }
+  remove_unfinished(survey);
+  return choose_shards(survey.shards, wanted);
+}
+
+void remove_shards(const fs::path& directory, const std::vector<fs::path>& shards) {
+  std::error_code error;
+  for (const fs::path& shard : shards) fs::remove(shard, error);
+  fs::remove(directory, error);
+}
+
+}  // namespace zerocount

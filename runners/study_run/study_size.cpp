@@ -1,0 +1,211 @@
+#include "runners/study_run/study_size.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/info.h>
+
+#include "core/failure/failure.hpp"
+#include "results/layout/layout.hpp"
+#include "results/shards/shard.hpp"
+#include "results/storage/durable_file.hpp"
+#include "runners/study_run/study_runner.hpp"
+#include "runners/study_run/trial_runner.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t max_sampled_trials = 512;
+constexpr double max_sampled_samples = 4e5;  // some hundredths of a second
+/// Without compression a trial takes this much more than its values: chunks, and copies of its columns.
+constexpr double storage_factor = 2.0;
+constexpr std::int64_t sampled_places = 8;
+
+/// A folder that is removed with what is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::error_code error;
+    std::string pattern = (fs::temp_directory_path(error) / "zerocount-XXXXXX").string();
+    if (error || ::mkdtemp(pattern.data()) == nullptr) fail_with(pattern, "make the folder", errno);
+    path_ = pattern;
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Trials from several places of the study, numbered from 0.
+std::vector<TrialResult> sampled_trials(const Study& study) {
+  const std::int64_t rows = trial_count(study);
+  const auto wanted = std::clamp(static_cast<std::int64_t>(max_sampled_samples / samples_per_trial(study)),
+                                 std::int64_t{1}, std::min(max_sampled_trials, rows));
+  const std::int64_t places = std::min(sampled_places, wanted);
+  TrialRunner runner(study);
+  std::vector<TrialResult> trials;
+  for (std::int64_t place = 0; place < places; ++place) {
+    const std::int64_t first = rows / places * place;
+    std::vector<TrialResult> here = runner.run({first, wanted / places});
+    trials.insert(trials.end(), std::make_move_iterator(here.begin()), std::make_move_iterator(here.end()));
+  }
+  for (std::size_t i = 0; i < trials.size(); ++i) trials[i].row = static_cast<std::int64_t>(i);
+  return trials;
+}
+
+/// Bytes of a shard of these trials.
+double shard_size(const TemporaryFolder& folder, const Study& study, std::span<const TrialResult> trials,
+                  Compression compression) {
+  const fs::path path = folder.path() / "sample.h5";
+  write_shard(path, study, 0, trials, current_provenance(), compression);
+  return static_cast<double>(fs::file_size(path));
+}
+
+/// Bytes of something that grows with the number of trials.
+struct Growth {
+  double fixed{0.0};
+  double per_trial{0.0};
+};
+
+Growth growth_of(const TemporaryFolder& folder, const Study& study, std::span<const TrialResult> trials,
+                 Compression compression) {
+  const double all = shard_size(folder, study, trials, compression);
+  if (trials.size() < 2) return {0.0, all};
+  const double one = shard_size(folder, study, trials.first(1), compression);
+  const double per_trial = (all - one) / static_cast<double>(trials.size() - 1);
+  return {one - per_trial, per_trial};
+}
+
+/// Up to eight trials with their records, numbered from 0.
+std::vector<TrialResult> sampled_records(const Study& study) {
+  constexpr std::int64_t max_records = 8;
+  const auto retained = std::ssize(study.retained_trials);
+  std::vector<TrialResult> trials;
+  for (std::int64_t i = 0; i < std::min(retained, max_records); ++i) {
+    trials.push_back(run_study_trial(study, study.retained_trials[static_cast<std::size_t>(i)]));
+    trials.back().row = i;
+  }
+  return trials;
+}
+
+/// Bytes of the records of all retained trials. What a table takes however short it is does not count.
+double record_bytes(const TemporaryFolder& folder, const Study& study, std::vector<TrialResult> sampled,
+                    Compression compression) {
+  if (sampled.empty()) return 0.0;
+  const double with = shard_size(folder, study, sampled, compression);
+  const auto count = static_cast<double>(sampled.size());
+  for (std::size_t i = sampled.size() > 1 ? 1 : 0; i < sampled.size(); ++i) sampled[i].trace.clear();
+  const double without = shard_size(folder, study, sampled, compression);
+  const double per_record = (with - without) / (count > 1.0 ? count - 1.0 : 1.0);
+  return per_record * static_cast<double>(std::ssize(study.retained_trials) * point_count(study));
+}
+
+/// Bytes of what stands in the results file beside its trials.
+double table_bytes(const Study& study) {
+  constexpr double statistics = 400e3;  // some hundred columns with their descriptions, measured
+  constexpr double statistics_of_point = 1600.0;
+  double profiles = 0.0;
+  for (const RealisedProfile& profile : study.profiles) {
+    const std::int64_t values =
+        profile.of_rig ? study.rigs * profile_angles_of_rig(profile.profile->cosine.size(), study.rigs)
+                       : profile_angles;
+    profiles += 8.0 * static_cast<double>(values);
+  }
+  return statistics + statistics_of_point * static_cast<double>(point_count(study)) + profiles;
+}
+
+/// More than the files of a study take, without writing any.
+double file_bytes_at_most(const Study& study) {
+  double bytes_of_trial = 0.0;
+  const std::vector<TrialResult> trials = sampled_trials(study);
+  for (const TrialResult& trial : trials)
+    bytes_of_trial += static_cast<double>(bytes_of(trial)) / static_cast<double>(trials.size());
+  const double records = static_cast<double>(std::ssize(study.retained_trials) * point_count(study)) *
+                         samples_per_trial(study) * static_cast<double>(sizeof(SampleRecord));
+  const double once = bytes_of_trial * static_cast<double>(trial_count(study)) + records + table_bytes(study);
+  return 2.0 * storage_factor * once;  // the shards, and the results file
+}
+
+/// None where the folder for temporary files has no room.
+std::optional<StudySize> measured_size(const Study& study) {
+  try {
+    return measure_size(study);
+  } catch (const Failure& failure) {
+    if (failure.code() != ExitCode::machine_failed) throw;
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+StudySize measure_size(const Study& study, int threads) {
+  const TemporaryFolder folder;
+  std::vector<TrialResult> trials = sampled_trials(study);
+  double bytes_of_trial = 0.0;
+  for (TrialResult& trial : trials) {
+    trial.trace.clear();
+    bytes_of_trial += static_cast<double>(bytes_of(trial)) / static_cast<double>(trials.size());
+  }
+  const Growth file = growth_of(folder, study, trials, Compression::deflate);
+  const Growth shards = growth_of(folder, study, trials, Compression::none);
+  const auto rows = static_cast<double>(trial_count(study));
+  const std::vector<TrialResult> records = sampled_records(study);
+  const double raw_records = record_bytes(folder, study, records, Compression::none);
+  StudySize size;
+  size.file_bytes = file.fixed + file.per_trial * rows + table_bytes(study) +
+                    record_bytes(folder, study, records, Compression::deflate);
+  size.shard_bytes = shards.fixed + shards.per_trial * rows + raw_records;
+  size.memory_bytes = peak_memory(study, bytes_of_trial, raw_records, threads);
+  return size;
+}
+
+void require_room(const fs::path& output, const Study& study, std::int64_t missing) {
+  const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
+  std::error_code error;
+  const fs::space_info space = fs::space(folder, error);
+  if (error) return;  // not known: a write that fails is found out
+  const auto available = static_cast<double>(space.available);
+  if (file_bytes_at_most(study) < available) return;
+  const std::optional<StudySize> size = measured_size(study);
+  if (!size) return;
+  const double shards =
+      size->shard_bytes * static_cast<double>(missing) / static_cast<double>(trial_count(study));
+  if (shards + size->file_bytes <= available) return;
+  throw Failure(
+      ExitCode::machine_failed,
+      fmt::format(
+          "{}: the disk has {} free, and the run needs about {} there ({} of shards while it runs, {} "
+          "for the results file); --force tries it all the same",
+          folder.string(), bytes_text(available), bytes_text(shards + size->file_bytes), bytes_text(shards),
+          bytes_text(size->file_bytes)));
+}
+
+std::string bytes_text(double bytes) {
+  constexpr std::array<const char*, 5> units{"B", "kB", "MB", "GB", "TB"};
+  std::size_t unit = 0;
+  while (bytes >= 999.5 && unit + 1 < units.size()) {
+    bytes /= 1000.0;
+    ++unit;
+  }
+  return fmt::format("{:.{}f} {}", bytes, bytes < 9.95 && unit > 0 ? 1 : 0, units[unit]);
+}
+
+}  // namespace zerocount

@@ -1,0 +1,64 @@
+#include "tests/analysis/iso230/sequence_studies.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "analysis/summary/study_statistics.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "results/shards/merge.hpp"
+
+namespace zerocount::testing {
+
+Study sequence_study(const std::string& sequence, std::int64_t trials) {
+  return parse_study(
+      fmt::format("zerocount: 1\n"
+                  "name: back and forth\n"
+                  "seed: 230\n"
+                  "trials: {}\n"
+                  "command:\n"
+                  "  sequence: {{targets: [-30, {{integers: [-3, 3]}}, 700], overrun: 10, {}}}\n"
+                  "  hold: 0.1\n"
+                  "initial: {{encoder_phase: {{uniform: [0, 1]}}}}\n"
+                  "sweep: {{cases: {{fine: {{encoder.fine: 1620000}},\n"
+                  "                 \"rough, wide\": {{encoder.fine: 810000}}}}}}\n",
+                  trials, sequence),
+      "test");
+}
+
+std::vector<TrialResult> sequence_results(const Study& study) {
+  std::mt19937_64 random(14);
+  std::normal_distribution<double> normal(0.0, 1.5);
+  std::vector<TrialResult> results;
+  for (std::int64_t row = 0; row < trial_count(study); ++row) {
+    const StudyTrial trial = study_trial(study, row / study.trials, row % study.trials);
+    const TrialParameters& p = trial.parameters;
+    const double resolution = 2.0 * std::numbers::pi / p.encoder.fine;
+    const bool exact = row % 7 == 0;
+    TrialResult& result = results.emplace_back();
+    result.row = row;
+    result.inputs = trial.inputs;
+    for (const std::int64_t target : p.command.targets) {
+      MoveOutcome& move = result.outcome.moves.emplace_back();
+      const double counts = static_cast<double>(target) + 0.5 + (exact ? 0.0 : normal(random));
+      move.outcome = Outcome::zero_count;
+      move.final_position = (counts - p.initial.encoder_phase) * resolution;
+      move.final_error = target - static_cast<std::int64_t>(std::floor(counts));
+    }
+  }
+  return results;
+}
+
+void write_sequence_file(const std::filesystem::path& path, const Study& study,
+                         const std::vector<TrialResult>& results) {
+  const std::filesystem::path shard = path.string() + ".shard.h5";
+  write_shard(shard, study, 0, results);
+  const RowRange rows{0, static_cast<std::int64_t>(results.size())};
+  merge_shards(std::vector<ShardInfo>{{shard, rows}}, study, path, rows,
+               [&study](const StudyFile& file) { return stored_statistics(file, study); });
+}
+
+}  // namespace zerocount::testing

@@ -1,0 +1,108 @@
+#include "analysis/statistics/sample_size.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "analysis/statistics/proportion.hpp"
+#include "core/failure/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+TEST(SampleSize, OfWilkssTables) {
+  const std::int64_t of_95[] = {59, 93, 124, 153, 181};
+  const std::int64_t of_99[] = {299, 473, 628, 773, 913};
+  for (std::int64_t failures = 0; failures < 5; ++failures) {
+    EXPECT_EQ(trials_for_claim(0.95, 0.95, failures), of_95[failures]);
+    EXPECT_EQ(trials_for_claim(0.99, 0.95, failures), of_99[failures]);
+  }
+  EXPECT_EQ(trials_for_claim(0.999, 0.95, 0), 2995);
+  EXPECT_EQ(trials_for_claim(0.5, 0.5, 0), 1);
+}
+
+TEST(SampleSize, WithoutFailuresHasItsClosedForm) {
+  for (const double success : {0.3, 0.9, 0.999, 0.999999}) {
+    for (const double confidence : {0.5, 0.9, 0.999})
+      EXPECT_EQ(trials_for_claim(success, confidence, 0),
+                static_cast<std::int64_t>(std::ceil(std::log(1.0 - confidence) / std::log(success) - 1e-9)));
+  }
+}
+
+TEST(SampleSize, IsTheLeastWithWhichTheClaimIsMade) {
+  for (const double success : {0.8, 0.99, 0.9995}) {
+    for (const std::int64_t failures : {0, 1, 4, 30}) {
+      const std::int64_t n = trials_for_claim(success, 0.95, failures);
+      EXPECT_GE(proportion_at_least(n - failures, n, 0.95), success);
+      EXPECT_LT(proportion_at_least(n - 1 - failures, n - 1, 0.95), success);
+    }
+  }
+}
+
+TEST(SampleSize, ChanceIsHowOftenTheClaimIsMade) {
+  std::mt19937_64 random(97);
+  constexpr int rounds = 4000;
+  for (const std::int64_t failures : {0, 3}) {
+    const std::int64_t n = trials_for_claim(0.97, 0.9, failures);
+    std::binomial_distribution<std::int64_t> failing(n, 0.01);
+    int made = 0;
+    for (int round = 0; round < rounds; ++round) {
+      const std::int64_t successes = n - failing(random);
+      made += proportion_at_least(successes, n, 0.9) >= 0.97;
+    }
+    const double chance = chance_of_claim(n, failures, 0.99);
+    EXPECT_NEAR(made, chance * rounds, 4.0 * std::sqrt(rounds * chance * (1.0 - chance)));
+  }
+  EXPECT_EQ(chance_of_claim(5, 5, 0.1), 1.0);
+}
+
+TEST(SampleSize, AClaimThatIsNotTrueIsMadeNoMoreOftenThanItsConfidenceAllows) {
+  for (const double success : {0.9, 0.999}) {
+    for (const std::int64_t failures : {0, 2, 10})
+      EXPECT_LE(chance_of_claim(trials_for_claim(success, 0.95, failures), failures, success), 0.05);
+  }
+}
+
+TEST(SampleSize, PlanWithPowerIsTheFirstThatHasIt) {
+  for (const double power : {0.05, 0.5, 0.9}) {
+    const ClaimPlan plan = plan_with_power(0.98, 0.95, 0.99, power);
+    EXPECT_EQ(plan.trials, trials_for_claim(0.98, 0.95, plan.failures));
+    EXPECT_GE(chance_of_claim(plan.trials, plan.failures, 0.99), power);
+    for (std::int64_t fewer = 0; fewer < plan.failures; ++fewer)
+      EXPECT_LT(chance_of_claim(trials_for_claim(0.98, 0.95, fewer), fewer, 0.99), power);
+  }
+}
+
+TEST(SampleSize, HalfwidthHoldsForTheIntervalOfSoManyTrials) {
+  for (const double rate : {0.5, 0.9}) {
+    for (const double halfwidth : {0.1, 0.01}) {
+      const std::int64_t n = trials_for_halfwidth(halfwidth, 0.95, rate);
+      for (const auto& [trials, shorter] : {std::pair{n, true}, {9 * n / 10, false}}) {
+        const ConfidenceInterval bounds =
+            clopper_pearson(std::llround(rate * static_cast<double>(trials)), trials);
+        const double found = 0.5 * (bounds.high - bounds.low);
+        EXPECT_EQ(found <= halfwidth * 1.01, shorter) << found << " with " << trials << " for " << halfwidth;
+      }
+    }
+  }
+  // One half is the worst case: no outcome has a longer interval.
+  const std::int64_t n = trials_for_halfwidth(0.05, 0.95, 0.5);
+  for (std::int64_t k = 0; k <= n; ++k) {
+    const ConfidenceInterval bounds = clopper_pearson(k, n);
+    EXPECT_LE(0.5 * (bounds.high - bounds.low), 0.05 + 1e-6);
+  }
+}
+
+TEST(SampleSize, WhatNoNumberOfTrialsCanShowIsRefused) {
+  EXPECT_THROW(plan_with_power(0.99, 0.95, 0.99, 0.8), Failure);
+  EXPECT_THROW(plan_with_power(0.99, 0.95, 0.98, 0.8), Failure);
+  EXPECT_THROW(trials_for_claim(1.0, 0.95, 0), Failure);
+  EXPECT_THROW(trials_for_claim(0.9, 0.95, -1), Failure);
+  EXPECT_THROW(trials_for_claim(1.0 - 1e-14, 0.95, 0), Failure);  // more than 10¹² trials
+  EXPECT_THROW(trials_for_halfwidth(0.5, 0.95, 0.5), Failure);
+  EXPECT_THROW(trials_for_halfwidth(0.1, 1.0, 0.5), Failure);
+}
+
+}  // namespace
+}  // namespace zerocount

@@ -1,0 +1,436 @@
+#include "analysis/summary/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "analysis/measures/point_accumulator.hpp"
+#include "analysis/measures/point_columns.hpp"
+#include "analysis/measures/statistic_fields.hpp"
+#include "core/failure/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+/// Statistics of `zero` trials that succeed at random times with jerks and `lost` that never arrive.
+PointSummary point_of(int zero, int lost) {
+  std::mt19937_64 random(51);
+  PointAccumulator point;
+  for (int i = 0; i < zero; ++i) {
+    MoveOutcome move;
+    move.outcome = Outcome::zero_count;
+    move.arrived = move.stable = true;
+    move.settling_time = static_cast<double>(random() % 400) / 2000.0;
+    move.holding_torque = 0.013 + 1e-5 * static_cast<double>(random() % 1000);
+    move.jerk_count = 2;
+    const double onset = static_cast<double>(random() % 1000) / 2000.0;
+    point.add({{move}}, std::vector<Jerk>{{0, onset, 0.001, 1, 1}, {0, onset + 0.1, 0.001, 1, -1}});
+  }
+  for (int i = 0; i < lost; ++i) {
+    MoveOutcome move;
+    move.outcome = Outcome::oscillating;
+    point.add({{move}}, {});
+  }
+  return point.statistics();
+}
+
+StudySummary two_cases() {
+  StudySummary summary;
+  summary.name = "paper-gains";
+  summary.labels = {"low gain", "high, gain"};
+  summary.axes.push_back({"case", "", "case of the sweep", SweepAxis::Kind::text, {}, {"a", "b"}});
+  summary.axes.push_back(
+      {"controller.ki", "N m/count", "integral gain", SweepAxis::Kind::number, {3.85e-5, std::nan("")}, {}});
+  summary.observed = {{"low gain", "stable in all tests"}};
+  summary.points = {point_of(40, 0), point_of(0, 7)};
+  summary.predictions = {{40, 40, 0}, {7, 1, 2}};
+  return summary;
+}
+
+bool same_double(double a, double b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(SummaryJson, HasTheKeysOfTheContract) {
+  const auto json = nlohmann::json::parse(summary_json_text(two_cases()));
+  EXPECT_EQ(json["name"], "paper-gains");
+  ASSERT_EQ(json["points"].size(), 2U);
+  const auto& point = json["points"][0];
+  for (const char* count :
+       {"point", "trials", "zero_count", "one_count", "oscillating", "nonfinite", "stable", "broke_away"}) {
+    ASSERT_TRUE(point.contains(count)) << count;
+    EXPECT_TRUE(point[count].is_number_integer()) << count;
+  }
+  for (const char* rate : {"success_rate", "success_rate_low", "success_rate_high", "jerk_agreement"}) {
+    ASSERT_TRUE(point.contains(rate)) << rate;
+    EXPECT_TRUE(point[rate].is_number_float()) << rate;
+  }
+  EXPECT_EQ(point["label"], "low gain");
+  EXPECT_EQ(point["axes"]["case"], "a");
+  EXPECT_EQ(point["axes"]["controller.ki"], 3.85e-5);
+  EXPECT_EQ(point["trials"], 40);
+  EXPECT_EQ(point["settling_time"]["n"], 40);
+  EXPECT_TRUE(point["settling_time"].contains("median"));
+  EXPECT_TRUE(point["settling_time"].contains("p95"));
+  EXPECT_EQ(point["jerk_count"]["mean"], 2.0);
+  EXPECT_EQ(point["jerk_agreement"], 0.5);
+  EXPECT_EQ(point["success_rate"], 1.0);
+  EXPECT_NEAR(point["success_rate_low"].get<double>(), std::pow(0.025, 1.0 / 40.0),
+              1e-12);  // Clopper–Pearson
+  EXPECT_EQ(point["success_rate_high"], 1.0);
+  EXPECT_EQ(point["moves"].size(), 1U);
+  EXPECT_EQ(point["observed"], "stable in all tests");
+  EXPECT_EQ(point["prediction"]["verdict"], "stable");
+}
+
+TEST(SummaryJson, CountsOfAMoveHaveTheNamesOfThoseOfTheTrials) {
+  const nlohmann::ordered_json json = summary_json(two_cases());
+  for (const auto& point : json["points"]) {
+    const auto& move = point["moves"][0];
+    EXPECT_EQ(move.size(), 10U);
+    for (const auto& [name, count] : move.items())
+      EXPECT_EQ(count, point[name]) << name;  // trials of one move
+  }
+}
+
+TEST(SummaryJson, WhatIsNotDefinedIsNull) {
+  const auto json = nlohmann::json::parse(summary_json_text(two_cases()));
+  const auto& lost = json["points"][1];
+  EXPECT_EQ(lost["success_rate"], 0.0);
+  EXPECT_TRUE(lost["settling_time"]["median"].is_null());
+  EXPECT_TRUE(lost["jerk_agreement"].is_null());
+  EXPECT_TRUE(lost["axes"]["controller.ki"].is_null());
+  EXPECT_FALSE(lost.contains("observed"));
+  EXPECT_EQ(json["points"][0]["settling_time"]["p95_high"], nullptr);  // 40 trials are too few
+}
+
+TEST(SummaryJson, NumbersReadBackToTheSameDouble) {
+  const StudySummary summary = two_cases();
+  const auto json = nlohmann::json::parse(summary_json_text(summary));
+  for (std::size_t i = 0; i < summary.points.size(); ++i) {
+    for (const StatisticField& field : statistic_fields()) {
+      const auto& place =
+          field.group.empty() ? json["points"][i] : json["points"][i][std::string(field.group)];
+      const auto& written = place[std::string(field.name)];
+      const double value = field.value(summary.points[i]);
+      if (std::isnan(value)) {
+        EXPECT_TRUE(written.is_null()) << flat_name(field);
+      } else {
+        EXPECT_TRUE(same_double(written.get<double>(), value)) << flat_name(field);
+      }
+    }
+  }
+}
+
+TEST(SummaryJson, TextThatIsNotUtf8DoesNotStopIt) {
+  StudySummary summary = two_cases();
+  summary.labels[0] = "bad \xFF byte";
+  EXPECT_EQ(nlohmann::json::parse(summary_json_text(summary))["points"][0]["label"], "bad \uFFFD byte");
+}
+
+TEST(SummaryCsv, HasALinePerPointAndReadsBackToTheSameDoubles) {
+  const StudySummary summary = two_cases();
+  const std::vector<std::string> lines = lines_of(summary_csv(summary));
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[0].rfind("point,label,case,controller.ki,trials,zero_count,", 0), 0U);
+  EXPECT_EQ(lines[2].rfind("1,\"high, gain\",b,nan,7,0,0,0,7,0,", 0), 0U);
+
+  std::istringstream row(lines[1]);
+  std::string cell;
+  for (int skipped = 0; skipped < 4; ++skipped) std::getline(row, cell, ',');
+  for (const StatisticField& field : statistic_fields()) {
+    ASSERT_TRUE(std::getline(row, cell, ','));
+    const double value = field.value(summary.points[0]);
+    if (std::isnan(value)) {
+      EXPECT_EQ(cell, "nan") << flat_name(field);
+    } else {
+      EXPECT_TRUE(same_double(std::stod(cell), value)) << flat_name(field) << ": " << cell;
+    }
+  }
+  EXPECT_EQ(lines[1].substr(lines[1].size() - 30), "1,0,stable,stable in all tests");
+}
+
+TEST(SummaryTable, HasARowPerPointWithItsRateItsBoundsAndWhatIsKnownOfIt) {
+  const std::vector<std::string> lines = lines_of(summary_table(two_cases()));
+  ASSERT_GE(lines.size(), 6U);
+  EXPECT_EQ(lines[0], "paper-gains");
+  for (const char* part : {"low gain", "40", "100 %", "[91.2, 100.0]", "stable in all tests"}) {
+    EXPECT_NE(lines[4].find(part), std::string::npos) << part << " in: " << lines[4];
+  }
+  for (const char* part : {"high, gain", "7", "0 %", "[0.0, 41.0]", "> hold", "14.3 %", "28.6 %"}) {
+    EXPECT_NE(lines[5].find(part), std::string::npos) << part << " in: " << lines[5];
+  }
+}
+
+TEST(SummaryTable, SaysWhatIsNotReachedWithinTheHold) {
+  StudySummary summary = two_cases();
+  summary.points[1].hold = 1.0;
+  EXPECT_NE(lines_of(summary_table(summary))[5].find("> 1 s"), std::string::npos);
+}
+
+TEST(SummaryTable, NamesTheDesignAndWhatItMeansForTheBounds) {
+  StudySummary summary = two_cases();
+  EXPECT_NE(summary_table(summary).find("\ndesign: monte_carlo\n"), std::string::npos);
+  EXPECT_EQ(summary_json(summary)["conservative_bounds"], false);
+  summary.design = "sobol";
+  summary.features.spread_trials = true;
+  EXPECT_NE(summary_table(summary).find("\ndesign: sobol: bounds are conservative"), std::string::npos);
+  EXPECT_EQ(summary_json(summary)["conservative_bounds"], true);
+  EXPECT_EQ(summary_json(summary)["design"], "sobol");
+}
+
+TEST(SummaryTable, HasRigsWhereTrialsShareThem) {
+  StudySummary summary = two_cases();
+  EXPECT_FALSE(summary_json(summary)["points"][0].contains("rigs"));
+  summary.features.rigs = true;
+  summary.points[0].rigs.n = 40;
+  summary.points[0].rigs.without_failure = 0.5;
+  const std::string table = summary_table(summary);
+  EXPECT_NE(table.find("rigs w/o failure"), std::string::npos);
+  EXPECT_NE(table.find("50.0 %"), std::string::npos) << table;
+  EXPECT_NE(table.find("design: monte_carlo, 40 rigs: bounds are of all rigs"), std::string::npos) << table;
+  const auto rigs = summary_json(summary)["points"][0]["rigs"];
+  std::vector<std::string> names;
+  for (const auto& [name, value] : rigs.items()) names.push_back(name);
+  EXPECT_EQ(names, (std::vector<std::string>{"n", "success_sd", "without_failure", "without_failure_low",
+                                             "without_failure_high", "worst_5_percent"}));
+}
+
+TEST(SummaryTable, ShowsTheSweptValuesOfCasesBesideTheirNames) {
+  const std::vector<std::string> lines = lines_of(summary_table(two_cases()));
+  EXPECT_EQ(lines[2].rfind("point       ki (N m/count)  trials", 0), 0U) << lines[2];
+  EXPECT_EQ(lines[4].rfind("low gain          3.85e-05", 0), 0U) << lines[4];
+  EXPECT_EQ(lines[5].rfind("high, gain          random", 0), 0U) << lines[5];
+}
+
+TEST(SummaryTable, ShowsTheValuesOfAGridInPlaceOfItsLabels) {
+  StudySummary summary = two_cases();
+  summary.labels = {"a, controller.kp=0, controller.coarse.kp=1",
+                    "a, controller.kp=0.5, controller.coarse.kp=1"};
+  summary.axes[0].texts = {"a", "a"};
+  summary.axes[1] = {"controller.kp", "N m/count", "", SweepAxis::Kind::number, {0, 0.5}, {}};
+  summary.axes.push_back({"controller.coarse.kp", "N m/count", "", SweepAxis::Kind::number, {1, 1}, {}});
+  summary.axes.push_back({"command.targets.0", "count", "", SweepAxis::Kind::number, {7, 8}, {}});
+  const std::vector<std::string> lines = lines_of(summary_table(summary));
+  EXPECT_EQ(lines[2].rfind("point  case  kp (N m/count)  targets.0 (count)  trials", 0), 0U) << lines[2];
+  EXPECT_EQ(lines[5].rfind("    1  a                0.5                  8", 0), 0U) << lines[5];
+}
+
+TEST(SummaryTable, LeavesManySweptParametersToTheLabels) {
+  StudySummary summary = two_cases();
+  for (const char* name : {"dac.offset", "dac.noise", "dac.bits", "controller.kp"}) {
+    summary.axes.push_back({name, "1", "", SweepAxis::Kind::number, {0, 1}, {}});
+  }
+  EXPECT_EQ(lines_of(summary_table(summary))[2].rfind("point       trials", 0), 0U);
+}
+
+TEST(SummaryTable, NamesThePointsThatLostTrials) {
+  StudySummary summary = two_cases();
+  EXPECT_EQ(summary_table(summary).find("nonfinite"), std::string::npos);
+  summary.points[1].outcomes.nonfinite = 3;
+  EXPECT_NE(summary_table(summary).find("high, gain: 3 of 7 trials nonfinite"), std::string::npos);
+}
+
+TEST(SummaryTable, LeavesOutWhatNoPointHas) {
+  StudySummary summary = two_cases();
+  summary.observed.clear();
+  summary.predictions.clear();
+  const std::string table = summary_table(summary);
+  EXPECT_EQ(table.find("observed"), std::string::npos);
+  EXPECT_EQ(table.find("(6) holds"), std::string::npos);
+}
+
+TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {
+  StudySummary summary = two_cases();
+  const std::string plain = summary_table(summary);
+  for (const char* head : {"travel", "|e|", "|true e|", "phase changes", "disagreeing"}) {
+    EXPECT_EQ(plain.find(head), std::string::npos) << head;
+  }
+  summary.features = {.travel = true, .phases = true, .encoder_errors = true, .final_error = true};
+  summary.points[0].travel_time.mean = 0.25;
+  summary.points[0].phase_changes.total = 3 * 40;
+  summary.points[0].final_error.median.value = 17.0;
+  summary.points[0].final_error.p95.value = 29.0;
+  summary.points[0].encoder_disagreement.trials = 10;
+  summary.points[0].true_error.add(2.5);
+  summary.points[0].true_error.add(4.0);
+  const std::vector<std::string> lines = lines_of(summary_table(summary));
+  for (const char* head : {"travel (s)", "|e| median", "|e| p95", "phase changes", "|true e| mean",
+                           "|true e| max", "disagreeing"}) {
+    EXPECT_NE(lines[2].find(head), std::string::npos) << head;
+  }
+  for (const char* part : {" 0.25 ", " 17 ", " 29 ", " 3 ", " 3.25 ", " 4 ", " 25.0 % "}) {
+    EXPECT_NE(lines[4].find(part), std::string::npos) << part << " in: " << lines[4];
+  }
+}
+
+TEST(Summary, SaysThatTheBoundsOfASaltelliDesignAreTooNarrow) {
+  StudySummary summary = two_cases();
+  EXPECT_EQ(summary_table(summary).find("too narrow"), std::string::npos);
+  summary.features.dependent_trials = true;
+  EXPECT_NE(summary_table(summary).find("not independent: all bounds here are too narrow"),
+            std::string::npos);
+}
+
+TEST(Summary, SaysHowManyTrialsWereStoppedWhereAStudyCanStopThem) {
+  StudySummary summary = two_cases();
+  summary.points[1].stopped = summary.points[1].by_move[0].stopped = 5;
+  EXPECT_EQ(summary_table(summary).find("stopped"), std::string::npos);
+  EXPECT_EQ(summary_csv(summary).find("stopped"), std::string::npos);
+  EXPECT_EQ(summary_json_text(summary).find("stopped"), std::string::npos);
+  const std::size_t columns = point_columns(summary.points).size();
+
+  summary.features.stopping = true;
+  const std::vector<std::string> lines = lines_of(summary_table(summary));
+  EXPECT_NE(lines[2].find("stopped"), std::string::npos);
+  EXPECT_NE(lines[5].find(" 71.4 % "), std::string::npos) << lines[5];
+  EXPECT_NE(summary_table(summary).find("\nstopped: share of trials"), std::string::npos);
+  EXPECT_NE(summary_csv(summary).find("encoder_disagreement_max,stopped,predicted"), std::string::npos);
+  const auto json = nlohmann::json::parse(summary_json_text(summary));
+  EXPECT_EQ(json["points"][0]["stopped"], 0);
+  EXPECT_EQ(json["points"][1]["stopped"], 5);
+  EXPECT_EQ(json["points"][1]["moves"][0]["stopped"], 5);
+  const std::vector<PointColumn> stored = point_columns(summary.points, summary.features);
+  ASSERT_EQ(stored.size(), columns + 1);
+  EXPECT_EQ(stored.back().name, "stopped");
+  EXPECT_EQ(stored.back().values, (std::vector<double>{0, 5}));
+}
+
+TEST(SummaryTable, HasADashWhereTheCriteriaAreNotAboutAPoint) {
+  StudySummary summary = two_cases();
+  summary.predictions[1] = {7, 0, 0, 7};
+  const std::vector<std::string> lines = lines_of(summary_table(summary));
+  EXPECT_TRUE(lines[5].ends_with("–             –")) << lines[5];
+}
+
+/// Two points of three torque levels; the second lost its one trial in the second level.
+StudySummary load_and_unload() {
+  PointAccumulator sound({.open_loop = true}), lost({.open_loop = true});
+  for (int i = 0; i < 4; ++i) {
+    TrialOutcome trial;
+    for (const double torque : {0.1, 0.2, 0.0}) {
+      MoveOutcome move;
+      move.outcome = Outcome::open_loop;
+      move.holding_torque = torque;
+      move.final_position = 1e-3 * torque + 1e-6 * i;
+      move.creep = 1e-7;
+      move.reversal_depth = 2;
+      move.broke_away = torque == 0.2 && i == 0;
+      trial.moves.push_back(move);
+    }
+    sound.add(trial, {});
+    if (i == 0) {
+      trial.moves[1] = trial.moves[2] = MoveOutcome{};
+      lost.add(trial, {});
+    }
+  }
+  StudySummary summary;
+  summary.name = "loads";
+  summary.labels = {"sound", "lost"};
+  summary.points = {sound.statistics(), lost.statistics()};
+  summary.features.open_loop = true;
+  return summary;
+}
+
+TEST(SummaryOfLevels, TableHasARowPerPointAndLevel) {
+  const std::vector<std::string> lines = lines_of(summary_table(load_and_unload()));
+  ASSERT_GE(lines.size(), 10U);
+  EXPECT_EQ(lines[2].find("zero-count"), std::string::npos) << lines[2];
+  // By SciPy: mean 101.5, sd 1.291, t interval [99.446, 103.554] of 100 … 103.
+  EXPECT_EQ(
+      lines[4],
+      "sound      0           0.1       4            101.5   [99.4, 103.6]      1.291           0.1      "
+      "2         0 %");
+  EXPECT_NE(lines[5].find("25.0 %"), std::string::npos) << lines[5];
+  EXPECT_NE(lines[6].find("[-0.6, 3.6]"), std::string::npos) << lines[6];
+  EXPECT_NE(lines[7].find("100               –          –"), std::string::npos) << lines[7];
+  EXPECT_TRUE(lines[8].ends_with("–           –")) << lines[8];
+  EXPECT_EQ(lines[10],
+            "lost: 1 of 1 trials nonfinite: the motion left the finite numbers or could not be followed");
+}
+
+TEST(SummaryOfLevels, JsonHasThemInThePoint) {
+  const auto json = nlohmann::json::parse(summary_json_text(load_and_unload()));
+  const auto& point = json["points"][0];
+  EXPECT_TRUE(point["success_rate"].is_null());
+  EXPECT_TRUE(point["success_rate_low"].is_null() && point["success_rate_high"].is_null());
+  EXPECT_EQ(point["open_loop"], 4);
+  EXPECT_EQ(point["zero_count"], 0);
+  ASSERT_EQ(point["levels"].size(), 3U);
+  EXPECT_EQ(point["levels"][1]["level"], 1);
+  EXPECT_EQ(point["levels"][1]["n"], 4);
+  EXPECT_EQ(point["levels"][1]["broke_away"], 1);
+  EXPECT_EQ(point["levels"][1]["reversal_depth_max"], 2);
+  EXPECT_NEAR(point["levels"][1]["position"]["mean"].get<double>(), 201.5e-6, 1e-18);
+  EXPECT_NEAR(point["levels"][1]["position"]["low"].get<double>(), 199.4457397432391e-6, 1e-15);
+  EXPECT_TRUE(json["points"][1]["levels"][2]["position"]["mean"].is_null());
+  EXPECT_FALSE(nlohmann::json::parse(summary_json_text(two_cases()))["points"][0].contains("levels"));
+}
+
+TEST(SummaryOfLevels, CsvHasALinePerPointAndLevel) {
+  const std::vector<std::string> lines = lines_of(summary_csv(load_and_unload()));
+  ASSERT_EQ(lines.size(), 7U);
+  EXPECT_EQ(lines[0].rfind("point,label,level,n,nonfinite,torque,position_mean,position_low,", 0), 0U)
+      << lines[0];
+  EXPECT_EQ(lines[2].rfind("0,sound,1,4,0,0.2,", 0), 0U) << lines[2];
+  EXPECT_EQ(lines[6].rfind("1,lost,2,0,1,nan,nan,nan,nan,", 0), 0U) << lines[6];
+}
+
+TEST(SummarySections, FollowThePointsInEveryForm) {
+  StudySummary summary = two_cases();
+  summary.sections.push_back(
+      {"more", {{{"a", 1}}, {{"a", 2}}}, {{"more_a", "1", "a", {1.0, 2.0}}}, "more\n1 2\n"});
+  const auto json = nlohmann::json::parse(summary_json_text(summary));
+  EXPECT_EQ(json["points"][1]["more"]["a"], 2);
+  EXPECT_TRUE(summary_table(summary).ends_with("\n\nmore\n1 2\n"));
+  const std::vector<std::string> lines = lines_of(summary_csv(summary));
+  EXPECT_TRUE(lines[0].ends_with(",observed,more_a")) << lines[0];
+  EXPECT_TRUE(lines[2].ends_with(",2")) << lines[2];
+  summary.sections[0].columns[0].values.pop_back();
+  EXPECT_THROW(summary_csv(summary), Failure);
+}
+
+TEST(Summary, PartsOfDifferentLengthAreRefused) {
+  StudySummary summary = two_cases();
+  summary.axes[1].numbers.pop_back();
+  EXPECT_THROW(summary_json(summary), Failure);
+  EXPECT_THROW(summary_csv(summary), Failure);
+  EXPECT_THROW(summary_table(summary), Failure);
+}
+
+TEST(PointColumns, AreTheFieldsOfTheReportByPoint) {
+  const StudySummary summary = two_cases();
+  const std::vector<PointColumn> columns = point_columns(summary.points);
+  ASSERT_EQ(columns.size(), statistic_fields().size());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    EXPECT_EQ(columns[i].name, flat_name(statistic_fields()[i]));
+    EXPECT_FALSE(columns[i].unit.empty());
+    EXPECT_FALSE(columns[i].long_name.empty());
+    EXPECT_EQ(columns[i].values.size(), 2U);
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(columns[i].name, columns[j].name);
+  }
+  const auto success =
+      std::find_if(columns.begin(), columns.end(), [](const auto& c) { return c.name == "success_rate"; });
+  ASSERT_NE(success, columns.end());
+  EXPECT_EQ(success->values, (std::vector<double>{1.0, 0.0}));
+  const std::vector<PointColumn> predictions = prediction_columns(summary.predictions);
+  EXPECT_EQ(predictions[0].values, (std::vector<double>{1.0, 1.0 / 7.0}));
+  EXPECT_EQ(predictions[1].values, (std::vector<double>{0.0, 2.0 / 7.0}));
+}
+
+}  // namespace
+}  // namespace zerocount

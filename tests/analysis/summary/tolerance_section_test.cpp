@@ -1,0 +1,145 @@
+#include "analysis/summary/tolerance_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "analysis/measures/point_accumulator.hpp"
+#include "analysis/statistics/tolerance.hpp"
+#include "core/failure/failure.hpp"
+
+namespace zerocount {
+namespace {
+
+MoveOutcome arrived_after(double seconds) {
+  MoveOutcome move;
+  move.outcome = Outcome::zero_count;
+  move.arrived = move.stable = true;
+  move.settling_time = seconds;
+  return move;
+}
+
+MoveOutcome never_arrived() {
+  MoveOutcome move;
+  move.outcome = Outcome::oscillating;
+  return move;
+}
+
+/// Trials of two moves; `lost` of them have one that never arrives. The slowest times go to `slowest`.
+PointAccumulator trials_of_two_moves(int trials, int lost, std::vector<double>& slowest) {
+  std::mt19937_64 random(121);
+  PointAccumulator point;
+  for (int i = 0; i < trials; ++i) {
+    const double first = 0.0005 * static_cast<double>(random() % 900);
+    const double second = 0.0005 * static_cast<double>(random() % 900);
+    point.add({{arrived_after(first), i < lost ? never_arrived() : arrived_after(second)}}, {});
+    if (i >= lost) slowest.push_back(std::max(first, second));
+  }
+  std::sort(slowest.begin(), slowest.end());
+  return point;
+}
+
+TEST(AssuranceSection, LimitsAreOfTheSlowestMovesAndNeverArrivingIsBeyondThemAll) {
+  for (const int lost : {0, 3, 20}) {
+    std::vector<double> slowest;
+    const PointSummary point = trials_of_two_moves(400, lost, slowest).statistics();
+    for (std::size_t i = 0; i < std::size(tolerance_contents); ++i) {
+      const ToleranceLimit& limit = point.settling_time.tolerance.at(i);
+      const auto rank = static_cast<std::size_t>(tolerance_rank(400, tolerance_contents[i], 0.95));
+      EXPECT_EQ(limit.content, tolerance_contents[i]);
+      if (rank <= slowest.size()) {
+        EXPECT_EQ(limit.within, slowest[rank - 1]);
+      } else {
+        EXPECT_TRUE(std::isnan(limit.within)) << lost << " lost, content " << limit.content;
+      }
+    }
+    EXPECT_EQ(std::isnan(point.settling_time.tolerance[0].within), lost == 20);
+  }
+}
+
+TEST(AssuranceSection, TellsTheSameInEveryForm) {
+  std::vector<double> slowest;
+  const std::vector<PointSummary> points{
+      trials_of_two_moves(400, 3, slowest).statistics({.confidence = 0.9}),
+      trials_of_two_moves(100, 0, slowest).statistics({.confidence = 0.9})};
+  const SummarySection section = assurance_section(points, {"some", "all"});
+  EXPECT_EQ(section.key, "assurance");
+  ASSERT_EQ(section.json.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& json = section.json[i];
+    EXPECT_EQ(json["success_at_least"], points[i].claim.success_at_least);
+    EXPECT_EQ(section.columns[0].values[i], points[i].claim.success_at_least);
+    EXPECT_EQ(section.columns[1].values[i], json["failure_at_most"]);
+    EXPECT_EQ(section.columns[2].values[i], json["settling_time"][0]["within"]);
+    const auto statement = json["statement"].get<std::string>();
+    EXPECT_NE(section.text.find(statement), std::string::npos) << section.text;
+    EXPECT_EQ(statement.rfind(claim_sentence(points[i].claim), 0), 0U);
+  }
+  EXPECT_EQ(section.columns[0].name, "success_at_least");
+  EXPECT_EQ(section.columns[4].name, "settling_within_99_9");
+  EXPECT_TRUE(std::isnan(section.json[0]["rule_of_three"].get<double>()));
+  EXPECT_NEAR(section.json[1]["rule_of_three"].get<double>(), std::log(10.0) / 100.0, 1e-12);
+}
+
+TEST(AssuranceSection, BoundsOfMeansAreThoseOfTheBootstrapOfTheirPoint) {
+  std::vector<double> slowest;
+  const PointAccumulator point = trials_of_two_moves(60, 0, slowest);
+  const SettlingStatistics none = point.statistics().settling_time;
+  EXPECT_TRUE(std::isnan(none.mean_bounds.low));
+  const SettlingStatistics first = point.statistics({.bootstrap = BootstrapDraws{7, 0}}).settling_time;
+  const SettlingStatistics again = point.statistics({.bootstrap = BootstrapDraws{7, 0}}).settling_time;
+  const SettlingStatistics other = point.statistics({.bootstrap = BootstrapDraws{7, 1}}).settling_time;
+  EXPECT_LT(first.mean_bounds.low, first.mean);
+  EXPECT_GT(first.mean_bounds.high, first.mean);
+  EXPECT_EQ(again.mean_bounds.low, first.mean_bounds.low);
+  // The outer bounds are Student's or the bootstrap's: on one side at least its.
+  EXPECT_NE(std::pair(other.mean_bounds.low, other.mean_bounds.high),
+            std::pair(first.mean_bounds.low, first.mean_bounds.high));
+}
+
+TEST(AssuranceSection, TrialsThatWereStoppedByTheirOutcomesClaimLess) {
+  std::vector<double> slowest;
+  const PointAccumulator point = trials_of_two_moves(400, 3, slowest);
+  const PointSummary planned = point.statistics();
+  const PointSummary stopped = point.statistics({.stopped_by_outcomes = true});
+  EXPECT_LT(stopped.claim.success_at_least, planned.claim.success_at_least);
+  EXPECT_GT(stopped.claim.success_at_least, 0.9);
+  EXPECT_EQ(stopped.claim.failure_at_most, 1.0 - stopped.claim.success_at_least);
+  for (const ToleranceLimit& limit : stopped.settling_time.tolerance) EXPECT_TRUE(std::isnan(limit.within));
+}
+
+TEST(AssuranceSection, TellsOfRigsWhereTrialsShareThem) {
+  PointAccumulator on_rigs({.rigs = 40}), stopped({.rigs = 40});
+  for (int trial = 0; trial < 4000; ++trial) {
+    const bool failed = trial % 40 == 3;  // one rig always does
+    on_rigs.add({{failed ? never_arrived() : arrived_after(0.05)}}, {});
+    stopped.add({{failed ? never_arrived() : arrived_after(0.05)}}, {});
+  }
+  const std::vector<PointSummary> points{on_rigs.statistics()};
+  const PointSummary& point = points.front();
+  EXPECT_EQ(point.rigs.n, 40);
+  EXPECT_NEAR(point.rigs.without_failure, 39.0 / 40.0, 1e-15);
+  EXPECT_NEAR(point.success_rate.value, 39.0 / 40.0, 1e-15);
+  EXPECT_LT(point.success_rate.clopper_pearson.low, 0.9);  // of 4000 independent trials 0.97
+  const SummarySection section = assurance_section(points, {"only"});
+  EXPECT_NE(section.text.find(tolerance_sentence(point.rigs.tolerance)), std::string::npos) << section.text;
+  EXPECT_NE(section.text.find("of trials on all rigs succeed"), std::string::npos) << section.text;
+  EXPECT_NE(section.text.find("(100 failures in 4000 trials on 40 rigs)"), std::string::npos);
+  EXPECT_EQ(section.json[0]["rigs"]["content"], 0.9);
+  EXPECT_EQ(section.json[0]["rigs"]["zero_at_least"], point.rigs.tolerance.zero_at_least);
+  const PointSummary decided = stopped.statistics({.stopped_by_outcomes = true});
+  EXPECT_LE(decided.claim.success_at_least, point.claim.success_at_least);
+  EXPECT_EQ(decided.rigs.tolerance.min_rigs, 0);
+}
+
+TEST(AssuranceSection, AConfidenceThatIsNoneIsRefused) {
+  std::vector<double> slowest;
+  EXPECT_THROW(trials_of_two_moves(5, 0, slowest).statistics({.confidence = 1.0}), Failure);
+}
+
+}  // namespace
+}  // namespace zerocount

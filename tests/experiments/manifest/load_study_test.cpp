@@ -1,0 +1,234 @@
+#include "experiments/manifest/load_study.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "core/failure/failure.hpp"
+#include "experiments/study/study.hpp"
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Names column_names(const Study& study) {
+  Names names;
+  for (const InputColumn& column : study.input_columns) names.push_back(column.name);
+  return names;
+}
+
+TEST(Study, UnderstandsEverySection) {
+  const Study study = study_of(full_manifest());
+  EXPECT_EQ(study.name, "everything");
+  EXPECT_EQ(study.description, "Every section once");
+  EXPECT_EQ(study.seed, 20020721u);
+  EXPECT_EQ(study.trials, 1000);
+  EXPECT_EQ(study.design, Design::monte_carlo);
+  EXPECT_FALSE(study.independent_points);
+  EXPECT_EQ(study.moves, 2);
+  EXPECT_EQ(point_count(study), 12);
+  EXPECT_EQ(trial_count(study), 12000);
+  EXPECT_EQ(study.retained_trials, (std::vector<std::int64_t>{0, 7}));
+  EXPECT_EQ(study.observed.size(), 7u);
+  EXPECT_EQ(study.manifest_text, full_manifest());
+  EXPECT_TRUE(study.warnings.empty());
+}
+
+TEST(Study, WhatIsLeftOutTakesTheDefaults) {
+  const Study study = study_of(minimal_manifest());
+  const TrialParameters parameters = study_trial(study, 0, 0).parameters;
+  const TrialParameters defaults;
+  EXPECT_EQ(parameters.plant.inertia, defaults.plant.inertia);
+  EXPECT_EQ(parameters.friction.uniform.beta, defaults.friction.uniform.beta);
+  EXPECT_EQ(parameters.verdict.window, defaults.verdict.window);
+  EXPECT_EQ(parameters.command.targets, std::vector<std::int64_t>{5});
+  EXPECT_TRUE(parameters.friction.profiled.empty());
+  EXPECT_TRUE(study.input_columns.empty());
+  EXPECT_TRUE(study_trial(study, 0, 0).inputs.empty());
+}
+
+TEST(Study, InputColumnsAreWhatDiffersInTheOrderOfTheTable) {
+  EXPECT_EQ(column_names(study_of(full_manifest())),
+            (Names{"plant.inertia", "friction.k1", "friction.k2", "friction.beta", "friction.alpha",
+                   "friction.breakaway", "controller.kp", "controller.ki", "controller.delay",
+                   "controller.anti_windup", "command.targets.0", "initial.encoder_phase", "initial.position",
+                   "initial.preload"}));
+}
+
+TEST(Study, InputsAreTheParametersOfTheTrial) {
+  const Study study = study_of(full_manifest());
+  for (std::int64_t i = 0; i < 20; ++i) {
+    const StudyTrial trial = study_trial(study, 11, i);
+    const auto input = [&](const std::string& name) { return trial.inputs[column_of(study, name)]; };
+    EXPECT_EQ(input("friction.k2"), trial.parameters.friction.uniform.k2);
+    EXPECT_EQ(input("controller.anti_windup"), 1.0);
+    EXPECT_EQ(trial.parameters.controller.anti_windup, AntiWindup::none);
+    EXPECT_EQ(input("plant.inertia"), 6e-4);
+    EXPECT_EQ(input("command.targets.0"), static_cast<double>(trial.parameters.command.targets[0]));
+    EXPECT_EQ(input("controller.delay"), trial.parameters.controller.delay);
+    EXPECT_EQ(trial.parameters.command.targets[1], 0);
+    const FrictionParameters contact =
+        friction_at(trial.parameters.friction, trial.parameters.initial.position);
+    EXPECT_EQ(input("friction.k1"), contact.k1);
+  }
+}
+
+TEST(Study, ProfilesAreSharedByAllTrialsAndNamed) {
+  const Study study = study_of(full_manifest());
+  ASSERT_EQ(study.profiles.size(), 1u);
+  EXPECT_EQ(study.profiles[0].name, "friction.k1");
+  EXPECT_EQ(study.profiles[0].unit, "N m/rad");
+  for (const std::int64_t i : {0, 5}) {
+    const FrictionAlongRotor friction = study_trial(study, 3, i).parameters.friction;
+    ASSERT_EQ(friction.profiled.size(), 1u);
+    EXPECT_EQ(friction.profiled[0].profile, study.profiles[0].profile);
+    EXPECT_EQ(friction.profiled[0].parameter, &FrictionParameters::k1);
+  }
+}
+
+TEST(Study, ProfilesThatDifferBetweenPointsAreNamedByTheFirst) {
+  const std::string profile = "{profile: {mean: 110, cv: 0.1, correlation_length: ";
+  const Study study = study_of(minimal_manifest("sweep: {grid: {friction.k1: [100, " + profile + "0.2}}, " +
+                                                profile + "0.5}}], controller.ki: [0, 1]}}\n"));
+  ASSERT_EQ(study.profiles.size(), 2u);
+  EXPECT_EQ(study.profiles[0].name, "friction.k1@2");
+  EXPECT_EQ(study.profiles[1].name, "friction.k1@4");
+  EXPECT_TRUE(study_trial(study, 0, 0).parameters.friction.profiled.empty());
+  EXPECT_EQ(study_trial(study, 5, 0).parameters.friction.profiled[0].profile, study.profiles[1].profile);
+}
+
+TEST(Study, UnderstandsWhatCanBeSwitchedOn) {
+  const Study study = study_of(extended_manifest());
+  EXPECT_FALSE(study.open_loop);
+  EXPECT_EQ(study.moves, 16);
+  EXPECT_EQ(std::ssize(study.sequence), study.moves);
+  EXPECT_TRUE(study.warnings.empty());
+  EXPECT_EQ(column_names(study),
+            (Names{"friction.model", "friction.breakaway", "encoder.fine_errors.eccentricity_angle",
+                   "encoder.coarse_errors.missed", "dac.offset", "amplifier.bandwidth",
+                   "controller.coarse.kd", "controller.coarse.fine_within", "command.sequence.targets.1",
+                   "command.profile.shape", "command.profile.jerk_limit", "initial.history.reversals",
+                   "initial.velocity", "initial.integral", "initial.mode"}));
+}
+
+TEST(Study, EnumerationsAmongTheInputsAreTheNumbersOfTheirWords) {
+  const Study study = study_of(extended_manifest());
+  const std::size_t shape = column_of(study, "command.profile.shape");
+  EXPECT_EQ(study.input_columns[shape].meaning,
+            "how the reference goes to the next target (0 step, 1 trapezoidal, 2 s_curve)");
+  EXPECT_EQ(study_trial(study, 0, 0).inputs[shape], 0);
+  EXPECT_EQ(study_trial(study, 1, 0).inputs[shape], 2);
+}
+
+TraceExtras extras(const std::string& more, const std::string& command = "{targets: [5]}") {
+  return study_of(manifest_commanding(command, more)).trace_extras;
+}
+
+TEST(Study, RecordsAPhaseWhereThereCanBeTwo) {
+  EXPECT_FALSE(extras("").phase);
+  EXPECT_FALSE(extras("controller: {coarse: {coarse_beyond: 1.0e12}}").phase);
+  EXPECT_TRUE(extras("controller: {coarse: {coarse_beyond: 1000}}").phase);
+  EXPECT_TRUE(extras("controller: {coarse: {coarse_beyond: {uniform: [1000, 1.0e12]}}}").phase);
+  EXPECT_TRUE(extras("sweep: {cases: {one: {}, two: {controller.coarse.coarse_beyond: 200}}}").phase);
+}
+
+TEST(Study, RecordsAReferenceWhereItIsNotTheTarget) {
+  EXPECT_FALSE(extras("").reference);
+  EXPECT_TRUE(extras("", "{targets: [5], profile: {shape: s_curve}}").reference);
+  EXPECT_TRUE(extras("sweep: {grid: {command.profile.shape: [step, trapezoidal]}}").reference);
+}
+
+TEST(Study, SaysWhatWasStoppedWhereATrialCanBe) {
+  const auto can_stop = [](const std::string& more) {
+    return study_of(minimal_manifest(more)).outcome_extras.stopped;
+  };
+  EXPECT_FALSE(can_stop(""));
+  EXPECT_FALSE(can_stop("verdict: {stop: false}"));
+  EXPECT_TRUE(can_stop("verdict: {stop: true}"));
+  EXPECT_TRUE(can_stop("sweep: {cases: {one: {}, two: {verdict.stop: true}}}"));
+  const Study study = study_of(minimal_manifest("verdict: {stop: true, limit: 250}"));
+  EXPECT_TRUE(study_trial(study, 0, 0).parameters.verdict.stop);
+  EXPECT_EQ(study_trial(study, 0, 0).parameters.verdict.limit, 250);
+}
+
+TEST(Study, RecordsTheTorqueOfTheMotorWhereItIsNotThatOfTheCode) {
+  EXPECT_FALSE(extras("").drive_torque);
+  EXPECT_FALSE(extras("controller: {delay: 2}").drive_torque);
+  EXPECT_FALSE(extras("dac: {noise: 0, offset: 0}\namplifier: {bandwidth: 0}").drive_torque);
+  EXPECT_FALSE(extras("", "{torque: {levels: [0.1]}}").drive_torque);
+  EXPECT_TRUE(extras("controller: {delay: 2}", "{torque: {levels: [0.1]}}").drive_torque);
+  EXPECT_TRUE(extras("", "{torque: {levels: [0.1], through: exact}}").drive_torque);
+  EXPECT_TRUE(extras("amplifier: {bandwidth: 100}").drive_torque);
+  for (const std::string error : {"offset", "gain_error", "nonlinearity", "noise"}) {
+    EXPECT_TRUE(extras("dac: {" + error + ": 1.0e-6}").drive_torque) << error;
+    EXPECT_TRUE(extras("sweep: {grid: {dac." + error + ": [0, 1.0e-6]}}").drive_torque) << error;
+  }
+  EXPECT_TRUE(extras("dac: {offset: {uniform: [-1, 0]}}").drive_torque);
+}
+
+TEST(Study, SeedsOfAll64BitsAreKept) {
+  EXPECT_EQ(study_of(minimal_manifest(), {"seed=18446744073709551615"}).seed, 18446744073709551615u);
+}
+
+TEST(Study, TrialsThatAreNotThereAreRefused) {
+  const Study study = study_of(minimal_manifest());
+  EXPECT_THROW(study_trial(study, 1, 0), Failure);
+  EXPECT_THROW(study_trial(study, -1, 0), Failure);
+  EXPECT_THROW(study_trial(study, 0, 10), Failure);
+  EXPECT_THROW(study_trial(study, 0, -1), Failure);
+}
+
+class StudyFile : public testing::Test {
+ protected:
+  StudyFile() { std::filesystem::create_directories(folder); }
+  ~StudyFile() override { std::filesystem::remove_all(folder); }
+
+  std::string failure_of(const std::filesystem::path& path, ExitCode code) {
+    try {
+      load_study(path);
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), code);
+      return failure.what();
+    }
+    return "";
+  }
+
+  std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("zerocount_study_test_" + std::to_string(::getpid()));
+};
+
+TEST_F(StudyFile, IsReadAndNamedInMessages) {
+  const auto path = folder / "good.yaml";
+  std::ofstream(path) << minimal_manifest();
+  EXPECT_EQ(load_study(path).manifest_text, minimal_manifest());
+  const auto bad = folder / "bad.yaml";
+  std::ofstream(bad) << minimal_manifest("plant: 1\n");
+  EXPECT_EQ(failure_of(bad, ExitCode::bad_input),
+            bad.string() + ":6:8: plant: the single value '1' stands here; expected a map");
+}
+
+TEST_F(StudyFile, ThatIsMissingOrADirectoryIsBadInput) {
+  EXPECT_NE(failure_of(folder / "none.yaml", ExitCode::bad_input).find("there is no such file"),
+            std::string::npos);
+  EXPECT_NE(failure_of(folder, ExitCode::bad_input).find("this is a directory"), std::string::npos);
+}
+
+TEST_F(StudyFile, OfAHundredMegabytesIsRefusedUnread) {
+  const auto path = folder / "huge.yaml";
+  std::ofstream(path) << "x";
+  std::filesystem::resize_file(path, 100'000'000);
+  EXPECT_EQ(failure_of(path, ExitCode::bad_input),
+            path.string() + ":1:1: manifest: the file is too large; expected at most 1048576 bytes");
+}
+
+TEST_F(StudyFile, ThatNeverEndsIsRefused) {
+  EXPECT_NE(failure_of("/dev/zero", ExitCode::bad_input).find("too large"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zerocount

@@ -1,0 +1,235 @@
+#include "experiments/manifest/sweep.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount {
+namespace {
+
+using Labels = std::vector<std::string>;
+using Numbers = std::vector<double>;
+
+Study swept(const std::string& sweep, const std::string& more = "") {
+  return study_of(minimal_manifest(more + "sweep: " + sweep + "\n"));
+}
+
+std::string failure_of(const std::string& sweep) {
+  try {
+    swept(sweep);
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+TEST(Sweep, WithoutOneThereIsOnePoint) {
+  const Study study = study_of(minimal_manifest());
+  EXPECT_EQ(study.point_labels, Labels{"all"});
+  EXPECT_TRUE(study.axes.empty());
+  EXPECT_EQ(swept("{}").point_labels, Labels{"all"});
+  EXPECT_EQ(swept("{grid: {}, cases: {}}").point_labels, Labels{"all"});
+}
+
+TEST(Sweep, GridIsTheProductWithTheLastKeyFastest) {
+  const Study study = swept("{grid: {controller.kp: [0, 1.0e-4], controller.ki: [1.0e-5, 2.0e-5, 3.0e-5]}}");
+  EXPECT_EQ(study.point_labels.size(), 6u);
+  EXPECT_EQ(study.point_labels[1], "controller.kp=0, controller.ki=2e-05");
+  EXPECT_EQ(study.point_labels[3], "controller.kp=0.0001, controller.ki=1e-05");
+  ASSERT_EQ(study.axes.size(), 2u);
+  EXPECT_EQ(study.axes[0].name, "controller.kp");
+  EXPECT_EQ(study.axes[0].unit, "N m/count");
+  EXPECT_EQ(study.axes[0].numbers, (Numbers{0, 0, 0, 1e-4, 1e-4, 1e-4}));
+  EXPECT_EQ(study.axes[1].numbers, (Numbers{1e-5, 2e-5, 3e-5, 1e-5, 2e-5, 3e-5}));
+  EXPECT_EQ(study_trial(study, 4, 0).parameters.controller.kp, 1e-4);
+  EXPECT_EQ(study_trial(study, 4, 0).parameters.controller.ki, 2e-5);
+}
+
+TEST(Sweep, CasesAreNamed) {
+  const Study study = swept("{cases: {plain: {}, fast: {controller.ki: 9.0e-5, dac.bits: 16}}}");
+  EXPECT_EQ(study.point_labels, (Labels{"plain", "fast"}));
+  ASSERT_EQ(study.axes.size(), 3u);
+  EXPECT_EQ(study.axes[0].name, "case");
+  EXPECT_EQ(study.axes[0].texts, (Labels{"plain", "fast"}));
+  EXPECT_EQ(study.axes[1].numbers, (Numbers{3.85e-5, 9e-5}));  // the default where the case is silent
+  EXPECT_EQ(study.axes[2].numbers, (Numbers{12, 16}));
+  EXPECT_EQ(study_trial(study, 1, 0).parameters.dac.bits, 16);
+  EXPECT_EQ(study_trial(study, 0, 0).parameters.dac.bits, 12);
+}
+
+TEST(Sweep, CasesAndGridTogetherAreTheirProductWithTheCasesSlowest) {
+  const Study study =
+      swept("{grid: {controller.kp: [0, 1.0e-4]}, cases: {a: {dac.bits: 10}, b: {dac.bits: 14}}}");
+  EXPECT_EQ(study.point_labels, (Labels{"a, controller.kp=0", "a, controller.kp=0.0001", "b, controller.kp=0",
+                                        "b, controller.kp=0.0001"}));
+  EXPECT_EQ(study_trial(study, 3, 0).parameters.dac.bits, 14);
+  EXPECT_EQ(study_trial(study, 3, 0).parameters.controller.kp, 1e-4);
+}
+
+TEST(Sweep, TheGridWinsOverTheCasesWithAWarning) {
+  const Study study = swept("{grid: {controller.ki: [1.0e-5, 2.0e-5]}, cases: {a: {controller.ki: 5.0e-5}}}");
+  EXPECT_EQ(study_trial(study, 1, 0).parameters.controller.ki, 2e-5);
+  ASSERT_EQ(study.axes.size(), 2u);
+  EXPECT_EQ(study.axes[1].numbers, (Numbers{1e-5, 2e-5}));
+  EXPECT_EQ(study.warnings,
+            (Labels{"m.yaml:6:16: sweep.grid.controller.ki: the grid's values replace those that the "
+                    "cases give to controller.ki"}));
+}
+
+TEST(Sweep, LinspaceAndLogspaceIncludeTheirEnds) {
+  const Study linear = swept("{grid: {controller.ki: {linspace: [1.0e-5, 3.0e-4, 30]}}}");
+  ASSERT_EQ(linear.axes[0].numbers.size(), 30u);
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_NEAR(linear.axes[0].numbers[static_cast<std::size_t>(i)], 1e-5 * (i + 1), 1e-18);
+  }
+  EXPECT_EQ(linear.axes[0].numbers.back(), 3.0e-4);
+  EXPECT_EQ(linear.point_labels[1], "controller.ki=2e-05");
+  const Study logarithmic = swept("{grid: {friction.alpha: {logspace: [0.01, 100, 5]}}}");
+  EXPECT_EQ(logarithmic.axes[0].numbers, (Numbers{0.01, 0.1, 1, 10, 100}));
+}
+
+TEST(Sweep, WholeNumbersMayBeSpacedWhereTheyStayWhole) {
+  EXPECT_EQ(swept("{grid: {command.targets.0: {linspace: [1, 10, 10]}}}").axes[0].numbers.size(), 10u);
+  EXPECT_EQ(failure_of("{grid: {command.targets.0: {linspace: [1, 2, 3]}}}"),
+            "m.yaml:6:46: sweep.grid.command.targets.0.linspace: the value 1.5 is not allowed; expected "
+            "whole numbers at "
+            "least -1000000000000 and at most 1000000000000 only");
+}
+
+TEST(Sweep, ValuesOutOfRangeAreReportedAtTheSweep) {
+  EXPECT_EQ(failure_of("{grid: {friction.n: {linspace: [0, 2, 5]}}}"),
+            "m.yaml:6:39: sweep.grid.friction.n.linspace: the value 0 is not allowed; expected numbers at "
+            "least 1 only");
+}
+
+TEST(Sweep, WordsListsAndDistributionsMayBeSwept) {
+  const Study words = swept("{grid: {controller.anti_windup: [clamp, none]}}");
+  EXPECT_EQ(words.axes[0].kind, SweepAxis::Kind::text);
+  EXPECT_EQ(words.axes[0].texts, (Labels{"clamp", "none"}));
+  EXPECT_EQ(study_trial(words, 1, 0).parameters.controller.anti_windup, AntiWindup::none);
+
+  const Study lists = swept("{grid: {command.targets: [[1], [{integers: [2, 9]}]]}}");
+  EXPECT_EQ(lists.point_labels[1], "command.targets=[{integers: [2, 9]}]");
+  EXPECT_EQ(lists.axes[0].name, "command.targets.0");
+  EXPECT_EQ(lists.axes[0].numbers[0], 1);
+  EXPECT_TRUE(std::isnan(lists.axes[0].numbers[1]));
+
+  const Study cases = swept("{cases: {a: {friction.k1: {uniform: [100, 120]}}, b: {friction.k1: 90}}}");
+  EXPECT_TRUE(std::isnan(cases.axes[1].numbers[0]));
+  EXPECT_EQ(cases.axes[1].numbers[1], 90);
+  EXPECT_GE(study_trial(cases, 0, 0).parameters.friction.uniform.k1, 100);
+  EXPECT_EQ(study_trial(cases, 1, 0).parameters.friction.uniform.k1, 90);
+}
+
+TEST(Sweep, TruthValuesMayBeSweptLikeWords) {
+  const Study study = swept("{grid: {verdict.stop: [false, true]}}");
+  EXPECT_EQ(study.point_labels, (Labels{"verdict.stop=false", "verdict.stop=true"}));
+  EXPECT_EQ(study.axes[0].kind, SweepAxis::Kind::text);
+  EXPECT_EQ(study.axes[0].texts, (Labels{"false", "true"}));
+  EXPECT_FALSE(study_trial(study, 0, 0).parameters.verdict.stop);
+  EXPECT_TRUE(study_trial(study, 1, 0).parameters.verdict.stop);
+  EXPECT_EQ(failure_of("{grid: {verdict.stop: {linspace: [0, 1, 2]}}}"),
+            "m.yaml:6:41: sweep.grid.verdict.stop.linspace: the value 0 is not allowed; expected one of "
+            "false, true");
+  EXPECT_EQ(failure_of("{grid: {verdict.stop: [0]}}"),
+            "m.yaml:6:31: sweep.grid.verdict.stop.0: '0' is not a truth value; expected true or false");
+}
+
+TEST(Sweep, AnIndexChoosesAMove) {
+  const Study study = swept("{grid: {command.targets.0: [7, 8]}}");
+  EXPECT_EQ(study_trial(study, 1, 0).parameters.command.targets, std::vector<std::int64_t>{8});
+  EXPECT_EQ(
+      failure_of("{grid: {command.targets.1: [7]}}"),
+      "m.yaml:6:16: sweep.grid.command.targets.1: there is no such target; expected an index from 0 to 0");
+}
+
+TEST(Sweep, AllPointsHaveTheSameNumberOfMoves) {
+  EXPECT_EQ(failure_of("{cases: {a: {command.targets: [1, 2]}}}"),
+            "m.yaml:6:38: sweep.cases.a.command.targets: a list of 2 targets stands here; expected a list of "
+            "1 targets, as "
+            "at every point");
+}
+
+TEST(Sweep, MistakesAreReportedWhereTheyStand) {
+  EXPECT_EQ(failure_of("{grid: {controler.ki: [1]}}"),
+            "m.yaml:6:16: sweep.grid.controler.ki: unknown key, nearest known: controller.ki; expected a "
+            "dotted path of "
+            "the table of parameters, such as controller.ki");
+  EXPECT_EQ(failure_of("{grid: {controller.ki: []}}"),
+            "m.yaml:6:31: sweep.grid.controller.ki: the list is empty; expected at least one value");
+  EXPECT_EQ(
+      failure_of("{grid: {controller.ki: 1}}"),
+      "m.yaml:6:31: sweep.grid.controller.ki: the single value '1' stands here; expected a list of values");
+  EXPECT_EQ(
+      failure_of("{grid: {controller.ki: [0, 1, 0.0]}}"),
+      "m.yaml:6:38: sweep.grid.controller.ki.2: '0.0' stands twice in the list; expected different values");
+  EXPECT_EQ(failure_of("{grid: {controller.ki: {linspace: [1, 1, 3]}}}"),
+            "m.yaml:6:42: sweep.grid.controller.ki.linspace: the first and the last value are the same; "
+            "expected different "
+            "values");
+  EXPECT_EQ(failure_of("{grid: {controller.ki: {logspace: [0, 1, 3]}}}"),
+            "m.yaml:6:43: sweep.grid.controller.ki.logspace.0: '0' is out of range; expected a number "
+            "greater than 0");
+  EXPECT_EQ(failure_of("{grid: {controller.ki: {linspace: [0, 1, 1]}}}"),
+            "m.yaml:6:49: sweep.grid.controller.ki.linspace.2: '1' is out of range; expected a whole number "
+            "from 2 to "
+            "1000000");
+  EXPECT_EQ(failure_of("{grid: {command.targets: [[1], [2]], command.targets.0: [3]}}"),
+            "m.yaml:6:45: sweep.grid.command.targets.0: command.targets.0 is swept twice; expected each "
+            "parameter in one "
+            "axis of the grid");
+  EXPECT_EQ(failure_of("{cases: {a: {command.targets: [1], command.targets.0: 2}}}"),
+            "m.yaml:6:43: sweep.cases.a.command.targets.0: command.targets.0 is given twice in this case; "
+            "expected one "
+            "value");
+  EXPECT_EQ(failure_of("{cases: [a]}"),
+            "m.yaml:6:16: sweep.cases: a list stands here; expected a map from names to cases");
+}
+
+TEST(Sweep, CrossChecksNameTheSweptValue) {
+  EXPECT_EQ(failure_of("{grid: {command.hold: [1, 0.01]}}"),
+            "m.yaml:6:34: verdict.dwell: 0.05 s can be longer than the hold of 0.01 s; expected at most "
+            "command.hold\n"
+            "m.yaml:6:34: verdict.window: 0.05 s can be longer than the hold of 0.01 s; expected at most "
+            "command.hold");
+}
+
+TEST(Sweep, TooManyPointsAreRefusedAtOnce) {
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(
+      failure_of("{grid: {controller.ki: {linspace: [0, 1, 1000]}, controller.kp: {linspace: [0, 1, 1000]}, "
+                 "controller.kd: {linspace: [0, 1, 1000]}}}"),
+      "m.yaml:6:8: sweep: the sweep has too many design points; expected at most 1000000 points");
+  EXPECT_NE(failure_of("{grid: {controller.ki: {linspace: [0, 1, 1000000000]}}}").find("from 2 to 1000000"),
+            std::string::npos);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+}
+
+TEST(Sweep, AMillionPointsAreUnderstood) {
+  const Study study =
+      swept("{grid: {controller.ki: {linspace: [0, 1, 1000]}, controller.kp: {linspace: [0, 1, 1000]}}}");
+  EXPECT_EQ(point_count(study), 1'000'000);
+  EXPECT_EQ(study_trial(study, 999'999, 9).parameters.controller.ki, 1.0);
+  EXPECT_EQ(study_trial(study, 999'000, 9).parameters.controller.kp, 0.0);
+}
+
+TEST(Sweep, TrialsTimesPointsAreLimited) {
+  EXPECT_THROW(
+      study_of(minimal_manifest("sweep: {grid: {controller.ki: [0, 1]}}"), {"trials=9007199254740992"}),
+      Failure);
+  EXPECT_NO_THROW(study_of(minimal_manifest(), {"trials=9007199254740992"}));
+}
+
+TEST(Sweep, ObservationsOfACaseHoldAtAllItsPoints) {
+  const Study study = swept("{grid: {controller.kp: [0, 1]}, cases: {a: {dac.bits: 10}, b: {dac.bits: 14}}}",
+                            "observed: {a: calm, \"a, controller.kp=1\": wild}\n");
+  EXPECT_EQ(study.observed, (std::map<std::string, std::string>{{"a, controller.kp=0", "calm"},
+                                                                {"a, controller.kp=1", "wild"}}));
+}
+
+}  // namespace
+}  // namespace zerocount

@@ -1,0 +1,99 @@
+// What the checks between parameters look at: every combination of values that meets at some point.
+
+#include "experiments/study/point_limits.hpp"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "experiments/study/slots.hpp"
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount {
+namespace {
+
+using Combination = std::vector<double>;
+
+Combination combination_at(const StudyPlan& plan, const std::vector<std::size_t>& slots, std::size_t point) {
+  Combination values;
+  for (const ValueLimits& limits : limits_at(plan, slots, point)) values.push_back(limits.low);
+  return values;
+}
+
+Study swept_study() {
+  return study_of(manifest_commanding(
+      "{targets: [1, 2]}",
+      "sweep:\n"
+      "  cases: {a: {controller.kp: 1, dac.bits: 10}, b: {dac.bits: 11}, c: {}}\n"
+      "  grid: {controller.ki: [0, 1, 2], command.targets.1: [7, 8], controller.kp: [5, 6], "
+      "plant.inertia: [1, 2]}\n"));
+}
+
+TEST(PointLimits, EveryCombinationIsVisited) {
+  const Study study = swept_study();
+  const std::vector<std::string_view> names{"controller.kp", "dac.bits", "controller.ki", "plant.inertia",
+                                            "controller.kd"};
+  const std::vector<std::size_t> named = slots_named(names);
+  for (std::size_t mask = 0; mask < (std::size_t{1} << names.size()); ++mask) {
+    std::vector<std::size_t> slots{listed_slot(1)};
+    for (std::size_t i = 0; i < named.size(); ++i) {
+      if ((mask >> i & 1) != 0) slots.push_back(named[i]);
+    }
+    std::set<Combination> all;
+    for (std::size_t point = 0; point < study.point_labels.size(); ++point)
+      all.insert(combination_at(*study.plan, slots, point));
+    std::set<Combination> visited;
+    visit_points(*study.plan, slots, [&](std::size_t point) {
+      EXPECT_LT(point, study.point_labels.size());
+      visited.insert(combination_at(*study.plan, slots, point));
+      return true;
+    });
+    ASSERT_EQ(visited, all) << mask;
+  }
+}
+
+TEST(PointLimits, WhatDoesNotMatterIsLeftOut) {
+  const Study study = swept_study();
+  const auto visits = [&](std::vector<std::string_view> names) {
+    std::size_t count = 0;
+    visit_points(*study.plan, slots_named(names), [&](std::size_t) {
+      ++count;
+      return true;
+    });
+    return count;
+  };
+  EXPECT_EQ(visits({"friction.k1"}), 1u);
+  EXPECT_EQ(visits({"controller.ki"}), 3u);
+  EXPECT_EQ(visits({"controller.ki", "plant.inertia"}), 6u);
+  EXPECT_EQ(visits({}), 1u);
+}
+
+TEST(PointLimits, AVisitMayEndEarly) {
+  const Study study = swept_study();
+  std::size_t count = 0;
+  visit_points(*study.plan, listed_slots(study.plan->list), [&](std::size_t) { return ++count < 2; });
+  EXPECT_EQ(count, 2u);
+}
+
+ValueLimits limits_of_velocity(const std::string& velocity) {
+  const Study study = study_of(minimal_manifest("initial: {velocity: " + velocity + "}\n"));
+  const std::vector<std::string_view> name{"initial.velocity"};
+  return limits_at(*study.plan, slots_named(name), 0).front();
+}
+
+TEST(PointLimits, AreTheSupportAndKnowWhetherItHasZero) {
+  EXPECT_EQ(limits_of_velocity("0.5").low, 0.5);
+  EXPECT_FALSE(limits_of_velocity("0.5").can_be_zero);
+  EXPECT_TRUE(limits_of_velocity("0").can_be_zero);
+  EXPECT_EQ(limits_of_velocity("{uniform: [-1, 2]}").low, -1);
+  EXPECT_EQ(limits_of_velocity("{uniform: [-1, 2]}").high, 2);
+  EXPECT_TRUE(limits_of_velocity("{uniform: [0, 1]}").can_be_zero);
+  EXPECT_FALSE(limits_of_velocity("{uniform: [-1, 0]}").can_be_zero) << "the upper end is not drawn";
+  EXPECT_FALSE(limits_of_velocity("{choice: [-1, 1]}").can_be_zero);
+  EXPECT_TRUE(limits_of_velocity("{choice: [-1, 0, 1]}").can_be_zero);
+  EXPECT_FALSE(limits_of_velocity("{lognormal: {median: 1, cv: 1}}").can_be_zero);
+  EXPECT_TRUE(limits_of_velocity("{integers: [-1, 1]}").can_be_zero);
+}
+
+}  // namespace
+}  // namespace zerocount

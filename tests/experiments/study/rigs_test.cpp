@@ -1,0 +1,252 @@
+// What trials of one rig share, and what a study's rigs do not.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "experiments/parameters/parameter_table.hpp"
+#include "experiments/study/draws.hpp"
+#include "experiments/study/rotors.hpp"
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount {
+namespace {
+
+const std::vector<std::string> designs_with_rigs{"monte_carlo", "latin_hypercube", "sobol"};
+
+const std::string machines_and_moves =
+    "friction:\n"
+    "  k1: {profile: {mean: {lognormal: {median: 110, cv: 0.1}}, cv: 0.1, correlation_length: 0.3}}\n"
+    "  k2: {uniform: [600, 900]}\n"
+    "  lambda: {uniform: [5, 20], per: trial}\n"
+    "  alpha: {uniform: [0.1, 0.9], per: study}\n"
+    "  beta: {uniform: [1.0e5, 2.0e5], per: contact}\n"
+    "encoder: {fine: {integers: [1000000, 2000000]}}\n"
+    "controller: {kp: {uniform: [0, 1.0e-4]}}\n"
+    "initial: {position: {uniform: [0, 6]}, hardening: {uniform: [0, 1.0e-6], per: rig}}\n"
+    "sweep: {grid: {controller.ki: [3.0e-5, 4.0e-5]}}\n";
+
+const std::vector<std::string> of_a_rig{"friction.k1.profile.mean", "friction.k2", "encoder.fine",
+                                        "controller.kp", "initial.hardening"};
+const std::vector<std::string> of_a_trial{"friction.lambda", "initial.position", "friction.beta"};
+
+Study rig_study(const std::string& design, int rigs, int trials,
+                const std::string& more = "independent_points=false") {
+  return study_of(minimal_manifest(machines_and_moves),
+                  {"design=" + design, fmt::format("rigs={}", rigs), fmt::format("trials={}", trials), more});
+}
+
+double input(const Study& study, const std::string& name, std::int64_t index, std::int64_t point = 0) {
+  return study_trial(study, point, index).inputs[column_of(study, name)];
+}
+
+std::vector<double> rotor_of(const Study& study, std::int64_t index, std::int64_t point = 0) {
+  return study_trial(study, point, index).parameters.friction.profiled.at(0).profile->cosine;
+}
+
+TEST(Rigs, TrialsOfARigShareTheMachineAndNothingElse) {
+  for (const std::string& design : designs_with_rigs) {
+    const Study study = rig_study(design, 30, 150);
+    for (const std::string& name : of_a_rig) {
+      std::set<double> different;
+      for (std::int64_t i = 0; i < 150; ++i) {
+        EXPECT_EQ(input(study, name, i), input(study, name, i % 30)) << design << " " << name;
+        different.insert(input(study, name, i));
+      }
+      EXPECT_EQ(different.size(), 30U) << design << " " << name;
+    }
+    for (const std::string& name : of_a_trial) {
+      std::set<double> different;
+      for (std::int64_t i = 0; i < 150; ++i) different.insert(input(study, name, i));
+      EXPECT_EQ(different.size(), 150U) << design << " " << name;
+    }
+    for (std::int64_t i = 1; i < 150; ++i) {
+      EXPECT_EQ(rotor_of(study, i) == rotor_of(study, 0), i % 30 == 0);
+      EXPECT_EQ(input(study, "friction.alpha", i), input(study, "friction.alpha", 0));
+    }
+  }
+}
+
+TEST(Rigs, WhatARigHasIsListedOnceForIt) {
+  const Study study = rig_study("monte_carlo", 30, 150);
+  std::vector<std::string> names;
+  for (const InputColumn& column : study.rig_columns) names.push_back(column.name);
+  EXPECT_EQ(names, of_a_rig);
+  for (std::int64_t i = 0; i < 150; ++i) {
+    std::vector<double> inputs;
+    for (const std::string& name : of_a_rig) inputs.push_back(input(study, name, i, 1));
+    EXPECT_EQ(rig_inputs(study, rig_of(study, i)), inputs);
+  }
+  EXPECT_TRUE(study_of(full_manifest()).rig_columns.empty());
+}
+
+TEST(Rigs, MoreTrialsKeepTheRigsAndTheFirstTrials) {
+  for (const std::string design : {"monte_carlo", "sobol"}) {
+    const Study few = rig_study(design, 30, 60);
+    const Study many = rig_study(design, 30, 6000);
+    for (std::int64_t i = 0; i < 60; ++i) {
+      EXPECT_EQ(study_trial(few, 0, i).inputs, study_trial(many, 0, i).inputs) << design;
+      EXPECT_EQ(rotor_of(few, i), rotor_of(many, i));
+    }
+  }
+  // The trials of a Latin hypercube change with their number, and its rigs do not.
+  const Study few = rig_study("latin_hypercube", 30, 60);
+  const Study many = rig_study("latin_hypercube", 30, 6000);
+  for (std::int64_t rig = 0; rig < 30; ++rig) EXPECT_EQ(rig_inputs(few, rig), rig_inputs(many, rig));
+}
+
+TEST(Rigs, AllPointsShareThemIndependentOrNot) {
+  for (const std::string& design : designs_with_rigs) {
+    for (const std::string independent : {"false", "true"}) {
+      const Study study = rig_study(design, 30, 60, "independent_points=" + independent);
+      for (std::int64_t i = 0; i < 60; ++i) {
+        for (const std::string& name : of_a_rig)
+          EXPECT_EQ(input(study, name, i, 0), input(study, name, i, 1));
+        EXPECT_EQ(input(study, "friction.alpha", i, 0), input(study, "friction.alpha", i, 1));
+        EXPECT_EQ(rotor_of(study, i, 0), rotor_of(study, i, 1));
+        EXPECT_EQ(input(study, "initial.position", i, 0) == input(study, "initial.position", i, 1),
+                  independent == "false");
+      }
+    }
+  }
+}
+
+// What belongs to the machine and what a trial does with it, section by section.
+TEST(Rigs, TheMachineIsOfTheRigAndTheRestOfTheTrial) {
+  const std::set<std::string> of_machine{"plant", "friction", "encoder", "dac", "amplifier", "controller"};
+  for (const Parameter& parameter : parameter_table()) {
+    const std::string section(parameter.name.substr(0, parameter.name.find('.')));
+    EXPECT_EQ(parameter.of_machine, of_machine.count(section) == 1) << parameter.name;
+  }
+}
+
+double uniform_of(const Study& study, const std::string& name, std::int64_t index, double low, double high) {
+  return (input(study, name, index) - low) / (high - low);
+}
+
+// Of the rigs each has a stratum of its own in what is theirs, and of the trials each in what is theirs.
+TEST(Rigs, StratifiedDesignsSpreadRigsAndTrialsEachAmongThemselves) {
+  for (const std::string design : {"latin_hypercube", "sobol"}) {
+    const Study study = rig_study(design, 64, 1024);
+    std::set<int> rigs;
+    std::set<int> trials;
+    for (std::int64_t i = 0; i < 1024; ++i) {
+      rigs.insert(static_cast<int>(64 * uniform_of(study, "friction.k2", i, 600, 900)));
+      trials.insert(static_cast<int>(1024 * uniform_of(study, "initial.position", i, 0, 6)));
+    }
+    EXPECT_EQ(rigs.size(), 64U) << design;
+    EXPECT_EQ(trials.size(), 1024U) << design;
+    std::set<int> means;
+    for (std::int64_t rig = 0; rig < 64; ++rig) {
+      const double z =
+          std::log(input(study, "friction.k1.profile.mean", rig) / 110) / std::sqrt(std::log1p(0.01));
+      means.insert(static_cast<int>(64 * 0.5 * std::erfc(-z / std::numbers::sqrt2)));
+    }
+    EXPECT_EQ(means.size(), 64U) << design;
+  }
+}
+
+// In the order of a Sobol sequence, the trials of one of 64 rigs would all be in one 64th of the range.
+TEST(Rigs, WhatATrialDrawsTellsNothingOfItsRig) {
+  for (const std::string& design : designs_with_rigs) {
+    const Study study = rig_study(design, 64, 64 * 64);
+    for (std::int64_t rig = 0; rig < 64; rig += 7) {
+      std::set<int> parts;
+      for (std::int64_t k = 0; k < 64; ++k) {
+        parts.insert(static_cast<int>(8 * uniform_of(study, "initial.position", 64 * k + rig, 0, 6)));
+      }
+      EXPECT_EQ(parts.size(), 8U) << design << ", rig " << rig;  // all but once in 600
+    }
+  }
+}
+
+TEST(Rigs, SobolPlacesAreAPermutationWithinEveryRoundOfTheRigs) {
+  const RandomKey key = sobol_place_key(1);
+  std::set<std::uint64_t> orders;
+  for (std::uint64_t round = 0; round < 20; ++round) {
+    std::set<std::uint64_t> places;
+    for (std::uint64_t rig = 0; rig < 30; ++rig) places.insert(sobol_place(key, 30 * round + rig, 30));
+    EXPECT_EQ(places.size(), 30U);
+    EXPECT_EQ(*places.begin(), 30 * round);
+    EXPECT_EQ(*places.rbegin(), 30 * round + 29);
+    orders.insert(sobol_place(key, 30 * round, 30) - 30 * round);
+  }
+  EXPECT_GT(orders.size(), 10U);
+}
+
+TEST(Rigs, AContactDrawsByItsNumberAndTheTrialAlone) {
+  const Study study = rig_study("monte_carlo", 30, 60);
+  std::set<double> values;
+  for (std::int64_t i = 0; i < 60; ++i) {
+    const FrictionAlongRotor friction = study_trial(study, 0, i).parameters.friction;
+    const FrictionAlongRotor again = study_trial(study, 1, i).parameters.friction;
+    ASSERT_EQ(friction.per_contact.size(), 1U);
+    EXPECT_EQ(friction_at(friction, 0.3, 0).beta, input(study, "friction.beta", i));
+    for (const std::int64_t contact : {0L, 1L, 2L, 1000L}) {
+      const double beta = friction_at(friction, 0.3, contact).beta;
+      EXPECT_EQ(beta, friction_at(again, 2.0, contact).beta);
+      EXPECT_TRUE(beta >= 1.0e5 && beta < 2.0e5);
+      values.insert(beta);
+    }
+  }
+  EXPECT_EQ(values.size(), 240U);
+}
+
+// Trials that do not slide are the same whether a parameter is drawn for the trial or for each contact.
+TEST(Rigs, TheFirstContactHasWhatTheTrialWouldHave) {
+  for (const std::string design : {"monte_carlo", "latin_hypercube", "sobol", "saltelli"}) {
+    const auto with_per = [&](const std::string& per) {
+      return study_of(minimal_manifest("friction: {k1: {uniform: [100, 120], per: " + per +
+                                       "}, k2: {uniform: [1, 2]}}\n"),
+                      {"design=" + design, "trials=40"});
+    };
+    const Study of_trial = with_per("trial");
+    const Study of_contact = with_per("contact");
+    for (std::int64_t i = 0; i < 40; ++i) {
+      EXPECT_EQ(study_trial(of_trial, 0, i).inputs, study_trial(of_contact, 0, i).inputs) << design;
+    }
+  }
+}
+
+TEST(Rigs, AStudyWithoutThemCanDrawOnceForAllItsTrials) {
+  const Study study = study_of(minimal_manifest(
+      "friction: {k1: {profile: {mean: {uniform: [100, 120]}, cv: 0.1, correlation_length: 1}}, "
+      "k2: {uniform: [600, 900], per: study}, beta: {uniform: [1.0e5, 2.0e5]}}\n"));
+  EXPECT_NE(input(study, "friction.beta", 0), input(study, "friction.beta", 1));
+  const double mean = input(study, "friction.k1.profile.mean", 0);
+  EXPECT_TRUE(mean > 100 && mean < 120);
+  for (std::int64_t i = 1; i < 10; ++i) {
+    EXPECT_EQ(input(study, "friction.k2", i), input(study, "friction.k2", 0));
+    EXPECT_EQ(input(study, "friction.k1.profile.mean", i), mean);
+  }
+  // Of a lognormal field, the mean M makes the location ln M − s²/2.
+  EXPECT_NEAR(study.profiles.at(0).profile->location, std::log(mean) - 0.5 * std::log1p(0.01), 1e-14);
+}
+
+// Rotors for which there is no room are made again, and are the same.
+TEST(Rotors, AreThoseOfTheirNumberKeptOrNot) {
+  const ProfileDescription description{110, 0.1, shortest_correlation_length, Marginal::lognormal};
+  const Rotors rotors(description, std::nullopt, 7, "friction.k1", 1'000'000);
+  const Rotors others(description, std::nullopt, 7, "friction.k1", 10);
+  for (const std::int64_t rig : {0L, 9L, 0L}) EXPECT_EQ(rotors.rotor(rig)->cosine, others.rotor(rig)->cosine);
+  EXPECT_EQ(rotors.rotor(3), rotors.rotor(3));
+  EXPECT_NE(rotors.rotor(999'999), rotors.rotor(999'999));
+  EXPECT_EQ(rotors.rotor(999'999)->sine, rotors.rotor(999'999)->sine);
+}
+
+TEST(Rotors, NoneLeavesTheBoundsKnownBefore) {
+  for (const Marginal marginal : {Marginal::lognormal, Marginal::normal}) {
+    const Rotors rotors({1, 0.2, 0.5, marginal}, DrawnMean{Lognormal{100, 0.3}, Design::monte_carlo, {}}, 7,
+                        "friction.k1", 200);
+    EXPECT_TRUE(contains(rotors.bounds(), rotors.all_limits()));
+    for (std::int64_t rig = 0; rig < 200; ++rig) {
+      EXPECT_TRUE(contains(rotors.all_limits(), value_at(*rotors.rotor(rig), 0.1)));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zerocount

@@ -1,0 +1,246 @@
+// Runs that stop when they are sure: when they do, and that it depends on the trials alone.
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/statistics/confidence_sequence.hpp"
+#include "results/reading/study_file.hpp"
+#include "tests/runners/program.hpp"
+#include "tests/support/raw_hdf5.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double halfwidth = 0.08;
+constexpr std::int64_t block = 50;
+
+std::string manifest(const std::string& stop) {
+  return "zerocount: 1\nname: stopping\nseed: 11\ntrials: 50\n" + stop +
+         "friction: {k1: {uniform: [90, 130]}, alpha: {log_uniform: [0.2, 2]}}\n"
+         "initial: {encoder_phase: {uniform: [0, 1]}}\n"
+         "command: {targets: [{integers: [1, 30]}], hold: 0.2}\n"
+         "verdict: {dwell: 0.02, window: 0.02}\n"
+         "sweep: {grid: {controller.ki: [2.0e-5, 9.45e-5]}}\n";
+}
+
+std::string stopping_manifest() {
+  return manifest("stop: {success_rate_halfwidth: 0.08, max_trials: 2000}\n");
+}
+
+class StoppingRun : public ::testing::Test {
+ protected:
+  fs::path at(const std::string& name) const { return folder_.path() / name; }
+
+  ProgramResult run(const std::string& study, const std::string& output, std::vector<std::string> more = {}) {
+    std::vector<std::string> words{"run", study, "-o", output};
+    words.insert(words.end(), more.begin(), more.end());
+    return zerocount_program(words, folder_.path());
+  }
+
+  void complete(const std::string& study, const std::string& output, std::vector<std::string> more = {}) {
+    const ProgramResult result = run(study, output, std::move(more));
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+
+  void expect_same_datasets(const std::string& one, const std::string& other) const {
+    const auto left = stored_datasets(at(one));
+    const auto right = stored_datasets(at(other));
+    ASSERT_EQ(left.size(), right.size());
+    for (const auto& [path, bytes] : left) EXPECT_TRUE(right.at(path) == bytes) << path;
+  }
+
+  TemporaryFolder folder_;
+};
+
+std::int64_t successes_among(const StudyFile& file, std::int64_t point, std::int64_t trials) {
+  const std::vector<double> outcomes = file.measure("outcome", {point * file.header().trials, trials});
+  std::int64_t successes = 0;
+  for (const double outcome : outcomes) successes += outcome == static_cast<double>(Outcome::zero_count);
+  return successes;
+}
+
+bool narrow(const StudyFile& file, std::int64_t trials) {
+  for (std::int64_t point = 0; point < 2; ++point) {
+    const ConfidenceInterval bounds = anytime_bounds(successes_among(file, point, trials), trials, 0.95);
+    if (bounds.high - bounds.low > 2.0 * halfwidth) return false;
+  }
+  return true;
+}
+
+TEST_F(StoppingRun, EndsAfterTheFirstBlockThatLeavesItSure) {
+  folder_.write("study.yaml", stopping_manifest());
+  complete("study.yaml", "out.h5");
+  const StudyFile file(at("out.h5"));
+  const std::int64_t trials = file.header().trials;
+  EXPECT_EQ(trials % block, 0);
+  EXPECT_GT(trials, 2 * block);
+  EXPECT_LT(trials, 2000);
+  EXPECT_TRUE(narrow(file, trials));
+  EXPECT_FALSE(narrow(file, trials - block));
+  EXPECT_FALSE(fs::exists(at("out.h5.shards")));
+}
+
+TEST_F(StoppingRun, HoldsTheTrialsOfAPlainStudyOfThatSize) {
+  folder_.write("study.yaml", stopping_manifest());
+  folder_.write("plain.yaml", manifest(""));
+  complete("study.yaml", "out.h5");
+  const std::int64_t trials = StudyFile(at("out.h5")).header().trials;
+  complete("plain.yaml", "plain.h5", {"--set", "trials=" + std::to_string(trials)});
+  const auto stopped = stored_datasets(at("out.h5"));
+  const auto plain = stored_datasets(at("plain.h5"));
+  for (const auto& [path, bytes] : plain) {
+    if (path.find("manifest") == std::string::npos && path.find("overrides") == std::string::npos) {
+      EXPECT_TRUE(stopped.at(path) == bytes) << path;
+    }
+  }
+}
+
+TEST_F(StoppingRun, ComesToTheSameForAnyThreadsAndInterruptions) {
+  folder_.write("study.yaml", stopping_manifest());
+  complete("study.yaml", "one.h5", {"--threads", "1"});
+  complete("study.yaml", "three.h5", {"--threads", "3"});
+  expect_same_datasets("one.h5", "three.h5");
+  for (const int signal : {SIGKILL, SIGINT, SIGKILL, SIGINT}) {
+    RunningProgram program({"run", "study.yaml", "-o", "cut.h5", "--threads", "1", "-q"}, folder_.path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    program.send(signal);
+    program.wait();
+  }
+  complete("study.yaml", "cut.h5");
+  expect_same_datasets("one.h5", "cut.h5");
+}
+
+TEST_F(StoppingRun, SaysWhatItCameToAndWhy) {
+  folder_.write("study.yaml", stopping_manifest());
+  const ProgramResult sure = run("study.yaml", "out.h5");
+  const std::string trials = std::to_string(StudyFile(at("out.h5")).header().trials);
+  EXPECT_NE(sure.err.find("wrote out.h5: " + trials + " trials at each point (every point's success rate"),
+            std::string::npos)
+      << sure.err;
+  const ProgramResult unsure = run("study.yaml", "few.h5", {"--set", "stop.max_trials=120"});
+  EXPECT_NE(unsure.err.find("wrote few.h5: 120 trials at each point (max_trials; some"), std::string::npos)
+      << unsure.err;
+  EXPECT_EQ(StudyFile(at("few.h5")).header().trials, 120);
+}
+
+TEST_F(StoppingRun, TakesMinTrialsAtLeast) {
+  folder_.write("study.yaml", stopping_manifest());
+  complete("study.yaml", "out.h5", {"--set", "stop.min_trials=1020"});
+  EXPECT_EQ(StudyFile(at("out.h5")).header().trials, 1050);
+}
+
+TEST_F(StoppingRun, IsNotRunTwiceAndOverwritesNothing) {
+  folder_.write("study.yaml", stopping_manifest());
+  complete("study.yaml", "out.h5");
+  const ProgramResult again = run("study.yaml", "out.h5");
+  EXPECT_EQ(again.code, 0);
+  EXPECT_EQ(again.err, "out.h5: complete already, nothing to run\n");
+  EXPECT_EQ(run("study.yaml", "out.h5", {"--set", "seed=12"}).code, 2);
+  EXPECT_EQ(run("study.yaml", "out.h5", {"--engine", "reference"}).code, 2);
+}
+
+TEST_F(StoppingRun, CannotBeDividedIntoParts) {
+  folder_.write("study.yaml", stopping_manifest());
+  const ProgramResult result = run("study.yaml", "out.h5", {"--shard", "1/2"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("option '--shard': how many trials a study with `stop` takes"),
+            std::string::npos);
+}
+
+TEST_F(StoppingRun, SummaryHasTheBoundsThatHold) {
+  folder_.write("study.yaml", stopping_manifest());
+  complete("study.yaml", "out.h5");
+  const StudyFile file(at("out.h5"));
+  const std::int64_t trials = file.header().trials;
+  const ProgramResult result = zerocount_program({"summary", "out.h5", "--format", "json"}, folder_.path());
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto points = nlohmann::json::parse(result.out).at("points");
+  for (std::int64_t point = 0; point < 2; ++point) {
+    const ConfidenceInterval bounds = anytime_bounds(successes_among(file, point, trials), trials, 0.95);
+    const auto& stopped = points.at(static_cast<std::size_t>(point)).at("stopped");
+    EXPECT_EQ(stopped.at("success_rate_low").get<double>(), bounds.low);
+    EXPECT_EQ(stopped.at("success_rate_high").get<double>(), bounds.high);
+    EXPECT_TRUE(stopped.at("reached").get<bool>());
+  }
+}
+
+TEST_F(StoppingRun, SummarySaysWhereTheGoalWasNotReached) {
+  folder_.write("study.yaml", stopping_manifest());
+  complete("study.yaml", "few.h5", {"--set", "stop.max_trials=100"});
+  const ProgramResult table =
+      zerocount_program({"summary", "few.h5", "--confidence", "0.99"}, folder_.path());
+  EXPECT_NE(table.out.find("99 % bounds of zero-count, however often one looks"), std::string::npos);
+  EXPECT_NE(table.out.find(": not reached"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("ended by max_trials before all was known"), std::string::npos) << table.out;
+}
+
+// With rigs, how well the mean over these rigs is known decides, and all of them have run equally many trials
+// whenever it is looked at.
+TEST_F(StoppingRun, EndsAfterAWholeRoundOfItsRigs) {
+  const std::string rigs = "rigs: 10\n";
+  folder_.write("study.yaml", stopping_manifest() + rigs);
+  folder_.write("plain.yaml", manifest("") + rigs);
+  complete("study.yaml", "out.h5");
+  const StudyFile file(at("out.h5"));
+  const std::int64_t trials = file.header().trials;
+  EXPECT_GT(trials, block);
+  EXPECT_LT(trials, 2000);
+  EXPECT_TRUE(narrow(file, trials));
+  EXPECT_FALSE(narrow(file, trials - block));
+  const StoredRigs on_rigs = file.rigs().value();
+  ASSERT_EQ(on_rigs.trials.size(), 20U);
+  for (const std::int64_t of_rig : on_rigs.trials) EXPECT_EQ(of_rig, trials / 10);
+  complete("plain.yaml", "plain.h5", {"--set", "trials=" + std::to_string(trials)});
+  const auto stopped = stored_datasets(at("out.h5"));
+  for (const auto& [path, bytes] : stored_datasets(at("plain.h5"))) {
+    if (path.find("manifest") == std::string::npos && path.find("overrides") == std::string::npos) {
+      EXPECT_TRUE(stopped.at(path) == bytes) << path;
+    }
+  }
+}
+
+// What more trials narrowed is the mean over these rigs; of all rigs less is known.
+TEST_F(StoppingRun, SummaryKeepsTheBoundsOfTheseRigsApartFromThoseOfAll) {
+  folder_.write("study.yaml", stopping_manifest() + "rigs: 10\n");
+  complete("study.yaml", "out.h5");
+  const ProgramResult result = zerocount_program({"summary", "out.h5", "--format", "json"}, folder_.path());
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto points = nlohmann::json::parse(result.out).at("points");
+  bool differ = false;
+  for (const auto& point : points) {
+    EXPECT_EQ(point.at("stopped").at("of_rigs"), 10);
+    EXPECT_LE(point.at("stopped").at("halfwidth").get<double>(), halfwidth);
+    const double of_all =
+        point.at("success_rate_high").get<double>() - point.at("success_rate_low").get<double>();
+    differ = differ || of_all > 2.0 * halfwidth;
+  }
+  EXPECT_TRUE(differ) << result.out;
+  EXPECT_NE(zerocount_program({"summary", "out.h5"}, folder_.path())
+                .out.find("these bounds are of the mean over the 10 rigs of the study"),
+            std::string::npos);
+}
+
+/// Every trial of the file can be run again from it.
+TEST_F(StoppingRun, CanBeReplayedFromItsFile) {
+  folder_.write("study.yaml", stopping_manifest());
+  complete("study.yaml", "out.h5");
+  const StudyFile file(at("out.h5"));
+  const std::int64_t last = file.header().trials - 1;
+  const ProgramResult trace =
+      zerocount_program({"trace", "out.h5", "--point", "1", "--trial", std::to_string(last)}, folder_.path());
+  EXPECT_EQ(trace.code, 0) << trace.err;
+  EXPECT_NE(zerocount_program({"trace", "out.h5", "--point", "1", "--trial", std::to_string(last + 1)},
+                              folder_.path())
+                .code,
+            0);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,0 +1,99 @@
+// What a run is expected to take of the disk and of memory, beside what it takes.
+#include "runners/study_run/study_size.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
+#include "results/layout/header.hpp"
+#include "results/shards/shard.hpp"
+#include "runners/study_run/study_runner.hpp"
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+double bytes_in(const fs::path& directory) {
+  double bytes = 0.0;
+  for (const auto& entry : fs::directory_iterator(directory)) bytes += static_cast<double>(entry.file_size());
+  return bytes;
+}
+
+/// Expects a ratio of at most 2, either way.
+void expect_about(double estimate, double measured, const char* of) {
+  EXPECT_GT(estimate, measured / 2.0) << of;
+  EXPECT_LT(estimate, measured * 2.0) << of;
+}
+
+std::vector<std::string> manifests() {
+  std::vector<std::string> all{small_manifest(50), small_manifest(6000)};
+  std::string records = "retain: {trials: [0";
+  for (int trial = 1; trial < 200; ++trial) records += ", " + std::to_string(trial);
+  all.push_back(small_manifest(2000, records + "]}\n"));
+  all.push_back(small_manifest(3000, "rigs: 100\n"));
+  return all;
+}
+
+TEST(StudySize, IsAboutWhatTheFilesTake) {
+  for (const std::string& manifest : manifests()) {
+    const TemporaryFolder folder;
+    folder.write("study.yaml", manifest);
+    const Study study = load_study(folder / "study.yaml", {});
+    SCOPED_TRACE(manifest);
+    const StudySize size = measure_size(study);
+    fs::create_directory(folder / "shards");
+    const std::vector<RowRange> all{all_rows(study)};
+    run_trials(study, all, folder / "shards", {}, {});
+    expect_about(size.shard_bytes, bytes_in(folder / "shards"), "shards");
+    const ProgramResult run = zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path());
+    ASSERT_EQ(run.code, 0) << run.err;
+    expect_about(size.file_bytes, static_cast<double>(fs::file_size(folder / "out.h5")), "file");
+  }
+}
+
+TEST(StudySize, IsAboutTheMemoryThatARunTakes) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers take memory of their own";
+#endif
+  const TemporaryFolder folder;
+  folder.write("study.yaml", small_manifest(30000));
+  const ProgramResult run = zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path());
+  ASSERT_EQ(run.code, 0) << run.err;
+  rusage children{};
+  ASSERT_EQ(getrusage(RUSAGE_CHILDREN, &children), 0);
+  const double peak = 1024.0 * static_cast<double>(children.ru_maxrss);
+  expect_about(measure_size(load_study(folder / "study.yaml", {})).memory_bytes, peak, "memory");
+}
+
+TEST(StudySize, ARunThatTheDiskCannotHoldIsRefusedBeforeItBegins) {
+  const TemporaryFolder folder;
+  folder.write("study.yaml", small_manifest(1000000000));
+  const ProgramResult run = zerocount_program({"run", "study.yaml", "-o", "out.h5", "-q"}, folder.path());
+  EXPECT_EQ(run.code, 5) << run.err;
+  EXPECT_NE(run.err.find("free, and the run needs about"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("--force"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(folder / "out.h5"));
+  const ProgramResult check = zerocount_program({"check", "study.yaml"}, folder.path());
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_NE(check.out.find("GB"), std::string::npos) << check.out;
+}
+
+TEST(StudySize, IsToldWithTwoDigits) {
+  EXPECT_EQ(bytes_text(0.0), "0 B");
+  EXPECT_EQ(bytes_text(999.0), "999 B");
+  EXPECT_EQ(bytes_text(999.6), "1.0 kB");
+  EXPECT_EQ(bytes_text(4.44e6), "4.4 MB");
+  EXPECT_EQ(bytes_text(44.4e9), "44 GB");
+  EXPECT_EQ(bytes_text(1.5e15), "1500 TB");
+}
+
+}  // namespace
+}  // namespace zerocount::testing

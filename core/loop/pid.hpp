@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/loop/control_block.hpp"
+
 namespace zerocount {
 
 struct PidGains {
@@ -11,33 +13,24 @@ struct PidGains {
   double kd{0.0};  ///< on the difference of successive counts, N m/count
 };
 
-/// Bounds of a torque, N m.
-struct TorqueRange {
-  double lowest{0.0};
-  double highest{0.0};
-};
-
-/// What a control is fed back at a sampling instant: whole numbers, or those of a coarser encoder in counts
-/// of the fine one.
-struct Feedback {
-  double error{0.0};  ///< reference − count, counts
-  double count{0.0};  ///< counts
-};
-
-/// The law of the sampled PID control, with the trapezoidal integral:
+/// The PID law with the trapezoidal integral, the first block of the controller:
 ///
-///   I ← I + ki·(e_k + e_{k−1}),   u = I + kp·e_k − kd·(count_k − count_{k−1}).
+///   I ← I + ki·(e_k + e_{k−1}),   u = I + kp·e_k − kd·(count_k − count_{k−1});
+///
+///   U(z) = [kp + ki·(1 + z⁻¹)/(1 − z⁻¹)]·E(z) − kd·(1 − z⁻¹)·Count(z).
 ///
 /// Before the first sample e was 0 and the count was the first count.
-class PidController {
+class Pid {
  public:
+  Pid(const ControllerParameters& parameters, const ControlStart& start)
+      : Pid({parameters.kp, parameters.ki, parameters.kd}, start.integral, start.integral_range) {}
+
   /// @param integral I before the first sample, N m.
   /// @param range what I is clamped to whenever it is changed by an error.
-  PidController(const PidGains& gains, double integral, const TorqueRange& range)
+  Pid(const PidGains& gains, double integral, const TorqueRange& range)
       : gains_(gains), range_(range), integral_(integral) {}
 
-  /// The wanted torque (N m) at this sample.
-  double update(const Feedback& now) {
+  double step(const Feedback& now, double /*torque*/ = 0.0) {
     const double count_change = now.count - last_count_.value_or(now.count);
     integral_ += gains_.ki * (now.error + last_error_);
     integral_ = std::clamp(integral_, range_.lowest, range_.highest);
@@ -45,14 +38,21 @@ class PidController {
     return integral_ + gains_.kp * now.error - gains_.kd * count_change;
   }
 
-  /// A sample at which another law decides: only what the next one has to know of it is kept.
   void observe(const Feedback& now) {
     last_error_ = now.error;
     last_count_ = now.count;
   }
 
-  /// Sets I (N m), from which the next sample goes on.
-  void set_integral(double integral) { integral_ = integral; }
+  /// I := torque.
+  void take_over(double torque) { integral_ = torque; }
+
+  /// Parts without gain are left out: an integral with ki = 0 would be a state that nothing moves.
+  LinearBlock linear() const {
+    LinearBlock block{{LoopSignal::error, {{gains_.kp}}}};
+    if (gains_.ki != 0.0) block.push_back({LoopSignal::error, {{gains_.ki, gains_.ki}, {1.0, -1.0}}});
+    if (gains_.kd != 0.0) block.push_back({LoopSignal::count, {{-gains_.kd, gains_.kd}}});
+    return block;
+  }
 
   double integral() const { return integral_; }  ///< I, N m
 

@@ -15,8 +15,6 @@
 namespace zerocount {
 namespace {
 
-using testing::LowPass;
-
 struct Input {
   Feedback feedback;
   double torque;

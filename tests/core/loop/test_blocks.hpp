@@ -3,7 +3,7 @@
 #include "core/loop/control_block.hpp"
 
 /// Blocks of a controller that only the tests know.
-namespace zerocount::testing {
+namespace zerocount {
 
 /// y_k = a·y_{k−1} + (1 − a)·u_k.
 class LowPass {
@@ -37,4 +37,4 @@ class TorqueFeedback {
   }
 };
 
-}  // namespace zerocount::testing
+}  // namespace zerocount

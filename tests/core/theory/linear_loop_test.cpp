@@ -16,9 +16,6 @@
 namespace zerocount {
 namespace {
 
-using testing::LowPass;
-using testing::TorqueFeedback;
-
 constexpr ControlStart wide{0.0, {-1e300, 1e300}};
 
 HeldPlant paper_rig() {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/loop/formulas.hpp"
+
 namespace zerocount::batch {
 namespace {
 
@@ -20,7 +22,7 @@ double time_to_creep(const CreepAtRest& creep, double distance, double stiffness
 }
 
 double count_at(const Tile& tile, int lane, double theta) {
-  return std::floor(theta / tile.loop.resolution[lane] + tile.loop.phase[lane]);
+  return ideal_count(theta, tile.loop.resolution[lane], tile.loop.phase[lane]);
 }
 
 /// Rest as it goes on from now.
@@ -77,12 +79,10 @@ bool stands(const Tile& tile, int lane, const LanePlant& plant) {
 
 void pass_samples(Tile& tile, int lane, double samples) {
   MeasureLanes& q = tile.measures;
-  if (q.arrived[lane] == 0.0 && samples > 0.0 && q.zeros_in_a_row[lane] + samples >= q.dwell[lane]) {
-    q.arrived[lane] = 1.0;
-    q.arrival[lane] = q.taken[lane] - q.zeros_in_a_row[lane];
-  }
-  q.zeros_in_a_row[lane] += samples;
-  q.taken[lane] += samples;
+  ArrivalMeasures<double> arrival;
+  for_each_of_arrival([lane](double& to, const Lanes& from) { to = from[lane]; }, arrival, q);
+  measure_zeros(arrival, q.limits.dwell[lane], samples);
+  for_each_of_arrival([lane](Lanes& to, double from) { to[lane] = from; }, q, arrival);
 }
 
 bool rest(Tile& tile, int lane, LaneTrial& trial, const PassedSample& passed) {

@@ -1,7 +1,6 @@
 // The sampling instants of the lanes.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "core/batch/lane_work.hpp"
 #include "core/numerics/power_series.hpp"
@@ -23,7 +22,7 @@ void LaneWork::take_samples() {
   int count = 0;
   for (int i = 0; i < due; ++i) {
     const int lane = list_[i];
-    if (tile_.measures.taken[lane] == tile_.measures.samples[lane]) {
+    if (tile_.measures.taken[lane] == tile_.measures.limits.samples[lane]) {
       end_move(lane, trial_of(lane));
       if (state_of(lane) == LaneState::idle) continue;
     }
@@ -95,33 +94,15 @@ void LaneWork::follow_last_half(int lane, LaneTrial& trial) {
   trial.last_half.add(k, first ? count : count - change, count);
 }
 
-/// As MoveMeasures has it.
 void LaneWork::track_jerk(int lane, LaneTrial& trial) {
-  MeasureLanes& q = tile_.measures;
-  const auto error = static_cast<std::int64_t>(tile_.loop.error[lane]);
-  const double k = q.taken[lane] - 1.0;
-  if (error == 0) {
-    end_jerk(lane, trial, k);
-    return;
-  }
-  if (q.in_jerk[lane] == 0.0) {
-    q.in_jerk[lane] = 1.0;
-    trial.jerk_start = static_cast<std::int64_t>(k);
-    trial.jerk = {static_cast<std::int64_t>(trial.move), k * tile_.time.sample_time[lane], 0.0, 0,
-                  error > 0 ? -1 : 1};
-  }
-  trial.jerk.magnitude = std::max(trial.jerk.magnitude, std::abs(error));
+  const auto k = static_cast<std::int64_t>(tile_.measures.taken[lane]) - 1;
+  if (trial.jerks.add(k, static_cast<std::int64_t>(tile_.loop.error[lane]))) tell_jerk(trial);
+  tile_.measures.in_jerk[lane] = trial.jerks.lasts() ? 1.0 : 0.0;
 }
 
-void LaneWork::end_jerk(int lane, LaneTrial& trial, double taken) {
-  tile_.measures.in_jerk[lane] = 0.0;
-  const std::int64_t samples = static_cast<std::int64_t>(taken) - trial.jerk_start;
-  trial.jerk.duration = static_cast<double>(samples) * tile_.time.sample_time[lane];
-  trial.jerk_samples += samples;
-  ++trial.jerk_count;
-  if (trial.jerk.direction > 0) ++trial.jerks_up;
+void LaneWork::tell_jerk(LaneTrial& trial) {
   ++trial.told_jerks;
-  if (observers_->jerk) observers_->jerk(trial.number, trial.jerk);
+  if (observers_->jerk) observers_->jerk(trial.number, trial.jerks.last());
 }
 
 /// The torque that comes through the delay now. It stays as long as the decided one only where all that wait

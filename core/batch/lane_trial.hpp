@@ -7,6 +7,7 @@
 
 #include "core/batch/tile.hpp"
 #include "core/plant/plant.hpp"
+#include "core/trial/jerks.hpp"
 #include "core/trial/last_half.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
@@ -34,14 +35,9 @@ struct LaneTrial {
   bool slid_at_start{false};   ///< of this move
   std::int64_t deepest{0};     ///< in this move
 
-  Jerk jerk;
-  std::int64_t jerk_start{0};
-  std::int64_t jerk_count{0};
-  std::int64_t jerks_up{0};
-  std::int64_t jerk_samples{0};
+  Jerks jerks;                 ///< of this move
   std::int64_t told_jerks{0};  ///< of the trial
-
-  LastHalf last_half;  ///< of this move
+  LastHalf last_half;          ///< of this move
 
   std::vector<double> waiting;  ///< decided torques on their way through the delay, N m
   std::size_t oldest_waiting{0};
@@ -62,11 +58,18 @@ void end_slide(Tile& tile, int lane, LaneTrial& trial);
 /// @returns whether the motion could be followed.
 bool advance_by_reference(Tile& tile, int lane, LaneTrial& trial);
 
+/// The measures of one lane.
+inline RunningMeasures<double> measures_of(const MeasureLanes& lanes, int lane) {
+  RunningMeasures<double> measures;
+  for_each_measure([lane](double& to, const Lanes& from) { to = from[lane]; }, measures, lanes);
+  return measures;
+}
+
 /// Puts the lane into its trial's start.
 void start_trial(Tile& tile, int lane, LaneTrial& trial, std::size_t number,
                  const TrialParameters& parameters, TrialOutcome& outcome);
 void start_move(Tile& tile, int lane, LaneTrial& trial);
 /// The measures of the move that ends here. @param stopped because it has diverged.
-MoveOutcome outcome_of_move(const Tile& tile, int lane, LaneTrial& trial, bool stopped);
+MoveOutcome end_of_move(const Tile& tile, int lane, LaneTrial& trial, bool stopped);
 
 }  // namespace zerocount::batch

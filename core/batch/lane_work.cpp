@@ -94,22 +94,24 @@ void LaneWork::end_trial(int lane) {
   refill(lane);
 }
 
+void LaneWork::add_outcome(int lane, LaneTrial& trial, bool stopped) {
+  if (trial.jerks.end(static_cast<std::int64_t>(tile_.measures.taken[lane]))) tell_jerk(trial);
+  trial.outcome->moves.push_back(end_of_move(tile_, lane, trial, stopped));
+}
+
 void LaneWork::end_move(int lane, LaneTrial& trial) {
-  const double taken = tile_.measures.taken[lane];
-  if (tile_.measures.in_jerk[lane] != 0.0) end_jerk(lane, trial, taken);
-  trial.outcome->moves.push_back(outcome_of_move(tile_, lane, trial, false));
+  add_outcome(lane, trial, false);
   ++trial.move;
   if (trial.move == trial.parameters->command.targets.size()) {
     end_trial(lane);
     return;
   }
-  trial.first_sample += static_cast<std::int64_t>(taken);
+  trial.first_sample += static_cast<std::int64_t>(tile_.measures.taken[lane]);
   start_move(tile_, lane, trial);
 }
 
 void LaneWork::stop_diverged(int lane, LaneTrial& trial) {
-  if (tile_.measures.in_jerk[lane] != 0.0) end_jerk(lane, trial, tile_.measures.taken[lane]);
-  trial.outcome->moves.push_back(outcome_of_move(tile_, lane, trial, true));
+  add_outcome(lane, trial, true);
   trial.outcome->moves.resize(trial.parameters->command.targets.size(), move_not_run());
   end_trial(lane);
 }

@@ -35,6 +35,7 @@ class LaneWork {
   void end_trial(int lane);
   void end_move(int lane, LaneTrial& trial);
   void stop_diverged(int lane, LaneTrial& trial);
+  void add_outcome(int lane, LaneTrial& trial, bool stopped);
 
   // Sampling instants (lane_samples.cpp).
   int list_due_lanes();
@@ -43,7 +44,7 @@ class LaneWork {
   void record_passed();
   void follow_last_half(int lane, LaneTrial& trial);
   void track_jerk(int lane, LaneTrial& trial);
-  void end_jerk(int lane, LaneTrial& trial, double taken);
+  void tell_jerk(LaneTrial& trial);
   void delay_torque(int lane, LaneTrial& trial);
 
   // The way from one to the next (lane_steps.cpp).

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/trial/running_measures.hpp"
+
 /// The trials that a batch engine has in work, one a lane: plain arrays, one quantity each, so that a kernel
 /// takes the same quantity of many lanes at once. Truths are 0 or 1, whole numbers are exact doubles.
 ///
@@ -95,24 +97,14 @@ struct alignas(64) LoopLanes {
   Lanes delay;     ///< samples between deciding a torque and applying it
 };
 
-/// The measures of the move so far (see MoveMeasures).
-struct alignas(64) MeasureLanes {
-  Lanes samples, dwell, window;  ///< N, D, W
-  Lanes last_half;               ///< first sample of the last half
-  Lanes taken;                   ///< samples so far
-  Lanes zeros_in_a_row;
-  Lanes arrived;
-  Lanes arrival;
-  Lanes largest_since_arrival;
-  Lanes largest_in_window;
-  Lanes overshoot;
-  Lanes move_direction;
-  Lanes peak_torque;
-  Lanes saturated;
-  Lanes in_jerk;
+/// The measures of the move so far, and what else is known of it.
+struct alignas(64) MeasureLanes : RunningMeasures<Lanes> {
+  MeasureLimits<Lanes> limits;
+  Lanes last_half;      ///< first sample of the last half
+  Lanes in_jerk;        ///< a jerk lasts
   Lanes change;         ///< of the count with the last sample
-  Lanes first_error;    ///< of the move, counts
-  Lanes largest_error;  ///< beyond the first |error|, with which the move is ended, counts; infinite: never
+  Lanes first_error;    ///< |e_0|, counts
+  Lanes largest_error;  ///< beyond |e_0|, with which the move is ended, counts; infinite: never
   Lanes theta;          ///< at the last sample, rad
   Lanes extension;      ///< at the last sample, rad
 };

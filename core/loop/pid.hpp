@@ -1,9 +1,7 @@
 #pragma once
 
-#include <algorithm>
-#include <optional>
-
 #include "core/loop/control_block.hpp"
+#include "core/loop/formulas.hpp"
 
 namespace zerocount {
 
@@ -28,40 +26,38 @@ class Pid {
   /// @param integral I before the first sample, N m.
   /// @param range what I is clamped to whenever it is changed by an error.
   Pid(const PidGains& gains, double integral, const TorqueRange& range)
-      : gains_(gains), range_(range), integral_(integral) {}
+      : constants_{gains.kp, gains.ki, gains.kd, range.lowest, range.highest}, state_{integral, 0.0, 0.0} {}
 
   double step(const Feedback& now, double /*torque*/ = 0.0) {
-    const double count_change = now.count - last_count_.value_or(now.count);
-    integral_ += gains_.ki * (now.error + last_error_);
-    integral_ = std::clamp(integral_, range_.lowest, range_.highest);
-    observe(now);
-    return integral_ + gains_.kp * now.error - gains_.kd * count_change;
+    if (!started_) state_.last_count = now.count;
+    started_ = true;
+    return pid_step(constants_, state_, now.error, now.count);
   }
 
   void observe(const Feedback& now) {
-    last_error_ = now.error;
-    last_count_ = now.count;
+    started_ = true;
+    state_.last_error = now.error;
+    state_.last_count = now.count;
   }
 
   /// I := torque.
-  void take_over(double torque) { integral_ = torque; }
+  void take_over(double torque) { state_.integral = torque; }
 
   /// Parts without gain are left out: an integral with ki = 0 would be a state that nothing moves.
   LinearBlock linear() const {
-    LinearBlock block{{LoopSignal::error, {{gains_.kp}}}};
-    if (gains_.ki != 0.0) block.push_back({LoopSignal::error, {{gains_.ki, gains_.ki}, {1.0, -1.0}}});
-    if (gains_.kd != 0.0) block.push_back({LoopSignal::count, {{-gains_.kd, gains_.kd}}});
+    const auto& [kp, ki, kd, lowest, highest] = constants_;
+    LinearBlock block{{LoopSignal::error, {{kp}}}};
+    if (ki != 0.0) block.push_back({LoopSignal::error, {{ki, ki}, {1.0, -1.0}}});
+    if (kd != 0.0) block.push_back({LoopSignal::count, {{-kd, kd}}});
     return block;
   }
 
-  double integral() const { return integral_; }  ///< I, N m
+  double integral() const { return state_.integral; }  ///< I, N m
 
  private:
-  PidGains gains_;
-  TorqueRange range_;
-  double integral_;
-  double last_error_{0.0};
-  std::optional<double> last_count_;
+  PidConstants<double> constants_;
+  PidState<double> state_;
+  bool started_{false};
 };
 
 }  // namespace zerocount

@@ -1,12 +1,13 @@
 #pragma once
 
+#include "core/batch/batch_state.hpp"
 #include "core/batch/lanes.hpp"
-#include "core/batch/tile.hpp"
 
 namespace zerocount::batch {
 
 /// The lanes of one pack. Where enough of a list's next lanes lie side by side the pack is that stretch of
-/// the tile, with some of its lanes not taking part; otherwise they are collected from wherever they are.
+/// the batch state, with some of its lanes not taking part; otherwise they are collected from wherever they
+/// are.
 template <class P>
 class LaneGroup {
  public:
@@ -63,10 +64,10 @@ class LaneGroup {
     }
   }
 
-  /// Adds the lanes whose `notes` are not 0 to the tile's.
-  ZEROCOUNT_ALWAYS_INLINE void note(Tile& tile, const P& notes) const {
-    const typename P::Mask noted = (notes != P(0.0)) & taking_part();
-    if (noted.any()) add_notes(tile, notes, noted);
+  /// Adds the lanes whose `events` are not 0 to the batch state.
+  ZEROCOUNT_ALWAYS_INLINE void add_events_to(BatchState& batch, const P& events) const {
+    const typename P::Mask noted = (events != P(0.0)) & taking_part();
+    if (noted.any()) append_events(batch, events, noted);
   }
 
   ZEROCOUNT_ALWAYS_INLINE int lane(int i) const { return lane_[i]; }
@@ -97,15 +98,16 @@ class LaneGroup {
     for (int i = 0; i < P::lanes; ++i) to[lane_[i]] = value[i];
   }
 
-  __attribute__((noinline)) void add_notes(Tile& tile, const P& notes, const typename P::Mask& noted) const {
-    constexpr int width = sizeof(notes.part[0]) / sizeof(double);
+  __attribute__((noinline)) void append_events(BatchState& batch, const P& events,
+                                               const typename P::Mask& noted) const {
+    constexpr int width = sizeof(events.part[0]) / sizeof(double);
     for (int p = 0; p < P::lanes / width; ++p) {
       const auto part = noted.part[p];
       for (int j = 0; j < width; ++j) {
         if (part[j] == 0) continue;
         const int lane = lane_[p * width + j];
-        tile.note[lane] = static_cast<int>(notes.part[p][j]);
-        tile.noted[tile.noted_count++] = lane;
+        batch.events[lane] = static_cast<int>(events.part[p][j]);
+        batch.event_lanes[batch.event_count++] = lane;
       }
     }
   }
@@ -141,7 +143,7 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask to_mask(const P& number) {
 }
 /// `note` where true.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE P noted(const typename P::Mask& mask, LaneNote note) {
+ZEROCOUNT_ALWAYS_INLINE P events_where(const typename P::Mask& mask, LaneEvent note) {
   return select(mask, P(static_cast<double>(note)), P(0.0));
 }
 

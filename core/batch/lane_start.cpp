@@ -40,8 +40,8 @@ void start_loop(LoopLanes& l, int lane, const TrialParameters& p) {
 
 void start_time(TimeLanes& time, int lane, const TrialParameters& p, double resolution) {
   const MotionTolerance tolerance = motion_tolerance(resolution);
-  time.until[lane] = 0.0;
-  time.samples_left[lane] = 1.0;
+  time.time_to_stop[lane] = 0.0;
+  time.samples_to_stop[lane] = 1.0;
   time.sample_rate[lane] = p.controller.sample_rate;
   time.sample_time[lane] = 1.0 / p.controller.sample_rate;
   time.next_step[lane] = time.sample_time[lane];
@@ -53,7 +53,7 @@ void start_time(TimeLanes& time, int lane, const TrialParameters& p, double reso
 
 }  // namespace
 
-void start_trial(Tile& tile, int lane, LaneTrial& trial, std::size_t number,
+void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,
                  const TrialParameters& parameters, TrialOutcome& outcome) {
   const TrialParameters& p = parameters;
   trial.parameters = &parameters;
@@ -67,23 +67,23 @@ void start_trial(Tile& tile, int lane, LaneTrial& trial, std::size_t number,
   trial.oldest_waiting = 0;
   trial.waiting_alike = p.controller.delay;
 
-  start_loop(tile.loop, lane, p);
-  const double resolution = tile.loop.resolution[lane];
-  start_time(tile.time, lane, p, resolution);
-  trial.rest_tolerance = tile.time.tolerance[lane];
+  start_loop(batch.loop, lane, p);
+  const double resolution = batch.loop.resolution[lane];
+  start_time(batch.time, lane, p, resolution);
+  trial.rest_tolerance = batch.time.tolerance[lane];
   trial.plant.emplace(p.plant, p.friction, plant_start(p), motion_tolerance(resolution));
-  tile.contact.per_inertia[lane] = 1.0 / p.plant.inertia;
-  tile.contact.damping[lane] = p.plant.presliding_damping;
-  tile.contact.sliding_damping[lane] = p.plant.sliding_damping;
-  store_motion(tile, lane, trial);
-  start_move(tile, lane, trial);
+  batch.contact.per_inertia[lane] = 1.0 / p.plant.inertia;
+  batch.contact.damping[lane] = p.plant.presliding_damping;
+  batch.contact.sliding_damping[lane] = p.plant.sliding_damping;
+  store_motion(batch, lane, trial);
+  start_move(batch, lane, trial);
 }
 
-void start_move(Tile& tile, int lane, LaneTrial& trial) {
+void start_move(BatchState& batch, int lane, LaneTrial& trial) {
   const TrialParameters& p = *trial.parameters;
   const MoveTiming timing = move_timing(p, trial.move);
-  MeasureLanes& q = tile.measures;
-  tile.loop.target[lane] = static_cast<double>(p.command.targets[trial.move]);
+  MeasureLanes& q = batch.measures;
+  batch.loop.target[lane] = static_cast<double>(p.command.targets[trial.move]);
   q.limits.samples[lane] = static_cast<double>(timing.samples);
   q.limits.dwell[lane] = static_cast<double>(timing.dwell);
   q.limits.window[lane] = static_cast<double>(timing.window);
@@ -92,16 +92,16 @@ void start_move(Tile& tile, int lane, LaneTrial& trial) {
   for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension}) (*of)[lane] = 0.0;
   q.largest_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
   trial.breakaways = 0;
-  trial.slid_at_start = tile.motion.slide_direction[lane] != 0.0;
+  trial.slid_at_start = batch.motion.slide_direction[lane] != 0.0;
   trial.deepest = static_cast<std::int64_t>(trial.plant->spring().depth());
   trial.jerks = Jerks(static_cast<std::int64_t>(trial.move), timing.sample_time);
   trial.last_half.start(timing.samples);
 }
 
-MoveOutcome end_of_move(const Tile& tile, int lane, LaneTrial& trial, bool stopped) {
+MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& trial, bool stopped) {
   const TrialParameters& p = *trial.parameters;
-  const MeasureLanes& q = tile.measures;
-  const LoopLanes& l = tile.loop;
+  const MeasureLanes& q = batch.measures;
+  const LoopLanes& l = batch.loop;
   MoveEnd end;
   end.last = {p.command.targets[trial.move],
               static_cast<std::int64_t>(l.count[lane]),

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/batch/tile.hpp"
+#include "core/batch/batch_state.hpp"
 #include "core/plant/plant.hpp"
 #include "core/trial/jerks.hpp"
 #include "core/trial/last_half.hpp"
@@ -17,7 +17,7 @@ namespace zerocount::batch {
 /// The lanes' friction law: that of the models which run in lanes.
 using LanePlant = PlantWith<PreslidingFriction>;
 
-/// What a lane has beside its numbers in the tile: its trial, and what the kernels have no use for.
+/// What a lane has beside its numbers in the batch state: its trial, and what the kernels have no use for.
 struct LaneTrial {
   const TrialParameters* parameters{nullptr};
   std::size_t number{0};  ///< of the trial in the batch
@@ -44,19 +44,19 @@ struct LaneTrial {
   std::int64_t waiting_alike{0};  ///< how many of the last decided torques were the same
 };
 
-// The lane's motion from the tile into its plant and back. The spring's branch goes with it.
-void load_motion(const Tile& tile, int lane, LaneTrial& trial);
-void store_motion(Tile& tile, int lane, LaneTrial& trial);
+// The lane's motion from the batch state into its plant and back. The spring's branch goes with it.
+void load_motion(const BatchState& batch, int lane, LaneTrial& trial);
+void store_motion(BatchState& batch, int lane, LaneTrial& trial);
 
 // What happens to the contact, as Plant has it.
-void turn(Tile& tile, int lane, LaneTrial& trial);
-void close_loop(Tile& tile, int lane, LaneTrial& trial);
-void end_creep(Tile& tile, int lane, LaneTrial& trial);
-void start_slide(Tile& tile, int lane, LaneTrial& trial);
-void end_slide(Tile& tile, int lane, LaneTrial& trial);
+void turn(BatchState& batch, int lane, LaneTrial& trial);
+void close_loop(BatchState& batch, int lane, LaneTrial& trial);
+void end_creep(BatchState& batch, int lane, LaneTrial& trial);
+void start_slide(BatchState& batch, int lane, LaneTrial& trial);
+void end_slide(BatchState& batch, int lane, LaneTrial& trial);
 /// By LanePlant::advance to the next stop.
 /// @returns whether the motion could be followed.
-bool advance_by_reference(Tile& tile, int lane, LaneTrial& trial);
+bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial);
 
 /// The measures of one lane.
 inline RunningMeasures<double> measures_of(const MeasureLanes& lanes, int lane) {
@@ -66,10 +66,10 @@ inline RunningMeasures<double> measures_of(const MeasureLanes& lanes, int lane) 
 }
 
 /// Puts the lane into its trial's start.
-void start_trial(Tile& tile, int lane, LaneTrial& trial, std::size_t number,
+void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,
                  const TrialParameters& parameters, TrialOutcome& outcome);
-void start_move(Tile& tile, int lane, LaneTrial& trial);
+void start_move(BatchState& batch, int lane, LaneTrial& trial);
 /// The measures of the move that ends here. @param stopped because it has diverged.
-MoveOutcome end_of_move(const Tile& tile, int lane, LaneTrial& trial, bool stopped);
+MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& trial, bool stopped);
 
 }  // namespace zerocount::batch

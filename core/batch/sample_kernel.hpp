@@ -5,16 +5,16 @@
 
 namespace zerocount::batch {
 
-/// One sampling instant of each lane: encoder, control, converter, measures. Notes jerk_changes and
+/// One sampling instant of each lane: encoder, control, converter, measures. Reports jerk_changes and
 /// count_changes, and beyond_kernel where the encoder could not count θ.
 template <class P>
-void sample_kernel(Tile& tile, LaneList list) {
+void sample_kernel(BatchState& batch, LaneList list) {
   using Mask = typename P::Mask;
-  MotionLanes& m = tile.motion;
-  LoopLanes& l = tile.loop;
-  MeasureLanes& q = tile.measures;
-  TimeLanes& time = tile.time;
-  tile.noted_count = 0;
+  MotionLanes& m = batch.motion;
+  LoopLanes& l = batch.loop;
+  MeasureLanes& q = batch.measures;
+  TimeLanes& time = batch.time;
+  batch.event_count = 0;
   for (int first = 0, next = 0; first < list.count; first = next) {
     const LaneGroup<P> at(list, first);
     next = first + at.used();
@@ -68,15 +68,17 @@ void sample_kernel(Tile& tile, LaneList list) {
 
     // Up to the last sample of the move no one is needed where the torque stays.
     const P left = select(steady & ~sliding, max(limits.samples - taken - one, one), one);
-    at.store(time.samples_left, left);
-    at.store(time.until, left * at.load(time.sample_time));
+    at.store(time.samples_to_stop, left);
+    at.store(time.time_to_stop, left * at.load(time.sample_time));
     at.store(time.steps, zero);
     const Mask away = dwelt & (error != zero);
     const Mask back = to_mask(at.load(q.in_jerk));
     const Mask changes = (change != zero) & (taken >= at.load(q.last_half));
-    at.note(tile, noted<P>(unreadable, beyond_kernel) + noted<P>(~unreadable & (away | back), jerk_changes) +
-                      noted<P>(~unreadable & changes, count_changes) + noted<P>(lost, diverges) +
-                      noted<P>(to_mask(at.load(l.delay)), delayed));
+    at.add_events_to(batch, events_where<P>(unreadable, beyond_kernel) +
+                                events_where<P>(~unreadable & (away | back), jerk_changes) +
+                                events_where<P>(~unreadable & changes, count_changes) +
+                                events_where<P>(lost, diverges) +
+                                events_where<P>(to_mask(at.load(l.delay)), delayed));
   }
 }
 

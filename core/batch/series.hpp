@@ -1,10 +1,10 @@
 #pragma once
 
+#include "core/batch/batch_state.hpp"
 #include "core/batch/lanes.hpp"
-#include "core/batch/tile.hpp"
 #include "core/numerics/series_recurrences.hpp"
 
-/// Power series in the share of a step, from 0 to 1: coefficient k is that of time, times hᵏ.
+/// Power series in the fraction of a step, from 0 to 1: coefficient k is that in time, times hᵏ.
 namespace zerocount::batch {
 
 /// The polynomial at x, smallest terms first.
@@ -33,7 +33,7 @@ ZEROCOUNT_ALWAYS_INLINE void values_of(const P* a, const P* b, const P* c, const
   }
 }
 
-/// The polynomial at 1: to the bit what value_of says there.
+/// The polynomial at x = 1; bitwise equal to value_of(c, order, 1).
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P sum_of(const P* c, int order) {
   P value = c[order];
@@ -76,13 +76,13 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask cannot_turn(const P& at_start, const P&
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start, const P& at_end,
                                        const P& end, const typename P::Mask& wanted) {
-  constexpr int most_steps = 60;
+  constexpr int max_steps = 60;
   P low(0.0);
   P high = end;
   P x = end * (at_start / (at_start - at_end));
   P last_change = end;
   typename P::Mask open = wanted;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     // The even and the odd powers apart, and their derivatives: four chains of additions in place of two.
     const P square = x * x;
     P even(0.0);

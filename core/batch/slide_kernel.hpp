@@ -5,24 +5,25 @@
 
 namespace zerocount::batch {
 
-/// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series carry. Notes
-/// velocity_zero, at_stop, and beyond_kernel where the slide begins at ω = 0. See PreslidingFriction::slide.
+/// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series carry.
+/// Reports velocity_zero, at_stop, and beyond_kernel where the slide begins at ω = 0. See
+/// PreslidingFriction::slide.
 ///
 /// Far above the Stribeck velocity, where (ω/ωs)² > 64, friction is that of Coulomb to the last bit; those
 /// lanes go apart, with `Fast`, and step until (ω/ωs)² is down to 42: exp(−42) = 6e-19.
 template <class P, bool Fast>
-void slide_kernel(Tile& tile, LaneList list) {
+void slide_kernel(BatchState& batch, LaneList list) {
   using Mask = typename P::Mask;
-  MotionLanes& m = tile.motion;
-  ContactLanes& c = tile.contact;
-  TimeLanes& time = tile.time;
-  tile.noted_count = 0;
+  MotionLanes& m = batch.motion;
+  ContactLanes& c = batch.contact;
+  TimeLanes& time = batch.time;
+  batch.event_count = 0;
   const P zero(0.0);
   const P one(1.0);
   for (int first = 0, next = 0; first < list.count; first = next) {
     const LaneGroup<P> at(list, first);
     next = first + at.used();
-    const P until = at.load(time.until);
+    const P until = at.load(time.time_to_stop);
     const P omega = at.load(m.omega);
     const P direction = at.load(m.slide_direction);
     const P coulomb = at.load(c.coulomb);
@@ -101,17 +102,18 @@ void slide_kernel(Tile& tile, LaneList list) {
 
     const Mask done = ~too_long & ~beyond;
     const Mask stops_here = ~halts & ~(h < until);
-    const P until_then = select(stops_here, zero, until - x * h);
+    const P time_to_stop_then = select(stops_here, zero, until - x * h);
     const P factor = P(0.9) * rough_power(allowed / left_out, 1.0 / batch_order);
     const P shorter = select(inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));
     const P longer = h * min(max(factor, P(0.3)), P(4.0));
     at.store(time.next_step, select(too_long, shorter, select(done, longer, h)));
-    at.store(time.until, select(done, until_then, until));
+    at.store(time.time_to_stop, select(done, time_to_stop_then, until));
     at.store(time.steps, at.load(time.steps) + one);
     at.store(m.theta, select(done, value_of(theta, batch_order, x), theta[0]));
     at.store(m.omega, select(done, select(halts, zero, value_of(velocity, batch_order, x) / h), omega));
-    at.note(tile, noted<P>(done & halts, velocity_zero) +
-                      noted<P>(beyond | (at.load(time.steps) > P(most_steps_to_a_stop)), beyond_kernel));
+    at.add_events_to(
+        batch, events_where<P>(done & halts, velocity_zero) +
+                   events_where<P>(beyond | (at.load(time.steps) > P(max_steps_to_stop)), beyond_kernel));
   }
 }
 

@@ -14,7 +14,7 @@ struct EventsPassed {
 };
 
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE EventsPassed<P> events_passed(const Tile& tile, const LaneGroup<P>& at,
+ZEROCOUNT_ALWAYS_INLINE EventsPassed<P> events_passed(const BatchState& batch, const LaneGroup<P>& at,
                                                       const StickStep<P>& step) {
   const P zero(0.0);
   const StickLaw<P>& law = step.law;
@@ -25,9 +25,9 @@ ZEROCOUNT_ALWAYS_INLINE EventsPassed<P> events_passed(const Tile& tile, const La
     creep_limit = select(other_powers, law.creep_limit * power, creep_limit);
   }
   const P creep_left = step.torque_sign * (creep_limit - law.creep_recovery * step.growth);
-  return {step.direction * (step.elongation - at.load(tile.motion.branch_end)) >= zero,
+  return {step.direction * (step.elongation - at.load(batch.motion.branch_end)) >= zero,
           step.creeping & (~(creep_left > zero) | (step.torque_sign * step.torque <= zero)),
-          ~step.creeping & (abs(step.torque) >= at.load(tile.motion.creep_onset))};
+          ~step.creeping & (abs(step.torque) >= at.load(batch.motion.creep_onset))};
 }
 
 /// Whether the hook's torque may reach the breakaway torque between the ends of the step, of which the larger
@@ -44,9 +44,9 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_slip_within(const StickStep<P>& ste
 
 /// Marks the lanes whose steps have an event other than a reversal, without looking for it.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void see_events(const Tile& tile, const LaneGroup<P>& at, StickStep<P>& step) {
+ZEROCOUNT_ALWAYS_INLINE void see_events(const BatchState& batch, const LaneGroup<P>& at, StickStep<P>& step) {
   using Mask = typename P::Mask;
-  const EventsPassed<P> passed = events_passed(tile, at, step);
+  const EventsPassed<P> passed = events_passed(batch, at, step);
   const P hook_max = max(abs(step.hook_torque), abs(step.torque + step.per_step * step.velocity));
   Mask slips = hook_max >= step.breakaway;
   const Mask near = ~step.too_long & (hook_max > P(0.5) * step.breakaway);
@@ -71,7 +71,7 @@ struct SoughtEvent {
 
 /// Moves the end of the step to where the events are that its end lies beyond.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void go_back_to(const Tile& tile, const LaneGroup<P>& at,
+ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const LaneGroup<P>& at,
                                         const SoughtEvent<P>& sought, StickStep<P>& step) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
@@ -83,8 +83,8 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const Tile& tile, const LaneGroup<P>& at
     const P of_hook = hook_sign * (s.torque[k] + step.per_step * s.velocity[k]);
     f[k] = sought.choose(of_hook, s.elongation[k], start_sign * s.torque[k], step.torque_sign * s.creep[k]);
   }
-  f[0] = f[0] - sought.choose(step.breakaway, at.load(tile.motion.branch_end),
-                              at.load(tile.motion.creep_onset), zero);
+  f[0] = f[0] - sought.choose(step.breakaway, at.load(batch.motion.branch_end),
+                              at.load(batch.motion.creep_onset), zero);
   // Creep ends before σ is zero, beyond which the series of its rate, in σ², would rise again.
   P last = step.x;
   const Mask crosses = sought.open & sought.stop & (step.torque_sign * step.torque <= zero);
@@ -111,13 +111,14 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const Tile& tile, const LaneGroup<P>& at
 
 /// Finds the first event of each lane, and ends its step there.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void find_first_event(const Tile& tile, const LaneGroup<P>& at, StickStep<P>& step) {
+ZEROCOUNT_ALWAYS_INLINE void find_first_event(const BatchState& batch, const LaneGroup<P>& at,
+                                              StickStep<P>& step) {
   using Mask = typename P::Mask;
   step.meets = nowhere<P>();
   step.beyond = abs(step.hook_torque) >= step.breakaway;
   // One at a time; the next round sees whether another is earlier still.
   for (int round = 0; round < 4; ++round) {
-    const EventsPassed<P> passed = events_passed(tile, at, step);
+    const EventsPassed<P> passed = events_passed(batch, at, step);
     const P hook_torque = step.torque + step.per_step * step.velocity;
     const Mask loose = (abs(hook_torque) >= step.breakaway) & (step.event != P(breaks_away));
     const Mask closes = passed.closes & (step.event != P(closure));
@@ -130,7 +131,7 @@ ZEROCOUNT_ALWAYS_INLINE void find_first_event(const Tile& tile, const LaneGroup<
     sought.closing = ~loose & closes;
     sought.start = ~loose & ~closes & starts;
     sought.stop = ~loose & ~closes & ~starts;
-    go_back_to(tile, at, sought, step);
+    go_back_to(batch, at, sought, step);
   }
   // Between the ends the hook's torque may have been larger.
   const P hook_at_end = step.torque + step.per_step * step.velocity;

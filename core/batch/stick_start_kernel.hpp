@@ -6,14 +6,14 @@
 
 namespace zerocount::batch {
 
-/// What has to be settled before a step of a lane whose hook sticks: evaluates the branch, and notes may_rest
-/// alone, or slides, or any of ends_creep and turns. See PreslidingFriction::stick.
+/// What has to be settled before a step of a lane whose hook sticks: evaluates the branch, and events
+/// may_rest alone, or slides, or any of ends_creep and turns. See PreslidingFriction::stick.
 template <class P>
-void stick_start_kernel(Tile& tile, LaneList list) {
+void stick_start_kernel(BatchState& batch, LaneList list) {
   using Mask = typename P::Mask;
-  MotionLanes& m = tile.motion;
-  ContactLanes& c = tile.contact;
-  tile.noted_count = 0;
+  MotionLanes& m = batch.motion;
+  ContactLanes& c = batch.contact;
+  batch.event_count = 0;
   const P zero(0.0);
   constexpr double none = __builtin_nan("");  // no header of others may be in here
   for (int first = 0, next = 0; first < list.count; first = next) {
@@ -65,7 +65,7 @@ void stick_start_kernel(Tile& tile, LaneList list) {
     const P swing = (torque_excess + damping * velocity_excess) * per_inertia;
     const P per_time_squared = stiffest * per_inertia;
     const Mask turning = elongation_rate == zero;
-    const P amplitude = select(turning, at.load(c.largest_swing), at.load(tile.time.rest));
+    const P amplitude = select(turning, at.load(c.largest_swing), at.load(batch.time.rest));
     const P limit = P(2.0) * amplitude * per_time_squared;
     const Mask at_rest = torque == at.load(m.rest_torque);
     const Mask rests =
@@ -84,8 +84,9 @@ void stick_start_kernel(Tile& tile, LaneList list) {
     at.store(m.rest_torque, select(at_rest, torque, P(none)));
     at.store(m.creeping, to_number<P>(creeping));
     at.store(m.turning, to_number<P>(turning));
-    at.note(tile, noted<P>(rests, may_rest) + noted<P>(loose, slides) + noted<P>(ends, ends_creep) +
-                      noted<P>(held & (direction != at.load(m.direction)), turns));
+    at.add_events_to(batch, events_where<P>(rests, may_rest) + events_where<P>(loose, slides) +
+                                events_where<P>(ends, ends_creep) +
+                                events_where<P>(held & (direction != at.load(m.direction)), turns));
   }
 }
 

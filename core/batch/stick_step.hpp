@@ -10,9 +10,9 @@ template <class P>
 struct StickStep {
   using Mask = typename P::Mask;
 
-  Mask here;  ///< the lanes that take part
-  P h;        ///< length, s
-  P until;    ///< left to the next stop, s
+  Mask here;       ///< the lanes that take part
+  P h;             ///< length, s
+  P time_to_stop;  ///< left to the next stop, s
 
   // The start.
   Mask turning;  ///< dxs/dt is zero
@@ -38,7 +38,7 @@ struct StickStep {
 
   // What is made of it.
   P x;         ///< the share of it that is used
-  P event;     ///< LaneNote at its end
+  P event;     ///< LaneEvent at its end
   Mask meets;  ///< it has an event that this kernel does not look for
   Mask beyond;
   P torque, elongation, velocity, growth;  ///< σ, xs, ω·h and xh·sgn(σ) at its end
@@ -51,22 +51,23 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask nowhere() {
 
 /// The step that is thought to be good, at most to the next stop.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void begin_step(const Tile& tile, const LaneGroup<P>& at, StickStep<P>& step) {
-  const TimeLanes& time = tile.time;
+ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const LaneGroup<P>& at, StickStep<P>& step) {
+  const TimeLanes& time = batch.time;
   step.here = at.taking_part();
-  step.until = at.load(time.until);
-  step.turning = to_mask(at.load(tile.motion.turning));
+  step.time_to_stop = at.load(time.time_to_stop);
+  step.turning = to_mask(at.load(batch.motion.turning));
   // Half a period of the stiffest spring lies between two zeros of dxs/dt. Of these there must be one at
   // most.
   const P longest = at.load(time.longest_step) * select(step.turning, P(4.5), P(3.0));
-  const P h = min(min(at.load(time.next_step), step.until), longest);
-  step.h = select((h < step.until) & (step.until < P(1.4) * h), step.until * P(0.5), h);
+  const P h = min(min(at.load(time.next_step), step.time_to_stop), longest);
+  step.h = select((h < step.time_to_stop) & (step.time_to_stop < P(1.4) * h), step.time_to_stop * P(0.5), h);
 }
 
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void expand_step(const Tile& tile, const LaneGroup<P>& at, StickStep<P>& step) {
-  const MotionLanes& m = tile.motion;
-  const ContactLanes& c = tile.contact;
+ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const LaneGroup<P>& at,
+                                         StickStep<P>& step) {
+  const MotionLanes& m = batch.motion;
+  const ContactLanes& c = batch.contact;
   const P zero(0.0);
   const P h = step.h;
   const P per_inertia = at.load(c.per_inertia);
@@ -101,9 +102,9 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const Tile& tile, const LaneGroup<P>& a
 
 /// Inwards along a virgin curve the exponential grows, and must not by many e-folds.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const Tile& tile, const LaneGroup<P>& at,
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const BatchState& batch, const LaneGroup<P>& at,
                                                         const StickStep<P>& step) {
-  const MotionLanes& m = tile.motion;
+  const MotionLanes& m = batch.motion;
   const P branch_sign = at.load(m.branch_sign);
   const typename P::Mask inwards = step.direction * branch_sign < P(0.0);
   if (!(inwards & step.here).any()) return nowhere<P>();
@@ -115,8 +116,9 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const Tile& tile, const 
 
 /// What the terms left out may come to. A swing of less than 5e-6 count is followed to 2e-6 of its amplitude.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE P allowed_error(const Tile& tile, const LaneGroup<P>& at, const StickStep<P>& step) {
-  const TimeLanes& time = tile.time;
+ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const LaneGroup<P>& at,
+                                        const StickStep<P>& step) {
+  const TimeLanes& time = batch.time;
   const StickSeries<P>& s = step.series;
   const P swings = at.load(time.longest_step) / step.h;
   const P amplitude = max(abs(s.rate[0]), abs(s.rate[1]) * swings) * swings;
@@ -126,7 +128,8 @@ ZEROCOUNT_ALWAYS_INLINE P allowed_error(const Tile& tile, const LaneGroup<P>& at
 
 /// Finds the reversal, if there is one, and whether the step is short enough for the series to tell.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void find_reversal(const Tile& tile, const LaneGroup<P>& at, StickStep<P>& step) {
+ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const LaneGroup<P>& at,
+                                           StickStep<P>& step) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
   const P zero(0.0);
@@ -136,11 +139,11 @@ ZEROCOUNT_ALWAYS_INLINE void find_reversal(const Tile& tile, const LaneGroup<P>&
   step.reverses = rate_start * step.rate_end < zero;
   step.last_terms = (abs(s.elongation[batch_order - 1]) + abs(s.velocity[batch_order - 1])) +
                     (abs(s.elongation[batch_order]) + abs(s.velocity[batch_order]));
-  step.allowed = allowed_error(tile, at, step);
-  step.too_long = grows_too_much(tile, at, step);
+  step.allowed = allowed_error(batch, at, step);
+  step.too_long = grows_too_much(batch, at, step);
   // What creep adds to dxs/dt may bring it through zero and back where it is as small.
   const P creep_velocity =
-      P(8.0) * at.load(tile.contact.alpha) * at.load(tile.contact.damping) / step.law.k1 * abs(s.creep[0]);
+      P(8.0) * at.load(batch.contact.alpha) * at.load(batch.contact.damping) / step.law.k1 * abs(s.creep[0]);
   const Mask unsure =
       step.here & ~step.reverses & (min(abs(rate_start), abs(step.rate_end)) <= creep_velocity);
   const Mask seeks = step.here & step.reverses & ~step.too_long;

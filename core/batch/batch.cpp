@@ -9,7 +9,7 @@
 namespace zerocount {
 namespace {
 
-constexpr int longest_delay = 64;
+constexpr int max_delay = 64;
 
 // What lanes can run, as lists of what they know. Each enumeration has all of its words here, and each
 // structure all of its members: the compiler refuses one that is added later until it is decided here.
@@ -42,7 +42,7 @@ bool lanes_know(const AmplifierParameters& amplifier) {
 
 bool lanes_know(const ControllerParameters& controller) {
   const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse] = controller;
-  return delay <= longest_delay && lanes_know(encoder) && !has_coarse_phase(controller);
+  return delay <= max_delay && lanes_know(encoder) && !has_coarse_phase(controller);
 }
 
 bool lanes_know(const CommandParameters& command) {

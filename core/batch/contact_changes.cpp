@@ -9,8 +9,8 @@ namespace zerocount::batch {
 namespace {
 
 /// The branch that the spring is on, for the kernels.
-void show_branch(Tile& tile, int lane, const HystereticSpring& spring) {
-  MotionLanes& m = tile.motion;
+void show_branch(BatchState& batch, int lane, const HystereticSpring& spring) {
+  MotionLanes& m = batch.motion;
   const SpringBranch& branch = spring.branch();
   m.branch_elongation[lane] = branch.elongation;
   m.branch_torque[lane] = branch.torque;
@@ -22,18 +22,18 @@ void show_branch(Tile& tile, int lane, const HystereticSpring& spring) {
   m.branch_end[lane] = spring.branch_end().value_or(none);
 }
 
-void show_contact(Tile& tile, int lane, const FrictionParameters& contact) {
-  ContactLanes& c = tile.contact;
+void show_contact(BatchState& batch, int lane, const FrictionParameters& contact) {
+  ContactLanes& c = batch.contact;
   c.k1[lane] = contact.k1;
   c.stiffest[lane] = contact.k1 + contact.k2;
-  tile.time.longest_step[lane] = 1.0 / std::sqrt(c.stiffest[lane] * c.per_inertia[lane]);
+  batch.time.longest_step[lane] = 1.0 / std::sqrt(c.stiffest[lane] * c.per_inertia[lane]);
   c.alpha[lane] = contact.alpha;
   c.per_lambda[lane] = 1.0 / contact.lambda;
   c.creep_exponent[lane] = contact.n;
   c.breakaway[lane] = contact.breakaway;
   c.coulomb[lane] = contact.coulomb_ratio * contact.breakaway;
   c.fast_velocity[lane] = 8.0 * contact.stribeck_velocity;
-  c.largest_swing[lane] = std::max(tile.time.rest[lane], std::sqrt(tile.time.rest[lane] / contact.beta));
+  c.largest_swing[lane] = std::max(batch.time.rest[lane], std::sqrt(batch.time.rest[lane] / contact.beta));
   c.per_velocity_squared[lane] = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
 }
 
@@ -42,16 +42,16 @@ void remember_depth(LaneTrial& trial) {
 }
 
 /// A torque that is known to stay only until the next sample.
-void stop_at_next_sample(Tile& tile, int lane) {
-  TimeLanes& time = tile.time;
-  time.until[lane] -= (time.samples_left[lane] - 1.0) * time.sample_time[lane];
-  time.samples_left[lane] = 1.0;
+void stop_at_next_sample(BatchState& batch, int lane) {
+  TimeLanes& time = batch.time;
+  time.time_to_stop[lane] -= (time.samples_to_stop[lane] - 1.0) * time.sample_time[lane];
+  time.samples_to_stop[lane] = 1.0;
 }
 
 }  // namespace
 
-void load_motion(const Tile& tile, int lane, LaneTrial& trial) {
-  const MotionLanes& m = tile.motion;
+void load_motion(const BatchState& batch, int lane, LaneTrial& trial) {
+  const MotionLanes& m = batch.motion;
   PlantMotion motion;
   motion.elongation = m.elongation[lane];
   motion.omega = m.omega[lane];
@@ -66,8 +66,8 @@ void load_motion(const Tile& tile, int lane, LaneTrial& trial) {
   trial.plant->set_motion(motion);
 }
 
-void store_motion(Tile& tile, int lane, LaneTrial& trial) {
-  MotionLanes& m = tile.motion;
+void store_motion(BatchState& batch, int lane, LaneTrial& trial) {
+  MotionLanes& m = batch.motion;
   const PlantMotion motion = trial.plant->motion();
   m.elongation[lane] = motion.elongation;
   m.omega[lane] = motion.omega;
@@ -81,62 +81,62 @@ void store_motion(Tile& tile, int lane, LaneTrial& trial) {
   m.turning[lane] = 0.0;
   m.rest_torque[lane] = std::numeric_limits<double>::quiet_NaN();
   trial.breakaway_spring_torque = motion.breakaway_spring_torque;
-  show_branch(tile, lane, trial.plant->spring());
-  show_contact(tile, lane, trial.plant->contact());
+  show_branch(batch, lane, trial.plant->spring());
+  show_contact(batch, lane, trial.plant->contact());
   remember_depth(trial);
 }
 
-void turn(Tile& tile, int lane, LaneTrial& trial) {
-  MotionLanes& m = tile.motion;
+void turn(BatchState& batch, int lane, LaneTrial& trial) {
+  MotionLanes& m = batch.motion;
   HystereticSpring& spring = trial.plant->spring();
   spring.set_direction(static_cast<int>(m.heading[lane]), m.elongation[lane], m.spring_torque[lane]);
   remember_depth(trial);
-  show_branch(tile, lane, spring);
+  show_branch(batch, lane, spring);
   m.softness[lane] =
       std::exp(-m.branch_softening_rate[lane] * std::abs(m.elongation[lane] - m.branch_elongation[lane]));
 }
 
-void close_loop(Tile& tile, int lane, LaneTrial& trial) {
-  trial.plant->spring().move_on_branch(tile.motion.elongation[lane]);
-  show_branch(tile, lane, trial.plant->spring());
+void close_loop(BatchState& batch, int lane, LaneTrial& trial) {
+  trial.plant->spring().move_on_branch(batch.motion.elongation[lane]);
+  show_branch(batch, lane, trial.plant->spring());
 }
 
-void end_creep(Tile& tile, int lane, LaneTrial& trial) {
-  MotionLanes& m = tile.motion;
+void end_creep(BatchState& batch, int lane, LaneTrial& trial) {
+  MotionLanes& m = batch.motion;
   m.creeping[lane] = 0.0;
   m.creep_onset[lane] =
       creep_onset_after_end(trial.plant->contact(), m.hardening[lane] + trial.rest_tolerance,
                             m.spring_torque[lane], m.elongation[lane]);
 }
 
-void start_slide(Tile& tile, int lane, LaneTrial& trial) {
-  stop_at_next_sample(tile, lane);
-  load_motion(tile, lane, trial);
-  const double motion = tile.motion.omega[lane] != 0.0
-                            ? tile.motion.omega[lane]
-                            : tile.motion.torque[lane] - tile.motion.spring_torque[lane];
+void start_slide(BatchState& batch, int lane, LaneTrial& trial) {
+  stop_at_next_sample(batch, lane);
+  load_motion(batch, lane, trial);
+  const double motion = batch.motion.omega[lane] != 0.0
+                            ? batch.motion.omega[lane]
+                            : batch.motion.torque[lane] - batch.motion.spring_torque[lane];
   trial.plant->break_away(motion < 0.0 ? -1.0 : 1.0);
   ++trial.breakaways;
-  store_motion(tile, lane, trial);
+  store_motion(batch, lane, trial);
 }
 
-void end_slide(Tile& tile, int lane, LaneTrial& trial) {
-  load_motion(tile, lane, trial);
+void end_slide(BatchState& batch, int lane, LaneTrial& trial) {
+  load_motion(batch, lane, trial);
   trial.plant->re_stick();
-  store_motion(tile, lane, trial);
+  store_motion(batch, lane, trial);
 }
 
-bool advance_by_reference(Tile& tile, int lane, LaneTrial& trial) {
-  stop_at_next_sample(tile, lane);
-  load_motion(tile, lane, trial);
+bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial) {
+  stop_at_next_sample(batch, lane);
+  load_motion(batch, lane, trial);
   const std::int64_t before = trial.plant->breakaways();
   trial.plant->forget_deepest();
-  trial.plant->advance(constant_torque(tile.motion.torque[lane]), tile.time.until[lane]);
+  trial.plant->advance(constant_torque(batch.motion.torque[lane]), batch.time.time_to_stop[lane]);
   trial.breakaways += trial.plant->breakaways() - before;
   trial.deepest = std::max(trial.deepest, trial.plant->deepest());
-  store_motion(tile, lane, trial);
-  if (trial.plant->rest()) tile.motion.rest_torque[lane] = tile.motion.torque[lane];
-  tile.time.until[lane] = 0.0;
+  store_motion(batch, lane, trial);
+  if (trial.plant->rest()) batch.motion.rest_torque[lane] = batch.motion.torque[lane];
+  batch.time.time_to_stop[lane] = 0.0;
   return trial.plant->finite();
 }
 

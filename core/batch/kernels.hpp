@@ -1,17 +1,17 @@
 #pragma once
 
-#include "core/batch/tile.hpp"
+#include "core/batch/batch_state.hpp"
 
 namespace zerocount::batch {
 
 /// The kernels, compiled for one instruction set.
 struct Kernels {
-  void (*sample)(Tile&, LaneList);
-  void (*stick_start)(Tile&, LaneList);
-  void (*stick_step)(Tile&, LaneList);
-  void (*stick_event)(Tile&, LaneList);  ///< a step that may have events
-  void (*slide_fast)(Tile&, LaneList);
-  void (*slide_slow)(Tile&, LaneList);
+  void (*sample)(BatchState&, LaneList);
+  void (*stick_start)(BatchState&, LaneList);
+  void (*stick_step)(BatchState&, LaneList);
+  void (*stick_event)(BatchState&, LaneList);  ///< a step that may have events
+  void (*slide_fast)(BatchState&, LaneList);
+  void (*slide_slow)(BatchState&, LaneList);
 };
 
 extern const Kernels portable_kernels;

@@ -6,12 +6,12 @@
 
 namespace zerocount::batch {
 
-using Avx512 = Pack<8, 2>;
+using Avx512 = Simd<8, 2>;
 
 const Kernels avx512_kernels{sample_kernel<Avx512>,
                              stick_start_kernel<Avx512>,
                              stick_step_kernel<Avx512, false>,
-                             stick_step_kernel<Pack<8, 1>, true>,
+                             stick_step_kernel<Simd<8, 1>, true>,
                              slide_kernel<Avx512, true>,
                              slide_kernel<Avx512, false>};
 

@@ -6,12 +6,12 @@
 
 namespace zerocount::batch {
 
-using Portable = Pack<2, 2>;
+using Portable = Simd<2, 2>;
 
 const Kernels portable_kernels{sample_kernel<Portable>,
                                stick_start_kernel<Portable>,
                                stick_step_kernel<Portable, false>,
-                               stick_step_kernel<Pack<2, 1>, true>,
+                               stick_step_kernel<Simd<2, 1>, true>,
                                slide_kernel<Portable, true>,
                                slide_kernel<Portable, false>};
 

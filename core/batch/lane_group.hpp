@@ -1,12 +1,13 @@
 #pragma once
 
+#include "core/batch/batch_state.hpp"
 #include "core/batch/lanes.hpp"
-#include "core/batch/tile.hpp"
 
 namespace zerocount::batch {
 
 /// The lanes of one pack. Where enough of a list's next lanes lie side by side the pack is that stretch of
-/// the tile, with some of its lanes not taking part; otherwise they are collected from wherever they are.
+/// the batch state, with some of its lanes not taking part; otherwise they are collected from wherever they
+/// are.
 template <class P>
 class LaneGroup {
  public:
@@ -37,10 +38,10 @@ class LaneGroup {
   /// How many lanes of the list these are.
   ZEROCOUNT_ALWAYS_INLINE int used() const { return used_; }
 
-  ZEROCOUNT_ALWAYS_INLINE typename P::Truth taking_part() const {
-    typename P::Truth truth;
-    __builtin_memcpy(&truth, takes_part_, sizeof truth);
-    return truth;
+  ZEROCOUNT_ALWAYS_INLINE typename P::Mask taking_part() const {
+    typename P::Mask mask;
+    __builtin_memcpy(&mask, takes_part_, sizeof mask);
+    return mask;
   }
 
   ZEROCOUNT_ALWAYS_INLINE P load(const double* of) const {
@@ -63,10 +64,10 @@ class LaneGroup {
     }
   }
 
-  /// Adds the lanes whose `notes` are not 0 to the tile's.
-  ZEROCOUNT_ALWAYS_INLINE void note(Tile& tile, const P& notes) const {
-    const typename P::Truth noted = (notes != P(0.0)) & taking_part();
-    if (noted.any()) add_notes(tile, notes, noted);
+  /// Adds the lanes whose `events` are not 0 to the batch state.
+  ZEROCOUNT_ALWAYS_INLINE void add_events_to(BatchState& batch, const P& events) const {
+    const typename P::Mask noted = (events != P(0.0)) & taking_part();
+    if (noted.any()) append_events(batch, events, noted);
   }
 
   ZEROCOUNT_ALWAYS_INLINE int lane(int i) const { return lane_[i]; }
@@ -97,15 +98,16 @@ class LaneGroup {
     for (int i = 0; i < P::lanes; ++i) to[lane_[i]] = value[i];
   }
 
-  __attribute__((noinline)) void add_notes(Tile& tile, const P& notes, const typename P::Truth& noted) const {
-    constexpr int width = sizeof(notes.part[0]) / sizeof(double);
+  __attribute__((noinline)) void append_events(BatchState& batch, const P& events,
+                                               const typename P::Mask& noted) const {
+    constexpr int width = sizeof(events.part[0]) / sizeof(double);
     for (int p = 0; p < P::lanes / width; ++p) {
       const auto part = noted.part[p];
       for (int j = 0; j < width; ++j) {
         if (part[j] == 0) continue;
         const int lane = lane_[p * width + j];
-        tile.note[lane] = static_cast<int>(notes.part[p][j]);
-        tile.noted[tile.noted_count++] = lane;
+        batch.events[lane] = static_cast<int>(events.part[p][j]);
+        batch.event_lanes[batch.event_count++] = lane;
       }
     }
   }
@@ -118,19 +120,31 @@ class LaneGroup {
   std::int64_t takes_part_[P::lanes];
 };
 
-/// Truth as 0 or 1, and back.
+/// For for_each_measure: between lanes and packs.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE P number(const typename P::Truth& truth) {
-  return select(truth, P(1.0), P(0.0));
+struct LoadEach {
+  const LaneGroup<P>& at;
+  ZEROCOUNT_ALWAYS_INLINE void operator()(P& to, const double* from) const { to = at.load(from); }
+};
+template <class P>
+struct StoreEach {
+  const LaneGroup<P>& at;
+  ZEROCOUNT_ALWAYS_INLINE void operator()(double* to, const P& from) const { at.store(to, from); }
+};
+
+/// A mask as 0 or 1, and back.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P to_number(const typename P::Mask& mask) {
+  return select(mask, P(1.0), P(0.0));
 }
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE typename P::Truth truth(const P& number) {
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask to_mask(const P& number) {
   return number != P(0.0);
 }
 /// `note` where true.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE P noted(const typename P::Truth& truth, LaneNote note) {
-  return select(truth, P(static_cast<double>(note)), P(0.0));
+ZEROCOUNT_ALWAYS_INLINE P events_where(const typename P::Mask& mask, LaneEvent note) {
+  return select(mask, P(static_cast<double>(note)), P(0.0));
 }
 
 }  // namespace zerocount::batch

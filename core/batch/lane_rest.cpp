@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/loop/formulas.hpp"
+
 namespace zerocount::batch {
 namespace {
 
@@ -19,8 +21,8 @@ double time_to_creep(const CreepAtRest& creep, double distance, double stiffness
   return better > 0.0 ? time_until_rate(creep, better) : HUGE_VAL;
 }
 
-double count_at(const Tile& tile, int lane, double theta) {
-  return std::floor(theta / tile.loop.resolution[lane] + tile.loop.phase[lane]);
+double count_at(const BatchState& batch, int lane, double theta) {
+  return ideal_count(theta, batch.loop.resolution[lane], batch.loop.phase[lane]);
 }
 
 /// Rest as it goes on from now.
@@ -38,8 +40,8 @@ RestAhead rest_ahead(const LanePlant::Rest& rest) {
 
 /// The time (s) for which the count surely stays: until creep, with whatever swings then, comes to its edge.
 /// Zero where what swings could come to an edge by itself.
-double time_within_count(const Tile& tile, int lane, const RestAhead& rest, const LanePlant& plant) {
-  const LoopLanes& l = tile.loop;
+double time_within_count(const BatchState& batch, int lane, const RestAhead& rest, const LanePlant& plant) {
+  const LoopLanes& l = batch.loop;
   const double low = (l.count[lane] - l.phase[lane]) * l.resolution[lane];
   const Swing::State swing = swing_at(rest.swing, rest.elapsed);
   const double slow_theta = plant.theta() - swing.elongation - swing.extension;
@@ -59,74 +61,72 @@ double time_within_count(const Tile& tile, int lane, const RestAhead& rest, cons
 }
 
 /// The number of samples, from the last processed one, at which the count is likely to be the same still.
-double samples_within_count(const Tile& tile, int lane, const LanePlant& plant, double to_first) {
-  const double time = time_within_count(tile, lane, rest_ahead(*plant.rest()), plant);
-  if (time == HUGE_VAL) return tile.time.samples_left[lane];
-  return std::max(std::ceil((time - to_first) * tile.time.sample_rate[lane]), 0.0);
+double samples_within_count(const BatchState& batch, int lane, const LanePlant& plant, double to_first) {
+  const double time = time_within_count(batch, lane, rest_ahead(*plant.rest()), plant);
+  if (time == HUGE_VAL) return batch.time.samples_to_stop[lane];
+  return std::max(std::ceil((time - to_first) * batch.time.sample_rate[lane]), 0.0);
 }
 
 /// Whether the lane's plant is where its last rest has left it, and nothing has moved the lane since.
-bool stands(const Tile& tile, int lane, const LanePlant& plant) {
+bool stands(const BatchState& batch, int lane, const LanePlant& plant) {
   if (!plant.rest()) return false;
   const PlantMotion motion = plant.motion();
-  return motion.elongation == tile.motion.elongation[lane] &&
-         motion.creep.extension == tile.motion.extension[lane] && !motion.sliding;
+  return motion.elongation == batch.motion.elongation[lane] &&
+         motion.creep.extension == batch.motion.extension[lane] && !motion.sliding;
 }
 
 }  // namespace
 
-void pass_samples(Tile& tile, int lane, double samples) {
-  MeasureLanes& q = tile.measures;
-  if (q.arrived[lane] == 0.0 && samples > 0.0 && q.zeros_in_a_row[lane] + samples >= q.dwell[lane]) {
-    q.arrived[lane] = 1.0;
-    q.arrival[lane] = q.taken[lane] - q.zeros_in_a_row[lane];
-  }
-  q.zeros_in_a_row[lane] += samples;
-  q.taken[lane] += samples;
+void pass_samples(BatchState& batch, int lane, double samples) {
+  MeasureLanes& q = batch.measures;
+  ArrivalMeasures<double> arrival;
+  for_each_of_arrival([lane](double& to, const Lanes& from) { to = from[lane]; }, arrival, q);
+  measure_zeros(arrival, q.limits.dwell[lane], samples);
+  for_each_of_arrival([lane](Lanes& to, double from) { to[lane] = from; }, q, arrival);
 }
 
-bool rest(Tile& tile, int lane, LaneTrial& trial, const PassedSample& passed) {
-  TimeLanes& time = tile.time;
+bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& passed) {
+  TimeLanes& time = batch.time;
   LanePlant& plant = *trial.plant;
-  const double torque = tile.motion.torque[lane];
-  if (tile.motion.rest_torque[lane] != torque) {
-    if (!stands(tile, lane, plant)) load_motion(tile, lane, trial);
+  const double torque = batch.motion.torque[lane];
+  if (batch.motion.rest_torque[lane] != torque) {
+    if (!stands(batch, lane, plant)) load_motion(batch, lane, trial);
     plant.forget_deepest();
-    if (!plant.come_to_rest(torque, tile.motion.turning[lane] != 0.0)) return false;
+    if (!plant.come_to_rest(torque, batch.motion.turning[lane] != 0.0)) return false;
     trial.deepest = std::max(trial.deepest, plant.deepest());
   }
   std::optional<LanePlant> before;
   if (passed) before = plant;
 
-  const double most = time.samples_left[lane];
+  const double most = time.samples_to_stop[lane];
   const double sample_time = time.sample_time[lane];
-  const double to_first = time.until[lane] - (most - 1.0) * sample_time;
-  const double count = tile.loop.count[lane];
+  const double to_first = time.time_to_stop[lane] - (most - 1.0) * sample_time;
+  const double count = batch.loop.count[lane];
   // Sample i, counted from 1: as far as the count stays, and the sample after that as the encoder sees it.
   double i = 0.0;
   double to_next = to_first;
   do {
-    double ahead = std::clamp(samples_within_count(tile, lane, plant, to_next), 1.0, most - i);
+    double ahead = std::clamp(samples_within_count(batch, lane, plant, to_next), 1.0, most - i);
     const auto theta_after = [&](double samples) {
       return plant.theta_at_rest(to_next + (samples - 1.0) * sample_time);
     };
     // The edge may be nearer than thought.
-    for (double back = 1.0; ahead > 1.0 && count_at(tile, lane, theta_after(ahead)) != count; back *= 2.0) {
+    for (double back = 1.0; ahead > 1.0 && count_at(batch, lane, theta_after(ahead)) != count; back *= 2.0) {
       ahead = std::max(1.0, ahead - back);
     }
     plant.advance(constant_torque(torque), to_next + (ahead - 1.0) * sample_time);
     i += ahead;
     to_next = sample_time;
-  } while (i < most && count_at(tile, lane, plant.theta()) == count);
+  } while (i < most && count_at(batch, lane, plant.theta()) == count);
   for (double j = 1.0; passed && j < i; j += 1.0) {
     before->advance(constant_torque(torque), j == 1.0 ? to_first : sample_time);
     passed(j, before->theta(), before->creep());
   }
-  pass_samples(tile, lane, i - 1.0);
-  store_motion(tile, lane, trial);
-  tile.motion.rest_torque[lane] = torque;
-  time.until[lane] = 0.0;
-  time.samples_left[lane] = 1.0;
+  pass_samples(batch, lane, i - 1.0);
+  store_motion(batch, lane, trial);
+  batch.motion.rest_torque[lane] = torque;
+  time.time_to_stop[lane] = 0.0;
+  time.samples_to_stop[lane] = 1.0;
   return true;
 }
 

@@ -14,9 +14,9 @@ using PassedSample = std::function<void(double passed, double theta, const Creep
 /// to the first sampling instant at which its count is another.
 /// @param passed told of every sample before that one; may be empty.
 /// @returns whether the lane was at rest; then it is at a stop.
-bool rest(Tile& tile, int lane, LaneTrial& trial, const PassedSample& passed);
+bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& passed);
 
 /// Takes `samples` samples over, at which the error was 0 and the torque the same.
-void pass_samples(Tile& tile, int lane, double samples);
+void pass_samples(BatchState& batch, int lane, double samples);
 
 }  // namespace zerocount::batch

@@ -1,7 +1,6 @@
 // The sampling instants of the lanes.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "core/batch/lane_work.hpp"
 #include "core/numerics/power_series.hpp"
@@ -13,7 +12,7 @@ int LaneWork::list_due_lanes() {
   int count = 0;
   for (int lane = 0; lane < lane_count_; ++lane) {
     list_[count] = lane;
-    count += tile_.time.until[lane] == 0.0 && states_[lane] != LaneState::idle ? 1 : 0;
+    count += batch_.time.time_to_stop[lane] == 0.0 && states_[lane] != LaneState::idle ? 1 : 0;
   }
   return count;
 }
@@ -23,120 +22,103 @@ void LaneWork::take_samples() {
   int count = 0;
   for (int i = 0; i < due; ++i) {
     const int lane = list_[i];
-    if (tile_.measures.taken[lane] == tile_.measures.samples[lane]) {
+    if (batch_.measures.taken[lane] == batch_.measures.limits.samples[lane]) {
       end_move(lane, trial_of(lane));
       if (state_of(lane) == LaneState::idle) continue;
     }
     list_[count++] = lane;
   }
   if (count == 0) return;
-  kernels_.sample(tile_, {list_, count});
-  for (int i = 0; i < tile_.noted_count; ++i) {
-    const int lane = tile_.noted[i];
-    if ((tile_.note[lane] & beyond_kernel) == 0) continue;
-    tile_.note[lane] = no_note;
-    tile_.measures.taken[lane] -= 1.0;  // no encoder could count that
-    give_up(lane);
+  kernels_.sample(batch_, {list_, count});
+  for (int i = 0; i < batch_.event_count; ++i) {
+    const int lane = batch_.event_lanes[i];
+    if ((batch_.events[lane] & beyond_kernel) == 0) continue;
+    batch_.events[lane] = no_event;
+    batch_.measures.taken[lane] -= 1.0;  // no encoder could count that
+    fall_back_to_scalar(lane);
   }
   if (observers_->sample) {
     for (int i = 0; i < count; ++i) {
       const int lane = list_[i];
-      const bool given_up = state_of(lane) == LaneState::idle || tile_.measures.taken[lane] == 0.0;
+      const bool given_up = state_of(lane) == LaneState::idle || batch_.measures.taken[lane] == 0.0;
       if (!given_up) record_sample(lane, trial_of(lane));
     }
   }
-  for (int i = 0; i < tile_.noted_count; ++i) {
-    const int lane = tile_.noted[i];
-    const int note = tile_.note[lane];
+  for (int i = 0; i < batch_.event_count; ++i) {
+    const int lane = batch_.event_lanes[i];
+    const int events = batch_.events[lane];
     LaneTrial& trial = trial_of(lane);
-    if ((note & jerk_changes) != 0) track_jerk(lane, trial);
-    if ((note & count_changes) != 0) follow_last_half(lane, trial);
-    if ((note & delayed) != 0) delay_torque(lane, trial);
-    if ((note & diverges) != 0) stop_diverged(lane, trial);
+    if ((events & jerk_changes) != 0) track_jerk(lane, trial);
+    if ((events & count_changes) != 0) follow_last_half(lane, trial);
+    if ((events & delayed) != 0) delay_torque(lane, trial);
+    if ((events & diverges) != 0) stop_diverged(lane, trial);
   }
 }
 
 void LaneWork::record_sample(int lane, const LaneTrial& trial) {
-  const auto k = static_cast<std::int64_t>(tile_.measures.taken[lane]) - 1;
-  observers_->sample({trial.number, trial.first_sample + k, static_cast<std::int64_t>(tile_.loop.count[lane]),
-                      static_cast<std::int64_t>(tile_.loop.code[lane]), tile_.measures.theta[lane],
-                      tile_.measures.extension[lane], tile_.motion.hardening[lane]});
+  const auto k = static_cast<std::int64_t>(batch_.measures.taken[lane]) - 1;
+  observers_->sample({trial.number, trial.first_sample + k,
+                      static_cast<std::int64_t>(batch_.loop.count[lane]),
+                      static_cast<std::int64_t>(batch_.loop.code[lane]), batch_.measures.theta[lane],
+                      batch_.measures.extension[lane], batch_.motion.hardening[lane]});
 }
 
 /// The samples that steps have gone over, from their series.
 void LaneWork::record_passed() {
-  for (int i = 0; i < tile_.passed_count; ++i) {
+  for (int i = 0; i < batch_.passed_count; ++i) {
     const PassedSamples& p = passed_[i];
     const LaneTrial& trial = trial_of(p.lane);
-    const double sample_time = tile_.time.sample_time[p.lane];
-    const double rate = tile_.time.sample_rate[p.lane];
-    const auto taken = static_cast<std::int64_t>(tile_.measures.taken[p.lane] - p.samples);
+    const double sample_time = batch_.time.sample_time[p.lane];
+    const double rate = batch_.time.sample_rate[p.lane];
+    const auto taken = static_cast<std::int64_t>(batch_.measures.taken[p.lane] - p.samples);
     // The stop is `whole` samples after the first.
-    const double whole = std::ceil(p.until * rate - 1e-9) - 1.0;
+    const double whole = std::ceil(p.time_to_stop * rate - 1e-9) - 1.0;
     for (int j = 0; j < static_cast<int>(p.samples); ++j) {
-      const double x = (p.until - (whole - j) * sample_time) / p.step;
+      const double x = (p.time_to_stop - (whole - j) * sample_time) / p.step;
       const double extension =
-          tile_.motion.extension[p.lane] + (value_at(p.growth, x) - value_at(p.growth, p.end));
+          batch_.motion.extension[p.lane] + (value_at(p.growth, x) - value_at(p.growth, p.end));
       observers_->sample({trial.number, trial.first_sample + taken + j,
-                          static_cast<std::int64_t>(tile_.loop.count[p.lane]),
-                          static_cast<std::int64_t>(tile_.loop.code[p.lane]),
-                          tile_.motion.hook[p.lane] + value_at(p.elongation, x) + extension, extension,
+                          static_cast<std::int64_t>(batch_.loop.count[p.lane]),
+                          static_cast<std::int64_t>(batch_.loop.code[p.lane]),
+                          batch_.motion.hook[p.lane] + value_at(p.elongation, x) + extension, extension,
                           std::abs(value_at(p.growth, x))});
     }
   }
 }
 
 void LaneWork::follow_last_half(int lane, LaneTrial& trial) {
-  const MeasureLanes& q = tile_.measures;
+  const MeasureLanes& q = batch_.measures;
   const auto k = static_cast<std::int64_t>(q.taken[lane]) - 1;
-  const auto count = static_cast<std::int64_t>(tile_.loop.count[lane]);
+  const auto count = static_cast<std::int64_t>(batch_.loop.count[lane]);
   const auto change = static_cast<std::int64_t>(q.change[lane]);
   const bool first = k == static_cast<std::int64_t>(q.last_half[lane]);
   trial.last_half.add(k, first ? count : count - change, count);
 }
 
-/// As MoveMeasures has it.
 void LaneWork::track_jerk(int lane, LaneTrial& trial) {
-  MeasureLanes& q = tile_.measures;
-  const auto error = static_cast<std::int64_t>(tile_.loop.error[lane]);
-  const double k = q.taken[lane] - 1.0;
-  if (error == 0) {
-    end_jerk(lane, trial, k);
-    return;
-  }
-  if (q.in_jerk[lane] == 0.0) {
-    q.in_jerk[lane] = 1.0;
-    trial.jerk_start = static_cast<std::int64_t>(k);
-    trial.jerk = {static_cast<std::int64_t>(trial.move), k * tile_.time.sample_time[lane], 0.0, 0,
-                  error > 0 ? -1 : 1};
-  }
-  trial.jerk.magnitude = std::max(trial.jerk.magnitude, std::abs(error));
+  const auto k = static_cast<std::int64_t>(batch_.measures.taken[lane]) - 1;
+  if (trial.jerks.add(k, static_cast<std::int64_t>(batch_.loop.error[lane]))) tell_jerk(trial);
+  batch_.measures.in_jerk[lane] = trial.jerks.lasts() ? 1.0 : 0.0;
 }
 
-void LaneWork::end_jerk(int lane, LaneTrial& trial, double taken) {
-  tile_.measures.in_jerk[lane] = 0.0;
-  const std::int64_t samples = static_cast<std::int64_t>(taken) - trial.jerk_start;
-  trial.jerk.duration = static_cast<double>(samples) * tile_.time.sample_time[lane];
-  trial.jerk_samples += samples;
-  ++trial.jerk_count;
-  if (trial.jerk.direction > 0) ++trial.jerks_up;
+void LaneWork::tell_jerk(LaneTrial& trial) {
   ++trial.told_jerks;
-  if (observers_->jerk) observers_->jerk(trial.number, trial.jerk);
+  if (observers_->jerk) observers_->jerk(trial.number, trial.jerks.last());
 }
 
 /// The torque that comes through the delay now. It stays as long as the decided one only where all that wait
 /// are alike.
 void LaneWork::delay_torque(int lane, LaneTrial& trial) {
-  const double decided = tile_.motion.torque[lane];
+  const double decided = batch_.motion.torque[lane];
   const std::size_t size = trial.waiting.size();
   const double newest = trial.waiting[(trial.oldest_waiting + size - 1) % size];
   trial.waiting_alike = decided == newest ? trial.waiting_alike + 1 : 1;
-  tile_.motion.torque[lane] = trial.waiting[trial.oldest_waiting];
+  batch_.motion.torque[lane] = trial.waiting[trial.oldest_waiting];
   trial.waiting[trial.oldest_waiting] = decided;
   trial.oldest_waiting = (trial.oldest_waiting + 1) % size;
   if (trial.waiting_alike <= static_cast<std::int64_t>(size)) {
-    tile_.time.samples_left[lane] = 1.0;
-    tile_.time.until[lane] = tile_.time.sample_time[lane];
+    batch_.time.samples_to_stop[lane] = 1.0;
+    batch_.time.time_to_stop[lane] = batch_.time.sample_time[lane];
   }
 }
 

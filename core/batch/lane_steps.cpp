@@ -13,7 +13,7 @@ int LaneWork::list_lanes(LaneState wanted) {
   int count = 0;
   for (int lane = 0; lane < lane_count_; ++lane) {
     list_[count] = lane;
-    count += tile_.time.until[lane] != 0.0 && states_[lane] == wanted ? 1 : 0;
+    count += batch_.time.time_to_stop[lane] != 0.0 && states_[lane] == wanted ? 1 : 0;
   }
   return count;
 }
@@ -21,9 +21,9 @@ int LaneWork::list_lanes(LaneState wanted) {
 void LaneWork::move_sticking() {
   int count = list_lanes(LaneState::sticking);
   if (count + waiting_count_ == 0) return;
-  kernels_.stick_start(tile_, {list_, count});
+  kernels_.stick_start(batch_, {list_, count});
   count = prepare_steps(count);
-  kernels_.stick_step(tile_, {list_, count});
+  kernels_.stick_step(batch_, {list_, count});
   end_sticking_steps();
   // Few lanes at a time meet an event: they wait until there are enough of them, or nothing else to do.
   constexpr int enough = 8;
@@ -31,34 +31,34 @@ void LaneWork::move_sticking() {
   const int with_events = std::exchange(waiting_count_, 0);
   std::sort(waiting_, waiting_ + with_events);
   for (int i = 0; i < with_events; ++i) state_of(waiting_[i]) = LaneState::sticking;
-  kernels_.stick_event(tile_, {waiting_, with_events});
+  kernels_.stick_event(batch_, {waiting_, with_events});
   end_sticking_steps();
 }
 
-/// What the notes at the start of a step ask for. Of the `count` lanes in the list, those that still want the
-/// step stay; says how many.
+/// What the events at the start of a step ask for. Of the `count` lanes in the list, those that still want
+/// the step stay; says how many.
 int LaneWork::prepare_steps(int count) {
   bool others = false;
-  for (int i = 0; i < tile_.noted_count; ++i) {
-    const int lane = tile_.noted[i];
-    const int note = tile_.note[lane];
+  for (int i = 0; i < batch_.event_count; ++i) {
+    const int lane = batch_.event_lanes[i];
+    const int events = batch_.events[lane];
     LaneTrial& trial = trial_of(lane);
-    if ((note & ends_creep) != 0) end_creep(tile_, lane, trial);
-    if ((note & may_rest) != 0 && come_to_rest(lane)) {
+    if ((events & ends_creep) != 0) end_creep(batch_, lane, trial);
+    if ((events & may_rest) != 0 && come_to_rest(lane)) {
       others = true;
-    } else if ((note & slides) != 0) {
-      start_slide(tile_, lane, trial);
+    } else if ((events & slides) != 0) {
+      start_slide(batch_, lane, trial);
       state_of(lane) = LaneState::sliding;
       others = true;
-    } else if (tile_.motion.heading[lane] != tile_.motion.direction[lane]) {
-      turn(tile_, lane, trial);
+    } else if (batch_.motion.heading[lane] != batch_.motion.direction[lane]) {
+      turn(batch_, lane, trial);
     }
   }
   if (!others) return count;
   int kept = 0;
   for (int i = 0; i < count; ++i) {
     const int lane = list_[i];
-    if (state_of(lane) == LaneState::sticking && tile_.time.until[lane] != 0.0) list_[kept++] = lane;
+    if (state_of(lane) == LaneState::sticking && batch_.time.time_to_stop[lane] != 0.0) list_[kept++] = lane;
   }
   return kept;
 }
@@ -66,34 +66,34 @@ int LaneWork::prepare_steps(int count) {
 /// @returns whether the lane was at rest, and has gone on to a sampling instant.
 bool LaneWork::come_to_rest(int lane) {
   LaneTrial& trial = trial_of(lane);
-  if (!observers_->sample) return rest(tile_, lane, trial, {});
-  const auto taken = static_cast<std::int64_t>(tile_.measures.taken[lane]);
-  return rest(tile_, lane, trial, [&](double passed, double theta, const CreepState& creep) {
+  if (!observers_->sample) return rest(batch_, lane, trial, {});
+  const auto taken = static_cast<std::int64_t>(batch_.measures.taken[lane]);
+  return rest(batch_, lane, trial, [&](double passed, double theta, const CreepState& creep) {
     const std::int64_t k = trial.first_sample + taken - 1 + static_cast<std::int64_t>(passed);
-    observers_->sample({trial.number, k, static_cast<std::int64_t>(tile_.loop.count[lane]),
-                        static_cast<std::int64_t>(tile_.loop.code[lane]), theta, creep.extension,
+    observers_->sample({trial.number, k, static_cast<std::int64_t>(batch_.loop.count[lane]),
+                        static_cast<std::int64_t>(batch_.loop.code[lane]), theta, creep.extension,
                         creep.hardening});
   });
 }
 
-/// What the notes of a step ask for.
+/// What the events of a step ask for.
 void LaneWork::end_sticking_steps() {
   if (observers_->sample) record_passed();
-  for (int i = 0; i < tile_.noted_count; ++i) {
-    const int lane = tile_.noted[i];
-    const int note = tile_.note[lane];
+  for (int i = 0; i < batch_.event_count; ++i) {
+    const int lane = batch_.event_lanes[i];
+    const int events = batch_.events[lane];
     LaneTrial& trial = trial_of(lane);
-    if ((note & meets_event) != 0) {
+    if ((events & meets_event) != 0) {
       state_of(lane) = LaneState::waiting;
       waiting_[waiting_count_++] = lane;
       continue;
     }
-    if ((note & closure) != 0) close_loop(tile_, lane, trial);
-    if ((note & creep_sets_in) != 0) tile_.motion.creeping[lane] = 1.0;
-    if ((note & creep_ends) != 0) end_creep(tile_, lane, trial);
-    if ((note & breaks_away) != 0) start_slide(tile_, lane, trial);
-    if ((note & beyond_kernel) != 0 && !advance_by_reference(tile_, lane, trial)) {
-      give_up(lane);
+    if ((events & closure) != 0) close_loop(batch_, lane, trial);
+    if ((events & creep_sets_in) != 0) batch_.motion.creeping[lane] = 1.0;
+    if ((events & creep_ends) != 0) end_creep(batch_, lane, trial);
+    if ((events & breaks_away) != 0) start_slide(batch_, lane, trial);
+    if ((events & beyond_kernel) != 0 && !advance_by_reference(batch_, lane, trial)) {
+      fall_back_to_scalar(lane);
       continue;
     }
     state_of(lane) = moving_state(lane);
@@ -107,23 +107,23 @@ void LaneWork::move_sliding() {
   int slow = 0;
   for (int i = 0; i < sliding; ++i) {
     const int lane = list_[i];
-    const bool is_fast = std::abs(tile_.motion.omega[lane]) > tile_.contact.fast_velocity[lane];
+    const bool is_fast = std::abs(batch_.motion.omega[lane]) > batch_.contact.fast_velocity[lane];
     (is_fast ? list_[fast++] : slow_list_[slow++]) = lane;
   }
-  kernels_.slide_fast(tile_, {list_, fast});
+  kernels_.slide_fast(batch_, {list_, fast});
   end_sliding_steps();
-  kernels_.slide_slow(tile_, {slow_list_, slow});
+  kernels_.slide_slow(batch_, {slow_list_, slow});
   end_sliding_steps();
 }
 
 void LaneWork::end_sliding_steps() {
-  for (int i = 0; i < tile_.noted_count; ++i) {
-    const int lane = tile_.noted[i];
-    const int note = tile_.note[lane];
+  for (int i = 0; i < batch_.event_count; ++i) {
+    const int lane = batch_.event_lanes[i];
+    const int events = batch_.events[lane];
     LaneTrial& trial = trial_of(lane);
-    if ((note & velocity_zero) != 0) end_slide(tile_, lane, trial);
-    if ((note & beyond_kernel) != 0 && !advance_by_reference(tile_, lane, trial)) {
-      give_up(lane);
+    if ((events & velocity_zero) != 0) end_slide(batch_, lane, trial);
+    if ((events & beyond_kernel) != 0 && !advance_by_reference(batch_, lane, trial)) {
+      fall_back_to_scalar(lane);
       continue;
     }
     state_of(lane) = moving_state(lane);

@@ -5,8 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/batch/tile.hpp"
+#include "core/batch/batch_state.hpp"
 #include "core/plant/plant.hpp"
+#include "core/trial/jerks.hpp"
 #include "core/trial/last_half.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
@@ -16,7 +17,7 @@ namespace zerocount::batch {
 /// The lanes' friction law: that of the models which run in lanes.
 using LanePlant = PlantWith<PreslidingFriction>;
 
-/// What a lane has beside its numbers in the tile: its trial, and what the kernels have no use for.
+/// What a lane has beside its numbers in the batch state: its trial, and what the kernels have no use for.
 struct LaneTrial {
   const TrialParameters* parameters{nullptr};
   std::size_t number{0};  ///< of the trial in the batch
@@ -34,39 +35,41 @@ struct LaneTrial {
   bool slid_at_start{false};   ///< of this move
   std::int64_t deepest{0};     ///< in this move
 
-  Jerk jerk;
-  std::int64_t jerk_start{0};
-  std::int64_t jerk_count{0};
-  std::int64_t jerks_up{0};
-  std::int64_t jerk_samples{0};
+  Jerks jerks;                 ///< of this move
   std::int64_t told_jerks{0};  ///< of the trial
-
-  LastHalf last_half;  ///< of this move
+  LastHalf last_half;          ///< of this move
 
   std::vector<double> waiting;  ///< decided torques on their way through the delay, N m
   std::size_t oldest_waiting{0};
   std::int64_t waiting_alike{0};  ///< how many of the last decided torques were the same
 };
 
-// The lane's motion from the tile into its plant and back. The spring's branch goes with it.
-void load_motion(const Tile& tile, int lane, LaneTrial& trial);
-void store_motion(Tile& tile, int lane, LaneTrial& trial);
+// The lane's motion from the batch state into its plant and back. The spring's branch goes with it.
+void load_motion(const BatchState& batch, int lane, LaneTrial& trial);
+void store_motion(BatchState& batch, int lane, LaneTrial& trial);
 
 // What happens to the contact, as Plant has it.
-void turn(Tile& tile, int lane, LaneTrial& trial);
-void close_loop(Tile& tile, int lane, LaneTrial& trial);
-void end_creep(Tile& tile, int lane, LaneTrial& trial);
-void start_slide(Tile& tile, int lane, LaneTrial& trial);
-void end_slide(Tile& tile, int lane, LaneTrial& trial);
+void turn(BatchState& batch, int lane, LaneTrial& trial);
+void close_loop(BatchState& batch, int lane, LaneTrial& trial);
+void end_creep(BatchState& batch, int lane, LaneTrial& trial);
+void start_slide(BatchState& batch, int lane, LaneTrial& trial);
+void end_slide(BatchState& batch, int lane, LaneTrial& trial);
 /// By LanePlant::advance to the next stop.
 /// @returns whether the motion could be followed.
-bool advance_by_reference(Tile& tile, int lane, LaneTrial& trial);
+bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial);
+
+/// The measures of one lane.
+inline RunningMeasures<double> measures_of(const MeasureLanes& lanes, int lane) {
+  RunningMeasures<double> measures;
+  for_each_measure([lane](double& to, const Lanes& from) { to = from[lane]; }, measures, lanes);
+  return measures;
+}
 
 /// Puts the lane into its trial's start.
-void start_trial(Tile& tile, int lane, LaneTrial& trial, std::size_t number,
+void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,
                  const TrialParameters& parameters, TrialOutcome& outcome);
-void start_move(Tile& tile, int lane, LaneTrial& trial);
+void start_move(BatchState& batch, int lane, LaneTrial& trial);
 /// The measures of the move that ends here. @param stopped because it has diverged.
-MoveOutcome outcome_of_move(const Tile& tile, int lane, LaneTrial& trial, bool stopped);
+MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& trial, bool stopped);
 
 }  // namespace zerocount::batch

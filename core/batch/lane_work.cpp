@@ -10,7 +10,7 @@ namespace zerocount::batch {
 
 LaneWork::LaneWork(const BatchSettings& settings)
     : kernels_(kernels_of(settings.instructions)),
-      lane_count_(std::clamp(settings.lanes, 1, most_lanes)),
+      lane_count_(std::clamp(settings.lanes, 1, max_lanes)),
       lanes_(static_cast<std::size_t>(lane_count_)) {
   fill_spare_lane();
 }
@@ -21,8 +21,8 @@ void LaneWork::fill_spare_lane() {
   parameters.command.targets = {0};
   LaneTrial spare;
   TrialOutcome outcome;
-  start_trial(tile_, spare_lane, spare, 0, parameters, outcome);
-  tile_.time.until[spare_lane] = tile_.time.sample_time[spare_lane];
+  start_trial(batch_, spare_lane, spare, 0, parameters, outcome);
+  batch_.time.time_to_stop[spare_lane] = batch_.time.sample_time[spare_lane];
 }
 
 void LaneWork::run(std::span<const TrialParameters* const> trials, std::span<TrialOutcome> outcomes,
@@ -32,7 +32,7 @@ void LaneWork::run(std::span<const TrialParameters* const> trials, std::span<Tri
   observers_ = &observers;
   next_trial_ = 0;
   running_ = 0;
-  tile_.passed = observers.sample ? passed_ : nullptr;
+  batch_.passed = observers.sample ? passed_ : nullptr;
   for (int lane = 0; lane < lane_count_; ++lane) refill(lane);
   while (running_ > 0) {
     take_samples();
@@ -53,18 +53,17 @@ void LaneWork::refill(int lane) {
     if (runs_in_lanes(*trials_[number])) {
       outcomes_[number].moves.clear();
       outcomes_[number].moves.reserve(trials_[number]->command.targets.size());
-      start_trial(tile_, lane, trial, number, *trials_[number], outcomes_[number]);
+      start_trial(batch_, lane, trial, number, *trials_[number], outcomes_[number]);
       state_of(lane) = moving_state(lane);
       ++running_;
       return;
     }
-    leave_to_reference(trial, 0, 0);
+    run_scalar(trial, 0, 0);
   }
 }
 
 /// The whole trial by run_trial. Of its jerks and samples, the first so many have been told already.
-void LaneWork::leave_to_reference(const LaneTrial& trial, std::int64_t told_jerks,
-                                  std::int64_t told_samples) {
+void LaneWork::run_scalar(const LaneTrial& trial, std::int64_t told_jerks, std::int64_t told_samples) {
   TrialObservers single;
   std::int64_t jerks = 0;
   if (observers_->jerk) {
@@ -82,10 +81,10 @@ void LaneWork::leave_to_reference(const LaneTrial& trial, std::int64_t told_jerk
 
 /// A motion that cannot be followed, or that has left what encoders can count: run_trial has the words for
 /// it.
-void LaneWork::give_up(int lane) {
+void LaneWork::fall_back_to_scalar(int lane) {
   const LaneTrial& trial = trial_of(lane);
-  leave_to_reference(trial, trial.told_jerks,
-                     trial.first_sample + static_cast<std::int64_t>(tile_.measures.taken[lane]));
+  run_scalar(trial, trial.told_jerks,
+             trial.first_sample + static_cast<std::int64_t>(batch_.measures.taken[lane]));
   end_trial(lane);
 }
 
@@ -94,22 +93,24 @@ void LaneWork::end_trial(int lane) {
   refill(lane);
 }
 
+void LaneWork::add_outcome(int lane, LaneTrial& trial, bool stopped) {
+  if (trial.jerks.end(static_cast<std::int64_t>(batch_.measures.taken[lane]))) tell_jerk(trial);
+  trial.outcome->moves.push_back(end_of_move(batch_, lane, trial, stopped));
+}
+
 void LaneWork::end_move(int lane, LaneTrial& trial) {
-  const double taken = tile_.measures.taken[lane];
-  if (tile_.measures.in_jerk[lane] != 0.0) end_jerk(lane, trial, taken);
-  trial.outcome->moves.push_back(outcome_of_move(tile_, lane, trial, false));
+  add_outcome(lane, trial, false);
   ++trial.move;
   if (trial.move == trial.parameters->command.targets.size()) {
     end_trial(lane);
     return;
   }
-  trial.first_sample += static_cast<std::int64_t>(taken);
-  start_move(tile_, lane, trial);
+  trial.first_sample += static_cast<std::int64_t>(batch_.measures.taken[lane]);
+  start_move(batch_, lane, trial);
 }
 
 void LaneWork::stop_diverged(int lane, LaneTrial& trial) {
-  if (tile_.measures.in_jerk[lane] != 0.0) end_jerk(lane, trial, tile_.measures.taken[lane]);
-  trial.outcome->moves.push_back(outcome_of_move(tile_, lane, trial, true));
+  add_outcome(lane, trial, true);
   trial.outcome->moves.resize(trial.parameters->command.targets.size(), move_not_run());
   end_trial(lane);
 }

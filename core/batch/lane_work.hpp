@@ -30,11 +30,12 @@ class LaneWork {
   // Trials come and go (lane_work.cpp).
   void fill_spare_lane();
   void refill(int lane);
-  void leave_to_reference(const LaneTrial& trial, std::int64_t told_jerks, std::int64_t told_samples);
-  void give_up(int lane);
+  void run_scalar(const LaneTrial& trial, std::int64_t told_jerks, std::int64_t told_samples);
+  void fall_back_to_scalar(int lane);
   void end_trial(int lane);
   void end_move(int lane, LaneTrial& trial);
   void stop_diverged(int lane, LaneTrial& trial);
+  void add_outcome(int lane, LaneTrial& trial, bool stopped);
 
   // Sampling instants (lane_samples.cpp).
   int list_due_lanes();
@@ -43,7 +44,7 @@ class LaneWork {
   void record_passed();
   void follow_last_half(int lane, LaneTrial& trial);
   void track_jerk(int lane, LaneTrial& trial);
-  void end_jerk(int lane, LaneTrial& trial, double taken);
+  void tell_jerk(LaneTrial& trial);
   void delay_torque(int lane, LaneTrial& trial);
 
   // The way from one to the next (lane_steps.cpp).
@@ -56,7 +57,7 @@ class LaneWork {
   void end_sliding_steps();
 
   LaneState moving_state(int lane) const {
-    return tile_.motion.slide_direction[lane] == 0.0 ? LaneState::sticking : LaneState::sliding;
+    return batch_.motion.slide_direction[lane] == 0.0 ? LaneState::sticking : LaneState::sliding;
   }
   LaneState& state_of(int lane) { return states_[lane]; }
   LaneTrial& trial_of(int lane) { return lanes_[static_cast<std::size_t>(lane)]; }
@@ -64,12 +65,12 @@ class LaneWork {
   const Kernels& kernels_;
   int lane_count_;
   std::vector<LaneTrial> lanes_;
-  Tile tile_{};
-  LaneState states_[most_lanes]{};
-  PassedSamples passed_[most_lanes]{};
-  int list_[most_lanes + 1]{};  ///< of lanes; one more, because a list is made by writing before counting
-  int slow_list_[most_lanes]{};
-  int waiting_[most_lanes]{};  ///< lanes with an event in their step
+  BatchState batch_{};
+  LaneState states_[max_lanes]{};
+  PassedSamples passed_[max_lanes]{};
+  int list_[max_lanes + 1]{};  ///< of lanes; one more, because a list is made by writing before counting
+  int slow_list_[max_lanes]{};
+  int waiting_[max_lanes]{};  ///< lanes with an event in their step
   int waiting_count_{0};
 
   std::span<const TrialParameters* const> trials_;

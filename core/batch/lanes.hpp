@@ -2,19 +2,18 @@
 
 #include <cstdint>
 
-/// Packs of doubles for the kernels of the batch engine, by the vector extension of GCC and Clang.
+#include "core/numerics/number.hpp"
+
+/// Vectors of doubles for the kernels of the batch engine, by the vector extension of GCC and Clang.
 ///
-/// A Pack is `Chains` vectors of `Width` doubles that go through the same operations side by side, so that
+/// A Simd is `Chains` vectors of `Width` doubles that go through the same operations side by side, so that
 /// the latency of one vector's operation is filled with the others'. All operations are those of IEEE
 /// arithmetic, element by element: what comes of a lane depends neither on width and chains nor on other
 /// lanes.
 ///
-/// This header and the kernels are compiled once for each instruction set. They use no inline function of
-/// other headers: the linker keeps one copy of such a function, and it might be one that not every processor
-/// can run.
+/// This header and the kernels are compiled once for each instruction set: see core/numerics/number.hpp for
+/// what they must not include.
 namespace zerocount::batch {
-
-#define ZEROCOUNT_ALWAYS_INLINE __attribute__((always_inline)) inline
 
 template <int Width>
 struct VectorOf {
@@ -22,9 +21,9 @@ struct VectorOf {
   typedef std::int64_t Bits __attribute__((vector_size(8 * Width)));
 };
 
-/// Truth by lane: all bits set, or none.
+/// Mask by lane: all bits set, or none.
 template <int Width, int Chains>
-struct Mask {
+struct SimdMask {
   using Bits = typename VectorOf<Width>::Bits;
   Bits part[Chains];
 
@@ -35,106 +34,106 @@ struct Mask {
     for (int j = 0; j < Width; ++j) found |= all[j];
     return found != 0;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Mask operator&(const Mask& a, const Mask& b) {
-    Mask r;
+  friend ZEROCOUNT_ALWAYS_INLINE SimdMask operator&(const SimdMask& a, const SimdMask& b) {
+    SimdMask r;
     for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] & b.part[i];
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Mask operator|(const Mask& a, const Mask& b) {
-    Mask r;
+  friend ZEROCOUNT_ALWAYS_INLINE SimdMask operator|(const SimdMask& a, const SimdMask& b) {
+    SimdMask r;
     for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] | b.part[i];
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Mask operator==(const Mask& a, const Mask& b) {
-    Mask r;
+  friend ZEROCOUNT_ALWAYS_INLINE SimdMask operator==(const SimdMask& a, const SimdMask& b) {
+    SimdMask r;
     for (int i = 0; i < Chains; ++i) r.part[i] = ~(a.part[i] ^ b.part[i]);
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Mask operator~(const Mask& a) {
-    Mask r;
+  friend ZEROCOUNT_ALWAYS_INLINE SimdMask operator~(const SimdMask& a) {
+    SimdMask r;
     for (int i = 0; i < Chains; ++i) r.part[i] = ~a.part[i];
     return r;
   }
 };
 
 template <int Width, int Chains>
-struct Pack {
+struct Simd {
   using Real = typename VectorOf<Width>::Real;
   using Bits = typename VectorOf<Width>::Bits;
-  using Truth = Mask<Width, Chains>;
+  using Mask = SimdMask<Width, Chains>;
   static constexpr int lanes = Width * Chains;
   Real part[Chains];
 
-  Pack() = default;
-  ZEROCOUNT_ALWAYS_INLINE Pack(double value) {  // NOLINT(google-explicit-constructor)
+  Simd() = default;
+  ZEROCOUNT_ALWAYS_INLINE Simd(double value) {  // NOLINT(google-explicit-constructor)
     for (int i = 0; i < Chains; ++i) part[i] = value - Real{};
   }
 
-  friend ZEROCOUNT_ALWAYS_INLINE Pack operator+(const Pack& a, const Pack& b) {
-    Pack r;
+  friend ZEROCOUNT_ALWAYS_INLINE Simd operator+(const Simd& a, const Simd& b) {
+    Simd r;
     for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] + b.part[i];
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Pack operator-(const Pack& a, const Pack& b) {
-    Pack r;
+  friend ZEROCOUNT_ALWAYS_INLINE Simd operator-(const Simd& a, const Simd& b) {
+    Simd r;
     for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] - b.part[i];
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Pack operator*(const Pack& a, const Pack& b) {
-    Pack r;
+  friend ZEROCOUNT_ALWAYS_INLINE Simd operator*(const Simd& a, const Simd& b) {
+    Simd r;
     for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] * b.part[i];
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Pack operator/(const Pack& a, const Pack& b) {
-    Pack r;
+  friend ZEROCOUNT_ALWAYS_INLINE Simd operator/(const Simd& a, const Simd& b) {
+    Simd r;
     for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] / b.part[i];
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Pack operator-(const Pack& a) {
-    Pack r;
+  friend ZEROCOUNT_ALWAYS_INLINE Simd operator-(const Simd& a) {
+    Simd r;
     for (int i = 0; i < Chains; ++i) r.part[i] = -a.part[i];
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Truth operator<(const Pack& a, const Pack& b) {
-    Truth r;
+  friend ZEROCOUNT_ALWAYS_INLINE Mask operator<(const Simd& a, const Simd& b) {
+    Mask r;
     for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] < b.part[i];
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Truth operator<=(const Pack& a, const Pack& b) {
-    Truth r;
+  friend ZEROCOUNT_ALWAYS_INLINE Mask operator<=(const Simd& a, const Simd& b) {
+    Mask r;
     for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] <= b.part[i];
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Truth operator>(const Pack& a, const Pack& b) { return b < a; }
-  friend ZEROCOUNT_ALWAYS_INLINE Truth operator>=(const Pack& a, const Pack& b) { return b <= a; }
-  friend ZEROCOUNT_ALWAYS_INLINE Truth operator==(const Pack& a, const Pack& b) {
-    Truth r;
+  friend ZEROCOUNT_ALWAYS_INLINE Mask operator>(const Simd& a, const Simd& b) { return b < a; }
+  friend ZEROCOUNT_ALWAYS_INLINE Mask operator>=(const Simd& a, const Simd& b) { return b <= a; }
+  friend ZEROCOUNT_ALWAYS_INLINE Mask operator==(const Simd& a, const Simd& b) {
+    Mask r;
     for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] == b.part[i];
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Truth operator!=(const Pack& a, const Pack& b) { return ~(a == b); }
+  friend ZEROCOUNT_ALWAYS_INLINE Mask operator!=(const Simd& a, const Simd& b) { return ~(a == b); }
 
-  /// a where `truth`, else b.
-  friend ZEROCOUNT_ALWAYS_INLINE Pack select(const Truth& truth, const Pack& a, const Pack& b) {
-    Pack r;
-    for (int i = 0; i < Chains; ++i) r.part[i] = truth.part[i] ? a.part[i] : b.part[i];
+  /// a where `mask`, else b.
+  friend ZEROCOUNT_ALWAYS_INLINE Simd select(const Mask& mask, const Simd& a, const Simd& b) {
+    Simd r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = mask.part[i] ? a.part[i] : b.part[i];
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Pack magnitude(const Pack& a) {
-    Pack r;
+  friend ZEROCOUNT_ALWAYS_INLINE Simd abs(const Simd& a) {
+    Simd r;
     for (int i = 0; i < Chains; ++i) r.part[i] = (Real)((Bits)a.part[i] & INT64_MAX);
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE Pack smaller(const Pack& a, const Pack& b) { return select(b < a, b, a); }
-  friend ZEROCOUNT_ALWAYS_INLINE Pack larger(const Pack& a, const Pack& b) { return select(a < b, b, a); }
+  friend ZEROCOUNT_ALWAYS_INLINE Simd min(const Simd& a, const Simd& b) { return select(b < a, b, a); }
+  friend ZEROCOUNT_ALWAYS_INLINE Simd max(const Simd& a, const Simd& b) { return select(a < b, b, a); }
   /// −1, 0 or 1.
-  friend ZEROCOUNT_ALWAYS_INLINE Pack sign(const Pack& a) {
-    return select(a > Pack(0.0), Pack(1.0), select(a < Pack(0.0), Pack(-1.0), Pack(0.0)));
+  friend ZEROCOUNT_ALWAYS_INLINE Simd sign(const Simd& a) {
+    return select(a > Simd(0.0), Simd(1.0), select(a < Simd(0.0), Simd(-1.0), Simd(0.0)));
   }
 
   /// √a.
-  friend ZEROCOUNT_ALWAYS_INLINE Pack root_of(const Pack& a) {
-    Pack r;
+  friend ZEROCOUNT_ALWAYS_INLINE Simd sqrt(const Simd& a) {
+    Simd r;
     for (int i = 0; i < Chains; ++i) {
       for (int j = 0; j < Width; ++j) r.part[i][j] = __builtin_sqrt(a.part[i][j]);
     }
@@ -142,8 +141,8 @@ struct Pack {
   }
 
   /// aⁿ for a ≥ 0, lane by lane by the C library.
-  friend ZEROCOUNT_ALWAYS_INLINE Pack power_of(const Pack& a, const Pack& n) {
-    Pack r;
+  friend ZEROCOUNT_ALWAYS_INLINE Simd pow(const Simd& a, const Simd& n) {
+    Simd r;
     for (int i = 0; i < Chains; ++i) {
       for (int j = 0; j < Width; ++j) r.part[i][j] = __builtin_pow(a.part[i][j], n.part[i][j]);
     }
@@ -151,27 +150,31 @@ struct Pack {
   }
 
   /// The nearest whole number, half to even. |a| < 2⁵¹.
-  friend ZEROCOUNT_ALWAYS_INLINE Pack nearest_whole(const Pack& a) {
-    const Pack shift(0x1.8p52);
+  friend ZEROCOUNT_ALWAYS_INLINE Simd fast_rint(const Simd& a) {
+    const Simd shift(0x1.8p52);
     return (a + shift) - shift;
   }
+  /// The same of any a; from 2⁵⁰ on, where no one asks for more, a itself.
+  friend ZEROCOUNT_ALWAYS_INLINE Simd rint(const Simd& a) {
+    return select(abs(a) < Simd(0x1p50), fast_rint(a), a);
+  }
   /// ⌊a⌋, |a| < 2⁵¹.
-  friend ZEROCOUNT_ALWAYS_INLINE Pack floor_of(const Pack& a) {
-    const Pack nearest = nearest_whole(a);
-    return select(nearest > a, nearest - Pack(1.0), nearest);
+  friend ZEROCOUNT_ALWAYS_INLINE Simd floor(const Simd& a) {
+    const Simd nearest = fast_rint(a);
+    return select(nearest > a, nearest - Simd(1.0), nearest);
   }
   /// 2ᵃ, a a whole number from −1022 to 1023.
-  friend ZEROCOUNT_ALWAYS_INLINE Pack two_to(const Pack& a) {
-    const Pack shifted = a + Pack(0x1.8p52);
-    Pack r;
+  friend ZEROCOUNT_ALWAYS_INLINE Simd exp2(const Simd& a) {
+    const Simd shifted = a + Simd(0x1.8p52);
+    Simd r;
     for (int i = 0; i < Chains; ++i) r.part[i] = (Real)(((Bits)shifted.part[i] + 1023) << 52);
     return r;
   }
   /// 2 to the power log₂(a)·share, within 7 %, for positive normal a: its bits, taken as a number, are about
   /// its logarithm.
-  friend ZEROCOUNT_ALWAYS_INLINE Pack rough_power(const Pack& a, double share) {
-    const Pack shift(0x1.8p52);
-    Pack r;
+  friend ZEROCOUNT_ALWAYS_INLINE Simd rough_power(const Simd& a, double share) {
+    const Simd shift(0x1.8p52);
+    Simd r;
     for (int i = 0; i < Chains; ++i) {
       // The upper 32 bits are enough, and are exact as a double.
       const Bits upper = ((Bits)a.part[i] >> 32);
@@ -186,16 +189,16 @@ struct Pack {
 
 /// eᵃ for a ≤ 700, to some 2e-16 relative; of a < −700, e⁻⁷⁰⁰.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE P exponential(const P& a) {
-  const P x = larger(a, P(-700.0));
-  const P n = nearest_whole(x * P(0x1.71547652b82fep0));                         // x/ln 2
+ZEROCOUNT_ALWAYS_INLINE P exp(const P& a) {
+  const P x = max(a, P(-700.0));
+  const P n = fast_rint(x * P(0x1.71547652b82fep0));                             // x/ln 2
   const P r = (x - n * P(0x1.62e42fefa3800p-1)) - n * P(0x1.ef35793c76730p-45);  // ln 2 in two parts
   constexpr double factorials[] = {1.0 / 6227020800.0, 1.0 / 479001600.0, 1.0 / 39916800.0, 1.0 / 3628800.0,
                                    1.0 / 362880.0,     1.0 / 40320.0,     1.0 / 5040.0,     1.0 / 720.0,
                                    1.0 / 120.0,        1.0 / 24.0,        1.0 / 6.0,        0.5};
   P sum(factorials[0]);
   for (int i = 1; i < 12; ++i) sum = sum * r + P(factorials[i]);
-  return (P(1.0) + (r + (r * r) * sum)) * two_to(n);
+  return (P(1.0) + (r + (r * r) * sum)) * exp2(n);
 }
 
 }  // namespace zerocount::batch

@@ -1,18 +1,11 @@
 #pragma once
 
+#include "core/batch/batch_state.hpp"
 #include "core/batch/lanes.hpp"
-#include "core/batch/tile.hpp"
+#include "core/numerics/series_recurrences.hpp"
 
-/// Power series in the share of a step, from 0 to 1: coefficient k is that of time, times hᵏ.
+/// Power series in the fraction of a step, from 0 to 1: coefficient k is that in time, times hᵏ.
 namespace zerocount::batch {
-
-/// 1/k.
-inline constexpr struct Reciprocals {
-  double of[batch_order + 1]{};
-  constexpr Reciprocals() {
-    for (int k = 1; k <= batch_order; ++k) of[k] = 1.0 / k;
-  }
-} reciprocals;
 
 /// The polynomial at x, smallest terms first.
 template <class P>
@@ -40,7 +33,7 @@ ZEROCOUNT_ALWAYS_INLINE void values_of(const P* a, const P* b, const P* c, const
   }
 }
 
-/// The polynomial at 1: to the bit what value_of says there.
+/// The polynomial at x = 1; bitwise equal to value_of(c, order, 1).
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P sum_of(const P* c, int order) {
   P value = c[order];
@@ -52,18 +45,18 @@ ZEROCOUNT_ALWAYS_INLINE P sum_of(const P* c, int order) {
 /// Σ k(k−1)·|c[k]|, which no second derivative on [0, 1] exceeds.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P curvature_bound(const P* c, int order) {
-  P sum = magnitude(c[order]) * P(static_cast<double>(order * (order - 1)));
+  P sum = abs(c[order]) * P(static_cast<double>(order * (order - 1)));
 #pragma GCC unroll 1
-  for (int k = order - 1; k >= 2; --k) sum = sum + magnitude(c[k]) * P(static_cast<double>(k * (k - 1)));
+  for (int k = order - 1; k >= 2; --k) sum = sum + abs(c[k]) * P(static_cast<double>(k * (k - 1)));
   return sum;
 }
 
 /// Σ |c[k]|, k ≥ 1, which the polynomial does not move farther on [0, 1].
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P reach_bound(const P* c, int order) {
-  P sum = magnitude(c[order]);
+  P sum = abs(c[order]);
 #pragma GCC unroll 1
-  for (int k = order - 1; k >= 1; --k) sum = sum + magnitude(c[k]);
+  for (int k = order - 1; k >= 1; --k) sum = sum + abs(c[k]);
   return sum;
 }
 
@@ -71,10 +64,9 @@ ZEROCOUNT_ALWAYS_INLINE P reach_bound(const P* c, int order) {
 /// sign on [0, 1] where the two values have the same: it is farther from 0 than it can bend, or it is
 /// monotonic.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE typename P::Truth cannot_turn(const P& at_start, const P& at_end, const P& slope,
-                                                      const P& curvature) {
-  return (smaller(magnitude(at_start), magnitude(at_end)) > curvature * P(0.125)) |
-         (magnitude(slope) > curvature);
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask cannot_turn(const P& at_start, const P& at_end, const P& slope,
+                                                     const P& curvature) {
+  return (min(abs(at_start), abs(at_end)) > curvature * P(0.125)) | (abs(slope) > curvature);
 }
 
 /// The root of a polynomial between 0 and `end`, where it has the sign other than `at_start`'s: from the
@@ -83,14 +75,14 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Truth cannot_turn(const P& at_start, const P
 /// `wanted` count.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start, const P& at_end,
-                                       const P& end, const typename P::Truth& wanted) {
-  constexpr int most_steps = 60;
+                                       const P& end, const typename P::Mask& wanted) {
+  constexpr int max_steps = 60;
   P low(0.0);
   P high = end;
   P x = end * (at_start / (at_start - at_end));
   P last_change = end;
-  typename P::Truth open = wanted;
-  for (int step = 0; step < most_steps; ++step) {
+  typename P::Mask open = wanted;
+  for (int step = 0; step < max_steps; ++step) {
     // The even and the odd powers apart, and their derivatives: four chains of additions in place of two.
     const P square = x * x;
     P even(0.0);
@@ -112,14 +104,14 @@ ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start,
     }
     const P value = even + x * odd;
     const P slope = odd + P(2.0) * x * (even_slope + x * odd_slope);
-    const typename P::Truth before = (value > P(0.0)) == (at_start > P(0.0));
+    const typename P::Mask before = (value > P(0.0)) == (at_start > P(0.0));
     low = select(before, x, low);
     high = select(before, high, x);
     const P newton = x - value / slope;
-    const typename P::Truth good =
-        (newton >= low) & (newton <= high) & (magnitude(newton - x) <= P(0.5) * last_change);
+    const typename P::Mask good =
+        (newton >= low) & (newton <= high) & (abs(newton - x) <= P(0.5) * last_change);
     const P next = select(good, newton, (low + high) * P(0.5));
-    last_change = magnitude(next - x);
+    last_change = abs(next - x);
     x = select(open, next, x);
     open = open & (last_change > P(1e-8) * end);  // squared by the step that has just been made
     if (!open.any()) break;

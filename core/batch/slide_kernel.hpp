@@ -5,24 +5,25 @@
 
 namespace zerocount::batch {
 
-/// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series carry. Notes
-/// velocity_zero, at_stop, and beyond_kernel where the slide begins at ω = 0. See PreslidingFriction::slide.
+/// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series carry.
+/// Reports velocity_zero, at_stop, and beyond_kernel where the slide begins at ω = 0. See
+/// PreslidingFriction::slide.
 ///
 /// Far above the Stribeck velocity, where (ω/ωs)² > 64, friction is that of Coulomb to the last bit; those
 /// lanes go apart, with `Fast`, and step until (ω/ωs)² is down to 42: exp(−42) = 6e-19.
 template <class P, bool Fast>
-void slide_kernel(Tile& tile, LaneList list) {
-  using Truth = typename P::Truth;
-  MotionLanes& m = tile.motion;
-  ContactLanes& c = tile.contact;
-  TimeLanes& time = tile.time;
-  tile.noted_count = 0;
+void slide_kernel(BatchState& batch, LaneList list) {
+  using Mask = typename P::Mask;
+  MotionLanes& m = batch.motion;
+  ContactLanes& c = batch.contact;
+  TimeLanes& time = batch.time;
+  batch.event_count = 0;
   const P zero(0.0);
   const P one(1.0);
   for (int first = 0, next = 0; first < list.count; first = next) {
     const LaneGroup<P> at(list, first);
     next = first + at.used();
-    const P until = at.load(time.until);
+    const P until = at.load(time.time_to_stop);
     const P omega = at.load(m.omega);
     const P direction = at.load(m.slide_direction);
     const P coulomb = at.load(c.coulomb);
@@ -34,20 +35,20 @@ void slide_kernel(Tile& tile, LaneList list) {
     const P torque = at.load(m.torque);
     const P driving = torque - direction * coulomb;
 
-    const P stribeck_velocity = one / root_of(per_velocity_squared);
-    const P speed = magnitude(omega);
+    const P stribeck_velocity = one / sqrt(per_velocity_squared);
+    const P speed = abs(omega);
     P lightness_start = zero;
     P h = until;
     if constexpr (Fast) {
       const P above = speed - P(6.5) * stribeck_velocity;
-      const P slowing = larger(breakaway - direction * torque + damping * speed, zero) * per_inertia;
+      const P slowing = max(breakaway - direction * torque + damping * speed, zero) * per_inertia;
       h = select(slowing * until > above, above / slowing, until);
     } else {
-      lightness_start = exponential(-per_velocity_squared * omega * omega);
+      lightness_start = exp(-per_velocity_squared * omega * omega);
       // (ω/ωs)² may change by some 4.
-      const P acceleration = magnitude(driving - stribeck * lightness_start - damping * omega) * per_inertia;
+      const P acceleration = abs(driving - stribeck * lightness_start - damping * omega) * per_inertia;
       const P changing = acceleration * (speed + P(2.0) * stribeck_velocity) * per_velocity_squared;
-      h = smaller(smaller(at.load(time.next_step), P(4.0) / changing), until);
+      h = min(min(at.load(time.next_step), P(4.0) / changing), until);
       h = select((h < until) & (until < P(1.4) * h), until * P(0.5), h);
     }
     const P force_scale = h * h * per_inertia;
@@ -66,60 +67,53 @@ void slide_kernel(Tile& tile, LaneList list) {
     for (int k = 0; k < batch_order; ++k) {
       P force = k == 0 ? driving : zero;
       if constexpr (!Fast) {
-        P square = zero;
-#pragma GCC unroll 1
-        for (int j = 0; 2 * j < k; ++j) square = square + velocity[j] * velocity[k - j];
-        square = square + square;
-        if (k % 2 == 0) square = square + velocity[k / 2] * velocity[k / 2];
-        exponent[k] = -per_step_squared * square;
+        exponent[k] = -per_step_squared * square_coefficient(velocity, k);
         if (k > 0) {
           slope[k - 1] = P(static_cast<double>(k)) * exponent[k];
-          P sum = zero;
-#pragma GCC unroll 1
-          for (int j = 0; j < k; ++j) sum = sum + slope[j] * lightness[k - 1 - j];
-          lightness[k] = sum * P(reciprocals.of[k]);
+          lightness[k] = exponential_coefficient(slope, lightness, k);
         }
         force = force - stribeck * lightness[k];
       }
-      theta[k + 1] = velocity[k] * P(reciprocals.of[k + 1]);
-      velocity[k + 1] = (force_scale * force - damping_scale * velocity[k]) * P(reciprocals.of[k + 1]);
+      theta[k + 1] = velocity[k] * P(reciprocal.of[k + 1]);
+      velocity[k + 1] = (force_scale * force - damping_scale * velocity[k]) * P(reciprocal.of[k + 1]);
     }
 
-    const P left_out = (magnitude(theta[batch_order - 1]) + magnitude(velocity[batch_order - 1])) +
-                       (magnitude(theta[batch_order]) + magnitude(velocity[batch_order]));
+    const P left_out = (abs(theta[batch_order - 1]) + abs(velocity[batch_order - 1])) +
+                       (abs(theta[batch_order]) + abs(velocity[batch_order]));
     const P allowed = at.load(time.tolerance) * (h * at.load(time.sample_rate));
-    const Truth inexact = ~(left_out <= allowed);
+    const Mask inexact = ~(left_out <= allowed);
     const P velocity_end = sum_of(velocity, batch_order);
-    const Truth halts = velocity[0] * velocity_end < zero;
-    Truth unfit = one < zero;
+    const Mask halts = velocity[0] * velocity_end < zero;
+    Mask unfit = one < zero;
     if constexpr (!Fast) {
-      P growth = larger(exponent[batch_order - 1], zero);
+      P growth = max(exponent[batch_order - 1], zero);
 #pragma GCC unroll 1
-      for (int k = batch_order - 2; k >= 1; --k) growth = growth + larger(exponent[k], zero);
-      const Truth grows = growth > larger(P(6.0), P(-40.0) - exponent[0]);
+      for (int k = batch_order - 2; k >= 1; --k) growth = growth + max(exponent[k], zero);
+      const Mask grows = growth > max(P(6.0), P(-40.0) - exponent[0]);
       const P curvature = curvature_bound(velocity, batch_order);
       unfit = grows | (~halts & ~cannot_turn(velocity[0], velocity_end, velocity[1], curvature));
     }
-    const Truth beyond = omega * direction <= zero;
-    const Truth too_long = (inexact | unfit) & ~beyond;
+    const Mask beyond = omega * direction <= zero;
+    const Mask too_long = (inexact | unfit) & ~beyond;
     P x = one;
-    const Truth seeks = at.taking_part() & halts & ~too_long;
+    const Mask seeks = at.taking_part() & halts & ~too_long;
     if (seeks.any())
       x = select(halts, root_between(velocity, batch_order, velocity[0], velocity_end, one, seeks), one);
 
-    const Truth done = ~too_long & ~beyond;
-    const Truth stops_here = ~halts & ~(h < until);
-    const P until_then = select(stops_here, zero, until - x * h);
+    const Mask done = ~too_long & ~beyond;
+    const Mask stops_here = ~halts & ~(h < until);
+    const P time_to_stop_then = select(stops_here, zero, until - x * h);
     const P factor = P(0.9) * rough_power(allowed / left_out, 1.0 / batch_order);
-    const P shorter = select(inexact, h * smaller(larger(factor, P(0.05)), P(0.8)), h * P(0.5));
-    const P longer = h * smaller(larger(factor, P(0.3)), P(4.0));
+    const P shorter = select(inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));
+    const P longer = h * min(max(factor, P(0.3)), P(4.0));
     at.store(time.next_step, select(too_long, shorter, select(done, longer, h)));
-    at.store(time.until, select(done, until_then, until));
+    at.store(time.time_to_stop, select(done, time_to_stop_then, until));
     at.store(time.steps, at.load(time.steps) + one);
     at.store(m.theta, select(done, value_of(theta, batch_order, x), theta[0]));
     at.store(m.omega, select(done, select(halts, zero, value_of(velocity, batch_order, x) / h), omega));
-    at.note(tile, noted<P>(done & halts, velocity_zero) +
-                      noted<P>(beyond | (at.load(time.steps) > P(most_steps_to_a_stop)), beyond_kernel));
+    at.add_events_to(
+        batch, events_where<P>(done & halts, velocity_zero) +
+                   events_where<P>(beyond | (at.load(time.steps) > P(max_steps_to_stop)), beyond_kernel));
   }
 }
 

@@ -7,51 +7,50 @@ namespace zerocount::batch {
 /// What the end of a step lies beyond.
 template <class P>
 struct EventsPassed {
-  using Truth = typename P::Truth;
-  Truth closes;  ///< the branch has ended
-  Truth stops;   ///< creep has come to its limit, or σ to zero
-  Truth starts;  ///< creep has set in
+  using Mask = typename P::Mask;
+  Mask closes;  ///< the branch has ended
+  Mask stops;   ///< creep has come to its limit, or σ to zero
+  Mask starts;  ///< creep has set in
 };
 
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE EventsPassed<P> events_passed(const Tile& tile, const LaneGroup<P>& at,
+ZEROCOUNT_ALWAYS_INLINE EventsPassed<P> events_passed(const BatchState& batch, const LaneGroup<P>& at,
                                                       const StickStep<P>& step) {
   const P zero(0.0);
   const StickLaw<P>& law = step.law;
   P creep_limit = law.creep_limit * step.torque * step.torque;
-  const typename P::Truth other_powers = step.creeping & (law.creep_exponent != P(2.0));
+  const typename P::Mask other_powers = step.creeping & (law.creep_exponent != P(2.0));
   if (other_powers.any()) {
-    const P power = power_of(magnitude(step.torque), law.creep_exponent);
+    const P power = pow(abs(step.torque), law.creep_exponent);
     creep_limit = select(other_powers, law.creep_limit * power, creep_limit);
   }
   const P creep_left = step.torque_sign * (creep_limit - law.creep_recovery * step.growth);
-  return {step.direction * (step.elongation - at.load(tile.motion.branch_end)) >= zero,
+  return {step.direction * (step.elongation - at.load(batch.motion.branch_end)) >= zero,
           step.creeping & (~(creep_left > zero) | (step.torque_sign * step.torque <= zero)),
-          ~step.creeping & (magnitude(step.torque) >= at.load(tile.motion.creep_onset))};
+          ~step.creeping & (abs(step.torque) >= at.load(batch.motion.creep_onset))};
 }
 
 /// Whether the hook's torque may reach the breakaway torque between the ends of the step, of which the larger
 /// is `at_ends` (N m).
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE typename P::Truth may_slip_within(const StickStep<P>& step, const P& at_ends) {
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_slip_within(const StickStep<P>& step, const P& at_ends) {
   P hook[batch_order + 1];
   for (int k = 0; k <= batch_order; ++k) {
     hook[k] = step.series.torque[k] + step.per_step * step.series.velocity[k];
   }
   const P bend = curvature_bound(hook, batch_order);
-  return (at_ends + bend * P(0.125) >= step.breakaway) & ~(magnitude(hook[1]) > bend);
+  return (at_ends + bend * P(0.125) >= step.breakaway) & ~(abs(hook[1]) > bend);
 }
 
 /// Marks the lanes whose steps have an event other than a reversal, without looking for it.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void see_events(const Tile& tile, const LaneGroup<P>& at, StickStep<P>& step) {
-  using Truth = typename P::Truth;
-  const EventsPassed<P> passed = events_passed(tile, at, step);
-  const P hook_larger =
-      larger(magnitude(step.hook_torque), magnitude(step.torque + step.per_step * step.velocity));
-  Truth slips = hook_larger >= step.breakaway;
-  const Truth near = ~step.too_long & (hook_larger > P(0.5) * step.breakaway);
-  if ((near & step.here).any()) slips = slips | (near & may_slip_within(step, hook_larger));
+ZEROCOUNT_ALWAYS_INLINE void see_events(const BatchState& batch, const LaneGroup<P>& at, StickStep<P>& step) {
+  using Mask = typename P::Mask;
+  const EventsPassed<P> passed = events_passed(batch, at, step);
+  const P hook_max = max(abs(step.hook_torque), abs(step.torque + step.per_step * step.velocity));
+  Mask slips = hook_max >= step.breakaway;
+  const Mask near = ~step.too_long & (hook_max > P(0.5) * step.breakaway);
+  if ((near & step.here).any()) slips = slips | (near & may_slip_within(step, hook_max));
   step.meets = ~step.too_long & (passed.closes | passed.stops | passed.starts | slips);
   step.beyond = nowhere<P>();
 }
@@ -59,10 +58,10 @@ ZEROCOUNT_ALWAYS_INLINE void see_events(const Tile& tile, const LaneGroup<P>& at
 /// Which event each lane looks for.
 template <class P>
 struct SoughtEvent {
-  using Truth = typename P::Truth;
-  Truth open;  ///< the lanes that look for one
-  Truth loose, closing, start;
-  Truth stop;  ///< none of the others: the end of creep
+  using Mask = typename P::Mask;
+  Mask open;  ///< the lanes that look for one
+  Mask loose, closing, start;
+  Mask stop;  ///< none of the others: the end of creep
 
   ZEROCOUNT_ALWAYS_INLINE P choose(const P& if_loose, const P& if_closure, const P& if_start,
                                    const P& otherwise) const {
@@ -72,9 +71,9 @@ struct SoughtEvent {
 
 /// Moves the end of the step to where the events are that its end lies beyond.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void go_back_to(const Tile& tile, const LaneGroup<P>& at,
+ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const LaneGroup<P>& at,
                                         const SoughtEvent<P>& sought, StickStep<P>& step) {
-  using Truth = typename P::Truth;
+  using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
   const P zero(0.0);
   const P hook_sign = sign(step.torque + step.per_step * step.velocity);
@@ -84,11 +83,11 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const Tile& tile, const LaneGroup<P>& at
     const P of_hook = hook_sign * (s.torque[k] + step.per_step * s.velocity[k]);
     f[k] = sought.choose(of_hook, s.elongation[k], start_sign * s.torque[k], step.torque_sign * s.creep[k]);
   }
-  f[0] = f[0] - sought.choose(step.breakaway, at.load(tile.motion.branch_end),
-                              at.load(tile.motion.creep_onset), zero);
+  f[0] = f[0] - sought.choose(step.breakaway, at.load(batch.motion.branch_end),
+                              at.load(batch.motion.creep_onset), zero);
   // Creep ends before σ is zero, beyond which the series of its rate, in σ², would rise again.
   P last = step.x;
-  const Truth crosses = sought.open & sought.stop & (step.torque_sign * step.torque <= zero);
+  const Mask crosses = sought.open & sought.stop & (step.torque_sign * step.torque <= zero);
   if (crosses.any()) {
     P torque_left[batch_order + 1];
     for (int k = 0; k <= batch_order; ++k) torque_left[k] = step.torque_sign * s.torque[k];
@@ -97,7 +96,7 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const Tile& tile, const LaneGroup<P>& at
     last = select(crosses, crossing, step.x);
   }
   const P f_end = value_of(f, batch_order, last);
-  const Truth bracketed = f[0] * f_end < zero;
+  const Mask bracketed = f[0] * f_end < zero;
   const P found =
       select(bracketed, root_between(f, batch_order, f[0], f_end, last, sought.open & bracketed), last);
   step.beyond = step.beyond | (sought.open & ~bracketed & ~crosses & (f_end != zero));
@@ -112,18 +111,19 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const Tile& tile, const LaneGroup<P>& at
 
 /// Finds the first event of each lane, and ends its step there.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void find_first_event(const Tile& tile, const LaneGroup<P>& at, StickStep<P>& step) {
-  using Truth = typename P::Truth;
+ZEROCOUNT_ALWAYS_INLINE void find_first_event(const BatchState& batch, const LaneGroup<P>& at,
+                                              StickStep<P>& step) {
+  using Mask = typename P::Mask;
   step.meets = nowhere<P>();
-  step.beyond = magnitude(step.hook_torque) >= step.breakaway;
+  step.beyond = abs(step.hook_torque) >= step.breakaway;
   // One at a time; the next round sees whether another is earlier still.
   for (int round = 0; round < 4; ++round) {
-    const EventsPassed<P> passed = events_passed(tile, at, step);
+    const EventsPassed<P> passed = events_passed(batch, at, step);
     const P hook_torque = step.torque + step.per_step * step.velocity;
-    const Truth loose = (magnitude(hook_torque) >= step.breakaway) & (step.event != P(breaks_away));
-    const Truth closes = passed.closes & (step.event != P(closure));
-    const Truth starts = passed.starts & (step.event != P(creep_sets_in));
-    const Truth stops = passed.stops & (step.event != P(creep_ends));
+    const Mask loose = (abs(hook_torque) >= step.breakaway) & (step.event != P(breaks_away));
+    const Mask closes = passed.closes & (step.event != P(closure));
+    const Mask starts = passed.starts & (step.event != P(creep_sets_in));
+    const Mask stops = passed.stops & (step.event != P(creep_ends));
     SoughtEvent<P> sought;
     sought.open = step.here & (loose | closes | starts | stops) & ~step.too_long & ~step.beyond;
     if (!sought.open.any()) break;
@@ -131,16 +131,16 @@ ZEROCOUNT_ALWAYS_INLINE void find_first_event(const Tile& tile, const LaneGroup<
     sought.closing = ~loose & closes;
     sought.start = ~loose & ~closes & starts;
     sought.stop = ~loose & ~closes & ~starts;
-    go_back_to(tile, at, sought, step);
+    go_back_to(batch, at, sought, step);
   }
   // Between the ends the hook's torque may have been larger.
   const P hook_at_end = step.torque + step.per_step * step.velocity;
-  const P hook_larger = larger(magnitude(step.hook_torque), magnitude(hook_at_end));
-  const Truth near = (step.event != P(breaks_away)) & (hook_larger > P(0.5) * step.breakaway);
+  const P hook_max = max(abs(step.hook_torque), abs(hook_at_end));
+  const Mask near = (step.event != P(breaks_away)) & (hook_max > P(0.5) * step.breakaway);
   if ((near & ~step.too_long).any()) {
-    step.too_long = step.too_long | (near & may_slip_within(step, hook_larger));
+    step.too_long = step.too_long | (near & may_slip_within(step, hook_max));
   }
-  const Truth slips = step.event == P(breaks_away);
+  const Mask slips = step.event == P(breaks_away);
   step.beyond = step.beyond | (slips & ~(step.velocity * hook_at_end > P(0.0)));
   step.beyond = step.beyond & ~step.too_long;
 }

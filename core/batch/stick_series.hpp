@@ -38,17 +38,17 @@ ZEROCOUNT_ALWAYS_INLINE void next_order(const StickLaw<P>& law, int k, const P& 
   s.rate[k] = k == 0 ? start_rate : s.velocity[k] - s.creep[k];
   slope[k] = law.exponent * s.rate[k];
   const P unbalanced = k == 0 ? law.applied - s.torque[0] : -s.torque[k];
-  const P reciprocal(reciprocals.of[k + 1]);
-  s.elongation[k + 1] = s.rate[k] * reciprocal;
-  s.growth[k + 1] = s.creep[k] * reciprocal;
-  s.velocity[k + 1] = (law.acceleration * unbalanced - law.damping * s.velocity[k]) * reciprocal;
+  const P per_order(reciprocal.of[k + 1]);
+  s.elongation[k + 1] = s.rate[k] * per_order;
+  s.growth[k + 1] = s.creep[k] * per_order;
+  s.velocity[k + 1] = (law.acceleration * unbalanced - law.damping * s.velocity[k]) * per_order;
 }
 
 /// σ of order k ≥ 1, from the coefficient of (exponent)′·exp(exponent) before it.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void next_torque(const StickLaw<P>& law, int k, const P& product, StickSeries<P>& s,
                                          P* softness) {
-  softness[k] = product * P(reciprocals.of[k]);
+  softness[k] = product * P(reciprocal.of[k]);
   s.torque[k] = law.k1 * s.elongation[k] - law.softening * softness[k];
 }
 
@@ -57,7 +57,7 @@ ZEROCOUNT_ALWAYS_INLINE void next_torque(const StickLaw<P>& law, int k, const P&
 /// instruction cache.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void expand(const StickLaw<P>& law, const P& softness_at_start,
-                                    const typename P::Truth& turning, const typename P::Truth& creeping_lanes,
+                                    const typename P::Mask& turning, const typename P::Mask& creeping_lanes,
                                     StickSeries<P>& s) {
   static_assert(batch_order % 2 == 0);
   P softness[batch_order + 1];
@@ -66,11 +66,11 @@ ZEROCOUNT_ALWAYS_INLINE void expand(const StickLaw<P>& law, const P& softness_at
   softness[0] = softness_at_start;
   const P zero(0.0);
   const bool creeping = creeping_lanes.any();
-  const typename P::Truth other_powers = creeping_lanes & (law.creep_exponent != P(2.0));
+  const typename P::Mask other_powers = creeping_lanes & (law.creep_exponent != P(2.0));
   const bool any_other_power = other_powers.any();
   power[0] = s.torque[0] * s.torque[0];
   if (any_other_power) {
-    power[0] = select(other_powers, power_of(magnitude(s.torque[0]), law.creep_exponent), power[0]);
+    power[0] = select(other_powers, pow(abs(s.torque[0]), law.creep_exponent), power[0]);
   }
   const P creep_start = creeping ? law.creep_limit * power[0] - law.creep_recovery * s.growth[0] : zero;
   const P start_rate = select(turning, zero, s.velocity[0] - creep_start);
@@ -108,7 +108,8 @@ ZEROCOUNT_ALWAYS_INLINE void expand(const StickLaw<P>& law, const P& softness_at
     }
     power[k] = half + half;
     if (any_other_power) {
-      power[k] = select(other_powers, power_coefficient(s.torque, power, law.creep_exponent, k), power[k]);
+      power[k] =
+          select(other_powers, torque_power_coefficient(s.torque, power, law.creep_exponent, k), power[k]);
     }
     next_order(law, k, power[k], zero, s, slope);
     next_product = (next_product + slope[0] * softness[k]) + slope[k] * softness[0];
@@ -120,8 +121,8 @@ ZEROCOUNT_ALWAYS_INLINE void expand(const StickLaw<P>& law, const P& softness_at
       power[k + 1] = (next_half + next_half) + middle * middle;
     }
     if (any_other_power) {
-      power[k + 1] =
-          select(other_powers, power_coefficient(s.torque, power, law.creep_exponent, k + 1), power[k + 1]);
+      power[k + 1] = select(
+          other_powers, torque_power_coefficient(s.torque, power, law.creep_exponent, k + 1), power[k + 1]);
     }
     next_order(law, k + 1, power[k + 1], zero, s, slope);
   }

@@ -8,15 +8,15 @@ namespace zerocount::batch {
 /// A step of the lanes of one pack: where it begins, its series, and what is made of it.
 template <class P>
 struct StickStep {
-  using Truth = typename P::Truth;
+  using Mask = typename P::Mask;
 
-  Truth here;  ///< the lanes that take part
-  P h;         ///< length, s
-  P until;     ///< left to the next stop, s
+  Mask here;       ///< the lanes that take part
+  P h;             ///< length, s
+  P time_to_stop;  ///< left to the next stop, s
 
   // The start.
-  Truth turning;  ///< dxs/dt is zero
-  Truth creeping;
+  Mask turning;  ///< dxs/dt is zero
+  Mask creeping;
   P torque_sign;  ///< of σ
   P direction;    ///< of the elongation
   P per_step;     ///< c/h: damper's torque by ω·h, N m/rad
@@ -26,47 +26,48 @@ struct StickStep {
   StickSeries<P> series;
 
   // How far it is good.
-  Truth reverses;      ///< dxs/dt changes its sign
-  Truth reverses_too;  ///< of them, those whose reversal is to be found
-  Truth too_long;
-  Truth inexact;  ///< too long, because of the terms left out
-  P last_terms;   ///< of elongation and velocity, rad
-  P allowed;      ///< of them, rad
-  P left_out;     ///< the same at the share that is used
-  P share;        ///< likewise of what is allowed
-  P rate_end;     ///< of dxs/dt·h at the whole step, rad
+  Mask reverses;      ///< dxs/dt changes its sign
+  Mask reverses_too;  ///< of them, those whose reversal is to be found
+  Mask too_long;
+  Mask inexact;  ///< too long, because of the terms left out
+  P last_terms;  ///< of elongation and velocity, rad
+  P allowed;     ///< of them, rad
+  P left_out;    ///< the same at the share that is used
+  P share;       ///< likewise of what is allowed
+  P rate_end;    ///< of dxs/dt·h at the whole step, rad
 
   // What is made of it.
-  P x;          ///< the share of it that is used
-  P event;      ///< LaneNote at its end
-  Truth meets;  ///< it has an event that this kernel does not look for
-  Truth beyond;
+  P x;         ///< the share of it that is used
+  P event;     ///< LaneEvent at its end
+  Mask meets;  ///< it has an event that this kernel does not look for
+  Mask beyond;
   P torque, elongation, velocity, growth;  ///< σ, xs, ω·h and xh·sgn(σ) at its end
 };
 
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE typename P::Truth nowhere() {
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask nowhere() {
   return P(1.0) < P(0.0);
 }
 
 /// The step that is thought to be good, at most to the next stop.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void begin_step(const Tile& tile, const LaneGroup<P>& at, StickStep<P>& step) {
-  const TimeLanes& time = tile.time;
+ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const LaneGroup<P>& at, StickStep<P>& step) {
+  const TimeLanes& time = batch.time;
   step.here = at.taking_part();
-  step.until = at.load(time.until);
-  step.turning = truth(at.load(tile.motion.turning));
+  step.time_to_stop = at.load(time.time_to_stop);
+  step.turning = to_mask(at.load(batch.motion.turning));
   // Half a period of the stiffest spring lies between two zeros of dxs/dt. Of these there must be one at
   // most.
   const P longest = at.load(time.longest_step) * select(step.turning, P(4.5), P(3.0));
-  const P h = smaller(smaller(at.load(time.next_step), step.until), longest);
-  step.h = select((h < step.until) & (step.until < P(1.4) * h), step.until * P(0.5), h);
+  const P h = min(min(at.load(time.next_step), step.time_to_stop), longest);
+  step.h = select((h < step.time_to_stop) & (step.time_to_stop < P(1.4) * h), step.time_to_stop * P(0.5), h);
 }
 
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void expand_step(const Tile& tile, const LaneGroup<P>& at, StickStep<P>& step) {
-  const MotionLanes& m = tile.motion;
-  const ContactLanes& c = tile.contact;
+ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const LaneGroup<P>& at,
+                                         StickStep<P>& step) {
+  const MotionLanes& m = batch.motion;
+  const ContactLanes& c = batch.contact;
   const P zero(0.0);
   const P h = step.h;
   const P per_inertia = at.load(c.per_inertia);
@@ -74,7 +75,7 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const Tile& tile, const LaneGroup<P>& a
   const P torque = at.load(m.spring_torque);
   const P branch_sign = at.load(m.branch_sign);
   step.torque_sign = select(torque < zero, P(-1.0), P(1.0));
-  step.creeping = truth(at.load(m.creeping));
+  step.creeping = to_mask(at.load(m.creeping));
   step.direction = at.load(m.direction);
 
   StickLaw<P>& law = step.law;
@@ -101,11 +102,11 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const Tile& tile, const LaneGroup<P>& a
 
 /// Inwards along a virgin curve the exponential grows, and must not by many e-folds.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE typename P::Truth grows_too_much(const Tile& tile, const LaneGroup<P>& at,
-                                                         const StickStep<P>& step) {
-  const MotionLanes& m = tile.motion;
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const BatchState& batch, const LaneGroup<P>& at,
+                                                        const StickStep<P>& step) {
+  const MotionLanes& m = batch.motion;
   const P branch_sign = at.load(m.branch_sign);
-  const typename P::Truth inwards = step.direction * branch_sign < P(0.0);
+  const typename P::Mask inwards = step.direction * branch_sign < P(0.0);
   if (!(inwards & step.here).any()) return nowhere<P>();
   const P softening_rate = at.load(m.branch_softening_rate);
   const P growth = softening_rate * reach_bound(step.series.elongation, batch_order);
@@ -115,35 +116,37 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Truth grows_too_much(const Tile& tile, const
 
 /// What the terms left out may come to. A swing of less than 5e-6 count is followed to 2e-6 of its amplitude.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE P allowed_error(const Tile& tile, const LaneGroup<P>& at, const StickStep<P>& step) {
-  const TimeLanes& time = tile.time;
+ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const LaneGroup<P>& at,
+                                        const StickStep<P>& step) {
+  const TimeLanes& time = batch.time;
   const StickSeries<P>& s = step.series;
   const P swings = at.load(time.longest_step) / step.h;
-  const P amplitude = larger(magnitude(s.rate[0]), magnitude(s.rate[1]) * swings) * swings;
-  const P scale = smaller(larger(amplitude * at.load(time.per_count) * P(2e5), P(1e-3)), P(1.0));
+  const P amplitude = max(abs(s.rate[0]), abs(s.rate[1]) * swings) * swings;
+  const P scale = min(max(amplitude * at.load(time.per_count) * P(2e5), P(1e-3)), P(1.0));
   return at.load(time.tolerance) * scale * (step.h * at.load(time.sample_rate));
 }
 
 /// Finds the reversal, if there is one, and whether the step is short enough for the series to tell.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void find_reversal(const Tile& tile, const LaneGroup<P>& at, StickStep<P>& step) {
-  using Truth = typename P::Truth;
+ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const LaneGroup<P>& at,
+                                           StickStep<P>& step) {
+  using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
   const P zero(0.0);
   // Where dxs/dt is zero at the start, its next zero is that of (dxs/dt)/t.
   step.rate_end = sum_of(s.rate, batch_order - 1);
   const P rate_start = select(step.turning, s.rate[1], s.rate[0]);
   step.reverses = rate_start * step.rate_end < zero;
-  step.last_terms = (magnitude(s.elongation[batch_order - 1]) + magnitude(s.velocity[batch_order - 1])) +
-                    (magnitude(s.elongation[batch_order]) + magnitude(s.velocity[batch_order]));
-  step.allowed = allowed_error(tile, at, step);
-  step.too_long = grows_too_much(tile, at, step);
+  step.last_terms = (abs(s.elongation[batch_order - 1]) + abs(s.velocity[batch_order - 1])) +
+                    (abs(s.elongation[batch_order]) + abs(s.velocity[batch_order]));
+  step.allowed = allowed_error(batch, at, step);
+  step.too_long = grows_too_much(batch, at, step);
   // What creep adds to dxs/dt may bring it through zero and back where it is as small.
-  const P creep_velocity = P(8.0) * at.load(tile.contact.alpha) * at.load(tile.contact.damping) /
-                           step.law.k1 * magnitude(s.creep[0]);
-  const Truth unsure = step.here & ~step.reverses &
-                       (smaller(magnitude(rate_start), magnitude(step.rate_end)) <= creep_velocity);
-  const Truth seeks = step.here & step.reverses & ~step.too_long;
+  const P creep_velocity =
+      P(8.0) * at.load(batch.contact.alpha) * at.load(batch.contact.damping) / step.law.k1 * abs(s.creep[0]);
+  const Mask unsure =
+      step.here & ~step.reverses & (min(abs(rate_start), abs(step.rate_end)) <= creep_velocity);
+  const Mask seeks = step.here & step.reverses & ~step.too_long;
   step.x = P(1.0);
   // Up to a reversal the series need not reach farther.
   step.left_out = step.last_terms;

@@ -7,115 +7,111 @@ namespace zerocount::batch {
 /// The samples on the way, at which nobody looks: their count has to be that of both ends.
 template <class P>
 struct StepTiming {
-  using Truth = typename P::Truth;
-  P samples_left;  ///< at the start of the step
-  P until_then;    ///< left to the next stop at its end, s
-  P left_then;     ///< samples up to and with that of the stop
-  P passed;        ///< samples within the step
-  P extension;     ///< xp at its end, rad
-  Truth counts;    ///< another count may come on the way: the step is not made
+  using Mask = typename P::Mask;
+  P samples_to_stop;       ///< at the start of the step
+  P time_to_stop_then;     ///< left to the next stop at its end, s
+  P samples_to_stop_then;  ///< samples up to and with that of the stop
+  P passed;                ///< samples within the step
+  P extension;             ///< xp at its end, rad
+  Mask counts;             ///< another count may come on the way: the step is not made
 };
 
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE StepTiming<P> timing_of(const Tile& tile, const LaneGroup<P>& at,
+ZEROCOUNT_ALWAYS_INLINE StepTiming<P> timing_of(const BatchState& batch, const LaneGroup<P>& at,
                                                 const StickStep<P>& step) {
-  using Truth = typename P::Truth;
-  const TimeLanes& time = tile.time;
+  using Mask = typename P::Mask;
+  const TimeLanes& time = batch.time;
   const StickSeries<P>& s = step.series;
   const P zero(0.0);
   const P one(1.0);
   StepTiming<P> t;
-  const Truth stops_here = (step.event == zero) & ~(step.h < step.until);
-  t.samples_left = at.load(time.samples_left);
-  t.until_then = select(stops_here, zero, step.until - step.x * step.h);
-  t.left_then =
-      select(stops_here, one, larger(-floor_of(P(1e-9) - t.until_then * at.load(time.sample_rate)), one));
-  t.passed = t.samples_left - t.left_then;
-  const P extension = at.load(tile.motion.extension);
+  const Mask stops_here = (step.event == zero) & ~(step.h < step.time_to_stop);
+  t.samples_to_stop = at.load(time.samples_to_stop);
+  t.time_to_stop_then = select(stops_here, zero, step.time_to_stop - step.x * step.h);
+  t.samples_to_stop_then =
+      select(stops_here, one, max(-floor(P(1e-9) - t.time_to_stop_then * at.load(time.sample_rate)), one));
+  t.passed = t.samples_to_stop - t.samples_to_stop_then;
+  const P extension = at.load(batch.motion.extension);
   t.extension = extension + (step.growth - s.growth[0]);
-  const P hook = at.load(tile.motion.hook);
+  const P hook = at.load(batch.motion.hook);
   const P per_count = at.load(time.per_count);
-  const P phase = at.load(tile.loop.phase);
-  const P count = at.load(tile.loop.count);
+  const P phase = at.load(batch.loop.phase);
+  const P count = at.load(batch.loop.count);
   const P start = s.elongation[0];
-  const P lowest =
-      (hook + smaller(start, step.elongation) + smaller(extension, t.extension)) * per_count + phase;
-  const P highest =
-      (hook + larger(start, step.elongation) + larger(extension, t.extension)) * per_count + phase;
+  const P lowest = (hook + min(start, step.elongation) + min(extension, t.extension)) * per_count + phase;
+  const P highest = (hook + max(start, step.elongation) + max(extension, t.extension)) * per_count + phase;
   // Clear of the edges, where rounding has a say.
-  const Truth same_count = (lowest - count > P(1e-9)) & (highest - count < P(1.0 - 1e-9));
+  const Mask same_count = (lowest - count > P(1e-9)) & (highest - count < P(1.0 - 1e-9));
   t.counts = (t.passed > zero) & ~same_count & ~step.too_long & ~step.beyond & ~step.meets;
   return t;
 }
 
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void store_time(Tile& tile, const LaneGroup<P>& at, const StickStep<P>& step,
-                                        const StepTiming<P>& t, const typename P::Truth& done) {
-  TimeLanes& time = tile.time;
+ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const LaneGroup<P>& at, const StickStep<P>& step,
+                                        const StepTiming<P>& t, const typename P::Mask& done) {
+  TimeLanes& time = batch.time;
   const P zero(0.0);
   const P one(1.0);
   const P h = step.h;
   const P factor = P(0.9) * rough_power(step.allowed / step.last_terms, 1.0 / batch_order);
-  const P shorter = select(step.inexact, h * smaller(larger(factor, P(0.05)), P(0.8)), h * P(0.5));
+  const P shorter = select(step.inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));
   // What speeds up will need shorter steps. (A way that is lost in rounding tells nothing.)
-  const P moved = magnitude(step.elongation - step.series.elongation[0]);
-  const P slower =
-      select(step.reverses | (moved == zero), one, smaller(one, moved / magnitude(step.rate_end)));
+  const P moved = abs(step.elongation - step.series.elongation[0]);
+  const P slower = select(step.reverses | (moved == zero), one, min(one, moved / abs(step.rate_end)));
   // From one reversal to the next it takes about as long as from the one before.
   const P half_swing = select(step.turning & step.reverses & (P(4.0) * step.left_out <= step.share),
                               P(1.25) * step.x * h, zero);
-  const P longer = larger(h * smaller(larger(factor * slower, P(0.3)), P(2.5)), half_swing);
+  const P longer = max(h * min(max(factor * slower, P(0.3)), P(2.5)), half_swing);
   // A step that a stop has cut short does not shorten the one after it.
   const P before = at.load(time.next_step);
-  const P kept = select(~(h < step.until) & (factor > one), larger(longer, before), longer);
+  const P kept = select(~(h < step.time_to_stop) & (factor > one), max(longer, before), longer);
   at.store(time.next_step, select(step.too_long, shorter, select(done, kept, before)));
-  const P to_next_sample = step.until - (t.samples_left - one) * at.load(time.sample_time);
-  at.store(time.until, select(done, t.until_then, select(t.counts, to_next_sample, step.until)));
-  at.store(time.samples_left, select(done, t.left_then, select(t.counts, one, t.samples_left)));
+  const P to_next_sample = step.time_to_stop - (t.samples_to_stop - one) * at.load(time.sample_time);
+  at.store(time.time_to_stop,
+           select(done, t.time_to_stop_then, select(t.counts, to_next_sample, step.time_to_stop)));
+  at.store(time.samples_to_stop,
+           select(done, t.samples_to_stop_then, select(t.counts, one, t.samples_to_stop)));
   at.store(time.steps, at.load(time.steps) + select(step.meets, zero, one));
 }
 
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void store_motion_of(Tile& tile, const LaneGroup<P>& at, const StickStep<P>& step,
-                                             const StepTiming<P>& t, const typename P::Truth& done) {
-  MotionLanes& m = tile.motion;
+ZEROCOUNT_ALWAYS_INLINE void store_motion_of(BatchState& batch, const LaneGroup<P>& at,
+                                             const StickStep<P>& step, const StepTiming<P>& t,
+                                             const typename P::Mask& done) {
+  MotionLanes& m = batch.motion;
   const StickSeries<P>& s = step.series;
   const P end = select(step.event == P(closure), at.load(m.branch_end), step.elongation);
   at.store(m.elongation, select(done, end, s.elongation[0]));
   at.store(m.omega, select(done, step.velocity / step.h, at.load(m.omega)));
   at.store(m.extension, select(done, t.extension, at.load(m.extension)));
   at.store(m.hardening, select(done, step.torque_sign * step.growth, at.load(m.hardening)));
-  at.store(m.turning, select(done, number<P>(step.event == P(reversal)), number<P>(step.turning)));
+  at.store(m.turning, select(done, to_number<P>(step.event == P(reversal)), to_number<P>(step.turning)));
   at.store(m.spring_torque, select(done, step.torque, s.torque[0]));
 }
 
 /// The measures of `passed` samples with the error 0.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void store_measures(Tile& tile, const LaneGroup<P>& at, const P& passed) {
-  MeasureLanes& q = tile.measures;
-  const P taken = at.load(q.taken);
-  const P zeros = at.load(q.zeros_in_a_row);
-  const typename P::Truth arrived = truth(at.load(q.arrived));
-  const typename P::Truth arrives = ~arrived & (passed > P(0.0)) & (zeros + passed >= at.load(q.dwell));
-  at.store(q.arrival, select(arrives, taken - zeros, at.load(q.arrival)));
-  at.store(q.arrived, number<P>(arrived | arrives));
-  at.store(q.zeros_in_a_row, zeros + passed);
-  at.store(q.taken, taken + passed);
+ZEROCOUNT_ALWAYS_INLINE void store_measures(BatchState& batch, const LaneGroup<P>& at, const P& passed) {
+  MeasureLanes& q = batch.measures;
+  ArrivalMeasures<P> arrival;
+  for_each_of_arrival(LoadEach<P>{at}, arrival, q);
+  measure_zeros(arrival, at.load(q.limits.dwell), passed);
+  for_each_of_arrival(StoreEach<P>{at}, q, arrival);
 }
 
 /// For whoever records the samples that were passed.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void record_passed(Tile& tile, const LaneGroup<P>& at, const StickStep<P>& step,
-                                           const P& passed) {
+ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const LaneGroup<P>& at,
+                                           const StickStep<P>& step, const P& passed) {
   constexpr int width = sizeof(passed.part[0]) / sizeof(double);
   for (int i = 0; i < P::lanes; ++i) {
     const int p = i / width;
     const int j = i % width;
     if (passed.part[p][j] == 0.0 || step.here.part[p][j] == 0) continue;
-    PassedSamples& record = tile.passed[tile.passed_count++];
+    PassedSamples& record = batch.passed[batch.passed_count++];
     record.lane = at.lane(i);
     record.samples = passed.part[p][j];
-    record.until = step.until.part[p][j];
+    record.time_to_stop = step.time_to_stop.part[p][j];
     record.step = step.h.part[p][j];
     record.end = step.x.part[p][j];
     for (int k = 0; k <= batch_order; ++k) {
@@ -125,40 +121,40 @@ ZEROCOUNT_ALWAYS_INLINE void record_passed(Tile& tile, const LaneGroup<P>& at, c
   }
 }
 
-/// One step of each lane whose hook sticks and that stick_start_kernel and its notes have prepared: to the
-/// next stop, to the first event, or as far as the series carry. Notes what happened at its end; nothing of a
-/// lane changes but its next step where the step was too long. A step with events other than a reversal is
-/// not made but noted as meets_event, unless `Events`.
+/// One step of each lane whose hook sticks and that stick_start_kernel and its events have prepared: to the
+/// next stop, to the first event, or as far as the series carry. Reports what happened at its end; nothing of
+/// a lane changes but its next step where the step was too long. A step with events other than a reversal is
+/// not made but reported as meets_event, unless `Events`.
 template <class P, bool Events>
-void stick_step_kernel(Tile& tile, LaneList list) {
-  tile.noted_count = 0;
-  tile.passed_count = 0;
+void stick_step_kernel(BatchState& batch, LaneList list) {
+  batch.event_count = 0;
+  batch.passed_count = 0;
   const P zero(0.0);
   for (int first = 0, next = 0; first < list.count; first = next) {
     const LaneGroup<P> at(list, first);
     next = first + at.used();
     StickStep<P> step;
-    begin_step(tile, at, step);
-    expand_step(tile, at, step);
-    find_reversal(tile, at, step);
+    begin_step(batch, at, step);
+    expand_step(batch, at, step);
+    find_reversal(batch, at, step);
     evaluate_end(step);
-    step.event = noted<P>(step.reverses, reversal);
+    step.event = events_where<P>(step.reverses, reversal);
     if constexpr (Events) {
-      find_first_event(tile, at, step);
+      find_first_event(batch, at, step);
     } else {
-      see_events(tile, at, step);
+      see_events(batch, at, step);
     }
-    const StepTiming<P> timing = timing_of(tile, at, step);
-    const typename P::Truth done = ~step.too_long & ~step.beyond & ~timing.counts & ~step.meets;
+    const StepTiming<P> timing = timing_of(batch, at, step);
+    const typename P::Mask done = ~step.too_long & ~step.beyond & ~timing.counts & ~step.meets;
     const P passed = select(done, timing.passed, zero);
-    store_time(tile, at, step, timing, done);
-    store_motion_of(tile, at, step, timing, done);
-    store_measures(tile, at, passed);
-    const typename P::Truth lost = step.beyond | (at.load(tile.time.steps) > P(most_steps_to_a_stop));
-    at.note(tile, select(done, step.event, zero) + noted<P>(step.meets, meets_event) +
-                      noted<P>(lost, beyond_kernel));
-    if (tile.passed != nullptr && ((passed > zero) & step.here).any()) {
-      record_passed(tile, at, step, passed);
+    store_time(batch, at, step, timing, done);
+    store_motion_of(batch, at, step, timing, done);
+    store_measures(batch, at, passed);
+    const typename P::Mask lost = step.beyond | (at.load(batch.time.steps) > P(max_steps_to_stop));
+    at.add_events_to(batch, select(done, step.event, zero) + events_where<P>(step.meets, meets_event) +
+                                events_where<P>(lost, beyond_kernel));
+    if (batch.passed != nullptr && ((passed > zero) & step.here).any()) {
+      record_passed(batch, at, step, passed);
     }
   }
 }

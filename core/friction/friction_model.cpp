@@ -1,7 +1,5 @@
 #include "core/friction/friction_model.hpp"
 
-#include <algorithm>
-
 #include "core/friction/laws.hpp"
 
 namespace zerocount {
@@ -10,11 +8,6 @@ namespace {
 static_assert(FrictionLaws::traits.size() == static_cast<std::size_t>(FrictionModel::none) + 1);
 static_assert(FrictionLaws::traits[static_cast<std::size_t>(FrictionModel::coulomb)].word ==
               CoulombFriction::word);
-
-bool uses(FrictionModel model, ContactField field) {
-  const auto& fields = traits_of(model).contact_parameters;
-  return std::find(fields.begin(), fields.end(), field) != fields.end();
-}
 
 }  // namespace
 
@@ -30,15 +23,15 @@ std::vector<std::string_view> friction_model_words() {
 }
 
 bool has_spring(FrictionModel model) {
-  return uses(model, &FrictionParameters::k1);
+  return uses(traits_of(model), &FrictionParameters::k1);
 }
 
 bool has_creep(FrictionModel model) {
-  return uses(model, &FrictionParameters::alpha);
+  return uses(traits_of(model), &FrictionParameters::alpha);
 }
 
 bool has_breakaway(FrictionModel model) {
-  return uses(model, &FrictionParameters::breakaway);
+  return uses(traits_of(model), &FrictionParameters::breakaway);
 }
 
 }  // namespace zerocount

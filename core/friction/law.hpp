@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -59,6 +60,12 @@ struct LawTraits {
   bool has_presliding_damping;
   bool runs_in_lanes;
 };
+
+/// Whether the law has this parameter of the contact.
+constexpr bool uses(const LawTraits& law, ContactField field) {
+  return std::find(law.contact_parameters.begin(), law.contact_parameters.end(), field) !=
+         law.contact_parameters.end();
+}
 
 template <FrictionLaw Law>
 constexpr LawTraits traits_of() {

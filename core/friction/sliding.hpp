@@ -37,12 +37,12 @@ struct Slide {
 
   SlidingSeries start() const;
   double expand(SlidingSeries& s, std::size_t k, double torque) const {
-    const double exponent = -s.per_velocity_squared * square_coefficient(s.omega, k);
+    const double exponent = -s.per_velocity_squared * square_coefficient(s.omega.data(), k);
     s.exponent[k] = exponent;
     double lightness = 0.0;
     if (k > 0) {
       s.slope[k - 1] = static_cast<double>(k) * exponent;
-      lightness = exponential_coefficient(s.slope, s.lightness, k);
+      lightness = exponential_coefficient(s.slope.data(), s.lightness.data(), k);
     } else {
       lightness = std::exp(exponent);
     }

@@ -36,15 +36,13 @@ double travel_at(const SpringBranch& branch, double torque) {
 }  // namespace
 
 double torque_on(const SpringBranch& branch, double x) {
-  const double travel = branch.sign * (x - branch.elongation);
-  return branch.torque + branch.sign * (branch.k1 * travel - branch.softening_torque *
-                                                                 std::expm1(-branch.softening_rate * travel));
+  const double travel = travel_on(branch, x);
+  return torque_after(branch, travel, -std::expm1(-branch.softening_rate * travel));
 }
 
 double stiffness_on(const SpringBranch& branch, double x) {
-  const double travel = branch.sign * (x - branch.elongation);
-  return branch.k1 +
-         branch.softening_torque * branch.softening_rate * std::exp(-branch.softening_rate * travel);
+  return branch.k1 + branch.softening_torque * branch.softening_rate *
+                         std::exp(-branch.softening_rate * travel_on(branch, x));
 }
 
 double branch_law(const FrictionParameters& friction, double travel) {

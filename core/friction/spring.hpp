@@ -5,23 +5,11 @@
 #include <boost/container/small_vector.hpp>
 
 #include "core/friction/parameters.hpp"
+#include "core/friction/spring_branch.hpp"
 
 namespace zerocount {
 
-/// One branch of the spring's hysteresis (paper, eq. 1):
-///
-///   σ(x) = σr + s·[k1·|x − xr| + (softening_torque)·(1 − exp(−softening_rate·|x − xr|))],   s = sgn(x − xr).
-///
-/// An ordinary branch starts at the last reversal point with softening_rate = β and softening_torque = k2/β.
-/// The virgin curve σ(x) = sgn(x)·½·f(2|x|) is the same law from the origin with 2β and k2/(2β).
-struct SpringBranch {
-  double elongation{0.0};        ///< xr, where the branch starts, rad
-  double torque{0.0};            ///< σr, N m
-  double sign{1.0};              ///< s, the side of xr on which the branch lies
-  double k1{0.0};                ///< N m/rad
-  double softening_torque{0.0};  ///< N m
-  double softening_rate{0.0};    ///< 1/rad
-};
+using SpringBranch = SpringBranchOf<double>;
 
 /// Torque (N m) of the branch at the elongation x (rad).
 double torque_on(const SpringBranch& branch, double x);

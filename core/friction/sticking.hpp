@@ -76,15 +76,15 @@ struct Sticking {
   static double torque_power_coefficient(const Series& magnitude, const Series& power, double n,
                                          std::size_t k) {
     if (n == 1.0) return magnitude[k];
-    if (n == 2.0) return square_coefficient(magnitude, k);
-    return power_coefficient(magnitude, power, n, k);
+    if (n == 2.0) return square_coefficient(magnitude.data(), k);
+    return power_coefficient(magnitude.data(), power.data(), n, k);
   }
 
   void expand_torque(StickingSeries& s, std::size_t k) const {
     const SpringBranch& branch = spring.branch();
     if (k > 0) {
       s.exponent[k] = exponent_coefficient(s.position[k]);
-      s.softness[k] = exponential_coefficient(s.slope, s.softness, k);
+      s.softness[k] = exponential_coefficient(s.slope.data(), s.softness.data(), k);
       s.spring_torque[k] = branch.k1 * s.position[k] - branch.sign * branch.softening_torque * s.softness[k];
     }
     if (!creeping) return;

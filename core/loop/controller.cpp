@@ -1,19 +1,28 @@
 #include "core/loop/controller.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace zerocount {
-namespace {
-
-PidGains fine_gains(const ControllerParameters& p) {
-  return {p.kp, p.ki, has_coarse_phase(p) ? 0.0 : p.kd};
+ControllerParameters controller_in_phase(ControllerParameters controller, ControlPhase phase) {
+  if (!has_coarse_phase(controller)) return controller;
+  const CoarsePhaseParameters coarse = std::exchange(controller.coarse, {});
+  switch (phase) {
+    case ControlPhase::fine:
+      controller.kd = 0.0;
+      break;
+    case ControlPhase::coarse:
+      controller.kp = coarse.kp;
+      controller.ki = coarse.ki;
+      controller.kd = coarse.kd;
+      break;
+  }
+  return controller;
 }
 
-PidGains coarse_gains(const ControllerParameters& p) {
-  return {p.coarse.kp, p.coarse.ki, p.coarse.kd};
+LinearChain linear_chain(const ControllerParameters& parameters) {
+  return ControlChain(parameters, {}).linear();
 }
-
-}  // namespace
 
 TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest) {
   constexpr double unbounded = std::numeric_limits<double>::infinity();
@@ -36,34 +45,36 @@ Controller::Controller(const ControllerParameters& parameters, double fine_per_c
       fine_encoder_(parameters.encoder),
       coarse_encoder_(parameters.coarse.encoder),
       fine_per_coarse_(fine_per_coarse),
-      fine_(fine_gains(parameters), integral, integral_range(parameters.anti_windup, lowest, highest)),
-      coarse_(coarse_gains(parameters), integral, integral_range(parameters.anti_windup, lowest, highest)),
+      fine_(controller_in_phase(parameters, ControlPhase::fine),
+            {integral, integral_range(parameters.anti_windup, lowest, highest)}),
+      coarse_(controller_in_phase(parameters, ControlPhase::coarse),
+              {integral, integral_range(parameters.anti_windup, lowest, highest)}),
       switch_(parameters.coarse, parameters.sample_rate) {}
 
 double Controller::update(std::int64_t reference, const EncoderReading& reading, double torque_in_force) {
-  const Feedback fine = feedback(fine_encoder_, reference, reading);
-  if (!two_phases_) return fine_.update(fine);
+  const Feedback fine = feedback(fine_encoder_, reference, reading, torque_in_force);
+  if (!two_phases_) return fine_.step(fine);
 
-  const Feedback coarse = feedback(coarse_encoder_, reference, reading);
+  const Feedback coarse = feedback(coarse_encoder_, reference, reading, torque_in_force);
   const bool changed = switch_.update(fine, coarse);
   const bool in_fine = switch_.phase() == ControlPhase::fine;
-  PidController& deciding = in_fine ? fine_ : coarse_;
-  PidController& resting = in_fine ? coarse_ : fine_;
-  if (changed) deciding.set_integral(torque_in_force);
+  ControlChain& deciding = in_fine ? fine_ : coarse_;
+  ControlChain& resting = in_fine ? coarse_ : fine_;
+  if (changed) deciding.take_over(torque_in_force);
   resting.observe(in_fine ? coarse : fine);
-  return deciding.update(in_fine ? fine : coarse);
+  return deciding.step(in_fine ? fine : coarse);
 }
 
 double Controller::integral() const {
-  return phase() == ControlPhase::fine ? fine_.integral() : coarse_.integral();
+  return (phase() == ControlPhase::fine ? fine_ : coarse_).block<Pid>().integral();
 }
 
-Feedback Controller::feedback(EncoderChoice encoder, std::int64_t reference,
-                              const EncoderReading& reading) const {
+Feedback Controller::feedback(EncoderChoice encoder, std::int64_t reference, const EncoderReading& reading,
+                              double torque_in_force) const {
   const double count = encoder == EncoderChoice::fine
                            ? static_cast<double>(reading.fine)
                            : static_cast<double>(reading.coarse) * fine_per_coarse_;
-  return {static_cast<double>(reference) - count, count};
+  return {static_cast<double>(reference) - count, count, torque_in_force};
 }
 
 }  // namespace zerocount

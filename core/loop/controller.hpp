@@ -2,30 +2,35 @@
 
 #include <cstdint>
 
+#include "core/loop/control_chain.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/loop/parameters.hpp"
 #include "core/loop/phase_switch.hpp"
-#include "core/loop/pid.hpp"
 
 namespace zerocount {
 
 /// Whether the control has two phases: whether any error is beyond coarse_beyond.
 bool has_coarse_phase(const ControllerParameters& parameters);
 
+/// The gains of one phase of the control, as those of a control without phases. The fine phase of a two-phase
+/// control has no derivative (paper, practical issue 5): its kd is taken as 0.
+ControllerParameters controller_in_phase(ControllerParameters controller, ControlPhase phase);
+
+/// The blocks of a control without phases, away from their limits.
+LinearChain linear_chain(const ControllerParameters& parameters);
+
 /// What anti-windup clamps the integral to. @param lowest, highest the DAC's range, N m.
 TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest);
 
-/// The control of the count: one PID law, or one for each of two phases (PhaseSwitch), each fed back from its
-/// own encoder. Errors and counts are fine ones; a coarse encoder's count is taken times fine/coarse.
+/// The control of the count: a chain of blocks, or one for each of two phases (PhaseSwitch), each fed back
+/// from its own encoder. Errors and counts are fine ones; a coarse encoder's count is taken times
+/// fine/coarse.
 ///
-/// A law that comes into force at sample k goes on from sample k−1 as if it had been in force there with an
+/// A chain that comes into force at sample k goes on from sample k−1 as if it had been in force there with an
 /// integral equal to the torque that was: I := torque in force, and then the sample is one like any other,
-/// with e_{k−1} and count_{k−1} of the law's own encoder. So no part of its torque is left from the time
+/// with e_{k−1} and count_{k−1} of the chain's own encoder. So no part of its torque is left from the time
 /// before but the torque itself, and what it adds to it is ki·(e_k + e_{k−1}) + kp·e_k −
 /// kd·(count_k − count_{k−1}).
-///
-/// The fine phase of a two-phase control has no derivative part (paper, practical issue 5): its kd is taken
-/// as 0.
 class Controller {
  public:
   /// @param fine_per_coarse counts of the fine encoder in one of the coarse encoder.
@@ -45,14 +50,15 @@ class Controller {
   double integral() const;                                          ///< I of the phase in force, N m
 
  private:
-  Feedback feedback(EncoderChoice encoder, std::int64_t reference, const EncoderReading& reading) const;
+  Feedback feedback(EncoderChoice encoder, std::int64_t reference, const EncoderReading& reading,
+                    double torque_in_force) const;
 
   bool two_phases_;
   EncoderChoice fine_encoder_;    ///< of the fine phase
   EncoderChoice coarse_encoder_;  ///< of the coarse phase
   double fine_per_coarse_;
-  PidController fine_;    ///< of the fine phase
-  PidController coarse_;  ///< of the coarse phase
+  ControlChain fine_;    ///< of the fine phase
+  ControlChain coarse_;  ///< of the coarse phase
   PhaseSwitch switch_;
 };
 

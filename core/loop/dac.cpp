@@ -1,7 +1,6 @@
 #include "core/loop/dac.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "core/loop/formulas.hpp"
 
 namespace zerocount {
 
@@ -20,10 +19,9 @@ double highest_torque(const DacParameters& dac) {
 }
 
 DacOutput convert(const DacParameters& dac, double torque) {
-  const double wanted = std::nearbyint(torque / dac.resolution);  // half to even in the default rounding mode
-  const double lowest = static_cast<double>(lowest_code(dac));
-  const double highest = static_cast<double>(highest_code(dac));
-  const double code = std::clamp(wanted, lowest, highest);
+  const double wanted = wanted_code(torque, dac.resolution);
+  const double code =
+      clipped_code(wanted, static_cast<double>(lowest_code(dac)), static_cast<double>(highest_code(dac)));
   return {static_cast<std::int64_t>(code), code * dac.resolution, code != wanted};
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
+#include "core/loop/formulas.hpp"
 #include "core/loop/parameters.hpp"
 
 namespace zerocount {
@@ -44,7 +44,7 @@ inline Encoder coarse_encoder(const EncoderParameters& encoders, double phase) {
 
 /// The count at the rotor angle θ (rad).
 inline std::int64_t read_count(const Encoder& encoder, double theta) {
-  return static_cast<std::int64_t>(std::floor(theta / encoder.resolution + encoder.phase));
+  return static_cast<std::int64_t>(ideal_count(theta, encoder.resolution, encoder.phase));
 }
 
 }  // namespace zerocount

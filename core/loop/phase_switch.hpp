@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/loop/control_block.hpp"
 #include "core/loop/parameters.hpp"
-#include "core/loop/pid.hpp"
 
 namespace zerocount {
 

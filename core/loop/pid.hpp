@@ -1,7 +1,7 @@
 #pragma once
 
-#include <algorithm>
-#include <optional>
+#include "core/loop/control_block.hpp"
+#include "core/loop/formulas.hpp"
 
 namespace zerocount {
 
@@ -11,57 +11,53 @@ struct PidGains {
   double kd{0.0};  ///< on the difference of successive counts, N m/count
 };
 
-/// Bounds of a torque, N m.
-struct TorqueRange {
-  double lowest{0.0};
-  double highest{0.0};
-};
-
-/// What a control is fed back at a sampling instant: whole numbers, or those of a coarser encoder in counts
-/// of the fine one.
-struct Feedback {
-  double error{0.0};  ///< reference − count, counts
-  double count{0.0};  ///< counts
-};
-
-/// The law of the sampled PID control, with the trapezoidal integral:
+/// The PID law with the trapezoidal integral, the first block of the controller:
 ///
-///   I ← I + ki·(e_k + e_{k−1}),   u = I + kp·e_k − kd·(count_k − count_{k−1}).
+///   I ← I + ki·(e_k + e_{k−1}),   u = I + kp·e_k − kd·(count_k − count_{k−1});
+///
+///   U(z) = [kp + ki·(1 + z⁻¹)/(1 − z⁻¹)]·E(z) − kd·(1 − z⁻¹)·Count(z).
 ///
 /// Before the first sample e was 0 and the count was the first count.
-class PidController {
+class Pid {
  public:
+  Pid(const ControllerParameters& parameters, const ControlStart& start)
+      : Pid({parameters.kp, parameters.ki, parameters.kd}, start.integral, start.integral_range) {}
+
   /// @param integral I before the first sample, N m.
   /// @param range what I is clamped to whenever it is changed by an error.
-  PidController(const PidGains& gains, double integral, const TorqueRange& range)
-      : gains_(gains), range_(range), integral_(integral) {}
+  Pid(const PidGains& gains, double integral, const TorqueRange& range)
+      : constants_{gains.kp, gains.ki, gains.kd, range.lowest, range.highest}, state_{integral, 0.0, 0.0} {}
 
-  /// The wanted torque (N m) at this sample.
-  double update(const Feedback& now) {
-    const double count_change = now.count - last_count_.value_or(now.count);
-    integral_ += gains_.ki * (now.error + last_error_);
-    integral_ = std::clamp(integral_, range_.lowest, range_.highest);
-    observe(now);
-    return integral_ + gains_.kp * now.error - gains_.kd * count_change;
+  double step(const Feedback& now, double /*torque*/ = 0.0) {
+    if (!started_) state_.last_count = now.count;
+    started_ = true;
+    return pid_step(constants_, state_, now.error, now.count);
   }
 
-  /// A sample at which another law decides: only what the next one has to know of it is kept.
   void observe(const Feedback& now) {
-    last_error_ = now.error;
-    last_count_ = now.count;
+    started_ = true;
+    state_.last_error = now.error;
+    state_.last_count = now.count;
   }
 
-  /// Sets I (N m), from which the next sample goes on.
-  void set_integral(double integral) { integral_ = integral; }
+  /// I := torque.
+  void take_over(double torque) { state_.integral = torque; }
 
-  double integral() const { return integral_; }  ///< I, N m
+  /// Parts without gain are left out: an integral with ki = 0 would be a state that nothing moves.
+  LinearBlock linear() const {
+    const auto& [kp, ki, kd, lowest, highest] = constants_;
+    LinearBlock block{{LoopSignal::error, {{kp}}}};
+    if (ki != 0.0) block.push_back({LoopSignal::error, {{ki, ki}, {1.0, -1.0}}});
+    if (kd != 0.0) block.push_back({LoopSignal::count, {{-kd, kd}}});
+    return block;
+  }
+
+  double integral() const { return state_.integral; }  ///< I, N m
 
  private:
-  PidGains gains_;
-  TorqueRange range_;
-  double integral_;
-  double last_error_{0.0};
-  std::optional<double> last_count_;
+  PidConstants<double> constants_;
+  PidState<double> state_;
+  bool started_{false};
 };
 
 }  // namespace zerocount

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "core/friction/laws.hpp"
 
@@ -66,11 +68,15 @@ struct PlantReading {
   bool sliding{false};
 };
 
-/// The plant of a trial: with the law of its friction.model.
-class Plant {
+/// The plant of a trial: with that law of the list which its friction.model names.
+template <class Laws>
+class PlantOf {
  public:
-  Plant(const PlantParameters& plant, const FrictionAlongRotor& friction, const PlantStart& start,
-        const MotionTolerance& tolerance);
+  PlantOf(const PlantParameters& plant, const FrictionAlongRotor& friction, const PlantStart& start,
+          const MotionTolerance& tolerance)
+      : plant_(makers.at(static_cast<std::size_t>(friction.model))(plant, friction, start, tolerance)),
+        has_hook_(uses(Laws::traits.at(static_cast<std::size_t>(friction.model)),
+                       &FrictionParameters::breakaway)) {}
 
   /// Applies the torque for `duration` (s).
   void advance(const TorqueCourse& torque, double duration) {
@@ -112,8 +118,23 @@ class Plant {
   }
 
  private:
-  FrictionLaws::Variant<PlantWith> plant_;
+  using AnyPlant = typename Laws::template Variant<PlantWith>;
+
+  template <std::size_t law>
+  static AnyPlant plant_with(const PlantParameters& plant, const FrictionAlongRotor& friction,
+                             const PlantStart& start, const MotionTolerance& tolerance) {
+    return AnyPlant(std::in_place_index<law>, plant, friction, start, tolerance);
+  }
+
+  static constexpr auto makers = []<std::size_t... law>(std::index_sequence<law...>) {
+    return std::array{&plant_with<law>...};
+  }
+  (std::make_index_sequence<std::variant_size_v<AnyPlant>>{});
+
+  AnyPlant plant_;
   bool has_hook_;
 };
+
+using Plant = PlantOf<FrictionLaws>;
 
 }  // namespace zerocount

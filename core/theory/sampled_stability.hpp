@@ -19,10 +19,8 @@ struct LinearDrive {
 ///
 /// The rotor obeys J·θ¨ + c·θ˙ + k·θ = u; u is the drive's input v, held over each sample, or follows it by
 /// u˙ = 2πf·(v − u), f the amplifier's bandwidth. Both are discretised exactly by the matrix exponential. The
-/// controller is the trapezoidal integral, kp, and kd on the difference of successive counts, with
-/// `controller.delay` samples between deciding a torque and applying it. Eigenvalues of the one-sample map of
-/// (count, its change per sample, u where it lags, last count, integral, torques decided and not yet
-/// applied).
+/// controller is linear_chain(controller), with `controller.delay` samples between deciding a torque and
+/// applying it (loop_map).
 double sampled_spectral_radius(double stiffness, const PlantParameters& plant,
                                const EncoderParameters& encoder, const ControllerParameters& controller,
                                const LinearDrive& drive = {});
@@ -30,8 +28,7 @@ double sampled_spectral_radius(double stiffness, const PlantParameters& plant,
 /// The slowest time constant with which the sampled loop about a spring of `stiffness` (N m/rad) approaches
 /// its target, s: −T/ln z of the largest real eigenvalue z in (1e-6, 1), which decays as exp(−t/τ); 0 where
 /// there is none. Infinite where the loop is not stable. Modes that oscillate are left to the bounds of
-/// stability. The integral of a controller without integral gain, which does not decay and does nothing, does
-/// not count.
+/// stability.
 ///
 /// An integral control that is slow has τ ≈ T·(k·Δx + kp)/(2·ki).
 double slowest_time_constant(double stiffness, const PlantParameters& plant, const EncoderParameters& encoder,

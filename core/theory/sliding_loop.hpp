@@ -8,10 +8,6 @@
 /// torque, constant at speeds well above the Stribeck velocity, is a disturbance that the loop has to reject.
 namespace zerocount {
 
-/// The gains of one phase of the control, as those of a control without phases. The fine phase of a two-phase
-/// control has no derivative (see core/README.md).
-ControllerParameters controller_in_phase(ControllerParameters controller, ControlPhase phase);
-
 /// Where the gain of the open loop falls below 1 for good.
 struct GainCrossover {
   /// Highest frequency with |L| = 1, Hz: the bandwidth of the loop. NaN where |L| < 1 throughout, or |L| ≥ 1
@@ -25,14 +21,13 @@ struct GainCrossover {
 /// The gain crossover of the sampled loop while it slides, from its exact frequency response
 ///
 ///   L(z) = C(z)·z^(−delay)·G(z),  z = exp(iωT),  0 < ω ≤ π/T,
-///   C(z) = kp + ki·(z + 1)/(z − 1) + kd·(z − 1)/z,
 ///
-/// where G is the sliding plant in counts, held over each sample and driven through `drive`.
+/// where C is linear_chain(controller), and G the sliding plant in counts, held over each sample and driven
+/// through `drive`.
 GainCrossover sliding_crossover(const PlantParameters& plant, const EncoderParameters& encoder,
                                 const ControllerParameters& controller, const LinearDrive& drive = {});
 
-/// Whether the sampled loop is stable while it slides: all its eigenvalues lie inside the unit circle, but
-/// for that of an integral that has no gain.
+/// Whether the sampled loop is stable while it slides: all its eigenvalues lie inside the unit circle.
 bool stable_while_sliding(const PlantParameters& plant, const EncoderParameters& encoder,
                           const ControllerParameters& controller, const LinearDrive& drive = {});
 

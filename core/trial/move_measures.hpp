@@ -2,9 +2,11 @@
 
 #include <cstdint>
 
+#include "core/trial/jerks.hpp"
 #include "core/trial/last_half.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
+#include "core/trial/running_measures.hpp"
 
 namespace zerocount {
 
@@ -25,21 +27,6 @@ inline double true_error(std::int64_t target, double theta, double resolution, d
   return static_cast<double>(target) - (theta / resolution + phase - 0.5);
 }
 
-/// What is known of a move with a target when its last sample was taken.
-struct MoveEnd {
-  std::int64_t target{0};             ///< counts
-  std::int64_t samples{0};            ///< taken
-  std::int64_t zeros_in_a_row{0};     ///< up to the last sample
-  std::int64_t jerk_samples{0};       ///< samples in a jerk
-  std::int64_t largest_in_window{0};  ///< max |e| in the last W samples, counts
-  bool finite{true};                  ///< the motion could be followed
-};
-
-/// Completes the measures of a move with a target: its verdict and all that is known at its end alone.
-/// `outcome` has what was measured sample by sample: stopped, arrival, holding_torque, final_error. The last
-/// half has been finished, unless the move was ended before it.
-void judge_end(const MoveTiming& timing, const MoveEnd& end, const LastHalf& last_half, MoveOutcome& outcome);
-
 /// What one sample contributes to the measures of its move.
 struct MoveSample {
   std::int64_t target{0};  ///< counts; 0 where there is none
@@ -50,11 +37,26 @@ struct MoveSample {
   double creep{0.0};       ///< xp, rad
 };
 
+/// The end of a move.
+struct MoveEnd {
+  MoveSample last;              ///< sample
+  bool broke_away{false};       ///< the hook slid during the move
+  std::int64_t reversal_depth;  ///< the largest
+  bool stopped{false};          ///< it has diverged, and was ended
+  bool finite{true};            ///< the motion could be followed
+};
+
+/// The measures of a move. The last half has been finished, unless the move was ended before it, and so has
+/// the last jerk.
+MoveOutcome outcome_of_move(const MoveTiming& timing, const RunningMeasures<double>& measures,
+                            const Jerks& jerks, const LastHalf& last_half, const MoveEnd& end);
+
 /// The measures of one move, taken sample by sample. What is kept of the move are running values and what
 /// LastHalf keeps, which has a limit: the memory does not grow with the length of the move.
 class MoveMeasures {
  public:
-  MoveMeasures(const MoveTiming& timing, std::int64_t move) : timing_(timing), move_(move) {
+  MoveMeasures(const MoveTiming& timing, std::int64_t move)
+      : timing_(timing), jerks_(move, timing.sample_time) {
     last_half_.start(timing.samples);
   }
 
@@ -63,39 +65,25 @@ class MoveMeasures {
   bool add(const MoveSample& sample);
 
   /// Says that the move has diverged with the sample taken last, and that there will be no other.
-  void stop() { outcome_.stopped = true; }
+  void stop() { stopped_ = true; }
 
   /// Ends the move: takes what the plant did during it. Call once, after the last sample.
   /// @returns whether a jerk was cut by the end; then it is in last_jerk().
   bool finish(bool broke_away, std::int64_t reversal_depth, bool finite);
 
-  const Jerk& last_jerk() const { return jerk_; }
-  const MoveOutcome& outcome() const { return outcome_; }
+  const Jerk& last_jerk() const { return jerks_.last(); }
+  const MoveOutcome& outcome() const { return outcome_; }  ///< once the move is finished
 
  private:
   bool judge(const MoveSample& sample);
-  void follow_last_half(std::int64_t count);
-  bool track_jerk(std::int64_t error);
-  void end_jerk();
 
   MoveTiming timing_;
-  std::int64_t move_;
-  MoveOutcome outcome_;
-
-  std::int64_t k_{0};
-  std::int64_t target_{0};  // of the last sample
-  std::int64_t count_{0};   // of the last sample
-  std::int64_t zeros_in_a_row_{0};
-  int direction_{0};                       // of the move
-  std::int64_t largest_since_arrival_{0};  // max |e|
-  std::int64_t largest_in_window_{0};      // max |e|
-  Jerk jerk_;
-  bool in_jerk_{false};
-  std::int64_t jerk_start_{0};
-  std::int64_t jerks_up_{0};
-  std::int64_t jerks_down_{0};
-  std::int64_t jerk_samples_{0};
+  RunningMeasures<double> running_{};
+  Jerks jerks_;
   LastHalf last_half_;
+  MoveSample last_;
+  bool stopped_{false};
+  MoveOutcome outcome_;
 };
 
 }  // namespace zerocount

@@ -84,8 +84,8 @@ struct MoveOutcome {
   std::int64_t phase_changes{0};         ///< of the control, from coarse to fine or back
   std::int64_t encoder_disagreement{0};  ///< samples at which the fine count made the coarse one impossible
   std::int64_t jerk_count{0};            ///< excursions of the error after arrival
-  double jerk_agreement{
-      std::numeric_limits<double>::quiet_NaN()};  ///< share of jerks towards sgn(holding_torque); NaN if none
+  double jerk_agreement{std::numeric_limits<double>::quiet_NaN()};  ///< proportion of jerks towards
+                                                                    ///< sgn(holding_torque); NaN if none
 };
 
 /// One excursion of the error away from zero after arrival.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "core/loop/dac.hpp"
@@ -14,40 +16,79 @@ namespace zerocount {
 /// What the plant of a trial finds at t = 0.
 PlantStart plant_start(const TrialParameters& parameters);
 
+/// Farther than this, counts are no longer whole numbers of a double.
+inline constexpr double max_counts = 0x1p52;
+
 /// How exactly a trial follows its motion, by the resolution (rad) of its fine encoder.
 MotionTolerance motion_tolerance(double resolution);
 
 /// The rig of a trial: the plant between its drive and its encoders. What closes the loop stands outside. One
 /// sample is: read, drive, hold.
+/// @tparam AnyPlant PlantOf a list of laws.
+template <class AnyPlant>
 class Rig {
  public:
-  explicit Rig(const TrialParameters& parameters);
+  explicit Rig(const TrialParameters& p)
+      : sample_time_(1.0 / p.controller.sample_rate),
+        measurement_(p.encoder, p.initial.encoder_phase, p.initial.position, p.randomness),
+        dac_(p.dac),
+        drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness),
+        plant_(p.plant, p.friction, plant_start(p), motion_tolerance(measurement_.fine_resolution())) {}
 
   /// What the encoders and the plant show at t_k. Torque, target and reference are left to who decides them.
-  SampleRecord read(std::int64_t k);
+  SampleRecord read(std::int64_t k) {
+    SampleRecord record;
+    record.k = k;
+    record.t = static_cast<double>(k) * sample_time_;
+    const PlantReading plant = plant_.read();
+    record.theta = plant.theta;
+    record.omega = plant.omega;
+    const EncoderReading reading = measurement_.read(k, record.theta);
+    record.count = reading.fine;
+    record.coarse_count = reading.coarse;
+    record.xp = plant.creep.extension;
+    record.xh = plant.creep.hardening;
+    record.depth = plant.depth;
+    record.mode = plant.sliding ? HookMode::slide : HookMode::stick;
+    return record;
+  }
 
   /// Takes the wanted torque (N m) at t_k through the converter; completes `record`.
-  void drive(double torque, SampleRecord& record);
+  void drive(double torque, SampleRecord& record) {
+    const DacOutput output = convert(dac_, torque);
+    course_ = drive_.send(record.k, output);
+    clipped_ = output.clipped;
+    record.code = output.code;
+    record.torque = output.torque;
+    record.drive_torque = course_.now;
+  }
 
   /// Takes the torque (N m) at t_k to the motor as it is, past the converter; completes `record`.
-  void drive_exactly(double torque, SampleRecord& record);
+  void drive_exactly(double torque, SampleRecord& record) {
+    course_ = drive_.send_exact(torque);
+    record.torque = torque;
+    record.drive_torque = course_.now;
+  }
 
   /// Lets the plant move until t_{k+1}.
   void hold() { plant_.advance(course_, sample_time_); }
 
   /// Whether the motion is still finite, and within what the counters can count.
-  bool readable() const;
+  bool readable() const {
+    const double finest = std::min(measurement_.fine_resolution(), measurement_.coarse_resolution());
+    return plant_.finite() && std::abs(plant_.theta()) < max_counts * finest;
+  }
 
   bool clipped() const { return clipped_; }  ///< the converter was out of range at this sample
   const Measurement& measurement() const { return measurement_; }
-  Plant& plant() { return plant_; }
+  AnyPlant& plant() { return plant_; }
 
  private:
   double sample_time_;
   Measurement measurement_;
   DacParameters dac_;
   Drive drive_;
-  Plant plant_;
+  AnyPlant plant_;
   TorqueCourse course_;
   bool clipped_{false};
 };

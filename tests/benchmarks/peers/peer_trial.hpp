@@ -36,7 +36,7 @@ TrialOutcome peer_trial(const TrialParameters& p, PeerPlant& plant, Observe obse
   const bool clamps = p.controller.anti_windup == AntiWindup::clamp;
   const TorqueRange range{clamps ? lowest_torque(p.dac) : -unbounded,
                           clamps ? highest_torque(p.dac) : unbounded};
-  PidController controller({p.controller.kp, p.controller.ki, p.controller.kd}, p.initial.integral, range);
+  Pid controller({p.controller.kp, p.controller.ki, p.controller.kd}, p.initial.integral, range);
   controller.observe({0.0, static_cast<double>(read_count(encoder, plant.theta()))});
   TorqueDelay delay(p.controller.delay);
   TrialOutcome outcome;
@@ -51,8 +51,8 @@ TrialOutcome peer_trial(const TrialParameters& p, PeerPlant& plant, Observe obse
     for (std::int64_t i = 0; i < timing.samples; ++i, ++k) {
       const double theta = plant.theta();
       const std::int64_t count = read_count(encoder, theta);
-      const DacOutput decided = convert(
-          p.dac, controller.update({static_cast<double>(target - count), static_cast<double>(count)}));
+      const DacOutput decided =
+          convert(p.dac, controller.step({static_cast<double>(target - count), static_cast<double>(count)}));
       observe(PeerSample{k, target, count, decided});
       measures.add(
           {target, count, decided.torque, decided.clipped, theta, plant.contact().extension(plant.state())});

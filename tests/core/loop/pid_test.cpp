@@ -12,12 +12,12 @@ namespace {
 constexpr TorqueRange wide{-1e9, 1e9};
 
 /// The torque at a sample with this target and count.
-double decide(PidController& pid, double target, double count) {
-  return pid.update({target - count, count});
+double decide(Pid& pid, double target, double count) {
+  return pid.step({target - count, count});
 }
 
 TEST(Pid, FirstSampleAddsHalfATrapezium) {
-  PidController pid({.ki = 2.0}, 0.0, wide);
+  Pid pid({.ki = 2.0}, 0.0, wide);
   EXPECT_EQ(decide(pid, 5, 0), 10.0);  // e was 0 before the first sample
   EXPECT_EQ(decide(pid, 5, 0), 30.0);  // + 2·(5 + 5)
   EXPECT_EQ(decide(pid, 5, 5), 40.0);  // + 2·(0 + 5)
@@ -26,14 +26,14 @@ TEST(Pid, FirstSampleAddsHalfATrapezium) {
 
 TEST(Pid, CountLeavingTheTargetForOneSampleTakesTwoStepsOfTheGain) {
   // Paper, issue 6: "the integral is decreased by 2·k_ID in two consecutive sampling instants".
-  PidController pid({.ki = 0.25}, 0.0, wide);
+  Pid pid({.ki = 0.25}, 0.0, wide);
   const double before = decide(pid, 0, 0);
   EXPECT_EQ(decide(pid, 0, 1), before - 0.25);
   EXPECT_EQ(decide(pid, 0, 0), before - 0.5);
 }
 
 TEST(Pid, ProportionalAndDifferenceAct) {
-  PidController pid({.kp = 3.0, .kd = 0.5}, 0.0, wide);
+  Pid pid({.kp = 3.0, .kd = 0.5}, 0.0, wide);
   EXPECT_EQ(decide(pid, 10, 4), 18.0);  // the count before the first is the first
   EXPECT_EQ(decide(pid, 10, 6), 3.0 * 4 - 0.5 * 2);
   EXPECT_EQ(decide(pid, 10, 6), 12.0);
@@ -42,7 +42,7 @@ TEST(Pid, ProportionalAndDifferenceAct) {
 TEST(Pid, IntegralIsTheTrapezoidalSumOfTheErrors) {
   std::mt19937 random(5);
   std::uniform_int_distribution<int> count(-20, 20);
-  PidController pid({.ki = 1.0 / 1024.0}, 0.0, wide);
+  Pid pid({.ki = 1.0 / 1024.0}, 0.0, wide);
   double sum = 0.0;
   int last = 0;
   for (int k = 0; k < 500; ++k) {
@@ -54,17 +54,17 @@ TEST(Pid, IntegralIsTheTrapezoidalSumOfTheErrors) {
 }
 
 TEST(Pid, IntegralGoesOnFromItsPreset) {
-  PidController pid({.ki = 1.0}, 0.5, wide);
+  Pid pid({.ki = 1.0}, 0.5, wide);
   EXPECT_EQ(pid.integral(), 0.5);
   EXPECT_EQ(decide(pid, 3, 0), 3.5);
-  pid.set_integral(-0.25);
+  pid.take_over(-0.25);
   EXPECT_EQ(decide(pid, 3, 0), 5.75);  // the last error is still known
 }
 
 TEST(Pid, IntegralStaysInItsRange) {
   constexpr double unbounded = std::numeric_limits<double>::infinity();
-  PidController clamped({.ki = 1.0}, 0.0, {-8.0, 7.0});
-  PidController free({.ki = 1.0}, 0.0, {-unbounded, unbounded});
+  Pid clamped({.ki = 1.0}, 0.0, {-8.0, 7.0});
+  Pid free({.ki = 1.0}, 0.0, {-unbounded, unbounded});
   for (int k = 0; k < 10; ++k) {
     decide(clamped, 4, 0);
     decide(free, 4, 0);
@@ -76,10 +76,10 @@ TEST(Pid, IntegralStaysInItsRange) {
 }
 
 TEST(Pid, ObservedSampleIsTheOneBeforeTheNext) {
-  PidController pid({.ki = 1.0, .kd = 0.5}, 10.0, wide);
+  Pid pid({.ki = 1.0, .kd = 0.5}, 10.0, wide);
   pid.observe({100.0, -30.0});
   EXPECT_EQ(pid.integral(), 10.0);
-  EXPECT_EQ(pid.update({4.0, 2.0}), 10.0 + (4.0 + 100.0) - 0.5 * 32.0);
+  EXPECT_EQ(pid.step({4.0, 2.0}), 10.0 + (4.0 + 100.0) - 0.5 * 32.0);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/loop/controller.hpp"
 #include "core/theory/gains.hpp"
 
 namespace zerocount {

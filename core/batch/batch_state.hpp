@@ -1,19 +1,21 @@
 #pragma once
 
+#include "core/trial/running_measures.hpp"
+
 /// The trials that a batch engine has in work, one a lane: plain arrays, one quantity each, so that a kernel
 /// takes the same quantity of many lanes at once. Truths are 0 or 1, whole numbers are exact doubles.
 ///
 /// Included by the kernels: see lanes.hpp for what must not be in here.
 namespace zerocount::batch {
 
-inline constexpr int most_lanes = 128;
+inline constexpr int max_lanes = 128;
 /// One slot more, which fills up packs; what is in it is never looked at. Rounded up to a cache line.
-inline constexpr int lane_slots = most_lanes + 8;
-inline constexpr int spare_lane = most_lanes;
+inline constexpr int lane_slots = max_lanes + 8;
+inline constexpr int spare_lane = max_lanes;
 
 inline constexpr int batch_order = 20;  ///< of the Taylor series
 /// A lane that has tried so many steps since its last stop is left to the reference.
-inline constexpr double most_steps_to_a_stop = 500.0;
+inline constexpr double max_steps_to_stop = 500.0;
 
 using Lanes = double[lane_slots];
 
@@ -64,16 +66,16 @@ struct alignas(64) ContactLanes {
 
 /// The time of a lane, and its steps.
 struct alignas(64) TimeLanes {
-  Lanes until;         ///< left to the next stop, s
-  Lanes samples_left;  ///< up to and with that of the stop
-  Lanes longest_step;  ///< 1/ωn with ωn² = (k1 + k2)/J, s
-  Lanes next_step;     ///< the step that accuracy is thought to allow, s
-  Lanes steps;         ///< tried since the last stop
-  Lanes sample_time;   ///< T, s
-  Lanes sample_rate;   ///< 1/T, Hz
-  Lanes tolerance;     ///< of a torque step, rad
-  Lanes per_count;     ///< 1/Δx, 1/rad
-  Lanes rest;          ///< amplitude that counts as rest, rad
+  Lanes time_to_stop;     ///< left to the next stop, s
+  Lanes samples_to_stop;  ///< up to and with that of the stop
+  Lanes longest_step;     ///< 1/ωn with ωn² = (k1 + k2)/J, s
+  Lanes next_step;        ///< the step that accuracy is thought to allow, s
+  Lanes steps;            ///< tried since the last stop
+  Lanes sample_time;      ///< T, s
+  Lanes sample_rate;      ///< 1/T, Hz
+  Lanes tolerance;        ///< of a torque step, rad
+  Lanes per_count;        ///< 1/Δx, 1/rad
+  Lanes rest;             ///< amplitude that counts as rest, rad
 };
 
 /// Encoder, control and converter.
@@ -95,31 +97,21 @@ struct alignas(64) LoopLanes {
   Lanes delay;     ///< samples between deciding a torque and applying it
 };
 
-/// The measures of the move so far (see MoveMeasures).
-struct alignas(64) MeasureLanes {
-  Lanes samples, dwell, window;  ///< N, D, W
-  Lanes last_half;               ///< first sample of the last half
-  Lanes taken;                   ///< samples so far
-  Lanes zeros_in_a_row;
-  Lanes arrived;
-  Lanes arrival;
-  Lanes largest_since_arrival;
-  Lanes largest_in_window;
-  Lanes overshoot;
-  Lanes move_direction;
-  Lanes peak_torque;
-  Lanes saturated;
-  Lanes in_jerk;
+/// The measures of the move so far, and what else is known of it.
+struct alignas(64) MeasureLanes : RunningMeasures<Lanes> {
+  MeasureLimits<Lanes> limits;
+  Lanes last_half;      ///< first sample of the last half
+  Lanes in_jerk;        ///< a jerk lasts
   Lanes change;         ///< of the count with the last sample
-  Lanes first_error;    ///< of the move, counts
-  Lanes largest_error;  ///< beyond the first |error|, with which the move is ended, counts; infinite: never
+  Lanes first_error;    ///< |e_0|, counts
+  Lanes largest_error;  ///< beyond |e_0|, with which the move is ended, counts; infinite: never
   Lanes theta;          ///< at the last sample, rad
   Lanes extension;      ///< at the last sample, rad
 };
 
-/// What a kernel says of a lane.
-enum LaneNote : int {
-  no_note = 0,
+/// What a kernel reports of a lane: a sum of these.
+enum LaneEvent : int {
+  no_event = 0,
   may_rest = 1,
   slides = 2,
   ends_creep = 4,
@@ -142,23 +134,23 @@ enum LaneNote : int {
 struct PassedSamples {
   int lane;
   double samples;                      ///< how many
-  double until;                        ///< TimeLanes::until at the start of the step, s
+  double time_to_stop;                 ///< TimeLanes::time_to_stop at the start of the step, s
   double step;                         ///< s
-  double end;                          ///< of what was made of it, as its share
-  double elongation[batch_order + 1];  ///< rad, by the share of the step
+  double end;                          ///< fraction of the step that was taken
+  double elongation[batch_order + 1];  ///< rad, series in the fraction of the step
   double growth[batch_order + 1];      ///< of xp, likewise
 };
 
-struct Tile {
+struct BatchState {
   MotionLanes motion;
   ContactLanes contact;
   TimeLanes time;
   LoopLanes loop;
   MeasureLanes measures;
-  int note[lane_slots];
+  int events[lane_slots];
 
-  int noted[most_lanes];  ///< lanes with a note, as the last kernel left them
-  int noted_count;
+  int event_lanes[max_lanes];  ///< lanes with events of the last kernel
+  int event_count;
 
   PassedSamples* passed;  ///< where to put them; null where nobody records
   int passed_count;       ///< at most one a lane and kernel call

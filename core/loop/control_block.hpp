@@ -1,0 +1,40 @@
+#pragma once
+
+#include <concepts>
+
+#include "core/loop/parameters.hpp"
+#include "core/loop/transfer_function.hpp"
+
+namespace zerocount {
+
+/// Bounds of a torque, N m.
+struct TorqueRange {
+  double lowest{0.0};
+  double highest{0.0};
+};
+
+/// What the controller is fed back at a sampling instant. Error and count are whole numbers, or those of a
+/// coarser encoder in counts of the fine one.
+struct Feedback {
+  double error{0.0};            ///< reference − count, counts
+  double count{0.0};            ///< counts
+  double torque_in_force{0.0};  ///< decided at the last sample, N m; 0 before the first
+};
+
+/// The controller before its first sample.
+struct ControlStart {
+  double integral{0.0};  ///< I, N m
+  TorqueRange integral_range{};
+};
+
+/// A block of the controller (README.md): its parameters, its state, and its law from sample to sample.
+template <class Block>
+concept ControlBlock = std::constructible_from<Block, const ControllerParameters&, const ControlStart&> &&
+    requires(Block block, const Block now, const Feedback& feedback, double torque) {
+  { block.step(feedback, torque) } -> std::same_as<double>;  // the torque (N m) from that of the block before
+  block.observe(feedback);  // a sample at which another chain decides: what the next step has to know of it
+  block.take_over(torque);  // the next step goes on from this torque in force, N m
+  { now.linear() } -> std::same_as<LinearBlock>;  // away from its limits
+};
+
+}  // namespace zerocount

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "core/numerics/number.hpp"
+
+/// The formulas of the sampled loop, for double and for the vectors of the batch engine.
+namespace zerocount {
+
+/// The ideal encoder: floor(θ/Δx + phase), counts.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number ideal_count(const Number& theta, const Number& resolution,
+                                           const Number& phase) {
+  return floor(theta / resolution + phase);
+}
+
+/// State of the PID law.
+template <class Number>
+struct PidState {
+  Number integral;    ///< I, N m
+  Number last_error;  ///< e_{k−1}, counts
+  Number last_count;  ///< counts
+};
+
+/// Gains of the PID law, and the bounds of its integral.
+template <class Number>
+struct PidConstants {
+  Number kp, ki, kd;       ///< N m/count
+  Number lowest, highest;  ///< of I, N m
+};
+
+/// I ← clamp(I + ki·(e_k + e_{k−1})),   u = I + kp·e_k − kd·(count_k − count_{k−1}).
+/// @returns u, N m.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number pid_step(const PidConstants<Number>& c, PidState<Number>& state,
+                                        const Number& error, const Number& count) {
+  const Number change = count - state.last_count;
+  state.integral = state.integral + c.ki * (error + state.last_error);
+  state.integral = min(max(state.integral, c.lowest), c.highest);
+  state.last_error = error;
+  state.last_count = count;
+  return state.integral + c.kp * error - c.kd * change;
+}
+
+/// The wanted code of the converter: round-half-even(torque/Δu), a whole number.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number wanted_code(const Number& torque, const Number& resolution) {
+  return rint(torque / resolution);
+}
+
+/// What the converter makes of it.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number clipped_code(const Number& wanted, const Number& lowest,
+                                            const Number& highest) {
+  return min(max(wanted, lowest), highest);
+}
+
+}  // namespace zerocount

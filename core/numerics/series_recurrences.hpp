@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/numerics/number.hpp"
+
+/// Coefficients of functions of power series, one after the other, for double and for the vectors of the
+/// batch engine.
+namespace zerocount {
+
+/// 1/k for the orders of a series, k ≥ 1: dividing by them would take a good part of the time of a step.
+inline constexpr struct Reciprocals {
+  double of[24]{};
+  constexpr Reciprocals() {
+    for (int k = 1; k < 24; ++k) of[k] = 1.0 / k;
+  }
+  constexpr double operator[](std::size_t k) const { return of[k]; }
+} reciprocal;
+
+/// Coefficient k ≥ 1 of exp(a): from e′ = a′·e, given the coefficients of the derivative a′[0…k−1] and
+/// e[0…k−1].
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number exponential_coefficient(const Number* derivative, const Number* e,
+                                                       std::size_t k) {
+  Number sum(0.0);
+  for (std::size_t j = 0; j < k; ++j) sum = sum + derivative[j] * e[k - 1 - j];
+  return sum * Number(reciprocal.of[k]);
+}
+
+/// Coefficient k of a²: each product a[j]·a[k−j] stands twice, but for the one in the middle.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number square_coefficient(const Number* a, std::size_t k) {
+  Number sum(0.0);
+  for (std::size_t j = 0; 2 * j < k; ++j) sum = sum + a[j] * a[k - j];
+  return Number(2.0) * sum + (k % 2 == 0 ? a[k / 2] * a[k / 2] : Number(0.0));
+}
+
+/// Coefficient k ≥ 1 of aⁿ, a[0] ≠ 0, any real n: from a·p′ = n·a′·p (Knuth, The Art of Computer Programming,
+/// vol. 2, section 4.7), given a[0…k] and p[0…k−1].
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number power_coefficient(const Number* a, const Number* p, const Number& n,
+                                                 std::size_t k) {
+  Number sum(0.0);
+  for (std::size_t j = 1; j <= k; ++j) {
+    const Number weight = n * Number(static_cast<double>(j)) - Number(static_cast<double>(k - j));
+    sum = sum + weight * a[j] * p[k - j];
+  }
+  return sum * Number(reciprocal.of[k]) / a[0];
+}
+
+}  // namespace zerocount

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
+#include "core/numerics/sign.hpp"
+#include "core/trial/outcome.hpp"
+
+namespace zerocount {
+
+/// The jerks of one move: the maximal runs of samples with e ≠ 0 after the arrival dwell.
+class Jerks {
+ public:
+  explicit Jerks(std::int64_t move = 0, double sample_time = 0.0) : move_(move), sample_time_(sample_time) {}
+
+  /// Takes the error at sample k after the dwell. Samples may be left out where it is 0 and no jerk lasts.
+  /// @returns whether a jerk ended before this sample; then it is in last().
+  bool add(std::int64_t k, std::int64_t error) {
+    if (error == 0) return end(k);
+    if (!lasts_) {
+      lasts_ = true;
+      start_ = k;
+      jerk_ = {move_, static_cast<double>(k) * sample_time_, 0.0, 0, -sign_of(error)};
+    }
+    jerk_.magnitude = std::max(jerk_.magnitude, std::abs(error));
+    return false;
+  }
+
+  /// Ends the jerk that lasts before sample k, if there is one. @returns whether there was.
+  bool end(std::int64_t k) {
+    if (!lasts_) return false;
+    lasts_ = false;
+    jerk_.duration = static_cast<double>(k - start_) * sample_time_;
+    samples_ += k - start_;
+    ++(jerk_.direction > 0 ? up_ : down_);
+    return true;
+  }
+
+  bool lasts() const { return lasts_; }
+  const Jerk& last() const { return jerk_; }
+  std::int64_t count() const { return up_ + down_; }  ///< that have ended
+  std::int64_t up() const { return up_; }             ///< of them, in the positive direction
+  std::int64_t down() const { return down_; }         ///< and in the negative one
+  std::int64_t samples() const { return samples_; }   ///< in them
+
+ private:
+  std::int64_t move_;
+  double sample_time_;
+  Jerk jerk_;
+  bool lasts_{false};
+  std::int64_t start_{0};
+  std::int64_t up_{0};
+  std::int64_t down_{0};
+  std::int64_t samples_{0};
+};
+
+}  // namespace zerocount

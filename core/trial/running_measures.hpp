@@ -1,0 +1,96 @@
+#pragma once
+
+#include "core/numerics/number.hpp"
+
+/// The measures of a move that change with every sample, for double and for the vectors of the batch engine.
+namespace zerocount {
+
+/// Whether a move has arrived, as far as it is known. Truths are 0 or 1, and whole numbers exact.
+/// @tparam Number double, a vector, or an array with the numbers of many lanes.
+template <class Number>
+struct ArrivalMeasures {
+  Number taken;           ///< samples
+  Number zeros_in_a_row;  ///< up to the last sample
+  Number arrived;         ///< the error was 0 for the whole dwell
+  Number arrival;         ///< first sample of that dwell, once arrived
+};
+
+/// What is known of a move so far.
+template <class Number>
+struct RunningMeasures : ArrivalMeasures<Number> {
+  Number direction;              ///< sgn e_0
+  Number largest_since_arrival;  ///< max |e| after the dwell, counts
+  Number largest_in_window;      ///< max |e| in the last W samples, counts
+  Number overshoot;              ///< counts
+  Number peak_torque;            ///< max |torque decided|, N m
+  Number saturated;              ///< the converter clipped
+};
+
+/// Calls `visit` with each number of all of `arrivals`, and likewise of `measures`.
+template <class Visit, class... Arrivals>
+ZEROCOUNT_ALWAYS_INLINE void for_each_of_arrival(Visit visit, Arrivals&... arrivals) {
+  visit(arrivals.taken...);
+  visit(arrivals.zeros_in_a_row...);
+  visit(arrivals.arrived...);
+  visit(arrivals.arrival...);
+}
+template <class Visit, class... Measures>
+ZEROCOUNT_ALWAYS_INLINE void for_each_measure(Visit visit, Measures&... measures) {
+  for_each_of_arrival(visit, measures...);
+  visit(measures.direction...);
+  visit(measures.largest_since_arrival...);
+  visit(measures.largest_in_window...);
+  visit(measures.overshoot...);
+  visit(measures.peak_torque...);
+  visit(measures.saturated...);
+}
+
+/// How a move is measured, in samples.
+template <class Number>
+struct MeasureLimits {
+  Number samples;  ///< N, of the move
+  Number dwell;    ///< D
+  Number window;   ///< W
+};
+
+/// Takes the error of the next sample (counts).
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE void measure_error(RunningMeasures<Number>& m, const MeasureLimits<Number>& limits,
+                                           const Number& error) {
+  const Number zero(0.0);
+  const Number one(1.0);
+  const Number size = abs(error);
+  m.direction = select(m.taken == zero, sign(error), m.direction);
+  const auto dwelt = m.arrived != zero;  // the dwell ended before this sample
+  m.zeros_in_a_row = select(error == zero, m.zeros_in_a_row + one, zero);
+  const auto arrives = (m.arrived == zero) & (m.zeros_in_a_row == limits.dwell);
+  m.arrived = select(arrives, one, m.arrived);
+  m.arrival = select(arrives, m.taken - limits.dwell + one, m.arrival);
+  m.largest_since_arrival = select(dwelt, max(m.largest_since_arrival, size), m.largest_since_arrival);
+  m.largest_in_window =
+      select(m.taken >= limits.samples - limits.window, max(m.largest_in_window, size), m.largest_in_window);
+  m.overshoot = max(m.overshoot, -m.direction * error);
+}
+
+/// Takes the torque (N m) decided at this sample, which is the last of it.
+template <class Number, class Mask>
+ZEROCOUNT_ALWAYS_INLINE void measure_torque(RunningMeasures<Number>& m, const Number& torque,
+                                            const Mask& clipped) {
+  m.peak_torque = max(m.peak_torque, abs(torque));
+  m.saturated = select(clipped, Number(1.0), m.saturated);
+  m.taken = m.taken + Number(1.0);
+}
+
+/// Takes `samples` samples (0 or more) with the error 0 and the last torque.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE void measure_zeros(ArrivalMeasures<Number>& m, const Number& dwell,
+                                           const Number& samples) {
+  const Number zero(0.0);
+  const auto arrives = (m.arrived == zero) & (samples > zero) & (m.zeros_in_a_row + samples >= dwell);
+  m.arrived = select(arrives, Number(1.0), m.arrived);
+  m.arrival = select(arrives, m.taken - m.zeros_in_a_row, m.arrival);
+  m.zeros_in_a_row = m.zeros_in_a_row + samples;
+  m.taken = m.taken + samples;
+}
+
+}  // namespace zerocount

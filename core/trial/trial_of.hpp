@@ -1,0 +1,127 @@
+#pragma once
+
+#include "core/loop/controller.hpp"
+#include "core/loop/reference.hpp"
+#include "core/trial/divergence.hpp"
+#include "core/trial/move_measures.hpp"
+#include "core/trial/rig.hpp"
+#include "core/trial/torque_ramp.hpp"
+#include "core/trial/trial.hpp"
+
+/// A trial as a template over its plant, PlantOf a list of laws.
+namespace zerocount {
+
+/// Runs the samples of one move, from number `first` on. `decide(i, record)` completes the record of its
+/// sample i: what is commanded, and the torque. A move that diverges is ended.
+template <class AnyPlant, class Decide>
+MoveOutcome run_move(Rig<AnyPlant>& rig, const MoveTiming& timing, const VerdictParameters& verdict,
+                     std::int64_t move, std::int64_t first, const TrialObservers& observers, Decide decide) {
+  MoveMeasures measures(timing, move);
+  AnyPlant& plant = rig.plant();
+  plant.forget_deepest();
+  const std::int64_t breakaways_before = plant.breakaways();
+  const std::int64_t disagreements_before = rig.measurement().disagreements();
+  const bool sliding_before = plant.sliding();
+  std::int64_t first_error = 0;
+  for (std::int64_t i = 0; i < timing.samples && rig.readable(); ++i) {
+    SampleRecord record = rig.read(first + i);
+    decide(i, record);
+    if (observers.sample) observers.sample(record);
+    const bool jerk_ended =
+        measures.add({record.target, record.count, record.torque, rig.clipped(), record.theta, record.xp});
+    if (jerk_ended && observers.jerk) observers.jerk(measures.last_jerk());
+    if (i == 0) first_error = record.error;
+    if (timing.judged && diverged(verdict, first_error, record.error)) {
+      measures.stop();
+      break;
+    }
+    rig.hold();
+  }
+  const bool slid = plant.has_hook() && (sliding_before || plant.breakaways() > breakaways_before);
+  const bool jerk_cut = measures.finish(slid, plant.deepest(), rig.readable());
+  if (jerk_cut && observers.jerk) observers.jerk(measures.last_jerk());
+  MoveOutcome outcome = measures.outcome();
+  outcome.encoder_disagreement = rig.measurement().disagreements() - disagreements_before;
+  return outcome;
+}
+
+/// Closed loop: the controller follows a reference to each target.
+template <class AnyPlant>
+TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& observers) {
+  Rig<AnyPlant> rig(p);
+  const double resolution = rig.measurement().fine_resolution();
+  Controller controller(p.controller, rig.measurement().fine_per_coarse(), p.initial.integral,
+                        lowest_torque(p.dac), highest_torque(p.dac));
+  TrialOutcome outcome;
+  std::int64_t first = 0;
+  std::int64_t from = 0;
+  double torque_in_force = 0.0;
+  bool stopped = false;
+  for (std::size_t m = 0; m < p.command.targets.size() && !stopped; ++m) {
+    const std::int64_t target = p.command.targets[m];
+    const Reference reference(p.command.profile, from, target, resolution);
+    const MoveTiming timing = move_timing(p, m);
+    const std::int64_t changes_before = controller.phase_changes();
+    const auto decide = [&](std::int64_t i, SampleRecord& record) {
+      record.target = target;
+      record.error = target - record.count;
+      record.reference = reference.at(static_cast<double>(i) * timing.sample_time);
+      const EncoderReading reading{record.count, record.coarse_count};
+      rig.drive(controller.update(record.reference, reading, torque_in_force), record);
+      record.phase = controller.phase();
+      torque_in_force = record.torque;
+    };
+    MoveOutcome move =
+        run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, observers, decide);
+    move.phase_changes = controller.phase_changes() - changes_before;
+    move.travel_time = reference.duration();
+    if (move.outcome != Outcome::nonfinite) {
+      move.true_error = true_error(target, move.final_position, resolution, p.initial.encoder_phase);
+    }
+    outcome.moves.push_back(move);
+    stopped = move.stopped;
+    first += timing.samples;
+    from = target;
+  }
+  outcome.moves.resize(p.command.targets.size(), move_not_run());
+  return outcome;
+}
+
+/// Open loop: the torque goes from level to level.
+template <class AnyPlant>
+TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& observers) {
+  Rig<AnyPlant> rig(p);
+  const TorqueCommand& command = p.command.torque;
+  TrialOutcome outcome;
+  std::int64_t first = 0;
+  double from = 0.0;
+  for (std::size_t m = 0; m < command.levels.size(); ++m) {
+    const TorqueRamp ramp = make_torque_ramp(from, command.levels[m], command.rate, p.controller.sample_rate);
+    const MoveTiming timing = move_timing(p, m);
+    const auto decide = [&](std::int64_t i, SampleRecord& record) {
+      record.error = -record.count;
+      const double torque = torque_at(ramp, i);
+      if (command.through == TorquePath::exact) {
+        rig.drive_exactly(torque, record);
+      } else {
+        rig.drive(torque, record);
+      }
+    };
+    MoveOutcome move =
+        run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, observers, decide);
+    move.travel_time = static_cast<double>(ramp.samples) * timing.sample_time;
+    outcome.moves.push_back(move);
+    first += timing.samples;
+    from = command.levels[m];
+  }
+  return outcome;
+}
+
+/// run_trial, with the laws of another list.
+template <class AnyPlant>
+TrialOutcome run_trial_of(const TrialParameters& parameters, const TrialObservers& observers = {}) {
+  return parameters.command.torque.levels.empty() ? follow_targets<AnyPlant>(parameters, observers)
+                                                  : apply_torques<AnyPlant>(parameters, observers);
+}
+
+}  // namespace zerocount

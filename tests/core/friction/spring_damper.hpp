@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+
+#include "core/friction/law.hpp"
+
+namespace zerocount {
+
+/// A friction law that only the tests know: a linear spring with viscous damping, F = k·θ + d·ω. It counts
+/// where ω changes sign, located in time.
+class SpringDamper : public WithoutSpring {
+ public:
+  static constexpr std::string_view word = "spring_damper";
+  static constexpr std::array<ContactField, 1> contact_parameters{&FrictionParameters::k1};  // k
+  static constexpr bool has_presliding_damping = true;                                       // d
+  static constexpr bool runs_in_lanes = false;
+
+  struct Expansion {
+    Series position{};  // θ
+    Series omega{};
+    Series exponent{};
+  };
+  enum class Event { none, turn };
+
+  SpringDamper(const PlantParameters& plant, const FrictionAlongRotor& friction, const PlantStart& start,
+               const MotionTolerance&)
+      : stiffness_(friction_at(friction, start.position).k1),
+        damping_(plant.presliding_damping),
+        omega_(start.velocity) {}
+
+  Expansion start() const {
+    Expansion s;
+    s.position[0] = theta_;
+    s.omega[0] = omega_;
+    return s;
+  }
+  double expand(Expansion& s, std::size_t k, double torque) const {
+    s.position[k + 1] = s.omega[k] * reciprocal[k + 1];
+    return torque - stiffness_ * s.position[k] - damping_ * s.omega[k];
+  }
+  NextEvent<Event> first_event(const Expansion& s, double step) const {
+    NextEvent<Event> next{step};
+    next.offer(next_sign_change(s.omega, step), Event::turn);
+    return next;
+  }
+  void go_to(const Expansion& s, const NextEvent<Event>& next) {
+    theta_ = value_at(s.position, next.time);
+    omega_ = next.event == Event::turn ? 0.0 : value_at(s.omega, next.time);
+    turns_ += next.event == Event::turn ? 1 : 0;
+  }
+
+  double theta() const { return theta_; }
+  double omega() const { return omega_; }
+  static bool sliding() { return false; }
+  static std::int64_t breakaways() { return 0; }
+  int turns() const { return turns_; }
+
+ private:
+  double stiffness_;
+  double damping_;
+  double theta_{0.0};
+  double omega_;
+  int turns_{0};
+};
+
+}  // namespace zerocount

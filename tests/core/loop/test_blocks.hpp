@@ -1,0 +1,40 @@
+#pragma once
+
+#include "core/loop/control_block.hpp"
+
+/// Blocks of a controller that only the tests know.
+namespace zerocount {
+
+/// y_k = a·y_{k−1} + (1 − a)·u_k.
+class LowPass {
+ public:
+  static constexpr double decay = 0.6;  ///< a
+
+  LowPass(const ControllerParameters&, const ControlStart&) {}
+
+  double step(const Feedback&, double torque) {
+    output_ = decay * output_ + (1.0 - decay) * torque;
+    return output_;
+  }
+  static void observe(const Feedback&) {}
+  void take_over(double torque) { output_ = torque; }
+  static LinearBlock linear() { return {{LoopSignal::torque, {{1.0 - decay}, {1.0, -decay}}}}; }
+
+ private:
+  double output_{0.0};
+};
+
+/// y_k = u_k − ¼·(torque decided at k − 1).
+class TorqueFeedback {
+ public:
+  TorqueFeedback(const ControllerParameters&, const ControlStart&) {}
+
+  static double step(const Feedback& now, double torque) { return torque - 0.25 * now.torque_in_force; }
+  static void observe(const Feedback&) {}
+  static void take_over(double) {}
+  static LinearBlock linear() {
+    return {{LoopSignal::torque, {{1.0}}}, {LoopSignal::torque_in_force, {{-0.25}}}};
+  }
+};
+
+}  // namespace zerocount

@@ -1,0 +1,74 @@
+// The linear loop assembled from the blocks of a controller, with blocks that only the tests know.
+#include "core/theory/linear_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <deque>
+#include <numbers>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "core/loop/control_chain.hpp"
+#include "tests/core/loop/test_blocks.hpp"
+
+namespace zerocount {
+namespace {
+
+constexpr ControlStart wide{0.0, {-1e300, 1e300}};
+
+HeldPlant paper_rig() {
+  return hold_plant(300.0, 0.2, 5.54e-4, 2.0 * std::numbers::pi / 1'620'000, 5e-4, {1.1, 400.0});
+}
+
+/// Growth per sample of the loop run with the blocks' own `step`.
+template <class Chain>
+double growth_in_time(Chain chain, const HeldPlant& plant, int delay) {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.A.rows());
+  x(0) = 10.0;
+  std::deque<double> pending(static_cast<std::size_t>(delay), 0.0);
+  double in_force = 0.0;
+  const auto largest_of_next = [&](int samples) {
+    double largest = 0.0;
+    for (int k = 0; k < samples; ++k) {
+      in_force = chain.step({-x(0), x(0), in_force});
+      pending.push_back(in_force);
+      x = plant.A * x + plant.b * pending.front();
+      pending.pop_front();
+      largest = std::max(largest, std::abs(x(0)) + std::abs(x(1)));
+    }
+    return largest;
+  };
+  constexpr int window = 2000;
+  largest_of_next(window);  // the transient of the other eigenvalues
+  const double early = largest_of_next(window);
+  largest_of_next(4 * window);
+  return std::pow(largest_of_next(window) / early, 1.0 / (5 * window));
+}
+
+template <class Chain>
+void expect_growth(const ControllerParameters& parameters) {
+  const HeldPlant plant = paper_rig();
+  const Chain chain(parameters, wide);
+  for (const int delay : {0, 1, 3}) {
+    // The phase of the oscillation at the ends of the windows is worth some 1e-5.
+    EXPECT_NEAR(spectral_radius(plant, chain.linear(), delay), growth_in_time(chain, plant, delay), 5e-5);
+    // Every mode of the loop is a root of 1 + L(z).
+    for (const std::complex<double> z : loop_map(plant, chain.linear(), delay).eigenvalues()) {
+      if (std::abs(z) < 0.1) continue;
+      EXPECT_LT(std::abs(1.0 + open_loop(z, plant, chain.linear(), delay)), 1e-7) << z;
+    }
+  }
+}
+
+TEST(LinearLoop, GrowsAsTheLoopDoesInTime) {
+  const ControllerParameters parameters{.kp = 1e-4, .ki = 1.4e-4, .kd = 1e-4};
+  expect_growth<BlockChain<Pid>>(parameters);
+  expect_growth<BlockChain<Pid, LowPass>>(parameters);
+  expect_growth<BlockChain<Pid, TorqueFeedback>>(parameters);
+  expect_growth<BlockChain<Pid, LowPass, TorqueFeedback>>(parameters);
+}
+
+}  // namespace
+}  // namespace zerocount

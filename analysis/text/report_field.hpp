@@ -13,7 +13,7 @@ struct ReportField {
   std::string_view group;           ///< JSON object that holds it, such as "settling_time"; empty at the top
   std::string_view name;            ///< within its group
   std::string_view unit;            ///< "1" where dimensionless
-  std::string_view long_name;       ///< what it is, with the denominator of a share or mean
+  std::string_view long_name;       ///< what it is, with the denominator of a proportion or mean
   bool whole{false};                ///< a whole number
   double (*value)(const Subject&);  ///< in `unit`; NaN where not defined
 };

@@ -23,9 +23,9 @@ struct Parameter {
   std::string_view meaning;
   std::string_view source;  ///< of the default: a place in the paper, or "assumed"
   ParameterKind kind{ParameterKind::real};
-  Interval range;                       ///< of the values allowed
-  std::vector<std::string_view> words;  ///< of an enumeration or a truth value, in the order of its numbers
-  std::size_t sobol_dimension{0};       ///< by sobol_order.hpp; of a list, that of its first value
+  Interval range;                        ///< of the values allowed
+  std::vector<std::string_view> labels;  ///< of an enumeration or a truth value, in the order of its numbers
+  std::size_t sobol_dimension{0};        ///< by sobol_order.hpp; of a list, that of its first value
   double FrictionParameters::*profiled{nullptr};  ///< where a profile goes; null where none is allowed
   std::string_view si_unit{};         ///< of a gain with controller.units: si; empty for other parameters
   std::string_view si_meaning{};      ///< likewise
@@ -42,13 +42,12 @@ struct Parameter {
 std::span<const Parameter> parameter_table();
 
 /// Most values of a listed parameter.
-constexpr std::size_t most_listed_values = 3000;
+constexpr std::size_t max_listed_values = 3000;
 
 /// Sobol dimension of value i of a listed parameter: this number + i. The rows' own are those below it and
 /// those from first_sobol_dimension_beyond_moves on.
 constexpr std::size_t first_sobol_dimension_of_moves = 64;
-constexpr std::size_t first_sobol_dimension_beyond_moves =
-    first_sobol_dimension_of_moves + most_listed_values;
+constexpr std::size_t first_sobol_dimension_beyond_moves = first_sobol_dimension_of_moves + max_listed_values;
 
 /// Sobol dimension of the mean of a profile: this number + that of its parameter, a row of friction.
 constexpr std::size_t first_sobol_dimension_of_means = 3600;
@@ -62,8 +61,8 @@ inline bool has_default(const Parameter& parameter) {
 }
 
 /// Whether its values are words, and not numbers: that of an enumeration or a truth value.
-inline bool has_words(const Parameter& parameter) {
-  return !parameter.words.empty();
+inline bool has_labels(const Parameter& parameter) {
+  return !parameter.labels.empty();
 }
 
 /// Whether an axis of this kind has the parameter.

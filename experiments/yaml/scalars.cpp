@@ -8,6 +8,7 @@
 
 #include <boost/algorithm/string/case_conv.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace zerocount {
 namespace {
@@ -172,6 +173,18 @@ std::optional<bool> read_truth(const Field& field, Problems& problems) {
             : describe(node);
     problems.add(node.place, field.path, what, "true or false");
   }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> read_label(const Field& field, std::span<const std::string_view> labels,
+                                      Problems& problems) {
+  const YamlNode& node = *field.node;
+  const auto label = std::find(labels.begin(), labels.end(), node.text);
+  if (node.kind == YamlNode::Kind::scalar && label != labels.end()) {
+    return static_cast<std::size_t>(label - labels.begin());
+  }
+  problems.add(node.place, field.path, fmt::format("{} is none of its words", in_quotes(flow_text(node))),
+               fmt::format("one of {}", fmt::join(labels, ", ")));
   return std::nullopt;
 }
 

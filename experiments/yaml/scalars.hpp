@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "core/numerics/interval.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
@@ -34,6 +36,10 @@ std::optional<std::uint64_t> read_seed(const Field& field, Problems& problems);
 
 /// `true` or `false`.
 std::optional<bool> read_truth(const Field& field, Problems& problems);
+
+/// Which of these labels the field is, from 0 on.
+std::optional<std::size_t> read_label(const Field& field, std::span<const std::string_view> labels,
+                                      Problems& problems);
 
 /// A text; one that YAML would take for a number, a truth value or nothing must be quoted.
 std::optional<std::string> read_text(const Field& field, Problems& problems);

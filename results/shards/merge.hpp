@@ -19,7 +19,7 @@ namespace zerocount {
 using StatisticsOfPoints = std::function<StoredStatistics(const StudyFile&)>;
 
 /// The files that `inputs` name: files stand for themselves, directories for their shard_files. In order of
-/// rows. Each is read whole, for its seal, and must be a finished shard or part of `study`.
+/// rows. Each is read whole, for its checksum trailer, and must be a finished shard or part of `study`.
 /// @throws Failure (bad_data) for the first that is not; bad_input where an input does not exist, or is a
 /// directory without shards.
 std::vector<ShardInfo> merge_inputs(std::span<const std::filesystem::path> inputs, const Study& study);

@@ -68,7 +68,7 @@ struct ShardSurvey {
 /// @throws Failure (machine_failed) where the directory cannot be read.
 std::vector<std::filesystem::path> shard_files(const std::filesystem::path& directory);
 
-/// Reads the shard whole, and checks seal, format, version, study, build and completion mark.
+/// Reads the shard whole, and checks checksum trailer, format, version, study, build and completion mark.
 /// @throws ForeignFile or another Failure (bad_data) where it cannot be used; see also open_results.
 ShardInfo inspect_shard(const std::filesystem::path& path, const Study& study);
 

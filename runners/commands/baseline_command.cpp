@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* baseline_help =
     "Makes a results file the baseline that later ones are compared with, or puts it in the\n"
-    "place of an earlier baseline. The file is copied as it is, with its seal. The reason is\n"
+    "place of an earlier baseline. The file is copied as it is, with its checksum. The reason is\n"
     "recorded, with the build, the trials, the checksums and how the new baseline compares\n"
     "with the one it replaces, at the end of OUTPUT.log.yaml: commit both files together.\n"
     "An earlier baseline is replaced without --force: the reason stands for it.\n"

@@ -13,21 +13,21 @@
 #include "results/hdf5/element.hpp"
 #include "results/hdf5/written_values.hpp"
 
-/// A thin layer over the HDF5 C library: handles that close themselves, and failures in our own words.
+/// A thin layer over the HDF5 C library: handles that close themselves, and errors as Failure.
 ///
-/// A failed operation throws Failure: machine_failed where the file is being written or the system reports an
-/// error, bad_data where a file being read does not hold what it should. No text of the library reaches the
-/// message. All objects of one file must be used by one thread at a time.
+/// A failed operation throws Failure: machine_failed while a file is written or if the system reports an
+/// error, bad_data if a file that is read has unexpected contents. Messages contain no text of the library.
+/// All objects of one file must be used by one thread at a time.
 ///
 /// A file is written in three steps: File::create, File::close, require_written. A write that fails is
-/// reported by the call that made it, or by a later one, File::close at the latest. After it the library is
-/// not called again for that file: what it holds is left to the end of the process.
+/// reported by the call that made it, or by a later one, File::close at the latest. After a failed write the
+/// library is not called again for that file: its handles stay open until the process ends.
 namespace zerocount::hdf5 {
 
 using Id = std::int64_t;          ///< an identifier of the library, its hid_t
 using Size = unsigned long long;  ///< a number of elements, the library's hsize_t
 
-/// An identifier of the library, closed at the end of its life.
+/// An identifier of the library that the destructor closes.
 class Handle {
  public:
   using Close = int (*)(Id);
@@ -41,8 +41,8 @@ class Handle {
   ~Handle() { close(); }
 
   Id get() const { return id_; }
-  bool close();    ///< false where the library reports a failure; closing twice is harmless
-  void abandon();  ///< leaves it open for ever
+  bool close();    ///< false if the library reports a failure; a second call does nothing
+  void abandon();  ///< never closes it
 
  private:
   static constexpr Id none = -1;
@@ -87,11 +87,12 @@ class Object {
 
   Id id() const { return handle_.get(); }
   const std::shared_ptr<Origin>& origin() const { return origin_; }
-  /// The identifier that an operation gave, or the Failure where it gave none or a write has failed.
+  /// Takes the identifier that an operation returned; throws the Failure if it is invalid or a write has
+  /// failed.
   Handle own(Id id, Handle::Close close, std::string_view problem) const;
-  /// The same for an operation that gives a status.
+  /// Likewise for an operation that returns a status.
   void require(int status, std::string_view problem) const;
-  WrittenObject& written() const;  ///< where what is written to this object is recorded
+  WrittenObject& written() const;  ///< record of the values written to this object
   void release() noexcept;         ///< closes it; a failure is kept for File::close
 
  private:
@@ -160,7 +161,7 @@ class Group : public Object {
   std::string path_to(const std::string& name) const;
 };
 
-/// True where the file begins as the HDF5 format does.
+/// True if the file begins with the signature of HDF5.
 /// @throws Failure (machine_failed) with the path and the reason where it cannot be read.
 bool is_hdf5(const std::filesystem::path& path);
 

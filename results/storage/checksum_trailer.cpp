@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view trailer_start = "zerocount-seal sha256 ";
 
-/// The checksum trailer of the `length` bytes from the file's position on, which it leaves behind them.
-std::string seal_of(const fs::path& path, const FileDescriptor& file, std::size_t length) {
+/// The checksum trailer of the next `length` bytes of the file. The file position is behind them afterwards.
+std::string trailer_of(const fs::path& path, const FileDescriptor& file, std::size_t length) {
   return fmt::format("{}{}\n", trailer_start, hexadecimal(sha256_of(path, file, length)));
 }
 
@@ -31,7 +31,7 @@ std::string seal_of(const fs::path& path, const FileDescriptor& file, std::size_
 void append_checksum(const fs::path& path) {
   const FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
   if (!file.valid()) fail_with(path, "open for writing", errno);
-  const std::string text = seal_of(path, file, size_of_file(path, file));
+  const std::string text = trailer_of(path, file, size_of_file(path, file));
   write_all(path, file, text);
   synchronise(path, file);
 }
@@ -43,7 +43,7 @@ ChecksumState check_checksum(const fs::path& path) {
   std::string found(checksum_trailer_length, '\0');
   std::string expected;
   if (size > checksum_trailer_length) {
-    expected = seal_of(path, file, size - checksum_trailer_length);
+    expected = trailer_of(path, file, size - checksum_trailer_length);
     read_some(path, file, std::as_writable_bytes(std::span(found)));
   }
   if (!found.starts_with(trailer_start)) return ChecksumState::missing;

@@ -9,21 +9,22 @@ namespace zerocount {
 /// line feed.
 inline constexpr std::size_t checksum_trailer_length = 22 + 64 + 1;
 
-/// Appends the checksum trailer to a finished file: the SHA-256 of everything before it. HDF5 ends where its
-/// own header says, and takes no notice of what follows.
+/// Appends the checksum trailer, the SHA-256 of all bytes before it, to a finished file and flushes the file
+/// to the disk. HDF5 reads the end of its data from its own header and ignores the trailer.
 ///
-/// HDF5's checksums do not reach texts and parts of its index, and the library can crash on a damaged file.
-/// The checksum trailer is checked before the library sees a file. The file with its trailer is on the disk.
+/// HDF5's own
+/// checksums do not cover texts and parts of the index, and the library can crash on a damaged file.
+/// Therefore the trailer is checked before the library opens a file.
 /// @throws Failure (machine_failed) with the path and the reason
 void append_checksum(const std::filesystem::path& path);
 
 enum class ChecksumState { valid, missing, wrong };
 
-/// Reads the file once from beginning to end, and compares it with its checksum trailer.
+/// Reads the whole file and compares it with its checksum trailer.
 /// @throws Failure (machine_failed) where the file cannot be read.
 ChecksumState check_checksum(const std::filesystem::path& path);
 
-/// check_checksum, for a file that must be sound.
+/// Calls check_checksum() and throws unless the file is valid.
 /// @throws Failure: bad_data where the checksum trailer is missing or wrong, machine_failed where the file
 /// cannot be read.
 void require_valid_checksum(const std::filesystem::path& path);

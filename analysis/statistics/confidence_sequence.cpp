@@ -16,13 +16,12 @@ double log_beta(double a, double b) {
   return lgamma(a) + lgamma(b) - lgamma(a + b);
 }
 
-/// k·log(p), also where both are 0.
+/// k·log(p), and 0 for k = 0.
 double times_log(double k, double p) {
   return k > 0.0 ? k * std::log(p) : 0.0;
 }
 
-/// The p at which the sign of `excess` changes between `inside` and `outside`, taken on the side of
-/// `outside`.
+/// Root of `excess` between `inside` and `outside`; returns the end of the final bracket nearer to `outside`.
 template <class Excess>
 double crossing(Excess excess, double inside, double outside) {
   const double low = std::min(inside, outside);
@@ -56,15 +55,15 @@ ConfidenceInterval confidence_sequence_bounds(std::int64_t successes, std::int64
 }
 
 std::int64_t projected_trials(std::int64_t successes, std::int64_t trials, double halfwidth,
-                              double confidence, std::int64_t block, std::int64_t most) {
+                              double confidence, std::int64_t block, std::int64_t max_trials) {
   const double proportion = trials > 0 ? static_cast<double>(successes) / static_cast<double>(trials) : 0.5;
   const auto narrow = [&](std::int64_t blocks) {
-    const std::int64_t n = std::min(blocks * block, most);
+    const std::int64_t n = std::min(blocks * block, max_trials);
     const auto s = static_cast<std::int64_t>(std::llround(proportion * static_cast<double>(n)));
     const ConfidenceInterval bounds = confidence_sequence_bounds(s, n, confidence);
     return 0.5 * (bounds.high - bounds.low) <= halfwidth;
   };
-  const std::int64_t max_blocks = (most + block - 1) / block;
+  const std::int64_t max_blocks = (max_trials + block - 1) / block;
   std::int64_t wide = 0;
   std::int64_t enough = 1;
   while (enough < max_blocks && !narrow(enough)) {
@@ -75,7 +74,7 @@ std::int64_t projected_trials(std::int64_t successes, std::int64_t trials, doubl
     const std::int64_t middle = wide + (enough - wide) / 2;
     (narrow(middle) ? enough : wide) = middle;
   }
-  return std::min(enough * block, most);
+  return std::min(enough * block, max_trials);
 }
 
 }  // namespace zerocount

@@ -7,8 +7,8 @@
 
 namespace zerocount {
 
-/// A sample kept as value → how often it occurred. Its memory grows with the number of distinct values, not
-/// of observations: counts and times that are whole multiples of a sample time have few.
+/// A sample as a map from values to numbers of occurrences. Memory grows with the number of distinct values,
+/// which is small for counts and for times that are multiples of a sample time.
 template <typename Value>
 struct Histogram {
   std::map<Value, std::int64_t> counts;
@@ -20,8 +20,8 @@ struct Histogram {
   }
 };
 
-/// Mean, in the values' unit; NaN of an empty histogram. Summed in the order of the values: independent of
-/// the order they came in.
+/// Mean, in the values' unit; NaN of an empty histogram. Summed in the order of the values, so that it does
+/// not depend on the order of insertion.
 template <typename Value>
 double mean(const Histogram<Value>& histogram) {
   double sum = 0.0;

@@ -19,7 +19,7 @@ void require_open_unit(const char* what, double value) {
                 fmt::format("a {} of {}; expected a number between 0 and 1", what, value));
 }
 
-/// What rigs with the expected variance between them would sum to.
+/// Expected sums over rigs whose success probabilities have the standard deviation `rig_sd`.
 ClusterSums expected_sums(double rate, double rig_sd, double rigs, double trials) {
   const double of_trials = rate * (1.0 - rate) - rig_sd * rig_sd;
   const double variance = trials * trials * rig_sd * rig_sd + trials * of_trials;  // of a rig's successes

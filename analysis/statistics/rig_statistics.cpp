@@ -10,10 +10,10 @@
 namespace zerocount {
 namespace {
 
-constexpr double least_allowance = 0.25;  // δ
+constexpr double min_allowance = 0.25;  // δ
 constexpr std::int64_t rigs_per_worst = 20;
 
-/// Which order statistic bounds the rigs, and how often a rig may look better than it is.
+/// r and δ of rig_tolerance().
 struct RankAndAllowance {
   std::int64_t rank{0};  ///< 0: too few rigs
   double allowance{0.0};
@@ -27,7 +27,7 @@ RankAndAllowance rank_and_allowance(std::int64_t rigs, double content, double co
   if (!(chosen.allowance > 0.0)) return {};
   while (chosen.rank < rigs) {
     const double next = allowance_of(chosen.rank + 1);
-    if (next < least_allowance) break;
+    if (next < min_allowance) break;
     chosen = {chosen.rank + 1, next};
   }
   return chosen;
@@ -90,7 +90,7 @@ double worst_of(std::span<const RigTrials> rigs) {
 }  // namespace
 
 std::int64_t min_rigs_for_tolerance(double content, double confidence) {
-  // A proportion of rigs of which none was seen is below 1 − content: content^R < 1 − confidence.
+  // Rank 1 needs content^R < 1 − confidence.
   auto rigs = static_cast<std::int64_t>(std::floor(std::log1p(-confidence) / std::log(content)));
   while (rank_and_allowance(rigs, content, confidence).rank == 0) ++rigs;
   return rigs;

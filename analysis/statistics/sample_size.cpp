@@ -25,7 +25,7 @@ void require_proportion(const char* what, double proportion) {
   throw Failure(ExitCode::bad_input, fmt::format("{} would need more than {} trials", what, max_trials));
 }
 
-/// The smallest number from `low` on for which `holds`, which once true stays true.
+/// The smallest number from `low` on with holds(number). `holds` must be monotonic: false, then true.
 template <typename Predicate>
 std::int64_t least(std::int64_t low, std::int64_t limit, const char* what, const Predicate& holds) {
   std::int64_t high = std::max<std::int64_t>(low, 1);
@@ -69,7 +69,7 @@ std::int64_t trials_for_claim(double success, double confidence, std::int64_t fa
 
 double chance_of_claim(std::int64_t trials, std::int64_t failures, double true_success) {
   if (failures >= trials) return 1.0;
-  // B ≤ r failures of n: the (r + 1)-th smallest of n uniform numbers is beyond 1 − success.
+  // P(B ≤ r): the (r + 1)-th smallest of n uniform numbers is larger than 1 − success.
   return boost::math::ibeta(static_cast<double>(trials - failures), static_cast<double>(failures) + 1.0,
                             true_success);
 }

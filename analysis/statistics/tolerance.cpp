@@ -13,7 +13,7 @@
 namespace zerocount {
 namespace {
 
-constexpr double rounding = 1e-9;  // of the last digit: what is 99.9 % but for rounding is 99.9 %
+constexpr double rounding = 1e-9;  // of the last digit: 99.9 % with a rounding error is shown as 99.9 %
 
 /// Decimals that show two significant digits of `percent`; one from 1 % on, at most nine.
 int percent_decimals(double percent) {
@@ -21,7 +21,7 @@ int percent_decimals(double percent) {
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(percent) + rounding)), 1, 9);
 }
 
-/// Without zeros at the end.
+/// Without trailing zeros.
 std::string percent_with(double percent, int decimals) {
   std::string number = fmt::format("{:.{}f}", percent, decimals);
   number.erase(number.find_last_not_of('0') + 1);

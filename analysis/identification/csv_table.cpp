@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t max_faults_listed = 5;
 constexpr std::size_t max_table_size = std::size_t{1} << 31;  // bytes
 
-/// Without blanks and quotation marks around it.
+/// Removes surrounding blanks and quotation marks.
 std::string_view trimmed(std::string_view text) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);

@@ -20,13 +20,14 @@ namespace {
 
 constexpr std::size_t magnitude_classes = 3;  // one count, two, and more
 
-/// Time between onsets, s, to the picosecond: equal numbers of samples are equal times.
+/// Time between onsets, s, rounded to 1 ps, so that equal numbers of samples give equal times.
 double interval_before(const ObservedMove& move, std::size_t jerk) {
   const auto samples = static_cast<double>(move.jerks[jerk].onset - move.jerks[jerk - 1].onset);
   return std::round(samples * move.sample_time * 1e12) / 1e12;
 }
 
-/// Of the jerks after the first one: their numbers among the samples after it at which they could begin.
+/// Laplace's term of the jerks after the first one. An instant is a sample after the first jerk at which a
+/// jerk could begin.
 LaplaceTerm trend_after_first(const ObservedMove& move) {
   if (move.jerks.empty()) return {};
   std::vector<std::int64_t> numbers;
@@ -40,11 +41,11 @@ LaplaceTerm trend_after_first(const ObservedMove& move) {
   return laplace_term(numbers, at_risk);
 }
 
-/// Hits and events of the clusters that may have more, and sums over those that have not.
+/// Hits and events of the clusters that may still receive events, and sums over the completed clusters.
 class EventSums {
  public:
-  /// @param clusters_return whether events of one cluster come between those of others: those of a trial do
-  /// not, those of a rig do
+  /// @param clusters_return whether the events of one cluster may be interleaved with those of others: true
+  /// for rigs, false for trials
   explicit EventSums(bool clusters_return = false) : clusters_return_(clusters_return) {}
 
   void add(std::int64_t cluster, bool hit) {
@@ -71,7 +72,7 @@ class EventSums {
   ClusterSums sums_;
 };
 
-/// The first pass over the moves of a point: everything but the bounds of the intervals.
+/// First pass over the moves of a point: everything except the bounds of the intervals.
 class JerkCollector {
  public:
   JerkCollector(double confidence, bool on_rigs)
@@ -140,8 +141,8 @@ class JerkCollector {
   std::int64_t last_with_jerks_{-1};
 };
 
-/// Of the intervals: order-statistic bounds for `independent` observations, whose ranks are taken to those of
-/// all n (Woodruff 1952).
+/// Quantile of the intervals with order-statistic bounds: ranks for `independent` observations, scaled to all
+/// n (Woodruff 1952).
 Quantile quantile_of_clusters(const Histogram<double>& histogram, double probability, double independent,
                               double confidence) {
   const double value = order_statistic(histogram, quantile_rank(histogram.size, probability));
@@ -153,7 +154,7 @@ Quantile quantile_of_clusters(const Histogram<double>& histogram, double probabi
   return {value, order_statistic(histogram, low), order_statistic(histogram, ranks.high > whole ? 0 : high)};
 }
 
-/// The second pass: how much the intervals of a trial are alike.
+/// Second pass: the correlation of the intervals of a trial, for their bounds.
 void add_interval_quantiles(JerkIntervals& intervals, const Histogram<double>& histogram,
                             const StudyFile& file, const Study& study, std::int64_t point,
                             double confidence) {

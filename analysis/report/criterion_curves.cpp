@@ -22,7 +22,7 @@ constexpr int bisections = 40;
 struct Criterion {
   const char* name;
   double IntegralGainBounds::*bound;
-  bool first;  ///< of all trials, the one that meets it at the lowest gain; otherwise the last
+  bool first;  ///< the trial that reaches the criterion at the lowest gain; otherwise at the highest
 };
 
 constexpr Criterion criteria[] = {
@@ -32,7 +32,7 @@ constexpr Criterion criteria[] = {
     {"(7)", &IntegralGainBounds::unstable_above, false},
 };
 
-/// The trials at which the criteria are looked at, with two parameters that are changed at will.
+/// The examined trials, with two variable parameters.
 class CriterionTrials {
  public:
   CriterionTrials(const Study& study, std::int64_t point, const CriterionPlane& plane) : units_(study.units) {
@@ -52,7 +52,7 @@ class CriterionTrials {
 
   bool empty() const { return trials_.empty(); }
 
-  /// ki over its bound, of the trial for which that is greatest (first) or least; 1 on the curve.
+  /// Maximum (first) or minimum (last) of ki/bound over the trials; 1 on the curve.
   double gain_over_bound(const Criterion& criterion, double x, double y) {
     double extreme = criterion.first ? 0.0 : std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < trials_.size(); ++i) {
@@ -69,7 +69,7 @@ class CriterionTrials {
   }
 
  private:
-  /// What completing a trial changes, before that.
+  /// Values of a trial before its completion.
   struct Given {
     EncoderParameters encoder;
     ControllerParameters controller;
@@ -86,7 +86,7 @@ double between(double low, double high, double fraction, bool by_ratio) {
   return by_ratio ? low * std::pow(high / low, fraction) : low + fraction * (high - low);
 }
 
-/// The lowest fraction in [0, 1] at which `excess` changes its sign, none where it does not.
+/// The lowest fraction in [0, 1] at which `excess` changes its sign, if any.
 std::optional<double> crossing(const std::function<double(double)>& excess) {
   double low = 0.0;
   double at_low = excess(low);
@@ -106,7 +106,7 @@ std::optional<double> crossing(const std::function<double(double)>& excess) {
   return std::nullopt;
 }
 
-/// The curve, searched along x at each y, or along y at each x.
+/// The points of a curve, searched along x for each y, or along y for each x.
 std::vector<CurvePoint> curve(CriterionTrials& trials, const Criterion& criterion,
                               const CriterionPlane& plane, bool along_x) {
   std::vector<CurvePoint> points;

@@ -21,8 +21,8 @@ bool better(const PointSummary& one, const PointSummary& other) {
   return one.settling_time.median.value < other.settling_time.median.value;
 }
 
-/// Where the outcomes decided how many trials there are, the bounds must hold for any number of them.
-/// With rigs, the outer of these and of the bounds over rigs, which more trials do not narrow.
+/// With sequential stopping the bounds are those of a confidence sequence. With rigs they are the outer
+/// bounds of these and of the bounds over rigs.
 ConfidenceInterval success_bounds_of(const PointSummary& point, bool stopped_by_outcomes) {
   const ConfidenceInterval& fixed = point.success_rate.clopper_pearson;
   if (!stopped_by_outcomes) return fixed;
@@ -78,8 +78,8 @@ void visit_trials(const StudyFile& file, RowRange rows, const TrialVisitor& visi
   }
 }
 
-std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t most) {
-  const std::int64_t count = std::min(size, most);
+std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t max_count) {
+  const std::int64_t count = std::min(size, max_count);
   std::vector<std::int64_t> indices;
   for (std::int64_t i = 0; i < count; ++i) indices.push_back(count == 1 ? 0 : i * (size - 1) / (count - 1));
   return indices;

@@ -42,18 +42,18 @@ Figure figure_for(const OutputSensitivity& output, const std::string& label, boo
     add_index(data, factor, "total: with all others", factor.total);
   }
   std::string caption = fmt::format(
-      "Share of the variance of {} at point {} that each random parameter explains, strongest first, with 95 "
-      "% bounds. "
-      "What has bounds that exclude zero matters; what has not, need not be known better. ",
+      "Sobol' indices of {} at point {} (dots) with 95 % bounds (bars), for each random parameter, strongest "
+      "first: the proportion of the variance that the parameter explains. Parameters whose bounds exclude "
+      "zero influence the output. For the others this study shows no influence. ",
       label_text(output.output), label);
   if (total)
     caption +=
-        "A total index well above the first-order one means that the parameter acts together with others. ";
+        "A total index well above the first-order one means that the parameter interacts with others. ";
   if (shown < output.factors.size())
     caption += fmt::format("Shown are {} of {}. ", shown, output.factors.size());
   for (const std::string& note : output.notes) caption += note + (note.ends_with('.') ? " " : ". ");
   Figure figure = figure_of("sensitivity", "sensitivity-" + output.output,
-                            "What decides " + label_text(output.output), caption);
+                            "Sensitivity of " + label_text(output.output), caption);
   if (!total) figure.specification["encoding"]["color"]["legend"] = nullptr;
   set_rows(figure, shown, 28);
   figure.data.push_back(std::move(data));

@@ -15,11 +15,10 @@ using nlohmann::ordered_json;
 constexpr std::int64_t max_curves = 6;
 constexpr std::int64_t max_steps = 160;  ///< of a curve
 
-/// Half width of the band that holds a whole distribution function with the confidence of summaries:
-/// √(ln(2M/α)/2n) for n independent clusters (trials, or rigs) of M moves each, which are not independent of
-/// each other.
-/// (Dvoretzky, Kiefer and Wolfowitz 1956 with the constant of Massart 1990, for each of the M moves at the
-/// level α/M; the mean of M functions that are each within the band is so too.)
+/// Half-width of the simultaneous confidence band of a distribution function: √(ln(2M/α)/2n) for n
+/// independent clusters (trials or rigs) of M dependent moves each. (Dvoretzky, Kiefer and Wolfowitz 1956
+/// with the constant of Massart 1990, for each of the M moves at the level α/M; the mean of M functions that
+/// are each within the band is so too.)
 double band(std::int64_t clusters, std::int64_t moves) {
   const double alpha = 1.0 - summary_confidence;
   return std::sqrt(std::log(2.0 * static_cast<double>(moves) / alpha) /
@@ -91,11 +90,13 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   const auto& points = reported.summary.points;
   const std::int64_t moves_per_trial = reported.file.moves();
   std::string caption = fmt::format(
-      "Share of all moves that have arrived, for good or not, within a time; a curve that ends below 100 % "
-      "never got further. The bands {} (Dvoretzky-Kiefer-Wolfowitz, n = {}{}). ",
+      "Proportion of all moves of a point that have arrived by a time (also if they left the target later). "
+      "A curve "
+      "that ends below 100 % has moves that never arrived. The bands {} (Dvoretzky-Kiefer-Wolfowitz, n = "
+      "{}{}). ",
       reported.summary.features.dependent_trials
-          ? "would hold the whole curve of a point with 95 % confidence, were its trials independent"
-          : "hold the whole curve of a point with 95 % confidence",
+          ? "would contain the whole curve of a point with 95 % confidence if its trials were independent"
+          : "contain the whole curve of a point with 95 % confidence",
       reported.study.rigs > 0 ? fmt::format("{} rigs", reported.study.rigs)
                               : fmt::format("{} trials", points.front().trials),
       reported.study.rigs == 0 && moves_per_trial > 1 ? fmt::format(" of {} moves each", moves_per_trial)
@@ -110,7 +111,7 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   if (arriving < std::ssize(points))
     caption +=
         fmt::format("At {} of the {} points no move arrived. ", std::ssize(points) - arriving, points.size());
-  Figure figure = figure_of("settling-time", "settling-time", "How long it takes to settle", caption);
+  Figure figure = figure_of("settling-time", "settling-time", "Settling time", caption);
   FigureData data{"steps",
                   {{"label", "point", ""},
                    {"time", "settled within", "s"},
@@ -129,7 +130,7 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
               band_of(reported, points[at]), end);
   }
   ordered_json& x = figure.specification["encoding"]["x"];
-  if (start > 0.0 && end > 12.0 * start) {  // a few late arrivals would press all others against the axis
+  if (start > 0.0 && end > 12.0 * start) {  // otherwise a few late arrivals would compress all others
     x["scale"]["type"] = "symlog";
     x["scale"]["constant"] = start / 4.0;
     x["axis"]["format"] = "~g";

@@ -285,7 +285,7 @@ TEST(DependentTrials, MakeNoClaimOfAllAxes) {
                            "controller: {ki: 2.0e-5}\n", "controller: {ki: 9.45e-5}\n"}) {
     const ReportPage page = page_of(saltelli_manifest(more));
     const std::string& verdict = page.sections.front().html;
-    for (const char* claim : {"confidence", "at least", "at most", "bounds 0", "% bounds", "allowed for"})
+    for (const char* claim : {"confidence", "at least", "at most", "bounds 0", "% bounds", "account for"})
       EXPECT_EQ(verdict.find(claim), std::string::npos) << claim << "\n" << verdict;
     EXPECT_NE(verdict.find("no statement about all axes"), std::string::npos) << verdict;
     EXPECT_NE(verdict.find("are not independent"), std::string::npos) << verdict;
@@ -314,8 +314,8 @@ TEST(DependentTrials, HaveEveryBoundCalledTooNarrowButThoseOfTheIndices) {
       with_bounds += bounds;
       EXPECT_EQ(times_in(figure.caption, "are too narrow here"), bounds && !own ? 1U : 0U) << figure.name;
       EXPECT_EQ(times_in(figure.specification.dump(), "too narrow") > 0, bounds && !own) << figure.name;
-      EXPECT_EQ(times_in(figure.caption, "differ by more than chance"), 0U);
-      EXPECT_EQ(times_in(figure.caption, "bands hold"), 0U);
+      EXPECT_EQ(times_in(figure.caption, "differ significantly"), 0U);
+      EXPECT_EQ(times_in(figure.caption, "bands contain"), 0U);
     }
   }
   EXPECT_GE(with_bounds, 3U);

@@ -17,7 +17,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-// Whole numbers that a double holds exactly, so that the draws do.
+// Up to this limit a double represents whole numbers exactly.
 constexpr std::int64_t max_whole_number = std::int64_t{1} << 53;
 
 std::optional<double> read_one(const DistributionForm& form, const Field& field, Problems& problems) {

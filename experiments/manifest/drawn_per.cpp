@@ -10,7 +10,7 @@ struct Misfit {
   std::string_view expected;
 };
 
-// Why the parameter cannot be drawn so often, if so.
+// The reason if the parameter cannot be drawn this often.
 std::optional<Misfit> misfit_of(Per per, const Parameter& parameter, Drawn drawn, bool has_rigs) {
   switch (per) {
     case Per::study:

@@ -25,8 +25,8 @@ Json object_of(Json properties, Json required = Json::array()) {
   return schema;
 }
 
-Json list_of(Json item, std::size_t fewest) {
-  return {{"type", "array"}, {"items", std::move(item)}, {"minItems", fewest}};
+Json list_of(Json item, std::size_t min_items) {
+  return {{"type", "array"}, {"items", std::move(item)}, {"minItems", min_items}};
 }
 
 Json list_of_exactly(Json item, std::size_t count) {
@@ -76,9 +76,9 @@ Json profile_schema() {
                    {"mean", "cv", "correlation_length"});
 }
 
-// How often it is drawn; not every parameter may have every word.
-Json per_schema(std::span<const std::string_view> words) {
-  return {{"enum", words}, {"description", "how often it is drawn"}};
+// Schema of `per`; a parameter may allow only some of the values.
+Json per_schema(std::span<const std::string_view> labels) {
+  return {{"enum", labels}, {"description", "how often it is drawn"}};
 }
 
 // One definition for each distribution: {"uniform": [low, high]}, with or without `per` beside it.
@@ -101,13 +101,13 @@ Json reference(std::string_view name) {
   return {{"$ref", "#/$defs/" + std::string(name)}};
 }
 
-// What may stand for one value of the parameter.
+// Schema of one value of the parameter.
 Json value_schema(const Parameter& parameter) {
   if (parameter.kind == ParameterKind::truth) return {{"type", "boolean"}};
   if (parameter.kind == ParameterKind::enumeration) return {{"enum", parameter.labels}};
   const bool whole = parameter.kind == ParameterKind::whole_number;
   Json number{{"type", whole ? "integer" : "number"}};
-  // The units are another key's business: a gain may be as large as in SI units.
+  // The schema does not know controller.units, so a gain may be as large as in SI units.
   limit(number, range_of(parameter, {.gains = GainUnits::si}), whole);
   Json forms = Json::array({std::move(number)});
   for (const DistributionForm& form : distribution_forms()) {
@@ -117,7 +117,7 @@ Json value_schema(const Parameter& parameter) {
   return {{"anyOf", std::move(forms)}};
 }
 
-// Its meaning and its unit, on a rotary axis and, where that is another one, on a linear axis.
+// Meaning and unit on a rotary axis, and the unit on a linear axis if it differs.
 std::string description_of(const Parameter& parameter) {
   std::string description(parameter.meaning);
   if (parameter.unit == "1") return description;

@@ -31,7 +31,7 @@ std::string joined(const std::string& text, const std::vector<std::string>& over
   return all;
 }
 
-/// Files that were made with overrides without effect are read all the same.
+/// For new studies only: results files made with ineffective overrides must stay readable.
 void require_effect(const Study& study, std::string_view source) {
   Problems problems;
   std::deque<std::string> sources;

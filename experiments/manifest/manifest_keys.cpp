@@ -17,7 +17,7 @@ void add_once(std::vector<std::string>& names, std::string_view name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
 }
 
-// All that can be given a value.
+// Dotted paths of all keys with a value.
 std::vector<std::string_view> value_paths() {
   std::vector<std::string_view> paths;
   for (const GeneralKey& key : general_keys()) {

@@ -89,7 +89,7 @@ std::string as_text(const Listing& listing) {
   return text + "\n";
 }
 
-// A bar would end the cell.
+// Escapes bars, which separate cells.
 std::string cell(const std::string& text) {
   return boost::algorithm::replace_all_copy(text, "|", "\\|");
 }

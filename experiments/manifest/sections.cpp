@@ -56,7 +56,7 @@ void read_approach(SectionReading& s, const Field& field, SequenceCycle& cycle) 
   }
 }
 
-// The keys of sections that are no parameters. controller.units is read before all values.
+// Reads the keys of sections that are not parameters. controller.units is read earlier, before all values.
 void read_general_key(SectionReading& s, const Field& field) {
   if (!s.plan().sequence) return;
   SequenceCycle& cycle = s.plan().sequence.value();
@@ -67,8 +67,8 @@ void read_general_key(SectionReading& s, const Field& field) {
   }
 }
 
-// Whether the path is that of a form of the command beside the one that is taken. What stands there is not
-// looked at: that it is one too many is all there is to say.
+// Whether the path belongs to a second form of the command. Its contents are not read: it is reported as one
+// // form too many.
 bool is_form_too_many(SectionReading& s, const Field& section, const std::string& key) {
   const auto forms = command_forms();
   const bool is_form =
@@ -108,7 +108,7 @@ void take_defaults(SectionReading& s) {
   }
 }
 
-// Takes the first form that stands in the manifest; says what is wrong where there is not exactly one.
+// Chooses the first form in the manifest; reports an error unless there is exactly one.
 void choose_form(SectionReading& s, const Field& command) {
   if (command.node->kind != YamlNode::Kind::map) return;
   const auto forms = command_forms();

@@ -101,7 +101,7 @@ Value read_profile_value(const Field& field, std::size_t row, Per per, Reading& 
           .per = per};
 }
 
-// The only entry of the map but `per`, or null.
+// The only entry of the map besides `per`, or null.
 const YamlEntry* form_entry(const YamlNode& map) {
   const auto is_form = [](const YamlEntry& entry) { return entry.key != per_key; };
   if (std::count_if(map.entries.begin(), map.entries.end(), is_form) != 1) return nullptr;
@@ -139,13 +139,13 @@ Value read_map(const Field& field, std::size_t row, Reading& reading) {
   return value;
 }
 
-// Whether the values of the rotor stay in the range, everywhere on it.
+// Whether the parameter stays in its range everywhere on the rotor.
 bool check_rotor(const ProfileRequest& request, const Rotors& rotors, std::int64_t rotor,
                  const Reading& reading) {
   const Parameter& parameter = parameter_table()[request.row];
   const StudyUnits& units = reading.plan.units;
   const std::shared_ptr<const Profile> profile = rotors.rotor(rotor);
-  if (contains(parameter.range, limits(*profile))) return true;  // the quick answer
+  if (contains(parameter.range, limits(*profile))) return true;  // a fast sufficient test
   const ValueRange values = range_over_revolution(*profile);
   if (contains(parameter.range, closed(values.low, values.high))) return true;
   const std::string of_rig = request.per == Per::rig ? fmt::format(" of rig {}", rotor) : "";
@@ -158,7 +158,7 @@ bool check_rotor(const ProfileRequest& request, const Rotors& rotors, std::int64
   return false;
 }
 
-// Reports a parameter that only the other kind of axis has.
+// Reports a parameter that exists only on the other kind of axis.
 bool check_exists(const Field& field, const Parameter& parameter, Reading& reading) {
   const AxisKind axis = reading.plan.units.axis;
   if (exists_on(parameter, axis)) return true;

@@ -12,7 +12,7 @@
 namespace zerocount {
 namespace {
 
-/// Far beyond any machine's, and far from the ends of a double.
+/// Far above the gains of real machines, and far below the maximum of a double.
 constexpr double max_si_gain = 1e15;
 
 std::vector<Parameter> make_table() {

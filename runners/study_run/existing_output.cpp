@@ -32,7 +32,7 @@ FileHeader header_of(const fs::path& output) {
   }
 }
 
-/// @throws Failure (bad_input) where the trials of the file cannot be those of the longer study.
+/// @throws Failure (bad_input) if the file cannot be extended to the longer study.
 void require_extensible(const fs::path& output, const FileHeader& header, const Study& study) {
   const auto refuse_more = [&](std::string_view why) {
     refuse(output,

@@ -37,7 +37,7 @@ std::size_t cells_in(std::string_view line) {
   return static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
 }
 
-/// The number that is all of `text`; NaN where it is none.
+/// Parses all of `text` as a number; NaN if that fails.
 double number_of(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = std::nan("");

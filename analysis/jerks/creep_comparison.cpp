@@ -149,11 +149,11 @@ CreepAgreement agreement_of(const CreepComparison& comparison, double sample_tim
     const double allowed = 2.0 * sample_time + 0.01 * (wait.end - wait.since);
     if (std::isnan(wait.onset)) {
       ++agreement.lasting;
-      agreement.lasting_foretold += wait.predicted > wait.end - allowed;
+      agreement.lasting_predicted += wait.predicted > wait.end - allowed;
     } else {
       ++agreement.ended;
       deviations.push_back(std::abs(wait.onset - wait.predicted));
-      agreement.foretold += deviations.back() <= allowed;
+      agreement.predicted += deviations.back() <= allowed;
     }
   }
   if (deviations.empty()) return agreement;

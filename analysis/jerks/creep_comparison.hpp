@@ -48,13 +48,14 @@ CreepComparison compare_with_creep(const Study& study, std::int64_t point, std::
 
 /// Summary of a comparison.
 struct CreepAgreement {
-  std::int64_t ended{0};     ///< waits that ended with a jerk
-  std::int64_t foretold{0};  ///< of them, predicted to within two samples and 1 % of the time from `since`
-  std::int64_t lasting{0};   ///< waits without a jerk
-  std::int64_t lasting_foretold{
+  std::int64_t ended{0};      ///< waits that ended with a jerk
+  std::int64_t predicted{0};  ///< of them, predicted to within two samples and 1 % of the time from `since`
+  std::int64_t lasting{0};    ///< waits without a jerk
+  std::int64_t lasting_predicted{
       0};  ///< of them, predicted to last at least as long (with the same tolerance)
-  double median_deviation{std::numeric_limits<double>::quiet_NaN()};   ///< of |onset − predicted|, s
-  double largest_deviation{std::numeric_limits<double>::quiet_NaN()};  ///< likewise; infinite: never foretold
+  double median_deviation{std::numeric_limits<double>::quiet_NaN()};  ///< of |onset − predicted|, s
+  double largest_deviation{
+      std::numeric_limits<double>::quiet_NaN()};  ///< likewise; infinite: never predicted
 };
 
 /// @param sample_time s.

@@ -71,9 +71,9 @@ Json creep_json(const CreepComparison& creep, const CreepAgreement& agreement) {
     return json;
   }
   json["ended"] = agreement.ended;
-  json["foretold"] = agreement.foretold;
+  json["foretold"] = agreement.predicted;
   json["lasting"] = agreement.lasting;
-  json["lasting_foretold"] = agreement.lasting_foretold;
+  json["lasting_foretold"] = agreement.lasting_predicted;
   json["too_short"] = creep.too_short;
   json["unsteady"] = creep.unsteady;
   json["median_deviation"] = agreement.median_deviation;

@@ -66,7 +66,7 @@ std::string creep_text(const CreepComparison& creep, const CreepAgreement& agree
   std::string text = fmt::format(
       "creep at constant torque: in {} trials simulated again it predicts {} of {} jerks, and {} of {} waits "
       "without one",
-      creep.trials, agreement.foretold, agreement.ended, agreement.lasting_foretold, agreement.lasting);
+      creep.trials, agreement.predicted, agreement.ended, agreement.lasting_predicted, agreement.lasting);
   if (agreement.ended > 0)
     text += fmt::format("; median deviation {:.2g} ms", 1e3 * agreement.median_deviation);
   return text + "\n";

@@ -41,7 +41,7 @@ Histogram<double> settling_times(const ReportedStudy& reported, std::int64_t poi
   return times;
 }
 
-/// The points with arrivals; where there are too many, an even spread from the best to the worst.
+/// The points with arrivals; if there are too many, evenly spaced ones from the best to the worst.
 std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   std::vector<std::int64_t> with_arrivals;
   const auto& points = reported.summary.points;

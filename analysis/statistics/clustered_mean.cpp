@@ -44,7 +44,7 @@ Estimate estimate_of(const ClusterTotals& totals, const std::vector<std::int32_t
   return {mean, std::sqrt(clusters / (clusters - 1.0) * squares) / number};
 }
 
-/// (θ* − θ)/e* of every resample, sorted. Infinite where a resample has no spread.
+/// (θ* − θ)/e* of every resample, sorted. Infinite for a resample without spread.
 std::vector<double> studentised_means(const ClusterTotals& totals, double mean, const RandomStream& stream,
                                       std::int64_t resamples) {
   const std::size_t clusters = totals.sums.size();

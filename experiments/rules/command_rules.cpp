@@ -40,7 +40,7 @@ std::vector<ValueRule> rules_of_samples() {
 
 ValueRule samples_of_targets(double moves) {
   return {{"command.hold", "controller.sample_rate"}, false, [moves](Limits l, Limits) -> Faults {
-            if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high)) return {};  // told already
+            if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high)) return {};  // reported already
             if (l[0].high * l[1].high * moves <= max_samples) return {};
             return {{fmt::format("{} moves of {} s at {} Hz can be more than {} samples", moves, l[0].high,
                                  l[1].high, max_samples),

@@ -152,7 +152,7 @@ class Group : public Object {
   Dataset create_dataset(const std::string& name, const Storage& storage);
   Dataset open_dataset(const std::string& name) const;
   bool contains(const std::string& name) const;
-  bool is_group(const std::string& name) const;  ///< of a member: a group, and no dataset
+  bool is_group(const std::string& name) const;  ///< whether a member is a group (not a dataset)
   std::vector<std::string> children() const;     ///< names, in order of creation
 
  protected:
@@ -162,7 +162,7 @@ class Group : public Object {
 };
 
 /// True if the file begins with the signature of HDF5.
-/// @throws Failure (machine_failed) with the path and the reason where it cannot be read.
+/// @throws Failure (machine_failed) with the path and the reason if it cannot be read.
 bool is_hdf5(const std::filesystem::path& path);
 
 /// An open file, which is its root group.
@@ -172,14 +172,14 @@ class File : public Group {
   File& operator=(File&& other) = delete;
   ~File();
 
-  /// A new file at `path`; what stood there is lost.
+  /// A new file at `path`; replaces an existing file.
   static File create(const std::filesystem::path& path);
   static File open_to_read(const std::filesystem::path& path);
-  /// @param so_far what was written to it before, which close() is to return with the rest
+  /// @param so_far values written to the file earlier; close() returns them with the new ones
   static File open_to_change(const std::filesystem::path& path, WrittenValues so_far = {});
 
-  /// Writes everything to the disk and closes. All other objects of the file must be gone.
-  /// @return what was written, for require_written
+  /// Flushes the file to the disk and closes it. All other objects of the file must be destroyed.
+  /// @return all written values, for require_written
   WrittenValues close();
 
  private:
@@ -191,8 +191,8 @@ class File : public Group {
   Handle file_;
 };
 
-/// Reads the file and compares it with what was written to it: every value, text, attribute and axis.
-/// @throws Failure (machine_failed) where anything is missing, differs or cannot be read.
+/// Reads the file and compares every value, text, attribute and axis with the written ones.
+/// @throws Failure (machine_failed) if anything is missing, differs or cannot be read.
 void require_written(const std::filesystem::path& path, const WrittenValues& written);
 
 }  // namespace zerocount::hdf5

@@ -17,7 +17,7 @@ using Renumbering = std::function<std::int64_t(std::int64_t row)>;
 ///
 /// Copies blocks of one chunk per column, so that memory is bounded and the order of writing does not depend
 /// on how the rows are divided among the shards.
-/// @param width        size of the second dimension, 1 where the table has none
+/// @param width        size of the second dimension, 1 if the table has none
 /// @param first_number first value of the scale of the rows
 /// @param renumber     applied to the column `trial` of a table that has one
 void concatenate(hdf5::File& file, const Table& table, std::span<const ShardInfo> shards, std::int64_t width,

@@ -31,14 +31,14 @@ class ByteFile {
     change   ///< reads and writes an existing file
   };
 
-  /// @throws Failure (machine_failed) with the path and the system's reason where it cannot be opened.
+  /// @throws Failure (machine_failed) with the path and the system's reason if it cannot be opened.
   ByteFile(std::filesystem::path path, Mode mode);
 
   const std::filesystem::path& path() const { return path_; }
   bool writable() const { return mode_ != Mode::read; }
   std::uint64_t size() const { return size_; }
 
-  /// Bytes beyond the end of the file are 0. False where they cannot be read.
+  /// Bytes beyond the end of the file are 0. Returns false if reading fails.
   bool read(std::uint64_t offset, std::span<std::byte> bytes);
   void write(std::uint64_t offset, std::span<const std::byte> bytes);
   void resize(std::uint64_t size);

@@ -21,12 +21,12 @@ void append_checksum(const std::filesystem::path& path);
 enum class ChecksumState { valid, missing, wrong };
 
 /// Reads the whole file and compares it with its checksum trailer.
-/// @throws Failure (machine_failed) where the file cannot be read.
+/// @throws Failure (machine_failed) if the file cannot be read.
 ChecksumState check_checksum(const std::filesystem::path& path);
 
 /// Calls check_checksum() and throws unless the file is valid.
-/// @throws Failure: bad_data where the checksum trailer is missing or wrong, machine_failed where the file
-/// cannot be read.
+/// @throws Failure: bad_data if the checksum trailer is missing or wrong, machine_failed if the file cannot
+/// be read.
 void require_valid_checksum(const std::filesystem::path& path);
 
 }  // namespace zerocount

@@ -11,8 +11,7 @@ namespace {
 /// A hold in which the rotor creeps.
 struct CreepingHold {
   double torque{0.0};  ///< magnitude, N m
-  double creep{
-      0.0};  ///< travel of the fitted path from a quarter of the hold to its end, in units of the readings
+  double creep{0.0};   ///< fitted travel from a quarter of the hold to its end, in units of the readings
 };
 
 std::vector<CreepingHold> creeping_holds(std::span<const TestRecord> records,

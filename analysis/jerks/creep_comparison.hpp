@@ -51,11 +51,9 @@ struct CreepAgreement {
   std::int64_t ended{0};      ///< waits that ended with a jerk
   std::int64_t predicted{0};  ///< of them, predicted to within two samples and 1 % of the time from `since`
   std::int64_t lasting{0};    ///< waits without a jerk
-  std::int64_t lasting_predicted{
-      0};  ///< of them, predicted to last at least as long (with the same tolerance)
-  double median_deviation{std::numeric_limits<double>::quiet_NaN()};  ///< of |onset − predicted|, s
-  double largest_deviation{
-      std::numeric_limits<double>::quiet_NaN()};  ///< likewise; infinite: never predicted
+  std::int64_t lasting_predicted{0};                                   ///< of them, predicted to last as long
+  double median_deviation{std::numeric_limits<double>::quiet_NaN()};   ///< of |onset − predicted|, s
+  double largest_deviation{std::numeric_limits<double>::quiet_NaN()};  ///< likewise
 };
 
 /// @param sample_time s.

@@ -40,8 +40,7 @@ struct JerkIntervals {
   double mean{std::numeric_limits<double>::quiet_NaN()};
   /// At jerk_interval_probabilities, with order-statistic bounds for the effective number of intervals.
   std::vector<Quantile> quantiles;
-  std::vector<double>
-      independent;  ///< [quantile]: the effective number of intervals; n if trials do not differ
+  std::vector<double> independent;  ///< [quantile]: effective number of intervals
 };
 
 /// The probabilities of JerkIntervals::quantiles.
@@ -49,9 +48,8 @@ inline constexpr std::array<double, 5> jerk_interval_probabilities{0.05, 0.25, 0
 
 /// The largest |error| of the jerks, counts.
 struct JerkMagnitudes {
-  ClusteredProportion one_count;  ///< proportion of jerks of one count
-  std::vector<std::int64_t>
-      counts;  ///< [m]: jerks of magnitude m + 1; the last class also contains larger ones
+  ClusteredProportion one_count;     ///< proportion of jerks of one count
+  std::vector<std::int64_t> counts;  ///< [m]: jerks of magnitude m + 1; last: or more
   double mean{std::numeric_limits<double>::quiet_NaN()};
   std::int64_t max{0};
   double median_duration{std::numeric_limits<double>::quiet_NaN()};   ///< s
@@ -62,17 +60,15 @@ struct JerkMagnitudes {
 struct JerkStatistics {
   double confidence{summary_confidence};  ///< of all bounds
   std::int64_t trials{0};
-  std::int64_t moves{0};    ///< of all trials
-  std::int64_t arrived{0};  ///< moves that arrived; only these can jerk
-  std::int64_t lost{
-      0};  ///< moves whose state became non-finite after arrival; excluded from the fields below
+  std::int64_t moves{0};       ///< of all trials
+  std::int64_t arrived{0};     ///< moves that arrived; only these can jerk
+  std::int64_t lost{0};        ///< moves that became non-finite after arrival; excluded below
   std::int64_t with_jerks{0};  ///< trials with at least one jerk
   std::int64_t jerks{0};
   std::vector<JerkRate> rates;  ///< consecutive ranges, equally spaced in the logarithm
   JerkIntervals intervals;
-  LaplaceSummary slowing;  ///< trend of the jerks after the first of their move
-  ClusteredProportion
-      agreement;  ///< proportion of jerks in the direction of the holding torque of their move
+  LaplaceSummary slowing;         ///< trend of the jerks after the first of their move
+  ClusteredProportion agreement;  ///< jerks in the direction of their holding torque
   JerkMagnitudes magnitudes;
 };
 

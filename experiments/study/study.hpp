@@ -67,18 +67,16 @@ struct RealisedProfile {
 
 /// One move of a sequence (`command.sequence`).
 struct SequenceMove {
-  std::int64_t target{
-      -1};           ///< index in the list; −1: a move beyond the first or last target, before the reversal
-  int direction{1};  ///< of the approach: 1 from below, −1 from above
-  std::int64_t cycle{0};  ///< from 0
+  std::int64_t target{-1};  ///< index in the list; −1: beyond the first or last target
+  int direction{1};         ///< of the approach: 1 from below, −1 from above
+  std::int64_t cycle{0};    ///< from 0
 };
 
 /// The optional columns of a study's traces.
 struct TraceExtras {
-  bool reference{false};  ///< the reference is not a step at some point
-  bool phase{false};      ///< the control has two phases at some point
-  bool drive_torque{
-      false};  ///< at some point the motor torque differs from the (delayed) code times the resolution
+  bool reference{false};     ///< the reference is not a step at some point
+  bool phase{false};         ///< the control has two phases at some point
+  bool drive_torque{false};  ///< the motor torque is not the (delayed) code times the resolution
 };
 
 /// The optional columns of a study's outcomes.
@@ -142,8 +140,7 @@ struct Study {
   TraceExtras trace_extras;
   OutcomeExtras outcome_extras;
   LoopExtras loop_extras;
-  std::vector<std::string>
-      warnings;  ///< allowed but possibly unintended input, one line each, with its place
+  std::vector<std::string> warnings;  ///< possibly unintended input, one line each
 
   std::shared_ptr<const StudyPlan> plan;
 };

@@ -16,11 +16,10 @@ namespace {
 // The coordinates of a trial's random numbers.
 struct TrialDraws {
   const Study& study;
-  std::uint64_t index;  ///< of the trial
-  std::uint64_t place;  ///< index of its point in the design
-  std::uint64_t rig;    ///< 0 without rigs
-  std::uint32_t
-      stream;  ///< stream of values drawn per trial; values drawn per rig are the same at all points
+  std::uint64_t index;   ///< of the trial
+  std::uint64_t place;   ///< index of its point in the design
+  std::uint64_t rig;     ///< 0 without rigs
+  std::uint32_t stream;  ///< of values drawn per trial, not per rig
 
   const StudyPlan& plan() const { return *study.plan; }
 };

@@ -82,12 +82,10 @@ struct SlidingPhase {
 /// Results of the theory (section 3 of the paper) for the trials of a design point.
 struct PointTheory {
   std::string_view outside;  // reason why the theory does not apply; empty if it does
-  bool free{
-      false};  // the rotor has no spring; ki and sampled_below are then those of the loop without friction
-  Range ki, stable_below, sampled_below,
-      unstable_above;               // gain_unit; sampled_below: lowest and highest bound of all trials
-  std::string gain_unit;            // unit of controller.ki in the manifest
-  Range dac_resolution, dac_bound;  // torque_unit
+  bool free{false};          // no spring: ki and sampled_below are of the loop without friction
+  Range ki, stable_below, sampled_below, unstable_above;  // gain_unit
+  std::string gain_unit;                                  // unit of controller.ki in the manifest
+  Range dac_resolution, dac_bound;                        // torque_unit
   std::string torque_unit;
   Range frequency, sample_rate;  // Hz
   bool coarse_feedback{false};   // the bound uses the resolution Δx of the coarse encoder

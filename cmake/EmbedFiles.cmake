@@ -1,7 +1,7 @@
-# zerocount_embed(<target> <name>=<path> ...): puts the bytes of files into a target, as they are.
+# zerocount_embed(<target> <name>=<path> ...): embeds the unchanged bytes of files in a target.
 #
-# The assembler includes them (.incbin), so that neither their size nor what is in them matters. A generated table has
-# them under their names: see analysis/report/embedded_files.hpp.
+# The assembler includes them (.incbin), so their size and contents do not matter. A generated table maps names to contents: see
+# analysis/report/embedded_files.hpp.
 function(zerocount_embed target)
   set(bytes "")
   set(symbols "")

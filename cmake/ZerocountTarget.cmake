@@ -1,7 +1,8 @@
-# What every target of this project has in common.
+# Functions that define the targets of this project.
 #
-# zerocount_target(<target>): C++20, our warnings, and no contraction of a·b + c into one rounding: the same source must give
-# the same bits in every build, or the quantisers of the loop would turn a last-bit difference into a different count.
+# zerocount_target(<target>): sets the options of all targets: C++20, warnings, and no contraction of a·b + c into a fused
+# operation. Every build must give the same bits, because the quantisers of the loop turn a last-bit difference into a different
+# count.
 function(zerocount_target target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
@@ -10,29 +11,29 @@ function(zerocount_target target)
   if(ZEROCOUNT_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
-  # What a trial costs is decided in core, and the kernels have options of their own: elsewhere, and more so in tests, the
-  # compiler's time counts for more.
+  # Only core determines the run time of a trial, and its kernels have their own options. Elsewhere, and most of all in tests,
+  # compile time matters more.
   if(target MATCHES "tests?$")
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   elseif(NOT target MATCHES "^zerocount_core_")
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
   endif()
   if(ZEROCOUNT_NATIVE)
-    # GCC 12 warns of its own AVX-512 intrinsics (GCC bug 105593), with either of the two words as the optimisation goes.
+    # GCC 12 warns about its own AVX-512 intrinsics (GCC bug 105593); the option depends on the optimisation level.
     target_compile_options(${target} PRIVATE -march=native -Wno-maybe-uninitialized -Wno-uninitialized)
   endif()
   if(ZEROCOUNT_SANITIZE)
-    # GCC 12 warns of its own <regex> where it is instrumented (GCC bug 105562).
+    # GCC 12 warns about its own <regex> if it is instrumented (GCC bug 105562).
     target_compile_options(${target} PRIVATE -fsanitize=${ZEROCOUNT_SANITIZE} -fno-omit-frame-pointer
                                              -Wno-maybe-uninitialized)
     target_link_options(${target} PUBLIC -fsanitize=${ZEROCOUNT_SANITIZE})
   endif()
 endfunction()
 
-# zerocount_units(<variable> <largest> <source>...): the sources of each folder as units of at most <largest> of them, each a
-# generated file that includes them by their path from the repository root. Parsing headers is most of the compiler's work,
-# and is done once a unit. Helpers in the anonymous namespaces of one folder have distinct names for that reason. The units do
-# not depend on where the repository stands, so that ccache serves all its checkouts.
+# zerocount_units(<variable> <largest> <source>...): combines the sources of each folder to unity builds of at most <largest>
+# files. A unit is a generated file that includes the sources by their path from the repository root, so that headers, most of
+# the compiler's work, are parsed once per unit. Therefore names in the anonymous namespaces of one folder must be distinct. The
+# units do not depend on the path of the repository, so that all checkouts share the ccache.
 function(zerocount_units variable largest)
   if(NOT ZEROCOUNT_UNITY)
     set(${variable} ${ARGN} PARENT_SCOPE)
@@ -60,9 +61,9 @@ function(zerocount_units variable largest)
   set(${variable} ${files} PARENT_SCOPE)
 endfunction()
 
-# zerocount_includes(<target> <visibility> <folder>): lets a target include the headers of one folder, by their path from the
-# repository root, and no others: a link to the folder stands alone in a directory of its own. What else a target may
-# include comes with the targets that it links.
+# zerocount_includes(<target> <visibility> <folder>): lets a target include the headers of one folder only, by their path from
+# the repository root: the include directory contains only a symbolic link to the folder. Other headers come with the linked
+# targets.
 function(zerocount_includes target visibility folder)
   string(MAKE_C_IDENTIFIER "${folder}" name)
   set(root "${CMAKE_BINARY_DIR}/include/${name}")
@@ -72,8 +73,8 @@ function(zerocount_includes target visibility folder)
   target_include_directories(${target} ${visibility} "${root}")
 endfunction()
 
-# zerocount_folder(SOURCES ... [ALONE ...] LINKS ...): the folder of this CMakeLists.txt as a library: core/friction is the target
-# zerocount::core::friction. ALONE: sources with compile options of their own.
+# zerocount_folder(SOURCES ... [ALONE ...] LINKS ...): makes the folder of this CMakeLists.txt a library; core/friction becomes the
+# target zerocount::core::friction. ALONE: sources with their own compile options.
 function(zerocount_folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LINKS" ${ARGN})
   file(RELATIVE_PATH folder "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
@@ -93,7 +94,7 @@ function(zerocount_folder)
   add_library(${alias} ALIAS ${target})
 endfunction()
 
-# zerocount_layer(<folder>...): the folders of a layer, lowest first, and all of them as one target, zerocount::core say.
+# zerocount_layer(<folder>...): adds the folders of a layer, lowest first, and a target for all of them, such as zerocount::core.
 function(zerocount_layer)
   get_filename_component(layer "${CMAKE_CURRENT_SOURCE_DIR}" NAME)
   add_library(zerocount_${layer} INTERFACE)
@@ -104,13 +105,13 @@ function(zerocount_layer)
   endforeach()
 endfunction()
 
-# zerocount_test(<name> SOURCES ... [ALONE ...] LINKS ...): one GoogleTest executable, each of its tests known to CTest.
+# zerocount_test(<name> SOURCES ... [ALONE ...] LINKS ...): one GoogleTest executable; each of its tests is a CTest test.
 function(zerocount_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LINKS" ${ARGN})
   zerocount_units(${name}_units 6 ${ARG_SOURCES})
   add_executable(${name} ${${name}_units} ${ARG_ALONE})
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest_main)
   zerocount_target(${name})
-  target_compile_options(${name} PRIVATE -Wno-shadow)  # between constants of test files that share a unit
+  target_compile_options(${name} PRIVATE -Wno-shadow)  # for constants of test files in the same unit
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()

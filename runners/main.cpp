@@ -23,7 +23,8 @@ ExitCode run(const std::vector<std::string>& words) {
   try {
     const ExitCode code = zerocount::run_command_line(words);
     const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
-    // Some file systems say only here that a write failed. Where there is no standard output, none was lost.
+    // Some file systems report a failed write only here. EBADF: there is no standard output, so nothing is
+    // lost.
     if (failed || (std::fclose(stdout) != 0 && errno != EBADF)) {
       return say(ExitCode::machine_failed, "zerocount: standard output cannot be written");
     }
@@ -44,8 +45,7 @@ ExitCode run(const std::vector<std::string>& words) {
 }  // namespace
 
 int main(int count, char** words) {
-  // A file that grows beyond what the system allows fails to be written, and is reported so, in place of a
-  // process that dies without a word.
+  // A write beyond the file size limit must fail and be reported; the signal would kill the process silently.
   std::signal(SIGXFSZ, SIG_IGN);
   return static_cast<int>(run({words + 1, words + count}));
 }

@@ -13,19 +13,19 @@ namespace zerocount {
 /// How much worse a measure may be: the larger of `absolute` and `relative` times the baseline's value.
 struct GateMargin {
   double absolute{0.0};   ///< in the measure's unit
-  double relative{0.0};   ///< share of the baseline's value
+  double relative{0.0};   ///< proportion of the baseline's value
   bool both_ways{false};  ///< a change for the better beyond the margin is a failure too
 };
 
 enum class GateQuantity { success, arrival, stability, settling_time, jerk_count };
 
-/// One measure that a comparison judges. Of a share of trials, less is worse; of a mean, more is.
+/// One measure that a comparison judges. Of a proportion of trials, less is worse; of a mean, more is.
 struct GateMeasure {
   GateQuantity quantity;
   std::string_view name;
   std::string_view unit;
   std::string_view long_name;
-  bool share;  ///< of trials; otherwise a mean over trials
+  bool proportion;  ///< of trials; otherwise a mean over trials
   GateMargin margin;
 };
 
@@ -36,9 +36,9 @@ std::span<const GateMeasure> gate_measures();
 const GateMeasure* find_gate_measure(std::string_view name);
 
 enum class RequirementKind {
-  share,     ///< of trials with the quality of a gate measure
-  quantile,  ///< of the settling time
-  mean       ///< of the jerks per trial
+  proportion,  ///< of trials with the quality of a gate measure
+  quantile,    ///< of the settling time
+  mean         ///< of the jerks per trial
 };
 
 /// What can be required of a file whatever the baseline says.

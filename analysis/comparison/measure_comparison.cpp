@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "analysis/comparison/mean_tests.hpp"
+#include "analysis/comparison/proportion_tests.hpp"
 #include "analysis/comparison/rank_tests.hpp"
-#include "analysis/comparison/share_tests.hpp"
 
 namespace zerocount {
 namespace {
@@ -201,10 +201,10 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
     result.measure = measure.name;
     result.unit = measure.unit;
     const bool rigs = baseline.rigs > 0 || current.rigs > 0;
-    if (measure.share && rigs) {
+    if (measure.proportion && rigs) {
       compare_share_over_rigs(result, compared_failures(baseline, current, measure.quantity, paired), paired,
                               rules.confidence);
-    } else if (measure.share) {
+    } else if (measure.proportion) {
       compare_share(result, qualities(baseline, measure.quantity), qualities(current, measure.quantity),
                     paired, rules.confidence);
     } else {

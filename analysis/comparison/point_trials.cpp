@@ -45,9 +45,9 @@ PointTrials first_trials(const PointTrials& all, std::int64_t trials) {
   return some;
 }
 
-const std::vector<bool>& qualities(const PointTrials& trials, GateQuantity share) {
-  if (share == GateQuantity::arrival) return trials.arrived;
-  return share == GateQuantity::stability ? trials.stable : trials.zero_count;
+const std::vector<bool>& qualities(const PointTrials& trials, GateQuantity proportion) {
+  if (proportion == GateQuantity::arrival) return trials.arrived;
+  return proportion == GateQuantity::stability ? trials.stable : trials.zero_count;
 }
 
 std::vector<double> settling_times(const PointTrials& trials) {

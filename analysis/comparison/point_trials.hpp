@@ -35,8 +35,8 @@ PointTrials read_point_trials(const StudyFile& file, std::int64_t point);
 /// The first `trials` of them. `undecided` stays that of all.
 PointTrials first_trials(const PointTrials& all, std::int64_t trials);
 
-/// Whether the trials have the quality of a share, [trial].
-const std::vector<bool>& qualities(const PointTrials& trials, GateQuantity share);
+/// Whether the trials have the quality of a proportion, [trial].
+const std::vector<bool>& qualities(const PointTrials& trials, GateQuantity proportion);
 
 /// Mean settling time of every trial with a move that arrived, over those moves, s; with rigs, the mean of
 /// these of every rig with one.

@@ -11,18 +11,18 @@
 namespace zerocount {
 namespace {
 
-/// Unit (rad) in which angles are kept that are no counts.
+/// Unit (rad) of angles that are not counts.
 constexpr double angle_unit = 1e-6;
 
-/// The torque over each sample. A motor's torque that was sampled behind an amplifier of known bandwidth
-/// tells what the amplifier was told: where it comes from now, u, and where it is a sample later, u′, are two
-/// points of one exponential.
+/// The torque over each sample interval. If the motor torque was sampled behind an amplifier of known
+/// bandwidth, its samples u and u′ at both ends of an interval are two points of one exponential, which gives
+/// the commanded torque.
 std::vector<TorqueCourse> courses_of(const RawSeries& series, double sample_time) {
   std::vector<TorqueCourse> courses;
   const double rate = 2.0 * std::numbers::pi * series.bandwidth;
   const double left = std::exp(-rate * sample_time);
   const double gone = -std::expm1(-rate * sample_time);
-  double lagging = 0.0;  // the motor's torque behind a commanded one
+  double lagging = 0.0;  // motor torque, lagging behind a commanded one
   for (std::size_t k = 0; k < series.torque.size(); ++k) {
     const double torque = k < series.delay ? 0.0 : series.torque[k - series.delay];
     if (rate == 0.0) {
@@ -38,8 +38,8 @@ std::vector<TorqueCourse> courses_of(const RawSeries& series, double sample_time
   return courses;
 }
 
-/// The step of angles that are all whole multiples of one apart, and mostly repeat: an encoder's counts
-/// written in rad. Nothing where they are not.
+/// The resolution of angles that are encoder counts converted to rad: all differences are multiples of one
+/// step, and most are 0. Nothing for other angles.
 std::optional<double> step_of(const std::vector<double>& angles) {
   std::size_t changes = 0;
   double least = 0.0;
@@ -51,7 +51,7 @@ std::optional<double> step_of(const std::vector<double>& angles) {
   }
   if (changes == 0 || 2 * changes > angles.size()) return std::nullopt;
   double steps = 0.0;
-  double way = 0.0;
+  double travel = 0.0;
   for (std::size_t k = 1; k < angles.size(); ++k) {
     const double change = std::abs(angles[k] - angles[k - 1]);
     const double whole = std::round(change / least);
@@ -60,9 +60,9 @@ std::optional<double> step_of(const std::vector<double>& angles) {
       return std::nullopt;
     }
     steps += whole;
-    way += change;
+    travel += change;
   }
-  return way / steps;
+  return travel / steps;
 }
 
 void set_readings(const RawSeries& series, TestRecord& record) {

@@ -37,7 +37,7 @@ FittedQuantity hardening_modulus(const ContactPoint& contact, double creep_torqu
   return quantity;
 }
 
-/// The value below which the share `probability` of the errors lies, between order statistics.
+/// Quantile of the errors, interpolated between order statistics.
 double quantile_of(std::vector<double>& errors, double probability) {
   std::sort(errors.begin(), errors.end());
   const double rank = probability * static_cast<double>(errors.size() + 1) - 1.0;
@@ -46,13 +46,13 @@ double quantile_of(std::vector<double>& errors, double probability) {
   return errors[below] + between * (errors[below + 1] - errors[below]);
 }
 
-/// The fit in the coordinates with another σ0: the same contact.
+/// The coordinates of the same contact with another σ0.
 ContactPoint with_creep_torque(ContactPoint point, double before, double after) {
   point[log_limit] += point[creep_exponent] * std::log(after / before);
   return point;
 }
 
-/// The least sum of squares over how far one coordinate is from the fit, the others following.
+/// Profile likelihood: the minimum sum of squares as a function of one coordinate, minimised over the others.
 class ProfileLikelihood {
  public:
   ProfileLikelihood(std::span<const TestRecord> records, const ContactFit& fit, Coordinate coordinate)
@@ -61,7 +61,7 @@ class ProfileLikelihood {
         setting_(fit.setting),
         start_(fit.model.point),
         coordinate_(coordinate) {
-    if (coordinate == log_limit) {  // at 1 N m the coordinate is −ln λ, whatever n
+    if (coordinate == log_limit) {  // at 1 N m the coordinate is −ln λ for every n
       start_.contact = with_creep_torque(start_.contact, setting_.creep_torque, 1.0);
       setting_.prior = with_creep_torque(setting_.prior, setting_.creep_torque, 1.0);
       setting_.creep_torque = 1.0;
@@ -75,18 +75,18 @@ class ProfileLikelihood {
     follow_ = covariance.col(coordinate) / variance_;
   }
 
-  /// The change of the coordinate at which the sum exceeds the least one by distance²/variance; nothing where
-  /// it does not within `farthest`, or is not found.
-  std::optional<double> end(double distance, double farthest) {
+  /// The change of the coordinate at which the sum exceeds its minimum by distance²/variance; nothing if that
+  /// is not found within `max_distance`.
+  std::optional<double> end(double distance, double max_distance) {
     const double target = distance * distance / variance_;
-    constexpr int most_tries = 10;
+    constexpr int max_tries = 10;
     constexpr double close_enough = 0.02;
     double at = distance;
-    for (int i = 0; i < most_tries; ++i) {
+    for (int i = 0; i < max_tries; ++i) {
       const double ratio = std::sqrt(std::max(squares_at(at) - least_, 0.0) / target);
       if (std::abs(ratio - 1.0) < close_enough) return at;
       at /= std::clamp(ratio, 0.4, 2.5);
-      if (std::abs(at) > farthest) return std::nullopt;
+      if (std::abs(at) > max_distance) return std::nullopt;
     }
     return std::nullopt;
   }
@@ -95,11 +95,11 @@ class ProfileLikelihood {
   double squares_at(double change) {
     FitSetting setting = setting_;
     setting.free[coordinate_] = false;
-    setting.most_steps = 10;
+    setting.max_steps = 10;
     FitPoint start = start_;
-    // Where another coordinate is open it would follow out of sight; the fit brings it after.
-    constexpr double most = 1.0;
-    start.contact += (follow_.head<contact_dimension>() * change).cwiseMin(most).cwiseMax(-most);
+    // Limits the step of poorly determined coordinates; the fit moves them further if needed.
+    constexpr double max_step = 1.0;
+    start.contact += (follow_.head<contact_dimension>() * change).cwiseMin(max_step).cwiseMax(-max_step);
     start.offset += follow_.tail(start.offset.size()) * change;
     start.contact[coordinate_] = start_.contact[coordinate_] + change;
     return fit_jointly(records_, fit_.observations, start, setting).squares;
@@ -150,12 +150,12 @@ QuantityEstimate interval_by_replicates(const FittedQuantity& quantity, const Re
 QuantityEstimate interval_by_profile(std::span<const TestRecord> records, const ContactFit& fit,
                                      const FittedQuantity& quantity, const QuantityEstimate& estimate) {
   const Coordinate coordinate = quantity.coordinates.front();
-  const double farthest = quantity.logarithmic ? std::log(4.0) : 2.0;
+  const double max_distance = quantity.logarithmic ? std::log(4.0) : 2.0;
   const double sense = quantity.slope[coordinate] < 0.0 ? -1.0 : 1.0;  // of λ and its coordinate
   constexpr double infinity = std::numeric_limits<double>::infinity();
   ProfileLikelihood profile(records, fit, coordinate);
   const auto end = [&](double linear) {
-    const std::optional<double> found = profile.end(sense * (linear - quantity.value), farthest);
+    const std::optional<double> found = profile.end(sense * (linear - quantity.value), max_distance);
     return found ? quantity.value + sense * *found : std::copysign(infinity, linear - quantity.value);
   };
   QuantityEstimate result = estimate;

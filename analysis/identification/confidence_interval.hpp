@@ -10,18 +10,18 @@
 
 namespace zerocount {
 
-/// A quantity whose estimate is reported: a function of the coordinates that is linear, or nearly so.
+/// A reported quantity: a linear or nearly linear function of the coordinates.
 struct FittedQuantity {
   std::string_view name;
   std::string_view key;  ///< in a manifest; empty for k1 + k2
   std::string_view unit;
-  std::vector<Coordinate> coordinates;  ///< that it depends on
-  double value{0.0};                    ///< at the fit: the logarithm of the quantity, but of n itself
-  ContactPoint slope;                   ///< its derivatives with respect to the coordinates
-  bool logarithmic{true};               ///< whether `value` is a logarithm
+  std::vector<Coordinate> coordinates;  ///< coordinates that it depends on
+  double value{0.0};       ///< at the fit: the logarithm of the quantity; for n the quantity itself
+  ContactPoint slope;      ///< its derivatives with respect to the coordinates
+  bool logarithmic{true};  ///< whether `value` is a logarithm
 };
 
-/// All of them, at a fit, in the order of the report.
+/// All reported quantities at a fit, in the order of the report.
 std::vector<FittedQuantity> fitted_quantities(const FitPoint& point, double creep_torque);
 
 /// Value and 95 % interval of a quantity, on its own scale (see FittedQuantity::value).
@@ -32,13 +32,13 @@ struct QuantityEstimate {
   double high{0.0};
 };
 
-/// By the errors of the replicates, stretched by `widening` about their mean.
+/// The interval from the errors of the replicates, multiplied by `widening` about their mean.
 QuantityEstimate interval_by_replicates(const FittedQuantity& quantity, const ReadingReplicates& replicates,
                                         double widening);
 
-/// The interval by profile likelihood: the values at which the least sum of squares exceeds that of the fit
-/// by as much as the ends of `estimate` would if the model were linear. An end that is not found within a
-/// factor of 4 (n: within 2) is infinite. For quantities that are a parameter of the manifest.
+/// The interval by profile likelihood: its ends are the values at which the minimum sum of squares exceeds
+/// that of the fit by the amount that the ends of `estimate` would have in a linear model. An end that is not
+/// found within a factor of 4 (n: ± 2) is infinite. Only for quantities that are parameters of the manifest.
 QuantityEstimate interval_by_profile(std::span<const TestRecord> records, const ContactFit& fit,
                                      const FittedQuantity& quantity, const QuantityEstimate& estimate);
 

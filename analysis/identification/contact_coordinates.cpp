@@ -5,8 +5,8 @@
 namespace zerocount {
 namespace {
 
-/// Multiple of σ0 beyond any torque of a record: the hook holds throughout.
-constexpr double out_of_reach = 1e3;
+/// Breakaway torque in multiples of σ0, above all torques of a record, so that the hook never slides.
+constexpr double breakaway_factor = 1e3;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ ContactParameters contact_at(const ContactPoint& point, double creep_torque) {
   contact.friction.alpha = std::exp(point[log_alpha]);
   contact.friction.n = point[creep_exponent];
   contact.friction.lambda = std::exp(contact.friction.n * std::log(creep_torque) - point[log_limit]);
-  contact.friction.breakaway = out_of_reach * creep_torque;
+  contact.friction.breakaway = breakaway_factor * creep_torque;
   return contact;
 }
 

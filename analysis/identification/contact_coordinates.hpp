@@ -11,7 +11,7 @@
 
 namespace zerocount {
 
-/// What is identified of a rotor and its contact.
+/// The identified parameters of a rotor and its contact.
 struct ContactParameters {
   PlantParameters plant;
   FrictionParameters friction;
@@ -27,28 +27,28 @@ enum Coordinate : std::size_t {
   log_inertia,    ///< ln J, of kg m²
   log_alpha,      ///< ln α, of 1/s
   log_limit,      ///< ln(σ0ⁿ/λ), of rad: the hardening at which creep ends under the torque σ0
-  creep_exponent  ///< n; on its way a fit may go below 1
+  creep_exponent  ///< n; a fit may pass through values below 1
 };
 inline constexpr std::size_t coordinate_count = 8;
-/// The same for Eigen.
+/// coordinate_count as an Eigen index.
 inline constexpr auto contact_dimension = static_cast<Eigen::Index>(coordinate_count);
 
-/// Not aligned, so that it may stand anywhere in memory.
+/// Not aligned, so that structs that contain it need no special alignment.
 using ContactPoint = Eigen::Matrix<double, coordinate_count, 1, Eigen::DontAlign>;
 
-/// Which coordinates are estimated; the others keep a given value.
+/// True for estimated coordinates; the others keep a given value.
 using FreeCoordinates = std::array<bool, coordinate_count>;
 
-/// Manifest key of the parameter behind each coordinate; that of log_limit is friction.lambda.
+/// Manifest key of the parameter of each coordinate; for log_limit it is friction.lambda.
 inline constexpr std::array<std::string_view, coordinate_count> coordinate_keys{
     "friction.k1",   "friction.k2",    "friction.beta",   "plant.presliding_damping",
     "plant.inertia", "friction.alpha", "friction.lambda", "friction.n"};
 
-/// @param creep_torque σ0, N m: near the torques at which creep was seen, or the limit and the exponent
-/// cannot be told apart. @returns parameters whose breakaway is out of reach.
+/// @param creep_torque σ0, N m. It should be near the torques at which creep was observed; otherwise limit
+/// and exponent are strongly correlated. @returns parameters whose breakaway torque is never reached.
 ContactParameters contact_at(const ContactPoint& point, double creep_torque);
 
-/// The inverse of contact_at, but for the breakaway.
+/// The inverse of contact_at, except for the breakaway torque.
 ContactPoint point_of(const ContactParameters& contact, double creep_torque);
 
 }  // namespace zerocount

@@ -15,15 +15,15 @@
 namespace zerocount {
 namespace {
 
-/// Noise below which readings that are no counts are not believed to be: what is left then is arithmetic.
-constexpr double least_noise = 1e-6;
+/// Lower limit of the noise of readings that are not counts: smaller residuals are rounding errors.
+constexpr double min_noise = 1e-6;
 
-/// Variance of a reading in the first fit: that of a count's width.
+/// Variance of a reading in the first fit: that of a count.
 constexpr double first_variance = 1.0 / 12.0;
 
-constexpr int most_rounds = 6;
+constexpr int max_rounds = 6;
 
-/// Change of the fit, in textbook standard deviations, below which a further round is not worth its time.
+/// The rounds end when the fit changes by less than this many (textbook) standard deviations.
 constexpr double small_change = 0.05;
 
 Eigen::Map<const Eigen::VectorXd> readings_of(const TestRecord& record) {
@@ -73,13 +73,13 @@ void observe_again(std::span<const TestRecord> records, ContactFit& fit) {
     const Eigen::VectorXd& path = fit.model.motions[r].path;
     const Eigen::VectorXd readings = readings_of(records[r]);
     fit.noise.push_back(records[r].counted ? counting_noise(path, readings)
-                                           : std::max(fit.misfit[r], least_noise));
+                                           : std::max(fit.misfit[r], min_noise));
     observe(records[r], path, readings, fit.noise[r], fit.observations[r]);
   }
 }
 
-/// Whether what is left of the readings is no more than their steps and noise: of counts, by how far the path
-/// is outside of them; of others, by whether neighbours repeat each other.
+/// Whether quantisation and noise explain the residuals. For counts the test is the distance of the path from
+/// the counts, for other readings the autocorrelation of the residuals.
 bool is_explained(const TestRecord& record, const Eigen::VectorXd& path) {
   const Eigen::VectorXd readings = readings_of(record);
   const auto rms = [](const Eigen::ArrayXd& values) { return std::sqrt(values.square().mean()); };
@@ -87,8 +87,8 @@ bool is_explained(const TestRecord& record, const Eigen::VectorXd& path) {
   const Eigen::Index steps = left.size() - 1;
   const double change = rms(left.tail(steps) - left.head(steps)) / std::numbers::sqrt2;
   if (record.counted) {
-    constexpr double tolerated = 0.05;  // of a count: the fit to all readings alike comes no nearer
-    // Along a path that is far off, what the counting shows is no noise.
+    constexpr double tolerated = 0.05;  // of a count: the accuracy of the rough fit
+    // Along a path with large errors, counting_noise() overestimates.
     const double noise = std::min(counting_noise(path, readings), change);
     return rms(((left + 0.5).abs() - 0.5).max(0.0)) < tolerated + noise;
   }
@@ -105,7 +105,8 @@ bool are_explained(std::span<const TestRecord> records, const FitPoint& point, c
   return true;
 }
 
-/// The fit to all readings alike, from the starting point, or from others where that explains too little.
+/// The rough fit, to all readings with equal weights: from the starting point, or from others if that
+/// explains too little.
 FitPoint fit_roughly(std::span<const TestRecord> records, std::span<const RecordParts> parts,
                      const FitSetting& setting) {
   const Observations observations = all_readings(records);
@@ -120,9 +121,9 @@ FitPoint fit_roughly(std::span<const TestRecord> records, std::span<const Record
   refuse_glitches(records, best.point, setting);
   if (are_explained(records, best.point, setting)) return best.point;
 
-  // A few steps from each of the other starting points, and on from those that came nearest.
+  // A few steps from each of the other starting points; then the best of them are continued.
   std::vector<FitResult> tried;
-  rough.most_steps = 4;
+  rough.max_steps = 4;
   for (const ContactPoint& other :
        other_starting_points(records, parts, setting.prior, setting.creep_torque)) {
     for (std::size_t j = 0; j < coordinate_count; ++j) {
@@ -133,14 +134,14 @@ FitPoint fit_roughly(std::span<const TestRecord> records, std::span<const Record
   std::stable_sort(tried.begin(), tried.end(),
                    [](const FitResult& one, const FitResult& other) { return one.squares < other.squares; });
   constexpr std::size_t continued = 2;
-  rough.most_steps = 15;
+  rough.max_steps = 15;
   for (std::size_t i = 0; i < continued && !are_explained(records, best.point, setting); ++i) {
     rough.prior = tried[i].point.contact;
     const FitResult found = fit_jointly(records, observations, tried[i].point, rough);
     if (found.squares < best.squares) best = found;
   }
   if (are_explained(records, best.point, setting)) return best.point;
-  rough.most_steps = 50;
+  rough.max_steps = 50;
   rough.prior = best.point.contact;
   return fit_jointly(records, observations, best.point, rough).point;
 }
@@ -161,8 +162,8 @@ FittedModel followed_model(std::span<const TestRecord> records, const FitPoint& 
   return model;
 }
 
-/// The largest component of the step that the normal equations still want, in textbook standard deviations.
-double step_left(std::span<const TestRecord> records, const ContactFit& fit) {
+/// The largest component of the remaining Gauss–Newton step, in textbook standard deviations.
+double remaining_step(std::span<const TestRecord> records, const ContactFit& fit) {
   NormalEquationsSum sum(records.size(), fit.setting);
   for (std::size_t r = 0; r < records.size(); ++r) {
     sum.add(r, fit.observations[r], fit.model.motions[r].path, fit.model.motions[r].sensitivity);
@@ -173,13 +174,13 @@ double step_left(std::span<const TestRecord> records, const ContactFit& fit) {
   return (step.array().abs() / covariance.diagonal().array().sqrt()).maxCoeff();
 }
 
-/// Observes and fits, by turns, from `from` on.
+/// Alternates observe() and fit, starting at `from`.
 void refine(std::span<const TestRecord> records, const FitPoint& from, int rounds, ContactFit& fit) {
   fit.model = followed_model(records, from, fit.setting);
   update_misfit(records, fit);
   for (int round = 0; round < rounds; ++round) {
     observe_again(records, fit);
-    if (step_left(records, fit) < small_change) break;
+    if (remaining_step(records, fit) < small_change) break;
     const FitPoint point = fit_jointly(records, fit.observations, fit.model.point, fit.setting).point;
     fit.model = followed_model(records, point, fit.setting);
     update_misfit(records, fit);
@@ -214,11 +215,10 @@ ContactFit fit_contact(std::span<const TestRecord> records, std::span<const Reco
   fit.model = followed_model(records, point, fit.setting);
   update_misfit(records, fit);
   refuse_glitches(records, point, fit.setting);
-  // The fit to all readings alike is the one that leaves least of them: what follows will not leave much
-  // less.
+  // The rough fit has the smallest residuals of all; later fits do not reduce them much further.
   constexpr double rough_tolerance = 1.5;
   refuse_unexplained(records, fit, rough_tolerance);
-  refine(records, point, most_rounds, fit);
+  refine(records, point, max_rounds, fit);
   refuse_glitches(records, fit.model.point, fit.setting);
   refuse_unexplained(records, fit, 1.0);
   return fit;
@@ -234,7 +234,7 @@ bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {
     for (const Coordinate coordinate : {log_beta, log_k2}) {
       other.setting.prior[coordinate] = point.contact[coordinate] += shift;
     }
-    other.setting.most_steps = 10;
+    other.setting.max_steps = 10;
     refine(records, point, 3, other);
     observe_again(records, other);
     if (spread(other) >= spread(fit)) continue;
@@ -242,8 +242,8 @@ bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {
     improved = true;
   }
   if (!improved) return false;
-  fit.setting.most_steps = first.setting.most_steps;
-  refine(records, fit.model.point, most_rounds, fit);
+  fit.setting.max_steps = first.setting.max_steps;
+  refine(records, fit.model.point, max_rounds, fit);
   return true;
 }
 

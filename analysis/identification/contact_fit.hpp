@@ -9,9 +9,9 @@
 
 namespace zerocount {
 
-/// A parameter that is known from elsewhere.
+/// A parameter with a value given by the user.
 struct KnownParameter {
-  Coordinate coordinate{log_k1};  ///< whose coordinate_keys entry it is
+  Coordinate coordinate{log_k1};  ///< coordinate of the parameter, by coordinate_keys
   double value{0.0};              ///< in the parameter's own unit
 };
 
@@ -21,26 +21,26 @@ struct ContactFit {
   FittedModel model;
   Observations observations;  ///< [record]
   std::vector<double> noise;  ///< [record] of the readings, in the record's unit; 0 for counts without noise
-  /// Root mean square of what the model leaves of the readings, each record in its unit: 0.29 where it is the
-  /// width of a count alone.
+  /// [record] Root mean square of the residuals of the readings, in the record's unit. Quantisation alone
+  /// gives 0.29.
   std::vector<double> misfit;
 };
 
-/// σ0 of the coordinates for these records: 1 N m where λ is known, because the coordinate is then ln(1/λ)
-/// whatever n; otherwise 0.7 of the largest torque, N m.
+/// σ0 of the coordinates for these records, N m: 1 N m if λ is known, because the coordinate is then ln(1/λ)
+/// for every n; otherwise 0.7 of the largest torque.
 double creep_torque_for(std::span<const TestRecord> records, const std::vector<KnownParameter>& known);
 
-/// Fits the contact to all records together: from the starting point, first by all readings alike, which
-/// leads near from far away, then by the observations that the readings really are, made anew until they no
-/// longer change the fit.
-/// @throws Failure (bad_data) where a single reading is off, the model does not explain a record, or the fit
-/// ends at a rotor that cannot be simulated.
+/// Fits the contact to all records together. First a rough fit from the starting point, to all readings with
+/// equal weights, which converges from far away. Then fits to the observations (see observe()), repeated with
+/// updated observations until the fit no longer changes.
+/// @throws Failure (bad_data) if a single reading is an outlier, the model does not explain a record, or the
+/// fit ends at a rotor that cannot be simulated.
 ContactFit fit_contact(std::span<const TestRecord> records, std::span<const RecordParts> parts,
                        const std::vector<KnownParameter>& known);
 
-/// Fits from other rates of softening, and keeps what leaves a smaller spread of residuals: a spring that
-/// softens within a count or two is hardly seen by the fit to all readings alike, which may end far off.
-/// @returns whether `fit` is another now.
+/// Repeats the fit from other values of β and keeps the fit with the smallest spread of residuals. A spring
+/// that softens within a count or two has little influence on the rough fit, which may end far away.
+/// @returns whether `fit` changed.
 bool improve_softening(std::span<const TestRecord> records, ContactFit& fit);
 
 }  // namespace zerocount

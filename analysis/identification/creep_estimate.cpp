@@ -8,12 +8,12 @@ namespace zerocount {
 namespace {
 
 constexpr std::array exponents{1.0, 1.5, 2.0, 2.5, 3.0, 4.0};
-constexpr int rates = 14;  // tried, by factors of 2 from the slowest
+constexpr int rates = 14;  // number of values of α tried, by factors of 2 from the smallest
 
-/// Time (s) after the beginning of a hold before which the rotor may still swing; in a short hold, a quarter.
+/// Time (s) at the beginning of a hold in which the rotor may oscillate; at most a quarter of the hold.
 constexpr double swinging_time = 0.05;
 
-/// Sums over the samples of the holds, each hold about its own mean: x of the law with a limit of 1 rad, y
+/// Sums over the samples of the holds, each about its own mean. x: the law with a limit of 1 rad; y:
 /// measured.
 struct HoldSums {
   double xx{0.0};

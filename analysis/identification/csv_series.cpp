@@ -10,7 +10,7 @@
 namespace zerocount {
 namespace {
 
-/// The column among `known` that the table has; the first that it has where it has several.
+/// The first column of `known` that the table has, or the chosen one.
 std::string column_of(const CsvTable& table, const std::optional<std::string>& chosen,
                       const std::vector<std::string>& known, const std::string& what) {
   if (chosen) {

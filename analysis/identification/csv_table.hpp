@@ -10,25 +10,25 @@ namespace zerocount {
 
 /// A table of comma-separated values whose first line names the columns. Empty lines, and lines that begin
 /// with
-/// '#', are passed over. A name may be followed by its unit in brackets: `torque [N m]`.
+/// '#', are skipped. A name may be followed by its unit in brackets: `torque [N m]`.
 class CsvTable {
  public:
-  /// @throws Failure: bad_input where there is no such file, or it is no such table; bad_data where a row has
-  /// not as many cells as the header; machine_failed where the file cannot be read.
+  /// @throws Failure: bad_input if the file does not exist or is not such a table; bad_data if a row and the
+  /// header differ in the number of cells; machine_failed if the file cannot be read.
   explicit CsvTable(const std::filesystem::path& path);
 
   const std::string& name() const { return name_; }
   std::size_t rows() const { return lines_.size(); }
-  /// Line of the file, from 1, on which a row stands.
+  /// Line of a row in the file, from 1.
   std::size_t line(std::size_t row) const { return lines_[row]; }
   std::string columns_text() const;  ///< the names, for messages
 
   bool has(std::string_view column) const { return find(column) < columns_.size(); }
 
-  /// The unit that the header gives for the column; empty where it gives none.
+  /// The unit of the column in the header; empty if it has none.
   const std::string& unit(std::string_view column) const { return columns_[find(column)].unit; }
 
-  /// The column as numbers. @throws Failure (bad_data) that names the cells that are no finite numbers.
+  /// The column as numbers. @throws Failure (bad_data) that lists the cells without a finite number.
   std::vector<double> numbers(std::string_view column) const;
 
   /// For each row, whether the cell is `word`.

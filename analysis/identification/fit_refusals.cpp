@@ -12,15 +12,16 @@
 namespace zerocount {
 namespace {
 
-/// The largest share of a record's travel that the model may leave unexplained.
-constexpr double most_unexplained = 0.02;
+/// Maximum residual, as a fraction of a record's travel.
+constexpr double max_unexplained = 0.02;
 
-/// Beyond this factor of what is expected, the residuals leave nothing of the model to hold on to.
-constexpr double most_spread = 30.0;
+/// Maximum residual spread, as a multiple of the expected one.
+constexpr double max_spread = 30.0;
 
-/// Natural frequencies that are believed, Hz: a time in ms or µs makes the rotor a thousand times as slow.
-constexpr double slowest_rotor = 0.5;
-constexpr double fastest_rotor = 2e4;
+/// Plausible natural frequencies, Hz. A time in ms or µs instead of s makes the rotor a thousand times
+/// slower.
+constexpr double min_frequency = 0.5;
+constexpr double max_frequency = 2e4;
 
 }  // namespace
 
@@ -44,7 +45,7 @@ void refuse_glitches(std::span<const TestRecord> records, const FitPoint& point,
 void refuse_unexplained(std::span<const TestRecord> records, const ContactFit& fit, double tolerance) {
   for (std::size_t r = 0; r < records.size(); ++r) {
     const auto [low, high] = std::minmax_element(records[r].reading.begin(), records[r].reading.end());
-    const double allowed = std::max(records[r].counted ? 2.0 : 0.0, most_unexplained * (*high - *low));
+    const double allowed = std::max(records[r].counted ? 2.0 : 0.0, max_unexplained * (*high - *low));
     if (fit.misfit[r] <= tolerance * allowed) continue;
     const std::size_t sample = largest_misfit_growth(records[r], fit.model.motions[r].path);
     throw Failure(
@@ -60,7 +61,7 @@ void refuse_unexplained(std::span<const TestRecord> records, const ContactFit& f
 
 void refuse_gross_misfit(std::span<const TestRecord> records, const ContactFit& fit,
                          const ResidualChecks& checks) {
-  if (!(checks.spread > most_spread * checks.expected_spread)) return;
+  if (!(checks.spread > max_spread * checks.expected_spread)) return;
   const auto worst =
       static_cast<std::size_t>(std::max_element(fit.misfit.begin(), fit.misfit.end()) - fit.misfit.begin());
   const std::size_t sample = largest_misfit_growth(records[worst], fit.model.motions[worst].path);
@@ -78,13 +79,13 @@ void refuse_implausible_frequency(std::span<const TestRecord> records, double k1
   const bool believed = std::all_of(records.begin(), records.end(),
                                     [](const TestRecord& record) { return record.units_believed; });
   const double frequency = std::sqrt(k1 / inertia) / (2.0 * std::numbers::pi);
-  if (believed || std::isnan(frequency) || (frequency >= slowest_rotor && frequency <= fastest_rotor)) return;
+  if (believed || std::isnan(frequency) || (frequency >= min_frequency && frequency <= max_frequency)) return;
   throw Failure(
       ExitCode::bad_data,
       fmt::format("{}: the rotor would swing on its friction with {:.4g} Hz, {} what is plausible "
                   "({:g} to {:g} Hz): is the time in ms or us? If it is right, give --any-magnitude",
-                  records.front().name, frequency, frequency < slowest_rotor ? "below" : "above",
-                  slowest_rotor, fastest_rotor));
+                  records.front().name, frequency, frequency < min_frequency ? "below" : "above",
+                  min_frequency, max_frequency));
 }
 
 }  // namespace zerocount

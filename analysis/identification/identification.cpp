@@ -16,14 +16,14 @@
 namespace zerocount {
 namespace {
 
-constexpr std::size_t least_reversals = 2;
+constexpr std::size_t min_reversals = 2;
 
-/// Half-widths of an interval (of a logarithm; of n) beyond which a quantity is not identifiable.
-constexpr double widest_logarithm = 0.7;  // a factor of 2 to each side
+/// Maximum half-widths of the interval of an identifiable quantity (of a logarithm; of n).
+constexpr double max_log_halfwidth = 0.7;  // a factor of 2 to each side
 constexpr double widest_exponent = 1.0;
 
-/// Half-width beyond which the ends are those of the profile likelihood.
-constexpr double widest_linear = 0.05;
+/// Half-width above which the interval is computed by profile likelihood.
+constexpr double max_linear_halfwidth = 0.05;
 
 bool is_known(const IdentificationOptions& options, Coordinate coordinate) {
   return std::any_of(options.known.begin(), options.known.end(),
@@ -34,18 +34,18 @@ void check_reversals(std::span<const RecordParts> parts, const IdentificationOpt
   if (is_known(options, log_k1) && is_known(options, log_k2) && is_known(options, log_beta)) return;
   std::size_t reversals = 0;
   for (const RecordParts& of_record : parts) reversals += of_record.reversals();
-  if (reversals >= least_reversals) return;
+  if (reversals >= min_reversals) return;
   throw Failure(ExitCode::bad_data,
                 fmt::format("too few reversals: the torque turns {} (swings below 2 % of its range do not "
                             "count); expected {} times at least, a loading, an unloading and a reloading",
-                            reversals == 0 ? "never" : "once", least_reversals));
+                            reversals == 0 ? "never" : "once", min_reversals));
 }
 
 bool is_same(const TorqueCourse& one, const TorqueCourse& other) {
   return one.now == other.now && one.settled == other.settled && one.rate == other.rate;
 }
 
-/// A record given twice would count twice.
+/// Refuses a record that is given twice: it would have twice its weight.
 void check_different(std::span<const TestRecord> records) {
   for (std::size_t i = 0; i < records.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -88,10 +88,10 @@ double half_width(const QuantityEstimate& estimate) {
 }
 
 bool is_open(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
-  return !(half_width(estimate) <= (quantity.logarithmic ? widest_logarithm : widest_exponent));
+  return !(half_width(estimate) <= (quantity.logarithmic ? max_log_halfwidth : widest_exponent));
 }
 
-/// The parameter behind a quantity, without a value.
+/// An estimate without a value.
 ParameterEstimate unestimated(const FittedQuantity& quantity) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   ParameterEstimate parameter;
@@ -102,7 +102,7 @@ ParameterEstimate unestimated(const FittedQuantity& quantity) {
   return parameter;
 }
 
-/// On the parameter's own scale.
+/// Converts an estimate to the parameter's own scale.
 ParameterEstimate reported(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
   ParameterEstimate parameter = unestimated(quantity);
   parameter.status = EstimateStatus::estimated;
@@ -136,7 +136,7 @@ ParameterEstimate given(const FittedQuantity& quantity, const IdentificationOpti
   return parameter;
 }
 
-/// The estimates of an identification that is being made.
+/// The state of an identification while it runs.
 class Estimation {
  public:
   Estimation(std::span<const TestRecord> records, std::span<const RecordParts> parts, const ContactFit& fit,
@@ -156,7 +156,7 @@ class Estimation {
     }
     QuantityEstimate found = interval_by_replicates(quantity, replicates_, widening_);
     if (is_open(quantity, found)) return open(quantity);
-    if (half_width(found) > widest_linear && !quantity.key.empty()) {
+    if (half_width(found) > max_linear_halfwidth && !quantity.key.empty()) {
       found = interval_by_profile(records_, fit_, quantity, found);
       if (is_open(quantity, found)) return open(quantity);
     }
@@ -178,7 +178,7 @@ class Estimation {
   double widening_;
 };
 
-/// Of the errors of two quantities in the replicates.
+/// Correlation of the errors of two quantities in the replicates.
 double correlation_of(const FittedQuantity& one, const FittedQuantity& other,
                       const ReadingReplicates& replicates) {
   const auto centred = [&](const FittedQuantity& quantity) {

@@ -13,23 +13,23 @@ namespace zerocount {
 enum class EstimateStatus {
   estimated,        ///< from the records
   known,            ///< given by the user
-  not_identifiable  ///< the records leave it open
+  not_identifiable  ///< the records do not determine it
 };
 
-/// What the records say of one parameter.
+/// Estimate of one parameter.
 struct ParameterEstimate {
   std::string name;  ///< k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda or n
   std::string key;   ///< in a manifest; empty for k1_plus_k2
   std::string unit;
   EstimateStatus status{EstimateStatus::not_identifiable};
-  double value{0.0};           ///< NaN where not identifiable, as the following
-  double standard_error{0.0};  ///< of the value; 0 where known
+  double value{0.0};           ///< NaN if not identifiable; likewise the next three
+  double standard_error{0.0};  ///< of the value; 0 if known
   double low{0.0};             ///< of the 95 % confidence interval
   double high{0.0};
   std::string reason;  ///< why it is not identifiable
 };
 
-/// What a record was found to be made of, and how well it is explained.
+/// The detected parts of a record, and the quality of the fit.
 struct RecordSummary {
   std::string name;
   std::size_t samples{0};
@@ -40,7 +40,7 @@ struct RecordSummary {
   std::size_t reversals{0};
   std::size_t holds{0};
   std::size_t ring_downs{0};
-  double misfit{0.0};  ///< root mean square of what is left of the readings, in their unit
+  double misfit{0.0};  ///< root mean square of the residuals, in the readings' unit
   double noise{0.0};   ///< of the readings, standard deviation in their unit
 };
 
@@ -48,7 +48,7 @@ struct Identification {
   std::vector<ParameterEstimate> parameters;  ///< in the order of the names above
   std::vector<RecordSummary> records;
   ResidualChecks checks;
-  /// Correlation between the errors of pairs of estimated parameters, where it is 0.9 or more.
+  /// Correlation of the errors of a pair of estimated parameters; listed if its magnitude is 0.9 or more.
   struct Correlation {
     std::string one;
     std::string other;
@@ -62,16 +62,16 @@ struct IdentificationOptions {
   std::size_t replicates{500};
 };
 
-/// Identifies a rotor and its contact from material tests on it, all of one contact.
+/// Identifies a rotor and its contact from material tests, all of the same contact.
 ///
-/// The value is the fit less its mean error in the replicates; the interval is between the fit less the 97.5
-/// % and the 2.5 % quantile of that error, widened where the residuals are not those of the encoder alone.
-/// Where the interval is so wide that the model is no longer linear across it, its ends are those of the
-/// profile likelihood at the same level. What is left open by more than a factor of 4 (n: by more than 2) is
-/// not identifiable.
-/// @throws Failure (bad_data) where a record is there twice, the torque reverses less than twice, a single
-/// reading is off, the model does not explain the records, or the rotor is implausibly slow or fast in units
-/// that are not believed.
+/// The value is the fit minus its mean error in the replicates. The 95 % interval is the fit minus the 97.5 %
+/// and the 2.5 % quantile of that error; it is widened if the encoder alone does not explain the residuals.
+/// If the interval is so wide that the model is not linear across it, it is computed by profile likelihood at
+/// the same level. A parameter whose interval spans more than a factor of 4 (n: more than 2) is not
+/// identifiable.
+/// @throws Failure (bad_data) if a record is given twice, the torque reverses less than twice, a single
+/// reading is an outlier, the model does not explain the records, or the rotor's natural frequency is
+/// implausible and the units are not trusted.
 Identification identify(const std::vector<TestRecord>& records, const IdentificationOptions& options = {});
 
 }  // namespace zerocount

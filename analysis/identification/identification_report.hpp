@@ -6,10 +6,10 @@
 
 namespace zerocount {
 
-/// A table of the parameters, the records' parts, the checks and the fragment, to be read.
+/// The parameters, the parts of the records, the checks and the manifest fragment as text.
 std::string identification_text(const Identification& identification);
 
-/// The same as one JSON object. Its numbers read back to the same double; null where there is none.
+/// The same as one JSON object. Numbers read back to the same double; missing values are null.
 std::string identification_json(const Identification& identification);
 
 }  // namespace zerocount

@@ -13,18 +13,18 @@
 namespace zerocount {
 namespace {
 
-/// How far (in logarithms) a fit may take a coordinate from the prior: a factor of 100. Far beyond it lie
-/// rotors whose simulation takes for ever.
-constexpr double farthest = 4.6;
-/// Largest rate of a rotor's oscillation or damping, in 1/sampling interval, that a fit may try.
-constexpr double fastest = 20.0;
-/// Creep may go much further down, until there is none: no simulation is the slower for that.
-constexpr double least_creep = 14.0;
+/// Maximum distance (of logarithms) of a coordinate from the prior: a factor of 100. Far beyond, simulations
+/// become very slow.
+constexpr double max_distance = 4.6;
+/// Maximum rate of a rotor's oscillation or damping that a fit may try, in 1/sampling interval.
+constexpr double max_rate = 20.0;
+/// Maximum distance below the prior for the creep limit: it may vanish, which does not slow the simulation.
+constexpr double max_creep_decrease = 14.0;
 constexpr double least_exponent = 0.2;
-constexpr double most_exponent = 20.0;
+constexpr double max_exponent = 20.0;
 
-/// Ceres writes its log through glog, to standard error; what it has to say of a fit is in its summary. A
-/// broken condition inside it is still said, before the program ends.
+/// Turns off the log that Ceres writes to standard error through glog; its summary has the same information.
+/// Fatal errors are still printed.
 void quieten_log() {
   [[maybe_unused]] static const bool quiet = [] {
     FLAGS_minloglevel = google::GLOG_FATAL;
@@ -32,15 +32,15 @@ void quieten_log() {
   }();
 }
 
-/// The rate (1/s) that decides how small the steps of a simulation must be.
+/// The max_rate rate (1/s) of the rotor, which limits the step of a simulation.
 double rate_of(const ContactPoint& point, double creep_torque) {
   const ContactParameters contact = contact_at(point, creep_torque);
   const double oscillation = std::sqrt((contact.friction.k1 + contact.friction.k2) / contact.plant.inertia);
   return std::max(oscillation, contact.plant.presliding_damping / contact.plant.inertia);
 }
 
-/// The residuals of all records, and of the prior, as Ceres wants them: of two blocks of parameters, the
-/// contact's coordinates and the offsets.
+/// Ceres cost function: the residuals of all records and of the prior. Parameter blocks: the contact's
+/// coordinates and the offsets.
 class JointResiduals : public ceres::CostFunction {
  public:
   JointResiduals(std::span<const TestRecord> records, const Observations& observations,
@@ -87,13 +87,14 @@ class JointResiduals : public ceres::CostFunction {
   bool within_reach(const ContactPoint& contact) const {
     double interval = 0.0;  // the longest
     for (const TestRecord& record : records_) interval = std::max(interval, record.sample_time);
-    const double limit = std::max(fastest, 2.0 * rate_of(setting_.prior, setting_.creep_torque) * interval);
+    const double limit = std::max(max_rate, 2.0 * rate_of(setting_.prior, setting_.creep_torque) * interval);
     if (rate_of(contact, setting_.creep_torque) * interval > limit) return false;
     for (std::size_t j = 0; j < creep_exponent; ++j) {
       const double away = contact[j] - setting_.prior[j];
-      if (!(away <= farthest && away >= (j == log_limit ? -least_creep : -farthest))) return false;
+      if (!(away <= max_distance && away >= (j == log_limit ? -max_creep_decrease : -max_distance)))
+        return false;
     }
-    return contact[creep_exponent] >= least_exponent && contact[creep_exponent] <= most_exponent;
+    return contact[creep_exponent] >= least_exponent && contact[creep_exponent] <= max_exponent;
   }
 
   void add_prior(const ContactPoint& contact, int row, double* residuals, double* by_contact,
@@ -142,10 +143,10 @@ FitResult fit_jointly(std::span<const TestRecord> records, const Observations& o
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = setting.most_steps;
+  options.max_num_iterations = setting.max_steps;
   options.function_tolerance = setting.tolerance;
   options.parameter_tolerance = 1e-9;
-  options.max_num_consecutive_invalid_steps = setting.most_steps;
+  options.max_num_consecutive_invalid_steps = setting.max_steps;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) return {start, std::numeric_limits<double>::infinity()};

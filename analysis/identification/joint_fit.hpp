@@ -13,40 +13,40 @@
 
 namespace zerocount {
 
-/// What is fitted: one contact, and of each record the angle that the encoder shows where θ = 0.
+/// The unknowns of a fit: one contact, and for each record the encoder's reading at θ = 0.
 struct FitPoint {
   ContactPoint contact;
   Eigen::VectorXd offset;  ///< [record] in the record's unit
 };
 
-/// What is asked of a fit, beside the records.
+/// Settings of a fit.
 struct FitSetting {
   FreeCoordinates free{};
   double creep_torque{1.0};  ///< σ0 of the coordinates, N m
-  /// Where a free coordinate is kept by a weak spring, so that one of which the records say nothing stays
-  /// finite: its standard deviation is `prior_spread`, which is that of a parameter known to a factor of 400.
+  /// Mean of a weak normal prior on the free coordinates, which keeps undetermined coordinates finite. Its
+  /// standard deviation `prior_spread` corresponds to a parameter known to a factor of 400.
   ContactPoint prior;
   double prior_spread{3.0};
   double tolerance{1e-6};  ///< relative change of the sum of squares at which the fit ends
-  int most_steps{50};
+  int max_steps{50};
 };
 
 /// The observations of each record.
 using Observations = std::vector<std::vector<AngleObservation>>;
 
-/// What a fit came to.
+/// Result of a fit.
 struct FitResult {
   FitPoint point;
-  double squares{0.0};  ///< the least sum of squares
+  double squares{0.0};  ///< the minimum sum of squares
 };
 
-/// The point at which the sum of squares of (observed − modelled angle)/√variance, with that of the prior, is
-/// least near `start`. Non-linear least squares by Ceres (Levenberg–Marquardt, dense QR). Where the fit
-/// fails, the point is `start` and `squares` is infinite.
+/// Minimises the sum of squares of (observed − modelled angle)/√variance and of the prior, starting at
+/// `start`. Non-linear least squares by Ceres (Levenberg–Marquardt, dense QR). If the fit fails, the point is
+/// `start` and `squares` is infinite.
 FitResult fit_jointly(std::span<const TestRecord> records, const Observations& observations,
                       const FitPoint& start, const FitSetting& setting);
 
-/// The model at a point, with what is needed to go a little way from it.
+/// The model at a point, with its linearisation.
 struct FittedModel {
   FitPoint point;
   std::vector<RecordMotion> motions;  ///< [record]; the paths include the offsets
@@ -54,14 +54,14 @@ struct FittedModel {
 
 FittedModel model_at(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting);
 
-/// The textbook's covariance of the errors of a fit, were the observations independent: the inverse of the
-/// matrix of the normal equations, with the prior.
+/// Textbook covariance of the errors of a fit, valid for independent observations: the inverse of the normal
+/// matrix, including the prior.
 Eigen::MatrixXd textbook_covariance(const FittedModel& model, const Observations& observations,
                                     const FitSetting& setting);
 
-/// The normal equations at a model: `matrix`·d = `gradient` leads to the least squares of the linearised
-/// model. The first coordinate_count rows are the contact's, then come the offsets. Rows of coordinates that
-/// are not free are those of the identity.
+/// Normal equations of the linearised model: `matrix`·d = `gradient` gives the step d to its least squares.
+/// The first coordinate_count rows belong to the contact, the others to the offsets. Rows of fixed
+/// coordinates are those of the identity.
 struct NormalEquations {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd gradient;
@@ -73,11 +73,11 @@ class NormalEquationsSum {
  public:
   NormalEquationsSum(std::size_t records, const FitSetting& setting);
 
-  /// Adds what the observations of record number `record` say where its path is `path`.
+  /// Adds the observations of record number `record` with the modelled path `path`.
   void add(std::size_t record, const std::vector<AngleObservation>& observations, const Eigen::VectorXd& path,
            const PathSensitivity& sensitivity);
 
-  /// With the prior, whose pull from the contact `at` towards the setting's point is included.
+  /// Adds the prior, including its gradient at the contact `at`.
   NormalEquations with_prior(const ContactPoint& at) const;
 
  private:

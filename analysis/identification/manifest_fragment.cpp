@@ -10,13 +10,13 @@ namespace {
 
 constexpr double two_sided_95 = 1.959963984540054;  // Φ⁻¹(0.975)
 
-/// The number with as many digits as its uncertainty deserves, and two more. With a point and a sign of the
-/// exponent: there are YAML readers that take 2e5 and 2.0e5 for texts.
+/// The number with two digits more than its uncertainty justifies. Always with a decimal point and a sign of
+/// the exponent, because some YAML readers take 2e5 and 2.0e5 for texts.
 std::string manifest_number(double value, double relative_uncertainty) {
-  constexpr int fewest = 3;
-  constexpr int most = 17;
-  const double wanted = relative_uncertainty > 0.0 ? 3.0 - std::log10(relative_uncertainty) : most;
-  const int digits = static_cast<int>(std::clamp(std::ceil(wanted), double{fewest}, double{most}));
+  constexpr int min_digits = 3;
+  constexpr int max_digits = 17;
+  const double wanted = relative_uncertainty > 0.0 ? 3.0 - std::log10(relative_uncertainty) : max_digits;
+  const int digits = static_cast<int>(std::clamp(std::ceil(wanted), double{min_digits}, double{max_digits}));
   std::string text = fmt::format("{}", std::stod(fmt::format("{:.{}g}", value, digits)));
   const std::size_t exponent = text.find('e');
   if (exponent == std::string::npos) return text;
@@ -44,16 +44,17 @@ std::string line_of(const ParameterEstimate& parameter, const std::string& name)
 std::string with_digits(double value, const ParameterEstimate& parameter) {
   const double width = parameter.high - parameter.low;
   if (!(width > 0.0) || value == 0.0) return fmt::format("{:g}", value);
-  constexpr int fewest = 3;
-  constexpr int most = 15;
+  constexpr int min_digits = 3;
+  constexpr int max_digits = 15;
   const int digits = static_cast<int>(std::ceil(std::log10(std::abs(value) / width))) + 2;
-  return fmt::format("{:.{}g}", value, std::clamp(digits, fewest, most));
+  return fmt::format("{:.{}g}", value, std::clamp(digits, min_digits, max_digits));
 }
 
 std::string distribution_text(const ParameterEstimate& parameter) {
-  constexpr double small_digits = 1e-3;  // of a spread, four digits are enough
+  constexpr double small_digits = 1e-3;  // four digits are enough for a spread
   if (parameter.name == "n") {
-    const bool cut = parameter.low <= 1.0;  // the interval was cut where n ends, so has lost its middle
+    const bool cut =
+        parameter.low <= 1.0;  // the interval was truncated at n = 1, so its middle is not the estimate
     const double mean = cut ? parameter.value : 0.5 * (parameter.low + parameter.high);
     const double sd = (parameter.high - mean) / two_sided_95;
     if (!(sd > 0.0)) return manifest_number(mean, 0.0);
@@ -76,8 +77,8 @@ std::string manifest_fragment(const Identification& identification) {
     text += fmt::format("{} {}", &record == &identification.records.front() ? "" : ",", record.name);
   }
   text +=
-      ".\n# The central 95 % of each distribution are the confidence interval; its median is their middle, "
-      "not\n# quite the estimate. Trials draw the parameters independently";
+      ".\n# The central 95 % of each distribution are the confidence interval. Its median is the middle of "
+      "the\n# interval, not exactly the estimate. Trials draw the parameters independently";
   for (const Identification::Correlation& pair : identification.correlations) {
     text += fmt::format("{}\n# {} and {}: {:.2f}",
                         &pair == &identification.correlations.front() ? ", although errors correlate:" : "",
@@ -85,7 +86,7 @@ std::string manifest_fragment(const Identification& identification) {
   }
   text += "\n";
   if (!identification.checks.passed) {
-    text += "# Lack of fit: the model leaves more than encoder and noise explain; do not rely on this.\n";
+    text += "# Lack of fit: encoder and noise do not explain the residuals; do not rely on these values.\n";
   }
   for (const std::string group : {"plant", "friction"}) {
     std::string lines;
@@ -95,7 +96,7 @@ std::string manifest_fragment(const Identification& identification) {
       lines += line_of(parameter, parameter.key.substr(group.size() + 1));
       any = any || parameter.status != EstimateStatus::not_identifiable;
     }
-    // A map of comments alone would be no map.
+    // A map that contains only comments would not be a map.
     if (!any) text.append("# ");
     text.append(group).append(":\n").append(lines);
   }

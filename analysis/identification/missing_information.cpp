@@ -11,7 +11,7 @@ namespace {
 /// A hold in which the rotor creeps.
 struct CreepingHold {
   double torque{0.0};  ///< magnitude, N m
-  double creep{0.0};   ///< by how far the fitted path goes from its first quarter to its end, in readings
+  double creep{0.0};   ///< fitted travel from a quarter of the hold to its end, in units of the readings
 };
 
 std::vector<CreepingHold> creeping_holds(std::span<const TestRecord> records,
@@ -55,12 +55,12 @@ std::string of_ring_down(std::span<const TestRecord> records, std::span<const Re
 std::string of_creep(const std::vector<CreepingHold>& holds, Coordinate coordinate) {
   if (holds.empty())
     return "the torque is never held (for 20 samples or more), and so creep is not seen alone";
-  double most = 0.0;
-  for (const CreepingHold& hold : holds) most = std::max(most, hold.creep);
+  double max_creep = 0.0;
+  for (const CreepingHold& hold : holds) max_creep = std::max(max_creep, hold.creep);
   constexpr double min_creep = 2.0;
-  if (most < min_creep) {
+  if (max_creep < min_creep) {
     return fmt::format("the rotor creeps by {:.2g} steps of the readings at most while the torque is held",
-                       most);
+                       max_creep);
   }
   double low = 0.0;
   double high = 0.0;

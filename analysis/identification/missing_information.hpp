@@ -8,8 +8,8 @@
 
 namespace zerocount {
 
-/// Why the records leave a coordinate open, as far as their parts tell: a clause that goes on after
-/// "because".
+/// The reason why the records do not determine a coordinate, derived from their parts: a clause that
+/// completes "because …".
 std::string missing_information(std::span<const TestRecord> records, std::span<const RecordParts> parts,
                                 const ContactFit& fit, Coordinate coordinate);
 

@@ -12,34 +12,34 @@
 
 namespace zerocount {
 
-/// What the torque of a series is.
+/// Meaning of the torque of a series.
 enum class TorqueKind {
-  commanded,  ///< to the amplifier at t_k, held until t_{k+1}
-  motor       ///< of the motor at t_k
+  commanded,  ///< command to the amplifier at t_k, held until t_{k+1}
+  motor       ///< motor torque at t_k
 };
 
-/// A material test as it was read, unchecked.
+/// A material test as read, unchecked.
 struct RawSeries {
-  std::string name;                ///< as messages call it
-  std::vector<std::size_t> lines;  ///< [sample] where it stands in the file; empty where it has no lines
+  std::string name;                ///< name in messages
+  std::vector<std::size_t> lines;  ///< [sample] line in the file; empty for a file without lines
   std::vector<double> time;        ///< s
   std::vector<double> torque;      ///< N m
   TorqueKind torque_kind{TorqueKind::commanded};
-  double bandwidth{0.0};              ///< of the amplifier, Hz; 0: it follows at once
-  std::size_t delay{0};               ///< samples after which a commanded torque acts; until then it is 0
+  double bandwidth{0.0};              ///< of the amplifier, Hz; 0: ideal amplifier
+  std::size_t delay{0};               ///< delay of a commanded torque, samples; the torque is 0 before
   std::vector<double> angle;          ///< whole counts, or rad
-  double counts_per_revolution{0.0};  ///< 0 where the angle is in rad
-  std::vector<double> code;           ///< DAC codes; empty where unknown
-  int dac_bits{0};                    ///< 0 where unknown
-  std::vector<bool> sliding;          ///< whether the hook slid; empty where unknown
-  PlantStart start;                   ///< of the contact
-  bool units_known{false};            ///< in SI for certain, because this program wrote it
+  double counts_per_revolution{0.0};  ///< 0 if the angle is in rad
+  std::vector<double> code;           ///< DAC codes; empty if unknown
+  int dac_bits{0};                    ///< 0 if unknown
+  std::vector<bool> sliding;          ///< whether the hook slid; empty if unknown
+  PlantStart start;                   ///< initial state of the contact
+  bool units_known{false};            ///< certainly SI units, because this program wrote the file
 };
 
 /// "NAME:LINE", or "NAME, sample K".
 std::string place_of(const RawSeries& series, std::size_t sample);
 
-/// How a table is to be understood, where it leaves a choice.
+/// The user's choices for the interpretation of a table.
 struct SeriesChoice {
   std::optional<std::string> torque;  ///< column: torque or drive_torque
   std::optional<std::string> angle;   ///< column: count or theta
@@ -51,29 +51,28 @@ struct SeriesChoice {
   std::optional<double> hardening;  ///< rad
 };
 
-/// The samples after which the series' torque acts: those chosen, `otherwise` where none are; a motor's
-/// torque acts at once.
-/// @throws Failure (bad_input) where a delay is chosen for the motor's torque.
+/// Delay of the series' torque in samples: the chosen one, or `otherwise`; a motor torque has no delay.
+/// @throws Failure (bad_input) if a delay is chosen for the motor torque.
 std::size_t delay_of(const RawSeries& series, const SeriesChoice& choice, int otherwise);
 
-/// A series from a table with the columns t (s), torque or drive_torque (N m), count or theta (rad); that of
-/// `zerocount trace` is one. Where both torques are there, drive_torque is taken. Where both angles are
-/// there, count is taken if the counts per revolution are given, theta otherwise.
-/// @throws Failure: bad_input where the columns are not there, are said to have other units, or a delay is
-/// chosen for the motor's torque; and what CsvTable throws.
+/// Reads a table with the columns t (s), torque or drive_torque (N m), count or theta (rad), such as the
+/// output of `zerocount trace`. If it has both torques, drive_torque is used. If it has both angles, count is
+/// used if the counts per revolution are given, theta otherwise.
+/// @throws Failure: bad_input if columns are missing or have other units, or if a delay is chosen for the
+/// motor torque; and the failures of CsvTable.
 RawSeries read_csv_series(const std::filesystem::path& path, const SeriesChoice& choice);
 
-/// A series from the trial's records in the results file. The start of the contact, the encoder's resolution,
-/// the delay and the amplifier's bandwidth are those of the trial, unless chosen otherwise. The angle is that
-/// of the fine encoder's counts, unless theta is chosen.
-/// @throws Failure: bad_input where the file has no such trial or no records of it, or a delay is chosen for
-/// the motor's torque; and what StudyFile throws.
+/// Reads the trace of a trial from a results file. The initial state of the contact, the encoder's
+/// resolution, the delay and the amplifier's bandwidth are those of the trial, unless chosen otherwise. The
+/// angle is that of the fine encoder's counts, unless theta is chosen.
+/// @throws Failure: bad_input if the file has no such trial or no trace of it, or if a delay is chosen for
+/// the motor torque; and the failures of StudyFile.
 RawSeries read_study_series(const std::filesystem::path& path, std::int64_t point, std::int64_t index,
                             const SeriesChoice& choice);
 
-/// The series as a record that can be fitted.
-/// @param any_magnitude whether values that look as if they were in other units are believed.
-/// @throws Failure (bad_data) with the reason where it cannot: see record_checks.hpp.
+/// Checks the series and converts it to a record for the fit.
+/// @param any_magnitude whether to accept values that suggest other units
+/// @throws Failure (bad_data) with the reason if a check fails: see record_checks.hpp.
 TestRecord checked_record(const RawSeries& series, bool any_magnitude);
 
 }  // namespace zerocount

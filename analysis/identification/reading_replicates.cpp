@@ -12,10 +12,10 @@
 namespace zerocount {
 namespace {
 
-/// Of the textbook's standard deviations, over which the truths of the replicates are spread.
+/// Standard deviation of the replicates' true parameters, in textbook standard deviations.
 constexpr double truth_spread = 3.0;
 
-/// Key of the replicates' random numbers: any, but always the same, so that a record has one result.
+/// Key of the replicates' random numbers: arbitrary but constant, so that results are reproducible.
 constexpr RandomStream replicate_stream{{0x1d3a71f1U, 0xca710bb5U}, 0};
 
 /// The standard normal numbers of one replicate.
@@ -32,7 +32,7 @@ class ReplicateNoise {
   std::uint32_t draw_{0};
 };
 
-/// What the record's encoder reads along `path`.
+/// The readings of the record's encoder along `path`.
 Eigen::VectorXd read_path(const TestRecord& record, const Eigen::VectorXd& path, double noise,
                           ReplicateNoise& random) {
   Eigen::VectorXd readings = path;
@@ -99,7 +99,7 @@ ReadingReplicates replicate_readings(std::span<const TestRecord> records, const 
   FittedModel truth = model;
   for (std::size_t i = 0; i < replicates; ++i) {
     ReplicateNoise random(i);
-    // matrix⁻¹ is the textbook's covariance, and L⁻ᵀz has it, where matrix = L·Lᵀ.
+    // The textbook covariance is matrix⁻¹. With matrix = L·Lᵀ, L⁻ᵀz has this covariance.
     const Eigen::VectorXd away = truth_spread * root.matrixU().solve(random.next(matrix.rows()));
     NormalEquationsSum sum(records.size(), setting);
     for (std::size_t r = 0; r < records.size(); ++r) {
@@ -113,7 +113,7 @@ ReadingReplicates replicate_readings(std::span<const TestRecord> records, const 
       sum.add(r, observations[r], path, motion.sensitivity);
     }
     NormalEquations equations = sum.with_prior(setting.prior);
-    // The prior errs as much as it says: what only it determines is as uncertain as it is.
+    // The error of the prior is drawn too: coordinates that only the prior determines keep its uncertainty.
     for (Eigen::Index j = 0; j < contact_dimension; ++j) {
       if (setting.free[static_cast<std::size_t>(j)])
         equations.gradient[j] += random.next() / setting.prior_spread;

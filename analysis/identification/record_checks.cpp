@@ -17,14 +17,14 @@ namespace {
 
 constexpr std::size_t min_record_samples = 100;
 constexpr double jitter_allowed = 0.25;  // of the sampling interval
-constexpr double least_counts = 5.0;     // of travel
+constexpr double min_counts = 5.0;       // of travel
 constexpr std::size_t clipped_samples = 3;
 
 [[noreturn]] void refuse(const std::string& place, const std::string& reason) {
   throw Failure(ExitCode::bad_data, fmt::format("{}: {}", place, reason));
 }
 
-/// Values between which a quantity is believed, and what is asked where it is not.
+/// Plausible range of a quantity, and the question in the message for values outside.
 struct Plausible {
   std::string_view quantity;
   std::string_view unit;
@@ -47,7 +47,7 @@ double travel(const TestRecord& record) {
   return *high - *low;
 }
 
-/// Half the usual time from a sample to the next but one: jitter of single samples has no part in it.
+/// Half the median time between every other sample, which is insensitive to jitter.
 double usual_interval(const std::vector<double>& time) {
   std::vector<double> over_two;
   for (std::size_t k = 2; k < time.size(); ++k) over_two.push_back(0.5 * (time[k] - time[k - 2]));
@@ -55,7 +55,7 @@ double usual_interval(const std::vector<double>& time) {
 }
 
 void check_gaps(const RawSeries& series) {
-  constexpr double gap = 1.75;  // of the interval: more than jitter of two samples can make
+  constexpr double gap = 1.75;  // of the interval: more than the jitter of two samples
   const double interval = usual_interval(series.time);
   for (std::size_t k = 1; k < series.time.size(); ++k) {
     const double waited = series.time[k] - series.time[k - 1];
@@ -72,7 +72,7 @@ struct RegularGrid {
   double interval{0.0};
 };
 
-/// By least squares.
+/// Least-squares fit of a regular grid.
 RegularGrid nearest_grid(const std::vector<double>& time) {
   const auto samples = static_cast<double>(time.size());
   const double middle = 0.5 * (samples - 1.0);
@@ -86,14 +86,14 @@ RegularGrid nearest_grid(const std::vector<double>& time) {
   return {time.front() + mean - middle * interval, interval};
 }
 
-/// The code beyond which a converter of `bits` has none, on the side of `code`.
+/// The last code of a converter of `bits` bits, on the side of `code`.
 double last_code(int bits, double code) {
   const double half = std::ldexp(1.0, bits - 1);
   return code < 0.0 ? -half : half - 1.0;
 }
 
-/// The shortest word, from 12 bits, that has codes from `low` to `high`: where the converter's is not known,
-/// the only one that can be at its end somewhere.
+/// The shortest word of at least 12 bits that contains the codes `low` to `high`. For an unknown converter,
+/// only this word length can be at the end of its range.
 int shortest_word(double low, double high) {
   int bits = 12;
   while (low < last_code(bits, -1.0) || high > last_code(bits, 1.0)) ++bits;
@@ -124,10 +124,10 @@ void check_codes(const RawSeries& series) {
   }
 }
 
-/// Whether the angle goes on and comes back while the torque stays at its extreme.
+/// Refuses an angle that continues and returns while the torque stays at its extreme.
 void check_flat_top(const RawSeries& series, const TestRecord& record, const TorqueHold& hold) {
   const double sign = hold.torque > 0.0 ? 1.0 : -1.0;
-  const double noticeable = std::max(record.counted ? least_counts : 0.0, 0.01 * travel(record));
+  const double noticeable = std::max(record.counted ? min_counts : 0.0, 0.01 * travel(record));
   std::size_t peak = hold.first;
   for (std::size_t k = hold.first; k <= hold.last; ++k) {
     if (sign * record.reading[k] > sign * record.reading[peak]) peak = k;
@@ -196,9 +196,9 @@ void check_change(const RawSeries& series, const TestRecord& record) {
 
 void check_motion(const RawSeries& series, const TestRecord& record) {
   const double counts = travel(record);
-  if (record.counted && counts < least_counts) {
+  if (record.counted && counts < min_counts) {
     refuse(series.name, fmt::format("the rotor moves by {:.0f} counts only; expected {:.0f} at least", counts,
-                                    least_counts));
+                                    min_counts));
   }
   constexpr std::size_t lag = 10;
   double agreement = 0.0;
@@ -214,7 +214,7 @@ void check_motion(const RawSeries& series, const TestRecord& record) {
 void check_glitches(const RawSeries& series, const TestRecord& record) {
   constexpr double beyond_all = 10.0;
   const std::vector<double>& reading = record.reading;
-  // By how much each reading stands out beyond both its neighbours.
+  // Height of each reading above or below both its neighbours.
   std::vector<double> height(reading.size(), 0.0);
   for (std::size_t k = 1; k + 1 < reading.size(); ++k) {
     const double there = reading[k] - reading[k - 1];

@@ -8,14 +8,13 @@
 namespace zerocount {
 namespace {
 
-/// What a Taylor step may leave out, in units of the readings.
+/// Truncation error allowed per Taylor step, in units of the readings.
 constexpr double motion_tolerance = 1e-9;
 
-/// Change of a coordinate over which differences are taken: the path is smooth over it, and it is far above
-/// the error of the integration.
+/// Step of the finite differences: small enough for a smooth path, far above the integration error.
 constexpr double difference_step = 1e-6;
 
-/// Rate (1/s) at which the slowest oscillation about a point of the spring dies out.
+/// Decay rate (1/s) of the slowest oscillation about a point of the spring.
 double decay_rate(const ContactParameters& contact) {
   const double damping = contact.plant.presliding_damping;
   const double inertia = contact.plant.inertia;
@@ -25,7 +24,7 @@ double decay_rate(const ContactParameters& contact) {
   return 2.0 * stiffness / (damping + std::sqrt(discriminant));
 }
 
-/// Cubic Hermite interpolation over a step of `m` samples, which fills those between its ends.
+/// Fills the samples inside a step of `m` samples by cubic Hermite interpolation.
 void fill_between(Eigen::VectorXd& path, std::size_t first, std::size_t m, double slope_first,
                   double slope_last) {
   const double from = path[static_cast<Eigen::Index>(first)];
@@ -39,7 +38,7 @@ void fill_between(Eigen::VectorXd& path, std::size_t first, std::size_t m, doubl
   }
 }
 
-/// The plant on its way through a record.
+/// Simulation of the plant along a record.
 class RecordRun {
  public:
   RecordRun(const TestRecord& record, const ContactParameters& contact)
@@ -77,13 +76,13 @@ class RecordRun {
 
   void note(std::size_t k) { path_[static_cast<Eigen::Index>(k)] = plant_.theta() / record_.unit; }
 
-  /// Whether the torque at k is constant, and was the same before.
+  /// Whether the torque is constant over sample k and equal to the one before.
   bool same_torque(std::size_t k) const {
     return k > 0 && is_constant(record_.torque[k]) && is_constant(record_.torque[k - 1]) &&
            record_.torque[k].now == record_.torque[k - 1].now;
   }
 
-  /// The last sample up to which the torque stays what it is at k.
+  /// The last sample with the same torque as sample k.
   std::size_t hold_end(std::size_t k) const {
     const TorqueCourse& torque = record_.torque[k];
     std::size_t end = k;

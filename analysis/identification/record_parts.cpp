@@ -10,7 +10,7 @@ constexpr double turn_threshold = 0.02;       // of the range
 constexpr double hold_tolerance = 1e-3;       // of the range
 constexpr double step_threshold = 0.05;       // of the range
 constexpr double slow_threshold = 0.2;        // of the range
-constexpr std::size_t min_part_samples = 20;  // of a hold and of a slow branch
+constexpr std::size_t min_part_samples = 20;  // for a hold and for a slow branch
 constexpr std::size_t step_samples = 8;
 
 /// The torque at a sample; before the first it is 0.
@@ -18,23 +18,23 @@ double torque_at(const TestRecord& record, std::ptrdiff_t sample) {
   return sample < 0 ? 0.0 : record.torque[static_cast<std::size_t>(sample)].now;
 }
 
-/// The branches between the turning points: a turning point is an extreme from which the torque has come back
-/// by more than the threshold.
+/// The branches between turning points. A turning point is an extreme after which the torque returns by more
+/// than the threshold.
 std::vector<LoadingBranch> branches_of(const TestRecord& record, double threshold) {
   std::vector<LoadingBranch> branches;
-  LoadingBranch branch;  // from the last turning point to the farthest torque since
+  LoadingBranch branch;  // from the last turning point to the extreme torque since then
   int direction = 0;
   for (std::size_t k = 0; k < record.torque.size(); ++k) {
     const double torque = record.torque[k].now;
-    const double way = torque - branch.to;
+    const double change = torque - branch.to;
     if (direction == 0) {
       if (std::abs(torque - branch.from) > threshold) direction = torque > branch.from ? 1 : -1;
       branch.last = k;
       branch.to = torque;
-    } else if (way * direction >= 0.0) {
-      if (way != 0.0) branch.last = k;
+    } else if (change * direction >= 0.0) {
+      if (change != 0.0) branch.last = k;
       branch.to = torque;
-    } else if (std::abs(way) > threshold) {
+    } else if (std::abs(change) > threshold) {
       branches.push_back(branch);
       branch = {branch.last, k, branch.to, torque};
       direction = -direction;

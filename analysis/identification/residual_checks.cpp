@@ -14,9 +14,9 @@ double spread_of(const ResidualStatistics& residuals) {
   return std::sqrt(residuals.squares / static_cast<double>(residuals.observations));
 }
 
-/// Share of the replicates for which `extreme` holds, the record itself counted as one of them.
+/// Proportion of the replicates for which `extreme` holds, counting the record itself as one of them.
 template <class Extreme>
-double share(const std::vector<ResidualStatistics>& replicates, Extreme extreme) {
+double proportion(const std::vector<ResidualStatistics>& replicates, Extreme extreme) {
   const auto count = std::count_if(replicates.begin(), replicates.end(), extreme);
   return static_cast<double>(count + 1) / static_cast<double>(replicates.size() + 1);
 }
@@ -34,12 +34,12 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
   checks.expected_correlation_length = 0.0;
   for (const ResidualStatistics& replicate : replicates) {
     checks.expected_spread += spread_of(replicate) / count;
-    // As many observations as the record has.
+    // Scaled to the record's number of observations.
     checks.expected_runs += replicate.runs / static_cast<double>(replicate.observations) *
                             static_cast<double>(residuals.observations) / count;
     checks.expected_correlation_length += replicate.correlation_length / count;
   }
-  checks.spread_chance = share(
+  checks.spread_chance = proportion(
       replicates, [&](const ResidualStatistics& replicate) { return spread_of(replicate) >= checks.spread; });
   const auto off = [&](const ResidualStatistics& statistics) {
     const double scale =
@@ -48,7 +48,7 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
   };
   const double off_here = off(residuals);
   checks.runs_chance =
-      share(replicates, [&](const ResidualStatistics& replicate) { return off(replicate) >= off_here; });
+      proportion(replicates, [&](const ResidualStatistics& replicate) { return off(replicate) >= off_here; });
   checks.passed = (checks.spread_chance >= least_chance && checks.runs_chance >= least_chance) ||
                   checks.spread < 0.5 * checks.expected_spread;
   if (checks.passed) return checks;
@@ -85,16 +85,16 @@ std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::Ve
 
 std::size_t largest_misfit_growth(const TestRecord& record, const Eigen::VectorXd& path) {
   constexpr Eigen::Index lag = 20;
-  Eigen::Index fastest = 0;
+  Eigen::Index sample = 0;
   double largest = 0.0;
   for (Eigen::Index k = lag; k < path.size(); ++k) {
     const auto at = static_cast<std::size_t>(k);
     const double change = record.reading[at] - path[k] - record.reading[at - lag] + path[k - lag];
     if (std::abs(change) <= largest) continue;
     largest = std::abs(change);
-    fastest = k;
+    sample = k;
   }
-  return static_cast<std::size_t>(fastest);
+  return static_cast<std::size_t>(sample);
 }
 
 }  // namespace zerocount

@@ -14,7 +14,8 @@ struct Chord {
   std::vector<double> torque;  ///< N m
 };
 
-/// @param doubled whether the branch is the virgin curve: sgn(x)·½·f(2|x|), so twice both is the branch law.
+/// @param doubled whether the branch is the virgin curve sgn(x)·½·f(2|x|); doubling travel and torque gives
+/// the branch law.
 Chord chord_of(const TestRecord& record, const LoadingBranch& branch, const Eigen::VectorXd& angle,
                bool doubled) {
   Chord chord;
@@ -22,7 +23,7 @@ Chord chord_of(const TestRecord& record, const LoadingBranch& branch, const Eige
   const double factor = doubled ? 2.0 : 1.0;
   const double start = angle[static_cast<Eigen::Index>(branch.first)];
   for (std::size_t k = branch.first + 1; k <= branch.last; ++k) {
-    // The angle at t_k is what the torque before it has led to.
+    // The angle at t_k is the response to the torque before t_k.
     chord.travel.push_back(factor * sign * (angle[static_cast<Eigen::Index>(k)] - start));
     chord.torque.push_back(factor * sign * (record.torque[k - 1].now - branch.from));
   }
@@ -34,7 +35,7 @@ struct Line {
   double intercept{0.0};
 };
 
-/// Least squares through the points whose travel is at least `from`.
+/// Least-squares line through the points with a travel of at least `from`.
 Line line_through(const Chord& chord, double from) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   for (std::size_t i = 0; i < chord.travel.size(); ++i) {
@@ -51,18 +52,18 @@ Line line_through(const Chord& chord, double from) {
   return {slope, (y - slope * x) / n};
 }
 
-/// The travel at which the chord has gained `share` of the line's intercept; `least` where that is less.
-double softening_travel(const Chord& chord, const Line& line, double share, double least) {
+/// The travel at which the chord reaches the fraction `proportion` of the line's intercept, at least `least`.
+double softening_travel(const Chord& chord, const Line& line, double proportion, double least) {
   for (std::size_t i = 0; i < chord.travel.size(); ++i) {
-    if (chord.torque[i] - line.slope * chord.travel[i] >= share * line.intercept) {
+    if (chord.torque[i] - line.slope * chord.travel[i] >= proportion * line.intercept) {
       return std::max(chord.travel[i], least);
     }
   }
   return least;
 }
 
-/// Where there is no slow branch to look at: the softest of the steps, and otherwise the largest torque over
-/// the largest angle, with a guess of how the spring softens.
+/// Estimate without a slow branch: from the softest step, or from the ratio of the largest torque and angle,
+/// with assumed values of β and k2.
 SpringEstimate secant_estimate(std::span<const TestRecord> records, std::span<const RecordParts> parts) {
   constexpr double softened = 20.0;  // β times the travel
   constexpr double offset = 0.05;    // of the torque
@@ -107,8 +108,8 @@ SpringEstimate estimate_spring(std::span<const TestRecord> records, std::span<co
       slopes.push_back(line.slope);
       if (!(line.intercept > 0.0)) continue;
       offsets.push_back(line.intercept);
-      constexpr double share = 0.632;  // 1 − 1/e
-      rates.push_back(1.0 / softening_travel(chord, line, share, 0.5 * records[r].unit));
+      constexpr double proportion = 0.632;  // 1 − 1/e
+      rates.push_back(1.0 / softening_travel(chord, line, proportion, 0.5 * records[r].unit));
     }
   }
   if (slopes.empty()) return secant_estimate(records, parts);

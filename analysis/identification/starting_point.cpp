@@ -12,7 +12,7 @@
 namespace zerocount {
 namespace {
 
-/// A ring-down, and the record it is in.
+/// A ring-down and its record.
 struct RingDown {
   const TestRecord* record{nullptr};
   TorqueHold hold;
@@ -31,7 +31,7 @@ RingDown largest_ring_down(std::span<const TestRecord> records, std::span<const 
   return largest;
 }
 
-/// Sum of squares (in units of the readings) of what the model leaves of the record, about its mean.
+/// Sum of squares of the residuals about their mean, in units of the readings.
 double misfit(const TestRecord& record, const ContactPoint& point, double creep_torque) {
   const Eigen::VectorXd path = angle_path(record, contact_at(point, creep_torque));
   const Eigen::Map<const Eigen::VectorXd> readings(record.reading.data(), path.size());
@@ -48,12 +48,12 @@ double misfit(const ChosenRecords& records, const ContactPoint& point, double cr
   return sum;
 }
 
-/// The best of the point and those that are `changes` away from it, if they leave less than `share` of what
-/// the point leaves.
+/// The best of the point and its variations by `changes`. A variation must reduce the sum of squares below
+/// the fraction `proportion`.
 ContactPoint best_of(const ChosenRecords& records, const ContactPoint& point, double creep_torque,
-                     std::span<const ContactPoint> changes, double share = 1.0) {
+                     std::span<const ContactPoint> changes, double proportion = 1.0) {
   ContactPoint best = point;
-  double least = share * misfit(records, point, creep_torque);
+  double least = proportion * misfit(records, point, creep_torque);
   for (const ContactPoint& change : changes) {
     const ContactPoint tried = point + change;
     const double left = misfit(records, tried, creep_torque);
@@ -64,7 +64,7 @@ ContactPoint best_of(const ChosenRecords& records, const ContactPoint& point, do
   return best;
 }
 
-/// β is the hardest to see in a chord; k2/β stays what it is.
+/// Variations of β with constant k2/β: the chord determines β least.
 std::vector<ContactPoint> softening_changes() {
   std::vector<ContactPoint> changes;
   for (const double factor : {0.3, 0.55, 1.8, 3.3}) {
@@ -95,8 +95,8 @@ ChosenRecords all_of(std::span<const TestRecord> records) {
   return all;
 }
 
-/// Those with a ring-down.
-ChosenRecords ringing_ones(std::span<const TestRecord> records, std::span<const RecordParts> parts) {
+/// The records with a ring-down.
+ChosenRecords ringing_records(std::span<const TestRecord> records, std::span<const RecordParts> parts) {
   ChosenRecords ringing;
   for (std::size_t r = 0; r < records.size(); ++r) {
     const double range = torque_range(records[r]);
@@ -107,11 +107,11 @@ ChosenRecords ringing_ones(std::span<const TestRecord> records, std::span<const 
   return ringing;
 }
 
-/// J and c beside those of the point, by the records with a ring-down. Where none has one, over a wider range
-/// by all: the rotor may show in how it follows the steps of the DAC.
+/// Searches J and c around those of the point, with the records that have a ring-down. Without a ring-down it
+/// searches a wider range with all records, because the response to DAC steps may show the inertia.
 ContactPoint with_best_ringing(std::span<const TestRecord> records, std::span<const RecordParts> parts,
                                const ContactPoint& point, double creep_torque) {
-  const ChosenRecords ringing = ringing_ones(records, parts);
+  const ChosenRecords ringing = ringing_records(records, parts);
   if (!ringing.empty()) {
     return best_of(ringing, point, creep_torque,
                    changes_of({0.4, 0.63, 1.0, 1.6, 2.5}, {0.2, 0.45, 1.0, 2.2}));
@@ -121,7 +121,7 @@ ContactPoint with_best_ringing(std::span<const TestRecord> records, std::span<co
                  changes_of({1.0, 10.0, 100.0, 1e3, 1e4}, {0.5, 2.0, 8.0}), much);
 }
 
-/// The spring, J and c as the records show them if they creep so.
+/// Estimates the spring, J and c for a given creep law.
 ContactPoint point_with_creep(std::span<const TestRecord> records, std::span<const RecordParts> parts,
                               const CreepEstimate& creep, double creep_torque) {
   const SpringEstimate spring = estimate_spring(records, parts, creep, creep_torque);
@@ -155,8 +155,7 @@ PlantParameters estimate_ring_down(std::span<const TestRecord> records, std::spa
                                    double k1) {
   const RingDown ring = largest_ring_down(records, parts);
   const double sample_time = records.front().sample_time;
-  // Without a ring-down: an oscillation too fast for the samples, damped to a third of what would be
-  // critical.
+  // Without a ring-down: an oscillation too fast for the sampling, with a third of the critical damping.
   double period = 4.0 * sample_time;
   double damping_ratio = 0.33;
   if (ring.record != nullptr) {
@@ -179,16 +178,15 @@ ContactPoint starting_point(std::span<const TestRecord> records, std::span<const
                             double creep_torque) {
   CreepEstimate creep = estimate_creep(records, parts, creep_torque);
   const bool seen = creep.limit > 0.0;
-  // Where no hold shows any there is none, or no hold. So much of it, as a share of the spring's travel, as
-  // the records bear best; a little to begin with.
+  // No hold shows creep. Search its limit as a fraction of the spring's travel, starting with a small one.
   const double travel = seen ? 0.0 : creep_torque / estimate_spring(records, parts, creep, creep_torque).k1;
   if (!seen) creep.limit = 1e-3 * travel;
   ContactPoint point = point_with_creep(records, parts, creep, creep_torque);
   if (seen) return with_best_ringing(records, parts, point, creep_torque);
 
   double least = misfit(all_of(records), point, creep_torque);
-  for (const double share : {0.1, 0.2, 0.3, 0.45, 0.7, 1.0, 1.5, 2.2, 3.3}) {
-    creep.limit = share * travel;
+  for (const double proportion : {0.1, 0.2, 0.3, 0.45, 0.7, 1.0, 1.5, 2.2, 3.3}) {
+    creep.limit = proportion * travel;
     const ContactPoint tried = point_with_creep(records, parts, creep, creep_torque);
     const double left = misfit(all_of(records), tried, creep_torque);
     if (left >= least) continue;

@@ -10,8 +10,8 @@
 namespace zerocount {
 namespace {
 
-/// The first record of the trial with the global row `row` in the table of records, which is ordered by
-/// trial; its size where there is none.
+/// Index of the first sample of global row `row` in the trace, which is ordered by trial; the size of the
+/// trace if there is none.
 std::int64_t first_record(const StudyFile& file, std::int64_t row) {
   std::int64_t low = 0;
   std::int64_t high = file.trace_count();
@@ -70,7 +70,7 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
   RawSeries series;
   series.name = fmt::format("{} (point {}, trial {})", path.string(), point, index);
   const bool counts = choice.angle.value_or("count") == "count";
-  // Without its column, the motor's torque is the one decided, after the control's delay.
+  // Without a drive_torque column, the motor torque equals the commanded torque after the control delay.
   const bool commanded =
       choice.torque.value_or("drive_torque") == "torque" || !file.trace_extras().drive_torque;
   for (const TraceRecord& record : records) {

@@ -9,28 +9,27 @@
 
 namespace zerocount {
 
-/// One material test, checked and ready for identification: what the motor did to the rotor, sample by
-/// sample, and what the encoder said.
+/// One checked material test: the motor torque and the encoder reading at each sample.
 struct TestRecord {
-  std::string name;                  ///< as messages call it
+  std::string name;                  ///< name in messages
   double sample_time{5e-4};          ///< T, s
   std::vector<TorqueCourse> torque;  ///< [sample] from t_k to t_{k+1}
   std::vector<double> reading;       ///< [sample] angle at t_k, in `unit`
-  double unit{1.0};                  ///< of the readings, rad: a count, where they are counts
-  /// Whether the readings are whole counts, so that the rotor is anywhere in [reading, reading + 1).
+  double unit{1.0};                  ///< of the readings, rad; for counts one count
+  /// Whether the readings are whole counts: the angle is somewhere in [reading, reading + 1).
   bool counted{false};
-  bool units_believed{false};  ///< whatever the magnitudes that come of them
-  PlantStart start;            ///< what is known of the contact at the first sample
+  bool units_believed{false};  ///< skips the checks of magnitudes
+  PlantStart start;            ///< state of the contact at the first sample
 };
 
 inline std::size_t sample_count(const TestRecord& record) {
   return record.reading.size();
 }
 
-/// Largest less smallest torque, N m.
+/// Maximum − minimum torque, N m.
 double torque_range(const TestRecord& record);
 
-/// Largest magnitude of the torque, N m.
+/// Maximum |torque|, N m.
 double largest_torque(const TestRecord& record);
 
 }  // namespace zerocount

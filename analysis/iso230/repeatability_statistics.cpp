@@ -17,7 +17,7 @@ double at_rank(std::span<const double> sorted, std::int64_t rank) {
   return sorted[static_cast<std::size_t>(rank - 1)];
 }
 
-/// As quantile() of a Tally.
+/// As quantile() of a Histogram.
 Quantile sorted_quantile(std::span<const double> sorted, double probability, double confidence) {
   const std::int64_t n = std::ssize(sorted);
   const RankBounds bounds = quantile_rank_bounds(n, probability, confidence);
@@ -69,8 +69,9 @@ std::span<const ReportField<PointRepeatability>> point_repeatability_fields() {
       {"", "zero_repeatability", "1",
        "trials whose repeatability by the fine encoder is exactly 0, NaN of a single cycle", true,
        [](P p) { return p.zero_repeatability ? to_double(*p.zero_repeatability) : no_rank; }},
-      {"", "zero_repeatability_rate", "1", "zero_repeatability as a share of trials, NaN of a single cycle",
-       false, [](P p) { return p.zero_rate; }},
+      {"", "zero_repeatability_rate", "1",
+       "zero_repeatability as a proportion of trials, NaN of a single cycle", false,
+       [](P p) { return p.zero_rate; }},
       {"", "zero_repeatability_rate_low", "1", "lower 95 % Clopper-Pearson bound of zero_repeatability_rate",
        false, [](P p) { return p.zero_bounds.low; }},
       {"", "zero_repeatability_rate_high", "1", "upper 95 % Clopper-Pearson bound of zero_repeatability_rate",

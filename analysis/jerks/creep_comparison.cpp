@@ -38,7 +38,7 @@ std::string why_not(const TrialParameters& parameters) {
   return {};
 }
 
-/// The time (s) after `state` at which a jerk begins; infinite where none does.
+/// The time (s) after `state` at which a jerk begins; infinite if there is none.
 double time_to_edge(const TrialParameters& parameters, const SampleRecord& state) {
   constexpr double never = std::numeric_limits<double>::infinity();
   const FrictionParameters& friction = parameters.friction.uniform;
@@ -51,7 +51,7 @@ double time_to_edge(const TrialParameters& parameters, const SampleRecord& state
   return distance < room ? -std::log1p(-distance / room) / friction.alpha : never;
 }
 
-/// Follows the samples of a trial and notes its waits.
+/// Collects the waits of a trial, sample by sample.
 class WaitFollower {
  public:
   WaitFollower(const TrialParameters& parameters, std::int64_t trial, CreepComparison& comparison)
@@ -76,14 +76,14 @@ class WaitFollower {
       arrived_ = true;
       first_ = true;
     }
-    // One sample beyond the dwell: the torque of the sample before has acted.
+    // One sample after the dwell, because a torque acts during the following sample.
     if (arrived_ && zeros_ == dwell_ + 1) state_ = sample;
     const bool constant =
         state_ && sample.drive_torque == state_->drive_torque && sample.mode == HookMode::stick;
     if (state_ && !constant) steady_ = false;
   }
 
-  /// Of the move at hand, which ends with the last sample that was taken.
+  /// Ends the current move with the last sample.
   void finish() {
     if (arrived_) close(last_ + 1 - move_start_, false);
   }
@@ -98,7 +98,7 @@ class WaitFollower {
     arrived_ = false;
   }
 
-  /// Ends the wait at sample k of the move, if there is one.
+  /// Ends the current wait, if there is one, at sample k of the move.
   void close(std::int64_t k, bool by_jerk) {
     if (zeros_ > 0 && !state_) ++comparison_.too_short;
     if (state_ && !steady_) ++comparison_.unsteady;
@@ -149,11 +149,11 @@ CreepAgreement agreement_of(const CreepComparison& comparison, double sample_tim
     const double allowed = 2.0 * sample_time + 0.01 * (wait.end - wait.since);
     if (std::isnan(wait.onset)) {
       ++agreement.lasting;
-      agreement.lasting_foretold += wait.predicted > wait.end - allowed;
+      agreement.lasting_predicted += wait.predicted > wait.end - allowed;
     } else {
       ++agreement.ended;
       deviations.push_back(std::abs(wait.onset - wait.predicted));
-      agreement.foretold += deviations.back() <= allowed;
+      agreement.predicted += deviations.back() <= allowed;
     }
   }
   if (deviations.empty()) return agreement;

@@ -9,50 +9,51 @@
 
 namespace zerocount {
 
-/// A wait for the next jerk with the error at 0: the torque is constant, and only creep moves the rotor.
+/// The interval of zero error before the next jerk. The torque is constant, and only creep moves the rotor.
 /// Times in s from the start of the move.
 struct CreepWait {
   std::int64_t trial{0};  ///< index within its point
   std::int64_t move{0};
-  bool first{false};  ///< the first since the arrival
-  double since{0.0};  ///< where the state is taken: a dwell after the error became 0
-  double onset{std::numeric_limits<double>::quiet_NaN()};     ///< of the jerk that ended it; NaN if none did
-  double end{0.0};                                            ///< of the wait: the onset, or the move's end
-  double predicted{std::numeric_limits<double>::infinity()};  ///< by the closed form; infinite: never
+  bool first{false};  ///< the first wait after arrival
+  double since{0.0};  ///< start of the prediction: a dwell after the error became 0
+  double onset{std::numeric_limits<double>::quiet_NaN()};  ///< of the jerk that ended it; NaN without one
+  double end{0.0};  ///< end of the wait: the onset, or the end of the move
+  double predicted{std::numeric_limits<double>::infinity()};  ///< onset by the closed form; infinite: never
 };
 
-/// Jerks against the closed form for creep at constant torque.
+/// Comparison of the jerks with the closed form of creep at constant torque.
 struct CreepComparison {
-  std::int64_t trials{0};        ///< run again
-  std::string not_applicable{};  ///< why nothing was compared; empty where it could be
+  std::int64_t trials{0};        ///< simulated again
+  std::string not_applicable{};  ///< reason why the closed form does not apply; empty if it does
   std::vector<CreepWait> waits{};
-  std::int64_t too_short{0};  ///< waits of no more than a dwell: left out
-  std::int64_t unsteady{0};   ///< waits in which the torque was not constant, or the hook slid: left out
+  std::int64_t too_short{0};  ///< excluded waits: not longer than a dwell
+  std::int64_t unsteady{0};   ///< excluded waits: the torque was not constant, or the hook slid
 };
 
-/// The waits for jerks in the first `trials` trials of a point (all, where there are fewer), which are run
-/// again by the reference engine.
+/// Simulates the first `trials` trials of a point (or all, if there are fewer) again with the reference
+/// engine and collects their waits.
 ///
-/// While the error is 0 the integral stands still, and with it the torque U. Once the rotor has stopped
-/// swinging, its spring has the torque U too, and creep alone moves it, as creep_at_constant_torque says:
-/// xh → Uⁿ/λ as 1 − exp(−αt). A jerk begins when the rotor has crept the distance d to the edge of its count:
+/// While the error is 0, the integral and the torque U are constant. When
+/// the residual oscillation has decayed, the spring torque is also U, and only creep moves the rotor
+/// (creep_at_constant_torque): xh approaches Uⁿ/λ as 1 − exp(−αt). A jerk begins when the rotor has crept the
+/// distance d to the edge of its count:
 ///
-///   t = −ln(1 − d/(Uⁿ/λ − xh))/α,   or never where d ≥ Uⁿ/λ − xh.
+///   t = −ln(1 − d/(Uⁿ/λ − xh))/α,   or never if d ≥ Uⁿ/λ − xh.
 ///
-/// The state is taken a `verdict.dwell` after the error became 0. A jerk changes the torque by the integral,
-/// so that the form holds for each wait by itself, and not from one to the next. It does not apply where the
-/// friction does not creep, encoder or converter have noise, the encoder has errors, or a creep parameter
-/// varies along the rotor.
+/// The prediction starts from the state at `verdict.dwell` after the error became 0. A jerk changes the
+/// torque through the integral, so each wait is predicted separately. The closed form does not apply if the
+/// friction does not creep, the encoder or the converter has noise, the encoder has errors, or a creep
+/// parameter varies along the rotor.
 CreepComparison compare_with_creep(const Study& study, std::int64_t point, std::int64_t trials);
 
-/// How a comparison came out.
+/// Summary of a comparison.
 struct CreepAgreement {
-  std::int64_t ended{0};     ///< waits that a jerk ended
-  std::int64_t foretold{0};  ///< of them, within two samples and 1 % of the time from `since` foretold
-  std::int64_t lasting{0};   ///< waits without a jerk
-  std::int64_t lasting_foretold{0};  ///< of them, whose jerk was foretold for later or never, alike
+  std::int64_t ended{0};      ///< waits that ended with a jerk
+  std::int64_t predicted{0};  ///< of them, predicted to within two samples and 1 % of the time from `since`
+  std::int64_t lasting{0};    ///< waits without a jerk
+  std::int64_t lasting_predicted{0};                                   ///< of them, predicted to last as long
   double median_deviation{std::numeric_limits<double>::quiet_NaN()};   ///< of |onset − predicted|, s
-  double largest_deviation{std::numeric_limits<double>::quiet_NaN()};  ///< likewise; infinite: never foretold
+  double largest_deviation{std::numeric_limits<double>::quiet_NaN()};  ///< likewise
 };
 
 /// @param sample_time s.

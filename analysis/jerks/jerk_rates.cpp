@@ -14,13 +14,13 @@ double range_begin(std::int64_t j) {
   return std::pow(10.0, static_cast<double>(j) / per_decade);
 }
 
-/// The first sample that is not before the range.
+/// The first sample in range j.
 std::int64_t first_sample(std::int64_t j, double sample_time) {
   constexpr double rounding = 1e-12;
   return static_cast<std::int64_t>(std::ceil(range_begin(j) / sample_time * (1.0 - rounding)));
 }
 
-/// The range that a sample is in.
+/// The range that contains a sample.
 std::int64_t range_of(std::int64_t sample, double sample_time) {
   auto j = static_cast<std::int64_t>(
       std::floor(per_decade * std::log10(static_cast<double>(sample) * sample_time)));

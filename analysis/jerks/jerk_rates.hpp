@@ -10,26 +10,27 @@
 
 namespace zerocount {
 
-/// Counts jerks and the time in which they could begin, over ranges of the time since arrival that meet at
-/// 10^(j/5) s, j whole: five to a decade.
+/// Counts jerks and exposure (the time in which jerks could begin) in ranges of the time since arrival. The
+/// ranges are bounded by 10^(j/5) s for integers j: five per decade.
 class JerkRates {
  public:
-  /// @param clusters_return whether moves of one cluster come between those of others: trials do not, rigs do
+  /// @param clusters_return whether the moves of one cluster may be interleaved with those of others: true
+  /// for rigs, false for trials
   explicit JerkRates(bool clusters_return = false) : clusters_return_(clusters_return) {}
-  /// @param move one that arrived and was not lost; moves in order of their trials.
+  /// @param move a move that arrived and was not lost. Moves must be added in order of their trials.
   void add(const ObservedMove& move);
-  /// In order of time; the first begins with the first instant at which any move could jerk, the last ends
-  /// with the longest observation.
+  /// In order of time. The first range begins with the earliest possible jerk of any move; the last range
+  /// ends with the longest observation.
   std::vector<JerkRate> rates(double confidence) const;
 
  private:
   struct Cluster {
     double jerks{0.0}, exposure{0.0};  ///< exposure in s
   };
-  /// One range: the clusters that may have more moves, and sums over those that have not.
+  /// One range: the clusters that may still receive moves, and sums over the completed clusters.
   struct Range {
     std::map<std::int64_t, Cluster> open;
-    std::int64_t move{-1};  ///< number of the last move that was seen here
+    std::int64_t move{-1};  ///< number of the last move added to this range
     std::int64_t moves{0}, clusters{0}, jerks{0};
     double exposure{0.0}, jerks_squared{0.0}, jerks_by_exposure{0.0}, exposure_squared{0.0};
 

@@ -8,10 +8,10 @@
 
 #include "analysis/jerks/jerk_statistics.hpp"
 
-/// How the verb `jerks` tells of the jerks of a study.
+/// Output of the verb `jerks`.
 namespace zerocount {
 
-/// Everything that is told of a study.
+/// The reported data of a study.
 struct JerkReport {
   std::string name;  ///< of the study
   AxisKind axis{AxisKind::rotary};
@@ -19,13 +19,13 @@ struct JerkReport {
   std::vector<PointJerks> points;
 };
 
-/// The jerks of these points of a complete results file (of all, where none is named), with `creep_trials`
-/// trials of each run again to be compared with creep.
+/// The jerks of `points` (all points if empty) of a complete results file. `creep_trials` trials of each
+/// point are simulated again and compared with the closed form of creep.
 /// @throws Failure as jerk_statistics.
 JerkReport jerk_report(const StudyFile& file, const Study& study, std::vector<std::int64_t> points,
                        double confidence, std::int64_t creep_trials);
 
-/// Whether any move of the report arrived: without one nothing was measured.
+/// Whether any move arrived. Without an arrival there are no measurements.
 bool any_arrival(const JerkReport& report);
 
 /// {"name", "confidence", "points": [{"point", "label", …}]} with the names of JerkStatistics; NaN is null.
@@ -34,7 +34,7 @@ nlohmann::ordered_json jerk_json(const JerkReport& report);
 /// jerk_json as text, indented, ending with a line break.
 std::string jerk_json_text(const JerkReport& report);
 
-/// For people: for each point a paragraph and the table of rates. UTF-8.
+/// The report as text: for each point a paragraph and the table of rates. UTF-8.
 std::string jerk_text(const JerkReport& report);
 
 }  // namespace zerocount

@@ -32,9 +32,10 @@ std::string rate_table(const std::vector<JerkRate>& rates, const std::string& le
   return aligned_table(columns);
 }
 
-std::string share_text(const ClusteredProportion& share) {
-  return fmt::format("{} of {}, bounds [{:.1f}, {:.1f}] %", percentage(share.hits, share.events),
-                     share.events, 100.0 * share.korn_graubard.low, 100.0 * share.korn_graubard.high);
+std::string proportion_text(const ClusteredProportion& proportion) {
+  return fmt::format("{} of {}, bounds [{:.1f}, {:.1f}] %", percentage(proportion.hits, proportion.events),
+                     proportion.events, 100.0 * proportion.korn_graubard.low,
+                     100.0 * proportion.korn_graubard.high);
 }
 
 std::string intervals_text(const JerkIntervals& intervals) {
@@ -52,10 +53,9 @@ std::string intervals_text(const JerkIntervals& intervals) {
 std::string slowing_text(const LaplaceSummary& slowing, const std::string& level) {
   if (slowing.moves == 0) return {};
   return fmt::format(
-      "slowing down, from the first jerk on: score {:.2f} over {} moves (p = {:.2g}); of {} moves with {} or "
-      "more, "
-      "{} slow down and {} quicken ({} one-sided)\n",
-      slowing.summed, slowing.moves, slowing.p_slowing, slowing.tested, laplace_least_events, slowing.slowing,
+      "slowing down after the first jerk: score {:.2f} over {} moves (p = {:.2g}); of {} moves with {} or "
+      "more, {} slow down and {} quicken ({} one-sided)\n",
+      slowing.summed, slowing.moves, slowing.p_slowing, slowing.tested, min_laplace_events, slowing.slowing,
       slowing.quickening, level);
 }
 
@@ -64,10 +64,9 @@ std::string creep_text(const CreepComparison& creep, const CreepAgreement& agree
     return fmt::format("creep at constant torque: does not apply: {}\n", creep.not_applicable);
   if (creep.trials == 0) return {};
   std::string text = fmt::format(
-      "creep at constant torque: in {} trials run again it foretells {} of {} jerks, and {} of {} waits "
-      "without "
-      "one",
-      creep.trials, agreement.foretold, agreement.ended, agreement.lasting_foretold, agreement.lasting);
+      "creep at constant torque: in {} trials simulated again it predicts {} of {} jerks, and {} of {} waits "
+      "without one",
+      creep.trials, agreement.predicted, agreement.ended, agreement.lasting_predicted, agreement.lasting);
   if (agreement.ended > 0)
     text += fmt::format("; median deviation {:.2g} ms", 1e3 * agreement.median_deviation);
   return text + "\n";
@@ -78,29 +77,27 @@ std::string point_text(const PointJerks& point, const std::string& level, AxisKi
   std::string text =
       fmt::format("{}\n{} jerks in {} of {} trials; {} of {} moves arrived", printable(point.label),
                   jerks.jerks, jerks.with_jerks, jerks.trials, jerks.arrived, jerks.moves);
-  if (jerks.lost > 0) text += fmt::format(", the motion of {} was lost then: left out", jerks.lost);
+  if (jerks.lost > 0) text += fmt::format(", {} of these failed numerically and are excluded", jerks.lost);
   text += "\n\n";
   if (!jerks.rates.empty()) text += rate_table(jerks.rates, level) + "\n";
   text += intervals_text(jerks.intervals) + slowing_text(jerks.slowing, level);
   if (jerks.jerks > 0) {
-    text += text_on(axis,
-                    fmt::format("in the direction of the holding torque: {}\n", share_text(jerks.agreement)));
+    text += text_on(
+        axis, fmt::format("in the direction of the holding torque: {}\n", proportion_text(jerks.agreement)));
     text += fmt::format("of one count: {}; largest {} counts; median duration {} s\n",
-                        share_text(jerks.magnitudes.one_count), jerks.magnitudes.max,
+                        proportion_text(jerks.magnitudes.one_count), jerks.magnitudes.max,
                         short_number(jerks.magnitudes.median_duration));
   }
   return text + creep_text(point.creep, point.creep_agreement) + "\n";
 }
 
 constexpr const char* legend =
-    "watched: the time of all moves together in which a jerk could have begun\n"
-    "rate: jerks that began per second watched; bounds after Garwood, widened by the dispersion: how much "
-    "more "
-    "the\n"
-    "jerks of a trial vary than independent ones would (1)\n"
-    "score: Laplace's, standard normal without a trend, negative where jerks slow down\n"
-    "creep at constant torque: from the state a dwell after the error became 0, when the next jerk has to "
-    "come\n";
+    "watched: time in which a jerk could have begun, summed over all moves\n"
+    "rate: jerks per second watched; Garwood's bounds, widened where the jerks of a trial vary more than\n"
+    "independent ones (dispersion above 1)\n"
+    "score: Laplace's trend test, standard normal without a trend, negative if jerks slow down\n"
+    "creep at constant torque: onset of the next jerk, predicted from the state a dwell after the error "
+    "became 0\n";
 
 }  // namespace
 

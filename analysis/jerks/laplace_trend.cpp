@@ -32,7 +32,7 @@ void LaplaceSum::add(const LaplaceTerm& term) {
   excess_ += term.excess;
   variance_ += term.variance;
   scores_ += score;
-  if (term.events < laplace_least_events) return;
+  if (term.events < min_laplace_events) return;
   ++counted_.tested;
   counted_.slowing += score < -critical_;
   counted_.quickening += score > critical_;

@@ -20,8 +20,7 @@ namespace {
   throw Failure(ExitCode::bad_data, fmt::format("{}: trial {}: {}", file.path().string(), row, what));
 }
 
-/// The parameters of the trials of a point as far as they say when their samples are: drawn once where they
-/// are the same in all trials.
+/// The timing parameters of the trials of a point. Drawn only once if they are the same in all trials.
 class Timings {
  public:
   Timings(const Study& study, std::int64_t point) : study_(study), point_(point) {
@@ -50,7 +49,7 @@ SampledJerk sampled(const Jerk& jerk, const MoveOutcome& move, double sample_rat
           jerk.magnitude, jerk.direction == sign_of(move.holding_torque)};
 }
 
-/// A move that was ended early had diverged, which is a jerk that lasted to its end.
+/// A move that was stopped early had diverged: it counts as a jerk that lasted to the end.
 std::int64_t observed_end(const ObservedMove& observed, const MoveOutcome& move, std::int64_t samples) {
   if (!move.stopped || observed.jerks.empty()) return samples - move.arrival;
   return observed.jerks.back().onset + observed.jerks.back().length;

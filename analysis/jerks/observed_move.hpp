@@ -13,7 +13,7 @@ namespace zerocount {
 
 /// A jerk in whole samples.
 struct SampledJerk {
-  std::int64_t onset{0};      ///< first sample with an error, from the arrival of the move
+  std::int64_t onset{0};      ///< first sample with an error, counted from arrival
   std::int64_t length{0};     ///< samples with an error
   std::int64_t magnitude{0};  ///< counts
   bool agrees{false};         ///< in the direction of the holding torque of the move
@@ -22,23 +22,23 @@ struct SampledJerk {
 /// A move after its arrival. Samples are counted from the first of the arrival dwell.
 struct ObservedMove {
   std::int64_t trial{0};    ///< global row
-  std::int64_t cluster{0};  ///< what was drawn at random: the trial, or with rigs the rig that it ran on
+  std::int64_t cluster{0};  ///< the independent unit: the trial, or with rigs the trial's rig
   bool arrived{false};
-  bool lost{false};         ///< the motion was lost, it is not known when: nothing below
+  bool lost{false};         ///< the state became non-finite at an unknown time; the fields below are unset
   double sample_time{0.0};  ///< s
   std::int64_t dwell{0};    ///< first sample at which a jerk could begin
-  std::int64_t end{0};      ///< number of samples that were observed
+  std::int64_t end{0};      ///< number of observed samples
   std::vector<SampledJerk> jerks;
 };
 
-/// Calls `take(first, end)` for each run of samples at which a jerk could begin: those after a sample without
-/// error, from the dwell to the end.
+/// Calls `take(first, end)` for each run of samples at which a jerk could begin: from the dwell on, samples
+/// whose predecessor has no error.
 void for_each_run_at_risk(const ObservedMove& move,
                           const std::function<void(std::int64_t, std::int64_t)>& take);
 
 /// Calls `take` for each move of a point, in order of trial and move.
-/// @throws Failure (bad_data) where the jerks of a trial are not those that its moves counted, or are outside
-/// the time of the move.
+/// @throws Failure (bad_data) if the jerks of a trial do not match the numbers that its moves counted, or are
+/// outside the time of the move.
 void for_each_move(const StudyFile& file, const Study& study, std::int64_t point,
                    const std::function<void(const ObservedMove&)>& take);
 

@@ -18,7 +18,7 @@ namespace zerocount {
 namespace {
 
 /// Onsets are whole multiples of the sample time. Their differences carry rounding errors that would make
-/// equal intervals differ, in a tally and in a comparison: to the picosecond they do not.
+/// equal intervals differ, in a histogram and in a comparison: to the picosecond they do not.
 double rounded_interval(double seconds) {
   return std::round(seconds * 1e12) / 1e12;
 }
@@ -48,7 +48,7 @@ auto tolerance_limits(const ClusteredSample& slowest, const StatisticsOptions& o
 
 /// Without bounds of the mean, and without limits.
 SettlingStatistics settling_statistics(const ClusteredSample& sample, double confidence) {
-  const Tally<double>& times = sample.observed();
+  const Histogram<double>& times = sample.observed();
   const auto settled = [&](double probability) {
     return clustered_quantile(sample, probability, confidence);
   };
@@ -285,7 +285,7 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
 
   result.oscillation = {amplitudes_.size, quantile(amplitudes_, 0.5).value, quantile(periods_, 0.5).value};
 
-  const Tally<std::int64_t>& jerks = jerk_counts_;
+  const Histogram<std::int64_t>& jerks = jerk_counts_;
   const std::int64_t jerk_total = total(jerks);
   result.jerk_count = {jerks.size,
                        mean(jerks),
@@ -305,7 +305,7 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
         jerk_totals_, bootstrap_stream(*options.bootstrap, "bootstrap/jerk_count.mean"), confidence);
   }
   result.jerk_interval = {jerk_intervals_.size, mean(jerk_intervals_), quantile(jerk_intervals_, 0.5).value};
-  result.jerk_slowing.share = rate(result.jerk_slowing.slowing, result.jerk_slowing.moves);
+  result.jerk_slowing.proportion = rate(result.jerk_slowing.slowing, result.jerk_slowing.moves);
   result.jerk_slowing.tau = kendall_tau(interval_trend_);
   result.jerk_agreement = rate(result.jerks_agreeing, jerk_total);
   result.jerk_one_count_share = rate(one_count_jerks_, jerk_total);

@@ -50,18 +50,18 @@ class PointAccumulator {
   void add_jerks(const MoveOutcome& move, std::span<const Jerk> jerks);
 
   MoveKind kind_;
-  PointSummary counted_;                 ///< the fields that are plain counts and moments
-  std::vector<RigTrials> rigs_;          ///< [rig], of those that have trials
-  TrialClusters settling_times_;         ///< of moves with a target
-  ClusterTotals settling_totals_;        ///< of the moves that arrived
-  TrialClusters final_settling_times_;   ///< likewise
-  ClusterTotals final_settling_totals_;  ///< of the moves that stayed at zero error
-  TrialClusters slowest_times_;          ///< of trials: of the move that took longest
-  TrialClusters final_errors_;           ///< of moves with a known error
-  Tally<double> amplitudes_, periods_;   ///< of oscillations, counts and s
-  Tally<std::int64_t> jerk_counts_;
+  PointSummary counted_;                    ///< the fields that are plain counts and moments
+  std::vector<RigTrials> rigs_;             ///< [rig], of those that have trials
+  TrialClusters settling_times_;            ///< of moves with a target
+  ClusterTotals settling_totals_;           ///< of the moves that arrived
+  TrialClusters final_settling_times_;      ///< likewise
+  ClusterTotals final_settling_totals_;     ///< of the moves that stayed at zero error
+  TrialClusters slowest_times_;             ///< of trials: of the move that took longest
+  TrialClusters final_errors_;              ///< of moves with a known error
+  Histogram<double> amplitudes_, periods_;  ///< of oscillations, counts and s
+  Histogram<std::int64_t> jerk_counts_;
   ClusterTotals jerk_totals_;  ///< of trials
-  Tally<double> jerk_intervals_;
+  Histogram<double> jerk_intervals_;
   RankTrend interval_trend_;
   std::int64_t one_count_jerks_{0};
   std::vector<double> intervals_;  ///< of the move at hand; kept for its memory

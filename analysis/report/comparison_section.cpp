@@ -17,7 +17,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t max_measures = 200;
-constexpr std::size_t most_bars = 60;
+constexpr std::size_t max_bars = 60;
 
 /// A measure at a point.
 struct ComparedMeasure {
@@ -71,7 +71,7 @@ std::string table_of(const std::vector<ComparedMeasure>& measures) {
   std::string html = html_table({point, measure, baseline, current, effect, bounds, margin, p, verdict});
   if (measures.size() > max_measures) {
     html += fmt::format(
-        "<p class=\"note\">The first {} of {} rows, the failed ones first; all are told by "
+        "<p class=\"note\">The first {} of {} rows, the failed ones first; all are printed by "
         "<code>zerocount compare</code>.</p>\n",
         max_measures, measures.size());
   }
@@ -101,7 +101,7 @@ std::string differences_table(const StudyComparison& comparison) {
     before.cells.push_back(difference.baseline.empty() ? "–" : difference.baseline);
     now.cells.push_back(difference.current.empty() ? "–" : difference.current);
   }
-  return "<h3>What differs in the manifests</h3>\n" + html_table({key, before, now});
+  return "<h3>Differences of the manifests</h3>\n" + html_table({key, before, now});
 }
 
 std::string file_text(const ComparedFile& file) {
@@ -109,7 +109,7 @@ std::string file_text(const ComparedFile& file) {
                      file.created, file.version, file.commit, file.trials);
 }
 
-/// The change of the success rate, point by point.
+/// Figure of the change of the success rate at each point.
 Figure success_change(const StudyComparison& comparison, const std::vector<ComparedMeasure>& measures) {
   FigureData data{"changes",
                   {{"label", "point", ""},
@@ -119,20 +119,20 @@ Figure success_change(const StudyComparison& comparison, const std::vector<Compa
                    {"verdict", "verdict", ""},
                    {"margin", "margin", "percentage points"}}};
   for (const ComparedMeasure& one : measures) {
-    if (one.measure->measure != gate_measures().front().name || data.rows.size() == most_bars) continue;
+    if (one.measure->measure != gate_measures().front().name || data.rows.size() == max_bars) continue;
     data.rows.push_back(ordered_json::array(
         {one.point->label, datum(-100.0 * one.measure->effect), datum(-100.0 * one.measure->bounds.high),
          datum(-100.0 * one.measure->bounds.low), std::string(word_of(one.measure->verdict)),
          datum(-100.0 * one.measure->margin)}));
   }
   std::string caption = fmt::format(
-      "Change of the success rate since the baseline, with {:.0f} % bounds; the tick is the margin that is "
-      "still accepted. A "
-      "point whose bounds lie right of its tick is shown to be no worse than that. ",
+      "Success rate of each point minus that of the baseline (dot), with {:.0f} % bounds (bar). The tick is "
+      "the "
+      "margin: the largest accepted loss. A point passes if its whole bar lies right of the tick. ",
       100.0 * comparison.confidence);
-  if (comparison.points.size() > most_bars)
-    caption +=
-        fmt::format("The {} of {} points with the gravest verdicts. ", most_bars, comparison.points.size());
+  if (comparison.points.size() > max_bars)
+    caption += fmt::format("Shown are the {} of {} points with the worst verdicts. ", max_bars,
+                           comparison.points.size());
   Figure figure = figure_of("success-change", "success-change", "Success against the baseline", caption);
   set_rows(figure, data.rows.size(), 24);
   figure.data.push_back(std::move(data));

@@ -5,8 +5,8 @@
 
 namespace zerocount {
 
-/// What became of the study since a baseline: the verdict, what differs in the manifests, and every measure
-/// at every point, the failed ones first.
+/// Comparison with a baseline: the verdict, the differences of the manifests, and every measure at every
+/// point, failed ones first.
 PageSection comparison_section(const StudyComparison& comparison);
 
 }  // namespace zerocount

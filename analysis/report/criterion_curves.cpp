@@ -14,7 +14,7 @@
 namespace zerocount {
 namespace {
 
-constexpr std::int64_t most_trials = 200;
+constexpr std::int64_t max_trials = 200;
 constexpr int curve_points = 64;
 constexpr int search_steps = 48;
 constexpr int bisections = 40;
@@ -22,7 +22,7 @@ constexpr int bisections = 40;
 struct Criterion {
   const char* name;
   double IntegralGainBounds::*bound;
-  bool first;  ///< of all trials, the one that meets it at the lowest gain; otherwise the last
+  bool first;  ///< the trial that reaches the criterion at the lowest gain; otherwise at the highest
 };
 
 constexpr Criterion criteria[] = {
@@ -32,7 +32,7 @@ constexpr Criterion criteria[] = {
     {"(7)", &IntegralGainBounds::unstable_above, false},
 };
 
-/// The trials at which the criteria are looked at, with two parameters that are changed at will.
+/// The examined trials, with two variable parameters.
 class CriterionTrials {
  public:
   CriterionTrials(const Study& study, std::int64_t point, const CriterionPlane& plane) : units_(study.units) {
@@ -42,7 +42,7 @@ class CriterionTrials {
     set_x_ = parameter_table()[*x].set;
     set_y_ = parameter_table()[*y].set;
     if (set_x_ == nullptr || set_y_ == nullptr) return;
-    for (const std::int64_t index : spread_over(study.trials, most_trials)) {
+    for (const std::int64_t index : spread_over(study.trials, max_trials)) {
       TrialParameters parameters = study_trial_as_given(study, point, index).parameters;
       if (!predict(parameters).applies) continue;
       given_.push_back({parameters.encoder, parameters.controller});
@@ -52,7 +52,7 @@ class CriterionTrials {
 
   bool empty() const { return trials_.empty(); }
 
-  /// ki over its bound, of the trial for which that is greatest (first) or least; 1 on the curve.
+  /// Maximum (first) or minimum (last) of ki/bound over the trials; 1 on the curve.
   double gain_over_bound(const Criterion& criterion, double x, double y) {
     double extreme = criterion.first ? 0.0 : std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < trials_.size(); ++i) {
@@ -69,7 +69,7 @@ class CriterionTrials {
   }
 
  private:
-  /// What completing a trial changes, before that.
+  /// Values of a trial before its completion.
   struct Given {
     EncoderParameters encoder;
     ControllerParameters controller;
@@ -82,11 +82,11 @@ class CriterionTrials {
   void (*set_y_)(TrialParameters&, double){nullptr};
 };
 
-double between(double low, double high, double share, bool by_ratio) {
-  return by_ratio ? low * std::pow(high / low, share) : low + share * (high - low);
+double between(double low, double high, double fraction, bool by_ratio) {
+  return by_ratio ? low * std::pow(high / low, fraction) : low + fraction * (high - low);
 }
 
-/// The lowest share in [0, 1] at which `excess` changes its sign, none where it does not.
+/// The lowest fraction in [0, 1] at which `excess` changes its sign, if any.
 std::optional<double> crossing(const std::function<double(double)>& excess) {
   double low = 0.0;
   double at_low = excess(low);
@@ -106,18 +106,18 @@ std::optional<double> crossing(const std::function<double(double)>& excess) {
   return std::nullopt;
 }
 
-/// The curve, searched along x at each y, or along y at each x.
+/// The points of a curve, searched along x for each y, or along y for each x.
 std::vector<CurvePoint> curve(CriterionTrials& trials, const Criterion& criterion,
                               const CriterionPlane& plane, bool along_x) {
   std::vector<CurvePoint> points;
   for (int i = 0; i < curve_points; ++i) {
     const double fixed = static_cast<double>(i) / (curve_points - 1);
-    const auto place = [&](double share) {
-      return CurvePoint{between(plane.x_low, plane.x_high, along_x ? share : fixed, plane.x_by_ratio),
-                        between(plane.y_low, plane.y_high, along_x ? fixed : share, plane.y_by_ratio)};
+    const auto place = [&](double fraction) {
+      return CurvePoint{between(plane.x_low, plane.x_high, along_x ? fraction : fixed, plane.x_by_ratio),
+                        between(plane.y_low, plane.y_high, along_x ? fixed : fraction, plane.y_by_ratio)};
     };
-    const std::optional<double> found = crossing([&](double share) {
-      const CurvePoint at = place(share);
+    const std::optional<double> found = crossing([&](double fraction) {
+      const CurvePoint at = place(fraction);
       return trials.gain_over_bound(criterion, at.x, at.y) - 1.0;
     });
     if (found) points.push_back(place(*found));

@@ -8,31 +8,29 @@
 
 namespace zerocount {
 
-/// Two axes of the plane in which the criteria are drawn.
+/// The two axes of a stability map.
 struct CriterionPlane {
   std::string x, y;  ///< dotted paths of parameters
   double x_low{0.0}, x_high{1.0};
   double y_low{0.0}, y_high{1.0};
-  bool x_by_ratio{false}, y_by_ratio{false};  ///< spaced evenly in the logarithm
+  bool x_by_ratio{false}, y_by_ratio{false};  ///< logarithmic axis
 };
 
 struct CurvePoint {
   double x{0.0}, y{0.0};
 };
 
-/// Where one of the paper's criteria is just met.
+/// Curve on which ki equals the bound of one of the paper's criteria.
 struct CriterionCurve {
   std::string criterion;  ///< "(6)" or "(7)"
-  bool first{true};       ///< of the trial that meets it first; otherwise of the one that meets it last
+  bool first{true};       ///< for the trial with the lowest bound; otherwise for the trial with the highest
   std::vector<CurvePoint> points;  ///< along the curve
 };
 
-/// The curves on which controller.ki is at the bound of (6) and of (7), for the trial of the point that meets
-/// it first and for the one that meets it last. Empty where the criteria do not apply or the plane's axes are
-/// not parameters; a curve that does not pass through the plane is left out.
-///
-/// Below the first curve of (6) every trial is stable by the paper, above the last one of (7) none is. At
-/// most 200 trials are looked at, an even spread.
+/// The curves on which controller.ki equals the bound of (6) and of (7), for the trials of the point with the
+/// lowest and the highest bound. Empty if the criteria do not apply or the plane's axes are not parameters.
+/// Curves outside the plane are omitted. Below the first curve of (6) every trial is stable by the paper;
+/// above the last curve of (7) every trial is unstable. At most 200 evenly spaced trials are examined.
 std::vector<CriterionCurve> criterion_curves(const Study& study, std::int64_t point,
                                              const CriterionPlane& plane);
 

@@ -6,22 +6,21 @@
 
 namespace zerocount {
 
-/// A file that was put into the program when it was built.
+/// A file embedded in the program at build time.
 struct EmbeddedFile {
   std::string_view name;  ///< "vega.min.js"
   std::string_view bytes;
 };
 
-/// All of them: the Vega-Lite specifications and the page of the report, and, where they were there when the
-/// program was built, the JavaScript libraries that draw.
+/// All embedded files: the Vega-Lite specifications, the page of the report, and the JavaScript libraries for
+/// drawing (if they were installed at build time).
 std::span<const EmbeddedFile> embedded_files();
 
-/// The bytes of one of them.
-/// @throws Failure (machine_failed) where the program was built without it; the message says how to build it
-/// with it.
+/// The contents of an embedded file.
+/// @throws Failure (machine_failed) if the program was built without it; the message says how to include it.
 std::string_view embedded_file(std::string_view name);
 
-/// The libraries that draw, in the order in which they are to be loaded.
+/// The libraries for drawing, in loading order.
 std::span<const std::string_view> drawing_libraries();
 
 }  // namespace zerocount

@@ -13,7 +13,7 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
   return text;
 }
 
-/// `printable`, but for tabs and line feeds, which stay.
+/// As printable(), but keeps tabs and line feeds.
 std::string cleaned(std::string_view text) {
   std::string clean;
   std::size_t begin = 0;

@@ -13,14 +13,14 @@
 namespace zerocount {
 namespace {
 
-/// Whether the title is one of bounds, which it then says are too narrow.
+/// Adds "too narrow" to the title of a bound; returns whether it was one.
 bool qualify(std::string& title) {
   if (title.find("bound") == std::string::npos) return false;
   title += ", too narrow";
   return true;
 }
 
-/// Calls `change` with the titles anywhere in a specification.
+/// Calls `change` for all titles in a specification.
 template <class Change>
 void change_titles(nlohmann::ordered_json& part, const Change& change) {
   if (!part.is_structured()) return;
@@ -33,7 +33,7 @@ void change_titles(nlohmann::ordered_json& part, const Change& change) {
   }
 }
 
-/// "position (µm)" for "rotor angle (µrad)".
+/// Converts a title to an axis: "position (µm)" for "rotor angle (µrad)".
 void reword_title(std::string& title, AxisKind axis) {
   const std::size_t unit = title.ends_with(')') ? title.rfind('(') : std::string::npos;
   if (unit == std::string::npos) {

@@ -5,26 +5,26 @@
 
 namespace zerocount {
 
-/// A column of a table of the page.
+/// A column of an HTML table. All texts are plain text.
 struct HtmlColumn {
-  std::string head;  ///< plain text, as all of this
-  std::string unit;  ///< empty where there is none to say
-  bool text{false};  ///< aligned to the left; its lines may be broken
+  std::string head;  ///< header
+  std::string unit;  ///< empty: no unit
+  bool text{false};  ///< left-aligned, with line breaks
   std::vector<std::string> cells;
-  std::vector<std::string> below{};  ///< a smaller second line of each cell, or empty
+  std::vector<std::string> below{};  ///< [row] smaller second line of the cell; may be empty
 };
 
-/// The columns as a table that scrolls where it is too wide.
+/// The columns as a table that scrolls if it is too wide.
 std::string html_table(const std::vector<HtmlColumn>& columns);
 
-/// A table of names and values.
+/// A row of a table of names and values.
 struct HtmlFact {
   std::string name;
   std::string value;
 };
 std::string html_facts(const std::vector<HtmlFact>& facts);
 
-/// Text of fixed width behind a line that opens it.
+/// Preformatted text, hidden until the line `head` is opened.
 std::string html_folded(const std::string& head, const std::string& text);
 
 }  // namespace zerocount

@@ -12,7 +12,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::int64_t max_moves = 50;
-constexpr std::int64_t most_jerks_of_a_row = 120;
+constexpr std::int64_t max_jerks_of_a_row = 120;
 
 /// A move with jerks.
 struct JerkingMove {
@@ -21,7 +21,7 @@ struct JerkingMove {
   MoveOutcome outcome;
 };
 
-/// The moves with jerks of a point, as many as are shown.
+/// The shown moves with jerks of a point.
 struct ShownMoves {
   std::int64_t all{0};
   std::vector<JerkingMove> shown;
@@ -65,7 +65,7 @@ std::int64_t add_jerks(FigureData& data, const StudyFile& file, const JerkingMov
   std::int64_t added = 0;
   for (const JerkRecord& jerk : file.jerks({move.row, 1})) {
     if (jerk.move != move.move) continue;
-    if (added == most_jerks_of_a_row) {
+    if (added == max_jerks_of_a_row) {
       ++left_out;
       continue;
     }
@@ -92,22 +92,20 @@ Figure raster(const ReportedStudy& reported, std::int64_t point) {
   std::int64_t number = 0;
   for (const JerkingMove& move : moves.shown) left_out += add_jerks(data, reported.file, move, number++);
   std::string caption = fmt::format(
-      "Every mark is the onset of a jerk, every row a move of point {}, from its arrival on. Jerks that "
-      "creep "
-      "alone causes all go one way and come ever less often: their marks are of one colour and thin out to "
-      "the "
-      "right. Marks of both colours, or that grow denser, have another cause as well, such as a coarse "
-      "converter. ",
+      "Each row is a move of point {}, from its arrival on; each mark is the onset of a jerk, coloured by "
+      "its direction. Jerks caused by creep alone have the same direction, and their rate decreases with "
+      "time. Marks of both colours, or an increasing density, show another cause as well, such as a coarse "
+      "DAC. ",
       reported.summary.labels[static_cast<std::size_t>(point)]);
   if (std::ssize(moves.shown) < moves.all) {
-    caption += fmt::format("A sample: {} of the {} moves with jerks, an even spread in their order. ",
-                           moves.shown.size(), moves.all);
+    caption += fmt::format("Shown are {} of the {} moves with jerks, evenly spaced. ", moves.shown.size(),
+                           moves.all);
   }
   if (left_out > 0) {
-    caption += fmt::format("Of each move at most {} jerks are shown; {} later ones are left out. ",
-                           most_jerks_of_a_row, left_out);
+    caption += fmt::format("Of each move at most {} jerks are shown; {} later ones are omitted. ",
+                           max_jerks_of_a_row, left_out);
   }
-  Figure figure = figure_of("jerk-raster", "jerk-raster", "Jerks, move by move", caption);
+  Figure figure = figure_of("jerk-raster", "jerk-raster", "Jerks of single moves", caption);
   set_rows(figure, std::max<std::size_t>(moves.shown.size(), 12), 6);
   figure.data.push_back(std::move(data));
   return figure;
@@ -130,18 +128,17 @@ std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point) {
         ordered_json::array({datum(part.from), datum(part.to), datum(part.rate), datum(part.bounds.low),
                              datum(part.bounds.high), part.jerks, part.moves, datum(part.exposure)}));
   }
-  Figure figure = figure_of(
-      "jerk-rate", "jerk-rate", "How often it jerks",
-      fmt::format(
-          "Jerks per second at point {} against the time since arrival, over all its moves that arrived. A "
-          "rate that falls is creep that runs out as the contact hardens. The boxes are 95 % bounds of the "
-          "rate "
-          "in each range (Garwood, widened where trials differ), each by itself.",
-          reported.summary.labels[static_cast<std::size_t>(point)]));
+  Figure figure =
+      figure_of("jerk-rate", "jerk-rate", "Rate of jerks",
+                fmt::format("Number of jerks per second after arrival at point {}, over all moves that "
+                            "arrived (line), against the time since arrival. A decreasing rate shows creep "
+                            "that ends as the contact hardens. The boxes are 95 % bounds of the rate in each "
+                            "range of time (Garwood, widened if trials differ), for each range separately.",
+                            reported.summary.labels[static_cast<std::size_t>(point)]));
   ordered_json& x = figure.specification["encoding"]["x"];
   const double first = jerks.rates.front().from > 0.0 ? jerks.rates.front().from : jerks.rates.front().to;
   x["axis"]["values"] = round_numbers(jerks.rates.front().from, jerks.rates.back().to, first);
-  if (jerks.rates.front().from == 0.0) {  // the logarithm has no place for it
+  if (jerks.rates.front().from == 0.0) {  // a logarithmic axis cannot show 0
     x["scale"]["type"] = "symlog";
     x["scale"]["constant"] = first;
   }

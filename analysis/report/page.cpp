@@ -24,7 +24,7 @@ std::string css_variables(const ordered_json& values) {
   return text;
 }
 
-/// The colours as CSS: light, dark where the reader's system is dark, and always light on paper.
+/// The colours as CSS: light, dark if the reader's system is dark, and always light in print.
 std::string css_colours() {
   const ordered_json all = colours();
   return fmt::format(
@@ -62,9 +62,9 @@ ordered_json figures_json(const ReportPage& page) {
 
 std::string figure_html(const Figure& figure) {
   return fmt::format(
-      "<figure id=\"figure-{0}\"><h3>{1}</h3><div class=\"plot\" role=\"img\" aria-label=\"{1}\"></div>"
-      "<figcaption>{2}</figcaption><details class=\"data\"><summary>Data of this figure</summary>"
-      "<div class=\"scroll\"></div></details></figure>\n",
+      "<figure id=\"figure-{0}\"><h3>{1}</h3><div class=\"plot\" role=\"img\" "
+      "aria-label=\"{1}\"></div><figcaption>{2}</figcaption><details class=\"data\"><summary>Data of this "
+      "figure</summary><div class=\"scroll\"></div></details></figure>\n",
       html_text(figure.name), html_text(figure.title), html_prose(figure.caption));
 }
 
@@ -82,7 +82,7 @@ std::string contents_html(const ReportPage& page) {
   return text;
 }
 
-/// The template with each {{name}} replaced, in one pass: what is put in is not looked at again.
+/// Replaces each {{name}} of the template in one pass; inserted texts are not expanded again.
 std::string filled(std::string_view pattern, const std::map<std::string_view, std::string>& values) {
   std::string text;
   while (true) {

@@ -7,15 +7,15 @@
 
 namespace zerocount {
 
-/// A part of the page under a heading of its own.
+/// A section of the page.
 struct PageSection {
-  std::string name;   ///< its place in the page
+  std::string name;   ///< anchor in the page
   std::string title;  ///< plain text
   std::string html;   ///< before the figures
   std::vector<Figure> figures;
 };
 
-/// A report before it is a page.
+/// The contents of a report, before conversion to HTML.
 struct ReportPage {
   std::string title;     ///< plain text
   std::string subtitle;  ///< plain text
@@ -23,15 +23,15 @@ struct ReportPage {
   std::vector<PageSection> sections;
 };
 
-/// The page: one HTML document with everything in it, which asks for nothing from anywhere.
-/// @throws Failure (machine_failed) where the program was built without the libraries that draw.
+/// The report as one self-contained HTML document, without network requests.
+/// @throws Failure (machine_failed) if the program was built without the libraries for drawing.
 std::string html_page(const ReportPage& page);
 
-/// The theme of all figures as a Vega-Lite config. Its colours are names such as "var(--ink)", which the page
-/// gives a value for light and for dark.
+/// The theme of all figures as a Vega-Lite config. Its colours are CSS variables such as "var(--ink)", which
+/// the page defines for light and dark mode.
 nlohmann::ordered_json figure_theme();
 
-/// The colours of the theme in the light, {"--ink": "#…"}.
+/// The colours of light mode, {"--ink": "#…"}.
 nlohmann::ordered_json light_colours();
 
 }  // namespace zerocount

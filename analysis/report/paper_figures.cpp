@@ -14,14 +14,14 @@ using nlohmann::ordered_json;
 
 constexpr const char* targets_axis = "command.targets.0";
 
-/// Fig. 7: one move each to different targets, and nothing else differs.
+/// Fig. 7: needs points with one move each that differ only in the target.
 bool shows_targets(const ReportedStudy& reported) {
   const std::vector<SweepAxis>& axes = reported.summary.axes;
   return axes.size() == 1 && axes[0].name == targets_axis && reported.file.moves() == 1 &&
          !numeric_axes(reported, 3).empty() && axes[0].numbers.size() <= 30;
 }
 
-/// Fig. 8: one point with one move, and jerks in most trials.
+/// Fig. 8: needs one point with one move, and jerks in most trials.
 bool shows_jerks(const ReportedStudy& reported) {
   const PointSummary& point = reported.summary.points.front();
   return reported.summary.points.size() == 1 && reported.file.moves() == 1 && point.jerk_count.median >= 1.0;
@@ -46,11 +46,10 @@ SampleTrial typical_trial(const ReportedStudy& reported) {
 }
 
 Figure step_responses(const std::vector<ReplayedTrial>& replayed) {
-  Figure figure =
-      figure_of("step-responses", "paper-fig7", "Moves to different targets (Fig. 7 of the paper)",
-                "Position over time of one trial for each target, from rest. In the paper all ten settle on "
-                "their target within "
-                "300 samples of 0.5 ms: every curve should end flat, on the count that it was sent to.");
+  Figure figure = figure_of(
+      "step-responses", "paper-fig7", "Moves to different targets (Fig. 7 of the paper)",
+      "Position over time, one trial for each target, from rest. In the paper all ten moves settle at their "
+      "target within 300 samples of 0.5 ms. Every curve should end as a horizontal line at its target.");
   FigureData data{"samples",
                   {{"target", "target", "count"}, {"time", "time", "s"}, {"count", "position", "count"}}};
   for (const ReplayedTrial& trial : replayed) {
@@ -65,10 +64,9 @@ Figure jerks_in_time(const ReplayedTrial& trial) {
   Figure figure = figure_of(
       "jerks-in-time", "paper-fig8", "Jerks by creep (Fig. 8 of the paper)",
       fmt::format(
-          "Position and torque of trial {}, which has the median number of jerks. After the move the "
-          "position "
-          "leaves the target by one count, always towards the holding torque, and is brought back at once; "
-          "the jerks come ever less often as the contact hardens.",
+          "Position and torque over time of trial {}, which has the median number of jerks. After the move "
+          "the position repeatedly leaves the target by one count, always in the direction of the holding "
+          "torque, and returns at once. The rate of these jerks decreases as the contact hardens.",
           trial.result.row));
   FigureData data{"samples",
                   {{"time", "time", "s"}, {"count", "position", "count"}, {"torque", "torque", "N m"}}};
@@ -82,7 +80,7 @@ std::string level_name(std::size_t level) {
   return fmt::format("{}", level + 1);
 }
 
-/// The ends of the torque levels; levels that end at the same place share a row.
+/// The ends of the torque levels. Levels that end at the same point share a row.
 FigureData level_ends(const ReplayedTrial& trial, const char* field, const char* title, bool creep) {
   FigureData data{"levels", {{"levels", "levels", ""}, {field, title, "µrad"}, {"torque", "torque", "N m"}}};
   double reach = 0.0;
@@ -108,13 +106,14 @@ FigureData level_ends(const ReplayedTrial& trial, const char* field, const char*
 }
 
 Figure hysteresis(const ReplayedTrial& trial) {
-  Figure figure = figure_of(
-      "hysteresis", "paper-fig4", "Torque over angle (Fig. 4 of the paper)",
-      fmt::format(
-          "Trial {}, loaded and unloaded; the numbers are the torque levels in their order, where each ends. "
-          "The spring remembers where it was reversed: loops over the same torques are equally wide, and one "
-          "that has closed leaves no trace, so that levels of equal torque fall on one point.",
-          trial.result.row));
+  Figure figure = figure_of("hysteresis", "paper-fig4", "Torque over angle (Fig. 4 of the paper)",
+                            fmt::format("Torque over rotor angle of trial {}, loaded and unloaded. Each "
+                                        "number marks the end of a torque level, in "
+                                        "their order. The spring has hysteresis with return-point memory: "
+                                        "loops between the same torques have the same "
+                                        "width, and a closed loop has no further influence, so levels of "
+                                        "equal torque end at the same point.",
+                                        trial.result.row));
   FigureData data{"samples",
                   {{"time", "time", "s"}, {"angle", "rotor angle", "µrad"}, {"torque", "torque", "N m"}}};
   for (const SampleRecord& sample : trial.samples)
@@ -127,12 +126,10 @@ Figure hysteresis(const ReplayedTrial& trial) {
 Figure plastic_extension(const ReplayedTrial& trial) {
   Figure figure = figure_of(
       "creep", "paper-fig6", "Torque over plastic extension (Fig. 6 of the paper)",
-      fmt::format(
-          "Trial {}; the numbers are the torque levels in their order, where each ends. Under a held torque "
-          "the "
-          "contact creeps along a level line until it has hardened. The same torque again, or a smaller one, "
-          "in either direction, adds nothing.",
-          trial.result.row));
+      fmt::format("Torque over plastic (creep) extension of trial {}. Each number marks the end of a torque "
+                  "level, in their order. At constant torque the contact creeps along a horizontal line "
+                  "until it has hardened. A repeated or smaller torque of either sign adds no extension.",
+                  trial.result.row));
   FigureData data{
       "samples",
       {{"time", "time", "s"}, {"extension", "plastic extension", "µrad"}, {"torque", "torque", "N m"}}};
@@ -143,7 +140,7 @@ Figure plastic_extension(const ReplayedTrial& trial) {
   return figure;
 }
 
-/// Whether the contact of the first trial creeps at all.
+/// Whether the contact of the first trial creeps.
 bool creeps(const ReportedStudy& reported) {
   const TrialParameters parameters = study_trial(reported.study, 0, 0).parameters;
   return has_creep(parameters.friction.model) &&

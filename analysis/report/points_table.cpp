@@ -17,20 +17,20 @@ namespace {
 
 constexpr std::size_t max_points = 400;
 
-/// Nothing where too few moves arrived for either bound.
+/// Empty if too few moves arrived for any bound.
 std::string settling_bounds(const PointSummary& point, const Quantile& quantile) {
   if (std::isnan(quantile.low) && std::isnan(quantile.high)) return "–";
   const std::string low = std::isnan(quantile.low) ? "0" : short_number(quantile.low);
   return fmt::format("{} … {}", low, settling_text(point, quantile.high));
 }
 
-/// A column of the table of points, and how its cells are made of a point.
+/// A column of the table of points, with the function that makes its cells.
 struct PointCell {
   const char* head;
   const char* unit;
   std::string (*text)(const PointSummary& point, const TheoryPrediction& prediction);
   std::string (*below)(const PointSummary& point, const ConfidenceInterval& success){nullptr};
-  bool needs_independence{false};  ///< a claim that dependent trials cannot make
+  bool needs_independence{false};  ///< valid only for independent trials
   bool needs_rigs{false};
 };
 
@@ -136,19 +136,17 @@ std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
   if (!summary.observed.empty()) columns.push_back(observed);
   return html_table(columns) +
          fmt::format(
-             "<p class=\"note\">zero-count: trials all of whose moves ended at zero error, with {}.{} one "
-             "count, undecided, oscillating, lost: trials by their worst move; an undecided one ended off "
-             "target, "
-             "stalled or still on its way, and is neither stable nor shown unstable. Quantiles of settling "
-             "times are of all "
-             "moves, those that never arrived being later than any time, with order-statistic bounds. "
-             "{}{}</p>\n",
+             "<p class=\"note\">zero-count: proportion of trials all of whose moves ended at zero error, "
+             "with {}.{} One count, undecided, oscillating, lost: trials by their worst move. Undecided: a "
+             "move ended off target (stalled or still moving); it is neither stable nor shown unstable. "
+             "Quantiles of settling times are those of all moves, with order-statistic bounds; moves that "
+             "never arrived count as later than all others. {}{}</p>\n",
              reported.bounds_name,
-             dependent ? "" : " failures at most: the failure probability that the trials leave, one-sided.",
-             summary.features.rigs ? "Sd between rigs: standard deviation of the probability of success. "
-                                     "Worst 5 % of rigs: mean "
-                                     "success rate of those with the lowest, as observed. "
-                                   : "",
+             dependent ? "" : " Failures at most: one-sided upper bound of the failure probability.",
+             summary.features.rigs
+                 ? "Sd between rigs: standard deviation of the success probability. Worst 5 % of rigs: mean "
+                   "observed success rate of the rigs with the lowest rates. "
+                 : "",
              dependent ? html_text(fmt::format("{} {}", dependence_sentence, too_narrow_sentence))
                        : html_text(design_line(summary)));
 }

@@ -16,7 +16,7 @@
 namespace zerocount {
 namespace {
 
-/// Runs trials again, and collects what the check says of them.
+/// Simulates trials again, and collects their differences from the file.
 class Replays {
  public:
   Replays(const ReportedStudy& reported, const ReportOptions& options)
@@ -28,9 +28,10 @@ class Replays {
     if (!options_.check) return replayed;
     const std::vector<std::string> different = options_.check(replayed);
     if (different.empty()) return replayed;
-    warnings_.push_back(fmt::format(
-        "point {}, trial {}: run again, it is not the recorded trial: {}{}", trial.point, trial.index,
-        different.front(), different.size() > 1 ? fmt::format("; and {} more", different.size() - 1) : ""));
+    warnings_.push_back(
+        fmt::format("point {}, trial {}: the repeated trial differs from the recorded one: {}{}", trial.point,
+                    trial.index, different.front(),
+                    different.size() > 1 ? fmt::format("; and {} more", different.size() - 1) : ""));
     return replayed;
   }
 
@@ -79,7 +80,7 @@ PageSection success_section(const ReportedStudy& reported) {
   return section;
 }
 
-/// Figures are drawn in the words and units of a rotary axis.
+/// Converts all figures from a rotary axis, for which they are written.
 void put_on_axis(AxisKind axis, ReportPage& page) {
   for (PageSection& section : page.sections) {
     section.title = text_on(axis, section.title);
@@ -87,7 +88,7 @@ void put_on_axis(AxisKind axis, ReportPage& page) {
   }
 }
 
-/// All bounds but those of the indices, which are made for the design, take the trials for independent.
+/// Marks the bounds that assume independent trials: all except those of the sensitivity indices.
 void qualify_bounds(const ReportedStudy& reported, ReportPage& page) {
   if (!reported.summary.features.dependent_trials) return;
   for (PageSection& section : page.sections) {
@@ -116,8 +117,7 @@ StudyReport study_report(const StudyFile& file, const ReportOptions& options) {
   page.subtitle = reported.study.description;
   const Provenance& made = file.header().provenance;
   page.footer = fmt::format(
-      "zerocount {} ({}), study of {}. This page holds all that it shows and asks for nothing from "
-      "anywhere.",
+      "zerocount {} ({}), study of {}. This page is self-contained and requests nothing from anywhere.",
       made.zerocount_version, made.git_commit, made.created);
   add(page, {"verdict", "Verdict", verdict_html(reported), {}});
   if (options.comparison) add(page, comparison_section(*options.comparison));
@@ -173,7 +173,7 @@ std::string drawing_program(const Figure& figure) {
                                      {"data", data}};
   const auto quoted = [](std::string_view text) { return nlohmann::ordered_json(std::string(text)).dump(); };
   return fmt::format(
-      // The libraries must not take node for a loader of modules.
+      // Prevents the libraries from using node's module system.
       "const run = require('vm').runInThisContext;\n"
       "for (const name of ['exports', 'module', 'require']) delete globalThis[name];\n"
       "run({});\nrun({});\nconst figure = {};\n{}",

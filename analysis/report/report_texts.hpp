@@ -4,18 +4,19 @@
 
 #include "analysis/report/reported_study.hpp"
 
-/// What a report says in words and tables, as HTML.
+/// Texts and tables of a report, as HTML.
 namespace zerocount {
 
-/// The verdict: how often the best and the worst point succeed and what that proves, how fast, with how many
-/// jerks, and what the criteria said. 100 % is told as the failure probability that it leaves.
+/// The conclusions in words: success of the best and the worst point with tolerance statements, settling
+/// times, jerks, and the prediction of the criteria. For 100 % success it states the upper bound of the
+/// failure probability.
 std::string verdict_html(const ReportedStudy& reported);
 
-/// What was run: size, design, random parameters, who made the file, the manifest.
+/// The provenance: size, design, random parameters, program, manifest.
 std::string run_html(const ReportedStudy& reported);
 
-/// The table of the points; in an open-loop study of its levels. At most 400 rows, with a note where there
-/// would be more.
+/// The table of the points, or of the levels of an open-loop study. At most 400 rows; a note states if there
+/// are more.
 std::string points_html(const ReportedStudy& reported);
 
 }  // namespace zerocount

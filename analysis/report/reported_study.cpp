@@ -21,13 +21,13 @@ bool better(const PointSummary& one, const PointSummary& other) {
   return one.settling_time.median.value < other.settling_time.median.value;
 }
 
-/// Where the outcomes decided how many trials there are, the bounds must hold for any number of them.
-/// With rigs, the outer of these and of the bounds over rigs, which more trials do not narrow.
+/// With sequential stopping the bounds are those of a confidence sequence. With rigs they are the outer
+/// bounds of these and of the bounds over rigs.
 ConfidenceInterval success_bounds_of(const PointSummary& point, bool stopped_by_outcomes) {
   const ConfidenceInterval& fixed = point.success_rate.clopper_pearson;
   if (!stopped_by_outcomes) return fixed;
   const ConfidenceInterval stopped =
-      anytime_bounds(point.outcomes.zero_count, point.judged, summary_confidence);
+      confidence_sequence_bounds(point.outcomes.zero_count, point.judged, summary_confidence);
   if (point.rigs.n == 0) return stopped;
   return {std::min(stopped.low, fixed.low), std::max(stopped.high, fixed.high)};
 }
@@ -78,8 +78,8 @@ void visit_trials(const StudyFile& file, RowRange rows, const TrialVisitor& visi
   }
 }
 
-std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t most) {
-  const std::int64_t count = std::min(size, most);
+std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t max_count) {
+  const std::int64_t count = std::min(size, max_count);
   std::vector<std::int64_t> indices;
   for (std::int64_t i = 0; i < count; ++i) indices.push_back(count == 1 ? 0 : i * (size - 1) / (count - 1));
   return indices;
@@ -90,12 +90,12 @@ std::string axis_title(const SweepAxis& axis) {
   return fmt::format("{} ({})", axis.name, axis.unit);
 }
 
-std::string share_text(double share) {
-  if (share == 1.0) return "100 %";
-  const double distance = std::min(share, 1.0 - share);
+std::string proportion_text(double proportion) {
+  if (proportion == 1.0) return "100 %";
+  const double distance = std::min(proportion, 1.0 - proportion);
   const int digits =
       distance > 0.0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(distance))) - 1, 1, 9) : 0;
-  return fmt::format("{:.{}f} %", 100.0 * share, digits);
+  return fmt::format("{:.{}f} %", 100.0 * proportion, digits);
 }
 
 }  // namespace zerocount

@@ -15,50 +15,50 @@
 
 namespace zerocount {
 
-/// A results file that is reported, with what all parts of the report need of it.
+/// A results file with the data that several parts of the report need.
 struct ReportedStudy {
   const StudyFile& file;
   Study study;
   StudySummary summary;
   std::vector<ConfidenceInterval> success_bounds{};  ///< 95 %, [point]
-  std::string bounds_name{};                         ///< what kind of bounds these are
-  std::int64_t focus{0};                             ///< design point whose trials are shown one by one
+  std::string bounds_name{};                         ///< kind of these bounds, for captions
+  std::int64_t focus{0};                             ///< design point of the single trials
 };
 
-/// What is said beside results of a study whose trials are not independent (StudyFeatures::dependent_trials).
+/// Note for results of a study with dependent trials (StudyFeatures::dependent_trials).
 inline constexpr std::string_view dependence_sentence =
     "The trials of a saltelli design are not independent: those of a row share most of their draws.";
 inline constexpr std::string_view too_narrow_sentence =
-    "Bounds take trials for independent, and are too narrow here.";
+    "Bounds assume independent trials, and are too narrow here.";
 
-/// Reads the file once from beginning to end. The focus is the best point.
+/// Reads the whole file once. The focus is the best point.
 /// @param file a complete study.
 ReportedStudy reported_study(const StudyFile& file);
 
-/// The point with the highest success rate, of those the one that settles fastest in the median; the first
-/// where there are several, and in an open-loop study.
+/// The point with the highest success rate; among equals the one with the lowest median settling time, then
+/// the first. For an open-loop study the first point.
 std::int64_t best_point(const std::vector<PointSummary>& points);
 
-/// The point whose success rate is nearest to one half: where most is to be learnt about what makes trials
-/// fail.
+/// The point whose success rate is nearest to one half. It has the most information about the causes of
+/// failures.
 std::int64_t most_telling_point(const std::vector<PointSummary>& points);
 
 /// The global rows of the trials of a point.
 RowRange rows_of(const ReportedStudy& reported, std::int64_t point);
 
-/// What one trial of a study was like, by its moves.
+/// Called with the row and the moves of a trial.
 using TrialVisitor = std::function<void(std::int64_t row, std::span<const MoveOutcome> moves)>;
 
 /// Visits the trials of these rows in order, reading the file in blocks.
 void visit_trials(const StudyFile& file, RowRange rows, const TrialVisitor& visit);
 
-/// At most `most` of `size` things, spread evenly over them: their indices, rising.
-std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t most);
+/// At most `max_count` evenly spaced indices of 0 … `size` − 1, increasing.
+std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t max_count);
 
 /// "controller.ki (N m/count)".
 std::string axis_title(const SweepAxis& axis);
 
-/// A share as a percentage, with as many digits as keep it apart from 100 %; only 1 is "100 %".
-std::string share_text(double share);
+/// A proportion as a percentage with enough digits to differ from 100 %; only 1 is "100 %".
+std::string proportion_text(double proportion);
 
 }  // namespace zerocount

@@ -11,9 +11,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t most_profiles = 4;
+constexpr std::int64_t max_profiles = 4;
 constexpr std::int64_t profile_points = 512;
-constexpr std::int64_t most_failures = 250;
+constexpr std::int64_t max_failures = 250;
 
 const char* word_of(Outcome outcome) {
   switch (outcome) {
@@ -33,9 +33,9 @@ const char* word_of(Outcome outcome) {
   return "open_loop";
 }
 
-/// Where a trial ended on the rotor, and how.
+/// Final position of a trial on the rotor, and its outcome.
 struct EndOnRotor {
-  std::int64_t trial{0};  ///< of the point
+  std::int64_t trial{0};  ///< index within the point
   double angle{0.0};      ///< rad or m, in [0, period)
   Outcome outcome{Outcome::zero_count};
 };
@@ -45,7 +45,7 @@ double on_rotor(double angle, double period) {
   return within < 0.0 ? within + period : within;
 }
 
-/// The input column with the place where each trial starts.
+/// The input column with the start position of each trial.
 std::optional<std::size_t> position_column(const StudyFile& file) {
   const std::vector<InputColumn>& inputs = file.input_columns();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -54,13 +54,13 @@ std::optional<std::size_t> position_column(const StudyFile& file) {
   return std::nullopt;
 }
 
-/// The trials that a figure is about: those of a point, or of one rig at it.
+/// The trials of a figure: those of a point, or of one rig at that point.
 struct ShownTrials {
   std::int64_t point{0};
   std::optional<std::int64_t> rig{};
 };
 
-/// The trials, a place of the rotor at a time; those whose motion was lost have none.
+/// Visits the trials with their final positions. Trials with a non-finite state have no position.
 template <class Visit>
 void visit_ends(const ReportedStudy& reported, const ShownTrials& shown, std::size_t column,
                 const Visit& visit) {
@@ -75,7 +75,7 @@ void visit_ends(const ReportedStudy& reported, const ShownTrials& shown, std::si
   });
 }
 
-/// A profile's point: the one in its name, or else the one that tells most.
+/// A profile's point: the one in its name, otherwise most_telling_point().
 std::int64_t point_of(const ReportedStudy& reported, const std::string& profile) {
   const std::size_t at = profile.find('@');
   return at == std::string::npos ? most_telling_point(reported.summary.points)
@@ -86,8 +86,9 @@ double value_at(const StoredProfile& profile, double angle, double period) {
   const double size = static_cast<double>(profile.value.size());
   const double place = angle / period * size;
   const auto before = static_cast<std::size_t>(place) % profile.value.size();
-  const double share = place - std::floor(place);
-  return (1.0 - share) * profile.value[before] + share * profile.value[(before + 1) % profile.value.size()];
+  const double fraction = place - std::floor(place);
+  return (1.0 - fraction) * profile.value[before] +
+         fraction * profile.value[(before + 1) % profile.value.size()];
 }
 
 FigureData profile_data(const StoredProfile& profile) {
@@ -99,7 +100,7 @@ FigureData profile_data(const StoredProfile& profile) {
   return data;
 }
 
-/// Success by place: equal parts of the rotor.
+/// Success rate in equal sectors of the rotor.
 struct Sectors {
   std::vector<std::int64_t> trials, successes;
   double period;  ///< rad or m
@@ -154,15 +155,17 @@ std::string caption_of(const ReportedStudy& reported, const std::string& paramet
       shown.rig ? fmt::format("rig {} at point {}", *shown.rig, label) : fmt::format("point {}", label);
   std::string caption =
       shown.rig
-          ? fmt::format("The line is {} along the rotor of rig {}, the one that succeeded least often. ",
+          ? fmt::format("The line is {} along the rotor of rig {}, the rig with the lowest success rate. ",
                         parameter, *shown.rig)
           : fmt::format("The line is {} along the rotor, the same in all trials. ", parameter);
-  caption += failed ? fmt::format("The marks are trials of {} that failed, where they ended. ", trials)
-                    : fmt::format("No trial of {} failed. ", trials);
+  caption += failed
+                 ? fmt::format("The marks are the failed trials of {}, at the rotor angle where they ended. ",
+                               trials)
+                 : fmt::format("No trial of {} failed. ", trials);
   return caption +
-         "Below, the share of trials that succeeded in each part of the rotor, with 95 % Clopper-Pearson "
-         "bounds. Where success follows the line, the lowest value decides, as the paper's practical issue 1 "
-         "has it of k1.";
+         "Below: success rate of the trials that ended in each sector of the rotor, with 95 % "
+         "Clopper-Pearson bounds. If it follows the line, the minimum of the profile limits the success, as "
+         "the paper states for k1 (practical issue 1).";
 }
 
 Figure rotor_figure(const ReportedStudy& reported, const StoredProfile& stored, std::size_t column) {
@@ -182,15 +185,15 @@ Figure rotor_figure(const ReportedStudy& reported, const StoredProfile& stored, 
                      {"theta", "rotor angle at the end", "rad"},
                      {"value", profile.name, profile.unit},
                      {"outcome", "outcome", ""}}};
-  for (const std::int64_t i : spread_over(std::ssize(failures), most_failures)) {
+  for (const std::int64_t i : spread_over(std::ssize(failures), max_failures)) {
     const EndOnRotor& end = failures[static_cast<std::size_t>(i)];
     trials.rows.push_back(ordered_json::array(
         {end.trial, datum(end.angle), datum(value_at(profile, end.angle, period)), word_of(end.outcome)}));
   }
   const std::string parameter = profile.name.substr(0, profile.name.find('@'));
   std::string caption = caption_of(reported, parameter, shown, !failures.empty());
-  if (std::ssize(failures) > most_failures) {
-    caption += fmt::format(" {} of {} failures are shown, an even spread.", most_failures, failures.size());
+  if (std::ssize(failures) > max_failures) {
+    caption += fmt::format(" {} of {} failures are shown, evenly spaced.", max_failures, failures.size());
   }
   Figure figure = figure_of(
       "rotor", fmt::format("rotor-{}", profile.name),
@@ -213,7 +216,7 @@ std::vector<Figure> rotor_figures(const ReportedStudy& reported) {
   const std::optional<std::size_t> column = position_column(reported.file);
   if (reported.study.open_loop || !column || !reported.file.has_profiles()) return figures;
   const std::vector<StoredProfile> profiles = reported.file.profiles();
-  for (const std::int64_t i : spread_over(std::ssize(profiles), most_profiles))
+  for (const std::int64_t i : spread_over(std::ssize(profiles), max_profiles))
     figures.push_back(rotor_figure(reported, profiles[static_cast<std::size_t>(i)], *column));
   return figures;
 }

@@ -34,7 +34,7 @@ std::string design_text(const Study& study) {
                                           : "; all points share the draws of a trial");
 }
 
-/// The range that an input of the trials has in the file.
+/// Moments and extremes of an input column in the file.
 Moments moments_of(const StudyFile& file, std::size_t column) {
   Moments moments;
   const std::int64_t at_once = chunk_rows(1);
@@ -73,7 +73,7 @@ std::string joined(const std::vector<std::string>& texts) {
   return all;
 }
 
-/// What is swept: the range of each number of the grid, and the cases.
+/// The sweep: the range of each number of the grid, and the cases.
 std::vector<HtmlFact> sweep_facts(const ReportedStudy& reported) {
   std::vector<HtmlFact> facts;
   for (const std::size_t i : numeric_axes(reported, 2)) {
@@ -123,9 +123,8 @@ std::string run_html(const ReportedStudy& reported) {
     html += fmt::format("<p>{}</p>\n", html_text(reported.study.description));
   if (is_dirty(reported.file.header().provenance)) {
     html +=
-        "<p class=\"warning\">The program that ran this had changes that are in no commit: it cannot be "
-        "built again from "
-        "its history.</p>\n";
+        "<p class=\"warning\">The program that ran this study had uncommitted changes: it cannot be built "
+        "again from its history.</p>\n";
   }
   html += html_facts(facts_of(reported));
   html += inputs_table(reported.file);

@@ -7,11 +7,11 @@
 
 namespace zerocount {
 
-/// The section's place in the page.
+/// The section's anchor in the page.
 inline constexpr const char* sensitivity_section_name = "sensitivity";
 
-/// Which random parameters matter, at the point whose success tells most: nearest to one half. Nothing where
-/// the study draws no parameters or none could be judged.
+/// Sensitivity to the random parameters at the point whose success rate is nearest to one half. Nothing if
+/// the study has no random parameters or no index could be estimated.
 std::optional<PageSection> sensitivity_section(const ReportedStudy& reported);
 
 }  // namespace zerocount

@@ -12,14 +12,13 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t most_curves = 6;
-constexpr std::int64_t most_steps = 160;  ///< of a curve
+constexpr std::int64_t max_curves = 6;
+constexpr std::int64_t max_steps = 160;  ///< of a curve
 
-/// Half width of the band that holds a whole distribution function with the confidence of summaries:
-/// √(ln(2M/α)/2n) for n independent clusters (trials, or rigs) of M moves each, which are not independent of
-/// each other.
-/// (Dvoretzky, Kiefer and Wolfowitz 1956 with the constant of Massart 1990, for each of the M moves at the
-/// level α/M; the mean of M functions that are each within the band is so too.)
+/// Half-width of the simultaneous confidence band of a distribution function: √(ln(2M/α)/2n) for n
+/// independent clusters (trials or rigs) of M dependent moves each. (Dvoretzky, Kiefer and Wolfowitz 1956
+/// with the constant of Massart 1990, for each of the M moves at the level α/M; the mean of M functions that
+/// are each within the band is so too.)
 double band(std::int64_t clusters, std::int64_t moves) {
   const double alpha = 1.0 - summary_confidence;
   return std::sqrt(std::log(2.0 * static_cast<double>(moves) / alpha) /
@@ -31,8 +30,8 @@ double band_of(const ReportedStudy& reported, const PointSummary& point) {
   return band(clusters, point.moves / clusters);
 }
 
-Tally<double> settling_times(const ReportedStudy& reported, std::int64_t point) {
-  Tally<double> times;
+Histogram<double> settling_times(const ReportedStudy& reported, std::int64_t point) {
+  Histogram<double> times;
   visit_trials(reported.file, rows_of(reported, point),
                [&](std::int64_t, std::span<const MoveOutcome> moves) {
                  for (const MoveOutcome& move : moves) {
@@ -42,32 +41,32 @@ Tally<double> settling_times(const ReportedStudy& reported, std::int64_t point) 
   return times;
 }
 
-/// The points with arrivals; where there are too many, an even spread from the best to the worst.
+/// The points with arrivals; if there are too many, evenly spaced ones from the best to the worst.
 std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   std::vector<std::int64_t> with_arrivals;
   const auto& points = reported.summary.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].settling_time.n > 0) with_arrivals.push_back(static_cast<std::int64_t>(i));
   }
-  if (std::ssize(with_arrivals) <= most_curves) return with_arrivals;
+  if (std::ssize(with_arrivals) <= max_curves) return with_arrivals;
   std::stable_sort(with_arrivals.begin(), with_arrivals.end(), [&](std::int64_t a, std::int64_t b) {
     return points[static_cast<std::size_t>(a)].settling_time.n >
            points[static_cast<std::size_t>(b)].settling_time.n;
   });
   std::vector<std::int64_t> shown;
-  for (const std::int64_t i : spread_over(std::ssize(with_arrivals), most_curves))
+  for (const std::int64_t i : spread_over(std::ssize(with_arrivals), max_curves))
     shown.push_back(with_arrivals[static_cast<std::size_t>(i)]);
   std::sort(shown.begin(), shown.end());
   return shown;
 }
 
-void add_curve(FigureData& data, const std::string& label, const Tally<double>& times, std::int64_t moves,
+void add_curve(FigureData& data, const std::string& label, const Histogram<double>& times, std::int64_t moves,
                double half_width, double end) {
   const auto row = [&](double time, std::int64_t arrived) {
-    const double share = static_cast<double>(arrived) / static_cast<double>(moves);
-    data.rows.push_back(
-        ordered_json::array({label, datum(time), datum(share), datum(std::max(0.0, share - half_width)),
-                             datum(std::min(1.0, share + half_width))}));
+    const double proportion = static_cast<double>(arrived) / static_cast<double>(moves);
+    data.rows.push_back(ordered_json::array({label, datum(time), datum(proportion),
+                                             datum(std::max(0.0, proportion - half_width)),
+                                             datum(std::min(1.0, proportion + half_width))}));
   };
   row(0.0, 0);
   std::int64_t arrived = 0;
@@ -75,7 +74,7 @@ void add_curve(FigureData& data, const std::string& label, const Tally<double>& 
   for (const auto& [time, count] : times.counts) {
     arrived += count;
     const bool last = arrived == times.size;
-    if (last || (arrived - shown) * most_steps >= times.size) {
+    if (last || (arrived - shown) * max_steps >= times.size) {
       row(time, arrived);
       shown = arrived;
     }
@@ -91,11 +90,13 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   const auto& points = reported.summary.points;
   const std::int64_t moves_per_trial = reported.file.moves();
   std::string caption = fmt::format(
-      "Share of all moves that have arrived, for good or not, within a time; a curve that ends below 100 % "
-      "never got further. The bands {} (Dvoretzky-Kiefer-Wolfowitz, n = {}{}). ",
+      "Proportion of all moves of a point that have arrived by a time (also if they left the target later). "
+      "A curve "
+      "that ends below 100 % has moves that never arrived. The bands {} (Dvoretzky-Kiefer-Wolfowitz, n = "
+      "{}{}). ",
       reported.summary.features.dependent_trials
-          ? "would hold the whole curve of a point with 95 % confidence, were its trials independent"
-          : "hold the whole curve of a point with 95 % confidence",
+          ? "would contain the whole curve of a point with 95 % confidence if its trials were independent"
+          : "contain the whole curve of a point with 95 % confidence",
       reported.study.rigs > 0 ? fmt::format("{} rigs", reported.study.rigs)
                               : fmt::format("{} trials", points.front().trials),
       reported.study.rigs == 0 && moves_per_trial > 1 ? fmt::format(" of {} moves each", moves_per_trial)
@@ -110,11 +111,11 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   if (arriving < std::ssize(points))
     caption +=
         fmt::format("At {} of the {} points no move arrived. ", std::ssize(points) - arriving, points.size());
-  Figure figure = figure_of("settling-time", "settling-time", "How long it takes to settle", caption);
+  Figure figure = figure_of("settling-time", "settling-time", "Settling time", caption);
   FigureData data{"steps",
                   {{"label", "point", ""},
                    {"time", "settled within", "s"},
-                   {"share", "share of moves", "1"},
+                   {"share", "proportion of moves", "1"},
                    {"low", "lower 95 % bound", "1"},
                    {"high", "upper 95 % bound", "1"}}};
   double end = 0.0;
@@ -129,7 +130,7 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
               band_of(reported, points[at]), end);
   }
   ordered_json& x = figure.specification["encoding"]["x"];
-  if (start > 0.0 && end > 12.0 * start) {  // a few late arrivals would press all others against the axis
+  if (start > 0.0 && end > 12.0 * start) {  // otherwise a few late arrivals would compress all others
     x["scale"]["type"] = "symlog";
     x["scale"]["constant"] = start / 4.0;
     x["axis"]["format"] = "~g";

@@ -13,10 +13,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t most_maps = 4;
+constexpr std::int64_t max_maps = 4;
 
-/// The cells of the values of an axis: from half-way to the value before to half-way to the next one. Those
-/// at the ends reach no further than their values.
+/// The cells of the values of an axis: each extends half-way to both neighbours. The first and last cell end
+/// at their values.
 struct CellEdges {
   std::vector<double> values;
   bool by_ratio{false};
@@ -89,18 +89,18 @@ FigureData curves_of(const ReportedStudy& reported, const PointGroup& group, con
                              y_edges.by_ratio};
   FigureData data{"curves",
                   {{"criterion", "criterion", ""},
-                   {"which", "trial to meet it", ""},
+                   {"which", "trial (first or last to reach it)", ""},
                    {"curve", "", ""},
                    {"x", x.name, x.unit},
                    {"y", y.name, y.unit},
                    {"order", "", "1"},
                    {"name_here", "", "1"},
                    {"side", "", ""}}};
-  double place = 0.85;  // of the names: on one height they would run into each other
+  double place = 0.85;  // height of the first label; different heights avoid overlaps
   for (const CriterionCurve& curve : criterion_curves(reported.study, group.points.front(), plane)) {
     const char* which = curve.first ? "first" : "last";
     const auto named = static_cast<std::size_t>(place * static_cast<double>(curve.points.size()));
-    // The name stands outside of the pair of curves, where there is room for it.
+    // The label stands outside of the pair of curves if there is room.
     const bool room =
         curve.points[named].x < x_edges.between(plane.x_high, x_edges.between(plane.x_low, plane.x_high));
     const char* side = curve.first || !room ? "right" : "left";
@@ -118,14 +118,13 @@ Figure map_of(const ReportedStudy& reported, const PointGroup& group, std::size_
               const SweepAxis& y) {
   FigureData curves = curves_of(reported, group, x, y);
   std::string caption =
-      "Each cell is a design point, its colour the share of the trials that end at zero counts. ";
+      "Each cell is a design point. Its colour is the proportion of trials that end at zero counts. ";
   if (!curves.rows.empty()) {
     caption +=
-        "The lines are the paper's criteria, (6) white and (7) orange, for the first of the trials to meet "
-        "them and, "
-        "dashed, for the last: before the first (6) theory promises stability in every trial, beyond the "
-        "last (7) "
-        "instability in every one. Between them success should fall.";
+        "The lines are the paper's criteria (6), white, and (7), orange; solid for the trial with the lowest "
+        "bound, dashed for the trial with the highest. Below the solid line of (6) the theory promises "
+        "stability of every trial; above the dashed line of (7) it predicts instability of every trial. The "
+        "success rate should decrease between them.";
   }
   Figure figure = figure_of(
       "stability-map", number == 0 ? "stability-map" : fmt::format("stability-map-{}", number + 1),
@@ -153,7 +152,7 @@ std::vector<Figure> stability_maps(const ReportedStudy& reported) {
       std::find_if(axes.begin(), axes.end(), [&](std::size_t i) { return all[i].name == "controller.ki"; });
   if (gain != axes.end()) std::rotate(axes.begin(), gain, gain + 1);
   const std::vector<PointGroup> groups = groups_along(reported, {axes[0], axes[1]});
-  for (const std::int64_t group : spread_over(std::ssize(groups), most_maps)) {
+  for (const std::int64_t group : spread_over(std::ssize(groups), max_maps)) {
     maps.push_back(
         map_of(reported, groups[static_cast<std::size_t>(group)], maps.size(), all[axes[0]], all[axes[1]]));
   }

@@ -12,12 +12,13 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t most_lines = 60;  ///< points that have a line of their own
-constexpr std::int64_t most_series = 8;  ///< as many as there are colours
+constexpr std::int64_t max_lines = 60;  ///< maximum number of points with a line of their own
+constexpr std::int64_t max_series = 8;  ///< number of colours
 
 std::string bounds_note(const ReportedStudy& reported) {
-  return fmt::format("95 % {}, each point by itself. All trials of a point count, whatever became of them.",
-                     reported.bounds_name);
+  return fmt::format(
+      "The bars or bands are 95 % {}, for each point separately. They count all trials of the point.",
+      reported.bounds_name);
 }
 
 std::vector<FigureColumn> common_columns() {
@@ -35,32 +36,33 @@ ordered_json row_of(const ReportedStudy& reported, std::int64_t point) {
                               summary.trials});
 }
 
-/// The points by falling success, where not all can be shown: an even spread over that order.
+/// The points by decreasing success; evenly spaced points of that order if there are too many.
 std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
   const auto& points = reported.summary.points;
   std::vector<std::int64_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int64_t>(i);
-  if (std::ssize(order) <= most_lines) return order;
+  if (std::ssize(order) <= max_lines) return order;
   std::stable_sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
     return points[static_cast<std::size_t>(a)].success_rate.value >
            points[static_cast<std::size_t>(b)].success_rate.value;
   });
   std::vector<std::int64_t> shown;
-  for (const std::int64_t i : spread_over(std::ssize(order), most_lines))
+  for (const std::int64_t i : spread_over(std::ssize(order), max_lines))
     shown.push_back(order[static_cast<std::size_t>(i)]);
   return shown;
 }
 
 Figure line_per_point(const ReportedStudy& reported) {
   const std::vector<std::int64_t> shown = points_with_lines(reported);
-  std::string caption = "Share of the trials that end at zero counts. ";
+  std::string caption = "Proportion of all trials of each point that end at zero counts. ";
   if (!reported.summary.features.dependent_trials) {
     caption +=
-        "Where bounds do not overlap, points differ by more than chance; a dot at 100 % leaves the failures "
-        "that its lower bound allows. ";
+        "Points whose bounds do not overlap differ significantly. A dot at 100 % does not exclude failures: "
+        "their "
+        "probability may be up to 100 % minus the lower bound. ";
   }
   if (std::ssize(shown) < std::ssize(reported.summary.points)) {
-    caption += fmt::format("Shown are {} of {} points, an even spread from the best to the worst. ",
+    caption += fmt::format("Shown are {} of {} points, evenly spaced from the best to the worst. ",
                            shown.size(), reported.summary.points.size());
   }
   Figure figure = figure_of("success", "success", "Success at each point", caption + bounds_note(reported));
@@ -81,16 +83,16 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
   const SweepAxis& swept = reported.summary.axes[axis];
   const std::vector<PointGroup> groups = groups_along(reported, {axis});
   std::string caption = fmt::format(
-      "Share of the trials that end at zero counts, over {}. The bands are the bounds. ", axis_title(swept));
-  if (std::ssize(groups) > most_series) {
-    caption += fmt::format("Shown are {} of {} lines, an even spread. ", most_series, groups.size());
+      "Proportion of all trials of each point that end at zero counts (line), over {}. ", axis_title(swept));
+  if (std::ssize(groups) > max_series) {
+    caption += fmt::format("Shown are {} of {} lines, evenly spaced. ", max_series, groups.size());
   }
   Figure figure = figure_of("success-along", "success", fmt::format("Success over {}", swept.name),
                             caption + bounds_note(reported));
   FigureData data{"points", common_columns()};
   data.columns.push_back({"x", swept.name, swept.unit});
   data.columns.push_back({"series", "", ""});
-  for (const std::int64_t group : spread_over(std::ssize(groups), most_series)) {
+  for (const std::int64_t group : spread_over(std::ssize(groups), max_series)) {
     for (const std::int64_t point : groups[static_cast<std::size_t>(group)].points) {
       ordered_json row = row_of(reported, point);
       row.push_back(swept.numbers[static_cast<std::size_t>(point)]);

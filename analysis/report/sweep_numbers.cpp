@@ -42,7 +42,7 @@ std::vector<PointGroup> groups_along(const ReportedStudy& reported, const std::v
   return groups;
 }
 
-std::vector<std::size_t> numeric_axes(const ReportedStudy& reported, std::size_t least) {
+std::vector<std::size_t> numeric_axes(const ReportedStudy& reported, std::size_t min_values) {
   std::vector<std::size_t> found;
   const std::vector<SweepAxis>& axes = reported.summary.axes;
   for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -53,7 +53,7 @@ std::vector<std::size_t> numeric_axes(const ReportedStudy& reported, std::size_t
     }
     const std::vector<PointGroup> groups = groups_along(reported, {i});
     if (std::all_of(groups.begin(), groups.end(),
-                    [&](const PointGroup& group) { return group.points.size() >= least; })) {
+                    [&](const PointGroup& group) { return group.points.size() >= min_values; })) {
       found.push_back(i);
     }
   }

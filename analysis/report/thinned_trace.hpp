@@ -8,24 +8,23 @@
 
 namespace zerocount {
 
-/// A trial that was run again, and what of its samples a figure needs.
+/// A trial that was simulated again, with the samples for a figure.
 struct ReplayedTrial {
   std::int64_t point{0};
-  TrialResult result;                 ///< to be compared with what is recorded
+  TrialResult result;                 ///< to compare with the record
   std::vector<SampleRecord> samples;  ///< thinned
 };
 
-/// Thins the samples of a trial while it runs, so that a line through what is left looks the same.
-///
-/// The samples are put into at most `buckets` groups of equal length, and of each the first, the last, and
-/// those with the least and the greatest error and torque are kept: no jerk of one sample is lost. Of samples
-/// that do not differ in count, torque and target from those on both sides none is kept. (Jugel et al. 2014,
-/// M4.)
+/// Reduces the samples of a trial while it runs, so that a line through the kept samples looks the same.
+/// The samples are divided into at most `buckets` groups of equal length. Of each group the first, the last,
+/// and those with the minimum and maximum error and torque are kept, so that a jerk of one sample remains
+/// visible. Samples with the same count, torque and target as both neighbours are dropped. (Jugel et al.
+/// 2014, M4.)
 class TraceThinner {
  public:
   TraceThinner(std::int64_t samples, std::int64_t buckets);
   void add(const SampleRecord& sample);
-  /// What is left of those added, in order.
+  /// The kept samples, in order.
   std::vector<SampleRecord> finish();
 
  private:
@@ -37,7 +36,7 @@ class TraceThinner {
   std::vector<SampleRecord> kept_;
 };
 
-/// Runs a trial of the study again by the plain engine. The row of the result is left to who knows the file.
+/// Simulates a trial of the study again with the reference engine. The caller sets the row of the result.
 ReplayedTrial replay_trial(const Study& study, std::int64_t point, std::int64_t index, std::int64_t buckets);
 
 }  // namespace zerocount

@@ -12,11 +12,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A trial by how it went: the greater, the worse.
+/// Rank of a trial: the greater, the worse.
 struct TrialRank {
   Outcome outcome{Outcome::zero_count};
-  std::int64_t final_error{0};  ///< largest magnitude of its moves, counts
-  double settling_time{0.0};    ///< longest of its moves, s; infinite where one never arrived
+  std::int64_t final_error{0};  ///< maximum |final error| of its moves, counts
+  double settling_time{0.0};    ///< maximum of its moves, s; infinite if one never arrived
 
   bool operator<(const TrialRank& other) const {
     if (outcome != other.outcome) return severity(outcome) < severity(other.outcome);
@@ -35,7 +35,7 @@ TrialRank rank_of(std::span<const MoveOutcome> moves) {
   return rank;
 }
 
-/// The rows of a point that a report shows; −1 where there is none.
+/// The rows of a point that a report shows; −1 for none.
 struct RowsOfPoint {
   std::int64_t median{-1};
   std::int64_t worst{-1};
@@ -71,11 +71,11 @@ const char* ending_of(Outcome outcome) {
     case Outcome::one_count:
       return "it ends within one count of the target";
     case Outcome::off_target:
-      return "it ends more than a count away, stalled or still on its way";
+      return "it ends more than one count away: stalled, or still moving to the target";
     case Outcome::oscillating:
-      return "it ends oscillating by more than a count";
+      return "it ends oscillating by more than one count";
     case Outcome::nonfinite:
-      return "its motion was lost";
+      return "it failed numerically";
     case Outcome::open_loop:
       break;
   }
@@ -128,10 +128,9 @@ Figure trace_figure(const ReportedStudy& reported, const SampleTrial& trial, con
   const std::string settled =
       first.arrived ? fmt::format("arrives after {:.4g} s", first.settling_time) : "never arrives";
   std::string caption = fmt::format(
-      "Trial {} of point {}, run again: {}; {}. The error should come to the dashed line and "
-      "stay. The scale is linear within one count and logarithmic beyond; of the samples, those are drawn "
-      "that keep "
-      "every extreme.",
+      "Error and torque over time of trial {} of point {}, simulated again: {}; {}. The error should reach "
+      "the dashed line and stay there. Its scale is linear within one count and logarithmic beyond. Samples "
+      "are thinned, but all extremes are shown.",
       trial.index, reported.summary.labels[static_cast<std::size_t>(trial.point)],
       replayed.result.outcome.moves.size() == 1 ? settled : "the first move " + settled, ending_of(outcome));
   Figure figure = figure_of("trace", "trace-" + trial.name, trial.title, caption);

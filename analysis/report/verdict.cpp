@@ -15,30 +15,28 @@
 namespace zerocount {
 namespace {
 
-/// " (95 % bounds a to b)"; nothing where the trials are not independent.
+/// " (95 % bounds a to b)"; empty if the trials are not independent.
 std::string bounds_text(const ReportedStudy& reported, std::int64_t point) {
   if (reported.summary.features.dependent_trials) return "";
   const ConfidenceInterval& bounds = reported.success_bounds[static_cast<std::size_t>(point)];
-  return fmt::format(" (95 % bounds {} to {})", share_text(bounds.low), share_text(bounds.high));
+  return fmt::format(" (95 % bounds {} to {})", proportion_text(bounds.low), proportion_text(bounds.high));
 }
 
 std::string of_all(std::int64_t successes, std::int64_t trials) {
   return fmt::format("{} of {} trials", successes, trials);
 }
 
-/// What flawless trials prove, and what they do not.
+/// Conclusion from trials without a failure.
 std::string flawless_text(const ReportedStudy& reported, const SuccessClaim& claim) {
   if (reported.summary.features.dependent_trials) {
     return fmt::format(
-        "No failure in {} trials is not 100 % repeatability, and as these trials are not independent, they "
-        "do "
-        "not say how probable a failure may be.",
+        "No failure in {} trials does not prove 100 % repeatability. As these trials are not independent, "
+        "they give no bound of the failure probability.",
         claim.trials);
   }
   return fmt::format(
-      "No failure in {} trials is not 100 % repeatability: it bounds the probability of a failure, which is "
-      "at most {} "
-      "with 95 % confidence. To put it below 0.1 % would take {} {} without a failure.",
+      "No failure in {} trials does not prove 100 % repeatability: with 95 % confidence the probability of a "
+      "failure is at most {}. To show that it is below 0.1 % takes {} {} without a failure.",
       claim.trials, percent_at_most(claim.failure_at_most), trials_for_claim(0.999, claim.confidence, 0),
       claim.rigs > 0 ? "rigs" : "trials");
 }
@@ -51,8 +49,7 @@ const PointSummary& point_of(const ReportedStudy& reported, std::int64_t point) 
   return reported.summary.points[static_cast<std::size_t>(point)];
 }
 
-/// The claim of the point that was chosen because it came out best: as strict as if every point made one
-/// (Bonferroni).
+/// The claim of the best point, with bounds that account for its selection among all points (Bonferroni).
 SuccessClaim claim_of_best(const ReportedStudy& reported, std::int64_t best) {
   const PointSummary& point = point_of(reported, best);
   const std::int64_t successes = point.claim.trials - point.claim.failures;
@@ -69,7 +66,7 @@ SuccessClaim claim_of_best(const ReportedStudy& reported, std::int64_t best) {
   return claim;
 }
 
-/// What is said of all axes; of dependent trials, only what became of them.
+/// Statement about all axes; for dependent trials only the observed rate.
 std::string claim_text(const ReportedStudy& reported, std::int64_t best) {
   if (!reported.summary.features.dependent_trials) return claim_sentence(claim_of_best(reported, best));
   const PointSummary& point = point_of(reported, best);
@@ -83,7 +80,9 @@ std::string headline(const ReportedStudy& reported, std::int64_t best) {
   const std::size_t points = reported.summary.points.size();
   if (points == 1) return claim;
   return fmt::format("Best of {} points, {}: {}{}", points, label_of(reported, best), claim,
-                     reported.summary.features.dependent_trials ? "" : ", the choice allowed for");
+                     reported.summary.features.dependent_trials
+                         ? ""
+                         : ", with bounds that account for the selection of the best point");
 }
 
 void add_success(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
@@ -95,18 +94,18 @@ void add_success(std::vector<std::string>& lines, const ReportedStudy& reported,
   const OutcomeCounts& outcomes = point.outcomes;
   if (outcomes.zero_count < point.trials) {
     lines.push_back(
-        fmt::format("Of the others, {} ended within one count, {} off target, stalled or still on their way, "
-                    "{} oscillating, {} with the motion lost.",
+        fmt::format("Of the others, {} ended within one count, {} off target (stalled or still moving to the "
+                    "target), {} oscillating, and {} failed numerically.",
                     outcomes.one_count, outcomes.off_target, outcomes.oscillating, outcomes.nonfinite));
   }
 }
 
-/// " at b", where there are several points.
+/// " at b" if there are several points.
 std::string at_point(const ReportedStudy& reported, std::int64_t point) {
   return reported.summary.points.size() == 1 ? "" : " at " + label_of(reported, point);
 }
 
-/// How many moves are undecided at the best point, and at the one with most of them.
+/// Adds the numbers of undecided moves at the best point and at the point with most of them.
 void add_undecided(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const std::vector<PointSummary>& points = reported.summary.points;
   const auto most =
@@ -123,19 +122,19 @@ void add_undecided(std::vector<std::string>& lines, const ReportedStudy& reporte
   if (most - points.begin() != best) add(most - points.begin());
 }
 
-/// ", 3 undecided" of trials, nothing where there are none.
+/// ", 3 undecided" for trials; empty for 0.
 std::string undecided_text(std::int64_t undecided) {
   return undecided == 0 ? "" : fmt::format(", {} undecided", undecided);
 }
 
-/// How rigs differ at the best point.
+/// Adds the differences between rigs at the best point.
 void add_rigs(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const RigStatistics& rigs = point_of(reported, best).rigs;
   if (rigs.n == 0) return;
   std::string line =
       fmt::format("{} of {} rigs had no failure; the worst 5 % of them succeeded in {} of their trials.",
                   std::llround(rigs.without_failure * static_cast<double>(rigs.n)), rigs.n,
-                  share_text(rigs.worst_5_percent));
+                  proportion_text(rigs.worst_5_percent));
   if (rigs.tolerance.min_rigs > 0) {
     std::string sentence = tolerance_sentence(rigs.tolerance);
     sentence.front() = 'W';
@@ -153,23 +152,23 @@ void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported) 
       std::min_element(points.begin(), points.end(), [](const PointSummary& a, const PointSummary& b) {
         return a.success_rate.value < b.success_rate.value;
       });
-  const std::string share = flawless == 0 ? fmt::format("None of the {} points is", points.size())
-                                          : fmt::format("{} of the {} points {}", flawless, points.size(),
-                                                        flawless == 1 ? "is" : "are");
-  lines.push_back(fmt::format("{} without a failure. The worst, {}, succeeded in {}{}.", share,
+  const std::string proportion = flawless == 0 ? fmt::format("None of the {} points is", points.size())
+                                               : fmt::format("{} of the {} points {}", flawless,
+                                                             points.size(), flawless == 1 ? "is" : "are");
+  lines.push_back(fmt::format("{} without a failure. The worst, {}, succeeded in {}{}.", proportion,
                               label_of(reported, worst - points.begin()),
                               of_all(worst->outcomes.zero_count, worst->trials),
                               bounds_text(reported, worst - points.begin())));
 }
 
-/// "half of all moves within 0.05 s", "95 % of them not within the hold".
+/// Examples: "half of all moves within 0.05 s", "95 % of them not within the hold".
 std::string within_text(const PointSummary& point, const char* moves, double time) {
   if (!std::isnan(time)) return fmt::format("{} within {} s", moves, short_number(time));
   return fmt::format("{} not within {}", moves,
                      std::isnan(point.hold) ? "the hold" : short_number(point.hold) + " s");
 }
 
-/// " (95 % bounds a to b s)"; nothing where the trials are not independent, or a bound is not known.
+/// " (95 % bounds a to b s)"; empty if the trials are not independent or a bound is missing.
 std::string median_bounds_text(const ReportedStudy& reported, const Quantile& median) {
   if (reported.summary.features.dependent_trials || std::isnan(median.low) || std::isnan(median.high))
     return "";
@@ -189,12 +188,12 @@ void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, s
     lines.push_back("No move was disturbed by a jerk after it arrived.");
     return;
   }
-  lines.push_back(text_on(
-      reported.file.axis(),
-      fmt::format("After arrival there were {} jerks per trial; {} of them went in the direction of the "
-                  "holding torque, {} were of one count.",
-                  short_number(point.jerk_count.mean), share_text(point.jerk_agreement),
-                  share_text(point.jerk_one_count_share))));
+  lines.push_back(
+      text_on(reported.file.axis(),
+              fmt::format("After arrival there were {} jerks per trial; {} of them went in the direction of "
+                          "the holding torque, {} were of one count.",
+                          short_number(point.jerk_count.mean), proportion_text(point.jerk_agreement),
+                          proportion_text(point.jerk_one_count_share))));
 }
 
 void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) {
@@ -231,9 +230,8 @@ void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) 
   }
   if (beyond_points > 0) {
     lines.push_back(fmt::format(
-        "Criterion (7) is exceeded in every trial of {} point{}; {} there were stable all the same{}.",
-        beyond_points, beyond_points == 1 ? "" : "s", of_all(beyond_stable, beyond_of),
-        undecided_text(beyond_undecided)));
+        "Criterion (7) is exceeded in every trial of {} point{}; {} there were stable{}.", beyond_points,
+        beyond_points == 1 ? "" : "s", of_all(beyond_stable, beyond_of), undecided_text(beyond_undecided)));
   }
 }
 
@@ -254,9 +252,9 @@ std::string open_loop_verdict(const ReportedStudy& reported) {
     trials += point.trials;
   }
   return as_html(
-      "A material test: the rotor was loaded by torques, and there was no target to succeed at.",
-      {fmt::format("In {} of {} trials the contact broke away into sliding; in {} the motion was lost. The "
-                   "table below says how far each level moved the rotor and how much of that was creep.",
+      "A material test: the rotor was loaded by torques, without targets, so there is no success rate.",
+      {fmt::format("In {} of {} trials the contact broke away into sliding; {} failed numerically. The table "
+                   "below shows how far each level moved the rotor, and the part of creep.",
                    broke_away, trials, lost)});
 }
 
@@ -268,8 +266,7 @@ std::string verdict_html(const ReportedStudy& reported) {
   std::vector<std::string> lines;
   if (reported.summary.features.dependent_trials) {
     lines.push_back(
-        fmt::format("{} A share of all axes, and bounds of it, are told of a study with "
-                    "`design: monte_carlo`.",
+        fmt::format("{} Statements about all axes, with bounds, need a study with `design: monte_carlo`.",
                     dependence_sentence));
   }
   add_success(lines, reported, best);

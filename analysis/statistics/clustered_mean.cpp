@@ -23,7 +23,7 @@ struct Estimate {
   double error{0.0};
 };
 
-/// @param drawn how often each cluster counts
+/// @param drawn [cluster] weight: how often the resample contains it
 Estimate estimate_of(const ClusterTotals& totals, const std::vector<std::int32_t>& drawn, double clusters) {
   double sum = 0.0, number = 0.0, sum_sum = 0.0, sum_number = 0.0, number_number = 0.0;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
@@ -39,12 +39,12 @@ Estimate estimate_of(const ClusterTotals& totals, const std::vector<std::int32_t
   if (!(number > 0.0)) return {};
   const double mean = sum / number;
   const double squares = sum_sum - 2.0 * mean * sum_number + mean * mean * number_number;
-  // What remains of squares that cancel is rounding.
+  // A smaller remainder of the cancelling squares is rounding error.
   if (!(squares > 1e-13 * sum_sum)) return {mean, 0.0};
   return {mean, std::sqrt(clusters / (clusters - 1.0) * squares) / number};
 }
 
-/// (θ* − θ)/e* of every resample, sorted. Infinite where a resample has no spread.
+/// (θ* − θ)/e* of every resample, sorted. Infinite for a resample without spread.
 std::vector<double> studentised_means(const ClusterTotals& totals, double mean, const RandomStream& stream,
                                       std::int64_t resamples) {
   const std::size_t clusters = totals.sums.size();
@@ -71,7 +71,7 @@ std::vector<double> studentised_means(const ClusterTotals& totals, double mean, 
   return result;
 }
 
-/// Between the order statistics, linearly (definition 6 of Hyndman and Fan 1996).
+/// Interpolates linearly between order statistics (definition 6 of Hyndman and Fan 1996).
 double sorted_quantile(const std::vector<double>& sorted, double probability) {
   const double place = probability * static_cast<double>(sorted.size() + 1) - 1.0;
   if (place <= 0.0) return sorted.front();
@@ -100,7 +100,7 @@ double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Variance of the mean over that of a Poisson number; 1 where it is less.
+/// Variance of the mean divided by that of a Poisson number; at least 1.
 double overdispersion(const ClusterTotals& totals, const Estimate& estimate) {
   const double number = sum_of(totals.numbers);
   const double of_poisson = estimate.mean / number;

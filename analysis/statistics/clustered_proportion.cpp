@@ -15,7 +15,7 @@ double proportion_of(const ClusterSums& sums) {
   return rate(sums.hits, sums.events);
 }
 
-/// Whether the clusters tell how much their events have in common.
+/// Whether the variance between clusters can be estimated.
 bool variance_is_known(const ClusterSums& sums) {
   return sums.clusters > 1 && sums.hits > 0 && sums.hits < sums.events;
 }

@@ -7,13 +7,13 @@
 
 namespace zerocount {
 
-/// k of n events that come in clusters: the trials of one rig, the moves or the jerks of one trial. The
-/// clusters are independent; events of one cluster have much in common.
+/// k hits among n events that form clusters: the trials of one rig, the moves or the jerks of one trial.
+/// Clusters are independent; events of one cluster are correlated.
 struct ClusteredProportion {
   std::int64_t hits{0};                                    ///< k
   std::int64_t events{0};                                  ///< n
   double value{std::numeric_limits<double>::quiet_NaN()};  ///< k/n
-  double effective_events{0.0};                ///< independent events they are worth, without t adjustment
+  double effective_events{0.0};  ///< equivalent number of independent events, without t adjustment
   ConfidenceInterval korn_graubard{0.0, 1.0};  ///< Clopper–Pearson with the effective number of events
   ConfidenceInterval wilson{0.0, 1.0};         ///< Wilson with the same number
 };
@@ -27,23 +27,23 @@ struct ClusterSums {
   double hits_by_events{0.0};  ///< Σ kᵢ·nᵢ
   double events_squared{0.0};  ///< Σ nᵢ²
 
-  /// Adds a cluster. One without events is left out.
+  /// Adds a cluster. A cluster without events is ignored.
   void add(std::int64_t cluster_hits, std::int64_t cluster_events);
 };
 
-/// The number of independent events that the events are worth,
+/// The equivalent number of independent events (effective sample size),
 ///
 ///   n* = n/deff,   deff = v/(p(1 − p)/n),   v = m/(m − 1)·Σ(kᵢ − p·nᵢ)²/n²,   p = k/n,
 ///
-/// kept between 1 and n. Where p is 0 or 1, or there is one cluster, v says nothing, and the events of a
-/// cluster count as if they were all alike: n* = n²/Σnᵢ². Where every cluster has one event, n* = n. 0
-/// without an event. Sources: Korn and Graubard, Survey Methodology 24 (1998) 193; Kish, Survey Sampling
-/// (1965), section 11.7.
+/// limited to 1 … n. If p is 0 or 1, or if there is only one cluster, v cannot be estimated, and the events
+/// of a cluster are taken as all equal: n* = n²/Σnᵢ². If every cluster has one event, n* = n. 0 without
+/// events. Sources: Korn and Graubard, Survey Methodology 24 (1998) 193; Kish, Survey Sampling (1965),
+/// section 11.7.
 double effective_events(const ClusterSums& sums);
 
 /// n*·(t(n − 1)/t(m − 1))², with t(f) the quantile of 1 − tail of Student's distribution with f degrees of
-/// freedom: the number of events whose Clopper–Pearson bounds allow for v being an estimate from m clusters.
-/// Without the factor where v says nothing.
+/// freedom: the effective number of events, reduced because v is an estimate from m clusters. Without the
+/// factor if v cannot be estimated.
 /// @param tail probability beyond each bound, in (0, ½)
 double adjusted_events(const ClusterSums& sums, double tail);
 
@@ -52,7 +52,7 @@ double adjusted_events(const ClusterSums& sums, double tail);
 /// @throws Failure (bad_input) for a confidence outside (0, 1).
 ClusteredProportion clustered_proportion(const ClusterSums& sums, double confidence = summary_confidence);
 
-/// The one-sided bounds: what the proportion is at least, or at most, with the stated confidence.
+/// The one-sided lower and upper bound of the proportion with the stated confidence.
 double clustered_at_least(const ClusterSums& sums, double confidence);
 double clustered_at_most(const ClusterSums& sums, double confidence);
 

@@ -11,16 +11,16 @@ namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-/// The number of whole independent values that the sample is worth at a quantile.
+/// The effective number of independent values at a quantile, rounded down.
 std::int64_t whole_values(const ClusteredSample& sample, double sample_quantile, double tail) {
   const double at = std::isnan(sample_quantile) ? largest(sample.observed()) : sample_quantile;
   const double events = adjusted_events(sample.at_most(at), tail);
-  // What is a whole number but for rounding is that number.
+  // The factor absorbs rounding errors just below a whole number.
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(events * (1.0 + 1e-12)));
 }
 
-/// The observation whose rank among all values is `rank` of `whole` independent ones, rounded away from the
-/// quantile.
+/// The observation at `rank` of `whole` independent values, scaled to the rank among all values. Rounded away
+/// from the quantile.
 double scaled_low(const ClusteredSample& sample, std::int64_t rank, std::int64_t whole) {
   const double scale = static_cast<double>(sample.size()) / static_cast<double>(whole);
   return order_statistic(sample.observed(),
@@ -53,7 +53,7 @@ void ClusteredSample::add_step(double value, std::int64_t before, std::int64_t c
   step.hits_by_events += (to - from) * static_cast<double>(size);
 }
 
-void ClusteredSample::add_cluster(const Tally<double>& observed, std::int64_t size) {
+void ClusteredSample::add_cluster(const Histogram<double>& observed, std::int64_t size) {
   begin_cluster(size);
   std::int64_t before = 0;
   for (const auto& [value, count] : observed.counts) {

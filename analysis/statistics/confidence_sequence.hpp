@@ -6,27 +6,25 @@
 
 namespace zerocount {
 
-/// Bounds of a proportion that hold at all sample sizes at once: with at least the stated probability, the
-/// true proportion lies within the bounds of *every* n, so one may look as often as one likes and stop when
-/// the bounds are narrow enough. (The bounds of Clopper and Pearson or Wilson hold for an n fixed
-/// beforehand.)
+/// Confidence sequence of a proportion. With at least the stated probability the true proportion lies within
+/// the bounds for *all* n at once. The bounds may therefore be evaluated after every trial, and sampling may
+/// stop when they are narrow enough. (Clopper–Pearson and Wilson bounds hold only for an n fixed in advance.)
 ///
-/// With s successes of n, the bounds are the p that the mixture martingale with the prior Beta(½, ½) does not
-/// reject:
+/// With s successes of n, the interval contains each p that the mixture martingale with the prior Beta(½, ½)
+/// does not reject:
 ///
 ///   B(s + ½, n − s + ½) / B(½, ½) / (pˢ·(1 − p)ⁿ⁻ˢ) ≤ 1/(1 − confidence),
 ///
-/// which by Ville's inequality fails with probability 1 − confidence at most, for any n whatever. Sources:
-/// Robbins, Statistical methods related to the law of the iterated logarithm (1970); Howard, Ramdas,
+/// By Ville's inequality the probability that this fails for the true p at any n is at most 1 − confidence.
+/// Sources: Robbins, Statistical methods related to the law of the iterated logarithm (1970); Howard, Ramdas,
 /// McAuliffe and Sekhon, Time-uniform, nonparametric, nonasymptotic confidence sequences (2021), section 3.
 ///
-/// low is 0 where successes = 0, high is 1 where successes = trials, and the interval is [0, 1] where
-/// trials = 0.
-ConfidenceInterval anytime_bounds(std::int64_t successes, std::int64_t trials, double confidence);
+/// low is 0 if successes = 0, high is 1 if successes = trials, and the interval is [0, 1] if trials = 0.
+ConfidenceInterval confidence_sequence_bounds(std::int64_t successes, std::int64_t trials, double confidence);
 
-/// How many trials, a multiple of `block` and at most `most`, the anytime bounds will need to be as narrow as
-/// ± `halfwidth` if `successes` of `trials` go on in the same proportion.
+/// Expected number of trials at which the confidence sequence has the half-width `halfwidth`, if the
+/// proportion of successes stays the same. A multiple of `block`, at most `max_trials`.
 std::int64_t projected_trials(std::int64_t successes, std::int64_t trials, double halfwidth,
-                              double confidence, std::int64_t block, std::int64_t most);
+                              double confidence, std::int64_t block, std::int64_t max_trials);
 
 }  // namespace zerocount

@@ -9,8 +9,8 @@ namespace zerocount {
 ///
 ///   mean ± t·sd/√n,   in the values' unit.
 ///
-/// Covers the mean of a normal distribution with the stated probability, and that of others the better the
-/// larger n. NaN where there are fewer than two finite values.
+/// Exact for normally distributed values; for other distributions the coverage approaches the stated
+/// probability with growing n. NaN for fewer than two finite values.
 /// @throws Failure (bad_input) for a confidence outside (0, 1).
 ConfidenceInterval student_t(const Moments& sample, double confidence = summary_confidence);
 

@@ -7,7 +7,7 @@
 
 namespace zerocount {
 
-/// Mean, spread and extremes of the finite values of a sample, in the values' unit; NaN where there are none.
+/// Mean, spread and extremes of the finite values of a sample, in the values' unit; NaN without values.
 /// Constant memory (Welford 1962).
 struct Moments {
   std::int64_t n{0};          ///< finite values

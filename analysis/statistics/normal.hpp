@@ -9,7 +9,7 @@ double normal_quantile(double p);
 /// P(Z > z).
 double normal_upper_tail(double z);
 
-/// Quantile at (1 + confidence)/2: ± this holds with the confidence.
+/// z = quantile at (1 + confidence)/2, so that P(|Z| ≤ z) = confidence.
 /// @throws Failure (bad_input) for a confidence outside (0, 1).
 double two_sided_normal_quantile(double confidence);
 

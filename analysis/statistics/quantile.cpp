@@ -19,7 +19,8 @@ void require_inside_unit_interval(const char* what, double value) {
                 fmt::format("a {} of {}; expected a number between 0 and 1", what, value));
 }
 
-/// Smallest k in [0, end) for which `holds`, which once true stays true; `end` where it never is.
+/// Smallest k in [0, end) with holds(k), by bisection; `end` if there is none. `holds` must be monotonic:
+/// false, then true.
 template <typename Predicate>
 std::int64_t first_where(std::int64_t end, const Predicate& holds) {
   std::int64_t low = 0;

@@ -19,7 +19,7 @@ void require_open_unit(const char* what, double value) {
                 fmt::format("a {} of {}; expected a number between 0 and 1", what, value));
 }
 
-/// What rigs with the expected variance between them would sum to.
+/// Expected sums over rigs whose success probabilities have the standard deviation `rig_sd`.
 ClusterSums expected_sums(double rate, double rig_sd, double rigs, double trials) {
   const double of_trials = rate * (1.0 - rate) - rig_sd * rig_sd;
   const double variance = trials * trials * rig_sd * rig_sd + trials * of_trials;  // of a rig's successes
@@ -81,9 +81,9 @@ std::int64_t rigs_for_halfwidth(double halfwidth, double confidence, double rate
 
 RigPlan plan_tolerance(double content, double success, double confidence, std::int64_t rigs) {
   require_confidence(confidence);
-  require_open_unit("share of rigs", content);
+  require_open_unit("proportion of rigs", content);
   require_open_unit("success rate", success);
-  const std::int64_t fewest = fewest_rigs_for_tolerance(content, confidence);
+  const std::int64_t fewest = min_rigs_for_tolerance(content, confidence);
   if (rigs == 0) rigs = fewest + (fewest + 1) / 2;
   if (rigs < fewest) {
     throw Failure(

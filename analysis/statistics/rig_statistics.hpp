@@ -10,8 +10,8 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/tolerance.hpp"
 
-/// How much rigs differ in their success: repeatability is what one rig does again and again, robustness
-/// what is the same on every rig.
+/// How much rigs differ in their success. Repeatability concerns the trials of one rig, robustness the
+/// differences between rigs.
 namespace zerocount {
 
 /// The trials of one rig at a design point.
@@ -29,50 +29,53 @@ struct RigTolerance {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double content{0.9};
   double confidence{summary_confidence};
-  double zero_at_least{unknown};  ///< NaN where there are too few rigs
-  std::int64_t min_rigs{0};       ///< with which something can be said
+  double zero_at_least{unknown};  ///< NaN if there are too few rigs
+  std::int64_t min_rigs{0};       ///< minimum number of rigs for such a statement
 };
 
-/// The bound of a RigTolerance from R rigs, whatever the distribution between rigs; trials of one rig must be
+/// The bound of a RigTolerance from R rigs, for any distribution between rigs. The trials of one rig must be
 /// independent given the rig.
 ///
-/// Rank and allowance are chosen by R alone. For rank r, let p_r be the one-sided Clopper–Pearson upper bound
-/// of a proportion of which r − 1 in R were seen: with the stated confidence, rigs whose observed proportion
-/// of zero moves is below the r-th smallest, y, are at most the proportion p_r of all. A rig whose true
-/// proportion is below L shows y or more with a probability of at most δ, where L is the one-sided lower
-/// bound of confidence 1 − δ from y. So rigs below L are at most p_r/(1 − δ) of all, which is 1 − content for
-/// δ = 1 − p_r/(1 − content). r is the largest rank with δ ≥ ¼, or else 1.
+/// 1. Sort the R observed proportions of zero moves; y is the r-th smallest. With the stated confidence, at
+///    most the proportion p_r of all rigs shows less than y, where p_r is the one-sided Clopper–Pearson upper
+///    bound for r − 1 hits in R.
+/// 2. Let L be the one-sided lower bound from y with confidence 1 − δ. A rig whose true proportion is below L
+///    shows y or more with a probability of at most δ.
+/// 3. Therefore at most the proportion p_r/(1 − δ) of all rigs is below L. It equals 1 − content for
+///    δ = 1 − p_r/(1 − content).
 ///
-/// L is Clopper–Pearson's for trials of one move. Moves of one trial may all be alike, so that for several
-/// moves it is the bound of Chernoff and Hoeffding for the mean of m independent trials with values in [0,
+/// The rank r is the largest with δ ≥ ¼, or else 1: it depends on R only, not on the observations.
+///
+/// For trials of one move L is the Clopper–Pearson bound. Moves of one trial may be correlated. For several
+/// moves L is therefore the Chernoff–Hoeffding bound for the mean of m independent trials with values in [0,
 /// 1]: m·KL(y‖L) = −ln δ, KL(y‖q) = y·ln(y/q) + (1 − y)·ln((1 − y)/(1 − q)). Sources: Wilks, Ann. Math.
 /// Statist. 12 (1941) 91; Hoeffding, J. Amer. Statist. Assoc. 58 (1963) 13, theorem 1.
 RigTolerance rig_tolerance(std::span<const RigTrials> rigs, double content, double confidence);
 
-/// The fewest rigs with which a RigTolerance can say something, and the δ above of so many rigs (0 of fewer).
-std::int64_t fewest_rigs_for_tolerance(double content, double confidence);
+/// The minimum number of rigs for a RigTolerance, and δ for a number of rigs (0 below the minimum).
+std::int64_t min_rigs_for_tolerance(double content, double confidence);
 double tolerance_allowance(std::int64_t rigs, double content, double confidence);
 
-/// "with 95 % confidence at least 90 % of rigs hold zero in at least 97 % of moves", the proportion rounded
-/// down; or how many rigs such a statement takes.
+/// "with 95 % confidence at least 90 % of rigs hold zero in at least 97 % of moves", the last number rounded
+/// down; or the number of rigs that such a statement needs.
 std::string tolerance_sentence(const RigTolerance& tolerance);
 
-/// How rigs differ at a design point. NaN where there are no rigs.
+/// Differences between rigs at a design point. NaN without rigs.
 struct RigStatistics {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   std::int64_t n{0};  ///< rigs
   /// Standard deviation between rigs of the probability of success: the moment estimate of the beta-binomial
   /// distribution, √max(0, S² − Σp̂ᵢ(1 − p̂ᵢ)/(R·(m − 1))) with S² the variance of the rigs' success rates p̂ᵢ
-  /// of m trials each. NaN with one trial a rig. Source: Kleinman, J. Amer. Statist. Assoc. 68 (1973) 46.
+  /// of m trials each. NaN for one trial per rig. Source: Kleinman, J. Amer. Statist. Assoc. 68 (1973) 46.
   double success_sd{unknown};
-  /// Rigs all of whose trials succeeded, as a proportion of the rigs, with Clopper–Pearson bounds: of rigs
-  /// that run as many trials.
+  /// Proportion of rigs without a failed trial, with Clopper–Pearson bounds. It holds for this number of
+  /// trials per rig.
   double without_failure{unknown};
   ConfidenceInterval without_failure_bounds{unknown, unknown};
-  /// Mean success rate of the ⌈R/20⌉ rigs with the lowest, as observed: with few trials a rig it is lower
-  /// than their probability of success, because chance decides who is among the worst.
+  /// Mean observed success rate of the ⌈R/20⌉ worst rigs. With few trials per rig it is biased below their
+  /// true success probability, because the selection favours rigs with bad luck.
   double worst_5_percent{unknown};
-  ClusterSums successes;  ///< of the trials, a cluster for each rig
+  ClusterSums successes;  ///< of the trials; each rig is a cluster
   RigTolerance tolerance;
 };
 
@@ -80,11 +83,11 @@ struct RigStatistics {
 /// @throws Failure (bad_input) for a confidence outside (0, 1).
 RigStatistics rig_statistics(std::span<const RigTrials> rigs, double confidence = summary_confidence);
 
-/// What the trials of rigs show of a trial on any rig: by the one-sided bounds of Korn and Graubard.
-/// @param successes of the trials, a cluster for each rig
+/// Tolerance statement for a trial on any rig, from the one-sided Korn–Graubard bounds.
+/// @param successes of the trials; each rig is a cluster
 SuccessClaim success_claim_on_rigs(const ClusterSums& successes, double confidence);
 
-/// The sums behind a rate of trials on rigs.
+/// Sums over the trials with each rig as a cluster.
 ClusterSums sums_over_rigs(std::span<const RigTrials> rigs, std::int64_t RigTrials::*hits);
 
 }  // namespace zerocount

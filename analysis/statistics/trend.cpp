@@ -8,8 +8,7 @@
 namespace zerocount {
 namespace {
 
-/// How many values of each rank were seen, with the number below a rank in O(log n) (a binary indexed tree,
-/// Fenwick 1994).
+/// Counts of values by rank; the number below a rank takes O(log n) (binary indexed tree, Fenwick 1994).
 class RankCounter {
  public:
   explicit RankCounter(std::size_t ranks) : sums_(ranks + 1, 0) {}

@@ -5,7 +5,7 @@
 
 namespace zerocount {
 
-/// How the values of a series compare with those before them, over all its pairs.
+/// Numbers of rising, falling and equal pairs of a series.
 struct RankTrend {
   std::int64_t rising{0};   ///< pairs whose later value is the larger
   std::int64_t falling{0};  ///< pairs whose later value is the smaller
@@ -15,8 +15,8 @@ struct RankTrend {
 };
 
 /// Counts the pairs of a series in O(n log n) time. rising − falling is the Mann–Kendall statistic S:
-/// positive where the series tends to rise; its sign is equally likely either way if the order of the values
-/// is random. Values must not be NaN. Source: Mann (1945); Kendall, Rank Correlation Methods.
+/// positive if the series tends to rise. Both signs are equally likely if the order of the values is random.
+/// Values must not be NaN. Source: Mann (1945); Kendall, Rank Correlation Methods.
 RankTrend rank_trend(std::span<const double> series);
 
 /// Kendall's τ_a = (rising − falling)/pairs, in [−1, 1]; NaN where there are no pairs.

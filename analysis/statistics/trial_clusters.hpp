@@ -7,28 +7,28 @@
 
 namespace zerocount {
 
-/// Gathers the values of trials into clusters: those of a trial, or with rigs those of all trials of a rig,
-/// trial i being on rig i mod rigs.
+/// Collects the values of trials into clusters. A cluster is a trial, or with rigs all trials of a rig; trial
+/// i runs on rig i mod rigs.
 class TrialClusters {
  public:
-  /// @param rigs 0: no trials share a rig
+  /// @param rigs number of rigs; 0: every trial is a cluster
   explicit TrialClusters(std::int64_t rigs = 0) : rigs_in_all_(rigs) {}
 
-  /// Adds a trial with `size` values, of which those in `observed` are known and the rest larger than all
-  /// others.
+  /// Adds a trial with `size` values: those in `observed`; the others are censored (larger than all observed
+  /// ones).
   /// @param observed in any order; sorted by the call
   void add_trial(std::int64_t trial, std::vector<double>& observed, std::int64_t size);
 
-  /// What was added so far.
+  /// The sample of all trials added so far.
   ClusteredSample sample() const;
 
  private:
   struct Rig {
-    Tally<double> observed;
+    Histogram<double> observed;
     std::int64_t size{0};
   };
   std::int64_t rigs_in_all_;
-  std::vector<Rig> rigs_;   ///< those that have trials
+  std::vector<Rig> rigs_;   ///< rigs that have trials
   ClusteredSample trials_;  ///< without rigs
 };
 

@@ -29,7 +29,7 @@ nlohmann::ordered_json moves_json(const PointSummary& statistics, const StudyFea
   nlohmann::ordered_json moves = nlohmann::ordered_json::array();
   for (const MoveCounts& move : statistics.by_move) {
     nlohmann::ordered_json counts;
-    for (const FlagMeaning& outcome : outcome_words()) {
+    for (const FlagMeaning& outcome : outcome_labels()) {
       counts[outcome.word] = move.outcomes.*counter_of(static_cast<Outcome>(outcome.value));
     }
     counts["stable"] = move.stable;

@@ -12,7 +12,7 @@
 namespace zerocount {
 
 /// Adds the numbers of `subject` to a JSON object under the names of their fields, by group. Whole numbers
-/// are integers; what is NaN is written as null.
+/// are written as integers, NaN as null.
 template <class Subject>
 void add_fields(nlohmann::ordered_json& json, std::span<const ReportField<Subject>> fields,
                 const Subject& subject) {

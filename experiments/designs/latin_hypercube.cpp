@@ -6,7 +6,7 @@
 namespace zerocount {
 namespace {
 
-// Enough that the permutations of even the smallest domains come out equally often
+// Enough rounds for equally likely permutations even of the smallest domains //
 // (tests/experiments/designs/latin_hypercube_test.cpp).
 constexpr std::uint32_t rounds = 8;
 
@@ -15,7 +15,7 @@ struct Domain {
   std::uint64_t b;
 };
 
-// a·b ≥ count with a·b − count < a, so that a walk along the cycle is almost always of length 1.
+// a·b ≥ count with a·b − count < a, so that cycle walking almost always ends after one step.
 Domain domain_for(std::uint64_t count) {
   const auto a = static_cast<std::uint64_t>(std::ceil(std::sqrt(static_cast<double>(count))));
   return {a, (count + a - 1) / a};
@@ -49,7 +49,7 @@ std::uint64_t latin_stratum(std::uint64_t index, std::uint64_t count, const Rand
 double latin_uniform(std::uint64_t index, std::uint64_t count, const RandomStream& stream) {
   const auto stratum = static_cast<double>(latin_stratum(index, count, stream));
   const double place = open_uniform(random_bits(stream, index, Draw::trial));
-  // Where there are so many strata that the sum rounds up, the number must still be below 1.
+  // With very many strata the sum may round up to 1.
   return std::min((stratum + place) / static_cast<double>(count), 1.0 - 0x1p-53);
 }
 

@@ -6,12 +6,12 @@
 
 namespace zerocount {
 
-/// The stratum of trial `index` among `count` strata: a permutation of 0 … count − 1 that is a function of
-/// the stream, and takes no memory. 0 ≤ index < count ≤ 2⁵³.
+/// The stratum of trial `index` among `count` strata: a random permutation of 0 … count − 1, determined by
+/// the stream and computed without a table. 0 ≤ index < count ≤ 2⁵³.
 ///
 /// A generalised Feistel network on Z_a × Z_b with a·b ≥ count (Black & Rogaway, "Ciphers with arbitrary
-/// finite domains", CT-RSA 2002) whose round function is Philox, walking along its cycle until it is back
-/// inside 0 … count − 1.
+/// finite domains", CT-RSA 2002) with Philox as round function, and cycle walking until the result is in 0 …
+/// count − 1.
 std::uint64_t latin_stratum(std::uint64_t index, std::uint64_t count, const RandomStream& stream);
 
 /// Trial `index` of `count` in one dimension of a Latin hypercube (McKay, Beckman & Conover 1979), in (0, 1):

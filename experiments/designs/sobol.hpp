@@ -13,7 +13,7 @@ namespace zerocount {
 /// index.
 using SobolDirections = std::array<std::uint64_t, 53>;
 
-/// Number of dimensions there are.
+/// Number of available dimensions.
 std::size_t sobol_dimension_limit();
 
 /// The direction numbers of Boost.Random's Sobol engine for each of `dimensions` (each below
@@ -24,7 +24,7 @@ std::vector<SobolDirections> sobol_directions(std::span<const std::size_t> dimen
 /// origin first, as a 64-bit binary fraction.
 std::uint64_t sobol_bits(std::uint64_t index, const SobolDirections& directions);
 
-/// The same with the seeded digital shift that every dimension gets from its own stream, in (0, 1). The shift
+/// As sobol_bits, with the random digital shift of this dimension from its own stream, in (0, 1). The shift
 /// keeps the stratification: each of 2^m equal intervals holds one of the trials j·2^m … (j + 1)·2^m − 1.
 double sobol_uniform(std::uint64_t index, const SobolDirections& directions, const RandomStream& stream);
 

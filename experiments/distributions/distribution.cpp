@@ -18,7 +18,7 @@ struct Overload : Cases... {
 template <class... Cases>
 Overload(Cases...) -> Overload<Cases...>;
 
-// Rounding may carry a quantile onto or over the end; the supports are half open.
+// Rounding may move a quantile to the upper end of the half-open support or beyond it.
 double kept_inside(double value, double low, double high) {
   return std::clamp(value, low, std::nextafter(high, low));
 }
@@ -43,7 +43,7 @@ double quantile_of(const TruncatedNormal& d, double u) {
   const boost::math::normal standard;
   double low = (d.low - d.mean) / d.sd;
   double high = (d.high - d.mean) / d.sd;
-  // The probabilities of an upper tail are differences of numbers near 1; those of its mirror image are not.
+  // Mirrors an upper tail: its probabilities would be differences of numbers near 1.
   const bool mirrored = low > 0.0;
   if (mirrored) {
     std::swap(low, high);

@@ -9,16 +9,16 @@
 
 namespace zerocount {
 
-// The distributions of a manifest. Parameters have the unit of the quantity; all are sampled by their
-// quantile function, so that every design, stratified or not, is the same map of uniform numbers.
+// The distributions of a manifest. Parameters have the unit of the quantity. All distributions are sampled by
+// // their quantile function, so that all designs map uniform numbers in the same way.
 
-/// Equally likely anywhere in [low, high).
+/// Uniform on [low, high).
 struct Uniform {
   double low{0.0};
   double high{1.0};
 };
 
-/// The logarithm is equally likely anywhere: density ∝ 1/x on [low, high), 0 < low.
+/// Uniform logarithm: density ∝ 1/x on [low, high), 0 < low.
 struct LogUniform {
   double low{1.0};
   double high{2.0};
@@ -45,20 +45,20 @@ struct Lognormal {
   double cv{0.1};
 };
 
-/// Density rising from `low` to `mode` and falling to `high`, straight on both sides.
+/// Density that rises linearly from `low` to `mode` and falls linearly to `high`.
 struct Triangular {
   double low{0.0};
   double mode{0.5};
   double high{1.0};
 };
 
-/// Each whole number from `low` to `high`, both included, equally likely.
+/// Uniform on the whole numbers `low` … `high`.
 struct Integers {
   std::int64_t low{0};
   std::int64_t high{1};
 };
 
-/// Each of the values equally likely.
+/// All values are equally likely.
 struct Choice {
   std::vector<double> values;
 };
@@ -66,13 +66,13 @@ struct Choice {
 using Distribution =
     std::variant<Uniform, LogUniform, Normal, TruncatedNormal, Lognormal, Triangular, Integers, Choice>;
 
-/// The values that can be drawn.
+/// Interval of the possible values.
 Interval support(const Distribution& distribution);
 
 /// The smallest x with P(X ≤ x) ≥ u, 0 < u < 1, in the quantity's unit.
 double quantile(const Distribution& distribution, double u);
 
-/// Whether the extreme draws are in `range`: numbers may be so large that their quantiles overflow.
+/// Whether the extreme quantiles are in `range`. They may overflow for very large parameters.
 bool extremes_are_inside(const Distribution& distribution, const Interval& range);
 
 /// Whether only whole numbers can be drawn.

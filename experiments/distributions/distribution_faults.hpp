@@ -7,14 +7,14 @@
 
 namespace zerocount {
 
-/// Why some numbers make no distribution, as the two phrases of a message.
+/// Why the parameters of a distribution are invalid: the two phrases of a message.
 struct DistributionFault {
   std::string what;
   std::string expected;
 };
 
-/// The first fault of a distribution whose numbers are finite: low not below high, no spread, nothing to
-/// choose from, …
+/// The first fault of a distribution with finite parameters: low not below high, no spread, an empty choice,
+/// …
 std::optional<DistributionFault> find_fault(const Distribution& distribution);
 
 }  // namespace zerocount

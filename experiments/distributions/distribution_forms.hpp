@@ -11,13 +11,13 @@
 
 namespace zerocount {
 
-/// How a manifest writes one distribution: a map with the one key `name`.
+/// Syntax of one distribution in a manifest: a map with the single key `name`.
 struct DistributionForm {
   std::string_view name;
-  std::string_view shown;              ///< what stands after the name: "[low, high]"
-  std::vector<std::string_view> keys;  ///< the numbers it takes; none: a list of any length
-  bool by_key{false};                  ///< a map of the keys; else a list in their order
-  bool whole_numbers{false};           ///< takes and draws whole numbers
+  std::string_view shown;              ///< value of the key in help texts: "[low, high]"
+  std::vector<std::string_view> keys;  ///< names of the parameters; empty: a list of any length
+  bool by_key{false};                  ///< the value is a map of the keys; otherwise a list in their order
+  bool whole_numbers{false};           ///< parameters and draws are whole numbers
   std::string_view meaning;
   Distribution (*make)(const std::vector<double>& numbers){nullptr};
 };
@@ -28,13 +28,13 @@ std::span<const DistributionForm> distribution_forms();
 /// The names, "uniform, log_uniform, …", for messages.
 std::string distribution_names();
 
-/// The distribution in `field`, the value of the key `form.name`. Reports what is wrong and returns nothing,
-/// also where the numbers make no distribution (low above high, say).
+/// The distribution in `field`, the value of the key `form.name`. Reports errors, such as low above high, and
+/// returns nothing then.
 std::optional<Distribution> read_distribution(const DistributionForm& form, const Field& field,
                                               Problems& problems);
 
-/// The form that `entry` of the map names. Reports what stands there instead, with the nearest name among the
-/// forms and `others`, and returns null.
+/// The form that `entry` of the map names. Reports an unknown name, with the nearest name among the forms and
+/// `others`, and returns null.
 const DistributionForm* find_form(const Field& map, const YamlEntry& entry,
                                   const std::vector<std::string>& others, std::string_view expected,
                                   Problems& problems);

@@ -8,14 +8,14 @@
 
 namespace zerocount {
 
-/// A profile as a manifest writes it: {mean, cv, correlation_length, marginal}, marginal lognormal if left
-/// out. The mean is a number, or a distribution from which every rotor has its own.
+/// A profile in a manifest: {mean, cv, correlation_length, marginal}; the default marginal is lognormal. The
+/// mean is a number, or a distribution that is drawn for every rotor.
 struct ProfileForm {
-  ProfileDescription description;    ///< its mean: 1 where it is drawn
-  std::optional<Distribution> mean;  ///< where it is drawn
+  ProfileDescription description;    ///< with mean 1 if the mean is drawn
+  std::optional<Distribution> mean;  ///< set if the mean is drawn
 };
 
-/// The value of the key `profile`. Reports what is wrong, and returns nothing then.
+/// The value of the key `profile`. Reports errors and returns nothing then.
 /// @param period of the field, rad or m.
 std::optional<ProfileForm> read_profile(const Field& field, double period, Problems& problems);
 

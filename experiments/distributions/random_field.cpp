@@ -20,8 +20,8 @@ double standard_normal(const RandomKey& key, std::size_t harmonic, std::uint32_t
 }  // namespace
 
 std::vector<double> field_spectrum(double correlation_length) {
-  // Beyond m = M the terms hold less than ∫_M^∞ 2·exp(−(mℓ/2)²) dm = (2√π/ℓ)·erfc(Mℓ/2), and all of them
-  // together at least max(1, 2√π/ℓ).
+  // The terms with m > M sum to less than ∫_M^∞ 2·exp(−(mℓ/2)²) dm = (2√π/ℓ)·erfc(Mℓ/2), and all terms // to
+  // at least max(1, 2√π/ℓ).
   const double whole = std::max(1.0, 2.0 * std::sqrt(std::numbers::pi) / correlation_length);
   const double tail = neglected_variance * whole * correlation_length / (2.0 * std::sqrt(std::numbers::pi));
   const double last = 2.0 / correlation_length * boost::math::erfc_inv(tail);

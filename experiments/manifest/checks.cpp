@@ -15,7 +15,7 @@
 namespace zerocount {
 namespace {
 
-constexpr std::size_t most_reported = 20;
+constexpr std::size_t max_reported = 20;
 
 struct Checking {
   const PlanPlaces& places;
@@ -34,7 +34,7 @@ void tell(Checking& c, const Place& place, std::size_t slot, const std::string& 
   }
 }
 
-// Where an axis gives the slot its value at this point.
+// Place in the sweep that assigns the slot's value at this point, if any.
 std::optional<Place> swept_place(const Checking& c, std::size_t slot, std::size_t point) {
   for (std::size_t a = c.plan().axes.size(); a-- > 0;) {
     const PlanAxis& axis = c.plan().axes[a];
@@ -46,8 +46,8 @@ std::optional<Place> swept_place(const Checking& c, std::size_t slot, std::size_
   return std::nullopt;
 }
 
-// Of the values that a fault is between: that of the sweep, else one that is written in the manifest, else
-// the first.
+// Place in the manifest of one of the involved values: a swept one, otherwise one written in the manifest, //
+// otherwise the first.
 Place place_of_fault(const Checking& c, const std::vector<std::size_t>& slots, std::size_t point) {
   for (const std::size_t slot : slots) {
     if (const auto place = swept_place(c, slot, point)) return *place;
@@ -58,8 +58,8 @@ Place place_of_fault(const Checking& c, const std::vector<std::size_t>& slots, s
   return c.places.base[slots.front()];
 }
 
-// The values that a fault is between: those of the list that it names, the parameters of the rule, and what
-// else of the list it may come from.
+// The values that a fault involves: its values of the list, the parameters of the rule, and other values of
+// // the list that may cause it.
 std::vector<std::size_t> slots_of(const ValueFault& fault, const std::vector<std::size_t>& involved) {
   std::vector<std::size_t> slots;
   for (const std::size_t i : fault.listed) slots.push_back(listed_slot(i));
@@ -68,11 +68,12 @@ std::vector<std::size_t> slots_of(const ValueFault& fault, const std::vector<std
 }
 
 void check_values(Checking& c) {
-  using Told = std::set<std::pair<std::size_t, std::string>>;  // the same fault at many points is one
-  Told problems;
-  Told warnings;
+  using Reports =
+      std::set<std::pair<std::size_t, std::string>>;  // the same fault at several points is reported once
+  Reports problems;
+  Reports warnings;
   for (const ValueRule& rule : value_rules(c.plan())) {
-    Told& reported = rule.warn_only ? warnings : problems;
+    Reports& reported = rule.warn_only ? warnings : problems;
     const std::vector<std::size_t> named = slots_named(rule.between);
     const std::vector<std::size_t> listed =
         rule.whole_list ? listed_slots(c.plan().list) : std::vector<std::size_t>{};
@@ -81,19 +82,19 @@ void check_values(Checking& c) {
     visit_points(c.plan(), involved, [&](std::size_t point) {
       const std::vector<ValueLimits> limits = limits_at(c.plan(), involved, point);
       const std::span<const ValueLimits> all(limits);
-      if (!are_readable(all)) return true;  // told already
+      if (!are_readable(all)) return true;  // reported already
       for (const ValueFault& fault : rule.find_faults(all.first(named.size()), all.subspan(named.size()))) {
         const std::vector<std::size_t> slots = slots_of(fault, involved);
-        if (reported.size() < most_reported && reported.insert({slots.front(), fault.what}).second) {
+        if (reported.size() < max_reported && reported.insert({slots.front(), fault.what}).second) {
           tell(c, place_of_fault(c, slots, point), slots.front(), fault.what, fault.expected, rule.warn_only);
         }
       }
-      return reported.size() < most_reported;
+      return reported.size() < max_reported;
     });
   }
 }
 
-// Where the manifest gives the parameter a value: outside the sweep, or first in it.
+// Place in the manifest of the parameter's value: outside the sweep, or the first one in it.
 std::optional<Place> given_place(const Checking& c, std::size_t row) {
   if (c.places.written[row]) return c.places.base[row];
   for (std::size_t a = 0; a < c.plan().axes.size(); ++a) {
@@ -115,17 +116,17 @@ bool asks_for_nothing(const Checking& c, std::size_t row) {
 
 void check_effects(Checking& c) {
   const auto table = parameter_table();
-  std::set<std::size_t> told;
+  std::set<std::size_t> reported_rows;
   for (const EffectRule& rule : effect_rules(c.plan())) {
     std::optional<bool> has_effect;
     for (std::size_t row = 0; row < table.size(); ++row) {
       const bool covered = std::any_of(rule.keys.begin(), rule.keys.end(),
                                        [&](std::string_view key) { return is_within(table[row].name, key); });
       const auto place = covered ? given_place(c, row) : std::nullopt;
-      if (!place || told.count(row) > 0 || (rule.off_at_zero && asks_for_nothing(c, row))) continue;
+      if (!place || reported_rows.count(row) > 0 || (rule.off_at_zero && asks_for_nothing(c, row))) continue;
       if (!has_effect) has_effect = can_have_effect(c.plan(), rule);
       if (*has_effect) continue;
-      told.insert(row);
+      reported_rows.insert(row);
       tell(c, *place, row, text_on(c.plan().units.axis, rule.what), rule.expected, rule.warn_only);
     }
   }

@@ -8,17 +8,17 @@
 
 namespace zerocount {
 
-/// Where the values of a plan stand in the manifest.
+/// Places of a plan's values in the manifest.
 struct PlanPlaces {
-  std::vector<Place> base;               ///< [slot]; that of the manifest's first line for a default
+  std::vector<Place> base;               ///< [slot]; for a default the manifest's first line
   std::vector<bool> written;             ///< [slot] whether the base value is written in the manifest
   std::vector<std::vector<Place>> axes;  ///< [axis][assignment]
 };
 
-/// Checks what no parameter can tell alone: at every design point, for all values that can be drawn, that
-/// values fit one another (value_rules.hpp); and that no key is given that has no effect at any point
-/// (effect_rules.hpp), and none is missing that has to be given (required_values.hpp). A problem is told at
-/// the value that the sweep gives, where one of those involved is swept.
+/// Checks that involve several parameters, at every design point and for all values that can be drawn: values
+/// must be consistent (value_rules.hpp), every given key must have an effect at some point
+/// (effect_rules.hpp), and required values must be given (required_values.hpp). A problem is reported at the
+/// place of a swept value, if one is involved.
 void check_points(const PlanPlaces& places, Reading& reading);
 
 }  // namespace zerocount

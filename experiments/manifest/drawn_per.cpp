@@ -1,10 +1,6 @@
 #include "experiments/manifest/drawn_per.hpp"
 
-#include <algorithm>
 #include <array>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace zerocount {
 namespace {
@@ -14,7 +10,7 @@ struct Misfit {
   std::string_view expected;
 };
 
-// Why the parameter cannot be drawn so often, if so.
+// The reason if the parameter cannot be drawn this often.
 std::optional<Misfit> misfit_of(Per per, const Parameter& parameter, Drawn drawn, bool has_rigs) {
   switch (per) {
     case Per::study:
@@ -39,9 +35,9 @@ std::optional<Misfit> misfit_of(Per per, const Parameter& parameter, Drawn drawn
 
 }  // namespace
 
-std::span<const std::string_view> per_words() {
-  static constexpr std::array<std::string_view, 4> words{"study", "rig", "trial", "contact"};
-  return words;
+std::span<const std::string_view> per_labels() {
+  static constexpr std::array<std::string_view, 4> labels{"study", "rig", "trial", "contact"};
+  return labels;
 }
 
 Per usual_per(const Parameter& parameter, Drawn drawn, bool has_rigs) {
@@ -51,18 +47,12 @@ Per usual_per(const Parameter& parameter, Drawn drawn, bool has_rigs) {
 
 std::optional<Per> read_per(const Field& field, const Parameter& parameter, Drawn drawn, bool has_rigs,
                             Problems& problems) {
-  const YamlNode& node = *field.node;
-  const auto words = per_words();
-  const auto word = std::find(words.begin(), words.end(), node.text);
-  if (node.kind != YamlNode::Kind::scalar || word == words.end()) {
-    problems.add(node.place, field.path, fmt::format("{} is none of its words", in_quotes(flow_text(node))),
-                 fmt::format("one of {}", fmt::join(words, ", ")));
-    return std::nullopt;
-  }
-  const auto per = static_cast<Per>(word - words.begin());
+  const auto label = read_label(field, per_labels(), problems);
+  if (!label) return std::nullopt;
+  const auto per = static_cast<Per>(*label);
   const auto misfit = misfit_of(per, parameter, drawn, has_rigs);
   if (!misfit) return per;
-  problems.add(node.place, field.path, std::string(misfit->what), misfit->expected);
+  problems.add(field.node->place, field.path, std::string(misfit->what), misfit->expected);
   return std::nullopt;
 }
 

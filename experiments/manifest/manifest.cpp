@@ -24,9 +24,9 @@
 namespace zerocount {
 namespace {
 
-constexpr std::int64_t most_trials = std::int64_t{1} << 53;
+constexpr std::int64_t max_study_trials = std::int64_t{1} << 53;
 
-// The manifest while it is read.
+// State of the reading of a manifest.
 struct Manifest {
   Field root;
   Reading reading;
@@ -38,7 +38,7 @@ struct Manifest {
   StudyPlan& plan() { return reading.plan; }
 };
 
-// The value of a top-level key; where it is missing, null, which is reported if it is required.
+// The value of a top-level key, if present. Reports a missing required key.
 std::optional<Field> find_field(Manifest& m, std::string_view key) {
   if (const YamlEntry* entry = find_entry(*m.root.node, key)) return entry_of(m.root, *entry);
   return std::nullopt;
@@ -79,14 +79,8 @@ void read_texts(Manifest& m) {
 void read_design(Manifest& m) {
   const auto field = find_field(m, "design");
   if (!field) return;
-  const std::span<const std::string_view> words = design_words();
-  const auto word = std::find(words.begin(), words.end(), field->node->text);
-  if (field->node->kind == YamlNode::Kind::scalar && word != words.end()) {
-    m.study.design = static_cast<Design>(word - words.begin());
-  } else {
-    m.problems().add(field->node->place, field->path,
-                     fmt::format("{} is no design", in_quotes(flow_text(*field->node))),
-                     "monte_carlo, latin_hypercube, sobol or saltelli");
+  if (const auto design = read_label(*field, design_labels(), m.problems())) {
+    m.study.design = static_cast<Design>(*design);
   }
 }
 
@@ -95,7 +89,7 @@ void read_numbers(Manifest& m) {
     m.study.seed = read_seed(*field, m.problems()).value_or(0);
   }
   if (const auto field = find_required(m, "trials", "the number of trials at each design point")) {
-    m.study.trials = read_whole(*field, 1, most_trials, m.problems()).value_or(0);
+    m.study.trials = read_whole(*field, 1, max_study_trials, m.problems()).value_or(0);
   }
   if (const auto field = find_field(m, "rigs")) {
     m.reading.has_rigs = true;
@@ -119,10 +113,10 @@ void check_trial_count(Manifest& m) {
   std::int64_t points = 1;
   for (const PlanAxis& axis : m.plan().axes) points *= static_cast<std::int64_t>(option_count(axis));
   const auto field = find_field(m, "trials");
-  if (field && m.study.trials > most_trials / points) {
+  if (field && m.study.trials > max_study_trials / points) {
     m.problems().add(field->node->place, field->path,
                      fmt::format("{} trials at {} points are too many", m.study.trials, points),
-                     fmt::format("at most {} trials in all", most_trials));
+                     fmt::format("at most {} trials in all", max_study_trials));
   }
 }
 
@@ -131,7 +125,7 @@ std::string nearest_multiples(std::int64_t number, std::int64_t of) {
   return below == 0 ? std::to_string(of) : fmt::format("{} or {}", below, below + of);
 }
 
-// Of the design saltelli: whole rows, of as many trials as there are factors and two more.
+// The design saltelli needs whole rows; a row has as many trials as there are factors, plus two.
 void check_rows(Manifest& m) {
   const auto field = find_field(m, "trials");
   if (m.study.design != Design::saltelli || !field || m.study.trials == 0) return;
@@ -160,7 +154,7 @@ void require_multiple_of_rigs(Manifest& m, const Field& field, std::int64_t tria
       fmt::format("a multiple of {}, such as {}", m.study.rigs, nearest_multiples(trials, m.study.rigs)));
 }
 
-// Every rig has equally many trials, at every look of a study that decides how many it takes.
+// Every rig must have the same number of trials, also after each block of sequential stopping.
 void check_rigs(Manifest& m) {
   if (m.study.rigs == 0) return;
   const auto trials = find_field(m, "trials");
@@ -168,9 +162,9 @@ void check_rigs(Manifest& m) {
   if (trials && block > 0) require_multiple_of_rigs(m, *trials, block);
   if (m.study.stop) {
     const Field stop = find_field(m, "stop").value();
-    const YamlEntry* max_trials = find_entry(*stop.node, "max_trials");
-    if (max_trials != nullptr) {
-      require_multiple_of_rigs(m, entry_of(stop, *max_trials), m.study.stop->max_trials);
+    const YamlEntry* limit = find_entry(*stop.node, "max_trials");
+    if (limit != nullptr) {
+      require_multiple_of_rigs(m, entry_of(stop, *limit), m.study.stop->max_trials);
     }
   }
   if (m.study.design == Design::saltelli) {
@@ -205,7 +199,7 @@ void read_retained(Manifest& m) {
   }
 }
 
-// What was observed of a case holds at each of its points, unless the point has a text of its own.
+// The observation of a case applies to all its points, except those with an observation of their own.
 void read_observed(Manifest& m) {
   const auto field = find_field(m, "observed");
   if (!field || !check_map(*field, "a map from cases or point labels to texts", m.problems())) return;
@@ -266,7 +260,7 @@ Study read_manifest(const YamlNode& root, std::int64_t version, Problems& proble
   read_sections(m.root, m.reading, m.places);
   read_axes(m);
   read_retained(m);
-  if (const auto field = find_field(m, "stop")) read_stop(*field, most_trials, m.study, problems);
+  if (const auto field = find_field(m, "stop")) read_stop(*field, max_study_trials, m.study, problems);
   check_trial_count(m);
   check_rigs(m);
   read_observed(m);

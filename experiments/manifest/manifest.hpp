@@ -5,17 +5,17 @@
 
 namespace zerocount {
 
-/// Newest manifest version that this program understands: the value of the key `zerocount`.
+/// Newest manifest version that this program supports: the value of the key `zerocount`.
 constexpr std::int64_t manifest_version = 1;
 
-/// Fewest rigs of a study that has rigs: between one and itself nothing differs.
+/// Minimum number of rigs: differences between rigs need at least two.
 constexpr std::int64_t min_rigs = 2;
-/// Most rigs: a rotor's random numbers have its rig as a 32-bit counter word.
+/// Maximum number of rigs: the rig is a 32-bit counter word of a rotor's random numbers.
 constexpr std::int64_t max_rigs = std::int64_t{1} << 32;
 
-/// Understands the manifest `root`: everything of a Study but its text, overrides and hashes. What is wrong
-/// goes to `problems`; where there is any, the study is not to be used.
-/// @param version of the results files whose defaults stand for what the manifest leaves out.
+/// Converts the manifest `root` to a Study, without its text, overrides and hashes. Errors are added to
+/// `problems`; with errors the study must not be used.
+/// @param version of the results files whose defaults apply
 Study read_manifest(const YamlNode& root, std::int64_t version, Problems& problems);
 
 }  // namespace zerocount

@@ -17,7 +17,7 @@ void add_once(std::vector<std::string>& names, std::string_view name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
 }
 
-// All that can be given a value.
+// Dotted paths of all keys with a value.
 std::vector<std::string_view> value_paths() {
   std::vector<std::string_view> paths;
   for (const GeneralKey& key : general_keys()) {
@@ -106,15 +106,15 @@ bool is_section(std::string_view path) {
          std::any_of(paths.begin(), paths.end(), [&](std::string_view name) { return is_below(name, path); });
 }
 
-std::span<const std::string_view> design_words() {
-  static constexpr std::array<std::string_view, 4> words{"monte_carlo", "latin_hypercube", "sobol",
-                                                         "saltelli"};
-  return words;
+std::span<const std::string_view> design_labels() {
+  static constexpr std::array<std::string_view, 4> labels{"monte_carlo", "latin_hypercube", "sobol",
+                                                          "saltelli"};
+  return labels;
 }
 
-std::span<const std::string_view> approach_words() {
-  static constexpr std::array<std::string_view, 3> words{"bidirectional", "positive", "negative"};
-  return words;
+std::span<const std::string_view> approach_labels() {
+  static constexpr std::array<std::string_view, 3> labels{"bidirectional", "positive", "negative"};
+  return labels;
 }
 
 }  // namespace zerocount

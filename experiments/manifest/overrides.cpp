@@ -16,8 +16,8 @@ struct Override {
   Place place;
 };
 
-// How many characters of `rest` are the next key of the map that `walked` leads to. A key may have dots in
-// it: those of the sweep, the names of its cases, and the labels under `observed`.
+// Length of the next key in `rest`, for the map at the path `walked`. Keys may contain dots: those of the //
+// sweep, the names of its cases, and the labels under `observed`.
 std::size_t next_key_length(const YamlNode& map, std::string_view walked, std::string_view rest) {
   std::size_t longest = 0;
   for (const YamlEntry& entry : map.entries) {
@@ -38,8 +38,8 @@ std::optional<std::size_t> list_index(std::string_view text, std::size_t size) {
   return index;
 }
 
-// A copy of `node` in which what `rest` leads to is the override's value; null, once reported, where it leads
-// nowhere.
+// A copy of `node` in which the value at the path `rest` is replaced by the override's. Null, after a report,
+// // if there is no such path.
 YamlPointer replaced(const YamlPointer& node, const Override& change, std::string_view rest,
                      Problems& problems) {
   if (rest.empty()) return change.value;
@@ -86,7 +86,7 @@ bool is_given_with(std::string_view path, std::string_view swept) {
   return path.starts_with(swept) && (path.size() == swept.size() || path[swept.size()] == '.');
 }
 
-/// The map that keys lead to; null where there is none.
+/// The map at a path of keys; null if there is none.
 const YamlNode* map_at(const YamlNode& root, std::initializer_list<std::string_view> keys) {
   const YamlNode* node = &root;
   for (const std::string_view key : keys) {
@@ -103,7 +103,7 @@ bool gives(const YamlNode* map, std::string_view path) {
                             [&](const YamlEntry& entry) { return is_given_with(path, entry.key); });
 }
 
-/// Where the sweep gives the key at every point: "sweep.grid" or "sweep.cases"; empty where it does not.
+/// The part of the sweep that gives the key at every point: "sweep.grid", "sweep.cases", or empty.
 std::string_view sweep_that_gives(const YamlNode& root, std::string_view key) {
   if (gives(map_at(root, {"sweep", "grid"}), key)) return "sweep.grid";
   const YamlNode* const cases = map_at(root, {"sweep", "cases"});
@@ -127,7 +127,7 @@ YamlPointer apply_overrides(YamlPointer root, const std::vector<std::string>& ov
     const std::string& source = sources.emplace_back("--set " + text.substr(0, 200));
     const std::size_t equals = text.find('=');
     const std::string key = text.substr(0, equals);
-    if (equals == std::string::npos || !is_well_formed(key) || text.size() > largest_manifest) {
+    if (equals == std::string::npos || !is_well_formed(key) || text.size() > max_manifest_size) {
       problems.add({source}, "manifest", "this is no override", "--set key=value with the key's dotted path");
       continue;
     }

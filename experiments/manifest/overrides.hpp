@@ -8,15 +8,15 @@
 
 namespace zerocount {
 
-/// The tree `root` with each of `overrides` ("key=value", the value YAML text) put in its place, in order.
-/// Keys are dotted paths, with an index for lists: trials, plant.inertia, command.targets.0,
-/// sweep.grid.controller.kp. Maps on the way that are missing are made; `zerocount` cannot be overridden.
-/// `sources` gets the names under which the overrides appear in messages, and must outlive the result.
+/// Applies `overrides` ("key=value", with the value as YAML) to the tree `root`, in order. Keys are dotted
+/// paths, with an index for lists: trials, plant.inertia, command.targets.0, sweep.grid.controller.kp.
+/// Missing maps are created; `zerocount` cannot be overridden. `sources` gets the names under which the
+/// overrides appear in messages, and must outlive the result.
 YamlPointer apply_overrides(YamlPointer root, const std::vector<std::string>& overrides,
                             std::deque<std::string>& sources, Problems& problems);
 
-/// Reports the overrides of `root`, in which they stand, that change nothing, because a grid or every case of
-/// the sweep gives the key at all points.
+/// Reports overrides in `root` without effect, because a grid or every case of the sweep gives the key at all
+/// points.
 void report_swept_overrides(const YamlNode& root, const std::vector<std::string>& overrides,
                             std::deque<std::string>& sources, Problems& problems);
 

@@ -6,8 +6,8 @@
 
 namespace zerocount {
 
-/// The table of parameters for a terminal: sections, and of every parameter its name, unit, default, range,
-/// source and meaning, as they are in these units; then the distributions and the other keys of a manifest.
+/// The table of parameters for a terminal: name, unit, default, range, source and meaning of every parameter
+/// in these units; then the distributions and the other keys of a manifest.
 std::string parameters_as_text(const StudyUnits& units = {});
 
 /// The same as Markdown tables.

@@ -32,7 +32,7 @@ bool has_effect(const StudyPlan& plan, const std::vector<EffectRule>& rules, con
   });
 }
 
-// The coarse encoder of a linear axis has the resolution of the fine one unless something depends on it.
+// Whether the coarse encoder is used. If not, that of a linear axis has the resolution of the fine one.
 bool uses_coarse_encoder(const StudyPlan& plan) {
   const auto is_coarse = [](std::span<const ValueLimits> l) {
     return l[0].high == static_cast<double>(EncoderChoice::coarse);
@@ -58,7 +58,7 @@ bool is_required(const StudyPlan& plan, const std::vector<EffectRule>& rules, co
   if (has_default(parameter)) {
     return !default_holds(parameter, plan.units) && has_effect(plan, rules, parameter);
   }
-  if (!parameter.only_on) return false;  // of the command: asked for where its form is chosen
+  if (!parameter.only_on) return false;  // required values of the command are checked with its form
   return parameter.name != "encoder.coarse_resolution" || uses_coarse_encoder(plan);
 }
 

@@ -24,10 +24,10 @@ struct SectionReading {
 
 void read_list(SectionReading& s, const Field& field) {
   ListedValues& list = s.plan().list;
-  const std::string expected = fmt::format("a list of 1 to {} {}", most_listed_values, listed_noun(list));
+  const std::string expected = fmt::format("a list of 1 to {} {}", max_listed_values, listed_noun(list));
   if (!check_list(field, expected, s.problems())) return;
   const std::size_t count = field.node->items.size();
-  if (count < 1 || count > most_listed_values) {
+  if (count < 1 || count > max_listed_values) {
     s.problems().add(field.node->place, field.path, fmt::format("a list of {} stands here", count), expected);
     return;
   }
@@ -51,30 +51,24 @@ void read_parameter(SectionReading& s, const Field& field, std::size_t row) {
 }
 
 void read_approach(SectionReading& s, const Field& field, SequenceCycle& cycle) {
-  const std::span<const std::string_view> words = approach_words();
-  const auto word = std::find(words.begin(), words.end(), field.node->text);
-  if (field.node->kind == YamlNode::Kind::scalar && word != words.end()) {
-    cycle.approach = static_cast<SequenceApproach>(word - words.begin());
-  } else {
-    s.problems().add(field.node->place, field.path,
-                     fmt::format("{} is none of its words", in_quotes(flow_text(*field.node))),
-                     fmt::format("one of {}", fmt::join(words, ", ")));
+  if (const auto approach = read_label(field, approach_labels(), s.problems())) {
+    cycle.approach = static_cast<SequenceApproach>(*approach);
   }
 }
 
-// The keys of sections that are no parameters. controller.units is read before all values.
+// Reads the keys of sections that are not parameters. controller.units is read earlier, before all values.
 void read_general_key(SectionReading& s, const Field& field) {
   if (!s.plan().sequence) return;
   SequenceCycle& cycle = s.plan().sequence.value();
   if (field.path == "command.sequence.approach") {
     read_approach(s, field, cycle);
   } else if (field.path == "command.sequence.cycles") {
-    cycle.cycles = read_whole(field, 1, most_sequence_moves, s.problems()).value_or(cycle.cycles);
+    cycle.cycles = read_whole(field, 1, max_sequence_moves, s.problems()).value_or(cycle.cycles);
   }
 }
 
-// Whether the path is that of a form of the command beside the one that is taken. What stands there is not
-// looked at: that it is one too many is all there is to say.
+// Whether the path belongs to a second form of the command. Its contents are not read: it is reported as one
+// // form too many.
 bool is_form_too_many(SectionReading& s, const Field& section, const std::string& key) {
   const auto forms = command_forms();
   const bool is_form =
@@ -114,7 +108,7 @@ void take_defaults(SectionReading& s) {
   }
 }
 
-// Takes the first form that stands in the manifest; says what is wrong where there is not exactly one.
+// Chooses the first form in the manifest; reports an error unless there is exactly one.
 void choose_form(SectionReading& s, const Field& command) {
   if (command.node->kind != YamlNode::Kind::map) return;
   const auto forms = command_forms();
@@ -163,10 +157,10 @@ void check_sequence_length(SectionReading& s, const Field& command) {
   if (!s.plan().sequence) return;
   const std::int64_t moves =
       sequence_move_count(*s.plan().sequence, static_cast<std::int64_t>(s.plan().list.count));
-  if (moves <= most_sequence_moves) return;
+  if (moves <= max_sequence_moves) return;
   const YamlEntry* sequence = find_entry(*command.node, "sequence");
   s.problems().add(sequence->value->place, "command.sequence", fmt::format("it has {} moves", moves),
-                   fmt::format("at most {} moves, cycles times those of a cycle", most_sequence_moves));
+                   fmt::format("at most {} moves, cycles times those of a cycle", max_sequence_moves));
 }
 
 }  // namespace

@@ -5,9 +5,8 @@
 
 namespace zerocount {
 
-/// Reads the sections of parameters below `root`, the whole manifest, maps inside one another as far as the
-/// names of parameters go: the plan's list, its sequence and its base values, and where they stand. What is
-/// not written has its default.
+/// Reads the parameter sections of the manifest `root`: the plan's list, its sequence and its base values,
+/// and their places. Missing values get their defaults.
 void read_sections(const Field& root, Reading& reading, PlanPlaces& places);
 
 }  // namespace zerocount

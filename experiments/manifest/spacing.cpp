@@ -8,7 +8,7 @@
 namespace zerocount {
 namespace {
 
-// To 15 digits, so that 2e-05 does not become 1.9999999999999998e-05 in a label.
+// Rounds to 15 digits, so that a label has 2e-05 and not 1.9999999999999998e-05.
 double without_rounding_noise(double value) {
   return std::stod(fmt::format("{:.15g}", value));
 }
@@ -23,7 +23,7 @@ double spaced(const Spacing& spacing, std::size_t i) {
 
 }  // namespace
 
-std::optional<Spacing> read_spacing(const Field& field, const std::string& name, std::size_t most,
+std::optional<Spacing> read_spacing(const Field& field, const std::string& name, std::size_t max_values,
                                     Problems& problems) {
   const bool logarithmic = name == "logspace";
   const std::string expected = fmt::format("{}: [first value, last value, number of values]", name);
@@ -36,7 +36,7 @@ std::optional<Spacing> read_spacing(const Field& field, const std::string& name,
   const Interval range = logarithmic ? above(0.0) : all_numbers();
   const auto from = read_real(item_of(field, 0), range, problems);
   const auto to = read_real(item_of(field, 1), range, problems);
-  const auto count = read_whole(item_of(field, 2), 2, static_cast<std::int64_t>(most), problems);
+  const auto count = read_whole(item_of(field, 2), 2, static_cast<std::int64_t>(max_values), problems);
   if (!from || !to || !count) return std::nullopt;
   if (*from == *to) {
     problems.add(field.node->place, field.path, "the first and the last value are the same",
@@ -52,7 +52,7 @@ std::vector<double> spaced_values(const Spacing& spacing) {
   return values;
 }
 
-// 2.44211e-05 where the value is 2.44211060013514e-05.
+// Example: 2.44211e-05 for the value 2.44211060013514e-05.
 std::vector<std::string> spaced_labels(const std::string& name, const std::vector<double>& values) {
   std::vector<std::string> labels;
   labels.reserve(values.size());

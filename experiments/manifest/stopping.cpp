@@ -19,29 +19,29 @@ void require_key(const Field& map, const std::string& key, const std::string& ex
   problems.add(map.node->place, fmt::format("{}.{}", map.path, key), "the key is missing", expected);
 }
 
-void read_key(const Field& field, const std::string& key, std::int64_t most, StoppingRule& rule,
+void read_key(const Field& field, const std::string& key, std::int64_t max_trials, StoppingRule& rule,
               Problems& problems) {
   if (key == "success_rate_halfwidth") {
     rule.success_rate_halfwidth = read_real(field, {.low = 0.0, .high = 0.5}, problems).value_or(0.1);
   } else if (key == "confidence") {
     rule.confidence = read_real(field, {.low = 0.0, .high = 1.0}, problems).value_or(rule.confidence);
   } else if (key == "min_trials") {
-    rule.min_trials = read_whole(field, 1, most, problems).value_or(1);
+    rule.min_trials = read_whole(field, 1, max_trials, problems).value_or(1);
   } else {
-    rule.max_trials = read_whole(field, 1, most, problems).value_or(most);
+    rule.max_trials = read_whole(field, 1, max_trials, problems).value_or(max_trials);
   }
 }
 
 void check_order(const Field& map, const StoppingRule& rule, Problems& problems) {
-  const YamlEntry* most = find_entry(*map.node, "max_trials");
-  const YamlEntry* least = find_entry(*map.node, "min_trials");
-  if (most != nullptr && rule.max_trials < rule.block) {
-    problems.add(most->value->place, entry_of(map, *most).path,
+  const YamlEntry* max_entry = find_entry(*map.node, "max_trials");
+  const YamlEntry* min_entry = find_entry(*map.node, "min_trials");
+  if (max_entry != nullptr && rule.max_trials < rule.block) {
+    problems.add(max_entry->value->place, entry_of(map, *max_entry).path,
                  fmt::format("{} trials are fewer than a block, which is the {} of `trials`", rule.max_trials,
                              rule.block),
                  fmt::format("at least {}", rule.block));
-  } else if (most != nullptr && least != nullptr && rule.min_trials > rule.max_trials) {
-    problems.add(least->value->place, entry_of(map, *least).path,
+  } else if (max_entry != nullptr && min_entry != nullptr && rule.min_trials > rule.max_trials) {
+    problems.add(min_entry->value->place, entry_of(map, *min_entry).path,
                  fmt::format("{} trials are more than max_trials, {}", rule.min_trials, rule.max_trials),
                  fmt::format("at most {}", rule.max_trials));
   }
@@ -49,7 +49,7 @@ void check_order(const Field& map, const StoppingRule& rule, Problems& problems)
 
 }  // namespace
 
-void read_stop(const Field& field, std::int64_t most, Study& study, Problems& problems) {
+void read_stop(const Field& field, std::int64_t max_trials, Study& study, Problems& problems) {
   if (!check_map(field, "stop: {success_rate_halfwidth: 0.005, max_trials: 100000}", problems)) return;
   StoppingRule rule;
   rule.block = study.trials;
@@ -57,7 +57,7 @@ void read_stop(const Field& field, std::int64_t most, Study& study, Problems& pr
     if (std::find(keys.begin(), keys.end(), entry.key) == keys.end()) {
       add_unknown_key(field, entry, keys, problems);
     } else {
-      read_key(entry_of(field, entry), entry.key, most, rule, problems);
+      read_key(entry_of(field, entry), entry.key, max_trials, rule, problems);
     }
   }
   require_key(field, keys[0], "half the width that the bounds of the success rate may have, 0 to 0.5",

@@ -5,9 +5,9 @@
 
 namespace zerocount {
 
-/// Reads `stop` into the study: its rule, with blocks of the `trials` that the manifest states, and in place
-/// of those trials the largest number of them.
-/// @param most no study may have more trials at a point.
-void read_stop(const Field& field, std::int64_t most, Study& study, Problems& problems);
+/// Reads the stopping rule `stop`. The manifest's `trials` become the size of a block, and the study's number
+/// of trials becomes the maximum.
+/// @param max_trials upper limit of the trials at a point in any study
+void read_stop(const Field& field, std::int64_t max_trials, Study& study, Problems& problems);
 
 }  // namespace zerocount

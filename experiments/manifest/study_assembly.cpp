@@ -19,12 +19,12 @@
 namespace zerocount {
 namespace {
 
-// Name of the mean of the profile, as of its place in the manifest.
+// Name of the mean of a profile: its path in the manifest.
 std::string profile_mean_name(std::string_view parameter) {
   return fmt::format("{}.profile.mean", parameter);
 }
 
-// Which slots some axis assigns.
+// [slot] whether an axis assigns the slot.
 std::vector<bool> swept_slots(const StudyPlan& plan) {
   std::vector<bool> swept(plan.base.size(), false);
   for (const PlanAxis& axis : plan.axes) {
@@ -33,7 +33,7 @@ std::vector<bool> swept_slots(const StudyPlan& plan) {
   return swept;
 }
 
-// Whether some value that the slot has at a design point is drawn anew at each contact.
+// Whether the slot's value at some design point is drawn anew at each contact.
 bool differs_between_contacts(const StudyPlan& plan, std::size_t slot) {
   bool found = false;
   visit_points(plan, {&slot, 1}, [&](std::size_t point) {
@@ -44,7 +44,7 @@ bool differs_between_contacts(const StudyPlan& plan, std::size_t slot) {
   return found;
 }
 
-// Of the input slots: nothing is drawn for the others.
+// Only input slots are drawn.
 void derive_randomness(const Study& study, StudyPlan& plan) {
   std::vector<std::size_t> dimensions;
   for (const std::uint32_t slot : plan.input_slots) dimensions.push_back(slot_sobol_dimension(slot));
@@ -73,7 +73,7 @@ void number_factors(StudyPlan& plan, Study& study) {
   }
 }
 
-// The keys of what a trial draws while it runs. No parameter has a name with a slash in it.
+// Random keys of the draws during a trial. The slash keeps their names apart from parameter names.
 TrialRandomness trial_randomness(std::uint64_t seed) {
   return {.history = random_key(seed, "initial.history/levels"),
           .fine_noise = random_key(seed, "encoder.fine_errors.noise/samples"),
@@ -83,7 +83,7 @@ TrialRandomness trial_randomness(std::uint64_t seed) {
           .dac_noise = random_key(seed, "dac.noise/samples")};
 }
 
-// What is the same in all trials.
+// Sets the parameters that are the same in all trials.
 void set_common_parameters(const Study& study, StudyPlan& plan) {
   plan.common.randomness = trial_randomness(study.seed);
   plan.common.command.targets.resize(plan.open_loop ? 0 : static_cast<std::size_t>(study.moves));
@@ -98,14 +98,14 @@ void set_common_parameters(const Study& study, StudyPlan& plan) {
 
 std::string column_meaning(const Parameter& parameter, const StudyUnits& units) {
   std::string meaning = meaning_of(parameter, units);
-  for (std::size_t i = 0; i < parameter.words.size(); ++i) {
-    meaning += fmt::format("{}{} {}", i == 0 ? " (" : ", ", i, parameter.words[i]);
+  for (std::size_t i = 0; i < parameter.labels.size(); ++i) {
+    meaning += fmt::format("{}{} {}", i == 0 ? " (" : ", ", i, parameter.labels[i]);
   }
-  return parameter.words.empty() ? meaning : meaning + ")";
+  return parameter.labels.empty() ? meaning : meaning + ")";
 }
 
-// How often the value of the slot is drawn, of different points the most often.
-Per most_often(const StudyPlan& plan, std::size_t slot) {
+// How often the slot's value is drawn; the most frequent of all points.
+Per most_frequent_per(const StudyPlan& plan, std::size_t slot) {
   Per per = Per::study;
   visit_points(plan, {&slot, 1}, [&](std::size_t point) {
     const Value& value = *value_at_point(plan, slot, point);
@@ -115,7 +115,7 @@ Per most_often(const StudyPlan& plan, std::size_t slot) {
       case Value::Kind::distribution:
         per = std::max(per, value.per);
         break;
-      case Value::Kind::profile:  // where the trial starts
+      case Value::Kind::profile:  // its value at the trial's start position
         per = std::max(per, Per::trial);
         break;
     }
@@ -124,7 +124,7 @@ Per most_often(const StudyPlan& plan, std::size_t slot) {
   return per;
 }
 
-// The mean of the slot's profile, if it is drawn at some design point: how often.
+// How often the mean of the slot's profile is drawn, if it is drawn at some design point.
 std::optional<Per> drawn_mean(const StudyPlan& plan, std::size_t slot) {
   std::optional<Per> per;
   visit_points(plan, {&slot, 1}, [&](std::size_t point) {
@@ -154,8 +154,8 @@ void list_input_columns(const std::vector<bool>& swept, StudyPlan& plan, Study& 
     const std::string name = slot_name(slot, plan.list);
     const std::string unit = unit_of(parameter, plan.units);
     plan.input_slots.push_back(number);
-    add_column({name, unit, column_meaning(parameter, plan.units), most_often(plan, slot)}, {number, false},
-               swept[slot], plan, study);
+    add_column({name, unit, column_meaning(parameter, plan.units), most_frequent_per(plan, slot)},
+               {number, false}, swept[slot], plan, study);
     if (const auto per = drawn_mean(plan, slot)) {
       add_column({profile_mean_name(name), unit, fmt::format("mean of the profile of {}", name), *per},
                  {number, true}, swept[slot], plan, study);
@@ -163,7 +163,7 @@ void list_input_columns(const std::vector<bool>& swept, StudyPlan& plan, Study& 
   }
 }
 
-// The profiles of one row that some of the points uses, each with the first point that does.
+// The used profiles of one row, each with the first point that uses it.
 std::map<std::uint32_t, std::size_t> profiles_in_use(const StudyPlan& plan, std::size_t row,
                                                      std::size_t points) {
   std::map<std::uint32_t, std::size_t> first_point;

@@ -8,13 +8,13 @@
 
 namespace zerocount {
 
-/// Makes the rotors of the profiles asked for: plan.profiles, in the order of the requests. All of one
-/// parameter have the same random numbers, whatever their mean, spread and correlation length.
-/// @param study has its seed, design and rigs.
+/// Realises the requested profiles as plan.profiles, in the order of the requests. All profiles of one
+/// parameter use the same random numbers, even with different mean, spread and correlation length.
+/// @param study must have its seed, design and rigs
 void realise_profiles(const std::vector<ProfileRequest>& requests, const Study& study, StudyPlan& plan);
 
-/// Completes a study whose manifest is free of problems: the random numbers of each slot, the labels of the
-/// points, the axes, the input columns, the list of profiles.
+/// Completes a study whose manifest has no errors: the random numbers of each slot, the labels of the points,
+/// the axes, the input columns, the list of profiles.
 void assemble_study(const std::vector<ProfileRequest>& requests, const std::vector<SweptAxis>& axes,
                     StudyPlan& plan, Study& study);
 

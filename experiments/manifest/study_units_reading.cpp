@@ -1,24 +1,7 @@
 #include "experiments/manifest/study_units_reading.hpp"
 
-#include <algorithm>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 namespace zerocount {
 namespace {
-
-// The number of the word in `field`, or 0 once it is reported that there is none of them.
-std::size_t read_one_of(const Field& field, std::span<const std::string_view> words, Problems& problems) {
-  const auto word = std::find(words.begin(), words.end(), field.node->text);
-  if (field.node->kind == YamlNode::Kind::scalar && word != words.end()) {
-    return static_cast<std::size_t>(word - words.begin());
-  }
-  problems.add(field.node->place, field.path,
-               fmt::format("{} is none of its words", in_quotes(flow_text(*field.node))),
-               fmt::format("one of {}", fmt::join(words, ", ")));
-  return 0;
-}
 
 std::optional<Field> find_within(const Field& map, std::string_view key) {
   if (map.node->kind != YamlNode::Kind::map) return std::nullopt;
@@ -32,7 +15,7 @@ std::optional<Field> find_within(const Field& map, std::string_view key) {
 void read_study_units(const Field& root, Reading& reading) {
   StudyPlan& plan = reading.plan;
   if (const auto axis = find_within(root, "axis")) {
-    plan.units.axis = static_cast<AxisKind>(read_one_of(*axis, axis_words(), reading.problems));
+    plan.units.axis = static_cast<AxisKind>(read_label(*axis, axis_labels(), reading.problems).value_or(0));
   }
   const bool linear = plan.units.axis == AxisKind::linear;
   if (linear) plan.period.reset();
@@ -49,7 +32,8 @@ void read_study_units(const Field& root, Reading& reading) {
   const auto controller = find_within(root, "controller");
   const auto gains = controller ? find_within(*controller, "units") : std::nullopt;
   if (gains)
-    plan.units.gains = static_cast<GainUnits>(read_one_of(*gains, gain_unit_words(), reading.problems));
+    plan.units.gains =
+        static_cast<GainUnits>(read_label(*gains, gain_unit_labels(), reading.problems).value_or(0));
 }
 
 void check_travel(const Field& root, Reading& reading) {

@@ -14,13 +14,13 @@
 namespace zerocount {
 namespace {
 
-// Reads the axes one after the other; knows which slots are taken and how many points there are so far.
+// State of the reading of the axes: the slots in use and the number of points so far.
 struct SweepReading {
   Reading& reading;
   std::size_t points{1};
   bool too_many{false};
-  std::set<std::size_t> in_grid{};   // slots that the grid's axes so far take
-  std::set<std::size_t> in_cases{};  // slots that the cases take
+  std::set<std::size_t> in_grid{};   // slots of the grid's axes so far
+  std::set<std::size_t> in_cases{};  // slots of the cases
 
   const ListedValues& list() const { return reading.plan.list; }
 };
@@ -33,15 +33,15 @@ std::vector<std::string> swept_names(const ListedValues& list) {
   return names;
 }
 
-// Reserves room for `options` more values of the product; false, once reported, where there is none.
+// Multiplies the number of points by `options`; false, after a report, if there are too many.
 bool check_point_count(const Field& sweep, std::size_t options, SweepReading& state) {
-  const bool fits = !state.too_many && (options == 0 || state.points <= most_points / options);
+  const bool fits = !state.too_many && (options == 0 || state.points <= max_points / options);
   if (fits) {
     state.points *= std::max<std::size_t>(options, 1);
   } else if (!state.too_many) {
     state.too_many = true;
     state.reading.problems.add(sweep.node->place, "sweep", "the sweep has too many design points",
-                               fmt::format("at most {} points", most_points));
+                               fmt::format("at most {} points", max_points));
   }
   return fits;
 }
@@ -81,7 +81,7 @@ void finish_option(SweptAxis& axis, std::string label) {
   axis.labels.push_back(std::move(label));
 }
 
-// Adds what `field` gives to `slots` to the option that is being read.
+// Adds the assignments of `field` to `slots` to the current option.
 void read_assignments(const Field& field, const SlotRange& slots, SweptAxis& axis, SweepReading& state) {
   if (!slots.list) {
     assign(axis, slots.first, read_value(field, row_of_slot(slots.first, state.list()), state.reading),
@@ -110,12 +110,11 @@ void note_slots(SweptAxis& axis, const SlotRange& slots) {
   }
 }
 
-// The value that an option's label shows: a number in its shortest form, anything else as it stands in the
-// manifest.
+// The value in an option's label: a number in its shortest form, anything else as in the manifest.
 std::string value_label(const SweptAxis& axis, const SlotRange& slots, const YamlNode& node,
                         const ListedValues& list) {
   const std::size_t row = row_of_slot(slots.first, list);
-  if (slots.list || has_words(parameter_table()[row]) || axis.axis.assignments.empty() ||
+  if (slots.list || has_labels(parameter_table()[row]) || axis.axis.assignments.empty() ||
       axis.axis.assignments.back().value.kind != Value::Kind::number) {
     return flow_text(node);
   }
@@ -128,8 +127,7 @@ void read_listed(const Field& field, const SlotRange& slots, SweptAxis& axis, Sw
     const Field item = item_of(field, i);
     const std::size_t problems_before = state.reading.problems.size();
     read_assignments(item, slots, axis, state);
-    if (state.reading.problems.size() > problems_before)
-      continue;  // a value that cannot be read is like no other
+    if (state.reading.problems.size() > problems_before) continue;  // an unreadable value equals no other
     std::string label = fmt::format("{}={}", axis.name, value_label(axis, slots, *item.node, state.list()));
     if (!seen.insert(label).second) {
       state.reading.problems.add(item.node->place, item.path,
@@ -154,7 +152,7 @@ void read_spaced(const Field& sweep, const Field& field, const SlotRange& slots,
     return;
   }
   const Field inner = entry_of(field, entries[0]);
-  const auto spacing = read_spacing(inner, entries[0].key, most_points, state.reading.problems);
+  const auto spacing = read_spacing(inner, entries[0].key, max_points, state.reading.problems);
   if (!spacing || !check_point_count(sweep, spacing->count, state)) return;
   const std::vector<double> values = spaced_values(*spacing);
   std::vector<std::string> labels = spaced_labels(axis.name, values);
@@ -167,8 +165,8 @@ void read_spaced(const Field& sweep, const Field& field, const SlotRange& slots,
   }
 }
 
-// A parameter has one axis of the grid. Where the cases give it a value as well, the grid's wins, and that is
-// said.
+// Reports a parameter in two axes of the grid. If the cases also give it a value, the grid takes precedence,
+// with // a warning.
 bool take_for_grid(const Field& grid, const YamlEntry& entry, const SweptAxis& axis, SweepReading& state) {
   const std::string path = entry_of(grid, entry).path;
   for (const std::size_t slot : axis.slots) {
@@ -210,7 +208,7 @@ void read_grid(const Field& sweep, const Field& grid, std::vector<SweptAxis>& ax
   }
 }
 
-// One case: the values it gives to the keys it names.
+// Reads one case: a map from keys to values.
 void read_case(const Field& cases, const YamlEntry& entry, SweptAxis& axis, SweepReading& state) {
   const Field field = entry_of(cases, entry);
   if (entry.key.find_first_not_of(" \t\r\n") == std::string::npos) {

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view profile_name = "profile";
 
 std::string expected_of(const Parameter& parameter, const StudyUnits& units) {
-  if (has_words(parameter)) return fmt::format("one of {}", fmt::join(parameter.words, ", "));
+  if (has_labels(parameter)) return fmt::format("one of {}", fmt::join(parameter.labels, ", "));
   const std::string words = in_words(range_of(parameter, units));
   const std::string noun = parameter.kind == ParameterKind::whole_number ? "whole numbers" : "numbers";
   return words.rfind("any", 0) == 0 ? "finite " + noun + " only" : noun + " " + words + " only";
@@ -32,15 +32,9 @@ Value read_truth_value(const Field& field, Problems& problems) {
   return truth ? number_value(*truth ? 1.0 : 0.0) : unreadable_value();
 }
 
-Value read_word(const Field& field, const Parameter& parameter, Problems& problems) {
-  const YamlNode& node = *field.node;
-  const auto word = std::find(parameter.words.begin(), parameter.words.end(), node.text);
-  if (node.kind == YamlNode::Kind::scalar && word != parameter.words.end()) {
-    return number_value(static_cast<double>(word - parameter.words.begin()));
-  }
-  problems.add(node.place, field.path, fmt::format("{} is none of its words", in_quotes(flow_text(node))),
-               fmt::format("one of {}", fmt::join(parameter.words, ", ")));
-  return unreadable_value();
+Value read_enumeration(const Field& field, const Parameter& parameter, Problems& problems) {
+  const auto label = read_label(field, parameter.labels, problems);
+  return label ? number_value(static_cast<double>(*label)) : unreadable_value();
 }
 
 Value read_number(const Field& field, const Parameter& parameter, Reading& reading) {
@@ -87,7 +81,7 @@ Value read_drawn(const DistributionForm& form, const Field& field, const Paramet
 }
 
 Value read_profile_value(const Field& field, std::size_t row, Per per, Reading& reading) {
-  constexpr std::size_t most_profiles = 1000;
+  constexpr std::size_t max_profiles = 1000;
   if (!reading.plan.period) {
     reading.problems.add(field.node->place, field.path,
                          "the profile of a linear axis needs the key travel, its period",
@@ -96,9 +90,9 @@ Value read_profile_value(const Field& field, std::size_t row, Per per, Reading& 
   }
   const auto form = read_profile(field, *reading.plan.period, reading.problems);
   if (!form) return unreadable_value();
-  if (reading.profiles.size() == most_profiles) {
+  if (reading.profiles.size() == max_profiles) {
     reading.problems.add(field.node->place, field.path, "there are too many profiles",
-                         fmt::format("at most {} in a study", most_profiles));
+                         fmt::format("at most {} in a study", max_profiles));
     return unreadable_value();
   }
   reading.profiles.push_back({row, *form, per, field.node->place, field.path});
@@ -107,7 +101,7 @@ Value read_profile_value(const Field& field, std::size_t row, Per per, Reading& 
           .per = per};
 }
 
-// The only entry of the map but `per`, or null.
+// The only entry of the map besides `per`, or null.
 const YamlEntry* form_entry(const YamlNode& map) {
   const auto is_form = [](const YamlEntry& entry) { return entry.key != per_key; };
   if (std::count_if(map.entries.begin(), map.entries.end(), is_form) != 1) return nullptr;
@@ -145,13 +139,13 @@ Value read_map(const Field& field, std::size_t row, Reading& reading) {
   return value;
 }
 
-// Whether the values of the rotor stay in the range, everywhere on it.
+// Whether the parameter stays in its range everywhere on the rotor.
 bool check_rotor(const ProfileRequest& request, const Rotors& rotors, std::int64_t rotor,
                  const Reading& reading) {
   const Parameter& parameter = parameter_table()[request.row];
   const StudyUnits& units = reading.plan.units;
   const std::shared_ptr<const Profile> profile = rotors.rotor(rotor);
-  if (contains(parameter.range, limits(*profile))) return true;  // the quick answer
+  if (contains(parameter.range, limits(*profile))) return true;  // a fast sufficient test
   const ValueRange values = range_over_revolution(*profile);
   if (contains(parameter.range, closed(values.low, values.high))) return true;
   const std::string of_rig = request.per == Per::rig ? fmt::format(" of rig {}", rotor) : "";
@@ -164,13 +158,13 @@ bool check_rotor(const ProfileRequest& request, const Rotors& rotors, std::int64
   return false;
 }
 
-// Reports a parameter that only the other kind of axis has.
+// Reports a parameter that exists only on the other kind of axis.
 bool check_exists(const Field& field, const Parameter& parameter, Reading& reading) {
   const AxisKind axis = reading.plan.units.axis;
   if (exists_on(parameter, axis)) return true;
   reading.problems.add(
       field.node->place, field.path,
-      fmt::format("a {} axis does not have it", axis_words()[static_cast<std::size_t>(axis)]),
+      fmt::format("a {} axis does not have it", axis_labels()[static_cast<std::size_t>(axis)]),
       parameter.instead);
   return false;
 }
@@ -196,7 +190,8 @@ Value read_value(const Field& field, std::size_t row, Reading& reading) {
   const Parameter& parameter = parameter_table()[row];
   if (!check_exists(field, parameter, reading)) return unreadable_value();
   if (parameter.kind == ParameterKind::truth) return read_truth_value(field, reading.problems);
-  if (parameter.kind == ParameterKind::enumeration) return read_word(field, parameter, reading.problems);
+  if (parameter.kind == ParameterKind::enumeration)
+    return read_enumeration(field, parameter, reading.problems);
   if (field.node->kind == YamlNode::Kind::map) return read_map(field, row, reading);
   return read_number(field, parameter, reading);
 }

@@ -6,7 +6,7 @@ namespace zerocount {
 namespace {
 
 constexpr std::array changed_defaults{
-    // Assumed until the outcomes that the paper reports were found to imply another value.
+    // Assumed until it was found that the outcomes reported in the paper imply another value.
     EarlierDefault{.name = "friction.beta", .value = 2.0e5, .until_version = 2},
 };
 

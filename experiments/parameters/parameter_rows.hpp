@@ -11,13 +11,13 @@
 
 namespace zerocount {
 
-// The rows of the table of parameters, section by section. A new row also goes to the end of the
-// order in which parameters have Sobol dimensions (sobol_order.cpp).
+// The rows of the table of parameters, by section. The name of a new row must also be added at the end of //
+// sobol_order.cpp.
 
 std::vector<Parameter> plant_rows();
 std::vector<Parameter> friction_rows();
 std::vector<Parameter> encoder_rows();
-std::vector<Parameter> drive_rows();  ///< of the converter and the amplifier
+std::vector<Parameter> drive_rows();  ///< converter and amplifier
 std::vector<Parameter> controller_rows();
 std::vector<Parameter> command_rows();
 std::vector<Parameter> initial_rows();
@@ -25,9 +25,9 @@ std::vector<Parameter> verdict_rows();
 
 constexpr std::string_view assumed = "assumed";
 
-/// Largest magnitude of a target and of a counts-per-revolution: far above any machine's, and exact as a
-/// double with the whole arithmetic of counts around it.
-constexpr double largest_count = 1e12;
+/// Maximum |target| and maximum counts per revolution: far above those of real machines, and small enough for
+/// exact arithmetic of counts in double.
+constexpr double max_count = 1e12;
 
 /// A row of real numbers.
 inline Parameter real_row(std::string_view name, std::string_view unit, std::string_view meaning,
@@ -41,11 +41,11 @@ inline Parameter whole_row(std::string_view name, std::string_view unit, std::st
   return {name, unit, meaning, source, ParameterKind::whole_number, range, {}};
 }
 
-/// A row of words, in the order of the enumeration's values.
+/// A row with labels, in the order of the enumeration's values.
 inline Parameter word_row(std::string_view name, std::string_view meaning, std::string_view source,
-                          std::vector<std::string_view> words) {
-  const Interval range = closed(0, static_cast<double>(words.size() - 1));
-  return {name, "1", meaning, source, ParameterKind::enumeration, range, std::move(words)};
+                          std::vector<std::string_view> labels) {
+  const Interval range = closed(0, static_cast<double>(labels.size() - 1));
+  return {name, "1", meaning, source, ParameterKind::enumeration, range, std::move(labels)};
 }
 
 /// A row of `true` or `false`.
@@ -53,7 +53,7 @@ inline Parameter truth_row(std::string_view name, std::string_view meaning, std:
   return {name, "1", meaning, source, ParameterKind::truth, closed(0, 1), {"false", "true"}};
 }
 
-/// Completes a row with the way to and from the trial's parameters: `At` returns a reference to the field.
+/// Adds the access to the field of TrialParameters: `At` returns a reference to it.
 template <class At>
 Parameter stored_at(Parameter row, At) {
   row.get = [](const TrialParameters& parameters) { return static_cast<double>(At{}(parameters)); };
@@ -64,38 +64,38 @@ Parameter stored_at(Parameter row, At) {
   return row;
 }
 
-/// The same of a limit in counts, which no count exceeds where it is largest_count: in the trial's parameters
-/// that limit is infinite.
+/// As above, for a limit in counts. The value max_count means no limit: it is infinite in the trial's
+/// parameters.
 template <class At>
 Parameter or_never(Parameter row, At) {
-  row.get = [](const TrialParameters& parameters) { return std::min(At{}(parameters), largest_count); };
+  row.get = [](const TrialParameters& parameters) { return std::min(At{}(parameters), max_count); };
   row.set = [](TrialParameters& parameters, double value) {
-    At{}(parameters) = value < largest_count ? value : std::numeric_limits<double>::infinity();
+    At{}(parameters) = value < max_count ? value : std::numeric_limits<double>::infinity();
   };
   return row;
 }
 
-/// A row that has a place in the trial's parameters, and must be given where it has a meaning.
+/// Marks a row as required wherever it has an effect.
 inline Parameter without_default(Parameter row) {
   row.get = nullptr;
   return row;
 }
 
-/// A gain: with controller.units: si it has this unit and meaning.
+/// Adds the unit and meaning of a gain with controller.units: si.
 inline Parameter in_si(Parameter row, std::string_view unit, std::string_view meaning) {
   row.si_unit = unit;
   row.si_meaning = meaning;
   return row;
 }
 
-/// A row that only one kind of axis has. @param instead what to give on the other.
+/// Restricts a row to one kind of axis. @param instead the corresponding key on the other kind
 inline Parameter only_on(AxisKind axis, std::string_view instead, Parameter row) {
   row.only_on = axis;
   row.instead = instead;
   return row;
 }
 
-/// A row whose value is a list.
+/// Marks a row whose value is a list.
 inline Parameter list_of(Parameter row) {
   row.listed = true;
   return row;

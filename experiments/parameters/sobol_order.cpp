@@ -77,7 +77,7 @@ constexpr std::array<std::string_view, 63> before_moves{
 };
 static_assert(before_moves.size() <= first_sobol_dimension_of_moves);
 
-// Most of them are words, for which nothing is drawn. A new parameter goes to the end of this list.
+// Most of them have labels and are never drawn. Add new parameters at the end of this list.
 constexpr std::array<std::string_view, 9> beyond_moves{
     "friction.model",         "controller.encoder",    "controller.coarse.encoder",
     "command.torque.through", "command.profile.shape", "initial.mode",

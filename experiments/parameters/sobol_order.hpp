@@ -5,10 +5,10 @@
 
 namespace zerocount {
 
-/// The Sobol dimension of a parameter that is no list: its place in the order in which the parameters came
-/// into being, from 0 on, and beyond the moves' from first_sobol_dimension_beyond_moves on. The order only
-/// grows at its end, so that a new parameter changes no other's draws.
-/// @param parameter its name, which has to be in the order.
+/// The Sobol dimension of a parameter that is not a list: its position in a fixed order, from 0 on, and after
+/// the dimensions of the moves from first_sobol_dimension_beyond_moves on. New parameters are appended, so
+/// that the draws of the others do not change.
+/// @param parameter its name, which must be in the order
 std::size_t sobol_dimension(std::string_view parameter);
 
 }  // namespace zerocount

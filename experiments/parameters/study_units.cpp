@@ -13,11 +13,11 @@ struct Rewording {
   std::string_view linear;
 };
 
-// From the longest to the shortest, because the first that fits is taken.
+// Longest first, because the first match is used.
 constexpr std::array<Rewording, 5> unit_parts{
     {{"arcsec", "µm"}, {"kg m^2", "kg"}, {"(N m)^n", "N^n"}, {"N m", "N"}, {"rad", "m"}}};
 
-constexpr std::array<Rewording, 10> words{{{"moment of inertia J of the rotor", "moving mass J"},
+constexpr std::array<Rewording, 10> terms{{{"moment of inertia J of the rotor", "moving mass J"},
                                            {"Along the rotor", "Along the travel"},
                                            {"along the rotor", "along the travel"},
                                            {"on the rotor", "on the travel"},
@@ -32,32 +32,32 @@ bool is_letter(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-// Whether the text from `first` to `last` is no part of a longer word, and of no dotted path.
+// Whether the text from `first` to `last` is a whole word, outside any dotted path.
 bool is_word(std::string_view text, std::size_t first, std::size_t last) {
   const bool begins = first == 0 || (!is_letter(text[first - 1]) && text[first - 1] != '.');
   const bool path_goes_on = last + 1 < text.size() && text[last] == '.' && is_letter(text[last + 1]);
   return begins && (last == text.size() || (!is_letter(text[last]) && !path_goes_on));
 }
 
-void replace_word(std::string& text, const Rewording& word) {
-  for (std::size_t at = text.find(word.rotary); at != std::string::npos; at = text.find(word.rotary, at)) {
-    if (is_word(text, at, at + word.rotary.size())) {
-      text.replace(at, word.rotary.size(), word.linear);
-      at += word.linear.size();
+void replace_term(std::string& text, const Rewording& term) {
+  for (std::size_t at = text.find(term.rotary); at != std::string::npos; at = text.find(term.rotary, at)) {
+    if (is_word(text, at, at + term.rotary.size())) {
+      text.replace(at, term.rotary.size(), term.linear);
+      at += term.linear.size();
     } else {
-      at += word.rotary.size();
+      at += term.rotary.size();
     }
   }
 }
 
 }  // namespace
 
-std::span<const std::string_view> axis_words() {
+std::span<const std::string_view> axis_labels() {
   static constexpr std::array<std::string_view, 2> all{"rotary", "linear"};
   return all;
 }
 
-std::span<const std::string_view> gain_unit_words() {
+std::span<const std::string_view> gain_unit_labels() {
   static constexpr std::array<std::string_view, 2> all{"count", "si"};
   return all;
 }
@@ -72,7 +72,7 @@ std::string unit_on(AxisKind axis, std::string_view rotary) {
 std::string text_on(AxisKind axis, std::string_view rotary) {
   std::string text(rotary);
   if (axis == AxisKind::rotary) return text;
-  for (const Rewording& word : words) replace_word(text, word);
+  for (const Rewording& term : terms) replace_term(text, term);
   return text;
 }
 

@@ -14,7 +14,7 @@ std::string_view last_name(std::string_view path) {
   return path.substr(path.rfind('.') + 1);
 }
 
-// The parameter, or the map of parameters, whose last name is `key`; or nothing.
+// The parameter or section whose last name is `key`; empty if there is none.
 std::string_view same_name_elsewhere(std::string_view key) {
   for (const Parameter& parameter : parameter_table()) {
     if (last_name(parameter.name) == key) return parameter.name;
@@ -26,7 +26,7 @@ std::string_view same_name_elsewhere(std::string_view key) {
   return {};
 }
 
-// A slip of the pen in this map is more likely than a key that was meant for another.
+// A typing error in this map is more likely than a key of another map.
 std::string_view nearest_key(std::string_view key, std::span<const std::string> known) {
   const std::string_view here = nearest_name(key, known);
   const std::string_view elsewhere = same_name_elsewhere(key);
@@ -48,9 +48,9 @@ void add_unknown_key(const Field& map, const YamlEntry& entry, std::span<const s
   const std::string_view nearest = nearest_key(entry.key, known);
   const std::string what =
       nearest.empty() ? "unknown key" : fmt::format("unknown key, nearest known: {}", nearest);
-  constexpr std::size_t most_listed = 24;
+  constexpr std::size_t max_listed = 24;
   const std::string expected =
-      known.size() <= most_listed
+      known.size() <= max_listed
           ? fmt::format("one of {}", fmt::join(known, ", "))
           : std::string("a dotted path of the table of parameters, such as controller.ki");
   problems.add(entry.place, path, what, expected);

@@ -18,13 +18,13 @@ namespace {
 using Limits = std::span<const ValueLimits>;
 using Faults = std::vector<ValueFault>;
 
-constexpr double most_samples = 1e12;  // a year of computing; a slip of the keyboard
+constexpr double max_samples = 1e12;  // would take a year of computing: certainly a typing error
 
 std::string too_many_samples() {
-  return fmt::format("at most {} samples in a trial", most_samples);
+  return fmt::format("at most {} samples in a trial", max_samples);
 }
 
-// A distribution that reaches infinity is told of itself, not of all that it makes endless.
+// An unbounded distribution is reported once, at its own parameter.
 ValueRule highest_value(std::string_view parameter, const std::string& expected) {
   return {
       {parameter}, false, [expected](Limits l, Limits) -> Faults {
@@ -40,10 +40,10 @@ std::vector<ValueRule> rules_of_samples() {
 
 ValueRule samples_of_targets(double moves) {
   return {{"command.hold", "controller.sample_rate"}, false, [moves](Limits l, Limits) -> Faults {
-            if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high)) return {};  // told already
-            if (l[0].high * l[1].high * moves <= most_samples) return {};
+            if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high)) return {};  // reported already
+            if (l[0].high * l[1].high * moves <= max_samples) return {};
             return {{fmt::format("{} moves of {} s at {} Hz can be more than {} samples", moves, l[0].high,
-                                 l[1].high, most_samples),
+                                 l[1].high, max_samples),
                      too_many_samples()}};
           }};
 }
@@ -52,8 +52,8 @@ double farthest_apart(const ValueLimits& a, const ValueLimits& b) {
   return std::max(a.high - b.low, b.high - a.low);
 }
 
-// From the start to the first value, from each to the next.
-double longest_way(Limits list) {
+// Longest total travel: from the start to the first value, then from each to the next.
+double longest_travel(Limits list) {
   double way = 0.0;
   ValueLimits last{};
   for (const ValueLimits& next : list) {
@@ -76,15 +76,16 @@ ValueRule limits_of_torque_levels() {
           }};
 }
 
-// The time of all ways together, s. Where the torque stays at 0, no rate is too small.
+// Total time of all ramps, s. If the torque stays at 0, every rate is allowed.
 double time_of_ramps(Limits levels, const ValueLimits& rate) {
-  const double way = longest_way(levels);
+  const double way = longest_travel(levels);
   return way == 0.0 ? 0.0 : way / rate.low;
 }
 
 ValueRule lowest_rate_of_torque() {
   return {{"command.torque.rate"}, true, [](Limits l, Limits levels) -> Faults {
-            if (std::isfinite(time_of_ramps(levels, l[0])) || !std::isfinite(longest_way(levels))) return {};
+            if (std::isfinite(time_of_ramps(levels, l[0])) || !std::isfinite(longest_travel(levels)))
+              return {};
             return {{"the rate can be so small that the torque takes for ever to a level",
                      "a rate with a lowest value above 0"}};
           }};
@@ -97,15 +98,15 @@ ValueRule samples_of_torque_levels() {
             const double ramps = time_of_ramps(levels, l[2]);
             if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high) || !std::isfinite(ramps)) return {};
             const double time = static_cast<double>(levels.size()) * l[0].high + ramps;
-            if (time * l[1].high <= most_samples) return {};
+            if (time * l[1].high <= max_samples) return {};
             return {{fmt::format("{} levels held for {} s, and {} s on the way to them, can be more than {} "
                                  "samples at {} Hz",
-                                 levels.size(), l[0].high, ramps, most_samples, l[1].high),
+                                 levels.size(), l[0].high, ramps, max_samples, l[1].high),
                      too_many_samples()}};
           }};
 }
 
-// Of what goes beyond the converter's range only a part is reached.
+// Warns about torques beyond the converter's range, which are clipped.
 ValueRule range_of_the_converter(const std::string& unit) {
   return {
       {"command.torque.through", "dac.bits", "dac.resolution"},
@@ -149,13 +150,13 @@ ValueRule reach_of_the_overrun() {
   return {{"command.sequence.overrun"}, true, [](Limits l, Limits targets) -> Faults {
             const double farthest =
                 l[0].high + std::max(std::abs(targets.front().low), std::abs(targets.back().high));
-            if (farthest <= largest_count) return {};
+            if (farthest <= max_count) return {};
             return {{fmt::format("the sequence can go as far as {} counts", farthest),
-                     fmt::format("at most {} counts from the start", largest_count)}};
+                     fmt::format("at most {} counts from the start", max_count)}};
           }};
 }
 
-// The longest way between two targets that follow on each other, from the start on, counts.
+// The longest travel between consecutive targets, including the start, counts.
 double longest_step(Limits targets) {
   double longest = 0.0;
   ValueLimits last{};
@@ -166,7 +167,7 @@ double longest_step(Limits targets) {
   return longest;
 }
 
-// That of a sequence, which goes beyond its targets to approach the next run of them.
+// Likewise for a sequence, which moves beyond its targets before it reverses.
 double longest_step_of_sequence(Limits targets, const ValueLimits& overrun, const SequenceCycle& cycle) {
   const ValueLimits below{targets.front().low - overrun.high, targets.front().high - overrun.low};
   const ValueLimits above{targets.back().low + overrun.low, targets.back().high + overrun.high};
@@ -179,7 +180,7 @@ double longest_step_of_sequence(Limits targets, const ValueLimits& overrun, cons
       longest, starts_below ? farthest_apart(targets.back(), below) : farthest_apart(targets.front(), above));
 }
 
-// The longest that a count of the fine encoder can be, rad or m, by the parameter that says it.
+// The maximum length of a count of the fine encoder, rad or m.
 double longest_count(AxisKind axis, const ValueLimits& encoder) {
   switch (axis) {
     case AxisKind::rotary:

@@ -71,7 +71,7 @@ std::vector<EffectRule> rules_of_the_command(const StudyPlan& plan) {
   };
 }
 
-// What describes an error has an effect where that error has an amplitude.
+// The other parameters of an encoder error have an effect only if its amplitude is not 0.
 EffectRule rule_of_an_error(std::string_view key, std::string_view amplitude, std::string_view expected) {
   return {.keys = {key},
           .depends_on = {amplitude},
@@ -100,7 +100,7 @@ std::vector<EffectRule> rules_of_the_loop() {
   };
 }
 
-// Left in place, so that a study can be run with and without by one word.
+// Only a warning, so that a study can be switched between both cases with one key.
 EffectRule rule_of_the_limit() {
   return {.keys = {"verdict.limit"},
           .depends_on = {"verdict.stop"},
@@ -133,7 +133,7 @@ std::vector<EffectRule> rules_of_the_contact() {
   };
 }
 
-// Left in place, so that models can be compared by changing one word.
+// Only warnings, so that models can be compared by changing one key.
 std::vector<EffectRule> rules_of_the_model() {
   return {
       {.keys = {"plant.sliding_damping", "friction.breakaway", "friction.coulomb_ratio",
@@ -172,7 +172,7 @@ std::vector<EffectRule> rules_of_the_model() {
   };
 }
 
-// A value may stand in a manifest from which a term of friction was taken away by another value.
+// Only warnings: another value may switch off a term of friction.
 std::vector<EffectRule> rules_of_vanished_terms() {
   return {
       {.keys = {"friction.lambda", "friction.n", "initial.hardening"},
@@ -194,7 +194,7 @@ std::vector<EffectRule> rules_of_vanished_terms() {
   };
 }
 
-// The place on the rotor selects from profiles and from the errors of encoders that are fixed on it.
+// The position on the rotor selects from friction profiles and from encoder errors fixed to the rotor.
 EffectRule rule_of_the_position(const StudyPlan& plan) {
   const bool along_the_rotor = !plan.profiles.empty();
   return {.keys = {"initial.position"},

@@ -14,7 +14,7 @@ namespace {
 using Limits = std::span<const ValueLimits>;
 using Faults = std::vector<ValueFault>;
 
-// What stands where the list is not wanted.
+// Adapts a rule that does not use the list.
 template <class Find>
 auto without_list(Find find) {
   return [find](Limits parameters, Limits) { return find(parameters); };
@@ -75,7 +75,7 @@ std::vector<ValueRule> rules_of_the_start(const std::string& torque_unit) {
   };
 }
 
-// A trial that is ended early is one whose moves have no ends.
+// A trial that is stopped early lacks the ends of some moves.
 ValueRule no_stop_in_a_sequence() {
   return {{"verdict.stop"}, false, without_list([](Limits l) -> Faults {
             if (l[0].high == 0.0) return {};

@@ -10,21 +10,21 @@
 
 namespace zerocount {
 
-/// What is wrong between values at a design point.
+/// An inconsistency between values at a design point.
 struct ValueFault {
   std::string what;
   std::string expected;
-  std::vector<std::size_t> listed{};  ///< the values of the list that it is between, the first one leading;
-                                      ///< none: the parameters of the rule alone
+  std::vector<std::size_t> listed{};  ///< the involved values of the list, the first one for the message;
+                                      ///< empty: only the parameters of the rule
 };
 
-/// What the limits of some parameters at a design point must be to one another.
+/// A condition on the limits of several parameters at a design point.
 struct ValueRule {
-  std::vector<std::string_view> between;  ///< the parameters; the first gives a message its path
-  bool whole_list{false};                 ///< and all values of the list
+  std::vector<std::string_view> between;  ///< the parameters; the first one gives the path of the message
+  bool whole_list{false};                 ///< the rule also involves all values of the list
   std::function<std::vector<ValueFault>(std::span<const ValueLimits> parameters,
                                         std::span<const ValueLimits> list)>
-      find_faults;  ///< from the limits of the parameters in their order, and of the list where it is wanted
+      find_faults;  ///< from the limits of the parameters in their order, and of the list if whole_list
   bool warn_only{false};
 };
 

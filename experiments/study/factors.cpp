@@ -26,7 +26,7 @@ bool all_above_zero(Limits limits) {
   return std::all_of(limits.begin(), limits.end(), [](const ValueLimits& l) { return l.high > 0.0; });
 }
 
-// Of the random numbers that trials draw while they run, see core/random/trial_randomness.hpp.
+// Whether trials use random numbers while they run; see core/random/trial_randomness.hpp.
 bool draws_within_trials(const StudyPlan& plan) {
   constexpr std::array<std::string_view, 5> noises{"encoder.fine_errors.noise", "encoder.fine_errors.missed",
                                                    "encoder.coarse_errors.noise",

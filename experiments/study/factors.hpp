@@ -7,10 +7,10 @@
 
 namespace zerocount {
 
-/// What is drawn anew in each trial, at some design point: every value that is a distribution, but for those
-/// drawn once for the study, in the order of the table of parameters, and last, where there are such, all
-/// numbers that a trial draws while it runs. A profile is none: all trials are on the one rotor, and
-/// `initial.position` says where.
+/// The factors: quantities drawn anew in each trial at some design point. These are all values with a
+/// distribution, except those drawn once for the study, in the order of the table of parameters; and as the
+/// last factor all random numbers that a trial uses while it runs, if any. A profile is not a factor: all
+/// trials use the same rotor, and `initial.position` selects the position on it.
 TrialFactors find_factors(const StudyPlan& plan);
 
 /// The names of the factors: the dotted paths of the parameters, and within_trial_factor.

@@ -26,8 +26,8 @@ bool has_encoder_errors(const StudyPlan& plan) {
   });
 }
 
-// Whether integral control hunts about the target for ever.
-bool keeps_from_target(FrictionModel model) {
+// Whether the friction causes hunting with integral control.
+bool causes_hunting(FrictionModel model) {
   switch (model) {
     case FrictionModel::coulomb:
       return true;
@@ -42,7 +42,7 @@ bool keeps_from_target(FrictionModel model) {
 bool has_lasting_errors(const StudyPlan& plan) {
   return holds_for_one(plan, "controller.ki", [](const ValueLimits& l) { return l.can_be_zero; }) ||
          holds_for_one(plan, "friction.model", [](const ValueLimits& l) {
-           return keeps_from_target(static_cast<FrictionModel>(static_cast<int>(l.low)));
+           return causes_hunting(static_cast<FrictionModel>(static_cast<int>(l.low)));
          });
 }
 

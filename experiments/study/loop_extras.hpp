@@ -5,7 +5,7 @@
 
 namespace zerocount {
 
-/// What the plan's trials may meet in the loop.
+/// The loop effects that may occur in the plan's trials.
 LoopExtras find_loop_extras(const StudyPlan& plan);
 
 }  // namespace zerocount

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double tail_probability = 0.001;
 
-/// Whether hardly anything is drawn near the low end of the support: of the normal distributions.
-struct HasATail {
+/// Whether the distribution has a low tail with small probability (the normal distributions).
+struct HasLowTail {
   bool operator()(const Uniform&) const { return false; }
   bool operator()(const LogUniform&) const { return false; }
   bool operator()(const Normal&) const { return true; }
@@ -24,7 +24,7 @@ struct HasATail {
 };
 
 LowEnd low_end_of(const Distribution& distribution) {
-  if (std::visit(HasATail{}, distribution))
+  if (std::visit(HasLowTail{}, distribution))
     return {LowEnd::Kind::tail, quantile(distribution, tail_probability)};
   return {LowEnd::Kind::support, support(distribution).low};
 }

@@ -7,13 +7,14 @@
 
 namespace zerocount {
 
-/// The lowest value that a parameter is designed for at a design point.
+/// The lowest value of a parameter that a design must cover at a design point.
 struct LowEnd {
   enum class Kind : std::uint8_t {
     number,   ///< the parameter is one number
     support,  ///< low end of its distribution
     tail,     ///< 0.1 % quantile of a normal, truncated normal or lognormal distribution
-    profile   ///< along the rotor: that of the trial's own profile counts, and `value` is not set
+    profile  ///< the parameter varies along the rotor: use the minimum of the trial's profile; `value` is not
+             ///< set
   };
   Kind kind{Kind::number};
   double value{0.0};  ///< in the parameter's unit

@@ -5,7 +5,7 @@
 
 namespace zerocount {
 
-/// What the outcomes of the plan's trials hold beyond the columns that all have.
+/// The optional columns of the outcomes of the plan's trials.
 OutcomeExtras find_outcome_extras(const StudyPlan& plan);
 
 }  // namespace zerocount

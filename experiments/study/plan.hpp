@@ -15,23 +15,23 @@
 
 namespace zerocount {
 
-// The compiled form of a manifest. A slot is a place for one value of a trial: slot s below the number of
-// rows is row s of the table of parameters (that of a listed row is unused), and slot rows + i is value i of
-// the one listed parameter that the study uses.
+// The compiled form of a manifest. A slot stores one value of a trial. Slot s below the number of rows
+// belongs // to row s of the table of parameters (unused for listed rows). Slot rows + i is value i of the
+// listed // parameter that the study uses.
 
 /// The listed parameter of a study: targets, torque levels, or the targets of a sequence.
 struct ListedValues {
   std::size_t row{0};    ///< of the table of parameters
-  std::size_t count{1};  ///< how many stand in the list
+  std::size_t count{1};  ///< length of the list
 };
 
-/// What a manifest says of one slot.
+/// The value of one slot in the manifest.
 struct Value {
   enum class Kind : std::uint8_t { number, distribution, profile };
   Kind kind{Kind::number};
   std::uint32_t index{0};  ///< into the plan's distributions or profiles
-  Per per{Per::trial};     ///< where it is drawn; of a profile, study or rig
-  double number{0.0};      ///< where kind is number
+  Per per{Per::trial};     ///< how often it is drawn; for a profile study or rig
+  double number{0.0};      ///< if kind is number
 };
 
 /// A value that one option of an axis gives to a slot.
@@ -51,14 +51,14 @@ inline std::size_t option_count(const PlanAxis& axis) {
   return axis.first.size() - 1;
 }
 
-/// Where an input column comes from: the value of a slot, or the mean of its profile.
+/// Source of an input column: the value of a slot, or the mean of its profile.
 struct InputSource {
   std::uint32_t slot{0};
   bool profile_mean{false};
 };
 
-/// What is drawn anew in each trial. Factor f below the number of slots is the value of slot slots[f]; the
-/// one after them, where there is one, is all that trials draw while they run.
+/// The quantities drawn anew in each trial. Factor f below slots.size() is the value of slot slots[f]. The
+/// optional last factor is all random numbers that trials use while they run.
 struct TrialFactors {
   std::vector<std::uint32_t> slots;
   bool within_trial{false};
@@ -70,31 +70,31 @@ inline std::size_t factor_count(const TrialFactors& factors) {
 
 struct StudyPlan {
   StudyUnits units;
-  /// Of profiles, rad or m: a revolution; on a linear axis the travel, none where it is not given.
+  /// Period of profiles: a revolution, rad; on a linear axis the travel, m, if it is given.
   std::optional<double> period{2.0 * std::numbers::pi};
   ListedValues list;
   bool open_loop{false};                  ///< the list is one of torque levels
-  std::optional<SequenceCycle> sequence;  ///< where the list is that of a sequence
-  std::vector<Value> base;                ///< [slot], where no axis says otherwise
-  std::vector<PlanAxis> axes;  ///< the last changes fastest from point to point, and wins over the others
+  std::optional<SequenceCycle> sequence;  ///< set if the list belongs to a sequence
+  std::vector<Value> base;                ///< [slot], used unless an axis assigns a value
+  std::vector<PlanAxis> axes;  ///< the last axis changes fastest, and takes precedence over the others
   std::vector<Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
   std::vector<SlotRandomness> randomness;  ///< [slot]
-  RandomKey sobol_places{};                ///< used by the design `sobol` where there are rigs
-  std::vector<std::uint32_t> input_slots;  ///< those that are not the same in all trials
+  RandomKey sobol_places{};                ///< used by the design `sobol` with rigs
+  std::vector<std::uint32_t> input_slots;  ///< slots whose values differ between trials
   std::vector<InputSource> inputs;         ///< [input column]
   std::vector<InputSource> rig_inputs;     ///< [rig column]
   TrialFactors factors;                    ///< used by the design `saltelli`
-  std::vector<std::uint32_t> factor_of;    ///< [slot] its factor, likewise
-  TrialParameters common;                  ///< a trial's, all but the input slots in their places
-  std::vector<double> numbers;             ///< [slot] the numbers of the base; of an input slot, any
+  std::vector<std::uint32_t> factor_of;    ///< [slot] its factor; used by the design `saltelli`
+  TrialParameters common;                  ///< parameters of a trial, without the input slots
+  std::vector<double> numbers;             ///< [slot] numbers of the base; undefined for input slots
 };
 
-/// Puts the number of a slot where a trial has it. The targets of a sequence and its overrun have no place of
-/// their own: they go into the targets of the moves.
+/// Sets the field of a slot in the trial's parameters. The targets and the overrun of a sequence have no
+/// field: they determine the targets of the moves.
 void set_number(const StudyPlan& plan, std::size_t slot, double number, TrialParameters& to);
 
-/// Which option of `axis` the design point takes.
+/// The option of `axis` at the design point.
 std::size_t option_at(const StudyPlan& plan, std::size_t axis, std::size_t point);
 
 /// The value of one slot at a design point.

@@ -58,12 +58,12 @@ void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
                   const std::function<bool(std::size_t point)>& visit) {
   struct Turning {
     std::size_t options;
-    std::size_t stride;  // points from one option to the next
+    std::size_t stride;  // number of points between consecutive options
     std::size_t option;
   };
   std::vector<bool> wanted(plan.base.size(), false);
   for (const std::size_t slot : slots) wanted[slot] = true;
-  std::vector<Turning> turning;  // the axes that matter, the fastest first
+  std::vector<Turning> turning;  // the relevant axes, fastest first
   std::size_t stride = 1;
   for (std::size_t a = plan.axes.size(); a-- > 0;) {
     const std::size_t options = option_count(plan.axes[a]);

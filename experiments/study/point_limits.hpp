@@ -9,8 +9,8 @@
 
 namespace zerocount {
 
-/// What a value can be over all trials of a design point: the support of its distribution, the limits of its
-/// profile, or the number itself. Those of a value that could not be read are NaN.
+/// Range of a value over all trials of a design point: the support of its distribution, the limits of its
+/// profile, or the number itself. NaN for a value that could not be read.
 struct ValueLimits {
   double low{0.0};
   double high{0.0};
@@ -28,8 +28,8 @@ std::vector<std::size_t> slots_named(std::span<const std::string_view> names);
 /// The slots of the list.
 std::vector<std::size_t> listed_slots(const ListedValues& list);
 
-/// Calls `visit` with design points that show every combination of values that the slots have at some point,
-/// until it returns false. Points that differ in other slots alone are left out.
+/// Calls `visit` for one design point of each combination of values of `slots`, until it returns false.
+/// Points that differ only in other slots are skipped.
 void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
                   const std::function<bool(std::size_t point)>& visit);
 
@@ -37,7 +37,7 @@ void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
 std::vector<ValueLimits> limits_at(const StudyPlan& plan, std::span<const std::size_t> slots,
                                    std::size_t point);
 
-/// Whether all of these could be read.
+/// Whether all values could be read.
 bool are_readable(std::span<const ValueLimits> limits);
 
 /// Whether `holds` for the limits of these parameters, in their order, at some design point.

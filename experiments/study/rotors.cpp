@@ -53,7 +53,7 @@ std::shared_ptr<const Profile> Rotors::rotor(std::int64_t rotor) const {
 }
 
 Interval Rotors::bounds() const {
-  // Of √(ξ² + η²), with standard normals below 8.22 in magnitude (core/random/variates.hpp).
+  // Maximum of √(ξ² + η²): standard normal variates are below 8.22 in magnitude (core/random/variates.hpp).
   constexpr double max_radius = 11.63;
   Profile any = realise_profile(description_, amplitudes_, key_);
   for (std::size_t m = 0; m < amplitudes_.size(); ++m) {

@@ -15,20 +15,19 @@
 
 namespace zerocount {
 
-/// The mean of a profile where it is drawn, once for every rotor.
+/// Distribution of the mean of a profile, drawn once for every rotor.
 struct DrawnMean {
   Distribution distribution;
   Design design{Design::monte_carlo};
   SlotRandomness randomness;
 };
 
-/// The rotors along which one parameter of friction varies: a single one, or one for every rig. Each is a
-/// function of the seed, the parameter's name and its own number. They are made when they are asked for, and
-/// kept while they fit into `max_kept_bytes`: thousands of rigs take no time before they run. Safe to use
-/// from many threads.
+/// The profiles of one friction parameter: a single rotor, or one rotor per rig. A profile is a function of
+/// the seed, the parameter's name and the rotor's number. Profiles are created on demand and cached up to
+/// `max_kept_bytes`, so that thousands of rigs need no setup time. Thread-safe.
 class Rotors {
  public:
-  /// @param count how many there are. @param name dotted path of the parameter.
+  /// @param count number of rotors @param name dotted path of the parameter
   Rotors(ProfileDescription description, std::optional<DrawnMean> mean, std::uint64_t seed,
          std::string_view name, std::int64_t count);
 
@@ -36,14 +35,14 @@ class Rotors {
   std::size_t harmonics() const { return amplitudes_.size(); }
   bool has_drawn_mean() const { return mean_.has_value(); }
 
-  /// Mean of the ensemble that the rotor is of, in the parameter's unit.
+  /// Mean of the random field of this rotor, in the parameter's unit.
   double mean(std::int64_t rotor) const;
   std::shared_ptr<const Profile> rotor(std::int64_t rotor) const;
 
-  /// Limits that no rotor leaves whatever its random numbers, known without making any.
+  /// Bounds for all random numbers, computed without creating a profile.
   Interval bounds() const;
 
-  /// Limits that none of the rotors leaves: those of limits(Profile), over all of them.
+  /// Bounds of the actual rotors: limits(Profile) over all of them.
   Interval all_limits() const;
 
  private:
@@ -58,7 +57,7 @@ class Rotors {
   std::vector<double> amplitudes_;  // √S_m
 
   mutable std::mutex mutex_;
-  mutable std::vector<std::shared_ptr<const Profile>> kept_;  // [rotor], as far as there is room
+  mutable std::vector<std::shared_ptr<const Profile>> kept_;  // [rotor] cache, limited by max_kept_bytes
   mutable std::optional<Interval> limits_;
 };
 

@@ -13,13 +13,13 @@
 namespace zerocount {
 namespace {
 
-// The coordinates of what a trial draws.
+// The coordinates of a trial's random numbers.
 struct TrialDraws {
   const Study& study;
   std::uint64_t index;   ///< of the trial
-  std::uint64_t place;   ///< the point of the design that it takes
-  std::uint64_t rig;     ///< 0 where there are none
-  std::uint32_t stream;  ///< of what is drawn for a trial; all points share their rigs
+  std::uint64_t place;   ///< index of its point in the design
+  std::uint64_t rig;     ///< 0 without rigs
+  std::uint32_t stream;  ///< of values drawn per trial, not per rig
 
   const StudyPlan& plan() const { return *study.plan; }
 };
@@ -33,7 +33,7 @@ TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t index) 
           study.independent_points ? static_cast<std::uint32_t>(point) + 1 : 0};
 }
 
-// The trial whose number of this slot the trial has.
+// The trial from which this trial takes the number of a slot.
 std::uint64_t source_trial(const TrialDraws& draws, std::uint32_t slot) {
   if (draws.study.design != Design::saltelli) return draws.place;
   return saltelli_source(draws.index, draws.plan().factor_of[slot], factor_count(draws.plan().factors));
@@ -76,7 +76,7 @@ double profile_mean(const TrialDraws& draws, const Value& value) {
   return draws.plan().profiles[value.index]->mean(static_cast<std::int64_t>(rotor_of(draws, value)));
 }
 
-// Which trial's the numbers are that it draws while it runs.
+// The trial from which it takes the random numbers used while it runs.
 std::uint64_t numbers_within_trial(const Study& study, std::uint64_t index) {
   if (study.design != Design::saltelli) return index;
   const TrialFactors& factors = study.plan->factors;
@@ -130,7 +130,7 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
       }
     }
   }
-  // The profiles last: where the trial starts on them is itself a parameter.
+  // Profiles come last, because they depend on the start position.
   for (const std::uint32_t slot : plan.input_slots) {
     const Value& value = *values[slot];
     if (value.kind != Value::Kind::profile) continue;

@@ -5,8 +5,8 @@
 
 namespace zerocount {
 
-/// What the sample records of the plan's trials hold beyond the columns that all have. A delay alone is none
-/// of it: the torque of the motor is then that of an earlier sample.
+/// The optional columns of the plan's traces. A pure delay needs none: the motor torque is then the commanded
+/// torque of an earlier sample.
 TraceExtras find_trace_extras(const StudyPlan& plan);
 
 }  // namespace zerocount

@@ -5,7 +5,7 @@
 namespace zerocount {
 namespace {
 
-/// Phase is ControllerParameters or CoarsePhaseParameters: what has kp, ki and kd.
+/// Phase is ControllerParameters or CoarsePhaseParameters; both have kp, ki and kd.
 template <class Phase>
 void convert_gains(Phase& phase, const TrialParameters& trial) {
   const PidGains gains = sampled_gains({phase.kp, phase.ki, phase.kd}, trial.controller, trial.encoder);

@@ -5,9 +5,9 @@
 
 namespace zerocount {
 
-/// Completes the parameters of a trial once all numbers are in their places, in the units of the manifest:
-/// gains in SI units become those of the trial's sample time and encoder, and a coarse encoder of a linear
-/// axis without a resolution of its own gets that of the fine one.
+/// Completes the parameters of a trial after all numbers are set in the manifest's units: converts gains from
+/// SI units with the trial's sample time and encoder, and sets the resolution of a linear axis's coarse
+/// encoder to that of the fine one if it is not given.
 void complete_trial(const StudyUnits& units, TrialParameters& trial);
 
 }  // namespace zerocount

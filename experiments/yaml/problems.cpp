@@ -32,7 +32,7 @@ void Problems::raise_if_any() const {
   std::string message;
   std::string_view last;
   for (const Entry& entry : sorted) {
-    if (entry.text == last) continue;  // an alias can bring the same place up twice
+    if (entry.text == last) continue;  // an alias can report the same place twice
     if (!message.empty()) message += '\n';
     message += entry.text;
     last = entry.text;
@@ -46,7 +46,7 @@ std::string in_quotes(std::string_view text) {
   for (const char c : text.substr(0, longest)) {
     shown += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   }
-  // A cut may fall inside a UTF-8 sequence: drop what is left of it.
+  // Removes an incomplete UTF-8 sequence at the cut.
   if (text.size() > longest) {
     while (!shown.empty() && (static_cast<unsigned char>(shown.back()) & 0xC0) == 0x80) shown.pop_back();
     if (static_cast<unsigned char>(shown.back()) >= 0xC0) shown.pop_back();

@@ -9,11 +9,11 @@ namespace zerocount {
 /// A place in a manifest or in an override. `source` must outlive it.
 struct Place {
   std::string_view source;
-  int line{0};    ///< from 1; 0 where the source is one line by itself (an override)
+  int line{0};    ///< from 1; 0 if the source is a single line (an override)
   int column{0};  ///< from 1, in bytes
 };
 
-/// What is wrong with a manifest, collected so that all of it can be told at once.
+/// Collects the errors of a manifest, to report all of them together.
 class Problems {
  public:
   /// `path` is the dotted path of the key; `what` and `expected` are phrases without a full stop.
@@ -38,7 +38,7 @@ class Problems {
 /// "file:line:column: path: text", the form of every message about a manifest.
 std::string at_place(const Place& place, std::string_view path, std::string_view text);
 
-/// `text` in single quotes, cut where it is long, control characters made visible.
+/// `text` in single quotes, shortened if it is long, with visible control characters.
 std::string in_quotes(std::string_view text);
 
 }  // namespace zerocount

@@ -8,12 +8,13 @@
 
 #include <boost/algorithm/string/case_conv.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace zerocount {
 namespace {
 
-bool is_one_of(std::string_view text, std::initializer_list<std::string_view> words) {
-  return std::find(words.begin(), words.end(), text) != words.end();
+bool is_one_of(std::string_view text, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), text) != names.end();
 }
 
 bool is_yaml11_truth(const std::string& text) {
@@ -36,7 +37,7 @@ bool has_leading_zero(const std::string& text) {
   return text.size() > first + 1 && text[first] == '0' && text[first + 1] >= '0' && text[first + 1] <= '9';
 }
 
-// The number of `text`, where the whole of it is one in the sense of YAML 1.2 (and not only of from_chars).
+// The number in `text`, if the whole text is a number in YAML 1.2 (which from_chars alone does not check).
 template <class Number>
 std::errc parse_number(const std::string& text, Number& number) {
   if (has_leading_zero(text) || is_nonfinite(text)) return std::errc::invalid_argument;
@@ -50,11 +51,11 @@ bool reads_as_number(const std::string& text) {
   return parse_number(text, number) != std::errc::invalid_argument;
 }
 
-// What a scalar is, where a number or a truth value was expected.
+// Describes a scalar that is not the expected number or boolean.
 std::string describe_scalar(const YamlNode& node) {
   const std::string shown = in_quotes(node.text);
   if (!node.plain) return fmt::format("{} is a quoted text", shown);
-  const std::string text = node.text.substr(0, 100);  // long enough for every kind below
+  const std::string text = node.text.substr(0, 100);  // long enough for all tests below
   if (text.empty()) return "the value is empty";
   if (is_yaml11_truth(text)) return fmt::format("{} is a truth value", shown);
   if (is_nonfinite(text)) return fmt::format("{} is not finite", shown);
@@ -132,8 +133,8 @@ void add_wrong_type(const Field& field, const std::string& expected, Problems& p
 
 std::optional<double> read_real(const Field& field, const Interval& range, Problems& problems) {
   const YamlNode& node = *field.node;
-  const std::string words = in_words(range);
-  const std::string expected = words.rfind("any", 0) == 0 ? words : "a number " + words;
+  const std::string allowed = in_words(range);
+  const std::string expected = allowed.rfind("any", 0) == 0 ? allowed : "a number " + allowed;
   double number = 0.0;
   const std::errc error =
       is_plain_scalar(node) ? parse_number(node.text, number) : std::errc::invalid_argument;
@@ -172,6 +173,18 @@ std::optional<bool> read_truth(const Field& field, Problems& problems) {
             : describe(node);
     problems.add(node.place, field.path, what, "true or false");
   }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> read_label(const Field& field, std::span<const std::string_view> labels,
+                                      Problems& problems) {
+  const YamlNode& node = *field.node;
+  const auto label = std::find(labels.begin(), labels.end(), node.text);
+  if (node.kind == YamlNode::Kind::scalar && label != labels.end()) {
+    return static_cast<std::size_t>(label - labels.begin());
+  }
+  problems.add(node.place, field.path, fmt::format("{} is none of its allowed", in_quotes(flow_text(node))),
+               fmt::format("one of {}", fmt::join(labels, ", ")));
   return std::nullopt;
 }
 

@@ -7,11 +7,10 @@
 
 namespace zerocount {
 
-/// What yaml-cpp means by the message of its exception, in words for those who have not read the YAML
-/// specification.
+/// Translates the message of a yaml-cpp exception for readers who do not know the YAML specification.
 std::string syntax_fault(const std::string& message);
 
-/// The first place in `text` that is not UTF-8, or is a control character; line 0 where there is none.
+/// The first place in `text` that is not UTF-8, or is a control character; line 0 if there is none.
 Place first_bad_byte(const std::string& text, std::string_view source);
 
 }  // namespace zerocount

@@ -16,7 +16,7 @@
 namespace zerocount {
 namespace {
 
-// Thrown out of yaml-cpp's parser where reading on makes no sense.
+// Thrown through yaml-cpp's parser to stop it.
 struct Refusal {
   Place place;
   std::string path;
@@ -82,7 +82,7 @@ class TreeBuilder : public YAML::EventHandler {
     throw Refusal{where, path(), std::move(what), std::move(expected)};
   }
 
-  // Where the innermost list or map starts that has not ended; else the mark.
+  // Start of the innermost open list or map; otherwise the mark.
   Place open_place(const YAML::Mark& mark) const {
     return open_.empty() ? place(mark) : open_.back().node.place;
   }
@@ -95,8 +95,8 @@ class TreeBuilder : public YAML::EventHandler {
   struct Open {
     YamlNode node;
     YAML::anchor_t anchor;
-    std::size_t size{1};           // nodes, aliases written out
-    bool has_key{false};           // a key was read and its value was not
+    std::size_t size{1};           // number of nodes with expanded aliases
+    bool has_key{false};           // a key was read, but not yet its value
     std::set<std::string> keys{};  // of a map
   };
   struct Anchored {
@@ -127,7 +127,7 @@ class TreeBuilder : public YAML::EventHandler {
     }
   }
 
-  // yaml-cpp 0.7 takes a double-quoted text that the end of the file cuts off for complete.
+  // yaml-cpp 0.7 accepts a double-quoted text that ends with the file.
   void refuse_unclosed_quotes(const YAML::Mark& mark) const {
     std::size_t at =
         line_starts_[static_cast<std::size_t>(mark.line)] + static_cast<std::size_t>(mark.column);
@@ -141,8 +141,8 @@ class TreeBuilder : public YAML::EventHandler {
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, YamlNode::Kind kind) {
     refuse_tag(mark, tag);
     refuse_as_key(place(mark));
-    if (open_.size() >= deepest_nesting) {
-      refuse(place(mark), "the nesting is too deep", fmt::format("at most {} levels", deepest_nesting));
+    if (open_.size() >= max_nesting) {
+      refuse(place(mark), "the nesting is too deep", fmt::format("at most {} levels", max_nesting));
     }
     Open opened{.node = {}, .anchor = anchor};
     opened.node.kind = kind;
@@ -170,7 +170,7 @@ class TreeBuilder : public YAML::EventHandler {
     }
   }
 
-  // Takes a finished node into the list or map that is open.
+  // Adds a finished node to the open list or map.
   void accept(const YamlPointer& node, std::size_t size, const Place& where) {
     if (open_.empty()) {
       root_ = node;
@@ -178,9 +178,9 @@ class TreeBuilder : public YAML::EventHandler {
     }
     Open& parent = open_.back();
     parent.size += size;
-    if (parent.size > largest_expansion) {
+    if (parent.size > max_expanded_nodes) {
       refuse(where, "the aliases expand to too much",
-             fmt::format("at most {} values once every alias is written out", largest_expansion));
+             fmt::format("at most {} values once every alias is written out", max_expanded_nodes));
     }
     if (parent.node.kind == YamlNode::Kind::list) {
       parent.node.items.push_back(node);
@@ -234,7 +234,7 @@ YamlPointer parse_yaml(const std::string& text, std::string_view source, bool on
     problems.add(refusal.place, refusal.path, refusal.what, refusal.expected);
     return nullptr;
   } catch (const YAML::Exception& error) {
-    const bool cut_off = error.msg.rfind("end of ", 0) == 0 && error.mark.pos <= 0;  // its mark says nothing
+    const bool cut_off = error.msg.rfind("end of ", 0) == 0 && error.mark.pos <= 0;  // its mark is invalid
     problems.add(cut_off ? builder.open_place(error.mark) : builder.place(error.mark), whole,
                  syntax_fault(error.msg), "valid YAML");
     return nullptr;

@@ -18,8 +18,8 @@ struct YamlEntry {
   YamlPointer value;
 };
 
-/// A node of a YAML document, as it was written: what a number or a truth value is, is for the reader to say.
-/// An alias shares the node of its anchor.
+/// A node of a YAML document with its original text; scalars are converted later. An alias shares the node of
+/// its anchor.
 struct YamlNode {
   enum class Kind { null, scalar, list, map };
   Kind kind{Kind::null};
@@ -30,15 +30,15 @@ struct YamlNode {
   std::vector<YamlEntry> entries;  ///< of a map, in the order of the document; no key twice
 };
 
-/// Limits on what is accepted, so that a hostile file costs neither time nor memory.
-constexpr std::size_t largest_manifest = 1 << 20;     ///< bytes
-constexpr std::size_t deepest_nesting = 24;           ///< lists and maps inside one another
-constexpr std::size_t largest_expansion = 2'000'000;  ///< nodes once every alias is written out
+/// Limits that protect against malicious files.
+constexpr std::size_t max_manifest_size = 1 << 20;     ///< bytes
+constexpr std::size_t max_nesting = 24;                ///< nested lists and maps
+constexpr std::size_t max_expanded_nodes = 2'000'000;  ///< nodes after all aliases are expanded
 
-/// The document in `text`, or null where it is none; everything found wrong goes to `problems`. Refused: more
-/// than one document, tags, keys that are not scalars, anchors that contain themselves, and what exceeds the
-/// limits above. A key that stands twice in a map is a problem, and its first value is kept. `source` must
-/// outlive the tree. With `one_line`, places name the source alone.
+/// Parses the document in `text`. Returns null if that is not possible; all errors are added to `problems`.
+/// Refused are several documents, tags, keys that are not scalars, anchors that contain themselves, and
+/// documents beyond the limits above. A duplicate key in a map is an error; its first value is kept. `source`
+/// must outlive the tree. With `one_line`, places contain only the source.
 YamlPointer parse_yaml(const std::string& text, std::string_view source, bool one_line, Problems& problems);
 
 /// The node in flow style on one line, for labels.

@@ -4,7 +4,7 @@
 
 namespace zerocount {
 
-/// What one element of a column is, in memory and in the file (little-endian there).
+/// Type of a column's elements, in memory and in the file (little-endian in the file).
 enum class Element {
   float64,  ///< double
   int64,    ///< std::int64_t
@@ -14,7 +14,7 @@ enum class Element {
   text      ///< variable-length UTF-8 string
 };
 
-/// Bytes of one element in memory; text has none, because it is read and written as strings.
+/// Bytes of one element in memory. Not for text, which is read and written as strings.
 constexpr std::size_t size_of(Element element) {
   switch (element) {
     case Element::float64:
@@ -31,8 +31,7 @@ constexpr std::size_t size_of(Element element) {
   return 0;
 }
 
-/// How a dataset is stored: shuffled and deflated, or as it is. What is not compressed is written faster and
-/// takes more room.
+/// Filters of a dataset: shuffle and deflate, or none (faster to write, larger).
 enum class Compression { deflate, none };
 
 }  // namespace zerocount

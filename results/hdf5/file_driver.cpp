@@ -15,13 +15,13 @@ constexpr herr_t success = 0;
 constexpr herr_t failure = -1;
 constexpr haddr_t max_address = (haddr_t{1} << 63) - 1;
 
-/// What the library knows an open file by.
+/// The library's handle of an open file.
 struct DriverFile : H5FD_t {
   std::shared_ptr<ByteFile> bytes;
-  haddr_t allocated{0};  ///< the end of what the library has given out
+  haddr_t allocated{0};  ///< end of the address space that the library has allocated
 };
 
-/// What access_properties() carry to open_file().
+/// Data that access_properties() passes to open_file().
 struct DriverInfo {
   const std::shared_ptr<ByteFile>* bytes{nullptr};
 };
@@ -46,7 +46,7 @@ herr_t close_file(H5FD_t* file) {
   return success;
 }
 
-/// The abilities of the library's own driver for files (sec2): they say where it puts things in the file.
+/// The features of the library's default driver (sec2), so that the library lays out files in the same way.
 herr_t query(const H5FD_t*, unsigned long* flags) {
   *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
            H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
@@ -75,7 +75,7 @@ herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size,
     own_file(file).bytes->write(address, {static_cast<const std::byte*>(buffer), size});
     return success;
   } catch (const std::exception&) {
-    return failure;  // no memory for what could not be written
+    return failure;  // no memory left to keep the unwritten bytes
   }
 }
 

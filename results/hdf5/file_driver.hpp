@@ -5,21 +5,22 @@
 #include "results/hdf5/hdf5.hpp"
 #include "results/storage/byte_file.hpp"
 
-/// A driver of the HDF5 library that hands its reads and writes to a ByteFile.
+/// A file driver for the HDF5 library that reads and writes through a ByteFile.
 ///
-/// Version 1.10 of the library does not bear a write that fails. H5Dclose drops the failure of a chunk that
-/// it could not write: the file is closed without a word, and the chunk reads as zeros. Where H5Dwrite does
-/// report it, the library frees the dataset's cache of chunks and uses it once more when the dataset is
-/// closed (SIGSEGV in H5D_close). So this driver reports no failed write: ByteFile remembers it, keeps the
-/// bytes in memory so that the library reads what it wrote, and Object and File look for it after every call.
+/// Version 1.10 of the library does not handle failed writes. H5Dclose ignores that a chunk could not be
+/// written: the file is closed without an error, and the chunk reads as zeros. If H5Dwrite reports the
+/// failure, the library frees the dataset's chunk cache and uses it again when the dataset is closed (SIGSEGV
+/// in H5D_close). Therefore this driver reports every write as successful. ByteFile records the failure and
+/// keeps the bytes in memory, so that the library reads what it wrote. Object and File check for a failure
+/// after every call.
 namespace zerocount::hdf5 {
 
-/// Properties of access to a file that stands in `bytes`.
+/// Access property list of the file `bytes`.
 ///
-/// Object headers of version 2 carry checksums; later formats would lock out readers built on HDF5 1.8. Files
-/// are immutable once they have their name, so the library's own file locks (which fail on some cluster file
-/// systems) are off.
-/// @param bytes must stay where it is until the file is open; the library shares it from then on
+/// Object headers have version 2: they have checksums, and readers built on HDF5 1.8 can read them. The
+/// library's own file locks are off: finished files never change, and the locks fail on some cluster file
+/// systems.
+/// @param bytes must stay valid until the file is open; the library holds a shared pointer from then on
 Handle access_properties(const std::shared_ptr<ByteFile>& bytes);
 
 }  // namespace zerocount::hdf5

@@ -13,21 +13,21 @@
 #include "results/hdf5/element.hpp"
 #include "results/hdf5/written_values.hpp"
 
-/// A thin layer over the HDF5 C library: handles that close themselves, and failures in our own words.
+/// A thin layer over the HDF5 C library: handles that close themselves, and errors as Failure.
 ///
-/// A failed operation throws Failure: machine_failed where the file is being written or the system reports an
-/// error, bad_data where a file being read does not hold what it should. No text of the library reaches the
-/// message. All objects of one file must be used by one thread at a time.
+/// A failed operation throws Failure: machine_failed while a file is written or if the system reports an
+/// error, bad_data if a file that is read has unexpected contents. Messages contain no text of the library.
+/// All objects of one file must be used by one thread at a time.
 ///
 /// A file is written in three steps: File::create, File::close, require_written. A write that fails is
-/// reported by the call that made it, or by a later one, File::close at the latest. After it the library is
-/// not called again for that file: what it holds is left to the end of the process.
+/// reported by the call that made it, or by a later one, File::close at the latest. After a failed write the
+/// library is not called again for that file: its handles stay open until the process ends.
 namespace zerocount::hdf5 {
 
 using Id = std::int64_t;          ///< an identifier of the library, its hid_t
 using Size = unsigned long long;  ///< a number of elements, the library's hsize_t
 
-/// An identifier of the library, closed at the end of its life.
+/// An identifier of the library that the destructor closes.
 class Handle {
  public:
   using Close = int (*)(Id);
@@ -41,8 +41,8 @@ class Handle {
   ~Handle() { close(); }
 
   Id get() const { return id_; }
-  bool close();    ///< false where the library reports a failure; closing twice is harmless
-  void abandon();  ///< leaves it open for ever
+  bool close();    ///< false if the library reports a failure; a second call does nothing
+  void abandon();  ///< never closes it
 
  private:
   static constexpr Id none = -1;
@@ -87,11 +87,12 @@ class Object {
 
   Id id() const { return handle_.get(); }
   const std::shared_ptr<Origin>& origin() const { return origin_; }
-  /// The identifier that an operation gave, or the Failure where it gave none or a write has failed.
+  /// Takes the identifier that an operation returned; throws the Failure if it is invalid or a write has
+  /// failed.
   Handle own(Id id, Handle::Close close, std::string_view problem) const;
-  /// The same for an operation that gives a status.
+  /// Likewise for an operation that returns a status.
   void require(int status, std::string_view problem) const;
-  WrittenObject& written() const;  ///< where what is written to this object is recorded
+  WrittenObject& written() const;  ///< record of the values written to this object
   void release() noexcept;         ///< closes it; a failure is kept for File::close
 
  private:
@@ -151,7 +152,7 @@ class Group : public Object {
   Dataset create_dataset(const std::string& name, const Storage& storage);
   Dataset open_dataset(const std::string& name) const;
   bool contains(const std::string& name) const;
-  bool is_group(const std::string& name) const;  ///< of a member: a group, and no dataset
+  bool is_group(const std::string& name) const;  ///< whether a member is a group (not a dataset)
   std::vector<std::string> children() const;     ///< names, in order of creation
 
  protected:
@@ -160,8 +161,8 @@ class Group : public Object {
   std::string path_to(const std::string& name) const;
 };
 
-/// True where the file begins as the HDF5 format does.
-/// @throws Failure (machine_failed) with the path and the reason where it cannot be read.
+/// True if the file begins with the signature of HDF5.
+/// @throws Failure (machine_failed) with the path and the reason if it cannot be read.
 bool is_hdf5(const std::filesystem::path& path);
 
 /// An open file, which is its root group.
@@ -171,14 +172,14 @@ class File : public Group {
   File& operator=(File&& other) = delete;
   ~File();
 
-  /// A new file at `path`; what stood there is lost.
+  /// A new file at `path`; replaces an existing file.
   static File create(const std::filesystem::path& path);
   static File open_to_read(const std::filesystem::path& path);
-  /// @param so_far what was written to it before, which close() is to return with the rest
+  /// @param so_far values written to the file earlier; close() returns them with the new ones
   static File open_to_change(const std::filesystem::path& path, WrittenValues so_far = {});
 
-  /// Writes everything to the disk and closes. All other objects of the file must be gone.
-  /// @return what was written, for require_written
+  /// Flushes the file to the disk and closes it. All other objects of the file must be destroyed.
+  /// @return all written values, for require_written
   WrittenValues close();
 
  private:
@@ -190,8 +191,8 @@ class File : public Group {
   Handle file_;
 };
 
-/// Reads the file and compares it with what was written to it: every value, text, attribute and axis.
-/// @throws Failure (machine_failed) where anything is missing, differs or cannot be read.
+/// Reads the file and compares every value, text, attribute and axis with the written ones.
+/// @throws Failure (machine_failed) if anything is missing, differs or cannot be read.
 void require_written(const std::filesystem::path& path, const WrittenValues& written);
 
 }  // namespace zerocount::hdf5

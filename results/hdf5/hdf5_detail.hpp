@@ -14,7 +14,7 @@
 #include "results/hdf5/hdf5.hpp"
 #include "results/storage/byte_file.hpp"
 
-/// What the sources of the HDF5 layer share; not for its users.
+/// Internal declarations of the HDF5 layer; not for its users.
 namespace zerocount::hdf5 {
 
 static_assert(std::is_same_v<Id, hid_t> && std::is_same_v<Size, hsize_t> && std::is_same_v<int, herr_t>);
@@ -22,29 +22,28 @@ static_assert(std::is_same_v<Id, hid_t> && std::is_same_v<Size, hsize_t> && std:
 enum class Purpose {
   read,
   write,
-  read_back  ///< to see whether what was written is there
+  read_back  ///< to compare the file with what was written
 };
 
 struct Origin {
   Purpose purpose{Purpose::read};
   std::shared_ptr<ByteFile> bytes;
   WrittenValues written;   ///< so far
-  bool incomplete{false};  ///< an operation that writes has failed, or the closing of an object
+  bool incomplete{false};  ///< a write operation or the closing of an object has failed
 
   /// The library must not be called again: see file_driver.hpp.
   bool broken() const { return purpose == Purpose::write && (incomplete || bytes->failure()); }
 };
 
-/// Throws the Failure for the object `path` of a file, after an operation of the library failed (or was found
-/// wanting).
+/// Throws the Failure for the object `path` of a file after a failed operation.
 [[noreturn]] void fail_on(Origin& origin, const std::string& path, std::string_view problem);
 
-/// For what no file is involved in, a type, an extent or a list of properties: throws the Failure where the
-/// library could not make it.
+/// Takes the identifier of a new type, dataspace or property list; throws the Failure if the library could
+/// not create it.
 Handle made(Id id, Handle::Close close);
 void demand(herr_t status);
 
-Id file_type(Element element);  ///< of the numbers; texts have text_type()
+Id file_type(Element element);  ///< for numbers; for texts see text_type()
 Handle text_type();
 
 /// Properties of a new file, group or dataset: creation order tracked, no times.
@@ -53,7 +52,7 @@ Handle creation_properties(Id kind);
 /// Bytes of a row of a dataset with this extent: its first dimension counts the rows.
 std::size_t row_size(Element element, std::span<const Size> extent);
 
-/// Tells one text of bytes from another.
+/// Hash of some bytes, to detect differences.
 std::size_t digest_of(const void* data, std::size_t size);
 
 }  // namespace zerocount::hdf5

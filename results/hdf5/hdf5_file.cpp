@@ -12,15 +12,15 @@
 namespace zerocount::hdf5 {
 namespace {
 
-/// Level of deflate: the inputs of trials are random digits, which higher levels only spend time on.
+/// Level of deflate. The inputs of trials are random digits: higher levels take longer and do not compress
+/// them better.
 constexpr unsigned deflate_level = 1;
 
-/// No text of the library on stderr, and no work of its own at exit, where it would retry writes that have
-/// failed.
+/// Turns off the library's messages on stderr and its exit handler, which would repeat failed writes.
 void quieten() {
   static const herr_t no_work_at_exit = H5dont_atexit();
   static_cast<void>(no_work_at_exit);
-  demand(H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr));  // a setting of the calling thread
+  demand(H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr));  // applies to the calling thread
 }
 
 ByteFile::Mode mode_of(Purpose purpose, bool create) {
@@ -44,7 +44,7 @@ Group Group::create_group(const std::string& name) {
   Group group(own(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Gclose,
                   fmt::format("the group '{}'", name)),
               origin(), path_to(name));
-  group.written();  // even if it stays empty
+  group.written();  // registers the group even if it stays empty
   return group;
 }
 
@@ -66,7 +66,7 @@ Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
     if (storage.extendible) limit[0] = H5S_UNLIMITED;
     space = own(H5Screate_simple(rank, storage.extent.data(), limit.data()), H5Sclose, problem);
     require(H5Pset_chunk(properties.get(), rank, storage.chunk.data()), problem);
-    if (storage.element != Element::text) {  // the library has no filters for variable-length elements
+    if (storage.element != Element::text) {  // filters do not apply to variable-length elements
       if (storage.compression == Compression::deflate) {
         require(H5Pset_shuffle(properties.get()), problem);
         require(H5Pset_deflate(properties.get(), deflate_level), problem);
@@ -80,7 +80,7 @@ Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
       own(H5Dcreate2(id(), name.c_str(), type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
           H5Dclose, problem),
       origin(), path_to(name));
-  dataset.written();  // even if it stays without values
+  dataset.written();  // registers the dataset even if it stays empty
   return dataset;
 }
 
@@ -155,7 +155,7 @@ File::~File() {
   release();  // the root, before its file
   if (origin() && origin()->broken()) {
     file_.abandon();
-    origin()->bytes->close();  // or the file would keep its place on the disk when its name is removed
+    origin()->bytes->close();  // an open file would keep its disk space after its removal
   }
 }
 

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-/// What was handed over to be written to a file, for a comparison with what is read from it.
+/// Record of the values written to a file, to compare with the values read back.
 namespace zerocount::hdf5 {
 
 using AttributeValue = std::variant<std::string, std::uint64_t, std::vector<std::int64_t>>;

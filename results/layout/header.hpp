@@ -72,12 +72,12 @@ void require_same_study(const std::filesystem::path& path, const FileHeader& hea
 /// The folder of the shards of a run that makes `output`: OUTPUT.shards.
 std::filesystem::path shards_directory(const std::filesystem::path& output);
 
-/// Whether a file must have its seal (see seal.hpp) to be opened.
-enum class Seal { required, not_yet };
+/// Whether a file must have its checksum trailer (see checksum_trailer.hpp) to be opened.
+enum class Checksum { required, not_yet };
 
 /// Opens a file of this program's format.
 /// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read,
 /// bad_data where it is damaged or something else.
-hdf5::File open_results(const std::filesystem::path& path, Seal seal = Seal::required);
+hdf5::File open_results(const std::filesystem::path& path, Checksum checksum = Checksum::required);
 
 }  // namespace zerocount

@@ -47,7 +47,7 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 std::vector<RecordField<MoveOutcome>> all_outcome_fields() {
   using M = MoveOutcome;
   return {
-      field<M>("outcome", "1", "verdict on the last window of the move", &M::outcome, outcome_words()),
+      field<M>("outcome", "1", "verdict on the last window of the move", &M::outcome, outcome_labels()),
       field<M>("arrived", "1", "the error was 0 for a whole dwell", &M::arrived),
       field<M>("arrival", "1", "first sample of the arrival dwell from the start of the move, -1 if never",
                &M::arrival),
@@ -105,7 +105,8 @@ std::vector<RecordField<MoveOutcome>> all_outcome_fields() {
       field<M>("reversal_depth", "1", "largest number of reversal points on the stack", &M::reversal_depth),
       field<M>("jerk_count", "1", "excursions of the error from zero after arrival", &M::jerk_count),
       field<M>("jerk_agreement", "1",
-               "share of the jerks in the direction of the holding torque, NaN if none", &M::jerk_agreement)};
+               "proportion of the jerks in the direction of the holding torque, NaN if none",
+               &M::jerk_agreement)};
 }
 
 std::vector<RecordField<MoveOutcome>> outcome_fields_of(std::int64_t version, const OutcomeExtras& extras) {
@@ -121,7 +122,7 @@ std::vector<RecordField<MoveOutcome>> outcome_fields_of(std::int64_t version, co
 
 }  // namespace
 
-std::vector<FlagMeaning> outcome_words() {
+std::vector<FlagMeaning> outcome_labels() {
   return {{static_cast<int>(Outcome::zero_count), "zero_count"},
           {static_cast<int>(Outcome::one_count), "one_count"},
           {static_cast<int>(Outcome::oscillating), "oscillating"},

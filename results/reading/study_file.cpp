@@ -10,7 +10,7 @@
 
 #include "core/failure/failure.hpp"
 #include "results/layout/statistic_io.hpp"
-#include "results/reading/sound_values.hpp"
+#include "results/reading/validation.hpp"
 
 namespace zerocount {
 namespace {
@@ -87,7 +87,7 @@ std::vector<double> as_doubles(const RecordField<Record>& field, const std::vect
 
 StudyFile::StudyFile(const std::filesystem::path& path, Require require)
     : path_(path),
-      file_(open_results(path, require == Require::unfinished ? Seal::not_yet : Seal::required)),
+      file_(open_results(path, require == Require::unfinished ? Checksum::not_yet : Checksum::required)),
       header_(read_required(file_, path, require)),
       axis_(read_axis(file_)),
       inputs_(read_input_columns(file_.open_group("trial"))),
@@ -101,7 +101,7 @@ StudyFile::StudyFile(const std::filesystem::path& path, Require require)
     trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
   if (outcomes_.rows() != rows().count)
     outcomes_.row_scale().fail("its size differs from the attribute 'trial_count'");
-  require_sound_numbering(header_, trials_, jerks_);
+  validate_numbering(header_, trials_, jerks_);
 }
 
 std::int64_t StudyFile::local(RowRange range) const {
@@ -166,7 +166,7 @@ std::vector<double> StudyFile::inputs_of(std::int64_t row) const {
 
 std::vector<MoveOutcome> StudyFile::outcomes(RowRange range) const {
   std::vector<MoveOutcome> moves = read_records(outcomes_, measures(), local(range), range.count);
-  require_sound_outcomes(outcomes_, measures(), range.first, moves);
+  validate_outcomes(outcomes_, measures(), range.first, moves);
   return moves;
 }
 
@@ -185,13 +185,13 @@ std::vector<double> StudyFile::measure(std::string_view name, RowRange range) co
   outcomes_.column(static_cast<std::size_t>(column - measures().begin()))
       .read(first, range.count, bytes.data());
   scatter(*field, bytes, std::span(moves));
-  require_sound_measure(outcomes_, measures(), name, range.first, moves);
+  validate_measure(outcomes_, measures(), name, range.first, moves);
   return as_doubles(*field, moves);
 }
 
 std::vector<JerkRecord> StudyFile::jerks_at(std::int64_t first, std::int64_t count) const {
   std::vector<JerkRecord> jerks = read_records(jerks_, jerk_fields(), first, count);
-  require_sound_jerks(jerks_, moves(), first, jerks);
+  validate_jerks(jerks_, moves(), first, jerks);
   return jerks;
 }
 
@@ -275,7 +275,7 @@ std::optional<StoredRigs> StudyFile::rigs() const {
   stored.trials.resize(stored.success.size());
   counts.column(0).read(0, counts.rows(), stored.success.data());
   counts.column(1).read(0, counts.rows(), stored.trials.data());
-  require_sound_rigs(header_, counts, stored.success, stored.trials);
+  validate_rigs(header_, counts, stored.success, stored.trials);
   return stored;
 }
 

@@ -46,8 +46,8 @@ struct StoredRigs {
 /// then. One thread at a time.
 class StudyFile {
  public:
-  /// Checks seal, format, version, completion mark, completeness as required, and that the rows have the
-  /// numbers of their places (see sound_values.hpp). Reads the file once from beginning to end.
+  /// Checks checksum trailer, format, version, completion mark, completeness as required, and that the rows
+  /// have the numbers of their places (see sound_values.hpp). Reads the file once from beginning to end.
   /// @throws ForeignFile for another format or a newer version; Failure: bad_input where there is no such
   /// file, machine_failed where it cannot be read, otherwise bad_data.
   explicit StudyFile(const std::filesystem::path& path, Require require = Require::complete);

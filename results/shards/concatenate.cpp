@@ -13,10 +13,10 @@
 namespace zerocount {
 namespace {
 
-/// One shard's share of the table.
+/// The rows that one shard contributes to the table.
 struct Source {
   std::filesystem::path path;
-  RowRange rows;  ///< where its rows go in the table written
+  RowRange rows;  ///< in the table written
 };
 
 std::vector<Source> find_sources(const Table& table, std::span<const ShardInfo> shards, std::int64_t width) {
@@ -35,8 +35,9 @@ std::vector<Source> find_sources(const Table& table, std::span<const ShardInfo> 
 /// The bytes of some rows, by column.
 using Block = std::vector<std::vector<std::byte>>;
 
-/// Reads the rows that `source` has of `wanted` into their place in `block`.
-void read_share(const Table& table, const Source& source, RowRange wanted, std::int64_t width, Block& block) {
+/// Reads the rows of `wanted` that `source` holds into `block`.
+void read_overlap(const Table& table, const Source& source, RowRange wanted, std::int64_t width,
+                  Block& block) {
   const std::int64_t first = std::max(source.rows.first, wanted.first);
   const std::int64_t count = std::min(source.rows.end(), wanted.end()) - first;
   if (count <= 0) return;
@@ -80,7 +81,7 @@ void concatenate(hdf5::File& file, const Table& table, std::span<const ShardInfo
     while (sources[next].rows.end() <= wanted.first) ++next;
     for (std::size_t source = next; source < sources.size() && sources[source].rows.first < wanted.end();
          ++source) {
-      read_share(table, sources[source], wanted, width, block);
+      read_overlap(table, sources[source], wanted, width, block);
     }
     if (renumber) renumber_trials(table, renumber, block);
     for (std::size_t index = 0; index < block.size(); ++index) {

@@ -10,14 +10,14 @@
 
 namespace zerocount {
 
-/// The row of a trial in the file written, by its row in the shards; empty where they are the same.
+/// Maps a trial's row in the shards to its row in the file written. Empty: the rows are the same.
 using Renumbering = std::function<std::int64_t(std::int64_t row)>;
 
-/// Creates `table` in `file` and fills it with that table of the shards, one after the other.
+/// Creates `table` in `file` and fills it with the rows of that table in the shards, in their order.
 ///
-/// It goes by blocks of the table written, each one chunk of every column, so that memory is bounded and the
-/// order of writing does not depend on how the rows are divided among the shards.
-/// @param width        size of the second dimension, 1 where the table has none
+/// Copies blocks of one chunk per column, so that memory is bounded and the order of writing does not depend
+/// on how the rows are divided among the shards.
+/// @param width        size of the second dimension, 1 if the table has none
 /// @param first_number first value of the scale of the rows
 /// @param renumber     applied to the column `trial` of a table that has one
 void concatenate(hdf5::File& file, const Table& table, std::span<const ShardInfo> shards, std::int64_t width,

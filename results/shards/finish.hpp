@@ -6,10 +6,10 @@
 
 namespace zerocount {
 
-/// Seals the closed results file part_of(path), reads all of it back from the disk, and gives it its name
-/// `path`.
-/// @param written what it must hold
-/// @throws Failure (machine_failed) where it cannot be brought to the disk or read, or holds anything else.
+/// Appends the checksum trailer to the closed results file part_of(path), reads the file back from the disk,
+/// and renames it to `path`.
+/// @param written the expected contents
+/// @throws Failure (machine_failed) if the file cannot be flushed or read, or if its contents differ.
 void finish_results(const std::filesystem::path& path, const hdf5::WrittenValues& written);
 
 }  // namespace zerocount

@@ -42,8 +42,7 @@ std::vector<fs::path> expand(std::span<const fs::path> inputs) {
   return files;
 }
 
-/// @throws Failure unless the shards, in order of rows, follow one another from the start of `rows` to its
-/// end.
+/// @throws Failure unless the shards, sorted by rows, cover `rows` without gaps and overlaps.
 void require_cover(std::span<const ShardInfo> shards, RowRange rows, const fs::path& output) {
   std::int64_t next = rows.first;
   const ShardInfo* previous = nullptr;
@@ -72,9 +71,9 @@ void require_cover(std::span<const ShardInfo> shards, RowRange rows, const fs::p
   }
 }
 
-/// `provenance`, with the commit of a shard that was made from changed sources: what is joined is no cleaner
-/// than its parts.
-Provenance of_all(std::span<const ShardInfo> shards, Provenance provenance) {
+/// `provenance` of the merged file. If a shard was made by a build with uncommitted changes, the file has the
+/// commit of that shard.
+Provenance merged_provenance(std::span<const ShardInfo> shards, Provenance provenance) {
   for (const ShardInfo& shard : shards) {
     if (is_dirty(provenance)) break;
     const FileHeader header = read_header(hdf5::File::open_to_read(shard.path));
@@ -98,7 +97,7 @@ void write_points(hdf5::File& file, const Study& study) {
   }
 }
 
-/// Writes everything but the statistics and the mark that the file is finished.
+/// Writes everything except the statistics and the completion mark.
 hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const Study& study,
                                     const fs::path& part, RowRange rows, const Provenance& provenance,
                                     const Renumbering& renumber) {
@@ -123,7 +122,7 @@ StoredStatistics statistics_of(const fs::path& part, const hdf5::WrittenValues& 
   try {
     return statistics(StudyFile(part, Require::unfinished));
   } catch (const Failure&) {
-    hdf5::require_written(part, written);  // or it is the writing that failed, and no shard
+    hdf5::require_written(part, written);  // if the write failed, report that instead
     throw;
   }
 }
@@ -142,7 +141,7 @@ void write_point_statistics(hdf5::File& file, const Study& study, const StoredSt
   }
 }
 
-/// @param written what the file holds; returned with what is added
+/// @param written contents of the file so far; returned with the added values
 hdf5::WrittenValues write_statistics(const fs::path& part, const Study& study, RowRange rows,
                                      hdf5::WrittenValues written, const StoredStatistics& statistics) {
   hdf5::File file = hdf5::File::open_to_change(part, std::move(written));
@@ -180,7 +179,7 @@ void merge_shards(std::span<const ShardInfo> shards, const Study& study, const f
   require_cover(ordered, rows, output);
   const UnfinishedFile part(output);
   hdf5::WrittenValues written =
-      write_trials_of(ordered, study, part.path(), rows, of_all(ordered, provenance), renumber);
+      write_trials_of(ordered, study, part.path(), rows, merged_provenance(ordered, provenance), renumber);
   StoredStatistics stored;
   if (statistics && rows == all_rows(study)) stored = statistics_of(part.path(), written, statistics);
   finish_results(output, write_statistics(part.path(), study, rows, std::move(written), stored));

@@ -15,30 +15,28 @@
 
 namespace zerocount {
 
-/// Computes the statistics of the design points from a file that holds all its trials but is not finished.
+/// Computes the statistics of the design points from a file that holds all trials but is not finished.
 using StatisticsOfPoints = std::function<StoredStatistics(const StudyFile&)>;
 
-/// The files that `inputs` name: files stand for themselves, directories for their shard_files. In order of
-/// rows. Each is read whole, for its seal, and must be a finished shard or part of `study`.
-/// @throws Failure (bad_data) for the first that is not; bad_input where an input does not exist, or is a
+/// The files of `inputs`, sorted by rows; a directory stands for its shard_files(). Each file must be a
+/// finished shard or part of `study` with a valid checksum trailer.
+/// @throws Failure: bad_data for the first file that is not; bad_input if an input does not exist or is a
 /// directory without shards.
 std::vector<ShardInfo> merge_inputs(std::span<const std::filesystem::path> inputs, const Study& study);
 
-/// The header of the first file that `inputs` name: its manifest and overrides give the study to merge.
+/// The header of the first file of `inputs`. Its manifest and overrides define the study to merge.
 FileHeader first_header(std::span<const std::filesystem::path> inputs);
 
-/// Joins shards into the results file `output`, which holds the trials `rows` of the study: the whole study,
-/// or a part.
+/// Joins shards into the results file `output` with the trials `rows` of the study: all of them, or a part.
 ///
-/// The shards, found sound by list_shards or merge_inputs, must cover `rows` exactly. Memory is bounded
-/// whatever their number; the bytes of every dataset depend on the study and `rows` alone. `statistics` is
-/// called once, where the file is the whole study. The file gets its name only when it is whole on the disk;
-/// what had it before is replaced.
-/// Its git_commit is that of `provenance`, or of a shard whose build had changes that were not committed.
-/// `renumber` is for shards that were written under other rows: the rows in ShardInfo are those of the file,
-/// and it turns the rows that stand in the shards into those.
+/// The shards, as returned by list_shards or merge_inputs, must cover `rows` exactly. Memory does not grow
+/// with their number. The bytes of every dataset depend only on the study and `rows`. `statistics` is called
+/// once if the file holds the whole study. `output` appears when it is complete on the disk, and replaces an
+/// existing file. The file's git_commit is that of `provenance`, or that of a shard whose build had
+/// uncommitted changes. `renumber` is for shards whose rows differ from those of the file: ShardInfo has the
+/// rows of the file, and `renumber` maps the rows stored in the shards to them.
 /// @throws Failure: bad_data for gaps, overlaps and damaged shards; machine_failed with the path and the
-/// reason where it cannot be written.
+/// reason if the file cannot be written.
 void merge_shards(std::span<const ShardInfo> shards, const Study& study, const std::filesystem::path& output,
                   RowRange rows, const StatisticsOfPoints& statistics,
                   const Provenance& provenance = current_provenance(), const Renumbering& renumber = {});

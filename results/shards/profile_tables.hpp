@@ -5,7 +5,7 @@
 
 namespace zerocount {
 
-/// Writes the realised profiles of a study to /profile: one rotor, or those of all rigs.
+/// Writes the realised profiles of a study to /profile: of its one rotor, or of every rig.
 void write_profiles(hdf5::File& file, const Study& study);
 
 }  // namespace zerocount

@@ -13,7 +13,7 @@ namespace {
 
 using Flags = std::vector<std::int8_t>;
 
-/// The table of outcomes with the verdicts alone.
+/// The table of outcomes, reduced to the verdicts.
 Table verdict_table() {
   Table table = outcome_table();
   std::erase_if(table.columns, [](const Column& column) { return column.name != "outcome"; });

@@ -5,11 +5,11 @@
 
 namespace zerocount {
 
-/// Writes what differs between the rigs of a study to /rig.
+/// Writes the inputs that differ between the rigs of a study to /rig.
 void write_rigs(hdf5::File& file, const Study& study);
 
-/// Counts, in a file that holds all trials of the study, how many of every rig succeeded at every design
-/// point, and writes that to /rig. A trial succeeds where all its moves end with a zero count.
+/// Counts the successful trials of every rig at every design point, in a file that holds all trials, and
+/// writes them to /rig. A trial succeeds if all its moves end with a zero count.
 void write_rig_counts(hdf5::File& file, const Study& study);
 
 }  // namespace zerocount

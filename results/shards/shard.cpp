@@ -90,7 +90,7 @@ std::vector<fs::path> files_in(const fs::path& directory, const char* extension)
   std::vector<fs::path> files;
   std::error_code error;
   for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
-    std::error_code unknown;  // of an entry that is gone, or of a link to nothing: no regular file
+    std::error_code unknown;  // ignored: a vanished entry or a broken link is not a regular file
     if (entry->path().extension() == extension && entry->is_regular_file(unknown)) {
       files.push_back(entry->path());
     }

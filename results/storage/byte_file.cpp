@@ -24,7 +24,8 @@ int open_flags(ByteFile::Mode mode) {
   return O_RDONLY;
 }
 
-/// Copies the part of `source`, which stands at `source_offset`, that falls into `target`.
+/// Copies the bytes that both ranges have in common, from `source` (at `source_offset`) to `target` (at
+/// `offset`).
 void copy_overlap(std::uint64_t source_offset, std::span<const std::byte> source, std::uint64_t offset,
                   std::span<std::byte> target) {
   const std::uint64_t first = std::max(source_offset, offset);

@@ -19,11 +19,10 @@ fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Brings the name `path` to the disk.
+/// Flushes the directory entry `path` to the disk.
 void synchronise_name(const fs::path& path) {
   const FileDescriptor directory(::open(directory_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  // Some file systems have no fsync of directories and say EINVAL: the names are as safe there as they can
-  // be.
+  // EINVAL: the file system has no fsync for directories. Nothing more can be done there.
   if (!directory.valid() || (::fsync(directory.get()) != 0 && errno != EINVAL))
     fail_with(path, "bring its name to the disk", errno);
 }
@@ -68,7 +67,7 @@ void publish(const fs::path& path) {
 
 void synchronise(const fs::path& path, const FileDescriptor& file) {
   if (::fsync(file.get()) != 0) fail_with(path, "bring to the disk", errno);
-  ::posix_fadvise(file.get(), 0, 0, POSIX_FADV_DONTNEED);  // an advice; not every file system takes it
+  ::posix_fadvise(file.get(), 0, 0, POSIX_FADV_DONTNEED);  // only a hint; some file systems ignore it
 }
 
 void write_all(const fs::path& path, const FileDescriptor& file, std::string_view text) {

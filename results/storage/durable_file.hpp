@@ -7,12 +7,12 @@
 
 namespace zerocount {
 
-/// Where a file stands until it is finished: PATH.part. What has the name PATH is whole, whatever happened to
-/// the process that wrote it.
+/// Name of a file while it is written: PATH.part. A file named PATH is therefore always complete, even if a
+/// process that wrote it was killed.
 std::filesystem::path part_of(const std::filesystem::path& path);
 
-/// Removes part_of(path) at the end of its life, if it is still there: a failed write must not hold on to the
-/// disk.
+/// Its destructor removes part_of(path) if the file still exists, so that a failed write leaves nothing on
+/// the disk.
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(const std::filesystem::path& path) : part_(part_of(path)) {}
@@ -26,18 +26,18 @@ class UnfinishedFile {
   std::filesystem::path part_;
 };
 
-/// For what never overwrites: @throws Failure (bad_input) where something has the name `path` already;
-/// machine_failed with the system's reason where that cannot be found out.
+/// For output that must not overwrite anything. @throws Failure: bad_input if `path` exists; machine_failed
+/// with the system's reason if that cannot be determined.
 void require_new(const std::filesystem::path& path);
 
-/// Gives the finished file part_of(path), which is on the disk, its name `path`, durably; what had it before
-/// is replaced.
-/// @throws Failure (machine_failed) with the path and the system's reason. Where it is only the folder that
-/// cannot be brought to the disk, the file has its name already.
+/// Renames the finished and flushed file part_of(path) to `path` and flushes the directory. Replaces an
+/// existing `path`.
+/// @throws Failure (machine_failed) with the path and the system's reason. If only the flush of the directory
+/// fails, the file has been renamed already.
 void publish(const std::filesystem::path& path);
 
-/// Brings what was written to an open file to the disk, and has the system drop its copy in memory, so that
-/// the file is then read from the disk.
+/// Flushes an open file to the disk and drops it from the page cache, so that the next read comes from the
+/// disk.
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void synchronise(const std::filesystem::path& path, const FileDescriptor& file);
 
@@ -45,15 +45,15 @@ void synchronise(const std::filesystem::path& path, const FileDescriptor& file);
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void write_all(const std::filesystem::path& path, const FileDescriptor& file, std::string_view text);
 
-/// Writes a file that appears whole or not at all; what had its name before is replaced.
+/// Replaces a file atomically: `path` holds either the old or all of the new contents.
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void replace_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Makes the directory and those above it, durably.
+/// Creates the directory and its parents, and flushes their entries to the disk.
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void make_directory(const std::filesystem::path& path);
 
-/// @throws Failure (machine_failed): what was written to the file is not what is there.
+/// @throws Failure (machine_failed): the contents read back differ from the contents written.
 [[noreturn]] void fail_read_back(const std::filesystem::path& path, std::string_view what);
 
 /// @throws Failure (machine_failed): "PATH: cannot ACTION: reason of `error`" (an errno).

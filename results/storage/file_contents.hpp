@@ -7,16 +7,17 @@
 #include "core/hash/sha256.hpp"
 #include "results/storage/file_descriptor.hpp"
 
-/// What stands in an open file. All throw Failure (machine_failed) with the path and the system's reason.
+/// Functions that read an open file. All throw Failure (machine_failed) with the path and the system's
+/// reason.
 namespace zerocount {
 
 std::size_t size_of_file(const std::filesystem::path& path, const FileDescriptor& file);
 
-/// Reads up to `bytes.size()` bytes at the file's position; fewer at its end only.
+/// Reads `bytes.size()` bytes at the file position; fewer only at the end of the file.
 std::size_t read_some(const std::filesystem::path& path, const FileDescriptor& file,
                       std::span<std::byte> bytes);
 
-/// SHA-256 of the `length` bytes from the file's position on, which it leaves behind them.
+/// SHA-256 of the next `length` bytes of the file. The file position is behind them afterwards.
 Sha256 sha256_of(const std::filesystem::path& path, const FileDescriptor& file, std::size_t length);
 
 }  // namespace zerocount

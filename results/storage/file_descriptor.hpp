@@ -6,7 +6,7 @@
 
 namespace zerocount {
 
-/// A POSIX file descriptor, closed at the end of its life.
+/// A POSIX file descriptor that its destructor closes.
 class FileDescriptor {
  public:
   FileDescriptor() = default;
@@ -23,8 +23,8 @@ class FileDescriptor {
   int get() const { return number_; }
   bool valid() const { return number_ >= 0; }
 
-  /// False, with errno, where the system reports a failure: some file systems say only here that a write
-  /// failed. Closing twice is harmless.
+  /// Returns false and sets errno on failure: some file systems report a failed write only here. A second
+  /// call does nothing.
   bool close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0; }
 
  private:

@@ -11,18 +11,17 @@
 
 namespace zerocount {
 
-/// A new file that is written from its beginning to its end. It stands at PATH.part until publish(), and is
-/// removed if that never comes. What has the name PATH is whole.
+/// A new file that is written sequentially. It is named PATH.part until publish(), and is removed if
+/// publish() is never called. A file named PATH is therefore always complete.
 /// @throws Failure (machine_failed) with the path and the reason, from every function.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& path);
 
   void write(std::string_view text);
-  /// Brings the rest to the disk, reads the file back and compares it with what was written. Nothing can be
-  /// written after it.
+  /// Flushes the file to the disk, reads it back and compares it with what was written. No write may follow.
   void finish();
-  void publish();  ///< gives the finished file its name; what had it before is replaced
+  void publish();  ///< renames the finished file to its final name; replaces an existing file
 
  private:
   void flush();
@@ -31,7 +30,7 @@ class OutputFile {
   UnfinishedFile part_;
   FileDescriptor file_;
   std::string buffer_;
-  std::size_t size_{0};  ///< of what was handed to the system
+  std::size_t size_{0};  ///< bytes passed to the system
   Sha256Hash written_;
 };
 

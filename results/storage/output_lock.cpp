@@ -13,8 +13,8 @@
 namespace zerocount {
 namespace {
 
-/// True where `path` still names the file behind `file`: between opening and locking, a run that ended may
-/// have removed it.
+/// True if `path` still names the open file. Another run may have ended and removed it between our open and
+/// our lock.
 bool still_named(const std::filesystem::path& path, const FileDescriptor& file) {
   struct stat named {};
   struct stat held {};

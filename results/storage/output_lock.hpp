@@ -6,11 +6,11 @@
 
 namespace zerocount {
 
-/// The right to write an output: held by one process at a time, and released by the system if that process
-/// dies. It is a lock (flock) on the empty file OUTPUT.lock, which is removed at the end.
+/// Exclusive lock on an output: flock on the empty file OUTPUT.lock, which the destructor removes. The system
+/// releases the lock if the process dies.
 class OutputLock {
  public:
-  /// @throws Failure (machine_failed) where another run holds the lock, or the lock file cannot be made.
+  /// @throws Failure (machine_failed) if another run holds the lock or the lock file cannot be created.
   explicit OutputLock(const std::filesystem::path& output);
   OutputLock(const OutputLock&) = delete;
   OutputLock& operator=(const OutputLock&) = delete;

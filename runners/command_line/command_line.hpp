@@ -11,34 +11,33 @@ namespace zerocount {
 /// One option of a command: `--name VALUE`, or a bare flag.
 struct OptionSpec {
   std::string name;   ///< "threads", or "output,o" with a short form
-  std::string value;  ///< what the help calls its value; empty for a flag
+  std::string value;  ///< name of its value in the help; empty for a flag
   std::string help;
   bool repeatable{false};
 };
 
-/// What a command takes.
+/// Operands and options of a command.
 struct CommandSpec {
   std::string name;
   std::string operands;  ///< as the usage line shows them, e.g. "MANIFEST"
   std::size_t least_operands{1};
-  std::size_t most_operands{1};
+  std::size_t max_operands{1};
   std::vector<OptionSpec> options;
 };
 
-/// A command's words, understood. Every value is still text.
+/// The parsed arguments of a command. All values are text.
 class Arguments {
  public:
-  /// @throws Failure (bad_input) that names the word at fault and the help to read.
+  /// @throws Failure (bad_input) that names the invalid argument and the help to read.
   Arguments(const CommandSpec& spec, const std::vector<std::string>& words);
 
   const std::vector<std::string>& operands() const { return operands_; }
   bool has(std::string_view option) const { return !values(option).empty(); }
-  const std::vector<std::string>& values(
-      std::string_view option) const;  ///< every occurrence; a flag counts as ""
+  const std::vector<std::string>& values(std::string_view option) const;  ///< all occurrences; "" for a flag
   std::optional<std::string> value(std::string_view option) const;
   std::string required(std::string_view option) const;
   std::string one_of(std::string_view option,
-                     const std::vector<std::string>& words) const;  ///< the first word by default
+                     const std::vector<std::string>& words) const;  ///< default: the first of `words`
 
   /// A whole number in [low, high].
   std::optional<std::int64_t> whole_number(std::string_view option, std::int64_t low,

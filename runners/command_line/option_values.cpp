@@ -10,7 +10,7 @@
 namespace zerocount {
 namespace {
 
-/// The whole of `text` as a number, or none.
+/// Parses all of `text` as a number; nothing if that fails.
 template <typename Number>
 std::optional<Number> parsed(const std::string& text) {
   Number number{};
@@ -20,7 +20,7 @@ std::optional<Number> parsed(const std::string& text) {
   return number;
 }
 
-/// A label goes before a number, for a label may be one.
+/// Labels take precedence over indices, because a label may be a number.
 std::int64_t point_named(const Arguments& arguments, const std::string& text,
                          std::span<const std::string> labels) {
   const auto found = std::find(labels.begin(), labels.end(), text);

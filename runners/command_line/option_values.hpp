@@ -9,20 +9,19 @@
 
 #include "runners/command_line/command_line.hpp"
 
-/// Options whose values are numbers.
+/// Options with numbers or design points as values.
 namespace zerocount {
 
 /// A number strictly between 0 and 1, such as 0.95.
 /// @throws Failure (bad_input) for anything else.
 std::optional<double> probability_option(const Arguments& arguments, std::string_view option);
 
-/// The design points that --point names, each by its label or by its number from 0; none where it is not
-/// given.
+/// The design points of --point, given by label or by number from 0; empty if the option is missing.
 /// @param labels of all points, in their order
 /// @throws Failure (bad_input) for anything else.
 std::vector<std::int64_t> point_options(const Arguments& arguments, std::span<const std::string> labels);
 
-/// As point_options, of an option that cannot be repeated.
+/// As point_options, for an option that cannot be repeated.
 std::optional<std::int64_t> point_option(const Arguments& arguments, std::span<const std::string> labels);
 
 }  // namespace zerocount

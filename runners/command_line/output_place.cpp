@@ -32,7 +32,7 @@ fs::path file_in_folder(const Arguments& arguments, std::string_view option) {
   return output;
 }
 
-/// @throws Failure (bad_input) where `output` is one of the inputs or of the other outputs.
+/// @throws Failure (bad_input) if `output` is an input or another output.
 void require_apart(const Arguments& arguments, const fs::path& output, std::span<const fs::path> inputs,
                    std::span<const fs::path> others) {
   std::error_code error;
@@ -50,7 +50,7 @@ void require_apart(const Arguments& arguments, const fs::path& output, std::span
   }
 }
 
-/// @throws Failure (bad_input) where `output` is no regular file, or exists and --force is not given.
+/// @throws Failure (bad_input) if `output` is not a regular file, or exists and --force is not given.
 void require_replaceable(const Arguments& arguments, const fs::path& output) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(output, error))) return;

@@ -7,7 +7,7 @@
 
 #include "runners/command_line/command_line.hpp"
 
-/// Where verbs write. One rule holds for all: what exists already is replaced with --force only.
+/// Output files of the verbs. An existing file is replaced only with --force.
 namespace zerocount {
 
 /// The option --force of a verb that writes.
@@ -15,24 +15,23 @@ OptionSpec force_option();
 
 /// The rule, for the help of every verb with --force.
 inline constexpr std::string_view overwriting_rule =
-    "An output that exists already is not replaced without --force, and never lost before its\n"
-    "successor is whole.\n";
+    "An existing output is replaced only with --force, and only after the new one is complete.\n";
 
-/// The results file that --output names, in a folder that exists: asked before any work is done.
-/// @throws Failure: bad_input where it names no file, machine_failed where its folder is not there.
+/// The results file of --output. Checks before any work that its folder exists.
+/// @throws Failure: bad_input if it does not name a file, machine_failed if its folder does not exist.
 std::filesystem::path output_place(const Arguments& arguments);
 
-/// The text file that `option` names, which may be "-" for standard output; none where it is not given.
+/// The text file of `option`, or "-" for standard output; nothing if the option is missing.
 /// @throws Failure as output_place.
 std::optional<std::filesystem::path> text_place(const Arguments& arguments, std::string_view option);
 
-/// Checks the places of a verb before it does any work: "-" among them stands for a standard stream.
-/// @throws Failure (bad_input) where two inputs are standard input; where an output is an input, another
-/// output, or no regular file, or exists and --force is not given.
+/// Checks the input and output files of a verb before any work; "-" means a standard stream.
+/// @throws Failure (bad_input) if two inputs are standard input, or if an output is an input, another output
+/// or not a regular file, or exists and --force is not given.
 void require_places(const Arguments& arguments, const std::vector<std::filesystem::path>& inputs,
                     const std::vector<std::filesystem::path>& outputs);
 
-/// Writes to a place from text_place().
+/// Writes to a file or stream from text_place().
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void write_text(const std::filesystem::path& place, std::string_view text);
 

@@ -13,11 +13,10 @@ namespace zerocount {
 namespace {
 
 constexpr const char* baseline_help =
-    "Makes a results file the baseline that later ones are compared with, or puts it in the\n"
-    "place of an earlier baseline. The file is copied as it is, with its seal. The reason is\n"
-    "recorded, with the build, the trials, the checksums and how the new baseline compares\n"
-    "with the one it replaces, at the end of OUTPUT.log.yaml: commit both files together.\n"
-    "An earlier baseline is replaced without --force: the reason stands for it.\n"
+    "Makes a results file the baseline of later comparisons, or replaces an earlier baseline.\n"
+    "The file is copied unchanged, with its checksum. An entry is appended to OUTPUT.log.yaml:\n"
+    "the reason, the build, the trials, the checksums, and a comparison with the replaced\n"
+    "baseline. Commit both files together. No --force is needed, because a reason is required.\n"
     "\n"
     "Example: zerocount baseline new.h5 -o results/baselines/paper-gains.h5 --reason \"ki of case a "
     "raised\"\n";

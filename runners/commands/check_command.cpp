@@ -29,25 +29,26 @@ namespace zerocount {
 namespace {
 
 constexpr const char* check_help =
-    "Reports every error of the manifest, each with its place. If there is none, prints the\n"
-    "plan (design points, trials, cost, size) and what the theory says of each design point: the\n"
-    "bounds of the paper's criteria (6) and (7) on ki, which know of no sampling, delay or\n"
-    "amplifier, the bound of the sampled loop about the lowest stiffness k1, which has them,\n"
-    "and the rules for the DAC and the sample rate. Both bounds are also given at the lowest k1\n"
-    "of the study: the low end of its distribution, or the lowest along the profiles. The\n"
-    "slowest time constant with which the sampled loop approaches its target, at k1 and k1 + k2,\n"
-    "and the time that the slowest of the moves needs stand beside the hold. While the rotor slides, the "
-    "bandwidth is the highest frequency at\n"
-    "which the open loop has gain 1.\n"
+    "Reports every error of the manifest with its place. Without errors, prints the plan (design\n"
+    "points, trials, cost, size) and the theory of each design point:\n"
+    "  - the bounds of ki by the paper's criteria (6) and (7), which ignore sampling, delay and\n"
+    "    amplifier, and the bound of the sampled loop at the lowest stiffness k1, which includes\n"
+    "    them; both also at the lowest k1 of the study (the low end of its distribution, or the\n"
+    "    minimum of the profiles)\n"
+    "  - the rules for the DAC and the sample rate\n"
+    "  - the slowest time constant of the sampled loop at k1 and k1 + k2, and the time that the\n"
+    "    slowest move needs, to compare with the hold\n"
+    "  - bandwidth and phase margin while the rotor slides; the bandwidth is the highest frequency\n"
+    "    at which the open loop has gain 1\n"
     "\n"
     "Example: zerocount check experiments/manifests/paper-gains.yaml\n";
 
-constexpr std::int64_t most_trials_examined = 200;
-constexpr std::int64_t most_trials_examined_closely = 20;
-constexpr std::int64_t most_rigs_examined = 10'000;
+constexpr std::int64_t max_trials_examined = 200;
+constexpr std::int64_t max_trials_examined_closely = 20;
+constexpr std::int64_t max_rigs_examined = 10'000;
 constexpr std::int64_t points_shown = 20;
 
-/// A quantity over the trials of a point.
+/// Range of a quantity over the trials of a point.
 struct Range {
   double low{std::numeric_limits<double>::infinity()};
   double high{-std::numeric_limits<double>::infinity()};
@@ -63,10 +64,10 @@ std::string text(const Range& range) {
   return fmt::format("{:.3g} … {:.3g}", range.low, range.high);
 }
 
-/// When a move has arrived, and that was seen.
+/// Estimated time until a move has arrived, including the dwell.
 struct Arrival {
-  std::int64_t step{0};  // of the target, counts; 0: there is none
-  double time{0.0};      // from its start, s
+  std::int64_t step{0};  // of the target, counts; 0: no step
+  double time{0.0};      // from the start of the move, s
 };
 
 /// One phase of the control while the rotor slides, over the trials.
@@ -78,28 +79,28 @@ struct SlidingPhase {
   bool unstable{true};  // in every trial
 };
 
-/// What section 3 of the paper says of the trials of a design point.
+/// Results of the theory (section 3 of the paper) for the trials of a design point.
 struct PointTheory {
-  std::string_view outside;  // why it says nothing of them; empty where it does
-  bool free{false};          // outside, and the rotor has no spring: the next two are of the loop without one
-  Range ki, stable_below, sampled_below, unstable_above;  // gain_unit; sampled_below of softest and stiffest
-  std::string gain_unit;                                  // that of controller.ki in the manifest
+  std::string_view outside;  // reason why the theory does not apply; empty if it does
+  bool free{false};          // no spring: ki and sampled_below are of the loop without friction
+  Range ki, stable_below, sampled_below, unstable_above;  // gain_unit
+  std::string gain_unit;                                  // unit of controller.ki in the manifest
   Range dac_resolution, dac_bound;                        // torque_unit
   std::string torque_unit;
   Range frequency, sample_rate;  // Hz
-  bool coarse_feedback{false};   // Δx of that bound is the coarse encoder's
-  bool fine_enough{true};        // the DAC, in every trial
-  bool fast_enough{true};        // the sampling, in every trial
+  bool coarse_feedback{false};   // the bound uses the resolution Δx of the coarse encoder
+  bool fine_enough{true};        // the DAC satisfies the bound in every trial
+  bool fast_enough{true};        // the sample rate satisfies the rule in every trial
   TheoryPrediction prediction;
 
-  LowEnd low_end;                    // of k1, for which the next two are
-  std::int64_t rigs{0};              // whose profiles were examined; 0 without rigs
-  Range lowest_k1;                   // of the profiles, or the low end
-  Range low_stable, low_sampled;     // bounds there, gain_unit
-  Range slowest;                     // time constant of the approach, s
-  Arrival longest;                   // of the moves, in the trials
+  LowEnd low_end;                    // of k1; see lowest_k1, low_stable, low_sampled
+  std::int64_t rigs{0};              // number of rigs with profiles; 0 without rigs
+  Range lowest_k1;                   // minimum of the profiles, or the low end of the distribution
+  Range low_stable, low_sampled;     // bounds at that k1, gain_unit
+  Range slowest;                     // slowest time constant of the loop, s
+  Arrival longest;                   // slowest move of the trials
   double hold{0.0};                  // of the shortest move, s
-  std::vector<SlidingPhase> phases;  // of the control
+  std::vector<SlidingPhase> phases;  // phases of the control
 };
 
 /// A gain of the trapezoidal rule (N m/count) in the unit of the manifest.
@@ -125,13 +126,13 @@ double sampled_bound(double stiffness, const TrialParameters& p) {
   return sampled_critical_integral_gain(stiffness, p.plant, p.encoder, p.controller, drive_of(p));
 }
 
-/// What remains to be said of a loop without a spring: its sampled bound and time constant.
+/// The theory of a loop without a spring: its sampled bound and time constant.
 void examine_free(const Study& study, std::int64_t point, PointTheory& theory) {
   const TrialParameters first = study_trial(study, point, 0).parameters;
   theory.free = first.friction.model == FrictionModel::none && first.command.torque.levels.empty();
   if (!theory.free) return;
   theory.hold = static_cast<double>(samples_of_move(first, 0)) / first.controller.sample_rate;
-  for (std::int64_t index = 0; index < std::min(study.trials, most_trials_examined_closely); ++index) {
+  for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {
     const TrialParameters p = study_trial(study, point, index).parameters;
     const ControllerParameters fine = controller_in_phase(p.controller, ControlPhase::fine);
     theory.ki.add(as_given(study.units, p, p.controller.ki));
@@ -168,7 +169,7 @@ void add_sliding(SlidingPhase& phase, ControlPhase which, const TrialParameters&
   phase.unstable = phase.unstable && !stable;
 }
 
-/// Of the loops at the softest and the stiffest that the trial's contact can be, as far as they are stable.
+/// Time constants of the stable loops at the lowest and highest stiffness of the trial's contact.
 Range time_constants(const TrialParameters& p, const FrictionParameters& contact) {
   Range slowest;
   for (const double stiffness : {contact.k1, contact.k1 + contact.k2}) {
@@ -179,7 +180,7 @@ Range time_constants(const TrialParameters& p, const FrictionParameters& contact
   return slowest;
 }
 
-/// The errors that moves begin with in the fine phase, counts; none where the reference is no step.
+/// The initial errors of moves in the fine phase, counts; empty unless the reference is a step.
 std::set<std::int64_t> steps_of(const TrialParameters& p) {
   std::set<std::int64_t> steps;
   if (p.command.profile.shape != ReferenceShape::step) return steps;
@@ -195,7 +196,7 @@ std::set<std::int64_t> steps_of(const TrialParameters& p) {
   return steps;
 }
 
-/// The trial's move that takes longest if its integral control is slow, with what it is judged by.
+/// Updates the slowest move, for slow integral control.
 void add_arrivals(Arrival& longest, const TrialParameters& p, const FrictionParameters& contact) {
   if (!(p.controller.ki > 0.0)) return;
   const double judged = chatter_time(p.plant, contact, p.controller, p.verdict.dwell) +
@@ -206,7 +207,7 @@ void add_arrivals(Arrival& longest, const TrialParameters& p, const FrictionPara
   }
 }
 
-/// Criterion (6) where the trial's contact has this k1.
+/// Adds criterion (6) for this k1.
 void add_low_end(const Study& study, const TrialParameters& p, double k1, PointTheory& theory) {
   FrictionParameters contact = friction_at(p.friction, p.initial.position);
   contact.k1 = k1;
@@ -215,10 +216,10 @@ void add_low_end(const Study& study, const TrialParameters& p, double k1, PointT
   theory.low_stable.add(as_given(study.units, p, bounds.stable_below));
 }
 
-/// The lowest k1 of the rotors of all rigs: trial i is on rig i mod rigs. The sampled loop, whose bound takes
-/// longer to find, at the lowest of them.
+/// Examines the lowest k1 of the rotors of all rigs (trial i runs on rig i mod rigs). The bound of the
+/// sampled loop, which takes longer, is computed only at the lowest of them.
 void examine_rotors(const Study& study, std::int64_t point, PointTheory& theory) {
-  theory.rigs = std::min(study.rigs, most_rigs_examined);
+  theory.rigs = std::min(study.rigs, max_rigs_examined);
   TrialParameters softest;
   double lowest = std::numeric_limits<double>::infinity();
   for (std::int64_t rig = 0; rig < theory.rigs; ++rig) {
@@ -232,15 +233,15 @@ void examine_rotors(const Study& study, std::int64_t point, PointTheory& theory)
   if (theory.rigs > 0) theory.low_sampled.add(as_given(study.units, softest, sampled_bound(lowest, softest)));
 }
 
-/// What holds for each of the trials examined, beyond the paper: the sampled loop at the lowest k1, its time
-/// constants, and the loop while it slides.
+/// Examines properties that the paper does not treat: the sampled loop at the lowest k1, its time constants,
+/// and the loop while the rotor slides.
 void examine_beyond(const Study& study, std::int64_t point, PointTheory& theory) {
   theory.low_end = low_end(study, point, "friction.k1");
   const TrialParameters first = study_trial(study, point, 0).parameters;
   theory.hold = static_cast<double>(samples_of_move(first, 0)) / first.controller.sample_rate;
   theory.phases.push_back({has_coarse_phase(first.controller) ? "fine phase" : "loop", {}, {}});
   if (has_coarse_phase(first.controller)) theory.phases.push_back({"coarse phase", {}, {}});
-  for (std::int64_t index = 0; index < std::min(study.trials, most_trials_examined_closely); ++index) {
+  for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {
     const TrialParameters p = study_trial(study, point, index).parameters;
     const FrictionParameters contact = friction_at(p.friction, p.initial.position);
     const Range slowest = time_constants(p, contact);
@@ -271,7 +272,7 @@ PointTheory examine(const Study& study, std::int64_t point) {
   TrialParameters softest;
   TrialParameters stiffest;
   Range k1;  // N m/rad
-  for (std::int64_t index = 0; index < std::min(study.trials, most_trials_examined); ++index) {
+  for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined); ++index) {
     const TrialParameters p = study_trial(study, point, index).parameters;
     const FrictionParameters contact = friction_at(p.friction, p.initial.position);
     const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
@@ -346,14 +347,14 @@ std::string describe_beyond(const PointTheory& theory) {
   return out;
 }
 
-/// What the sampled loop says of the integral gain.
+/// Verdict of the sampled loop on the integral gain.
 std::string sampled_verdict(const PointTheory& theory) {
   if (theory.ki.high < theory.sampled_below.low) return "stable";
   return theory.ki.low >= theory.sampled_below.high ? "unstable" : "unstable in some trials";
 }
 
 std::string describe_outside(const PointTheory& theory) {
-  std::string out = fmt::format("    the criteria are not about it: {}\n", theory.outside);
+  std::string out = fmt::format("    the criteria do not apply: {}\n", theory.outside);
   if (!theory.free) return out;
   out += fmt::format("    ki                            {} {}: sampled loop {}\n", text(theory.ki),
                      theory.gain_unit, sampled_verdict(theory));
@@ -366,7 +367,7 @@ std::string describe_outside(const PointTheory& theory) {
   return out;
 }
 
-/// What criteria (6) and (7) and the sampled loop say of the integral gain.
+/// Verdict of the criteria (6) and (7) and of the sampled loop on the integral gain.
 std::string gain_verdict(const PointTheory& theory) {
   if (theory.ki.low == 0.0 && theory.ki.high == 0.0)
     return "no integral control: the error stays wherever friction holds the rest of the torque";
@@ -394,7 +395,7 @@ std::string describe(const PointTheory& theory) {
   return out + describe_beyond(theory);
 }
 
-/// The input columns of which `belongs` holds, after `title`; nothing where there are none.
+/// Prints the input columns with belongs(column), after `title`; prints nothing if there are none.
 template <class Belongs>
 void print_columns(const Study& study, std::string_view title, const Belongs& belongs) {
   std::string names;
@@ -424,12 +425,11 @@ void print_plan(const Study& study) {
   }
   if (study.stop) {
     fmt::print(
-        "  or fewer: after every {} at each point it ends where all success rates are known to ± {:.4g}\n",
+        "  or fewer: after every {} at each point it ends if all success rates are known to ± {:.4g}\n",
         study.stop->block, study.stop->success_rate_halfwidth);
     if (study.rigs > 0) {
       fmt::print(
-          "  (of these {} rigs: how far others differ from them, more trials do not tell; see 'zerocount "
-          "plan "
+          "  (of these {} rigs; more trials do not show how other rigs differ; see 'zerocount plan "
           "--rig-sd')\n",
           study.rigs);
     }
@@ -460,7 +460,7 @@ ExitCode check(const Arguments& arguments) {
   warn(study);
   print_plan(study);
   fmt::print("\nTheory, over the first {} trials of each point, each with the friction it starts on:\n",
-             std::min(study.trials, most_trials_examined));
+             std::min(study.trials, max_trials_examined));
   const std::int64_t shown =
       arguments.has("all-points") ? point_count(study) : std::min(point_count(study), points_shown);
   for (std::int64_t point = 0; point < shown; ++point) {
@@ -484,7 +484,7 @@ Command check_command() {
            1,
            {{"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
             {"all-points", "", "print the theory of every design point, not only of the first 20"}}},
-          "validate a manifest; print its plan and what the theory says",
+          "validate a manifest; print its plan and the theory of its points",
           check_help,
           check};
 }

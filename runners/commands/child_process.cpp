@@ -27,7 +27,7 @@ struct CloseFile {
 };
 using NamelessFile = std::unique_ptr<std::FILE, CloseFile>;
 
-/// A file without a name. Unlike pipes it takes any amount without anybody reading it meanwhile.
+/// A temporary file without a name. Unlike a pipe it holds any amount of data without a concurrent reader.
 NamelessFile nameless_file(const std::string& program) {
   NamelessFile file(std::tmpfile());
   if (!file) fail(program, errno);
@@ -45,7 +45,7 @@ std::string content_of(std::FILE* file) {
   return text;
 }
 
-/// Standard input, output and error of a program that is to be started.
+/// Redirects standard input, output and error of a child process.
 class Redirections {
  public:
   Redirections(std::FILE* in, std::FILE* out, std::FILE* err) {

@@ -7,16 +7,16 @@
 
 namespace zerocount {
 
-/// What another program said.
+/// Exit code and output of a child process.
 struct ChildResult {
-  int code{0};      ///< exit code; 128 + signal where a signal ended it
+  int code{0};      ///< exit code; 128 + signal if a signal ended it
   std::string out;  ///< standard output
   std::string err;  ///< standard error
 };
 
-/// Runs a program of the search path with these words, gives it `input`, and waits for its end. Nothing where
-/// there is no such program.
-/// @throws Failure (machine_failed) where it cannot be started for another reason.
+/// Runs a program from the search path with these arguments and `input` as standard input, and waits for its
+/// end. Returns nothing if the program does not exist.
+/// @throws Failure (machine_failed) if it cannot be started for another reason.
 std::optional<ChildResult> run_child(const std::vector<std::string>& words, std::string_view input);
 
 }  // namespace zerocount

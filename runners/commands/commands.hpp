@@ -13,7 +13,7 @@ namespace zerocount {
 struct Command {
   CommandSpec spec;
   std::string summary;  ///< one line
-  std::string help;     ///< what it does, in full, with examples
+  std::string help;     ///< complete description with examples
   ExitCode (*run)(const Arguments&){nullptr};
 };
 
@@ -37,7 +37,7 @@ Command schema_command();
 /// All verbs, in the order of the help.
 std::vector<Command> commands();
 
-/// Runs the program with the words after its name.
+/// Runs the program with its command-line arguments.
 /// @throws Failure with the message for the user and the exit code.
 ExitCode run_command_line(std::span<const std::string> words);
 

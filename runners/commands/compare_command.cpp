@@ -19,14 +19,15 @@ constexpr const char* compare_help =
     "The regression gate: is FILE as good as BASELINE? Every design point is judged by its rates\n"
     "of success, arrival and stability, its settling times and its jerks.\n"
     "\n"
-    "One study by one build must give data equal to the bit. Where trial i drew the same\n"
-    "random numbers in both, trials are compared one by one; otherwise distributions are.\n"
-    "A measure fails where it is significantly worse (false discoveries controlled over all\n"
-    "measures and points) and by more than its margin; it passes where it is shown to be worse\n"
-    "by less than the margin; otherwise it is inconclusive, with the number of trials that\n"
-    "would decide. The manifests may differ, as in a gain: points are matched by label.\n"
+    "The same study run by the same build must give bitwise equal data. If trial i has the same\n"
+    "random numbers in both files, trials are compared pairwise; otherwise distributions are\n"
+    "compared. A measure fails if it is significantly worse (false discovery rate controlled\n"
+    "over all measures and points) and by more than its margin. It passes if it is shown to be\n"
+    "worse by less than the margin. Otherwise it is inconclusive, and the number of trials that\n"
+    "would decide is printed. The manifests may differ, for example in a gain: points are\n"
+    "matched by label.\n"
     "\n"
-    "Margins and absolute requirements stand in a YAML file; what it leaves out has defaults\n"
+    "Margins and absolute requirements are given in a YAML file; missing ones have defaults\n"
     "(analysis/comparison/README.md):\n"
     "  margins: {success_rate: 0.01, settling_time: {relative: 0.05, absolute: 1.0e-3}}\n"
     "  require: success_rate ≥ 0.995\n"
@@ -39,7 +40,7 @@ ExitCode code_of(GateVerdict verdict) {
   return verdict == GateVerdict::regression ? ExitCode::regression : ExitCode::inconclusive;
 }
 
-/// A form of the comparison, and the option that names a file for it.
+/// An output format of the comparison, and the option that names a file for it.
 struct ComparisonForm {
   std::string name;
   std::string (*text)(const StudyComparison&);
@@ -53,13 +54,13 @@ const std::vector<ComparisonForm>& forms() {
   return all;
 }
 
-/// A place for one form of the comparison.
+/// Destination of one output format.
 struct FormPlace {
   const ComparisonForm& form;
   std::filesystem::path place;
 };
 
-/// Where the forms go. What --format says goes to standard output, unless another form was sent there.
+/// Destinations of all formats. The format of --format goes to standard output, unless another format does.
 std::vector<FormPlace> places_of(const Arguments& arguments, const std::optional<std::string>& margins) {
   const std::string format = arguments.one_of("format", {"table", "json", "junit", "markdown"});
   std::vector<std::filesystem::path> inputs{arguments.operands()[0], arguments.operands()[1]};

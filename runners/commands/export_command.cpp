@@ -12,10 +12,10 @@ namespace {
 
 constexpr const char* export_help =
     "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv,\n"
-    "jerks.csv, profiles.csv where there are profiles, trace.csv where the study retains trials,\n"
+    "jerks.csv, profiles.csv if there are profiles, trace.csv if the study retains trials,\n"
     "levels.csv of an open-loop study, and four tables repeatability_….csv of one with a\n"
-    "sequence of moves. The header row has the units, such as settling_time [s]; what has none is\n"
-    "dimensionless. Numbers read back to the same double.\n"
+    "sequence of moves. The header row has the units, such as settling_time [s]; columns without\n"
+    "a unit are dimensionless. Numbers read back to the same double.\n"
     "\n"
     "Example: zerocount export gains.h5 -o gains-csv\n";
 

@@ -27,19 +27,20 @@ constexpr const char* identify_help =
     "Identifies the rotor and its friction from material tests: records of torque, angle and\n"
     "time without sliding. k1, k2 and beta come from slow loading and unloading, the damping\n"
     "and the inertia from the ringing after a step of the torque, alpha, lambda and n from\n"
-    "creep at held torques; all are fitted together, with 95 % confidence intervals. A record\n"
-    "may hold only some of these: what it leaves open is said, with the reason. Several\n"
-    "records are taken for tests of one contact. Records of linear axes are not taken yet.\n"
+    "creep at constant torque; all are fitted together, with 95 % confidence intervals. A record\n"
+    "may have only some of these tests: parameters that it does not determine are listed with\n"
+    "the reason. Several records must be tests of the same contact. Linear axes are not\n"
+    "supported yet.\n"
     "\n"
     "A table (CSV) has the columns t (s), torque or drive_torque (N m), and theta (rad) or\n"
     "count, for which --counts-per-revolution is needed; 'zerocount trace' writes such tables.\n"
-    "A results file has the records of the trials that its manifest retains; the encoder's\n"
-    "counts are taken. At its first sample the contact has not been loaded yet, or as\n"
-    "--preload and --hardening say.\n"
+    "A results file has the traces of the trials that its manifest retains; the encoder's\n"
+    "counts are used. At its first sample the contact must be unloaded and virgin, or have the\n"
+    "state given by --preload and --hardening.\n"
     "\n"
-    "What is printed ends with the result as a piece of a manifest; --format yaml is that\n"
-    "alone. Records that cannot serve are refused with the reason and exit code 4, files that\n"
-    "are no such tables with 2; where nothing can be identified the exit code is 3.\n"
+    "The output ends with the result as a fragment of a manifest; --format yaml prints only\n"
+    "that. Unsuitable records are refused with the reason and exit code 4, files that are not\n"
+    "such tables with exit code 2; the exit code is 3 if nothing can be identified.\n"
     "\n"
     "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
     "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n";
@@ -68,15 +69,14 @@ std::optional<std::string> column_option(const Arguments& arguments, const char*
   return arguments.one_of(name, columns);
 }
 
-/// What is slower than this is no amplifier of a positioning drive, and beyond what the samples can tell.
+/// A lower bandwidth is implausible for a positioning drive, and not identifiable from the samples.
 std::optional<double> bandwidth_option(const Arguments& arguments) {
   constexpr double least = 0.01;
   const std::optional<double> bandwidth = number_option(arguments, "amplifier-bandwidth", 0.0);
   if (bandwidth && *bandwidth > 0.0 && *bandwidth < least) {
-    arguments.refuse(
-        fmt::format("option '--amplifier-bandwidth': {:g} Hz; expected 0 (it follows at once), "
-                    "or {} Hz at least",
-                    *bandwidth, least));
+    arguments.refuse(fmt::format(
+        "option '--amplifier-bandwidth': {:g} Hz; expected 0 (ideal amplifier), or {} Hz at least",
+        *bandwidth, least));
   }
   return bandwidth;
 }
@@ -130,7 +130,7 @@ IdentificationOptions identification_options(const Arguments& arguments) {
   return options;
 }
 
-/// Whether `path` is a results file, by its signature, or by its name where the signature may be damaged.
+/// Whether `path` is a results file, by its signature or by its name (the signature may be damaged).
 bool holds_results(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string signature(8, '\0');
@@ -199,16 +199,16 @@ Command identify_command() {
            "DATA.csv|FILE...",
            1,
            64,
-           {{"counts-per-revolution", "N", "of the encoder whose counts the column count has"},
-            {"angle", "COLUMN", "count or theta, where both are there (default count, if N is given)"},
-            {"torque", "COLUMN", "torque or drive_torque, where both are there (default the latter)"},
-            {"amplifier-bandwidth", "HZ", "of the amplifier (default 0: it follows at once)"},
-            {"delay", "SAMPLES", "after which the column torque acts (default 0)"},
-            {"dac-bits", "BITS", "of the converter whose codes the column code has, to see it clip"},
-            {"preload", "TORQUE", "loaded slowly to this and let go before the test, N m (default 0)"},
+           {{"counts-per-revolution", "N", "resolution of the encoder of the column count"},
+            {"angle", "COLUMN", "count or theta, if both exist (default count, if N is given)"},
+            {"torque", "COLUMN", "torque or drive_torque, if both exist (default the latter)"},
+            {"amplifier-bandwidth", "HZ", "of the amplifier (default 0: ideal amplifier)"},
+            {"delay", "SAMPLES", "delay of the column torque (default 0)"},
+            {"dac-bits", "BITS", "word length of the converter of the column code, to detect clipping"},
+            {"preload", "TORQUE", "torque of a slow load and unload before the test, N m (default 0)"},
             {"hardening", "XH", "work hardening before the test, rad (default 0)"},
-            {"fix", "KEY=VALUE", "a parameter that is known, as friction.n=2; may be repeated", true},
-            {"any-magnitude", "", "believe values that look as if they were in other units"},
+            {"fix", "KEY=VALUE", "a known parameter, such as friction.n=2; may be repeated", true},
+            {"any-magnitude", "", "accept values that suggest other units"},
             {"point", "P", "design point in a results file, by label or number (default 0); may be repeated",
              true},
             {"trial", "I", "trial of the point (default 0)"},

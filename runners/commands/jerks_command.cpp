@@ -13,10 +13,10 @@ namespace zerocount {
 namespace {
 
 constexpr const char* jerks_help =
-    "Prints of each design point (or of those named) how often jerks come, against the time since\n"
-    "arrival, with bounds; how long the intervals between them are; whether they slow down\n"
-    "(Laplace's test); whether they go in the direction of the holding torque; how large they are.\n"
-    "Some trials are run again to see whether creep at constant torque foretells their jerks.\n"
+    "Prints for each design point (or for the given ones) the rate of jerks over the time since\n"
+    "arrival, with bounds; the intervals between jerks; a test whether jerks slow down (Laplace);\n"
+    "the proportion in the direction of the holding torque; and the magnitudes. Some trials are\n"
+    "simulated again to compare their jerks with the closed form of creep at constant torque.\n"
     "\n"
     "Example: zerocount jerks fig8.h5 --format json\n";
 
@@ -33,7 +33,7 @@ ExitCode print_jerks(const Arguments& arguments) {
   const JerkReport report = jerk_report(file, study, points, confidence, creep_trials);
   fmt::print("{}", format == "json" ? jerk_json_text(report) : jerk_text(report));
   if (any_arrival(report)) return ExitCode::success;
-  fmt::print(stderr, "no move arrived: there was nothing that could jerk\n");
+  fmt::print(stderr, "no move arrived, so there are no jerks\n");
   return ExitCode::inconclusive;
 }
 
@@ -46,9 +46,9 @@ Command jerks_command() {
            1,
            {{"point", "P", "design point, by label or number; may be repeated (default: all)", true},
             {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"},
-            {"creep-trials", "N", "trials of each point to run again beside creep (default 20)"},
+            {"creep-trials", "N", "trials of each point to compare with creep (default 20)"},
             {"format", "FORMAT", "table (default) or json"}}},
-          "print how often jerks come, and whether they slow down",
+          "print the rate, intervals and trend of jerks",
           jerks_help,
           print_jerks};
 }

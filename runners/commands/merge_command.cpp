@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr const char* merge_help =
     "Joins the parts of one study into its results file. An input is a part file made with\n"
     "'run --shard', a shard, or a folder of shards. Together they must hold every trial of\n"
-    "the study once.\n"
+    "the study exactly once.\n"
     "\n"
     "Example: zerocount merge a.h5 b.h5 -o all.h5\n";
 
@@ -30,11 +30,10 @@ void require_everything(const std::vector<ShardInfo>& parts, const Study& study)
   for (std::size_t i = 0; i < std::min<std::size_t>(missing.size(), 8); ++i) {
     ranges += fmt::format("{}{} to {}", i > 0 ? ", " : "", missing[i].first, missing[i].end() - 1);
   }
-  throw Failure(
-      ExitCode::bad_data,
-      fmt::format("the inputs do not hold the whole study: of its {} trials, {}{} are missing; run those "
-                  "parts and give them too",
-                  trial_count(study), ranges, missing.size() > 8 ? " and more" : ""));
+  throw Failure(ExitCode::bad_data,
+                fmt::format("the inputs do not hold the whole study: of its {} trials, {}{} are missing; run "
+                            "those parts and give them too",
+                            trial_count(study), ranges, missing.size() > 8 ? " and more" : ""));
 }
 
 ExitCode merge(const Arguments& arguments) {

@@ -25,14 +25,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* plan_help =
-    "Says how many trials a claim needs, before they are run. With --success: how many show that at\n"
-    "least this proportion of axes succeeds, if none, one, two, … of them fail; with --true-success also\n"
-    "the chance that they do, and with --power the plan that has this chance. With --halfwidth: how\n"
-    "many bring the bounds of a rate so close.\n"
-    "With rigs, the trials of one rig are not independent. --rigs-share says how many rigs, and trials\n"
-    "on each, show that so many of all rigs succeed in --success of their trials. With --halfwidth,\n"
-    "--rig-sd is the standard deviation of the success probability between rigs: assumed, or measured\n"
-    "in a pilot FILE with rigs (of the point where it is largest, which then also gives the rate).\n"
+    "Prints how many trials a claim needs. --success P: the number of trials that shows that at\n"
+    "least the proportion P of axes succeeds, if none, one, two, … of the trials fail; with\n"
+    "--true-success also the probability that the plan shows it, and with --power the plan that\n"
+    "has this probability. --halfwidth H: the number of trials for bounds of a rate within ± H.\n"
+    "With rigs, the trials of one rig are not independent. --rigs-share P: the number of rigs, and\n"
+    "of trials on each, that shows that at least the proportion P of all rigs succeeds in --success\n"
+    "of its trials. With --halfwidth, --rig-sd is the standard deviation of the success probability\n"
+    "between rigs: assumed, or measured in a pilot FILE with rigs (at the point where it is largest;\n"
+    "that point also gives the rate).\n"
     "\n"
     "Example: zerocount plan --success 0.999 --confidence 0.95\n"
     "         zerocount plan --success 0.99 --true-success 0.995 --power 0.9\n"
@@ -44,43 +45,40 @@ constexpr const char* plan_help =
 constexpr std::int64_t default_failures = 3;
 constexpr double worst_case_rate = 0.5;
 
-/// What the words ask for.
+/// The parsed options.
 struct PlanRequest {
   double confidence{summary_confidence};
   std::optional<double> success, true_success, power, halfwidth;
   std::optional<double> rig_sd, rigs_share;
   std::int64_t failures{default_failures};
-  std::string pilot;  ///< what rig_sd and the rate were measured in, for the text
+  std::string pilot;  ///< source of rig_sd and the rate, for the text
 };
 
-/// The point of a pilot study whose rigs differ most gives the standard deviation and the rate.
+/// Takes the standard deviation and the rate from the point of a pilot study whose rigs differ most.
 void measure_pilot(PlanRequest& request, const std::string& path) {
   const StudySummary summary = summarise(StudyFile(path));
-  std::size_t most = summary.points.size();
+  std::size_t worst = summary.points.size();
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     const double sd = summary.points[i].rigs.success_sd;
     if (std::isnan(sd)) continue;
-    if (most == summary.points.size() || sd > summary.points[most].rigs.success_sd) most = i;
+    if (worst == summary.points.size() || sd > summary.points[worst].rigs.success_sd) worst = i;
   }
-  if (most == summary.points.size()) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: says nothing of how rigs differ; expected the results of a study with `rigs` "
-                    "and several trials on each",
-                    path));
+  if (worst == summary.points.size()) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: has no differences between rigs; expected the results of a study with "
+                              "`rigs` and several trials on each",
+                              path));
   }
-  const PointSummary& point = summary.points[most];
+  const PointSummary& point = summary.points[worst];
   const double rate = point.success_rate.value;
   if (!(rate > 0.0 && rate < 1.0)) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: no point has both successes and failures; expected --rig-sd and --true-success "
-                    "in place of a pilot",
-                    path));
+    throw Failure(ExitCode::bad_input, fmt::format("{}: no point has both successes and failures; expected "
+                                                   "--rig-sd and --true-success in place of a pilot",
+                                                   path));
   }
   request.rig_sd = point.rigs.success_sd;
   if (!request.true_success) request.true_success = rate;
-  request.pilot = fmt::format("{}, point {}", path, printable(summary.labels[most]));
+  request.pilot = fmt::format("{}, point {}", path, printable(summary.labels[worst]));
 }
 
 PlanRequest request_of(const Arguments& arguments) {
@@ -121,7 +119,7 @@ std::vector<ClaimPlan> plans_of(const PlanRequest& request) {
   return plans;
 }
 
-/// The first plan with the power, if any is asked for.
+/// Whether the plan has the requested power.
 bool has_power(const PlanRequest& request, const ClaimPlan& plan) {
   return request.power &&
          chance_of_claim(plan.trials, plan.failures, *request.true_success) >= *request.power;
@@ -141,9 +139,9 @@ std::vector<RigPlan> halfwidth_plans(const PlanRequest& request) {
   return plans;
 }
 
-/// From the fewest rigs on: more rigs need fewer trials on each.
+/// Plans with increasing numbers of rigs: more rigs need fewer trials on each.
 std::vector<RigPlan> tolerance_plans(const PlanRequest& request) {
-  const std::int64_t fewest = fewest_rigs_for_tolerance(*request.rigs_share, request.confidence);
+  const std::int64_t fewest = min_rigs_for_tolerance(*request.rigs_share, request.confidence);
   std::vector<RigPlan> plans;
   for (const std::int64_t rigs : {fewest, fewest + (fewest + 1) / 2, 2 * fewest, 4 * fewest})
     plans.push_back(plan_tolerance(*request.rigs_share, *request.success, request.confidence, rigs));
@@ -234,10 +232,8 @@ std::string tolerance_text(const PlanRequest& request) {
 std::string rig_halfwidth_text(const PlanRequest& request, double rate) {
   return fmt::format(
       "to bring the {:.6g} % bounds of a success rate of {:.4g} % within ±{:.6g} %, with a standard "
-      "deviation of "
-      "{:.4g} %\nbetween rigs{}\n\n{}\nmore trials on a rig help little once they outnumber {:.3g}: what "
-      "differs "
-      "between rigs remains\n",
+      "deviation of {:.4g} %\nbetween rigs{}\n\n{}\nmore trials on a rig help little once they outnumber "
+      "{:.3g}: what differs between rigs remains\n",
       100.0 * request.confidence, 100.0 * rate, 100.0 * *request.halfwidth, 100.0 * *request.rig_sd,
       request.pilot.empty() ? "" : " (" + request.pilot + ")", rig_plans_text(halfwidth_plans(request)),
       rate * (1.0 - rate) / (*request.rig_sd * *request.rig_sd));
@@ -270,22 +266,23 @@ ExitCode print_plan(const Arguments& arguments) {
 }  // namespace
 
 Command plan_command() {
-  return {{"plan",
-           "[PILOT]",
-           0,
-           1,
-           {{"success", "P", "proportion of axes that is to be shown to succeed at least"},
-            {"confidence", "LEVEL", "of the claim, or of the bounds (default 0.95)"},
-            {"failures", "K", "list plans for 0 to K failures (default 3)"},
-            {"true-success", "P", "share that succeeds in truth: says the chance of each plan"},
-            {"power", "P", "find the plan with this chance"},
-            {"halfwidth", "H", "half the distance of the two-sided bounds of a rate"},
-            {"rigs-share", "P", "share of rigs that is to be shown to succeed in --success of their trials"},
-            {"rig-sd", "SD", "standard deviation of the success probability between rigs"},
-            {"format", "FORMAT", "table (default) or json"}}},
-          "say how many trials a claim needs",
-          plan_help,
-          print_plan};
+  return {
+      {"plan",
+       "[PILOT]",
+       0,
+       1,
+       {{"success", "P", "minimum proportion of successful axes to be shown"},
+        {"confidence", "LEVEL", "of the claim, or of the bounds (default 0.95)"},
+        {"failures", "K", "list plans for 0 to K failures (default 3)"},
+        {"true-success", "P", "assumed true proportion: adds the probability of each plan"},
+        {"power", "P", "find the plan with this probability"},
+        {"halfwidth", "H", "half-width of the two-sided bounds of a rate"},
+        {"rigs-share", "P", "minimum proportion of rigs to be shown to succeed in --success of their trials"},
+        {"rig-sd", "SD", "standard deviation of the success probability between rigs"},
+        {"format", "FORMAT", "table (default) or json"}}},
+      "print how many trials a claim needs",
+      plan_help,
+      print_plan};
 }
 
 }  // namespace zerocount

@@ -17,15 +17,15 @@ bool same(double a, double b, double allowed = 0.0) {
   return std::abs(a - b) <= std::max(allowed, 1e-9 * std::max(std::abs(a), std::abs(b)));
 }
 
-/// What a value of this column may differ by however small it is. A position in counts is the difference of
-/// large numbers, and known as well as θ is; θ itself is promised to 1e-6 count, which is more than this
-/// of any encoder of up to six million counts a revolution.
+/// Absolute tolerance of a column. A position in counts is the difference of large numbers and has the
+/// accuracy of θ. θ is accurate to 1e-6 count, which is more than this for encoders of up to six million
+/// counts per revolution.
 double allowed_in(const Column& column) {
   if (column.unit == "rad") return 1e-12;
   return column.unit == "count" ? 1e-3 : 0.0;
 }
 
-/// Compares two lists of records field by field; `what` is what one record is called.
+/// Compares two lists of records field by field; `what` names one record in messages.
 template <class Record>
 void compare(const std::vector<RecordField<Record>>& fields, const std::vector<Record>& recorded,
              const std::vector<Record>& replayed, std::string_view what, std::vector<std::string>& lines) {
@@ -48,7 +48,7 @@ void compare(const std::vector<RecordField<Record>>& fields, const std::vector<R
   }
 }
 
-/// The moves with the outcomes that a file of this version of the layout has for them.
+/// The moves with their outcomes as a file of this layout version stores them.
 std::vector<MoveOutcome> moves_in_version(std::int64_t version, std::vector<MoveOutcome> moves) {
   for (MoveOutcome& move : moves) move.outcome = outcome_in_version(version, move.outcome);
   return moves;

@@ -9,13 +9,12 @@
 
 namespace zerocount {
 
-/// What of a replayed trial is not as it was recorded, one line each: its inputs, every measure of every
-/// move, its jerks.
+/// Differences between a replayed trial and its record, one line each: inputs, measures of all moves, jerks.
 ///
-/// Whole numbers must be equal. Real ones may differ by 1e-9 of their size, because another machine's
-/// exponential may round its last digit differently.
-/// @param inputs the study's input columns.
-/// @param measures those that were recorded of the moves. @param version of the layout of their file.
+/// Whole numbers must be equal. Real numbers may differ by a relative 1e-9, because exponentials may be
+/// rounded differently on another machine.
+/// @param inputs the study's input columns
+/// @param measures the recorded measures of the moves @param version layout version of their file
 std::vector<std::string> differences(const std::vector<InputColumn>& inputs, const TrialResult& recorded,
                                      const TrialResult& replayed,
                                      const std::vector<RecordField<MoveOutcome>>& measures = outcome_fields(),

@@ -24,26 +24,25 @@ namespace zerocount {
 namespace {
 
 constexpr const char* report_help =
-    "Writes one HTML page on a results file: the verdict in words, success at every point\n"
-    "with bounds, stability maps with the criteria (6) and (7), settling times, jerks, what\n"
-    "matters, single trials that are run again, the figures of the paper that the study can\n"
-    "show, and what was run. The page holds everything and asks for nothing from anywhere;\n"
-    "it prints, and is read on a phone, by day and by night. Print it from\n"
-    "a browser for a PDF.\n"
+    "Writes an HTML page about a results file: the conclusions in words, success at every point\n"
+    "with bounds, stability maps with the criteria (6) and (7), settling times, jerks,\n"
+    "sensitivity, single trials (simulated again), the figures of the paper that the study can\n"
+    "reproduce, and the provenance. The page needs no other files and no network. It adapts to\n"
+    "phones, to dark mode and to paper; print it from a browser for a PDF.\n"
     "\n"
-    "With a baseline, the page also has what 'zerocount compare' would say. The exit code\n"
-    "does not: for that there is 'compare'.\n"
+    "With a baseline, the page also has the result of 'zerocount compare'. The exit code does\n"
+    "not depend on that result.\n"
     "\n"
     "Example: zerocount report gains.h5 -o gains.html\n";
 
 constexpr const char* plot_help =
-    "Draws one figure of the report by itself, for a paper. It is drawn by node, and made a\n"
-    "PNG by rsvg-convert (Debian: nodejs, librsvg2-bin). Without --figure the names of the\n"
-    "figures that this study has are printed.\n"
+    "Draws one figure of the report as a file, for a paper. Needs node, and rsvg-convert for PNG\n"
+    "(Debian: nodejs, librsvg2-bin). Without --figure it prints the names of the figures that\n"
+    "this study has.\n"
     "\n"
     "Example: zerocount plot gains.h5 --figure success -o success.svg\n";
 
-/// What of a trial that was run again is not as the file has it.
+/// Differences between a trial that was simulated again and its record in the file.
 std::vector<std::string> check(const StudyFile& file, const ReplayedTrial& replayed) {
   const RowRange row{replayed.result.row, 1};
   TrialResult recorded;
@@ -70,7 +69,7 @@ StudyReport report_of(const Arguments& arguments, const StudyFile& file) {
   return report;
 }
 
-/// The output, whose name ends in one of `extensions` and which is none of the files that are read.
+/// The output file. Its name must end in one of `extensions`, and it must not be an input.
 std::filesystem::path picture_or_page(const Arguments& arguments,
                                       const std::vector<std::string>& extensions) {
   arguments.required("output");
@@ -96,29 +95,24 @@ ExitCode write_report(const Arguments& arguments) {
   return ExitCode::success;
 }
 
-/// What a program made of `input`.
+/// Output of a program for `input`.
 std::string output_of(const std::vector<std::string>& words, std::string_view input,
                       std::string_view package) {
   const std::optional<ChildResult> result = run_child(words, input);
   if (!result) {
-    throw Failure(
-        ExitCode::machine_failed,
-        fmt::format(
-            "zerocount plot: there is no {} here, which draws the figure; install it (Debian: apt-get "
-            "install {})",
-            words.front(), package));
+    throw Failure(ExitCode::machine_failed, fmt::format("zerocount plot: there is no {} here, which draws "
+                                                        "the figure; install it (Debian: apt-get install {})",
+                                                        words.front(), package));
   }
   if (result->code == 0 && !result->out.empty()) return result->out;
-  throw Failure(
-      ExitCode::machine_failed,
-      fmt::format("zerocount plot: {} failed with exit code {}; expected nodejs 18 or later and librsvg 2.50 "
-                  "or later",
-                  words.front(), result->code));
+  throw Failure(ExitCode::machine_failed, fmt::format("zerocount plot: {} failed with exit code {}; expected "
+                                                      "nodejs 18 or later and librsvg 2.50 or later",
+                                                      words.front(), result->code));
 }
 
 std::string picture(const Figure& figure, bool png) {
   const std::string svg = output_of({"node", "-"}, drawing_program(figure), "nodejs");
-  // Three pixels to a point of the figure: 300 to the inch at a width of 140 mm.
+  // Three pixels per point of the figure: 300 per inch at a width of 140 mm.
   return png ? output_of({"rsvg-convert", "--format", "png", "--zoom", "3"}, svg, "librsvg2-bin") : svg;
 }
 
@@ -145,7 +139,7 @@ Command report_command() {
            "FILE",
            1,
            1,
-           {{"output,o", "PAGE", "the page, such as report.html; - is standard output (required)"},
+           {{"output,o", "PAGE", "the page to write, such as report.html; - is standard output (required)"},
             {"baseline", "FILE", "compare with these results"},
             {"margins", "FILE", "the margins and requirements of that comparison"},
             {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
@@ -156,20 +150,19 @@ Command report_command() {
 }
 
 Command plot_command() {
-  return {
-      {"plot",
-       "FILE",
-       1,
-       1,
-       {{"figure", "NAME", "which figure"},
-        {"output,o", "PICTURE", "where to: a name that ends in .svg or .png; - is standard output, as SVG"},
-        {"baseline", "FILE", "compare with these results"},
-        {"margins", "FILE", "the margins and requirements of that comparison"},
-        {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
-        force_option()}},
-      "draw one figure of the report as SVG or PNG",
-      plot_help,
-      plot};
+  return {{"plot",
+           "FILE",
+           1,
+           1,
+           {{"figure", "NAME", "which figure"},
+            {"output,o", "PICTURE", "the picture to write, *.svg or *.png; - is standard output, as SVG"},
+            {"baseline", "FILE", "compare with these results"},
+            {"margins", "FILE", "the margins and requirements of that comparison"},
+            {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
+            force_option()}},
+          "draw one figure of the report as SVG or PNG",
+          plot_help,
+          plot};
 }
 
 }  // namespace zerocount

@@ -35,12 +35,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* run_help =
     "Runs the trials of the manifest on all cores, and writes them to the results file.\n"
-    "Finished trials go to shards in FILE.shards/ while the run goes on; at the end they\n"
-    "become FILE. A run that was interrupted or killed goes on where it stopped when the\n"
-    "same command is given again. The data do not depend on the number of threads, on\n"
-    "--shard, or on interruptions. Where FILE holds the same study with fewer trials, only\n"
-    "the others are run, and join them. Before it begins, the run looks whether the disk has\n"
-    "room for its shards and its file; --force begins all the same.\n"
+    "During the run, finished trials are written to shards in FILE.shards/; at the end these are\n"
+    "merged to FILE. To continue a run that was interrupted or killed, give the same command\n"
+    "again. The data do not depend on the number of threads, on --shard, or on interruptions.\n"
+    "If FILE has the same study with fewer trials, only the missing trials are run and added.\n"
+    "The run first checks that the disk has room for the shards and the file; --force skips\n"
+    "this check.\n"
     "\n"
     "Examples:\n"
     "  zerocount run experiments/manifests/paper-gains.yaml -o gains.h5\n"
@@ -68,7 +68,7 @@ RowRange part_of(const Arguments& arguments, const std::string& text, const Stud
   return {start(part - 1), start(part) - start(part - 1)};
 }
 
-/// What a run is for.
+/// Request of a run.
 struct RunRequest {
   Study study;
   fs::path output;
@@ -96,7 +96,7 @@ RunRequest run_request(const Arguments& arguments) {
   return request;
 }
 
-/// The shards that are there before the first trial is run.
+/// The usable shards that exist before the first trial is run.
 EarlierShards prepare_shards(const RunRequest& request, const fs::path& directory, ExistingUse existing) {
   const ForeignShards foreign = request.force ? ForeignShards::remove : ForeignShards::refuse;
   EarlierShards earlier = earlier_shards(directory, request.study, request.wanted, foreign);
@@ -156,7 +156,7 @@ ExitCode run(const Arguments& arguments) {
   const ExistingUse existing =
       request.force ? ExistingUse::none : use_of_existing(request.output, request.study, request.wanted);
   if (existing == ExistingUse::complete) {
-    // Left by a run that died at its very end; what is not of this study stays.
+    // Shards left by a run that was killed at its very end. Shards of other studies are kept.
     const fs::path directory = shards_directory(request.output);
     remove_shards(directory, choose_shards(list_shards(directory, request.study).shards, request.wanted).all);
     if (!request.quiet) fmt::print(stderr, "{}: complete already, nothing to run\n", request.output.string());
@@ -174,23 +174,23 @@ ExitCode run(const Arguments& arguments) {
 }  // namespace
 
 Command run_command() {
-  return {{"run",
-           "MANIFEST -o FILE",
-           1,
-           1,
-           {{"output,o", "FILE", "the results file to make (required)"},
-            {"threads", "N", "threads to use; default: all cores"},
-            {"engine", "NAME",
-             "batch (default): many trials at a time in vector lanes; reference: one after the other"},
-            {"shard", "I/N", "run only the I-th of N parts, into a part file for 'zerocount merge'"},
-            {"set", "KEY=VALUE",
-             "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
-            {"quiet,q", "", "say nothing of progress"},
-            {"force", "",
-             "replace FILE, drop unfinished runs of other studies, and do not ask for room on the disk"}}},
-          "run a study: manifest in, results file out",
-          run_help,
-          run};
+  return {
+      {"run",
+       "MANIFEST -o FILE",
+       1,
+       1,
+       {{"output,o", "FILE", "the results file to make (required)"},
+        {"threads", "N", "threads to use; default: all cores"},
+        {"engine", "NAME",
+         "batch (default): many trials at a time in SIMD lanes; reference: one after the other"},
+        {"shard", "I/N", "run only the I-th of N parts, into a part file for 'zerocount merge'"},
+        {"set", "KEY=VALUE",
+         "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
+        {"quiet,q", "", "print no progress"},
+        {"force", "", "replace FILE, remove unfinished runs of other studies, do not check the disk space"}}},
+      "run a study: manifest in, results file out",
+      run_help,
+      run};
 }
 
 }  // namespace zerocount

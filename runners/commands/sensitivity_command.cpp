@@ -13,17 +13,17 @@ namespace zerocount {
 namespace {
 
 constexpr const char* sensitivity_help =
-    "Says which of the random parameters drive an output of the trials, with bounds, point by\n"
-    "point: of a study with design: saltelli by Sobol' indices, first order and total; of any\n"
-    "other by what its trials tell: the share of the variance that each parameter explains\n"
-    "alone, rank correlations, and partial ones; of outputs that are yes or no also by a\n"
-    "logistic fit. Parameters that do not vary are left out, and named.\n"
+    "Prints which random parameters influence an output of the trials, with bounds, for each\n"
+    "design point. For a study with design: saltelli by first-order and total Sobol' indices; for\n"
+    "other designs by first-order indices estimated from the given trials, rank correlations and\n"
+    "partial rank correlations, and for binary outputs also by a logistic fit. Parameters that\n"
+    "do not vary are only listed.\n"
     "\n"
     "Outputs of a trial:\n";
 
 constexpr const char* examples =
     "\n"
-    "Where nothing at all can be estimated, say because all trials succeed, the exit code is 3.\n"
+    "If nothing can be estimated, for example because all trials succeed, the exit code is 3.\n"
     "\n"
     "Example: zerocount sensitivity gains.h5 --point 1 --output success --output jerk_count\n";
 
@@ -62,7 +62,7 @@ Command sensitivity_command() {
         {"output", "NAME", "output of the trials; may be repeated (default: success, settling_time)", true},
         {"confidence", "C", "confidence of the bounds, above 0 and up to 0.999 (default 0.95)"},
         {"format", "FORMAT", "table (default), json or csv"}}},
-      "say which random parameters drive what the trials do",
+      "print which random parameters influence the outputs of the trials",
       full_help(),
       print_sensitivity};
 }

@@ -18,14 +18,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* summary_help =
-    "Prints a row per design point: how many trials were stable and ended at zero counts of\n"
-    "error (with 95 % bounds), how long they took to settle, how often they jerked, what the\n"
-    "criteria (6) and (7) of the paper predict, and what was seen on the real rig where the\n"
-    "manifest says so; of an open-loop study, a row per design point and torque level. Below the\n"
-    "table stands what the trials show of all axes that the manifest describes. json and csv hold\n"
-    "more than the table. What is stored in the file has 95 % bounds; other ones are found anew.\n"
-    "While FILE is being made, or after its run was interrupted, the summary is of the trials\n"
-    "that are finished so far, and says so.\n"
+    "Prints one row per design point: the proportions of trials that were stable and that ended\n"
+    "at zero counts of error (with 95 % bounds), settling times, jerks, the prediction of the\n"
+    "paper's criteria (6) and (7), and the observation on the real rig if the manifest has one.\n"
+    "For an open-loop study, one row per design point and torque level. Below the table stand\n"
+    "tolerance statements about all axes that the manifest describes. The formats json and csv\n"
+    "have more statistics than the table. The file stores 95 % bounds; others are computed.\n"
+    "During a run, or after an interrupted one, the summary covers the finished trials and\n"
+    "reports that.\n"
     "\n"
     "Example: zerocount summary gains.h5 --format json\n";
 
@@ -34,19 +34,20 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, error);
 }
 
-/// The summary of the file, or of the run that is making it.
+/// The summary of the file, or of the unfinished run that writes it.
 StudySummary summary_of(const fs::path& path, double confidence, bool with_means) {
   const fs::path shards = shards_directory(path);
   if (!is_there(path) && is_there(shards)) {
     try {
       return summarise_unfinished(shards, confidence, with_means);
     } catch (const Failure&) {
-      if (!is_there(path)) throw;  // otherwise the run has ended meanwhile, and its shards are gone
+      if (!is_there(path)) throw;  // otherwise the run has ended in the meantime and removed its shards
     }
   }
   StudySummary summary = summarise(StudyFile(path), confidence, with_means);
   if (is_there(shards)) {
-    fmt::print(stderr, "note: a run that is to replace {} has not ended ({}); this is of the file as it is\n",
+    fmt::print(stderr,
+               "note: an unfinished run ({1}) will replace {0}; this is the summary of the present file\n",
                path.string(), shards.string());
   }
   return summary;

@@ -24,19 +24,18 @@ ExitCode print_schema(const Arguments&) {
 }  // namespace
 
 Command parameters_command() {
-  return {
-      {"parameters",
-       "",
-       0,
-       0,
-       {{"format", "FORMAT", "text (default) or markdown"},
-        {"axis", "AXIS", "rotary (default) or linear: as they are on an axis of this kind"},
-        {"units", "UNITS", "count (default) or si: as the gains are with controller.units"}}},
-      "list every parameter: unit, default, range, source",
-      "Every physical value of a manifest may be a number or a distribution; what is left out has the "
-      "default. A default in other units is none: on a linear axis most values have to be given, and with\n"
-      "--units si the integral gain.\n",
-      print_parameters};
+  return {{"parameters",
+           "",
+           0,
+           0,
+           {{"format", "FORMAT", "text (default) or markdown"},
+            {"axis", "AXIS", "rotary (default) or linear: units on this kind of axis"},
+            {"units", "UNITS", "count (default) or si: unit of the gains (controller.units)"}}},
+          "list every parameter: unit, default, range, source",
+          "Every physical value of a manifest is a number or a distribution. Missing values have the\n"
+          "default, unless it is in other units: on a linear axis most values must be given, and with\n"
+          "--units si the integral gain.\n",
+          print_parameters};
 }
 
 Command schema_command() {

@@ -22,21 +22,21 @@ namespace zerocount {
 namespace {
 
 constexpr const char* trace_help =
-    "Runs one trial again and writes it sample by sample. From a results file the trial is\n"
-    "rebuilt from the manifest that the file holds; where its inputs, outcome or jerks are\n"
-    "not the recorded ones, the differences are listed and the exit code is 4.\n"
+    "Runs one trial again and writes it sample by sample. A trial of a results file is rebuilt\n"
+    "from the manifest in the file. If its inputs, outcome or jerks differ from the recorded\n"
+    "ones, the differences are listed and the exit code is 4.\n"
     "\n"
     "Columns: k, t (s), target, count, coarse_count, error (counts), code, torque (N m),\n"
     "theta (rad), omega (rad/s), xp, xh (rad), depth (reversal points), mode (stick or\n"
-    "slide); values at the sampling instant, code and torque those decided there. Only where\n"
-    "the study uses them: reference (counts, that the control follows), phase (fine or\n"
-    "coarse), drive_torque (N m, of the motor; where it is not the code's, but for a delay of\n"
-    "a closed loop). A trial that is stopped early ends there. On a linear axis read N for N m\n"
-    "and m for rad.\n"
+    "slide). Values are those at the sampling instant; code and torque are commanded there.\n"
+    "Only if the study uses them: reference (counts), phase (fine or coarse), drive_torque (N m,\n"
+    "of the motor; if it differs from the code's torque by more than a delay of the closed\n"
+    "loop). A trial that is stopped early ends there. On a linear axis read N for N m and m for\n"
+    "rad.\n"
     "\n"
     "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
 
-/// Whether `path` is a results file, by its signature, or by its name where the signature may be damaged.
+/// Whether `path` is a results file, by its signature or by its name (the signature may be damaged).
 bool is_results_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   char signature[8] = {};
@@ -54,7 +54,7 @@ std::int64_t trial_option(const Arguments& arguments, const Study& study) {
   return value;
 }
 
-/// Runs the trial and writes its samples; what else is kept of it is returned.
+/// Runs the trial, writes its samples, and returns the rest of its result.
 TrialResult write_trace(const TraceSubject& subject, const TraceWriter::Sink& sink, bool json) {
   TraceWriter writer(sink, json);
   writer.begin(subject);
@@ -69,7 +69,7 @@ TrialResult write_trace(const TraceSubject& subject, const TraceWriter::Sink& si
   return result;
 }
 
-/// Writes the trace to a file that has its name only when it is whole.
+/// Writes the trace to a file that appears when it is complete.
 TrialResult write_trace_file(const TraceSubject& subject, const std::filesystem::path& path, bool json) {
   OutputFile file(path);
   TrialResult result = write_trace(

@@ -12,7 +12,7 @@
 
 namespace zerocount {
 
-/// Which trial a trace is of.
+/// The trial of a trace.
 struct TraceSubject {
   const Study& study;
   std::int64_t point{0};
@@ -20,16 +20,16 @@ struct TraceSubject {
   const StudyTrial& trial;
 };
 
-/// Writes the sample records of one trial, one by one: the columns of the results file's /trace but for the
-/// trial, and in their order, those that only some studies have last (Study::trace_extras). Numbers read back
-/// to the same double; in JSON what is not finite is null.
+/// Writes the trace of one trial, record by record. The columns are those of the results file's /trace
+/// without `trial`, in the same order; the optional columns (Study::trace_extras) come last. Numbers read
+/// back to the same double; in JSON non-finite values are null.
 class TraceWriter {
  public:
   using Sink = std::function<void(std::string_view)>;
 
-  /// @param sink takes the text, piece by piece
-  /// @param json JSON: an object with the trial's inputs, its samples and its outcome; otherwise CSV: one
-  /// line per sample.
+  /// @param sink receives the text in pieces
+  /// @param json true: a JSON object with the trial's inputs, samples and outcome; false: CSV, one line per
+  /// sample
   TraceWriter(Sink sink, bool json) : sink_(std::move(sink)), json_(json) {}
 
   void begin(const TraceSubject& subject);
@@ -39,7 +39,7 @@ class TraceWriter {
  private:
   Sink sink_;
   bool json_;
-  std::vector<RecordField<TraceRecord>> columns_;   ///< since begin()
+  std::vector<RecordField<TraceRecord>> columns_;   ///< set by begin()
   std::vector<RecordField<MoveOutcome>> measures_;  ///< likewise
   bool first_{true};
 };

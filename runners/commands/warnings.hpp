@@ -8,7 +8,7 @@
 
 namespace zerocount {
 
-/// Prints to stderr what of the manifest is allowed but may surprise.
+/// Prints the warnings about the manifest to stderr.
 inline void warn(const Study& study) {
   for (const std::string& warning : study.warnings) fmt::print(stderr, "warning: {}\n", warning);
 }

@@ -10,8 +10,8 @@
 
 namespace zerocount {
 
-/// Joins shards into the results file `output`, with the statistics of every design point where it is the
-/// whole study.
+/// Joins shards into the results file `output`. A file with the whole study gets the statistics of all design
+/// points.
 /// @throws Failure; see merge_shards.
 void assemble(std::span<const ShardInfo> shards, const Study& study, const std::filesystem::path& output,
               RowRange rows, const Renumbering& renumber = {});

@@ -4,17 +4,17 @@
 
 namespace zerocount {
 
-/// What a study will take.
+/// Computing time of a study.
 struct StudyCost {
   double samples{0.0};             ///< of all trials together
-  double seconds_per_sample{0.0};  ///< of one core, as measured here and now on trials of the study
+  double seconds_per_sample{0.0};  ///< of one core, measured on trials of the study
   int cores{1};                    ///< of this machine
 
   double seconds() const { return samples * seconds_per_sample / cores; }  ///< with all cores
 };
 
-/// Measures the cost on some trials spread over the study, by the batch engine, for about a third of a second
-/// (or one block of a million samples; trials are cut at 200 000 samples).
+/// Measures the cost of the batch engine on trials spread over the study, for about a third of a second (or
+/// one block of a million samples; trials are cut at 200 000 samples).
 StudyCost measure_cost(const Study& study);
 
 }  // namespace zerocount

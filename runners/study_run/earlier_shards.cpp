@@ -14,10 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Ending of the name of a damaged shard that was set aside.
+/// File name extension of damaged shards.
 constexpr const char* set_aside = ".damaged";
 
-/// What differs in its study, as far as that can be read; otherwise the problem as it was found.
+/// The differences to the shard's study if its header is readable; otherwise the problem itself.
 std::string why_foreign(const ShardProblem& bad, const Study& study) {
   try {
     const FileHeader header = StudyFile(bad.path, Require::any_part).header();

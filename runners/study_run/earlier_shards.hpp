@@ -9,25 +9,25 @@
 
 namespace zerocount {
 
-/// What earlier runs left in the folder of shards.
+/// The shards of earlier runs.
 struct EarlierShards {
-  std::vector<ShardInfo> usable;           ///< in order of rows, none overlapping another
-  std::vector<std::filesystem::path> all;  ///< every sound shard of the study
+  std::vector<ShardInfo> usable;           ///< in order of rows, without overlaps
+  std::vector<std::filesystem::path> all;  ///< all valid shards of the study
 };
 
-/// Shards of a run of other parts may reach beyond this one's, or overlap: what is left out is run again.
+/// Selects shards within `wanted` that do not overlap. Shards of runs with other parts may extend beyond it
+/// or overlap; trials of unused shards are run again.
 EarlierShards choose_shards(const std::vector<ShardInfo>& sound, RowRange wanted);
 
-/// What becomes of the shards of another run.
+/// Treatment of shards of another study.
 enum class ForeignShards { refuse, remove };
 
-/// The shards of earlier runs. Damaged ones are set aside, and run again.
-/// @throws Failure (bad_input) where the folder holds shards of something else, which are to be left alone.
+/// Finds the shards of earlier runs. Damaged shards are renamed and their trials run again.
+/// @throws Failure (bad_input) if the folder has shards of another study and `refuse` is given.
 EarlierShards earlier_shards(const std::filesystem::path& directory, const Study& study, RowRange wanted,
                              ForeignShards foreign = ForeignShards::refuse);
 
-/// Removes the shards, whose trials the finished file holds or another run can make again, and their folder
-/// if nothing else is in it.
+/// Removes the shards, and their folder if it is then empty.
 void remove_shards(const std::filesystem::path& directory, const std::vector<std::filesystem::path>& shards);
 
 }  // namespace zerocount

@@ -7,15 +7,15 @@
 
 namespace zerocount {
 
-/// What a run makes of a results file that has its output's name already.
+/// Treatment of an existing output file.
 enum class ExistingUse {
-  none,      ///< there is none, or it is replaced
-  complete,  ///< it holds the trials that are wanted
-  extend     ///< it is complete, and the study is the same but for more trials
+  none,      ///< there is no file, or it is replaced
+  complete,  ///< the file has all wanted trials
+  extend     ///< the file is complete, and the study differs only in having more trials
 };
 
-/// @param wanted the rows that the run is for
-/// @throws Failure (bad_input) where the file is anything else, with what differs.
+/// @param wanted rows of the run
+/// @throws Failure (bad_input) for any other file, with the differences.
 ExistingUse use_of_existing(const std::filesystem::path& output, const Study& study, RowRange wanted);
 
 }  // namespace zerocount

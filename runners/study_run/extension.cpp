@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t max_moves_at_once = 1 << 16;
 constexpr std::int64_t records_at_once = 1 << 16;
 
-/// Where the records of retained trials stand in the file: positions by row.
+/// Positions of the retained trials' records in the file, by row.
 std::map<std::int64_t, RowRange> places_of_records(const StudyFile& file) {
   std::map<std::int64_t, RowRange> places;
   for (std::int64_t first = 0; first < file.trace_count(); first += records_at_once) {
@@ -25,7 +25,7 @@ std::map<std::int64_t, RowRange> places_of_records(const StudyFile& file) {
   return places;
 }
 
-/// The trials of `rows` of the file, with the rows that they have in the study.
+/// Reads the trials `rows` of the file, renumbered to their rows in the study.
 std::vector<TrialResult> read_trials(const StudyFile& file, RowRange rows, std::int64_t first_row,
                                      const std::map<std::int64_t, RowRange>& records) {
   std::vector<TrialResult> results(static_cast<std::size_t>(rows.count));
@@ -62,7 +62,7 @@ std::vector<ShardInfo> copy_trials(const StudyFile& file, const Study& study,
       const std::int64_t point = row / study.trials;
       const std::int64_t index = row % study.trials;
       const std::int64_t count = std::min({trials - index, range.end() - row, at_once});
-      if (count <= 0) {  // beyond what the file has of the point
+      if (count <= 0) {  // beyond the file's trials of this point
         row = (point + 1) * study.trials;
         continue;
       }

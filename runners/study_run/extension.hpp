@@ -11,9 +11,9 @@
 
 namespace zerocount {
 
-/// Copies the trials of a finished file into shards of a study that is the same but for more trials, as far
-/// as they are `missing` there (rows of the study). Memory is bounded.
-/// @returns the shards written, in order of rows.
+/// Copies trials of a finished file to shards of a study that differs only in having more trials: those in
+/// the ranges `missing` (rows of the study). Memory is bounded.
+/// @returns the written shards, in order of rows
 /// @throws Failure as StudyFile and write_shard.
 std::vector<ShardInfo> copy_trials(const StudyFile& file, const Study& study,
                                    const std::filesystem::path& directory, std::span<const RowRange> missing);

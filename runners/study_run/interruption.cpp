@@ -10,7 +10,7 @@
 namespace zerocount {
 namespace {
 
-/// SIGINT and SIGTERM, but for one that whoever started the process has told it to ignore.
+/// SIGINT and SIGTERM, without signals that the process inherited as ignored.
 sigset_t watched_signals() {
   sigset_t signals;
   sigemptyset(&signals);

@@ -5,11 +5,11 @@
 
 namespace zerocount {
 
-/// Turns SIGINT and SIGTERM into a request to stop, from its construction to its end. A second signal ends
-/// the process at once, with the exit code of an interruption.
+/// Turns SIGINT and SIGTERM into a request to stop during its lifetime. A second signal ends the process at
+/// once, with the exit code of an interruption.
 ///
-/// Construct it before any other thread is started: threads inherit the blocked signals from the one that
-/// starts them.
+/// Construct it before other threads are started, because
+/// threads inherit the set of blocked signals.
 class InterruptionWatch {
  public:
   InterruptionWatch();

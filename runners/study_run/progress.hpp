@@ -6,15 +6,14 @@
 
 namespace zerocount {
 
-/// Tells how a run goes on stderr: one line rewritten in place on a terminal, a new line every few seconds
-/// elsewhere, and one at the end.
+/// Prints the progress of a run to stderr: one updated line on a terminal, otherwise a new line every few
+/// seconds, and a final line.
 class Progress {
  public:
-  /// @param total trials to run. @param kept trials that earlier runs left. @param samples per trial, for the
-  /// rate.
+  /// @param total trials to run @param kept trials of earlier runs @param samples per trial, for the rate
   Progress(std::int64_t total, std::int64_t kept, double samples, bool quiet);
 
-  /// From now on the total is a projection, and may change again.
+  /// Sets a projected total, which may change again.
   void project(std::int64_t total);
   /// `done` trials of the total are finished.
   void update(std::int64_t done);
@@ -34,7 +33,7 @@ class Progress {
   Clock::time_point last_;
 };
 
-/// A duration for people: "850 ms", "12 s", "3 min 20 s", "5 h 02 min".
+/// A duration as text: "850 ms", "12 s", "3 min 20 s", "5 h 02 min".
 std::string duration_text(double seconds);
 
 }  // namespace zerocount

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The successes of every point, block by block.
+/// The successes of every point by blocks.
 class Successes {
  public:
   explicit Successes(const Study& study)
@@ -33,7 +33,7 @@ class Successes {
     }
   }
 
-  /// Among the first `trials` of the point.
+  /// Number of successes among the first `trials` trials of the point.
   std::int64_t among(std::int64_t point, std::int64_t trials) const {
     const std::vector<std::int64_t>& blocks = by_block_[static_cast<std::size_t>(point)];
     std::int64_t sum = 0;
@@ -59,13 +59,14 @@ bool sure(const Study& study, const Successes& successes, std::int64_t trials) {
   const StoppingRule& rule = *study.stop;
   if (trials < rule.min_trials) return false;
   for (std::int64_t point = 0; point < point_count(study); ++point) {
-    const ConfidenceInterval bounds = anytime_bounds(successes.among(point, trials), trials, rule.confidence);
+    const ConfidenceInterval bounds =
+        confidence_sequence_bounds(successes.among(point, trials), trials, rule.confidence);
     if (0.5 * (bounds.high - bounds.low) > rule.success_rate_halfwidth) return false;
   }
   return true;
 }
 
-/// Trials at each point, if the rates stay what they are.
+/// Projected number of trials per point at the present rates.
 std::int64_t projection(const Study& study, const Successes& successes, std::int64_t trials) {
   const StoppingRule& rule = *study.stop;
   std::int64_t most = std::max(trials, std::min(rule.min_trials, study.trials));
@@ -77,7 +78,7 @@ std::int64_t projection(const Study& study, const Successes& successes, std::int
   return most;
 }
 
-/// The first `trials` of each point, in the rows of a study that has as many as there may be.
+/// Rows of the first `trials` trials of each point, in a study with the maximum number of trials.
 std::vector<RowRange> first_trials(const Study& study, std::int64_t trials) {
   std::vector<RowRange> ranges;
   for (std::int64_t point = 0; point < point_count(study); ++point) {
@@ -103,7 +104,7 @@ Study decided_study(const Study& study, std::int64_t trials) {
   return decided;
 }
 
-/// Joins the shards, whose rows are those of `study`, into the file of `decided`.
+/// Joins the shards (rows of `study`) into the results file of the study `decided`.
 void assemble_decided(const std::vector<ShardInfo>& shards, const Study& study, const Study& decided,
                       const fs::path& output) {
   const auto renumber = [&](std::int64_t row) {
@@ -162,8 +163,8 @@ ExitCode run_until_sure(const Study& study, const fs::path& output, const Stoppi
   remove_shards(directory, earlier.all);
   if (!settings.quiet) {
     const char* const why = sure(study, successes, trials)
-                                ? "every point's success rate is known as well as asked for"
-                                : "max_trials; some success rates are not known as well as asked for";
+                                ? "all success rates are known as well as requested"
+                                : "max_trials; some success rates are known less well than requested";
     fmt::print(stderr, "wrote {}: {} trials at each point ({})\n", output.string(), trials, why);
   }
   return ExitCode::success;

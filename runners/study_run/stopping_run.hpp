@@ -11,20 +11,21 @@
 namespace zerocount {
 
 struct StoppingRunSettings {
-  int threads{0};  ///< 0: all that the machine has
+  int threads{0};  ///< 0: all cores
   bool quiet{false};
   ForeignShards foreign{ForeignShards::refuse};
 };
 
-/// The override with which the file of such a study ends, followed by the number of trials it came to.
+/// Start of the last override in the file of such a study; the final number of trials follows.
 inline constexpr std::string_view decided_key = "stop.max_trials=";
 
-/// Runs a study with `stop`, whose results go to `output`: blocks of trials at every point, until the rule is
-/// met. What it decides depends on the trials alone, so a run that is interrupted comes to the same.
+/// Runs a study with `stop`: blocks of trials at every point, until the rule is met. The decision depends
+/// only on the trials, so an interrupted and continued run gives the same result.
 ///
-/// The file is that of the study with `stop.max_trials` set to the number of trials it came to, at its end of
-/// the overrides. What has its name already is replaced.
-/// @throws Failure (interrupted) where `stop` was requested.
+/// The file `output` is that
+/// of the study with an additional override of `stop.max_trials` by the final number of trials. An existing
+/// file is replaced.
+/// @throws Failure (interrupted) if `stop` was requested.
 ExitCode run_until_sure(const Study& study, const std::filesystem::path& output,
                         const StoppingRunSettings& settings, const std::stop_token& stop);
 

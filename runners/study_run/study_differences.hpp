@@ -10,13 +10,13 @@
 
 namespace zerocount {
 
-/// What differs between the study of a results file and this one, both as they were given: without the number
-/// of trials that a stopping rule came to, and with the defaults that have changed since the file was made.
+/// Differences between the study of a results file and this one. The final number of trials of a stopping
+/// rule is ignored; defaults that changed since the file was written are included.
 /// @param path of the file, for messages
 std::vector<ManifestDifference> study_differences(const std::filesystem::path& path, FileHeader header,
                                                   const Study& study);
 
-/// "seed is 42 there and 43 here, …": the first five, and how many more there are.
+/// "seed is 42 there and 43 here, …": the first five differences, and the number of others.
 std::string differences_text(const std::vector<ManifestDifference>& differences);
 
 }  // namespace zerocount

@@ -27,12 +27,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t max_sampled_trials = 512;
-constexpr double max_sampled_samples = 4e5;  // some hundredths of a second
-/// Without compression a trial takes this much more than its values: chunks, and copies of its columns.
+constexpr double max_sampled_samples = 4e5;  // takes some hundredths of a second
+/// Ratio of the memory or uncompressed storage of a trial to its values: chunks, and copies of columns.
 constexpr double storage_factor = 2.0;
 constexpr std::int64_t sampled_places = 8;
 
-/// A folder that is removed with what is in it.
+/// A temporary folder; the destructor removes it with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -79,7 +79,7 @@ double shard_size(const TemporaryFolder& folder, const Study& study, std::span<c
   return static_cast<double>(fs::file_size(path));
 }
 
-/// Bytes of something that grows with the number of trials.
+/// Size as a linear function of the number of trials, bytes.
 struct Growth {
   double fixed{0.0};
   double per_trial{0.0};
@@ -94,7 +94,7 @@ Growth growth_of(const TemporaryFolder& folder, const Study& study, std::span<co
   return {one - per_trial, per_trial};
 }
 
-/// Up to eight trials with their records, numbered from 0.
+/// Up to eight trials with their traces, numbered from 0.
 std::vector<TrialResult> sampled_records(const Study& study) {
   constexpr std::int64_t max_records = 8;
   const auto retained = std::ssize(study.retained_trials);
@@ -106,7 +106,7 @@ std::vector<TrialResult> sampled_records(const Study& study) {
   return trials;
 }
 
-/// Bytes of the records of all retained trials. What a table takes however short it is does not count.
+/// Bytes of the traces of all retained trials, without the fixed size of a table.
 double record_bytes(const TemporaryFolder& folder, const Study& study, std::vector<TrialResult> sampled,
                     Compression compression) {
   if (sampled.empty()) return 0.0;
@@ -118,7 +118,7 @@ double record_bytes(const TemporaryFolder& folder, const Study& study, std::vect
   return per_record * static_cast<double>(std::ssize(study.retained_trials) * point_count(study));
 }
 
-/// Bytes of what stands in the results file beside its trials.
+/// Bytes of the results file without its trials.
 double table_bytes(const Study& study) {
   constexpr double statistics = 400e3;  // some hundred columns with their descriptions, measured
   constexpr double statistics_of_point = 1600.0;
@@ -132,7 +132,7 @@ double table_bytes(const Study& study) {
   return statistics + statistics_of_point * static_cast<double>(point_count(study)) + profiles;
 }
 
-/// More than the files of a study take, without writing any.
+/// An upper bound of the size of a study's files, computed without writing any.
 double file_bytes_at_most(const Study& study) {
   double bytes_of_trial = 0.0;
   const std::vector<TrialResult> trials = sampled_trials(study);
@@ -144,7 +144,7 @@ double file_bytes_at_most(const Study& study) {
   return 2.0 * storage_factor * once;  // the shards, and the results file
 }
 
-/// None where the folder for temporary files has no room.
+/// Nothing if the folder for temporary files has no room.
 std::optional<StudySize> measured_size(const Study& study) {
   try {
     return measure_size(study);
@@ -181,7 +181,7 @@ void require_room(const fs::path& output, const Study& study, std::int64_t missi
   const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
   std::error_code error;
   const fs::space_info space = fs::space(folder, error);
-  if (error) return;  // not known: a write that fails is found out
+  if (error) return;  // free space unknown; a failed write will be reported
   const auto available = static_cast<double>(space.available);
   if (file_bytes_at_most(study) < available) return;
   const std::optional<StudySize> size = measured_size(study);

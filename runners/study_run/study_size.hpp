@@ -6,21 +6,21 @@
 
 namespace zerocount {
 
-/// What a study takes of the machine, estimated from some of its trials.
+/// Memory and disk space of a study, estimated from some of its trials.
 struct StudySize {
   double file_bytes{0.0};    ///< of the results file
-  double shard_bytes{0.0};   ///< of the shards of all trials, which are there until the file is whole
+  double shard_bytes{0.0};   ///< of the shards of all trials, which exist until the file is complete
   double memory_bytes{0.0};  ///< peak
 };
 
-/// Runs up to 512 trials spread over the study (about 400 000 samples), writes them to a temporary folder
-/// and scales what they take there. Of a study with `stop`, for the largest number of trials.
-/// @param threads that are going to run; 0: all
-/// @throws Failure (machine_failed) where there is no room for temporary files.
+/// Runs up to 512 trials spread over the study (about 400 000 samples), writes them to a temporary folder and
+/// scales their size. For a study with `stop`: the maximum number of trials.
+/// @param threads of the run; 0: all cores
+/// @throws Failure (machine_failed) if there is no room for temporary files.
 StudySize measure_size(const Study& study, int threads = 0);
 
-/// @throws Failure (machine_failed) where the folder of `output` has no room for the results file and the
-/// shards of the `missing` trials.
+/// @throws Failure (machine_failed) if the folder of `output` has no room for the results file and the shards
+/// of the `missing` trials.
 void require_room(const std::filesystem::path& output, const Study& study, std::int64_t missing);
 
 /// "44 MB", to two significant digits.

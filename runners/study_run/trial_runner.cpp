@@ -49,7 +49,7 @@ std::vector<TrialResult> TrialRunner::run(RowRange rows) {
 std::vector<TrialResult> TrialRunner::run_in_lanes(RowRange rows) {
   std::vector<TrialResult> results(static_cast<std::size_t>(rows.count));
   std::vector<StudyTrial> trials;
-  std::vector<std::size_t> places;  // of the trials in the results
+  std::vector<std::size_t> places;  // indices of the trials in the results
   trials.reserve(results.size());
   places.reserve(results.size());
   for (std::size_t i = 0; i < results.size(); ++i) {

@@ -10,13 +10,13 @@
 
 namespace zerocount {
 
-/// Runs trials of a study by its engine, on one thread, and keeps what the results file keeps of them. The
-/// trials whose records the study retains are run by the reference engine in any case.
+/// Runs trials of a study on one thread with its engine, and returns the data of the results file. Trials
+/// with retained traces always run with the reference engine.
 class TrialRunner {
  public:
   explicit TrialRunner(const Study& study);
 
-  /// @returns one result a row, in order.
+  /// @returns one result per row, in order
   std::vector<TrialResult> run(RowRange rows);
 
  private:

@@ -33,7 +33,7 @@ const std::array<Fault, 4> faults{Fault{std::to_string(ENOSPC), false}, Fault{st
 
 /// A command that writes, and what it writes, in the test's folder.
 struct Writer {
-  std::vector<std::string> words;
+  std::vector<std::string> arguments;
   std::vector<std::string> outputs;
   std::string before;   ///< what stands in each output before; nothing if it is empty
   bool resumes{false};  ///< what it left behind is used by the next attempt
@@ -46,7 +46,7 @@ std::map<std::string, std::string> content_of(const fs::path& path) {
     return {{"", std::regex_replace(read_bytes(path), std::regex("date: [^\n]*"), "")}};
   }
   if (path.extension() != ".h5") return {{"", read_bytes(path)}};
-  const StudyFile file(path);  // checks the seal
+  const StudyFile file(path);  // checks the checksum trailer
   return stored_datasets(path);
 }
 
@@ -57,8 +57,8 @@ class FailingCalls : public ::testing::Test {
     folder_.write("retained.yaml", small_manifest(8, "retain: {trials: [0]}\n"));
   }
 
-  void complete(const std::vector<std::string>& words) const {
-    const ProgramResult result = zerocount_program(words, folder_.path());
+  void complete(const std::vector<std::string>& arguments) const {
+    const ProgramResult result = zerocount_program(arguments, folder_.path());
     ASSERT_EQ(result.code, 0) << result.err;
   }
 
@@ -72,7 +72,7 @@ class FailingCalls : public ::testing::Test {
                                          "FAIL_ERROR=" + fault.error,
                                          "FAIL_COUNT=" + (counts_ / "count").string()};
     if (fault.lasting) environment.emplace_back("FAIL_LASTING=1");
-    return zerocount_program(writer.words, folder_.path(), environment);
+    return zerocount_program(writer.arguments, folder_.path(), environment);
   }
 
   /// Puts the outputs as they were before.
@@ -107,7 +107,7 @@ class FailingCalls : public ::testing::Test {
     if (result.code != 5) return;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_EQ(result.err.find("HDF5"), std::string::npos) << result.err;
-    const auto says = [&](const std::string& words) { return result.err.find(words) != std::string::npos; };
+    const auto says = [&](const std::string& phrase) { return result.err.find(phrase) != std::string::npos; };
     EXPECT_TRUE(says("study.yaml") ||
                 std::any_of(writer.outputs.begin(), writer.outputs.end(),
                             [&](const fs::path& output) { return says(output.begin()->string()); }))
@@ -121,7 +121,7 @@ class FailingCalls : public ::testing::Test {
                     [&](const std::string& output) { return fs::exists(folder_ / output); });
     if (!writer.resumes && !all_there) restore(writer);
     if (!writer.resumes && all_there) return;
-    const ProgramResult result = zerocount_program(writer.words, folder_.path());
+    const ProgramResult result = zerocount_program(writer.arguments, folder_.path());
     EXPECT_EQ(result.code, 0) << result.err;
     for (const std::string& output : writer.outputs) EXPECT_TRUE(is_right(output)) << output;
   }
@@ -134,8 +134,8 @@ class FailingCalls : public ::testing::Test {
     for (long at = 1; at <= count; at += step) {
       for (std::size_t way = 0; way < ways; ++way) {
         const Fault& fault = faults[(static_cast<std::size_t>(at / step) + way) % faults.size()];
-        SCOPED_TRACE(writer.words.front() + ", call " + std::to_string(at) + " of " + std::to_string(count) +
-                     ", error " + fault.error + (fault.lasting ? ", lasting" : ""));
+        SCOPED_TRACE(writer.arguments.front() + ", call " + std::to_string(at) + " of " +
+                     std::to_string(count) + ", error " + fault.error + (fault.lasting ? ", lasting" : ""));
         restore(writer);
         expect_nothing_wrong(writer, run_with(writer, calls, at, fault));
         if (at / step % 8 == 0) expect_next_attempt_ends_right(writer);

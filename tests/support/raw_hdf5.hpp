@@ -16,7 +16,7 @@ std::map<std::string, std::string> stored_datasets(const std::filesystem::path& 
 /// Names of the attributes of the root group.
 std::set<std::string> attribute_names(const std::filesystem::path& path);
 
-/// Changes an attribute of the root group, and seals the file anew.
+/// Changes an attribute of the root group, and writes its checksum trailer anew.
 void replace_attribute(const std::filesystem::path& path, const std::string& name, std::int64_t value);
 void replace_attribute(const std::filesystem::path& path, const std::string& name, const std::string& value);
 void remove_attribute(const std::filesystem::path& path, const std::string& name);
@@ -24,7 +24,7 @@ void remove_attribute(const std::filesystem::path& path, const std::string& name
 /// A file of the HDF5 format with nothing in it.
 void write_empty_hdf5(const std::filesystem::path& path);
 
-/// Takes the seal off the end of a file, so that it can be changed and sealed again.
+/// Takes the checksum trailer off the end of a file, so that it can be changed.
 void unseal(const std::filesystem::path& path);
 
 /// Where in the file the first chunk of a dataset is stored.

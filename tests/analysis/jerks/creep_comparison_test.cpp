@@ -25,9 +25,9 @@ TEST(CreepComparison, CreepAtConstantTorqueForetellsTheJerksOfFigure8) {
   EXPECT_EQ(comparison.unsteady, 0);
   const CreepAgreement agreement = agreement_of(comparison, sample_time);
   EXPECT_GT(agreement.ended, 50);
-  EXPECT_EQ(agreement.foretold, agreement.ended);
+  EXPECT_EQ(agreement.predicted, agreement.ended);
   EXPECT_EQ(agreement.lasting, 12);  // the last wait of each trial
-  EXPECT_EQ(agreement.lasting_foretold, 12);
+  EXPECT_EQ(agreement.lasting_predicted, 12);
   EXPECT_LT(agreement.median_deviation, sample_time);  // a jerk shows at the sample after the crossing
 }
 
@@ -53,7 +53,7 @@ TEST(CreepComparison, APredictionThatIsATenthOffIsNotForetold) {
   CreepComparison comparison = compare_with_creep(fig8(), 0, 12);
   for (CreepWait& wait : comparison.waits) wait.predicted = wait.since + 1.1 * (wait.predicted - wait.since);
   const CreepAgreement agreement = agreement_of(comparison, sample_time);
-  EXPECT_LT(agreement.foretold, agreement.ended / 2);
+  EXPECT_LT(agreement.predicted, agreement.ended / 2);
 }
 
 TEST(CreepComparison, HoldsAgainAfterEachMove) {
@@ -67,8 +67,8 @@ TEST(CreepComparison, HoldsAgainAfterEachMove) {
   }
   EXPECT_TRUE(later_move);
   EXPECT_TRUE(down);
-  EXPECT_EQ(agreement.foretold, agreement.ended);
-  EXPECT_EQ(agreement.lasting_foretold, agreement.lasting);
+  EXPECT_EQ(agreement.predicted, agreement.ended);
+  EXPECT_EQ(agreement.lasting_predicted, agreement.lasting);
 }
 
 TEST(CreepComparison, SaysWhyItDoesNotApply) {

@@ -102,7 +102,7 @@ TEST_F(Report, TheSettlingCurvesAreDistributionFunctionsInTheirBands) {
   const std::vector<double> all = file.measure("settling_time", file.rows());
   for (std::size_t row = 0; row < all.size(); ++row) times[labels[row / 40]].push_back(all[row]);
   const std::vector<double> at = column(data, "time");
-  const std::vector<double> share = column(data, "share");
+  const std::vector<double> proportion = column(data, "share");
   const std::vector<double> low = column(data, "low");
   const std::vector<double> high = column(data, "high");
   for (std::size_t i = 0; i < data.rows.size(); ++i) {
@@ -110,10 +110,10 @@ TEST_F(Report, TheSettlingCurvesAreDistributionFunctionsInTheirBands) {
     const auto arrived =
         std::count_if(settled.begin(), settled.end(), [&](double t) { return t <= at[i] + 1e-9; });
     if (at[i] > 0.0) {
-      EXPECT_NEAR(share[i], static_cast<double>(arrived) / 40.0, 1e-6);
+      EXPECT_NEAR(proportion[i], static_cast<double>(arrived) / 40.0, 1e-6);
     }
-    EXPECT_NEAR(low[i], std::max(0.0, share[i] - half_width), 2e-6);
-    EXPECT_NEAR(high[i], std::min(1.0, share[i] + half_width), 2e-6);
+    EXPECT_NEAR(low[i], std::max(0.0, proportion[i] - half_width), 2e-6);
+    EXPECT_NEAR(high[i], std::min(1.0, proportion[i] + half_width), 2e-6);
   }
 }
 
@@ -285,7 +285,7 @@ TEST(DependentTrials, MakeNoClaimOfAllAxes) {
                            "controller: {ki: 2.0e-5}\n", "controller: {ki: 9.45e-5}\n"}) {
     const ReportPage page = page_of(saltelli_manifest(more));
     const std::string& verdict = page.sections.front().html;
-    for (const char* claim : {"confidence", "at least", "at most", "bounds 0", "% bounds", "allowed for"})
+    for (const char* claim : {"confidence", "at least", "at most", "bounds 0", "% bounds", "account for"})
       EXPECT_EQ(verdict.find(claim), std::string::npos) << claim << "\n" << verdict;
     EXPECT_NE(verdict.find("no statement about all axes"), std::string::npos) << verdict;
     EXPECT_NE(verdict.find("are not independent"), std::string::npos) << verdict;
@@ -314,8 +314,8 @@ TEST(DependentTrials, HaveEveryBoundCalledTooNarrowButThoseOfTheIndices) {
       with_bounds += bounds;
       EXPECT_EQ(times_in(figure.caption, "are too narrow here"), bounds && !own ? 1U : 0U) << figure.name;
       EXPECT_EQ(times_in(figure.specification.dump(), "too narrow") > 0, bounds && !own) << figure.name;
-      EXPECT_EQ(times_in(figure.caption, "differ by more than chance"), 0U);
-      EXPECT_EQ(times_in(figure.caption, "bands hold"), 0U);
+      EXPECT_EQ(times_in(figure.caption, "differ significantly"), 0U);
+      EXPECT_EQ(times_in(figure.caption, "bands contain"), 0U);
     }
   }
   EXPECT_GE(with_bounds, 3U);

@@ -96,8 +96,9 @@ INSTANTIATE_TEST_SUITE_P(
             "controller: {anti_windup: klamp}",
             "m.yaml:6:27: controller.anti_windup: 'klamp' is none of its words; expected one of clamp, none"},
         Case{"design: random",
-             "m.yaml:6:9: design: 'random' is no design; expected monte_carlo, latin_hypercube, sobol or "
-             "saltelli"},
+             "m.yaml:6:9: design: 'random' is none of its words; expected one of monte_carlo, "
+             "latin_hypercube, "
+             "sobol, saltelli"},
         Case{"independent_points: 1",
              "m.yaml:6:21: independent_points: '1' is not a truth value; expected true or false"},
         Case{"independent_points: \"true\"",
@@ -292,7 +293,8 @@ INSTANTIATE_TEST_SUITE_P(
              "m.yaml:6:29: friction.k1.triangular: the mode 5 is outside of 1 to 3; expected low <= mode <= "
              "high"},
         Case{"friction: {k1: {truncated_normal: {mean: 0, sd: 1, low: 20, high: 30}}}",
-             "m.yaml:6:35: friction.k1.truncated_normal: only the share 2.75e-89 of the normal distribution "
+             "m.yaml:6:35: friction.k1.truncated_normal: only the proportion 2.75e-89 of the normal "
+             "distribution "
              "lies between "
              "low and high; expected at least 1e-12"},
         Case{"friction: {k1: {choice: []}}",

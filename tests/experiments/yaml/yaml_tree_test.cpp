@@ -99,8 +99,8 @@ TEST(YamlTree, RefusesExponentialAliases) {
 
 TEST(YamlTree, RefusesDeepNesting) {
   const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
-  EXPECT_EQ(problem_with(nested(deepest_nesting)), "");
-  EXPECT_NE(problem_with(nested(deepest_nesting + 1)).find("the nesting is too deep"), std::string::npos);
+  EXPECT_EQ(problem_with(nested(max_nesting)), "");
+  EXPECT_NE(problem_with(nested(max_nesting + 1)).find("the nesting is too deep"), std::string::npos);
   EXPECT_NE(problem_with(nested(300000)).find("m.yaml:1:"), std::string::npos);
 }
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "results/reading/study_file.hpp"
-#include "results/storage/seal.hpp"
+#include "results/storage/checksum_trailer.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/results/walk.hpp"
@@ -44,8 +44,8 @@ TEST_F(DamagedFile, OfAnotherFormatIsSaidToBe) {
   write_bytes(directory / "empty.h5", "");
   expect_bad(directory / "empty.h5", "not in the HDF5 format");
   write_empty_hdf5(directory / "foreign.h5");
-  expect_bad(directory / "foreign.h5", "the seal at its end is missing");
-  seal(directory / "foreign.h5");
+  expect_bad(directory / "foreign.h5", "the checksum at its end is missing");
+  append_checksum(directory / "foreign.h5");
   expect_bad(directory / "foreign.h5", "foreign.h5: not a results file of zerocount");
   replace_attribute(copy("format.h5"), "format", std::string("else"));
   expect_bad(directory / "format.h5", "format.h5: its format is 'else'; expected 'zerocount-study'");
@@ -82,7 +82,7 @@ TEST_F(DamagedFile, WhoseAttributesContradictTheContentsIsFound) {
 TEST_F(DamagedFile, ThatAnotherProgramChangedIsRefused) {
   const fs::path path = copy("changed.h5");
   replace_attribute(path, "name", std::string("changed"));
-  read_everything(path);  // sealed anew
+  read_everything(path);  // with a new checksum trailer
   std::string bytes = read_bytes(path);
   bytes[bytes.size() - 5] ^= 1;
   write_bytes(path, bytes);
@@ -100,7 +100,7 @@ TEST_F(DamagedFile, WithOneFlippedBitOfAColumnFailsItsChecksums) {
     write_bytes(path, damaged);
     expect_bad(path, "changed since it was written, or damaged");
     unseal(path);
-    seal(path);
+    append_checksum(path);
     expect_bad(path, column);
     expect_bad(path, "their checksum is wrong");
   }

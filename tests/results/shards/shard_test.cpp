@@ -87,7 +87,7 @@ TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
   using Kind = ShardProblem::Kind;
   struct Expected {
     std::string file;
-    std::string words;
+    std::string phrase;
     Kind kind;
   };
   const std::vector<Expected> expected{
@@ -95,14 +95,14 @@ TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
       {"earlier.h5", "run by zerocount 0.0.9", Kind::foreign},
       {"newer.h5", "newer.h5: its format version is 99, newer", Kind::foreign},
       {"other.h5", "of another study", Kind::foreign},
-      {"short.h5", "seal at its end is missing", Kind::damaged},
+      {"short.h5", "checksum at its end is missing", Kind::damaged},
       {"text.h5", "not in the HDF5 format", Kind::damaged},
       {"unmarked.h5", "never finished", Kind::damaged}};
   ASSERT_EQ(survey.problems.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const ShardProblem& found = survey.problems[i];
     EXPECT_EQ(found.path.filename(), expected[i].file);
-    EXPECT_NE(found.problem.find(expected[i].words), std::string::npos) << found.problem;
+    EXPECT_NE(found.problem.find(expected[i].phrase), std::string::npos) << found.problem;
     EXPECT_NE(found.problem.find(expected[i].file), std::string::npos) << found.problem;
     EXPECT_EQ(found.kind, expected[i].kind) << found.problem;
   }

@@ -115,22 +115,20 @@ TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
   folder_.write("models.yaml", head + "command: {targets: [5]}\n" +
                                    "sweep: {grid: {friction.model: [coulomb, none, spring]}}\n");
   const std::string open = run({"check", "open.yaml"}).out;
-  EXPECT_NE(open.find("  point 0: all\n    the criteria are not about it: the loop is open\n"),
-            std::string::npos)
+  EXPECT_NE(open.find("  point 0: all\n    the criteria do not apply: the loop is open\n"), std::string::npos)
       << open;
   for (const char* bound : {"(6)", "(7)", "sampled loop", "DAC", "natural frequency", "N m/count"}) {
     EXPECT_EQ(open.find(bound), std::string::npos) << bound;
   }
   const std::string models = run({"check", "models.yaml"}).out;
-  EXPECT_NE(
-      models.find("  point 0: friction.model=coulomb\n"
-                  "    the criteria are not about it: friction.model coulomb has no spring before it "
-                  "slides\n"
-                  "  point 1: friction.model=none\n"
-                  "    the criteria are not about it: friction.model none has no spring, which criteria "
-                  "(6) and (7) are about\n"
-                  "    ki                            3.85e-05 N m/count: sampled loop unstable\n"),
-      std::string::npos)
+  EXPECT_NE(models.find("  point 0: friction.model=coulomb\n"
+                        "    the criteria do not apply: friction.model coulomb has no spring before it "
+                        "slides\n"
+                        "  point 1: friction.model=none\n"
+                        "    the criteria do not apply: friction.model none has no spring, which criteria "
+                        "(6) and (7) are about\n"
+                        "    ki                            3.85e-05 N m/count: sampled loop unstable\n"),
+            std::string::npos)
       << models;
   EXPECT_NE(models.find("  point 2: friction.model=spring\n    ki  "), std::string::npos) << models;
 }

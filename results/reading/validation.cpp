@@ -1,4 +1,4 @@
-#include "results/reading/sound_values.hpp"
+#include "results/reading/validation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ constexpr ValueRule<M> measure_rules[] = {
     {"reversal_depth", [](const M& m) { return m.reversal_depth >= 0; }, a_count},
     {"jerk_count", [](const M& m) { return m.jerk_count >= 0; }, a_count},
     {"jerk_agreement", [](const M& m) { return !(m.jerk_agreement < 0.0 || m.jerk_agreement > 1.0); },
-     "a share, or NaN"},
+     "a proportion, or NaN"},
 };
 
 /// Of two measures, and so of no use where only one is known.
@@ -128,7 +128,7 @@ void require_numbers(const hdf5::Dataset& dataset, std::int64_t rows, Expected e
 
 }  // namespace
 
-void require_sound_numbering(const FileHeader& header, const TableIo& trials, const TableIo& jerks) {
+void validate_numbering(const FileHeader& header, const TableIo& trials, const TableIo& jerks) {
   const RowRange rows = header.rows;
   const auto global = [&](std::int64_t row) { return rows.first + row; };
   require_numbers(trials.column(0), rows.count,
@@ -150,22 +150,21 @@ void require_sound_numbering(const FileHeader& header, const TableIo& trials, co
   }
 }
 
-void require_sound_outcomes(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
-                            std::int64_t first_row, std::span<const MoveOutcome> moves) {
+void validate_outcomes(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
+                       std::int64_t first_row, std::span<const MoveOutcome> moves) {
   for (const ValueRule<M>& rule : measure_rules) require_sound(outcomes, fields, rule, first_row, moves);
   require_sound(outcomes, fields, arrival_rule, first_row, moves);
 }
 
-void require_sound_measure(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
-                           std::string_view name, std::int64_t first_row,
-                           std::span<const MoveOutcome> moves) {
+void validate_measure(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
+                      std::string_view name, std::int64_t first_row, std::span<const MoveOutcome> moves) {
   for (const ValueRule<M>& rule : measure_rules) {
     if (rule.column == name) require_sound(outcomes, fields, rule, first_row, moves);
   }
 }
 
-void require_sound_jerks(const TableIo& table, std::int64_t moves, std::int64_t first,
-                         std::span<const JerkRecord> jerks) {
+void validate_jerks(const TableIo& table, std::int64_t moves, std::int64_t first,
+                    std::span<const JerkRecord> jerks) {
   const std::vector<RecordField<J>>& fields = jerk_fields();
   const auto column = [&](std::string_view name) -> const hdf5::Dataset& {
     return table.column(place_of(fields, name));
@@ -186,8 +185,8 @@ void require_sound_jerks(const TableIo& table, std::int64_t moves, std::int64_t 
   }
 }
 
-void require_sound_rigs(const FileHeader& header, const TableIo& counts,
-                        std::span<const std::int64_t> success, std::span<const std::int64_t> trials) {
+void validate_rigs(const FileHeader& header, const TableIo& counts, std::span<const std::int64_t> success,
+                   std::span<const std::int64_t> trials) {
   const std::int64_t rigs = counts.width();
   if (counts.rows() != header.points || header.trials % rigs != 0) {
     counts.column(0).fail("its size differs from the points and rigs of the study");

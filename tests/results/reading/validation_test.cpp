@@ -7,7 +7,7 @@
 
 #include "results/hdf5/hdf5.hpp"
 #include "results/reading/study_file.hpp"
-#include "results/storage/seal.hpp"
+#include "results/storage/checksum_trailer.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/support/raw_hdf5.hpp"
@@ -26,7 +26,7 @@ void read_all(const fs::path& path) {
   file.require_sound_values();
 }
 
-/// Files with a seal and checksums that are right, and values that cannot be.
+/// Files with a checksum trailer and checksums that are right, and values that cannot be.
 class SoundValues : public ::testing::Test {
  protected:
   template <class Value>
@@ -36,7 +36,8 @@ class SoundValues : public ::testing::Test {
     column.write(row, 1, values.data());
   }
 
-  /// A copy of the sample whose `dataset` has `value` in its `row` (all moves of it), sealed anew.
+  /// A copy of the sample whose `dataset` has `value` in its `row` (all moves of it), with a new checksum
+  /// trailer.
   template <class Value>
   fs::path forged(const std::string& dataset, std::int64_t row, Value value) const {
     fs::path path = directory / "forged.h5";
@@ -45,7 +46,7 @@ class SoundValues : public ::testing::Test {
     hdf5::File file = hdf5::File::open_to_change(path);
     write_row(file.open_dataset(dataset), row, value);
     file.close();
-    seal(path);
+    append_checksum(path);
     return path;
   }
 

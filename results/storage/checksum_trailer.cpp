@@ -1,0 +1,73 @@
+#include "results/storage/checksum_trailer.hpp"
+
+#include <cerrno>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+#include "results/storage/durable_file.hpp"
+#include "results/storage/file_contents.hpp"
+#include "results/storage/file_descriptor.hpp"
+
+namespace zerocount {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view trailer_start = "zerocount-seal sha256 ";
+
+/// The checksum trailer of the next `length` bytes of the file. The file position is behind them afterwards.
+std::string trailer_of(const fs::path& path, const FileDescriptor& file, std::size_t length) {
+  return fmt::format("{}{}\n", trailer_start, hexadecimal(sha256_of(path, file, length)));
+}
+
+}  // namespace
+
+void append_checksum(const fs::path& path) {
+  const FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+  if (!file.valid()) fail_with(path, "open for writing", errno);
+  const std::string text = trailer_of(path, file, size_of_file(path, file));
+  write_all(path, file, text);
+  synchronise(path, file);
+}
+
+ChecksumState check_checksum(const fs::path& path) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.valid()) fail_with(path, "read", errno);
+  const std::size_t size = size_of_file(path, file);
+  std::string found(checksum_trailer_length, '\0');
+  std::string expected;
+  if (size > checksum_trailer_length) {
+    expected = trailer_of(path, file, size - checksum_trailer_length);
+    read_some(path, file, std::as_writable_bytes(std::span(found)));
+  }
+  if (!found.starts_with(trailer_start)) return ChecksumState::missing;
+  return found == expected ? ChecksumState::valid : ChecksumState::wrong;
+}
+
+void require_valid_checksum(const fs::path& path) {
+  switch (check_checksum(path)) {
+    case ChecksumState::valid:
+      return;
+    case ChecksumState::missing:
+      throw Failure(
+          ExitCode::bad_data,
+          fmt::format(
+              "{}: the checksum at its end is missing: it was changed since it was written, or damaged, "
+              "or is no results file of zerocount",
+              path.string()));
+    case ChecksumState::wrong:
+      throw Failure(
+          ExitCode::bad_data,
+          fmt::format("{}: changed since it was written, or damaged: the checksum at its end is not that "
+                      "of its contents",
+                      path.string()));
+  }
+}
+
+}  // namespace zerocount

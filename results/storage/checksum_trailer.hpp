@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+namespace zerocount {
+
+/// Length of the checksum trailer in bytes: the text "zerocount-seal sha256 ", 64 hexadecimal digits and a
+/// line feed.
+inline constexpr std::size_t checksum_trailer_length = 22 + 64 + 1;
+
+/// Appends the checksum trailer, the SHA-256 of all bytes before it, to a finished file and flushes the file
+/// to the disk. HDF5 reads the end of its data from its own header and ignores the trailer.
+///
+/// HDF5's own
+/// checksums do not cover texts and parts of the index, and the library can crash on a damaged file.
+/// Therefore the trailer is checked before the library opens a file.
+/// @throws Failure (machine_failed) with the path and the reason
+void append_checksum(const std::filesystem::path& path);
+
+enum class ChecksumState { valid, missing, wrong };
+
+/// Reads the whole file and compares it with its checksum trailer.
+/// @throws Failure (machine_failed) if the file cannot be read.
+ChecksumState check_checksum(const std::filesystem::path& path);
+
+/// Calls check_checksum() and throws unless the file is valid.
+/// @throws Failure: bad_data if the checksum trailer is missing or wrong, machine_failed if the file cannot
+/// be read.
+void require_valid_checksum(const std::filesystem::path& path);
+
+}  // namespace zerocount

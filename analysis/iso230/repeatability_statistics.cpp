@@ -60,9 +60,9 @@ std::span<const ValueStatisticField> value_statistic_fields() {
   return fields;
 }
 
-std::span<const ReportField<PointRepeatability>> point_repeatability_fields() {
+const std::vector<ReportField<PointRepeatability>>& point_repeatability_fields() {
   using P = const PointRepeatability&;
-  static constexpr std::array<ReportField<PointRepeatability>, 6> fields{{
+  static const std::vector<ReportField<PointRepeatability>> fields{
       {"", "trials", "1", "trials of the point", true, [](P p) { return to_double(p.trials); }},
       {"", "evaluated", "1", "trials without a nonfinite move, of which the values are", true,
        [](P p) { return to_double(p.evaluated); }},
@@ -75,7 +75,7 @@ std::span<const ReportField<PointRepeatability>> point_repeatability_fields() {
        false, [](P p) { return p.zero_bounds.low; }},
       {"", "zero_repeatability_rate_high", "1", "upper 95 % Clopper-Pearson bound of zero_repeatability_rate",
        false, [](P p) { return p.zero_bounds.high; }},
-  }};
+  };
   return fields;
 }
 

@@ -16,11 +16,13 @@ namespace zerocount {
 /// The statistics of all points as columns of the results file's /point: one for each of statistic_fields(),
 /// by flat_name.
 std::vector<PointColumn> point_columns(std::span<const PointSummary> points,
-                                       const StudyFeatures& features = {});
+                                       const StudyFeatures& features = {},
+                                       const MeasureTable& measures = measure_table());
 
 /// The levels of an open-loop study, of all its points, as the group /level of the results file: a column for
 /// each of level_fields(), by flat_name.
-StatisticTable level_table(std::span<const PointSummary> points);
+StatisticTable level_table(std::span<const PointSummary> points,
+                           const MeasureTable& measures = measure_table());
 
 /// A share of trials that the criteria foretell, as it is reported. The list of them is the one source of the
 /// names in the CSV summary and in the results file.

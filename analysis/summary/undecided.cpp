@@ -74,8 +74,8 @@ double advised_hold(std::vector<double>& needed) {
 
 /// A converter that clips keeps moves from their targets, too.
 std::string clipping_remark(const PointSummary& point) {
-  if (point.saturated == 0) return {};
-  return fmt::format("; the converter clipped in {} of {} trials", point.saturated, point.trials);
+  const std::int64_t clipped = point.of(&MoveOutcome::saturated).trials;
+  return clipped == 0 ? "" : fmt::format("; the converter clipped in {} of {} trials", clipped, point.trials);
 }
 
 }  // namespace

@@ -36,8 +36,9 @@ template <class Record>
 void add_values(CsvFile& csv, const std::vector<RecordField<Record>>& fields, const Record& record) {
   for (const RecordField<Record>& field : fields) {
     std::visit(
-        [&]<class Value>(Value Record::*member) {
-          const Value value = record.*member;
+        [&](auto member) {
+          const auto value = std::invoke(member, record);
+          using Value = std::remove_const_t<decltype(value)>;
           if constexpr (std::is_enum_v<Value>) {
             csv.add(word_of(field.column, static_cast<std::int64_t>(value)));
           } else if constexpr (std::is_same_v<Value, double>) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <type_traits>
 #include <variant>
 
@@ -23,7 +24,7 @@ std::vector<RecordField<TraceRecord>> columns_of(const TraceExtras& extras) {
 
 std::string value_text(const RecordField<TraceRecord>& field, const TraceRecord& record, bool json) {
   const auto text = [&](auto member) -> std::string {
-    const auto value = record.*member;
+    const auto value = std::invoke(member, record);
     using Value = std::remove_const_t<decltype(value)>;
     if constexpr (std::is_same_v<Value, double>) {
       return json && !std::isfinite(value) ? "null" : number_text(value);
@@ -42,7 +43,7 @@ nlohmann::ordered_json outcome_json(const MoveOutcome& outcome,
   nlohmann::ordered_json object;
   for (const RecordField<MoveOutcome>& field : measures) {
     const auto put = [&](auto member) {
-      const auto value = outcome.*member;
+      const auto value = std::invoke(member, outcome);
       using Value = std::remove_const_t<decltype(value)>;
       if constexpr (std::is_same_v<Value, double>) {
         object[field.column.name] =

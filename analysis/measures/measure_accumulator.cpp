@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "core/trial/divergence.hpp"
 #include "experiments/designs/random_key.hpp"
-#include "results/layout/fields.hpp"
 
 namespace zerocount {
 namespace {
@@ -24,14 +24,6 @@ bool needs_every_value(const Measure& measure) {
 /// Whether results of this version hold the measure, or its value is known all the same.
 bool is_known(const Measure& measure, std::int64_t version) {
   return measure.file.since <= version || !std::isnan(measure.file.before);
-}
-
-/// NaN where the move has no value.
-double counted_value(const Measure& measure, const MoveOutcome& move) {
-  if (!was_run(move) || (measure.values.needs_motion && move.outcome == Outcome::nonfinite))
-    return MeasureStatistics::unknown;
-  const double value = value_of(measure.field, move);
-  return measure.values.magnitude ? std::abs(value) : value;
 }
 
 }  // namespace
@@ -59,14 +51,8 @@ MeasureAccumulator::MeasureAccumulator(const Measure& measure, const MoveKind& k
 
 void MeasureAccumulator::add_quality(std::span<const MoveOutcome> moves) {
   by_move_.resize(moves.size());
-  std::size_t having = 0;
-  for (std::size_t i = 0; i < moves.size(); ++i) {
-    const bool has = has_quality(*measure_, moves[i]);
-    by_move_[i] += has;
-    having += has;
-  }
-  hits_[static_cast<std::size_t>(trials_) % hits_.size()] +=
-      measure_->of_trial == OfTrial::all ? having == moves.size() : having > 0;
+  for (std::size_t i = 0; i < moves.size(); ++i) by_move_[i] += has_quality(*measure_, moves[i]);
+  hits_[static_cast<std::size_t>(trials_) % hits_.size()] += value_of_trial(*measure_, moves) > 0.0;
 }
 
 /// Adds values_ with so many that are later than any.
@@ -85,9 +71,7 @@ void MeasureAccumulator::add(std::span<const MoveOutcome> moves) {
   if (is_quality(*measure_)) {
     add_quality(moves);
   } else if (measure_->of_trial == OfTrial::sum) {
-    double sum = 0.0;
-    for (const MoveOutcome& move : moves) sum += value_of(measure_->field, move);
-    values_.push_back(sum);
+    values_.push_back(value_of_trial(*measure_, moves));
     add_clusters(1);
   } else if (!(counted.needs_target && kind_.open_loop)) {
     const bool known = is_known(*measure_, kind_.version);

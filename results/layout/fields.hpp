@@ -53,6 +53,12 @@ double value_of(const RecordField<Record>& field, const Record& record) {
                     field.member);
 }
 
+/// Whether the field is a function of the others: it is written, and worked out again when it is read.
+template <class Record>
+bool is_computed(const RecordField<Record>& field) {
+  return std::holds_alternative<double (*)(const Record&)>(field.member);
+}
+
 /// One column of `records` as the bytes of its elements.
 template <class Record>
 std::vector<std::byte> gather(const RecordField<Record>& field, std::span<const Record> records) {

@@ -179,11 +179,15 @@ std::vector<double> StudyFile::measure(std::string_view name, RowRange range) co
                                    [name](const auto& one) { return one.column.name == name; });
   if (column == measures_.end()) return std::vector<double>(size, known->file.before);
   std::vector<MoveOutcome> moves(size);
-  std::vector<std::byte> bytes(size * size_of(field.column.element));
-  outcomes_.column(static_cast<std::size_t>(column - measures_.begin()))
-      .read(first, range.count, bytes.data());
-  scatter(field, bytes, std::span(moves));
-  require_sound_measure(outcomes_, measures_, name, range.first, moves);
+  if (is_computed(field)) {
+    moves = outcomes(range);
+  } else {
+    std::vector<std::byte> bytes(size * size_of(field.column.element));
+    outcomes_.column(static_cast<std::size_t>(column - measures_.begin()))
+        .read(first, range.count, bytes.data());
+    scatter(field, bytes, std::span(moves));
+    require_sound_measure(outcomes_, measures_, name, range.first, moves);
+  }
   std::vector<double> values(size);
   std::transform(moves.begin(), moves.end(), values.begin(),
                  [&](const MoveOutcome& move) { return value_of(field, move); });

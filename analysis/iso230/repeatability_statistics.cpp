@@ -11,20 +11,6 @@ namespace {
 
 constexpr double no_rank = std::numeric_limits<double>::quiet_NaN();
 
-/// The value of a rank from 1; NaN outside.
-double at_rank(std::span<const double> sorted, std::int64_t rank) {
-  if (rank < 1 || rank > std::ssize(sorted)) return no_rank;
-  return sorted[static_cast<std::size_t>(rank - 1)];
-}
-
-/// As quantile() of a Tally.
-Quantile sorted_quantile(std::span<const double> sorted, double probability, double confidence) {
-  const std::int64_t n = std::ssize(sorted);
-  const RankBounds bounds = quantile_rank_bounds(n, probability, confidence);
-  return {at_rank(sorted, quantile_rank(n, probability)), at_rank(sorted, bounds.low),
-          at_rank(sorted, bounds.high)};
-}
-
 }  // namespace
 
 ValueStatistics statistics_of(std::vector<double> values, double confidence) {
@@ -33,8 +19,10 @@ ValueStatistics statistics_of(std::vector<double> values, double confidence) {
   std::sort(values.begin(), values.end());
   ValueStatistics result;
   result.n = std::ssize(values);
-  result.median = sorted_quantile(values, 0.5, confidence);
-  result.p95 = sorted_quantile(values, 0.95, confidence);
+  Tally<double> tally;
+  for (const double value : values) tally.add(value);
+  result.median = quantile(tally, 0.5, confidence);
+  result.p95 = quantile(tally, 0.95, confidence);
   if (values.empty()) return result;
   result.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   result.max = values.back();

@@ -10,15 +10,16 @@
 
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/statistics/mean_bounds.hpp"
 #include "core/trial/divergence.hpp"
 #include "experiments/designs/random_key.hpp"
 
 namespace zerocount {
 namespace {
 
-bool needs_every_value(const Measure& measure) {
-  return measure.of_trial == OfTrial::sum || reports(measure.point, Statistic::median) ||
-         reports(measure.point, Statistic::p95);
+bool needs_every_value(const Measure& measure, const ReportedStatistics& reported) {
+  return measure.of_trial == OfTrial::sum || reports(reported, Statistic::median) ||
+         reports(reported, Statistic::p95);
 }
 
 /// Whether results of this version hold the measure, or its value is known all the same.
@@ -28,24 +29,12 @@ bool is_known(const Measure& measure, std::int64_t version) {
 
 }  // namespace
 
-MeasureStatistics statistics_of(const MomentsOfMeasure& values) {
-  const Moments& moments = values.moments;
-  MeasureStatistics result;
-  result.n = result.moves = moments.n;
-  result.nonfinite = moments.nonfinite;
-  result.trials = values.above_zero;
-  result.mean = moments.mean;
-  result.sd = moments.sd();
-  result.rms = moments.rms();
-  result.min = moments.min;
-  result.max = moments.max;
-  return result;
-}
-
-MeasureAccumulator::MeasureAccumulator(const Measure& measure, const MoveKind& kind)
+MeasureAccumulator::MeasureAccumulator(const Measure& measure, const ReportedStatistics& reported,
+                                       const MoveKind& kind)
     : measure_(&measure),
+      reported_(&reported),
       kind_(kind),
-      in_clusters_(needs_every_value(measure)),
+      in_clusters_(needs_every_value(measure, reported)),
       clusters_(kind.rigs),
       hits_(static_cast<std::size_t>(std::max<std::int64_t>(kind.rigs, 1))) {}
 
@@ -57,7 +46,7 @@ void MeasureAccumulator::add_quality(std::span<const MoveOutcome> moves) {
 
 /// Adds values_ with so many that are later than any.
 void MeasureAccumulator::add_clusters(std::int64_t size) {
-  if (reports(measure_->point, Statistic::bootstrap_low)) {
+  if (reports(*reported_, Statistic::bootstrap_low)) {
     totals_.add(kind_.rigs > 0 ? trials_ % kind_.rigs : trials_,
                 std::accumulate(values_.begin(), values_.end(), 0.0), static_cast<double>(values_.size()));
   }
@@ -65,7 +54,7 @@ void MeasureAccumulator::add_clusters(std::int64_t size) {
 }
 
 void MeasureAccumulator::add(std::span<const MoveOutcome> moves) {
-  if (measure_->point.texts.empty()) return;
+  if (reported_->texts.empty()) return;
   values_.clear();
   const CountedValues& counted = measure_->values;
   if (is_quality(*measure_)) {
@@ -101,20 +90,28 @@ RateWithBounds MeasureAccumulator::rate(double confidence) const {
 }
 
 MeasureStatistics MeasureAccumulator::statistics(const StatisticsOptions& options) const {
-  const ReportedStatistics& reported = measure_->point;
-  MeasureStatistics result = statistics_of(moments_);
+  MeasureStatistics result;
+  result.n = result.moves = moments_.n;
+  result.nonfinite = moments_.nonfinite;
+  result.mean = moments_.mean;
+  result.sd = moments_.sd();
+  result.rms = moments_.rms();
+  result.min = moments_.min;
+  result.max = moments_.max;
+  if (reports(*reported_, Statistic::student_low))
+    result.mean_bounds = student_t(moments_, options.confidence);
   if (is_quality(*measure_)) {
     result.trials = std::accumulate(hits_.begin(), hits_.end(), std::int64_t{0});
     result.by_move = by_move_;
-    if (reports(reported, Statistic::rate)) result.rate = rate(options.confidence);
+    if (reports(*reported_, Statistic::rate)) result.rate = rate(options.confidence);
   }
   if (!in_clusters_) return result;
 
   const ClusteredSample sample = clusters_.sample();
   const Tally<double>& values = sample.observed();
   const auto quantile = [&](Statistic statistic, double probability) {
-    return reports(reported, statistic) ? clustered_quantile(sample, probability, options.confidence)
-                                        : MeasureStatistics::no_quantile;
+    return reports(*reported_, statistic) ? clustered_quantile(sample, probability, options.confidence)
+                                          : MeasureStatistics::no_quantile;
   };
   result.n = values.size;
   result.moves = sample.size();
@@ -129,7 +126,7 @@ MeasureStatistics MeasureAccumulator::statistics(const StatisticsOptions& option
   result.median = quantile(Statistic::median, 0.5);
   result.p75 = quantile(Statistic::p75, 0.75);
   result.p95 = quantile(Statistic::p95, 0.95);
-  if (options.bootstrap && trials_ > 0 && !kind_.open_loop && reports(reported, Statistic::bootstrap_low)) {
+  if (options.bootstrap && trials_ > 0 && !kind_.open_loop && reports(*reported_, Statistic::bootstrap_low)) {
     const std::string name = fmt::format("bootstrap/{}.mean", measure_->field.column.name);
     const RandomStream stream{random_key(options.bootstrap->seed, name), options.bootstrap->stream};
     result.mean_bounds = measure_->of_trial == OfTrial::sum

@@ -19,18 +19,6 @@ struct MoveKind {
   std::int64_t rigs{0};  ///< that the trials run on, trial i on rig i mod rigs; 0: no trials share one
 };
 
-/// Finite values with their moments.
-struct MomentsOfMeasure {
-  Moments moments;
-  std::int64_t above_zero{0};
-
-  void add(double value) {
-    moments.add(value);
-    above_zero += value > 0.0;
-  }
-};
-MeasureStatistics statistics_of(const MomentsOfMeasure& values);
-
 /// Takes one measure of the trials of a design point, one after the other, and gives its statistics. The
 /// trials of one rig and the moves of one trial are clusters: bounds allow for what they have in common.
 ///
@@ -38,8 +26,9 @@ MeasureStatistics statistics_of(const MomentsOfMeasure& values);
 /// their distinct values, not with the number of trials.
 class MeasureAccumulator {
  public:
-  /// @param measure stays as long as this.
-  MeasureAccumulator(const Measure& measure, const MoveKind& kind);
+  /// @param measure stays as long as this. @param reported of the measure: its statistics at a point, or at
+  /// a level.
+  MeasureAccumulator(const Measure& measure, const ReportedStatistics& reported, const MoveKind& kind);
 
   void add(std::span<const MoveOutcome> moves);
   MeasureStatistics statistics(const StatisticsOptions& options) const;
@@ -50,10 +39,11 @@ class MeasureAccumulator {
   RateWithBounds rate(double confidence) const;
 
   const Measure* measure_;
+  const ReportedStatistics* reported_;
   MoveKind kind_;
   bool in_clusters_;  ///< kept by their values; otherwise by their moments
   std::int64_t trials_{0};
-  MomentsOfMeasure moments_;
+  Moments moments_;
   TrialClusters clusters_;
   ClusterTotals totals_;
   std::vector<std::int64_t> by_move_;  ///< [move] trials whose move has the quality

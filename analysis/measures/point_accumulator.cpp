@@ -7,11 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/mean_bounds.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/sign.hpp"
 #include "core/trial/divergence.hpp"
-#include "results/layout/fields.hpp"
 
 namespace zerocount {
 namespace {
@@ -47,12 +45,19 @@ void require_kind(const MoveOutcome& move, bool open_loop) {
                                               : "a move with a torque level; expected one with a target");
 }
 
+std::vector<MeasureStatistics> statistics_of(const std::vector<MeasureAccumulator>& measures,
+                                             const StatisticsOptions& options) {
+  std::vector<MeasureStatistics> statistics;
+  for (const MeasureAccumulator& measure : measures) statistics.push_back(measure.statistics(options));
+  return statistics;
+}
+
 }  // namespace
 
 PointAccumulator::PointAccumulator(const MoveKind& kind, const MeasureTable& table)
     : kind_(kind), slowest_times_(kind.rigs) {
   counted_.table = &table;
-  for (const Measure& measure : table) measures_.emplace_back(measure, kind);
+  for (const Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
 }
 
 void PointAccumulator::add(const TrialOutcome& trial, std::span<const Jerk> jerks) {
@@ -76,12 +81,10 @@ void PointAccumulator::add(const TrialOutcome& trial, std::span<const Jerk> jerk
 
 void PointAccumulator::add_moves(const std::vector<MoveOutcome>& moves) {
   counted_.by_move.resize(moves.size());
-  if (kind_.open_loop) levels_.resize(moves.size(), std::vector<MomentsOfMeasure>(measures_.size()));
-  if (kind_.open_loop) counted_.levels.resize(moves.size());
   for (std::size_t i = 0; i < moves.size(); ++i) {
     require_kind(moves[i], kind_.open_loop);
     ++(counted_.by_move[i].*counter_of(moves[i].outcome));
-    if (kind_.open_loop) add_level(i, moves[i]);
+    if (kind_.open_loop) add_level(i, std::span(moves).subspan(i, 1));
   }
   counted_.moves += std::ssize(moves);
   ++(counted_.outcomes.*counter_of(worst_outcome(moves)));
@@ -91,14 +94,16 @@ void PointAccumulator::add_moves(const std::vector<MoveOutcome>& moves) {
   add_slowest_time(moves);
 }
 
-void PointAccumulator::add_level(std::size_t level, const MoveOutcome& move) {
-  if (move.outcome == Outcome::nonfinite) {
-    ++counted_.levels[level].nonfinite;
-    return;
+void PointAccumulator::add_level(std::size_t level, std::span<const MoveOutcome> move) {
+  if (level == levels_.size()) {
+    counted_.levels.emplace_back().table = counted_.table;
+    levels_.emplace_back();
+    for (const Measure& measure : *counted_.table) levels_[level].emplace_back(measure, measure.level, kind_);
   }
-  for (std::size_t row = 0; row < measures_.size(); ++row) {
-    const Measure& measure = (*counted_.table)[row];
-    if (!measure.level.texts.empty()) levels_[level][row].add(value_of(measure.field, move));
+  if (move.front().outcome == Outcome::nonfinite) {
+    ++counted_.levels[level].nonfinite;
+  } else {
+    for (MeasureAccumulator& measure : levels_[level]) measure.add(move);
   }
 }
 
@@ -165,25 +170,12 @@ SuccessClaim PointAccumulator::claim(const PointSummary& point, const Statistics
   return options.stopped_by_outcomes ? weaker_claim(on_rigs, at_any_time()) : on_rigs;
 }
 
-void PointAccumulator::finish_levels(PointSummary& point) const {
-  for (std::size_t i = 0; i < point.levels.size(); ++i) {
-    LevelStatistics& level = point.levels[i];
-    level.table = point.table;
-    level.measures.clear();
-    for (const MomentsOfMeasure& values : levels_[i]) {
-      level.measures.push_back(statistics_of(values));
-      level.measures.back().mean_bounds = student_t(values.moments, point.confidence);
-    }
-  }
-}
-
 PointSummary PointAccumulator::statistics(const StatisticsOptions& options) const {
   PointSummary result = counted_;
-  result.confidence = options.confidence;
   result.judged = kind_.open_loop ? 0 : result.trials;
-  result.measures.clear();
-  for (const MeasureAccumulator& measure : measures_) result.measures.push_back(measure.statistics(options));
-  finish_levels(result);
+  result.measures = statistics_of(measures_, options);
+  for (std::size_t i = 0; i < levels_.size(); ++i)
+    result.levels[i].measures = statistics_of(levels_[i], options);
   if (kind_.rigs > 0 && result.judged > 0) result.rigs = rig_statistics(rigs_, options.confidence);
   result.claim = claim(result, options);
   if (options.stopped_by_outcomes)

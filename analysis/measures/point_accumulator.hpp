@@ -36,19 +36,18 @@ class PointAccumulator {
 
  private:
   void add_moves(const std::vector<MoveOutcome>& moves);
-  void add_level(std::size_t level, const MoveOutcome& move);
+  void add_level(std::size_t level, std::span<const MoveOutcome> move);
   void add_to_rig(const std::vector<MoveOutcome>& moves);
   void add_slowest_time(const std::vector<MoveOutcome>& moves);
   void add_jerks(const MoveOutcome& move, std::span<const Jerk> jerks);
   SuccessClaim claim(const PointSummary& point, const StatisticsOptions& options) const;
-  void finish_levels(PointSummary& point) const;
 
   MoveKind kind_;
-  PointSummary counted_;                               ///< the fields that are plain counts
-  std::vector<MeasureAccumulator> measures_;           ///< [row of the table]
-  std::vector<std::vector<MomentsOfMeasure>> levels_;  ///< [move][row of the table]
-  std::vector<RigTrials> rigs_;                        ///< [rig], of those that have trials
-  TrialClusters slowest_times_;                        ///< of trials: of the move that took longest
+  PointSummary counted_;                                 ///< the fields that are plain counts
+  std::vector<MeasureAccumulator> measures_;             ///< [row of the table]
+  std::vector<std::vector<MeasureAccumulator>> levels_;  ///< [move][row of the table]
+  std::vector<RigTrials> rigs_;                          ///< [rig], of those that have trials
+  TrialClusters slowest_times_;                          ///< of trials: of the move that took longest
   std::int64_t jerks_{0};
   Tally<double> jerk_intervals_;
   RankTrend interval_trend_;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "analysis/measures/point_statistics.hpp"
-#include "analysis/measures/study_features.hpp"
 #include "analysis/measures/theory_prediction.hpp"
+#include "experiments/study/study_features.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount {

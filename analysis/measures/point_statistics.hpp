@@ -46,7 +46,6 @@ struct LevelStatistics : StatisticsOfMeasures {
 
 /// Everything that is reported of a design point.
 struct PointSummary : StatisticsOfMeasures {
-  double confidence{summary_confidence};  ///< of all bounds
   std::int64_t trials{0};
   std::int64_t moves{0};  ///< moves of all trials
   double hold{

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "analysis/measures/point_statistics.hpp"
-#include "analysis/measures/study_features.hpp"
 #include "analysis/text/report_field.hpp"
+#include "experiments/study/study_features.hpp"
 
 namespace zerocount {
 

@@ -11,8 +11,8 @@
 
 #include "analysis/iso230/repeatability_file.hpp"
 #include "analysis/measures/point_columns.hpp"
-#include "analysis/measures/study_features.hpp"
 #include "core/failure/failure.hpp"
+#include "experiments/study/study_features.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/measures/point_statistics.hpp"
-#include "analysis/measures/study_features.hpp"
 #include "analysis/measures/summary_section.hpp"
 #include "analysis/measures/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
+#include "experiments/study/study_features.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
 
 #include <fmt/format.h>
 
@@ -68,29 +67,13 @@ void add_outcomes(std::vector<TextColumn>& columns, const StudySummary& summary)
   }
 }
 
-bool is_used(ColumnUse use, const StudyFeatures& features) {
-  switch (use) {
-    case ColumnUse::always:
-      return true;
-    case ColumnUse::stopping:
-      return features.stopping;
-    case ColumnUse::travel:
-      return features.travel;
-    case ColumnUse::final_error:
-      return features.final_error;
-    case ColumnUse::phases:
-      return features.phases;
-    case ColumnUse::encoder_errors:
-      return features.encoder_errors;
-  }
-  return false;
-}
-
 /// The measures of the table that have columns in this summary.
 std::vector<const Measure*> shown_measures(const StudySummary& summary) {
   std::vector<const Measure*> shown = measures_of(
       summary.table(), ReportOrder::summary, [](const Measure& m) { return !m.summary.columns.empty(); });
-  std::erase_if(shown, [&](const Measure* m) { return !is_used(m->summary.use, summary.features); });
+  std::erase_if(shown, [&](const Measure* m) {
+    return m->summary.use != nullptr && !(summary.features.*m->summary.use);
+  });
   return shown;
 }
 
@@ -118,11 +101,11 @@ void add_measures(std::vector<TextColumn>& columns, const StudySummary& summary)
   }
 }
 
-/// What the columns mean that a study has for one of these uses.
-std::string legend_of(const StudySummary& summary, std::initializer_list<ColumnUse> uses) {
+/// What the columns mean of the measures that `belongs` picks.
+std::string legend_of(const StudySummary& summary, bool (*belongs)(const Measure&)) {
   std::string legend;
   for (const Measure* measure : shown_measures(summary)) {
-    if (std::count(uses.begin(), uses.end(), measure->summary.use) > 0) legend += measure->summary.legend;
+    if (belongs(*measure)) legend += measure->summary.legend;
   }
   return legend;
 }
@@ -181,7 +164,7 @@ std::string loop_legend(const StudySummary& summary) {
       "stable: share of trials whose moves all arrived and stayed within one count\n"
       "zero-count: share of trials whose moves all ended at zero error; bounds of it after " +
       std::string(features.rigs ? "Korn and Graubard" : "Clopper and Pearson") + ", in %\n" +
-      legend_of(summary, {ColumnUse::always});
+      legend_of(summary, [](const Measure& m) { return m.summary.use == nullptr; });
   if (features.rigs) legend += "rigs w/o failure: share of rigs all of whose trials ended at zero error\n";
   if (any_undecided(summary)) {
     legend +=
@@ -193,10 +176,9 @@ std::string loop_legend(const StudySummary& summary) {
         "unsettled: share of trials that ended within one count without being stable: a move had not arrived "
         "yet, hunts by\none count, or had left by more than one; all other trials oscillated\n";
   }
-  legend += legend_of(summary, {ColumnUse::stopping});
+  legend += legend_of(summary, is_quality);
   legend += design_line(summary) + "\n";
-  legend += legend_of(
-      summary, {ColumnUse::travel, ColumnUse::final_error, ColumnUse::phases, ColumnUse::encoder_errors});
+  legend += legend_of(summary, [](const Measure& m) { return m.summary.use != nullptr && !is_quality(m); });
   if (!summary.predictions.empty()) {
     legend +=
         "(6), (7): share of trials in which the paper's criterion (6) holds, which promises stability before "

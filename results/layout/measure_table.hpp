@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/trial/outcome.hpp"
+#include "experiments/study/study_features.hpp"
 #include "results/layout/layout.hpp"
 
 /// The table of the measures of a move. A measure is one row: its column in the results file with the valid
@@ -88,9 +89,6 @@ struct ReportedStatistics {
   std::string_view stem{};             ///< of names at the top, where it is not the measure's name
 };
 
-/// What a study must make use of for its summary to have the columns.
-enum class ColumnUse { always, stopping, travel, final_error, phases, encoder_errors };
-
 /// How the cell of a column is written.
 enum class CellText { number, settling_time, proportion_of_trials, proportion_of_moves };
 
@@ -102,7 +100,7 @@ struct SummaryColumn {
 
 /// The columns of a measure in the summary's table.
 struct SummaryColumns {
-  ColumnUse use{ColumnUse::always};
+  bool StudyFeatures::*use{nullptr};  ///< what a study must make use of to have them; null: nothing
   std::vector<SummaryColumn> columns{};
   std::string_view legend{};  ///< whole lines below the table
 };

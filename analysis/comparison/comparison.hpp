@@ -36,8 +36,8 @@ struct MeasureComparison {
   std::string test;            ///< that gave p
   std::int64_t baseline_n{0};  ///< trials with a value
   std::int64_t current_n{0};   ///< trials with a value; the number of pairs in both where they are paired
-  double baseline{unknown};    ///< share or mean
-  double current{unknown};     ///< share or mean
+  double baseline{unknown};    ///< proportion or mean
+  double current{unknown};     ///< proportion or mean
   double effect{unknown};      ///< how much worse the current file is
   ConfidenceInterval bounds{unknown, unknown};  ///< of the effect: each holds by itself with the confidence
   double margin{unknown};                       ///< effect that is still accepted

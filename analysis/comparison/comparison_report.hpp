@@ -33,7 +33,7 @@ std::string verdict_sentence(const StudyComparison& comparison);
 /// of some of it, or nothing is inconclusive.
 std::optional<double> trials_to_decide(const StudyComparison& comparison);
 
-/// A value of a measure or requirement with its unit: shares in per cent.
+/// A value of a measure or requirement with its unit: proportions in per cent.
 std::string value_text(double value, std::string_view quantity, std::string_view unit);
 
 /// A number of trials to two digits, rounded up.

@@ -10,7 +10,7 @@
 namespace zerocount {
 namespace {
 
-constexpr std::size_t most_rows = 60;
+constexpr std::size_t max_rows = 60;
 
 /// As the text of a Markdown table's cell.
 std::string cell(std::string_view text) {
@@ -34,7 +34,7 @@ std::string head_of(const StudyComparison& comparison) {
 std::string comparison_table(const StudyComparison& comparison) {
   std::vector<ComparisonRow> rows = comparison_rows(comparison);
   std::string omitted;
-  if (rows.size() > most_rows) {
+  if (rows.size() > max_rows) {
     const std::size_t all = rows.size();
     std::erase_if(rows, [](const ComparisonRow& row) { return !row.noteworthy; });
     omitted = fmt::format("({} rows that simply passed are not shown)\n", all - rows.size());

@@ -13,7 +13,7 @@ namespace {
 
 /// Probability with which the number of trials that would decide does decide.
 constexpr double planned_power = 0.8;
-constexpr double most_trials = 1e9;
+constexpr double max_trials = 1e9;
 
 std::vector<MeasureComparison*> tested_measures(std::span<PointComparison> points) {
   std::vector<MeasureComparison*> tested;
@@ -67,7 +67,7 @@ double times_to_decide(const MeasureComparison& measure, const GateRules& rules,
 std::optional<double> trials_to_decide(const MeasureComparison& measure, std::int64_t trials,
                                        const GateRules& rules, std::size_t tests) {
   const double needed = static_cast<double>(trials) * std::max(1.0, times_to_decide(measure, rules, tests));
-  if (!(needed < most_trials)) return std::nullopt;
+  if (!(needed < max_trials)) return std::nullopt;
   return std::ceil(needed) + 1.0;
 }
 

@@ -15,8 +15,8 @@ std::vector<RequirableQuantity> all_requirable() {
   std::vector<RequirableQuantity> quantities;
   for (const GateMeasure& measure : gate_measures()) {
     const std::string name(measure.name);
-    if (measure.share()) {
-      quantities.push_back({name, measure.unit, RequirementKind::share, measure});
+    if (measure.proportion()) {
+      quantities.push_back({name, measure.unit, RequirementKind::proportion, measure});
     } else if (measure.measure->of_trial == OfTrial::sum) {
       quantities.push_back({name, measure.unit, RequirementKind::mean, measure});
     } else {
@@ -33,9 +33,9 @@ std::vector<RequirableQuantity> all_requirable() {
 
 std::vector<GateMeasure> gate_measures(const MeasureTable& measures) {
   std::vector<GateMeasure> gated;
-  for (const bool share : {true, false}) {
+  for (const bool proportion : {true, false}) {
     for (const Measure& measure : measures) {
-      if (!measure.gate || is_quality(measure) != share) continue;
+      if (!measure.gate || is_quality(measure) != proportion) continue;
       gated.push_back({&measure,
                        measure.gate->name,
                        measure.field.column.unit,

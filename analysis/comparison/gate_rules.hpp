@@ -16,7 +16,7 @@ namespace zerocount {
 /// How much worse a measure may be: the larger of `absolute` and `relative` times the baseline's value.
 struct GateMargin {
   double absolute{0.0};   ///< in the measure's unit
-  double relative{0.0};   ///< share of the baseline's value
+  double relative{0.0};   ///< proportion of the baseline's value
   bool both_ways{false};  ///< a change for the better beyond the margin is a failure too
 };
 
@@ -28,7 +28,7 @@ struct GateMeasure {
   GateMargin margin;  ///< the default
 
   /// Judged by the proportion of trials with a quality; otherwise by a mean over trials.
-  bool share() const { return is_quality(*measure); }
+  bool proportion() const { return is_quality(*measure); }
 };
 
 /// Those of the table, in the order of the report: proportions before means.
@@ -38,9 +38,9 @@ std::vector<GateMeasure> gate_measures(const MeasureTable& measures = measure_ta
 std::optional<GateMeasure> find_gate_measure(std::string_view name);
 
 enum class RequirementKind {
-  share,     ///< of trials with the quality of a gate measure
-  quantile,  ///< over trials, of the worst of their moves
-  mean       ///< over trials, of a sum over their moves
+  proportion,  ///< of trials with the quality of a gate measure
+  quantile,    ///< over trials, of the worst of their moves
+  mean         ///< over trials, of a sum over their moves
 };
 
 /// What can be required of a file whatever the baseline says.

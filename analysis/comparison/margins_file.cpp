@@ -74,8 +74,8 @@ void read_margin_of(const Field& map, const YamlEntry& entry, std::map<std::stri
   const Field field = entry_of(map, entry);
   const std::optional<GateMargin> margin = read_margin(field, problems);
   if (!margin) return;
-  if (measure->share() && (margin->absolute >= 1.0 || margin->relative >= 1.0)) {
-    problems.add(field.node->place, field.path, "no share of trials can be worse by so much",
+  if (measure->proportion() && (margin->absolute >= 1.0 || margin->relative >= 1.0)) {
+    problems.add(field.node->place, field.path, "no proportion of trials can be worse by so much",
                  "less than 1, such as 0.02 for two percent points");
     return;
   }
@@ -113,11 +113,11 @@ std::optional<Requirement> read_requirement(const Field& field, Problems& proble
   if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(requirement.limit)) {
     return refuse(fmt::format("{} is not a number", in_quotes(number)), requirement_form);
   }
-  const bool share = requirement.quantity->kind == RequirementKind::share;
-  if (share && (requirement.limit < 0.0 || requirement.limit > 1.0)) {
-    return refuse(fmt::format("{} is no share", number), "a number from 0 to 1");
+  const bool proportion = requirement.quantity->kind == RequirementKind::proportion;
+  if (proportion && (requirement.limit < 0.0 || requirement.limit > 1.0)) {
+    return refuse(fmt::format("{} is no proportion", number), "a number from 0 to 1");
   }
-  if (!share && requirement.at_least) {
+  if (!proportion && requirement.at_least) {
     return refuse(fmt::format("a least {} is asked for", requirement.quantity->name), "≤ and a limit");
   }
   return requirement;
@@ -203,9 +203,9 @@ GateRules read_rules(const Field& top, std::span<const std::string> labels, Prob
 GateRules parse_gate_rules(const std::string& text, std::string_view source,
                            std::span<const std::string> labels) {
   Problems problems;
-  if (text.size() > largest_manifest) {
+  if (text.size() > max_manifest_size) {
     problems.add({source, 1, 1}, "margins", "the file is too large",
-                 fmt::format("at most {} bytes", largest_manifest));
+                 fmt::format("at most {} bytes", max_manifest_size));
     problems.raise_if_any();
   }
   const YamlPointer root = parse_yaml(text, source, false, problems);
@@ -220,7 +220,7 @@ GateRules parse_gate_rules(const std::string& text, std::string_view source,
 }
 
 GateRules read_gate_rules(const std::filesystem::path& path, std::span<const std::string> labels) {
-  return parse_gate_rules(read_text(path, largest_manifest, "margins in YAML"), name_of_text(path), labels);
+  return parse_gate_rules(read_text(path, max_manifest_size, "margins in YAML"), name_of_text(path), labels);
 }
 
 }  // namespace zerocount

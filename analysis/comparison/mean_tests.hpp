@@ -30,7 +30,7 @@ double p_of(const MeanDifference& difference);
 /// Bounds of the difference, each by itself with `confidence`, with what was not seen in mind: for each bound
 /// one more trial is counted, `unit` beyond the mean on the side of that bound. Where nearly all differences
 /// are 0 the spread that is seen says little; in n trials that all agree, the upper bound is so
-/// about 2.7·unit/n, where the rule of three has 3/n for the share of trials that might differ.
+/// about 2.7·unit/n, where the rule of three has 3/n for the proportion of trials that might differ.
 /// @param unit what one trial may well differ by, greater than 0
 ConfidenceInterval cautious_bounds(std::span<const double> differences, double unit, double confidence);
 ConfidenceInterval cautious_bounds(std::span<const double> baseline, std::span<const double> current,

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "analysis/comparison/mean_tests.hpp"
+#include "analysis/comparison/proportion_tests.hpp"
 #include "analysis/comparison/rank_tests.hpp"
-#include "analysis/comparison/share_tests.hpp"
 
 namespace zerocount {
 namespace {
@@ -205,7 +205,7 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
     MeasureComparison result;
     result.measure = measure.name;
     result.unit = measure.unit;
-    if (!measure.share()) {
+    if (!measure.proportion()) {
       compare_mean(result, measure, baseline, current, paired, rules.confidence);
     } else if (baseline.rigs > 0 || current.rigs > 0) {
       compare_share_over_rigs(result, measure, compared_failures(baseline, current, measure, paired), paired,

@@ -11,7 +11,7 @@
 namespace zerocount {
 
 /// Values that a mean must have, in both files, to be judged: fewer say nothing of a mean, and where so few
-/// trials arrive it is the share of arrivals that is compared.
+/// trials arrive it is the proportion of arrivals that is compared.
 inline constexpr std::int64_t least_values = 20;
 
 /// The tests of all judged measures at one point, without verdicts: the false discoveries are controlled over

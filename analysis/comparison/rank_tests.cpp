@@ -11,8 +11,8 @@
 namespace zerocount {
 namespace {
 
-constexpr std::size_t most_exact_ranks = 200;
-constexpr std::int64_t most_exact_lattice = 4'000'000;
+constexpr std::size_t max_exact_ranks = 200;
+constexpr std::int64_t max_exact_lattice = 4'000'000;
 
 /// Twice the mean ranks of the sizes of these differences, which are whole.
 struct DoubledRanks {
@@ -93,23 +93,23 @@ PooledGroups pooled_groups(std::span<const double> baseline, std::span<const dou
   return groups;
 }
 
-/// The share of the lattice paths to (n₁, n₂) that reach the excess at the end of a group.
-double share_of_paths(const PooledGroups& groups, std::int64_t n1, std::int64_t n2) {
-  std::vector<double> share(static_cast<std::size_t>(n2) + 1, 0.0);
+/// The proportion of the lattice paths to (n₁, n₂) that reach the excess at the end of a group.
+double proportion_of_paths(const PooledGroups& groups, std::int64_t n1, std::int64_t n2) {
+  std::vector<double> proportion(static_cast<std::size_t>(n2) + 1, 0.0);
   for (std::int64_t i = 0; i <= n1; ++i) {
     for (std::int64_t j = 0; j <= n2; ++j) {
-      double& here = share[static_cast<std::size_t>(j)];
+      double& here = proportion[static_cast<std::size_t>(j)];
       if (groups.ends[static_cast<std::size_t>(i + j)] && i * n2 - j * n1 >= groups.excess) {
         here = 1.0;
         continue;
       }
       const double all = static_cast<double>(i + j);
       const double below = i > 0 ? here * static_cast<double>(i) : 0.0;
-      const double left = j > 0 ? share[static_cast<std::size_t>(j - 1)] * static_cast<double>(j) : 0.0;
+      const double left = j > 0 ? proportion[static_cast<std::size_t>(j - 1)] * static_cast<double>(j) : 0.0;
       here = i + j > 0 ? (below + left) / all : 0.0;
     }
   }
-  return share.back();
+  return proportion.back();
 }
 
 }  // namespace
@@ -117,7 +117,7 @@ double share_of_paths(const PooledGroups& groups, std::int64_t n1, std::int64_t 
 double signed_rank(std::span<const double> differences) {
   const DoubledRanks doubled = doubled_ranks(differences);
   if (doubled.ranks.empty()) return 1.0;
-  return doubled.ranks.size() <= most_exact_ranks ? exact_tail(doubled) : normal_tail(doubled);
+  return doubled.ranks.size() <= max_exact_ranks ? exact_tail(doubled) : normal_tail(doubled);
 }
 
 double smirnov(std::span<const double> baseline, std::span<const double> current) {
@@ -126,7 +126,7 @@ double smirnov(std::span<const double> baseline, std::span<const double> current
   const auto n2 = static_cast<std::int64_t>(current.size());
   const PooledGroups groups = pooled_groups(baseline, current);
   if (groups.excess <= 0) return 1.0;
-  if (n1 <= most_exact_lattice / n2) return share_of_paths(groups, n1, n2);
+  if (n1 <= max_exact_lattice / n2) return proportion_of_paths(groups, n1, n2);
   const double product = static_cast<double>(n1) * static_cast<double>(n2);
   const double distance = static_cast<double>(groups.excess) / product;
   return std::exp(-2.0 * distance * distance * product / static_cast<double>(n1 + n2));

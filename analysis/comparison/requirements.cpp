@@ -12,10 +12,10 @@
 namespace zerocount {
 namespace {
 
-constexpr std::int64_t most_planned = 1'000'000'000;
+constexpr std::int64_t max_planned = 1'000'000'000;
 
 /// k of n, and the limit it is held against.
-struct ShareClaim {
+struct ProportionClaim {
   std::int64_t successes{0};
   std::int64_t trials{0};
   double limit{0.0};
@@ -50,7 +50,7 @@ std::optional<ClusterSums> sums_by_rig(const std::vector<double>& quality, std::
 }
 
 /// One-sided bounds: `low` with one confidence, `high` with another.
-ConfidenceInterval one_sided(const ShareClaim& claim, double low_confidence, double high_confidence) {
+ConfidenceInterval one_sided(const ProportionClaim& claim, double low_confidence, double high_confidence) {
   if (claim.by_rig) {
     return {clustered_at_least(*claim.by_rig, low_confidence),
             clustered_at_most(*claim.by_rig, high_confidence)};
@@ -59,7 +59,7 @@ ConfidenceInterval one_sided(const ShareClaim& claim, double low_confidence, dou
           clopper_pearson(claim.successes, claim.trials, 2.0 * high_confidence - 1.0).high};
 }
 
-ConfidenceInterval bounds_of(const ShareClaim& claim, double confidence, double failing) {
+ConfidenceInterval bounds_of(const ProportionClaim& claim, double confidence, double failing) {
   return claim.at_least ? one_sided(claim, confidence, failing) : one_sided(claim, failing, confidence);
 }
 
@@ -70,12 +70,12 @@ GateVerdict verdict_of(const ConfidenceInterval& bounds, double limit, bool at_l
   return contradicted ? GateVerdict::regression : GateVerdict::inconclusive;
 }
 
-/// The fewest trials that decide, if the share in them is the one that was seen.
-std::optional<double> trials_to_decide(const ShareClaim& claim, double confidence, double failing) {
-  const double share = rate(claim.successes, claim.trials);
+/// The fewest trials that decide, if the proportion in them is the one that was seen.
+std::optional<double> trials_to_decide(const ProportionClaim& claim, double confidence, double failing) {
+  const double proportion = rate(claim.successes, claim.trials);
   const auto decides = [&](std::int64_t trials) {
-    const auto successes = std::llround(share * static_cast<double>(trials));
-    ShareClaim more{successes, trials, claim.limit, claim.at_least};
+    const auto successes = std::llround(proportion * static_cast<double>(trials));
+    ProportionClaim more{successes, trials, claim.limit, claim.at_least};
     if (claim.by_rig) {
       more.by_rig = scaled(*claim.by_rig, static_cast<double>(trials) / static_cast<double>(claim.trials));
     }
@@ -84,11 +84,11 @@ std::optional<double> trials_to_decide(const ShareClaim& claim, double confidenc
   };
   std::int64_t few = claim.trials;
   std::int64_t enough = few;
-  while (enough < most_planned && !decides(enough)) {
+  while (enough < max_planned && !decides(enough)) {
     few = enough;
     enough *= 2;
   }
-  if (enough >= most_planned) return std::nullopt;
+  if (enough >= max_planned) return std::nullopt;
   while (enough - few > 1) {
     const std::int64_t middle = few + (enough - few) / 2;
     (decides(middle) ? enough : few) = middle;
@@ -96,7 +96,8 @@ std::optional<double> trials_to_decide(const ShareClaim& claim, double confidenc
   return static_cast<double>(enough);
 }
 
-void judge_share(RequirementResult& result, const ShareClaim& claim, double confidence, double failing) {
+void judge_proportion(RequirementResult& result, const ProportionClaim& claim, double confidence,
+                      double failing) {
   result.n = claim.trials;
   result.bounds = bounds_of(claim, confidence, failing);
   result.verdict = verdict_of(result.bounds, claim.limit, claim.at_least);
@@ -107,10 +108,10 @@ void judge_share(RequirementResult& result, const ShareClaim& claim, double conf
 
 void judge_quality(RequirementResult& result, const std::vector<double>& quality, std::int64_t rigs,
                    double confidence, double failing) {
-  const ShareClaim claim{std::count(quality.begin(), quality.end(), 1.0), std::ssize(quality), result.limit,
-                         result.at_least, sums_by_rig(quality, rigs)};
+  const ProportionClaim claim{std::count(quality.begin(), quality.end(), 1.0), std::ssize(quality),
+                              result.limit, result.at_least, sums_by_rig(quality, rigs)};
   result.value = rate(claim.successes, claim.trials);
-  judge_share(result, claim, confidence, failing);
+  judge_proportion(result, claim, confidence, failing);
 }
 
 void judge_quantile(RequirementResult& result, std::vector<double> times, std::int64_t rigs,
@@ -123,8 +124,8 @@ void judge_quantile(RequirementResult& result, std::vector<double> times, std::i
   const auto position = static_cast<std::size_t>(std::ceil(probability * n));
   result.value = times[std::max<std::size_t>(position, 1) - 1];
   const auto within = std::upper_bound(times.begin(), times.end(), result.limit) - times.begin();
-  judge_share(result, {within, std::ssize(times), probability, true, sums_by_rig(in_time, rigs)}, confidence,
-              failing);
+  judge_proportion(result, {within, std::ssize(times), probability, true, sums_by_rig(in_time, rigs)},
+                   confidence, failing);
 }
 
 void judge_mean(RequirementResult& result, const std::vector<double>& values, double confidence,
@@ -140,7 +141,7 @@ void judge_mean(RequirementResult& result, const std::vector<double>& values, do
       mean.value < result.limit ? result.bounds.high - mean.value : mean.value - result.bounds.low;
   const double times = reach / std::abs(result.limit - mean.value);
   const double needed = std::ceil(static_cast<double>(result.n) * times * times) + 1.0;
-  if (needed < static_cast<double>(most_planned)) result.trials_to_decide = needed;
+  if (needed < static_cast<double>(max_planned)) result.trials_to_decide = needed;
 }
 
 }  // namespace
@@ -155,7 +156,7 @@ RequirementResult judge_requirement(const Requirement& requirement, const PointT
   result.at_least = requirement.at_least;
   result.limit = requirement.limit;
   switch (quantity.kind) {
-    case RequirementKind::share:
+    case RequirementKind::proportion:
       judge_quality(result, trials.of(quantity.measure), trials.rigs, confidence, failing_confidence);
       break;
     case RequirementKind::quantile:

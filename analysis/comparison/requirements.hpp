@@ -14,9 +14,9 @@ namespace zerocount {
 /// it is inconclusive.
 ///
 /// Shares have Clopper–Pearson bounds. A quantile of the settling time (of the slowest move of each trial;
-/// infinite where one did not arrive) is judged as the share of trials that settle within the limit: q_p ≤ L
-/// holds where that share is at least p; its bounds are those of this share. The mean of the jerks has the
-/// bounds of cautious_bounds.
+/// infinite where one did not arrive) is judged as the proportion of trials that settle within the limit: q_p
+/// ≤ L holds where that share is at least p; its bounds are those of this proportion. The mean of the jerks
+/// has the bounds of cautious_bounds.
 RequirementResult judge_requirement(const Requirement& requirement, const PointTrials& trials,
                                     double confidence, double failing_confidence);
 

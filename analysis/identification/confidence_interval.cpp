@@ -37,7 +37,7 @@ FittedQuantity hardening_modulus(const ContactPoint& contact, double creep_torqu
   return quantity;
 }
 
-/// The value below which the share `probability` of the errors lies, between order statistics.
+/// The value below which the proportion `probability` of the errors lies, between order statistics.
 double quantile_of(std::vector<double>& errors, double probability) {
   std::sort(errors.begin(), errors.end());
   const double rank = probability * static_cast<double>(errors.size() + 1) - 1.0;
@@ -79,10 +79,10 @@ class ProfileLikelihood {
   /// it does not within `farthest`, or is not found.
   std::optional<double> end(double distance, double farthest) {
     const double target = distance * distance / variance_;
-    constexpr int most_tries = 10;
+    constexpr int max_tries = 10;
     constexpr double close_enough = 0.02;
     double at = distance;
-    for (int i = 0; i < most_tries; ++i) {
+    for (int i = 0; i < max_tries; ++i) {
       const double ratio = std::sqrt(std::max(squares_at(at) - least_, 0.0) / target);
       if (std::abs(ratio - 1.0) < close_enough) return at;
       at /= std::clamp(ratio, 0.4, 2.5);
@@ -95,7 +95,7 @@ class ProfileLikelihood {
   double squares_at(double change) {
     FitSetting setting = setting_;
     setting.free[coordinate_] = false;
-    setting.most_steps = 10;
+    setting.max_steps = 10;
     FitPoint start = start_;
     // Where another coordinate is open it would follow out of sight; the fit brings it after.
     constexpr double most = 1.0;

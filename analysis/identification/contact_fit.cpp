@@ -21,7 +21,7 @@ constexpr double least_noise = 1e-6;
 /// Variance of a reading in the first fit: that of a count's width.
 constexpr double first_variance = 1.0 / 12.0;
 
-constexpr int most_rounds = 6;
+constexpr int max_rounds = 6;
 
 /// Change of the fit, in textbook standard deviations, below which a further round is not worth its time.
 constexpr double small_change = 0.05;
@@ -122,7 +122,7 @@ FitPoint fit_roughly(std::span<const TestRecord> records, std::span<const Record
 
   // A few steps from each of the other starting points, and on from those that came nearest.
   std::vector<FitResult> tried;
-  rough.most_steps = 4;
+  rough.max_steps = 4;
   for (const ContactPoint& other :
        other_starting_points(records, parts, setting.prior, setting.creep_torque)) {
     for (std::size_t j = 0; j < coordinate_count; ++j) {
@@ -133,14 +133,14 @@ FitPoint fit_roughly(std::span<const TestRecord> records, std::span<const Record
   std::stable_sort(tried.begin(), tried.end(),
                    [](const FitResult& one, const FitResult& other) { return one.squares < other.squares; });
   constexpr std::size_t continued = 2;
-  rough.most_steps = 15;
+  rough.max_steps = 15;
   for (std::size_t i = 0; i < continued && !are_explained(records, best.point, setting); ++i) {
     rough.prior = tried[i].point.contact;
     const FitResult found = fit_jointly(records, observations, tried[i].point, rough);
     if (found.squares < best.squares) best = found;
   }
   if (are_explained(records, best.point, setting)) return best.point;
-  rough.most_steps = 50;
+  rough.max_steps = 50;
   rough.prior = best.point.contact;
   return fit_jointly(records, observations, best.point, rough).point;
 }
@@ -218,7 +218,7 @@ ContactFit fit_contact(std::span<const TestRecord> records, std::span<const Reco
   // less.
   constexpr double rough_tolerance = 1.5;
   refuse_unexplained(records, fit, rough_tolerance);
-  refine(records, point, most_rounds, fit);
+  refine(records, point, max_rounds, fit);
   refuse_glitches(records, fit.model.point, fit.setting);
   refuse_unexplained(records, fit, 1.0);
   return fit;
@@ -234,7 +234,7 @@ bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {
     for (const Coordinate coordinate : {log_beta, log_k2}) {
       other.setting.prior[coordinate] = point.contact[coordinate] += shift;
     }
-    other.setting.most_steps = 10;
+    other.setting.max_steps = 10;
     refine(records, point, 3, other);
     observe_again(records, other);
     if (spread(other) >= spread(fit)) continue;
@@ -242,8 +242,8 @@ bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {
     improved = true;
   }
   if (!improved) return false;
-  fit.setting.most_steps = first.setting.most_steps;
-  refine(records, fit.model.point, most_rounds, fit);
+  fit.setting.max_steps = first.setting.max_steps;
+  refine(records, fit.model.point, max_rounds, fit);
   return true;
 }
 

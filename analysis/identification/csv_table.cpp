@@ -13,8 +13,8 @@
 namespace zerocount {
 namespace {
 
-constexpr std::size_t most_faults_listed = 5;
-constexpr std::size_t largest_table = std::size_t{1} << 31;  // bytes
+constexpr std::size_t max_faults_listed = 5;
+constexpr std::size_t max_table_size = std::size_t{1} << 31;  // bytes
 
 /// Without blanks and quotation marks around it.
 std::string_view trimmed(std::string_view text) {
@@ -49,10 +49,10 @@ double number_of(std::string_view text) {
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& path)
-    : name_(name_of_text(path)), text_(read_text(path, largest_table, "a table")) {
-  if (text_.size() > largest_table) {
+    : name_(name_of_text(path)), text_(read_text(path, max_table_size, "a table")) {
+  if (text_.size() > max_table_size) {
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: the file is too large; expected at most {} bytes", name_, largest_table));
+                  fmt::format("{}: the file is too large; expected at most {} bytes", name_, max_table_size));
   }
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   std::size_t at = text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
@@ -140,7 +140,7 @@ std::vector<double> CsvTable::numbers(std::string_view column) const {
   for (std::size_t row = 0; row < rows(); ++row) {
     values.push_back(number_of(cell(row, at)));
     if (std::isfinite(values.back())) continue;
-    if (++fault_count > most_faults_listed) continue;
+    if (++fault_count > max_faults_listed) continue;
     const std::string text = printable(cell(row, at).substr(0, 40));
     faults.push_back(fmt::format("{}:{}: {}: {} is no finite number", name_, line(row), column,
                                  text.empty() ? "an empty cell" : "'" + text + "'"));

@@ -12,7 +12,7 @@
 namespace zerocount {
 namespace {
 
-/// The largest share of a record's travel that the model may leave unexplained.
+/// The largest proportion of a record's travel that the model may leave unexplained.
 constexpr double most_unexplained = 0.02;
 
 /// Beyond this factor of what is expected, the residuals leave nothing of the model to hold on to.

@@ -21,7 +21,7 @@ constexpr double fastest = 20.0;
 /// Creep may go much further down, until there is none: no simulation is the slower for that.
 constexpr double least_creep = 14.0;
 constexpr double least_exponent = 0.2;
-constexpr double most_exponent = 20.0;
+constexpr double max_exponent = 20.0;
 
 /// Ceres writes its log through glog, to standard error; what it has to say of a fit is in its summary. A
 /// broken condition inside it is still said, before the program ends.
@@ -93,7 +93,7 @@ class JointResiduals : public ceres::CostFunction {
       const double away = contact[j] - setting_.prior[j];
       if (!(away <= farthest && away >= (j == log_limit ? -least_creep : -farthest))) return false;
     }
-    return contact[creep_exponent] >= least_exponent && contact[creep_exponent] <= most_exponent;
+    return contact[creep_exponent] >= least_exponent && contact[creep_exponent] <= max_exponent;
   }
 
   void add_prior(const ContactPoint& contact, int row, double* residuals, double* by_contact,
@@ -142,10 +142,10 @@ FitResult fit_jointly(std::span<const TestRecord> records, const Observations& o
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = setting.most_steps;
+  options.max_num_iterations = setting.max_steps;
   options.function_tolerance = setting.tolerance;
   options.parameter_tolerance = 1e-9;
-  options.max_num_consecutive_invalid_steps = setting.most_steps;
+  options.max_num_consecutive_invalid_steps = setting.max_steps;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) return {start, std::numeric_limits<double>::infinity()};

@@ -28,7 +28,7 @@ struct FitSetting {
   ContactPoint prior;
   double prior_spread{3.0};
   double tolerance{1e-6};  ///< relative change of the sum of squares at which the fit ends
-  int most_steps{50};
+  int max_steps{50};
 };
 
 /// The observations of each record.

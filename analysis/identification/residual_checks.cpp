@@ -16,7 +16,7 @@ double spread_of(const ResidualStatistics& residuals) {
 
 /// Share of the replicates for which `extreme` holds, the record itself counted as one of them.
 template <class Extreme>
-double share(const std::vector<ResidualStatistics>& replicates, Extreme extreme) {
+double proportion(const std::vector<ResidualStatistics>& replicates, Extreme extreme) {
   const auto count = std::count_if(replicates.begin(), replicates.end(), extreme);
   return static_cast<double>(count + 1) / static_cast<double>(replicates.size() + 1);
 }
@@ -39,7 +39,7 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
                             static_cast<double>(residuals.observations) / count;
     checks.expected_correlation_length += replicate.correlation_length / count;
   }
-  checks.spread_chance = share(
+  checks.spread_chance = proportion(
       replicates, [&](const ResidualStatistics& replicate) { return spread_of(replicate) >= checks.spread; });
   const auto off = [&](const ResidualStatistics& statistics) {
     const double scale =
@@ -48,7 +48,7 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
   };
   const double off_here = off(residuals);
   checks.runs_chance =
-      share(replicates, [&](const ResidualStatistics& replicate) { return off(replicate) >= off_here; });
+      proportion(replicates, [&](const ResidualStatistics& replicate) { return off(replicate) >= off_here; });
   checks.passed = (checks.spread_chance >= least_chance && checks.runs_chance >= least_chance) ||
                   checks.spread < 0.5 * checks.expected_spread;
   if (checks.passed) return checks;

@@ -15,10 +15,10 @@ struct ResidualChecks {
   std::size_t observations{0};
   double spread{0.0};           ///< root mean square of residual/standard deviation
   double expected_spread{0.0};  ///< its mean over the made-up records
-  double spread_chance{1.0};    ///< share of the made-up records with as much or more
+  double spread_chance{1.0};    ///< proportion of the made-up records with as much or more
   double runs{0.0};             ///< stretches of residuals of one sign
   double expected_runs{0.0};
-  double runs_chance{1.0};         ///< share of the made-up records as far from expected_runs or farther
+  double runs_chance{1.0};         ///< proportion of the made-up records as far from expected_runs or farther
   double correlation_length{1.0};  ///< see ResidualStatistics
   double expected_correlation_length{1.0};
   /// Both chances are 1 % or more; or the spread is less than half of what is expected, where the course of

@@ -51,10 +51,10 @@ Line line_through(const Chord& chord, double from) {
   return {slope, (y - slope * x) / n};
 }
 
-/// The travel at which the chord has gained `share` of the line's intercept; `least` where that is less.
-double softening_travel(const Chord& chord, const Line& line, double share, double least) {
+/// The travel at which the chord has gained `proportion` of the line's intercept; `least` where that is less.
+double softening_travel(const Chord& chord, const Line& line, double proportion, double least) {
   for (std::size_t i = 0; i < chord.travel.size(); ++i) {
-    if (chord.torque[i] - line.slope * chord.travel[i] >= share * line.intercept) {
+    if (chord.torque[i] - line.slope * chord.travel[i] >= proportion * line.intercept) {
       return std::max(chord.travel[i], least);
     }
   }
@@ -107,8 +107,8 @@ SpringEstimate estimate_spring(std::span<const TestRecord> records, std::span<co
       slopes.push_back(line.slope);
       if (!(line.intercept > 0.0)) continue;
       offsets.push_back(line.intercept);
-      constexpr double share = 0.632;  // 1 − 1/e
-      rates.push_back(1.0 / softening_travel(chord, line, share, 0.5 * records[r].unit));
+      constexpr double proportion = 0.632;  // 1 − 1/e
+      rates.push_back(1.0 / softening_travel(chord, line, proportion, 0.5 * records[r].unit));
     }
   }
   if (slopes.empty()) return secant_estimate(records, parts);

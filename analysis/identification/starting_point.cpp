@@ -48,12 +48,12 @@ double misfit(const ChosenRecords& records, const ContactPoint& point, double cr
   return sum;
 }
 
-/// The best of the point and those that are `changes` away from it, if they leave less than `share` of what
-/// the point leaves.
+/// The best of the point and those that are `changes` away from it, if they leave less than `proportion` of
+/// what the point leaves.
 ContactPoint best_of(const ChosenRecords& records, const ContactPoint& point, double creep_torque,
-                     std::span<const ContactPoint> changes, double share = 1.0) {
+                     std::span<const ContactPoint> changes, double proportion = 1.0) {
   ContactPoint best = point;
-  double least = share * misfit(records, point, creep_torque);
+  double least = proportion * misfit(records, point, creep_torque);
   for (const ContactPoint& change : changes) {
     const ContactPoint tried = point + change;
     const double left = misfit(records, tried, creep_torque);
@@ -179,16 +179,16 @@ ContactPoint starting_point(std::span<const TestRecord> records, std::span<const
                             double creep_torque) {
   CreepEstimate creep = estimate_creep(records, parts, creep_torque);
   const bool seen = creep.limit > 0.0;
-  // Where no hold shows any there is none, or no hold. So much of it, as a share of the spring's travel, as
-  // the records bear best; a little to begin with.
+  // Where no hold shows any there is none, or no hold. So much of it, as a proportion of the spring's travel,
+  // as the records bear best; a little to begin with.
   const double travel = seen ? 0.0 : creep_torque / estimate_spring(records, parts, creep, creep_torque).k1;
   if (!seen) creep.limit = 1e-3 * travel;
   ContactPoint point = point_with_creep(records, parts, creep, creep_torque);
   if (seen) return with_best_ringing(records, parts, point, creep_torque);
 
   double least = misfit(all_of(records), point, creep_torque);
-  for (const double share : {0.1, 0.2, 0.3, 0.45, 0.7, 1.0, 1.5, 2.2, 3.3}) {
-    creep.limit = share * travel;
+  for (const double proportion : {0.1, 0.2, 0.3, 0.45, 0.7, 1.0, 1.5, 2.2, 3.3}) {
+    creep.limit = proportion * travel;
     const ContactPoint tried = point_with_creep(records, parts, creep, creep_torque);
     const double left = misfit(all_of(records), tried, creep_torque);
     if (left >= least) continue;

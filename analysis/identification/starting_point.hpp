@@ -44,7 +44,7 @@ SpringEstimate estimate_spring(std::span<const TestRecord> records, std::span<co
 struct FirstSwing {
   std::size_t peak{0};    ///< samples from the step to the first peak
   double travel{0.0};     ///< to where the rotor settles, in the direction of the step, rad
-  double overshoot{0.0};  ///< beyond that, as a share of the travel
+  double overshoot{0.0};  ///< beyond that, as a proportion of the travel
 };
 
 FirstSwing first_swing(const TestRecord& record, const TorqueHold& ring_down);

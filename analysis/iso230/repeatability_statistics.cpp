@@ -19,10 +19,10 @@ ValueStatistics statistics_of(std::vector<double> values, double confidence) {
   std::sort(values.begin(), values.end());
   ValueStatistics result;
   result.n = std::ssize(values);
-  Tally<double> tally;
-  for (const double value : values) tally.add(value);
-  result.median = quantile(tally, 0.5, confidence);
-  result.p95 = quantile(tally, 0.95, confidence);
+  Histogram<double> histogram;
+  for (const double value : values) histogram.add(value);
+  result.median = quantile(histogram, 0.5, confidence);
+  result.p95 = quantile(histogram, 0.95, confidence);
   if (values.empty()) return result;
   result.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   result.max = values.back();
@@ -57,8 +57,9 @@ const std::vector<ReportField<PointRepeatability>>& point_repeatability_fields()
       {"", "zero_repeatability", "1",
        "trials whose repeatability by the fine encoder is exactly 0, NaN of a single cycle", true,
        [](P p) { return p.zero_repeatability ? to_double(*p.zero_repeatability) : no_rank; }},
-      {"", "zero_repeatability_rate", "1", "zero_repeatability as a share of trials, NaN of a single cycle",
-       false, [](P p) { return p.zero_rate; }},
+      {"", "zero_repeatability_rate", "1",
+       "zero_repeatability as a proportion of trials, NaN of a single cycle", false,
+       [](P p) { return p.zero_rate; }},
       {"", "zero_repeatability_rate_low", "1", "lower 95 % Clopper-Pearson bound of zero_repeatability_rate",
        false, [](P p) { return p.zero_bounds.low; }},
       {"", "zero_repeatability_rate_high", "1", "upper 95 % Clopper-Pearson bound of zero_repeatability_rate",

@@ -191,7 +191,8 @@ constexpr std::string_view legend =
     "R: repeatability; B: reversal value; E: systematic deviation; M: mean bidirectional deviation; "
     "A: accuracy;\n"
     "x̄: mean deviation; ↑: approached from below; ↓: from above\n"
-    "zero: share of all trials whose repeatability by the encoder is exactly 0, the paper's 100 %; bounds "
+    "zero: proportion of all trials whose repeatability by the encoder is exactly 0, the paper's 100 %; "
+    "bounds "
     "after\n"
     "Clopper and Pearson, in %\n";
 

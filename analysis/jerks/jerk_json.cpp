@@ -46,17 +46,17 @@ Json slowing_json(const LaplaceSummary& slowing) {
           {"p_value", slowing.p_slowing}};
 }
 
-Json share_json(const ClusteredProportion& share) {
-  return {{"hits", share.hits},
-          {"jerks", share.events},
-          {"share", share.value},
-          {"share_low", share.korn_graubard.low},
-          {"share_high", share.korn_graubard.high},
-          {"independent", share.effective_events}};
+Json proportion_json(const ClusteredProportion& proportion) {
+  return {{"hits", proportion.hits},
+          {"jerks", proportion.events},
+          {"share", proportion.value},
+          {"share_low", proportion.korn_graubard.low},
+          {"share_high", proportion.korn_graubard.high},
+          {"independent", proportion.effective_events}};
 }
 
 Json magnitudes_json(const JerkMagnitudes& magnitudes) {
-  return {{"one_count", share_json(magnitudes.one_count)},
+  return {{"one_count", proportion_json(magnitudes.one_count)},
           {"counts", magnitudes.counts},
           {"mean", magnitudes.mean},
           {"max", magnitudes.max},
@@ -98,7 +98,7 @@ Json jerk_json(const JerkReport& report) {
                       {"rates", rates_json(jerks.rates)},
                       {"interval", intervals_json(jerks.intervals)},
                       {"slowing", slowing_json(jerks.slowing)},
-                      {"agreement", share_json(jerks.agreement)},
+                      {"agreement", proportion_json(jerks.agreement)},
                       {"magnitude", magnitudes_json(jerks.magnitudes)},
                       {"creep", creep_json(point.creep, point.creep_agreement)}});
   }

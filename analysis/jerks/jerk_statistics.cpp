@@ -114,7 +114,7 @@ class JerkCollector {
     magnitudes.longest_duration = largest(durations_);
     return result;
   }
-  const Tally<double>& intervals() const { return intervals_; }
+  const Histogram<double>& intervals() const { return intervals_; }
 
  private:
   void add_jerk(const ObservedMove& move, const SampledJerk& jerk) {
@@ -134,34 +134,35 @@ class JerkCollector {
   JerkRates rates_;
   LaplaceSum laplace_;
   EventSums agreeing_, one_count_;
-  Tally<double> intervals_, durations_;
-  Tally<std::int64_t> magnitudes_;
+  Histogram<double> intervals_, durations_;
+  Histogram<std::int64_t> magnitudes_;
   std::array<std::int64_t, magnitude_classes> magnitude_counts_{};
   std::int64_t last_with_jerks_{-1};
 };
 
 /// Of the intervals: order-statistic bounds for `independent` observations, whose ranks are taken to those of
 /// all n (Woodruff 1952).
-Quantile quantile_of_clusters(const Tally<double>& tally, double probability, double independent,
+Quantile quantile_of_clusters(const Histogram<double>& histogram, double probability, double independent,
                               double confidence) {
-  const double value = order_statistic(tally, quantile_rank(tally.size, probability));
+  const double value = order_statistic(histogram, quantile_rank(histogram.size, probability));
   const auto whole = std::max<std::int64_t>(1, static_cast<std::int64_t>(independent));
   const RankBounds ranks = quantile_rank_bounds(whole, probability, confidence);
-  const double scale = static_cast<double>(tally.size) / static_cast<double>(whole);
+  const double scale = static_cast<double>(histogram.size) / static_cast<double>(whole);
   const auto low = static_cast<std::int64_t>(std::floor(static_cast<double>(ranks.low) * scale));
   const auto high = static_cast<std::int64_t>(std::ceil(static_cast<double>(ranks.high) * scale));
-  return {value, order_statistic(tally, low), order_statistic(tally, ranks.high > whole ? 0 : high)};
+  return {value, order_statistic(histogram, low), order_statistic(histogram, ranks.high > whole ? 0 : high)};
 }
 
 /// The second pass: how much the intervals of a trial are alike.
-void add_interval_quantiles(JerkIntervals& intervals, const Tally<double>& tally, const StudyFile& file,
-                            const Study& study, std::int64_t point, double confidence) {
+void add_interval_quantiles(JerkIntervals& intervals, const Histogram<double>& histogram,
+                            const StudyFile& file, const Study& study, std::int64_t point,
+                            double confidence) {
   constexpr std::size_t count = std::size(jerk_interval_probabilities);
   std::array<double, count> values{};
   for (std::size_t q = 0; q < count; ++q)
-    values[q] = order_statistic(tally, quantile_rank(tally.size, jerk_interval_probabilities[q]));
+    values[q] = order_statistic(histogram, quantile_rank(histogram.size, jerk_interval_probabilities[q]));
   std::vector<EventSums> sums(count, EventSums(study.rigs > 0));
-  if (tally.size > 0) {
+  if (histogram.size > 0) {
     for_each_move(file, study, point, [&](const ObservedMove& move) {
       if (!move.arrived || move.lost) return;
       for (std::size_t i = 1; i < move.jerks.size(); ++i) {
@@ -174,7 +175,7 @@ void add_interval_quantiles(JerkIntervals& intervals, const Tally<double>& tally
     const double independent = adjusted_events(sums[q].sums(), 0.5 * (1.0 - confidence));
     intervals.independent.push_back(effective_events(sums[q].sums()));
     intervals.quantiles.push_back(
-        quantile_of_clusters(tally, jerk_interval_probabilities[q], independent, confidence));
+        quantile_of_clusters(histogram, jerk_interval_probabilities[q], independent, confidence));
   }
 }
 

@@ -32,9 +32,10 @@ std::string rate_table(const std::vector<JerkRate>& rates, const std::string& le
   return aligned_table(columns);
 }
 
-std::string share_text(const ClusteredProportion& share) {
-  return fmt::format("{} of {}, bounds [{:.1f}, {:.1f}] %", percentage(share.hits, share.events),
-                     share.events, 100.0 * share.korn_graubard.low, 100.0 * share.korn_graubard.high);
+std::string proportion_text(const ClusteredProportion& proportion) {
+  return fmt::format("{} of {}, bounds [{:.1f}, {:.1f}] %", percentage(proportion.hits, proportion.events),
+                     proportion.events, 100.0 * proportion.korn_graubard.low,
+                     100.0 * proportion.korn_graubard.high);
 }
 
 std::string intervals_text(const JerkIntervals& intervals) {
@@ -83,10 +84,10 @@ std::string point_text(const PointJerks& point, const std::string& level, AxisKi
   if (!jerks.rates.empty()) text += rate_table(jerks.rates, level) + "\n";
   text += intervals_text(jerks.intervals) + slowing_text(jerks.slowing, level);
   if (jerks.jerks > 0) {
-    text += text_on(axis,
-                    fmt::format("in the direction of the holding torque: {}\n", share_text(jerks.agreement)));
+    text += text_on(
+        axis, fmt::format("in the direction of the holding torque: {}\n", proportion_text(jerks.agreement)));
     text += fmt::format("of one count: {}; largest {} counts; median duration {} s\n",
-                        share_text(jerks.magnitudes.one_count), jerks.magnitudes.max,
+                        proportion_text(jerks.magnitudes.one_count), jerks.magnitudes.max,
                         short_number(jerks.magnitudes.median_duration));
   }
   return text + creep_text(point.creep, point.creep_agreement) + "\n";

@@ -108,7 +108,7 @@ MeasureStatistics MeasureAccumulator::statistics(const StatisticsOptions& option
   if (!in_clusters_) return result;
 
   const ClusteredSample sample = clusters_.sample();
-  const Tally<double>& values = sample.observed();
+  const Histogram<double>& values = sample.observed();
   const auto quantile = [&](Statistic statistic, double probability) {
     return reports(*reported_, statistic) ? clustered_quantile(sample, probability, options.confidence)
                                           : MeasureStatistics::no_quantile;

@@ -15,7 +15,7 @@ namespace zerocount {
 namespace {
 
 /// Onsets are whole multiples of the sample time. Their differences carry rounding errors that would make
-/// equal intervals differ, in a tally and in a comparison: to the picosecond they do not.
+/// equal intervals differ, in a histogram and in a comparison: to the picosecond they do not.
 double rounded_interval(double seconds) {
   return std::round(seconds * 1e12) / 1e12;
 }
@@ -182,7 +182,7 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
     result.rigs.tolerance = {};  // it takes a number of trials that was fixed beforehand
   result.settles_within = tolerance_limits(slowest_times_.sample(), options);
   result.jerk_interval = {jerk_intervals_.size, mean(jerk_intervals_), quantile(jerk_intervals_, 0.5).value};
-  result.jerk_slowing.share = rate(result.jerk_slowing.slowing, result.jerk_slowing.moves);
+  result.jerk_slowing.proportion = rate(result.jerk_slowing.slowing, result.jerk_slowing.moves);
   result.jerk_slowing.tau = kendall_tau(interval_trend_);
   result.jerk_agreement = rate(result.jerks_agreeing, jerks_);
   result.jerk_one_count_share = rate(one_count_jerks_, jerks_);

@@ -49,7 +49,7 @@ class PointAccumulator {
   std::vector<RigTrials> rigs_;                          ///< [rig], of those that have trials
   TrialClusters slowest_times_;                          ///< of trials: of the move that took longest
   std::int64_t jerks_{0};
-  Tally<double> jerk_intervals_;
+  Histogram<double> jerk_intervals_;
   RankTrend interval_trend_;
   std::int64_t one_count_jerks_{0};
   std::vector<double> values_;  ///< of the trial or move at hand; kept for its memory

@@ -28,11 +28,12 @@ const PointColumn& find_column(std::span<const PointColumn> columns, std::string
   return *found;
 }
 
-/// How many of `trials` are the share: a whole number, because shares are made by rate().
-std::int64_t trials_of_share(double share, std::int64_t trials, std::string_view name,
-                             const std::filesystem::path& file) {
-  if (!(share >= 0.0 && share <= 1.0)) fail(file, name, fmt::format("{} is no share of trials", share));
-  return std::llround(share * static_cast<double>(trials));
+/// How many of `trials` are the proportion: a whole number, because proportions are made by rate().
+std::int64_t trials_of_proportion(double proportion, std::int64_t trials, std::string_view name,
+                                  const std::filesystem::path& file) {
+  if (!(proportion >= 0.0 && proportion <= 1.0))
+    fail(file, name, fmt::format("{} is no proportion of trials", proportion));
+  return std::llround(proportion * static_cast<double>(trials));
 }
 
 }  // namespace
@@ -62,9 +63,9 @@ StatisticTable level_table(std::span<const PointSummary> points, const MeasureTa
 
 std::span<const PredictionField> prediction_fields() {
   static constexpr std::array<PredictionField, 2> fields{
-      {{"predicted_stable_share", "trials in which criterion (6) holds, as a share of trials",
+      {{"predicted_stable_share", "trials in which criterion (6) holds, as a proportion of trials",
         &TheoryPrediction::stable},
-       {"predicted_unstable_share", "trials in which criterion (7) is exceeded, as a share of trials",
+       {"predicted_unstable_share", "trials in which criterion (7) is exceeded, as a proportion of trials",
         &TheoryPrediction::unstable}}};
   return fields;
 }
@@ -85,13 +86,13 @@ std::vector<TheoryPrediction> predictions_of(std::span<const PointColumn> column
                                              const std::filesystem::path& file) {
   std::vector<TheoryPrediction> predictions;
   for (const PredictionField& field : prediction_fields()) {
-    const std::vector<double>& shares = find_column(columns, field.name, file).values;
-    predictions.resize(shares.size(), {trials, 0, 0, 0});
-    for (std::size_t point = 0; point < shares.size(); ++point) {
-      if (std::isnan(shares[point])) {
+    const std::vector<double>& proportions = find_column(columns, field.name, file).values;
+    predictions.resize(proportions.size(), {trials, 0, 0, 0});
+    for (std::size_t point = 0; point < proportions.size(); ++point) {
+      if (std::isnan(proportions[point])) {
         predictions[point].outside = trials;
       } else {
-        predictions[point].*field.trials = trials_of_share(shares[point], trials, field.name, file);
+        predictions[point].*field.trials = trials_of_proportion(proportions[point], trials, field.name, file);
       }
     }
   }

@@ -24,8 +24,8 @@ std::vector<PointColumn> point_columns(std::span<const PointSummary> points,
 StatisticTable level_table(std::span<const PointSummary> points,
                            const MeasureTable& measures = measure_table());
 
-/// A share of trials that the criteria foretell, as it is reported. The list of them is the one source of the
-/// names in the CSV summary and in the results file.
+/// A proportion of trials that the criteria foretell, as it is reported. The list of them is the one source
+/// of the names in the CSV summary and in the results file.
 struct PredictionField {
   std::string_view name;
   std::string_view long_name;              ///< what it is, with its denominator
@@ -35,12 +35,12 @@ struct PredictionField {
 /// Where (6) holds, and where (7) is exceeded.
 std::span<const PredictionField> prediction_fields();
 
-/// The shares of prediction_fields() as columns of /point, NaN where the criteria are about no trial.
+/// The proportions of prediction_fields() as columns of /point, NaN where the criteria are about no trial.
 std::vector<PointColumn> prediction_columns(std::span<const TheoryPrediction> predictions);
 
 /// The reverse of prediction_columns, [point]: the predictions behind the columns of those names, for points
 /// with `trials` trials each.
-/// @throws Failure (bad_data), with `file` in the message, where a column is missing or holds no shares.
+/// @throws Failure (bad_data), with `file` in the message, where a column is missing or holds no proportions.
 std::vector<TheoryPrediction> predictions_of(std::span<const PointColumn> columns, std::int64_t trials,
                                              const std::filesystem::path& file);
 

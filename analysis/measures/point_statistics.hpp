@@ -12,9 +12,9 @@
 #include "analysis/statistics/rig_statistics.hpp"
 #include "analysis/statistics/tolerance.hpp"
 
-/// What is reported of a design point. All bounds have the confidence of the summary. Every share and mean
-/// names what it is a share or mean of: "of trials" is of all trials of the point, "of moves" of all moves of
-/// all its trials. No trial is left out of either.
+/// What is reported of a design point. All bounds have the confidence of the summary. Every proportion and
+/// mean names what it is a proportion or mean of: "of trials" is of all trials of the point, "of moves" of
+/// all moves of all its trials. No trial is left out of either.
 namespace zerocount {
 
 /// Time between the onsets of successive jerks of a move, s.
@@ -30,10 +30,10 @@ struct JerkIntervalStatistics {
 /// the move slows down if S > 0, speeds up if S < 0. Jerks at random times would make both equally frequent,
 /// whatever the distribution of the intervals, and τ zero on average.
 struct JerkSlowing {
-  std::int64_t moves{0};                                   ///< moves with 3 jerks or more
-  std::int64_t slowing{0};                                 ///< of them, S > 0
-  std::int64_t quickening{0};                              ///< of them, S < 0
-  double share{std::numeric_limits<double>::quiet_NaN()};  ///< slowing / moves
+  std::int64_t moves{0};                                        ///< moves with 3 jerks or more
+  std::int64_t slowing{0};                                      ///< of them, S > 0
+  std::int64_t quickening{0};                                   ///< of them, S < 0
+  double proportion{std::numeric_limits<double>::quiet_NaN()};  ///< slowing / moves
   double tau{std::numeric_limits<double>::quiet_NaN()};  ///< Kendall's τ_a over the pairs of intervals within
                                                          ///< a move, all moves pooled
 };

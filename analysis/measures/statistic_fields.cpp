@@ -47,14 +47,14 @@ std::vector<StatisticField> jerk_statistic_fields() {
       {"jerk_slowing", "quickening", "1",
        "moves with 3 jerks or more whose intervals shrink (Mann-Kendall S < 0)", true,
        [](S s) { return to_double(s.jerk_slowing.quickening); }},
-      {"jerk_slowing", "share", "1", "slowing moves as a share of the moves with 3 jerks or more", false,
-       [](S s) { return s.jerk_slowing.share; }},
+      {"jerk_slowing", "share", "1", "slowing moves as a proportion of the moves with 3 jerks or more", false,
+       [](S s) { return s.jerk_slowing.proportion; }},
       {"jerk_slowing", "tau", "1",
        "Kendall's tau of jerk interval and its order, over the pairs within moves", false,
        [](S s) { return s.jerk_slowing.tau; }},
-      {"", "jerk_agreement", "1", "jerks in the direction of the holding torque as a share of all jerks",
+      {"", "jerk_agreement", "1", "jerks in the direction of the holding torque as a proportion of all jerks",
        false, [](S s) { return s.jerk_agreement; }},
-      {"", "jerk_one_count_share", "1", "jerks of one count as a share of all jerks", false,
+      {"", "jerk_one_count_share", "1", "jerks of one count as a proportion of all jerks", false,
        [](S s) { return s.jerk_one_count_share; }},
   };
 }

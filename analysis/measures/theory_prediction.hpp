@@ -36,12 +36,12 @@ struct TheoryPrediction {
   void add(const TrialPrediction& trial);
 };
 
-/// The trials that the shares are of: all, or none where the criteria are about none.
+/// The trials that the proportions are of: all, or none where the criteria are about none.
 std::int64_t predicted_trials(const TheoryPrediction& prediction);
 
 /// "stable" if (6) holds in every trial, "unstable" if (7) is exceeded in every trial, "unknown" without
-/// trials, "not applicable" where the criteria are about none of them, otherwise "undecided" with the shares
-/// of trials, such as "undecided: (6) holds in 12 %, (7) exceeded in 0 %".
+/// trials, "not applicable" where the criteria are about none of them, otherwise "undecided" with the
+/// proportions of trials, such as "undecided: (6) holds in 12 %, (7) exceeded in 0 %".
 std::string verdict(const TheoryPrediction& prediction);
 
 }  // namespace zerocount

@@ -17,7 +17,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t max_measures = 200;
-constexpr std::size_t most_bars = 60;
+constexpr std::size_t max_bars = 60;
 
 /// A measure at a point.
 struct ComparedMeasure {
@@ -119,7 +119,7 @@ Figure success_change(const StudyComparison& comparison, const std::vector<Compa
                    {"verdict", "verdict", ""},
                    {"margin", "margin", "percentage points"}}};
   for (const ComparedMeasure& one : measures) {
-    if (one.measure->measure != gate_measures().front().name || data.rows.size() == most_bars) continue;
+    if (one.measure->measure != gate_measures().front().name || data.rows.size() == max_bars) continue;
     data.rows.push_back(ordered_json::array(
         {one.point->label, datum(-100.0 * one.measure->effect), datum(-100.0 * one.measure->bounds.high),
          datum(-100.0 * one.measure->bounds.low), std::string(word_of(one.measure->verdict)),
@@ -130,9 +130,9 @@ Figure success_change(const StudyComparison& comparison, const std::vector<Compa
       "still accepted. A "
       "point whose bounds lie right of its tick is shown to be no worse than that. ",
       100.0 * comparison.confidence);
-  if (comparison.points.size() > most_bars)
+  if (comparison.points.size() > max_bars)
     caption +=
-        fmt::format("The {} of {} points with the gravest verdicts. ", most_bars, comparison.points.size());
+        fmt::format("The {} of {} points with the gravest verdicts. ", max_bars, comparison.points.size());
   Figure figure = figure_of("success-change", "success-change", "Success against the baseline", caption);
   set_rows(figure, data.rows.size(), 24);
   figure.data.push_back(std::move(data));

@@ -14,7 +14,7 @@
 namespace zerocount {
 namespace {
 
-constexpr std::int64_t most_trials = 200;
+constexpr std::int64_t max_trials = 200;
 constexpr int curve_points = 64;
 constexpr int search_steps = 48;
 constexpr int bisections = 40;
@@ -42,7 +42,7 @@ class CriterionTrials {
     set_x_ = parameter_table()[*x].set;
     set_y_ = parameter_table()[*y].set;
     if (set_x_ == nullptr || set_y_ == nullptr) return;
-    for (const std::int64_t index : spread_over(study.trials, most_trials)) {
+    for (const std::int64_t index : spread_over(study.trials, max_trials)) {
       TrialParameters parameters = study_trial_as_given(study, point, index).parameters;
       if (!predict(parameters).applies) continue;
       given_.push_back({parameters.encoder, parameters.controller});
@@ -82,11 +82,11 @@ class CriterionTrials {
   void (*set_y_)(TrialParameters&, double){nullptr};
 };
 
-double between(double low, double high, double share, bool by_ratio) {
-  return by_ratio ? low * std::pow(high / low, share) : low + share * (high - low);
+double between(double low, double high, double fraction, bool by_ratio) {
+  return by_ratio ? low * std::pow(high / low, fraction) : low + fraction * (high - low);
 }
 
-/// The lowest share in [0, 1] at which `excess` changes its sign, none where it does not.
+/// The lowest fraction in [0, 1] at which `excess` changes its sign, none where it does not.
 std::optional<double> crossing(const std::function<double(double)>& excess) {
   double low = 0.0;
   double at_low = excess(low);
@@ -112,12 +112,12 @@ std::vector<CurvePoint> curve(CriterionTrials& trials, const Criterion& criterio
   std::vector<CurvePoint> points;
   for (int i = 0; i < curve_points; ++i) {
     const double fixed = static_cast<double>(i) / (curve_points - 1);
-    const auto place = [&](double share) {
-      return CurvePoint{between(plane.x_low, plane.x_high, along_x ? share : fixed, plane.x_by_ratio),
-                        between(plane.y_low, plane.y_high, along_x ? fixed : share, plane.y_by_ratio)};
+    const auto place = [&](double fraction) {
+      return CurvePoint{between(plane.x_low, plane.x_high, along_x ? fraction : fixed, plane.x_by_ratio),
+                        between(plane.y_low, plane.y_high, along_x ? fixed : fraction, plane.y_by_ratio)};
     };
-    const std::optional<double> found = crossing([&](double share) {
-      const CurvePoint at = place(share);
+    const std::optional<double> found = crossing([&](double fraction) {
+      const CurvePoint at = place(fraction);
       return trials.gain_over_bound(criterion, at.x, at.y) - 1.0;
     });
     if (found) points.push_back(place(*found));

@@ -12,7 +12,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::int64_t max_moves = 50;
-constexpr std::int64_t most_jerks_of_a_row = 120;
+constexpr std::int64_t max_jerks_of_a_row = 120;
 
 /// A move with jerks.
 struct JerkingMove {
@@ -66,7 +66,7 @@ std::int64_t add_jerks(FigureData& data, const StudyFile& file, const JerkingMov
   std::int64_t added = 0;
   for (const JerkRecord& jerk : file.jerks({move.row, 1})) {
     if (jerk.move != move.move) continue;
-    if (added == most_jerks_of_a_row) {
+    if (added == max_jerks_of_a_row) {
       ++left_out;
       continue;
     }
@@ -106,7 +106,7 @@ Figure raster(const ReportedStudy& reported, std::int64_t point) {
   }
   if (left_out > 0) {
     caption += fmt::format("Of each move at most {} jerks are shown; {} later ones are left out. ",
-                           most_jerks_of_a_row, left_out);
+                           max_jerks_of_a_row, left_out);
   }
   Figure figure = figure_of("jerk-raster", "jerk-raster", "Jerks, move by move", caption);
   set_rows(figure, std::max<std::size_t>(moves.shown.size(), 12), 6);

@@ -84,7 +84,7 @@ std::string level_name(std::size_t level) {
   return fmt::format("{}", level + 1);
 }
 
-/// The ends of the torque levels; levels that end at the same place share a row.
+/// The ends of the torque levels; levels that end at the same place proportion a row.
 FigureData level_ends(const ReplayedTrial& trial, const char* field, const char* title, bool creep) {
   FigureData data{"levels", {{"levels", "levels", ""}, {field, title, "µrad"}, {"torque", "torque", "N m"}}};
   double reach = 0.0;

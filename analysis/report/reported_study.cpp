@@ -28,7 +28,7 @@ ConfidenceInterval success_bounds_of(const PointSummary& point, bool stopped_by_
   const ConfidenceInterval& fixed = point.success_rate().clopper_pearson;
   if (!stopped_by_outcomes) return fixed;
   const ConfidenceInterval stopped =
-      anytime_bounds(point.outcomes.zero_count, point.judged, summary_confidence);
+      confidence_sequence_bounds(point.outcomes.zero_count, point.judged, summary_confidence);
   if (point.rigs.n == 0) return stopped;
   return {std::min(stopped.low, fixed.low), std::max(stopped.high, fixed.high)};
 }
@@ -91,12 +91,12 @@ std::string axis_title(const SweepAxis& axis) {
   return fmt::format("{} ({})", axis.name, axis.unit);
 }
 
-std::string share_text(double share) {
-  if (share == 1.0) return "100 %";
-  const double distance = std::min(share, 1.0 - share);
+std::string proportion_text(double proportion) {
+  if (proportion == 1.0) return "100 %";
+  const double distance = std::min(proportion, 1.0 - proportion);
   const int digits =
       distance > 0.0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(distance))) - 1, 1, 9) : 0;
-  return fmt::format("{:.{}f} %", 100.0 * share, digits);
+  return fmt::format("{:.{}f} %", 100.0 * proportion, digits);
 }
 
 }  // namespace zerocount

@@ -58,7 +58,7 @@ std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t most);
 /// "controller.ki (N m/count)".
 std::string axis_title(const SweepAxis& axis);
 
-/// A share as a percentage, with as many digits as keep it apart from 100 %; only 1 is "100 %".
-std::string share_text(double share);
+/// A proportion as a percentage, with as many digits as keep it apart from 100 %; only 1 is "100 %".
+std::string proportion_text(double proportion);
 
 }  // namespace zerocount

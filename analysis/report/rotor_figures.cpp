@@ -11,9 +11,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t most_profiles = 4;
+constexpr std::int64_t max_profiles = 4;
 constexpr std::int64_t profile_points = 512;
-constexpr std::int64_t most_failures = 250;
+constexpr std::int64_t max_failures = 250;
 
 const char* word_of(Outcome outcome) {
   switch (outcome) {
@@ -86,8 +86,9 @@ double value_at(const StoredProfile& profile, double angle, double period) {
   const double size = static_cast<double>(profile.value.size());
   const double place = angle / period * size;
   const auto before = static_cast<std::size_t>(place) % profile.value.size();
-  const double share = place - std::floor(place);
-  return (1.0 - share) * profile.value[before] + share * profile.value[(before + 1) % profile.value.size()];
+  const double fraction = place - std::floor(place);
+  return (1.0 - fraction) * profile.value[before] +
+         fraction * profile.value[(before + 1) % profile.value.size()];
 }
 
 FigureData profile_data(const StoredProfile& profile) {
@@ -160,7 +161,8 @@ std::string caption_of(const ReportedStudy& reported, const std::string& paramet
   caption += failed ? fmt::format("The marks are trials of {} that failed, where they ended. ", trials)
                     : fmt::format("No trial of {} failed. ", trials);
   return caption +
-         "Below, the share of trials that succeeded in each part of the rotor, with 95 % Clopper-Pearson "
+         "Below, the proportion of trials that succeeded in each part of the rotor, with 95 % "
+         "Clopper-Pearson "
          "bounds. Where success follows the line, the lowest value decides, as the paper's practical issue 1 "
          "has it of k1.";
 }
@@ -182,15 +184,15 @@ Figure rotor_figure(const ReportedStudy& reported, const StoredProfile& stored, 
                      {"theta", "rotor angle at the end", "rad"},
                      {"value", profile.name, profile.unit},
                      {"outcome", "outcome", ""}}};
-  for (const std::int64_t i : spread_over(std::ssize(failures), most_failures)) {
+  for (const std::int64_t i : spread_over(std::ssize(failures), max_failures)) {
     const EndOnRotor& end = failures[static_cast<std::size_t>(i)];
     trials.rows.push_back(ordered_json::array(
         {end.trial, datum(end.angle), datum(value_at(profile, end.angle, period)), word_of(end.outcome)}));
   }
   const std::string parameter = profile.name.substr(0, profile.name.find('@'));
   std::string caption = caption_of(reported, parameter, shown, !failures.empty());
-  if (std::ssize(failures) > most_failures) {
-    caption += fmt::format(" {} of {} failures are shown, an even spread.", most_failures, failures.size());
+  if (std::ssize(failures) > max_failures) {
+    caption += fmt::format(" {} of {} failures are shown, an even spread.", max_failures, failures.size());
   }
   Figure figure = figure_of(
       "rotor", fmt::format("rotor-{}", profile.name),
@@ -213,7 +215,7 @@ std::vector<Figure> rotor_figures(const ReportedStudy& reported) {
   const std::optional<std::size_t> column = position_column(reported.file);
   if (reported.study.open_loop || !column || !reported.file.has_profiles()) return figures;
   const std::vector<StoredProfile> profiles = reported.file.profiles();
-  for (const std::int64_t i : spread_over(std::ssize(profiles), most_profiles))
+  for (const std::int64_t i : spread_over(std::ssize(profiles), max_profiles))
     figures.push_back(rotor_figure(reported, profiles[static_cast<std::size_t>(i)], *column));
   return figures;
 }

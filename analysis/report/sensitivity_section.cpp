@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t most_factors = 12;
+constexpr std::size_t max_factors = 12;
 
 void add_index(FigureData& data, const FactorSensitivity& factor, const char* index,
                const BoundedNumber& number) {
@@ -23,7 +23,7 @@ void add_index(FigureData& data, const FactorSensitivity& factor, const char* in
 }
 
 /// "settling time" for "settling_time".
-std::string words_of(std::string name) {
+std::string label_text(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
@@ -35,7 +35,7 @@ Figure figure_for(const OutputSensitivity& output, const std::string& label, boo
                    {"value", "value", "1"},
                    {"low", "lower 95 % bound", "1"},
                    {"high", "upper 95 % bound", "1"}}};
-  const std::size_t shown = std::min(most_factors, output.factors.size());
+  const std::size_t shown = std::min(max_factors, output.factors.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const FactorSensitivity& factor = output.factors[i];
     add_index(data, factor, "first order: alone", factor.first_order);
@@ -45,7 +45,7 @@ Figure figure_for(const OutputSensitivity& output, const std::string& label, boo
       "Share of the variance of {} at point {} that each random parameter explains, strongest first, with 95 "
       "% bounds. "
       "What has bounds that exclude zero matters; what has not, need not be known better. ",
-      words_of(output.output), label);
+      label_text(output.output), label);
   if (total)
     caption +=
         "A total index well above the first-order one means that the parameter acts together with others. ";
@@ -53,7 +53,7 @@ Figure figure_for(const OutputSensitivity& output, const std::string& label, boo
     caption += fmt::format("Shown are {} of {}. ", shown, output.factors.size());
   for (const std::string& note : output.notes) caption += note + (note.ends_with('.') ? " " : ". ");
   Figure figure = figure_of("sensitivity", "sensitivity-" + output.output,
-                            "What decides " + words_of(output.output), caption);
+                            "What decides " + label_text(output.output), caption);
   if (!total) figure.specification["encoding"]["color"]["legend"] = nullptr;
   set_rows(figure, shown, 28);
   figure.data.push_back(std::move(data));

@@ -12,8 +12,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t most_curves = 6;
-constexpr std::int64_t most_steps = 160;  ///< of a curve
+constexpr std::int64_t max_curves = 6;
+constexpr std::int64_t max_steps = 160;  ///< of a curve
 
 /// Half width of the band that holds a whole distribution function with the confidence of summaries:
 /// √(ln(2M/α)/2n) for n independent clusters (trials, or rigs) of M moves each, which are not independent of
@@ -31,8 +31,8 @@ double band_of(const ReportedStudy& reported, const PointSummary& point) {
   return band(clusters, point.moves / clusters);
 }
 
-Tally<double> settling_times(const ReportedStudy& reported, std::int64_t point) {
-  Tally<double> times;
+Histogram<double> settling_times(const ReportedStudy& reported, std::int64_t point) {
+  Histogram<double> times;
   visit_trials(reported.file, rows_of(reported, point),
                [&](std::int64_t, std::span<const MoveOutcome> moves) {
                  for (const MoveOutcome& move : moves) {
@@ -50,25 +50,25 @@ std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
     if (points[i].of(&MoveOutcome::settling_time).n > 0)
       with_arrivals.push_back(static_cast<std::int64_t>(i));
   }
-  if (std::ssize(with_arrivals) <= most_curves) return with_arrivals;
+  if (std::ssize(with_arrivals) <= max_curves) return with_arrivals;
   std::stable_sort(with_arrivals.begin(), with_arrivals.end(), [&](std::int64_t a, std::int64_t b) {
     return points[static_cast<std::size_t>(a)].of(&MoveOutcome::settling_time).n >
            points[static_cast<std::size_t>(b)].of(&MoveOutcome::settling_time).n;
   });
   std::vector<std::int64_t> shown;
-  for (const std::int64_t i : spread_over(std::ssize(with_arrivals), most_curves))
+  for (const std::int64_t i : spread_over(std::ssize(with_arrivals), max_curves))
     shown.push_back(with_arrivals[static_cast<std::size_t>(i)]);
   std::sort(shown.begin(), shown.end());
   return shown;
 }
 
-void add_curve(FigureData& data, const std::string& label, const Tally<double>& times, std::int64_t moves,
+void add_curve(FigureData& data, const std::string& label, const Histogram<double>& times, std::int64_t moves,
                double half_width, double end) {
   const auto row = [&](double time, std::int64_t arrived) {
-    const double share = static_cast<double>(arrived) / static_cast<double>(moves);
-    data.rows.push_back(
-        ordered_json::array({label, datum(time), datum(share), datum(std::max(0.0, share - half_width)),
-                             datum(std::min(1.0, share + half_width))}));
+    const double proportion = static_cast<double>(arrived) / static_cast<double>(moves);
+    data.rows.push_back(ordered_json::array({label, datum(time), datum(proportion),
+                                             datum(std::max(0.0, proportion - half_width)),
+                                             datum(std::min(1.0, proportion + half_width))}));
   };
   row(0.0, 0);
   std::int64_t arrived = 0;
@@ -76,7 +76,7 @@ void add_curve(FigureData& data, const std::string& label, const Tally<double>& 
   for (const auto& [time, count] : times.counts) {
     arrived += count;
     const bool last = arrived == times.size;
-    if (last || (arrived - shown) * most_steps >= times.size) {
+    if (last || (arrived - shown) * max_steps >= times.size) {
       row(time, arrived);
       shown = arrived;
     }
@@ -116,7 +116,7 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   FigureData data{"steps",
                   {{"label", "point", ""},
                    {"time", "settled within", "s"},
-                   {"share", "share of moves", "1"},
+                   {"share", "proportion of moves", "1"},
                    {"low", "lower 95 % bound", "1"},
                    {"high", "upper 95 % bound", "1"}}};
   double end = 0.0;

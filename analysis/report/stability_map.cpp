@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t most_maps = 4;
+constexpr std::int64_t max_maps = 4;
 
 /// The cells of the values of an axis: from half-way to the value before to half-way to the next one. Those
 /// at the ends reach no further than their values.
@@ -118,7 +118,7 @@ Figure map_of(const ReportedStudy& reported, const PointGroup& group, std::size_
               const SweepAxis& y) {
   FigureData curves = curves_of(reported, group, x, y);
   std::string caption =
-      "Each cell is a design point, its colour the share of the trials that end at zero counts. ";
+      "Each cell is a design point, its colour the proportion of the trials that end at zero counts. ";
   if (!curves.rows.empty()) {
     caption +=
         "The lines are the paper's criteria, (6) white and (7) orange, for the first of the trials to meet "
@@ -153,7 +153,7 @@ std::vector<Figure> stability_maps(const ReportedStudy& reported) {
       std::find_if(axes.begin(), axes.end(), [&](std::size_t i) { return all[i].name == "controller.ki"; });
   if (gain != axes.end()) std::rotate(axes.begin(), gain, gain + 1);
   const std::vector<PointGroup> groups = groups_along(reported, {axes[0], axes[1]});
-  for (const std::int64_t group : spread_over(std::ssize(groups), most_maps)) {
+  for (const std::int64_t group : spread_over(std::ssize(groups), max_maps)) {
     maps.push_back(
         map_of(reported, groups[static_cast<std::size_t>(group)], maps.size(), all[axes[0]], all[axes[1]]));
   }

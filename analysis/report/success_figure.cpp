@@ -12,8 +12,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t most_lines = 60;  ///< points that have a line of their own
-constexpr std::int64_t most_series = 8;  ///< as many as there are colours
+constexpr std::int64_t max_lines = 60;  ///< points that have a line of their own
+constexpr std::int64_t max_series = 8;  ///< as many as there are colours
 
 std::string bounds_note(const ReportedStudy& reported) {
   return fmt::format("95 % {}, each point by itself. All trials of a point count, whatever became of them.",
@@ -40,13 +40,13 @@ std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
   const auto& points = reported.summary.points;
   std::vector<std::int64_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int64_t>(i);
-  if (std::ssize(order) <= most_lines) return order;
+  if (std::ssize(order) <= max_lines) return order;
   std::stable_sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
     return points[static_cast<std::size_t>(a)].success_rate().value >
            points[static_cast<std::size_t>(b)].success_rate().value;
   });
   std::vector<std::int64_t> shown;
-  for (const std::int64_t i : spread_over(std::ssize(order), most_lines))
+  for (const std::int64_t i : spread_over(std::ssize(order), max_lines))
     shown.push_back(order[static_cast<std::size_t>(i)]);
   return shown;
 }
@@ -82,15 +82,15 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
   const std::vector<PointGroup> groups = groups_along(reported, {axis});
   std::string caption = fmt::format(
       "Share of the trials that end at zero counts, over {}. The bands are the bounds. ", axis_title(swept));
-  if (std::ssize(groups) > most_series) {
-    caption += fmt::format("Shown are {} of {} lines, an even spread. ", most_series, groups.size());
+  if (std::ssize(groups) > max_series) {
+    caption += fmt::format("Shown are {} of {} lines, an even spread. ", max_series, groups.size());
   }
   Figure figure = figure_of("success-along", "success", fmt::format("Success over {}", swept.name),
                             caption + bounds_note(reported));
   FigureData data{"points", common_columns()};
   data.columns.push_back({"x", swept.name, swept.unit});
   data.columns.push_back({"series", "", ""});
-  for (const std::int64_t group : spread_over(std::ssize(groups), most_series)) {
+  for (const std::int64_t group : spread_over(std::ssize(groups), max_series)) {
     for (const std::int64_t point : groups[static_cast<std::size_t>(group)].points) {
       ordered_json row = row_of(reported, point);
       row.push_back(swept.numbers[static_cast<std::size_t>(point)]);

@@ -19,7 +19,7 @@ namespace {
 std::string bounds_text(const ReportedStudy& reported, std::int64_t point) {
   if (reported.summary.features.dependent_trials) return "";
   const ConfidenceInterval& bounds = reported.success_bounds[static_cast<std::size_t>(point)];
-  return fmt::format(" (95 % bounds {} to {})", share_text(bounds.low), share_text(bounds.high));
+  return fmt::format(" (95 % bounds {} to {})", proportion_text(bounds.low), proportion_text(bounds.high));
 }
 
 std::string of_all(std::int64_t successes, std::int64_t trials) {
@@ -135,7 +135,7 @@ void add_rigs(std::vector<std::string>& lines, const ReportedStudy& reported, st
   std::string line =
       fmt::format("{} of {} rigs had no failure; the worst 5 % of them succeeded in {} of their trials.",
                   std::llround(rigs.without_failure * static_cast<double>(rigs.n)), rigs.n,
-                  share_text(rigs.worst_5_percent));
+                  proportion_text(rigs.worst_5_percent));
   if (rigs.tolerance.min_rigs > 0) {
     std::string sentence = tolerance_sentence(rigs.tolerance);
     sentence.front() = 'W';
@@ -153,10 +153,10 @@ void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported) 
       std::min_element(points.begin(), points.end(), [](const PointSummary& a, const PointSummary& b) {
         return a.success_rate().value < b.success_rate().value;
       });
-  const std::string share = flawless == 0 ? fmt::format("None of the {} points is", points.size())
-                                          : fmt::format("{} of the {} points {}", flawless, points.size(),
-                                                        flawless == 1 ? "is" : "are");
-  lines.push_back(fmt::format("{} without a failure. The worst, {}, succeeded in {}{}.", share,
+  const std::string proportion = flawless == 0 ? fmt::format("None of the {} points is", points.size())
+                                               : fmt::format("{} of the {} points {}", flawless,
+                                                             points.size(), flawless == 1 ? "is" : "are");
+  lines.push_back(fmt::format("{} without a failure. The worst, {}, succeeded in {}{}.", proportion,
                               label_of(reported, worst - points.begin()),
                               of_all(worst->outcomes.zero_count, worst->trials),
                               bounds_text(reported, worst - points.begin())));
@@ -194,8 +194,8 @@ void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, s
       reported.file.axis(),
       fmt::format("After arrival there were {} jerks per trial; {} of them went in the direction of the "
                   "holding torque, {} were of one count.",
-                  short_number(jerks.mean), share_text(point.jerk_agreement),
-                  share_text(point.jerk_one_count_share))));
+                  short_number(jerks.mean), proportion_text(point.jerk_agreement),
+                  proportion_text(point.jerk_one_count_share))));
 }
 
 void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) {
@@ -269,7 +269,7 @@ std::string verdict_html(const ReportedStudy& reported) {
   std::vector<std::string> lines;
   if (reported.summary.features.dependent_trials) {
     lines.push_back(
-        fmt::format("{} A share of all axes, and bounds of it, are told of a study with "
+        fmt::format("{} A proportion of all axes, and bounds of it, are told of a study with "
                     "`design: monte_carlo`.",
                     dependence_sentence));
   }

@@ -16,7 +16,7 @@ inline bool excludes_zero(const BoundedNumber& number) {
   return number.low > 0.0 || number.high < 0.0;
 }
 
-/// A share of which an estimate and bounds are given, held in [0, 1]. Where the estimate is outside, it
+/// A proportion of which an estimate and bounds are given, held in [0, 1]. Where the estimate is outside, it
 /// becomes 0 or 1 and the bound on the other side moves with it (below 0 by as much, above 1 in proportion).
 /// So bounds never exclude all that is possible nor shrink to a point, and cover no less often than those
 /// given.

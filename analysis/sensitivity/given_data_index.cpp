@@ -15,14 +15,14 @@
 namespace zerocount {
 namespace {
 
-constexpr std::size_t fewest_trials = 20;
-constexpr std::size_t most_parts = 32;
+constexpr std::size_t min_trials = 20;
+constexpr std::size_t max_parts = 32;
 
 // The class of each trial, 0 … M − 1, some of which may be empty.
 std::vector<std::size_t> classes_by(std::span<const double> x) {
   const std::vector<double> f = mid_distribution(x);
   const std::size_t parts =
-      std::min(most_parts, static_cast<std::size_t>(std::sqrt(static_cast<double>(x.size()))));
+      std::min(max_parts, static_cast<std::size_t>(std::sqrt(static_cast<double>(x.size()))));
   std::set<double> levels;
   for (std::size_t i = 0; i < f.size() && levels.size() <= parts; ++i) levels.insert(f[i]);
   std::vector<std::size_t> classes;
@@ -52,17 +52,17 @@ std::vector<ClassMean> means_of(const std::vector<std::size_t>& classes, std::sp
 }
 
 // How far below S the chi-squared distribution of the classes' part puts its lower bound.
-double null_reach(double share, double classes, double n, double confidence) {
+double null_reach(double index, double classes, double n, double confidence) {
   const boost::math::chi_squared distribution(classes - 1.0);
   const double extreme = boost::math::quantile(distribution, 0.5 + 0.5 * confidence);
-  return (1.0 - share) * (extreme - (classes - 1.0)) / n;
+  return (1.0 - index) * (extreme - (classes - 1.0)) / n;
 }
 
 }  // namespace
 
 BoundedNumber given_data_first_order(std::span<const double> x, std::span<const double> y,
                                      double confidence) {
-  if (x.size() < fewest_trials) return {};
+  if (x.size() < min_trials) return {};
   const std::vector<std::size_t> classes = classes_by(x);
   const std::vector<ClassMean> means = means_of(classes, y);
   const double n = static_cast<double>(x.size());
@@ -78,20 +78,20 @@ BoundedNumber given_data_first_order(std::span<const double> x, std::span<const 
   const bool constant = std::all_of(y.begin(), y.end(), [&](double value) { return value == y.front(); });
   if (constant || filled < 2.0 || n < 2.0 * filled) return {};
 
-  const double share = 1.0 - (n - 1.0) / (n - filled) * within / total;
+  const double index = 1.0 - (n - 1.0) / (n - filled) * within / total;
   const double variance = total / n;
   double squares = 0.0;
   for (std::size_t i = 0; i < y.size(); ++i) {
     const double between = means[classes[i]].mean() - mean;
     const double influence = 2.0 * between * (y[i] - means[classes[i]].mean()) + between * between -
-                             share * std::pow(y[i] - mean, 2);
+                             index * std::pow(y[i] - mean, 2);
     squares += std::pow(influence / variance, 2) * n / (n - filled);
   }
-  const double at_zero = 2.0 * (filled - 1.0) * std::pow(1.0 - share, 2);
+  const double at_zero = 2.0 * (filled - 1.0) * std::pow(1.0 - index, 2);
   const double half =
       two_sided_normal_quantile(confidence) * std::sqrt(std::max(squares - at_zero, at_zero)) / n;
-  return {share, std::max(share - std::max(half, null_reach(share, filled, n, confidence)), -1.0),
-          std::min(share + half, 1.0)};
+  return {index, std::max(index - std::max(half, null_reach(index, filled, n, confidence)), -1.0),
+          std::min(index + half, 1.0)};
 }
 
 }  // namespace zerocount

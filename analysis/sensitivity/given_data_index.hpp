@@ -6,10 +6,11 @@
 
 namespace zerocount {
 
-/// First-order Sobol' index of a factor from any sample of independent trials, the share of the variance of y
-/// that the mean of y given x has. The trials are put into M classes by x: each distinct value of x is one,
-/// or, where there are more than M₀ = min(32, ⌊√n⌋) of them, each of M₀ parts of as many trials (values that
-/// are equal stay together). With W the sum of the squares about the classes' means and T about the mean,
+/// First-order Sobol' index of a factor from any sample of independent trials, the proportion of the variance
+/// of y that the mean of y given x has. The trials are put into M classes by x: each distinct value of x is
+/// one, or, where there are more than M₀ = min(32, ⌊√n⌋) of them, each of M₀ parts of as many trials (values
+/// that are equal stay together). With W the sum of the squares about the classes' means and T about the
+/// mean,
 ///
 ///   S = 1 − (n − 1)/(n − M)·W/T,
 ///

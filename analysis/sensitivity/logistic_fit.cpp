@@ -12,10 +12,10 @@
 namespace zerocount {
 namespace {
 
-constexpr Eigen::Index fewest_beyond_coefficients = 10;
-constexpr int most_steps = 60;
-constexpr int most_halvings = 30;
-constexpr double smallest_step = 1e-10;
+constexpr Eigen::Index min_beyond_coefficients = 10;
+constexpr int max_steps = 60;
+constexpr int max_halvings = 30;
+constexpr double min_step = 1e-10;
 // Near the maximum the likelihood cannot tell a step that is right from none.
 constexpr double rounding = 1e-12;
 // Of the reciprocal condition of ZᵀWZ: below, the weights along some direction have died away.
@@ -45,19 +45,19 @@ bool is_flat(const Eigen::MatrixXd& information) {
 }
 
 // The coefficients of the greatest likelihood; empty where the steps do not end.
-Eigen::VectorXd most_likely(const Eigen::MatrixXd& z, const Eigen::VectorXd& yes) {
+Eigen::VectorXd max_likelihood(const Eigen::MatrixXd& z, const Eigen::VectorXd& yes) {
   Eigen::VectorXd b = Eigen::VectorXd::Zero(z.cols());
-  const double share = yes.mean();
-  b(0) = std::log(share / (1.0 - share));
+  const double proportion = yes.mean();
+  b(0) = std::log(proportion / (1.0 - proportion));
   double likelihood = log_likelihood((z * b).array(), yes.array());
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const Curvature curvature = curvature_at(z, yes, b);
     if (is_flat(curvature.information)) return {};
     Eigen::VectorXd change = curvature.information.ldlt().solve(curvature.gradient);
-    if (change.lpNorm<Eigen::Infinity>() < smallest_step * (1.0 + b.lpNorm<Eigen::Infinity>())) return b;
+    if (change.lpNorm<Eigen::Infinity>() < min_step * (1.0 + b.lpNorm<Eigen::Infinity>())) return b;
     double reached = log_likelihood((z * (b + change)).array(), yes.array());
     for (int halving = 0;
-         halving < most_halvings && !(reached >= likelihood - rounding * std::abs(likelihood)); ++halving) {
+         halving < max_halvings && !(reached >= likelihood - rounding * std::abs(likelihood)); ++halving) {
       change *= 0.5;
       reached = log_likelihood((z * (b + change)).array(), yes.array());
     }
@@ -72,9 +72,9 @@ Eigen::VectorXd most_likely(const Eigen::MatrixXd& z, const Eigen::VectorXd& yes
 LogisticFit logistic_fit(const Eigen::MatrixXd& x, const Eigen::VectorXd& yes, double confidence) {
   LogisticFit fit;
   fit.slopes.resize(static_cast<std::size_t>(x.cols()));
-  const double share = yes.size() > 0 ? yes.mean() : 0.0;
-  if (x.cols() == 0 || !(share > 0.0 && share < 1.0) ||
-      x.rows() < x.cols() + 1 + fewest_beyond_coefficients) {
+  const double proportion = yes.size() > 0 ? yes.mean() : 0.0;
+  if (x.cols() == 0 || !(proportion > 0.0 && proportion < 1.0) ||
+      x.rows() < x.cols() + 1 + min_beyond_coefficients) {
     return fit;
   }
   const Eigen::MatrixXd all = standardised(x);
@@ -83,7 +83,7 @@ LogisticFit logistic_fit(const Eigen::MatrixXd& x, const Eigen::VectorXd& yes, d
   Eigen::MatrixXd z(columns.rows(), columns.cols() + 1);
   z << Eigen::VectorXd::Ones(columns.rows()), columns;
 
-  const Eigen::VectorXd b = most_likely(z, yes);
+  const Eigen::VectorXd b = max_likelihood(z, yes);
   fit.status = b.size() > 0 ? LogisticFit::Status::fitted : LogisticFit::Status::separated;
   if (fit.status == LogisticFit::Status::separated) return fit;
   const Eigen::MatrixXd information = curvature_at(z, yes, b).information;

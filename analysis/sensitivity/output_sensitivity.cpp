@@ -19,8 +19,8 @@
 namespace zerocount {
 namespace {
 
-constexpr std::size_t fewest_rows = 10;
-constexpr std::int64_t fewest_of_a_kind = 10;
+constexpr std::size_t min_rows = 10;
+constexpr std::int64_t min_of_a_kind = 10;
 
 // The inputs that vary among the trials used, and the factors that none of them is.
 struct Varying {
@@ -89,9 +89,9 @@ void note_uncertain_totals(OutputSensitivity& result) {
 
 void add_design_indices(const PointInputs& point, const std::vector<double>& values, const UsedTrials& used,
                         double confidence, const RandomStream& bootstrap, OutputSensitivity& result) {
-  if (used.row_starts.size() < fewest_rows) {
+  if (used.row_starts.size() < min_rows) {
     result.notes.push_back(fmt::format("{} rows of the design: Sobol' indices need {} at least",
-                                       used.row_starts.size(), fewest_rows));
+                                       used.row_starts.size(), min_rows));
     return;
   }
   const std::vector<SobolIndices> indices =
@@ -135,7 +135,7 @@ void add_log_odds(const Varying& varying, const std::vector<double>& y, double c
   }
   const auto said_yes = static_cast<std::int64_t>(std::llround(yes.sum()));
   const std::int64_t fewer = std::min(said_yes, static_cast<std::int64_t>(y.size()) - said_yes);
-  if (fewer < fewest_of_a_kind) {
+  if (fewer < min_of_a_kind) {
     result.notes.push_back(
         fmt::format("only {} of {} trials differ from the others: the bounds are rough", fewer, y.size()));
   }
@@ -168,13 +168,13 @@ void add_notes(const PointInputs& point, const TrialOutputs& trials, const UsedT
 }
 
 // The strongest first: by total indices; without a saltelli design those that explain some variance alone, by
-// its share, and then the others by their partial rank correlation.
+// its proportion, and then the others by their partial rank correlation.
 bool is_stronger(const FactorSensitivity& a, const FactorSensitivity& b, bool from_saltelli) {
   const auto key = [&](const FactorSensitivity& factor) {
-    const double share = from_saltelli ? factor.total.value : factor.first_order.value;
-    const bool counts = from_saltelli ? !std::isnan(share) : factor.first_order.low > 0.0;
+    const double proportion = from_saltelli ? factor.total.value : factor.first_order.value;
+    const bool counts = from_saltelli ? !std::isnan(proportion) : factor.first_order.low > 0.0;
     const double correlation = std::abs(factor.partial_rank_correlation.value);
-    return std::pair(counts ? share : -1.0, std::isnan(correlation) ? -1.0 : correlation);
+    return std::pair(counts ? proportion : -1.0, std::isnan(correlation) ? -1.0 : correlation);
   };
   return key(a) > key(b);
 }

@@ -9,7 +9,7 @@
 #include "analysis/sensitivity/bounded_number.hpp"
 #include "analysis/statistics/proportion.hpp"
 
-/// By how much two columns of independent pairs differ, as a share of what independent numbers would:
+/// By how much two columns of independent pairs differ, as a proportion of what independent numbers would:
 /// D = Σ (x_r − y_r)²/(2N V), V the variance (divisor 2N) of all 2N numbers. The total index is D of A and
 /// C_j, and D of B and C_j is 1 less the first-order index without a control variate. Dimensionless; all
 /// bounds are NaN where V is 0.
@@ -35,8 +35,8 @@ inline AnswerPairs answer_pairs(std::span<const double> x, std::span<const doubl
   return pairs;
 }
 
-/// D of answers that are yes or no. With u the share of different pairs among those with a yes in them and v
-/// among those with a no,
+/// D of answers that are yes or no. With u the proportion of different pairs among those with a yes in them
+/// and v among those with a no,
 ///
 ///   D = u/(2 − u) + v/(2 − v),
 ///
@@ -50,7 +50,7 @@ inline BoundedNumber yes_no_difference(const AnswerPairs& pairs, double confiden
   const std::int64_t with_yes = pairs.both_yes + pairs.different;
   const std::int64_t with_no = pairs.both_no + pairs.different;
   if (with_yes == 0 || with_no == 0) return {};
-  const auto part = [](double share) { return share / (2.0 - share); };
+  const auto part = [](double proportion) { return proportion / (2.0 - proportion); };
   const double u = rate(pairs.different, with_yes);
   const double v = rate(pairs.different, with_no);
   const ConfidenceInterval of_u = clopper_pearson(pairs.different, with_yes, confidence);
@@ -69,7 +69,7 @@ inline BoundedNumber yes_no_difference(const AnswerPairs& pairs, double confiden
 /// Share of the variance that may come from rows rarer than those seen: without one, an event has at most the
 /// probability −ln(δ)/N with the confidence 1 − δ, δ = (1 − confidence)/2 (Poisson; at 95 % 3.7/N), and
 /// changes the output as much as independent trials that differ do on average. They have the mean square
-/// difference 2V, so the share is −ln(δ)/m, m the number of rows in which A and B differ; 1 at most.
+/// difference 2V, so the proportion is −ln(δ)/m, m the number of rows in which A and B differ; 1 at most.
 inline double unseen_share(std::span<const double> a, std::span<const double> b, double confidence) {
   double different = 0.0;
   for (std::size_t r = 0; r < a.size(); ++r) different += a[r] != b[r] ? 1.0 : 0.0;

@@ -44,9 +44,9 @@ BoundedNumber correlation_of_remainders(const Eigen::VectorXd& of_column, const 
 
 std::vector<BoundedNumber> partial_rank_correlations(const Eigen::MatrixXd& x, std::span<const double> y,
                                                      double confidence) {
-  constexpr Eigen::Index fewest_beyond_columns = 10;
+  constexpr Eigen::Index min_beyond_columns = 10;
   std::vector<BoundedNumber> correlations(static_cast<std::size_t>(x.cols()));
-  if (x.cols() == 0 || x.rows() < x.cols() + fewest_beyond_columns) return correlations;
+  if (x.cols() == 0 || x.rows() < x.cols() + min_beyond_columns) return correlations;
   const Eigen::VectorXd ranks_y = ranks_of(y);
   if (ranks_y.squaredNorm() == 0.0) return correlations;
   const Eigen::MatrixXd all = standardised(ranks_of_columns(x));

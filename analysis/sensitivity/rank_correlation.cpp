@@ -10,7 +10,7 @@
 namespace zerocount {
 namespace {
 
-constexpr std::size_t fewest_values = 10;
+constexpr std::size_t min_values = 10;
 
 std::vector<std::size_t> ascending_order(std::span<const double> values) {
   std::vector<std::size_t> order(values.size());
@@ -90,7 +90,7 @@ BoundedNumber fisher_bounds(double correlation, double standard_error, double co
 }
 
 BoundedNumber rank_correlation(std::span<const double> x, std::span<const double> y, double confidence) {
-  if (x.size() < fewest_values) return {};
+  if (x.size() < min_values) return {};
   const std::vector<double> f = mid_distribution(x);
   const std::vector<double> g = mid_distribution(y);
   if (is_constant(f) || is_constant(g)) return {};

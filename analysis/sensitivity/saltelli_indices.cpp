@@ -11,8 +11,8 @@
 namespace zerocount {
 namespace {
 
-constexpr Eigen::Index most_groups = 4096;
-constexpr double fewest_behind_variance = 20.0;
+constexpr Eigen::Index max_groups = 4096;
+constexpr double min_behind_variance = 20.0;
 
 // The estimates are functions of sums over the rows: of the first ones, and for each factor of c, c², bc, (a
 // − c)².
@@ -22,7 +22,7 @@ enum FactorSum : Eigen::Index { of_c, of_c_squared, of_bc, of_difference_squared
 Eigen::MatrixXd sums_by_group(const SaltelliSample& sample, double origin) {
   const auto rows = static_cast<Eigen::Index>(sample.a.size());
   const auto factors = static_cast<Eigen::Index>(sample.c.size());
-  const Eigen::Index groups = std::min(rows, most_groups);
+  const Eigen::Index groups = std::min(rows, max_groups);
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(common_sums + sums_per_factor * factors, groups);
   for (Eigen::Index row = 0; row < rows; ++row) {
     const auto r = static_cast<std::size_t>(row);
@@ -143,7 +143,7 @@ BoundedNumber number_total(const BoundedNumber& resampled, double unseen, double
   return total;
 }
 
-// As many trials as would, each with the same share, make up the variance of A and B (Kish's effective
+// As many trials as would, each with the same proportion, make up the variance of A and B (Kish's effective
 // number).
 double trials_behind_variance(const SaltelliSample& sample, double mean) {
   double squares = 0.0;
@@ -168,7 +168,7 @@ BoundedNumber without_bounds(const BoundedNumber& number) {
 void widen_bounds(const SaltelliSample& sample, double confidence, std::vector<SobolIndices>& indices) {
   const bool yes_or_no = is_yes_or_no(sample);
   const double unseen = unseen_share(sample.a, sample.b, confidence);
-  const bool too_few = trials_behind_variance(sample, mean_of(sample)) < fewest_behind_variance;
+  const bool too_few = trials_behind_variance(sample, mean_of(sample)) < min_behind_variance;
   for (std::size_t j = 0; j < sample.c.size(); ++j) {
     auto& [first_order, total] = indices[j];
     const std::vector<double>& c = sample.c[j];

@@ -18,13 +18,13 @@ std::string joined(const std::vector<std::string>& words) {
   return fmt::format("{} and {}", fmt::join(first, ", "), words.back());
 }
 
-std::string share_text(double share) {
-  return share < 0.005 ? "< 1 %" : fmt::format("{:.0f} %", 100.0 * share);
+std::string proportion_text(double index) {
+  return index < 0.005 ? "< 1 %" : fmt::format("{:.0f} %", 100.0 * index);
 }
 
 // Rounded up: what is above it is excluded.
-std::string upper_text(double share) {
-  return fmt::format("{:.0f} %", std::ceil(100.0 * share));
+std::string upper_text(double index) {
+  return fmt::format("{:.0f} %", std::ceil(100.0 * index));
 }
 
 std::string why_nothing(const OutputSensitivity& sensitivity) {
@@ -44,26 +44,26 @@ std::string why_nothing(const OutputSensitivity& sensitivity) {
 std::string sensitivity_conclusion(const OutputSensitivity& sensitivity, bool from_saltelli,
                                    double confidence) {
   if (!sensitivity.estimated) return why_nothing(sensitivity);
-  std::vector<std::string> shares;
+  std::vector<std::string> proportions;
   std::vector<std::string> correlations;
   std::vector<std::string> others;
   for (const FactorSensitivity& factor : sensitivity.factors) {
-    const BoundedNumber& share = from_saltelli ? factor.total : factor.first_order;
-    if (factor.matters && share.low > 0.0) {
-      shares.push_back(fmt::format("{} ({})", factor.name, share_text(share.value)));
+    const BoundedNumber& index = from_saltelli ? factor.total : factor.first_order;
+    if (factor.matters && index.low > 0.0) {
+      proportions.push_back(fmt::format("{} ({})", factor.name, proportion_text(index.value)));
     } else if (factor.matters) {
       correlations.push_back(fmt::format("{} ({:+.2f})", factor.name, factor.partial_rank_correlation.value));
-    } else if (!std::isnan(share.value)) {
-      const bool bounded = from_saltelli && !std::isnan(share.high);
-      others.push_back(bounded ? fmt::format("{} (at most {})", factor.name, upper_text(share.high))
+    } else if (!std::isnan(index.value)) {
+      const bool bounded = from_saltelli && !std::isnan(index.high);
+      others.push_back(bounded ? fmt::format("{} (at most {})", factor.name, upper_text(index.high))
                                : factor.name);
     }
   }
   std::vector<std::string> parts;
-  if (!shares.empty()) {
-    parts.push_back(fmt::format("what drives {}, with the share of its variance that it {}: {}",
+  if (!proportions.empty()) {
+    parts.push_back(fmt::format("what drives {}, with the proportion of its variance that it {}: {}",
                                 sensitivity.output, from_saltelli ? "has a part in" : "explains alone",
-                                joined(shares)));
+                                joined(proportions)));
   }
   if (!correlations.empty()) {
     parts.push_back(fmt::format("too little for that, but shown by the partial rank correlation: {}",

@@ -78,19 +78,21 @@ std::string legend(const StudySensitivity& sensitivity) {
   const std::string bounds = fmt::format(
       "[,]: {:g} % confidence bounds, each by itself. matters: those of {} exclude 0.\n",
       100.0 * sensitivity.confidence, sensitivity.from_saltelli ? "total" : "alone or partial rank corr.");
-  const std::string shares =
+  const std::string proportions =
       sensitivity.from_saltelli
-          ? "total, first order: shares of the variance (Sobol' indices) in which the factor has a part, and "
+          ? "total, first order: proportions of the variance (Sobol' indices) in which the factor has a "
+            "part, and "
             "that\n"
             "it explains alone.\n"
-          : "alone: share of the variance that the factor explains alone (first-order Sobol' index); what it "
+          : "alone: proportion of the variance that the factor explains alone (first-order Sobol' index); "
+            "what it "
             "does\n"
             "only together with others does not show here, but does with design: saltelli.\n";
-  return bounds + shares +
+  return bounds + proportions +
          "rank corr.: whether the output rises (+) or falls (-) with the factor; partial rank corr.: with "
          "the part\n"
          "of the other factors taken out. log odds per sd: what a standard deviation of the factor adds to\n"
-         "ln(p/(1 - p)), p the share of yes.\n";
+         "ln(p/(1 - p)), p the proportion of yes.\n";
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ void ClusteredSample::add_step(double value, std::int64_t before, std::int64_t c
   step.hits_by_events += (to - from) * static_cast<double>(size);
 }
 
-void ClusteredSample::add_cluster(const Tally<double>& observed, std::int64_t size) {
+void ClusteredSample::add_cluster(const Histogram<double>& observed, std::int64_t size) {
   begin_cluster(size);
   std::int64_t before = 0;
   for (const auto& [value, count] : observed.counts) {

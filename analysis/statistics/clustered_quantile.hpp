@@ -18,12 +18,12 @@ namespace zerocount {
 class ClusteredSample {
  public:
   /// Adds a cluster of `size` values, of which those in `observed` are known and the rest larger than all.
-  void add_cluster(const Tally<double>& observed, std::int64_t size);
+  void add_cluster(const Histogram<double>& observed, std::int64_t size);
   /// @param observed in any order; they are sorted
   void add_cluster(std::span<double> observed, std::int64_t size);
 
   /// The values that are known.
-  const Tally<double>& observed() const { return observed_; }
+  const Histogram<double>& observed() const { return observed_; }
   /// All values, with those that are larger than all others.
   std::int64_t size() const { return totals_.events; }
 
@@ -39,8 +39,8 @@ class ClusteredSample {
   void begin_cluster(std::int64_t size);
   void add_step(double value, std::int64_t before, std::int64_t count, std::int64_t size);
 
-  bool single_values_{true};  ///< every cluster so far has one value: its steps are those of the tally
-  Tally<double> observed_;
+  bool single_values_{true};  ///< every cluster so far has one value: its steps are those of the histogram
+  Histogram<double> observed_;
   std::map<double, Step> steps_;
   ClusterSums totals_;
 };

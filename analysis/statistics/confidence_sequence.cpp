@@ -36,38 +36,40 @@ double crossing(Excess excess, double inside, double outside) {
 
 }  // namespace
 
-ConfidenceInterval anytime_bounds(std::int64_t successes, std::int64_t trials, double confidence) {
+ConfidenceInterval confidence_sequence_bounds(std::int64_t successes, std::int64_t trials,
+                                              double confidence) {
   if (trials == 0) return {0.0, 1.0};
   const auto s = static_cast<double>(successes);
   const auto f = static_cast<double>(trials - successes);
   const double limit = -std::log1p(-confidence);  // log of 1/(1 − confidence)
   const double evidence = log_beta(s + prior, f + prior) - log_beta(prior, prior) - limit;
   const auto excess = [&](double p) { return evidence - times_log(s, p) - times_log(f, 1.0 - p); };
-  const double share = s / (s + f);
+  const double proportion = s / (s + f);
   constexpr double edge = 1e-300;
   ConfidenceInterval bounds{0.0, 1.0};
-  if (successes > 0) bounds.low = crossing(excess, share < 1.0 ? share : std::nextafter(1.0, 0.0), edge);
+  if (successes > 0)
+    bounds.low = crossing(excess, proportion < 1.0 ? proportion : std::nextafter(1.0, 0.0), edge);
   if (successes < trials) {
-    bounds.high = crossing(excess, share > 0.0 ? share : edge, std::nextafter(1.0, 0.0));
+    bounds.high = crossing(excess, proportion > 0.0 ? proportion : edge, std::nextafter(1.0, 0.0));
   }
   return bounds;
 }
 
 std::int64_t projected_trials(std::int64_t successes, std::int64_t trials, double halfwidth,
                               double confidence, std::int64_t block, std::int64_t most) {
-  const double share = trials > 0 ? static_cast<double>(successes) / static_cast<double>(trials) : 0.5;
+  const double proportion = trials > 0 ? static_cast<double>(successes) / static_cast<double>(trials) : 0.5;
   const auto narrow = [&](std::int64_t blocks) {
     const std::int64_t n = std::min(blocks * block, most);
-    const auto s = static_cast<std::int64_t>(std::llround(share * static_cast<double>(n)));
-    const ConfidenceInterval bounds = anytime_bounds(s, n, confidence);
+    const auto s = static_cast<std::int64_t>(std::llround(proportion * static_cast<double>(n)));
+    const ConfidenceInterval bounds = confidence_sequence_bounds(s, n, confidence);
     return 0.5 * (bounds.high - bounds.low) <= halfwidth;
   };
-  const std::int64_t most_blocks = (most + block - 1) / block;
+  const std::int64_t max_blocks = (most + block - 1) / block;
   std::int64_t wide = 0;
   std::int64_t enough = 1;
-  while (enough < most_blocks && !narrow(enough)) {
+  while (enough < max_blocks && !narrow(enough)) {
     wide = enough;
-    enough = std::min(2 * enough, most_blocks);
+    enough = std::min(2 * enough, max_blocks);
   }
   while (enough - wide > 1) {
     const std::int64_t middle = wide + (enough - wide) / 2;

@@ -22,7 +22,7 @@ namespace zerocount {
 ///
 /// low is 0 where successes = 0, high is 1 where successes = trials, and the interval is [0, 1] where
 /// trials = 0.
-ConfidenceInterval anytime_bounds(std::int64_t successes, std::int64_t trials, double confidence);
+ConfidenceInterval confidence_sequence_bounds(std::int64_t successes, std::int64_t trials, double confidence);
 
 /// How many trials, a multiple of `block` and at most `most`, the anytime bounds will need to be as narrow as
 /// ± `halfwidth` if `successes` of `trials` go on in the same proportion.

@@ -10,7 +10,7 @@ namespace zerocount {
 /// A sample kept as value → how often it occurred. Its memory grows with the number of distinct values, not
 /// of observations: counts and times that are whole multiples of a sample time have few.
 template <typename Value>
-struct Tally {
+struct Histogram {
   std::map<Value, std::int64_t> counts;
   std::int64_t size{0};  ///< number of observations
 
@@ -20,55 +20,56 @@ struct Tally {
   }
 };
 
-/// Mean, in the values' unit; NaN of an empty tally. Summed in the order of the values: independent of the
-/// order they came in.
+/// Mean, in the values' unit; NaN of an empty histogram. Summed in the order of the values: independent of
+/// the order they came in.
 template <typename Value>
-double mean(const Tally<Value>& tally) {
+double mean(const Histogram<Value>& histogram) {
   double sum = 0.0;
-  for (const auto& [value, count] : tally.counts)
+  for (const auto& [value, count] : histogram.counts)
     sum += static_cast<double>(value) * static_cast<double>(count);
-  return tally.size > 0 ? sum / static_cast<double>(tally.size) : std::numeric_limits<double>::quiet_NaN();
+  return histogram.size > 0 ? sum / static_cast<double>(histogram.size)
+                            : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Standard deviation with divisor n − 1, in the values' unit; NaN of fewer than two observations.
 template <typename Value>
-double standard_deviation(const Tally<Value>& tally) {
-  if (tally.size < 2) return std::numeric_limits<double>::quiet_NaN();
-  const double centre = mean(tally);
+double standard_deviation(const Histogram<Value>& histogram) {
+  if (histogram.size < 2) return std::numeric_limits<double>::quiet_NaN();
+  const double centre = mean(histogram);
   double squares = 0.0;
-  for (const auto& [value, count] : tally.counts) {
+  for (const auto& [value, count] : histogram.counts) {
     const double deviation = static_cast<double>(value) - centre;
     squares += deviation * deviation * static_cast<double>(count);
   }
-  return std::sqrt(squares / static_cast<double>(tally.size - 1));
+  return std::sqrt(squares / static_cast<double>(histogram.size - 1));
 }
 
 /// Sum, in the values' unit.
 template <typename Value>
-Value total(const Tally<Value>& tally) {
+Value total(const Histogram<Value>& histogram) {
   Value sum{};
-  for (const auto& [value, count] : tally.counts) sum += value * static_cast<Value>(count);
+  for (const auto& [value, count] : histogram.counts) sum += value * static_cast<Value>(count);
   return sum;
 }
 
-/// Smallest and largest value; NaN of an empty tally.
+/// Smallest and largest value; NaN of an empty histogram.
 template <typename Value>
-double smallest(const Tally<Value>& tally) {
-  return tally.size > 0 ? static_cast<double>(tally.counts.begin()->first)
-                        : std::numeric_limits<double>::quiet_NaN();
+double smallest(const Histogram<Value>& histogram) {
+  return histogram.size > 0 ? static_cast<double>(histogram.counts.begin()->first)
+                            : std::numeric_limits<double>::quiet_NaN();
 }
 template <typename Value>
-double largest(const Tally<Value>& tally) {
-  return tally.size > 0 ? static_cast<double>(tally.counts.rbegin()->first)
-                        : std::numeric_limits<double>::quiet_NaN();
+double largest(const Histogram<Value>& histogram) {
+  return histogram.size > 0 ? static_cast<double>(histogram.counts.rbegin()->first)
+                            : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// The `rank`-th smallest observation, rank = 1 … size; NaN outside that.
 template <typename Value>
-double order_statistic(const Tally<Value>& tally, std::int64_t rank) {
+double order_statistic(const Histogram<Value>& histogram, std::int64_t rank) {
   if (rank >= 1) {
     std::int64_t below = 0;
-    for (const auto& [value, count] : tally.counts) {
+    for (const auto& [value, count] : histogram.counts) {
       below += count;
       if (below >= rank) return static_cast<double>(value);
     }

@@ -29,19 +29,20 @@ RankBounds quantile_rank_bounds(std::int64_t observations, double probability,
 
 /// A sample quantile with its bounds, in the values' unit.
 struct Quantile {
-  double value{0.0};  ///< NaN of an empty tally
+  double value{0.0};  ///< NaN of an empty histogram
   double low{0.0};    ///< NaN where there are too few observations for a bound
   double high{0.0};   ///< likewise
 };
 
 /// The sample quantile by the inverse of the empirical distribution function: the smallest observation x such
-/// that a share of at least p of the observations is ≤ x (definition 1 of Hyndman and Fan 1996; numpy's
+/// that a proportion of at least p of the observations is ≤ x (definition 1 of Hyndman and Fan 1996; numpy's
 /// method "inverted_cdf"). Always one of the observations: a settling time stays a whole number of samples.
 template <typename Value>
-Quantile quantile(const Tally<Value>& tally, double probability, double confidence = summary_confidence) {
-  const RankBounds bounds = quantile_rank_bounds(tally.size, probability, confidence);
-  return {order_statistic(tally, quantile_rank(tally.size, probability)), order_statistic(tally, bounds.low),
-          order_statistic(tally, bounds.high)};
+Quantile quantile(const Histogram<Value>& histogram, double probability,
+                  double confidence = summary_confidence) {
+  const RankBounds bounds = quantile_rank_bounds(histogram.size, probability, confidence);
+  return {order_statistic(histogram, quantile_rank(histogram.size, probability)),
+          order_statistic(histogram, bounds.low), order_statistic(histogram, bounds.high)};
 }
 
 }  // namespace zerocount

@@ -81,9 +81,9 @@ std::int64_t rigs_for_halfwidth(double halfwidth, double confidence, double rate
 
 RigPlan plan_tolerance(double content, double success, double confidence, std::int64_t rigs) {
   require_confidence(confidence);
-  require_open_unit("share of rigs", content);
+  require_open_unit("proportion of rigs", content);
   require_open_unit("success rate", success);
-  const std::int64_t fewest = fewest_rigs_for_tolerance(content, confidence);
+  const std::int64_t fewest = min_rigs_for_tolerance(content, confidence);
   if (rigs == 0) rigs = fewest + (fewest + 1) / 2;
   if (rigs < fewest) {
     throw Failure(

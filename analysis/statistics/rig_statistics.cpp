@@ -45,11 +45,11 @@ double chernoff_lower(double y, std::int64_t trials, double allowance) {
   if (!(y > 0.0)) return 0.0;
   if (!(y < 1.0)) return std::exp(-limit);
   const auto excess = [&](double q) { return divergence(y, q) - limit; };
-  constexpr double smallest_q = 1e-300;
-  if (!(excess(smallest_q) > 0.0)) return 0.0;
+  constexpr double min_q = 1e-300;
+  if (!(excess(min_q) > 0.0)) return 0.0;
   std::uintmax_t iterations = 200;
-  return boost::math::tools::toms748_solve(excess, smallest_q, y,
-                                           boost::math::tools::eps_tolerance<double>(48), iterations)
+  return boost::math::tools::toms748_solve(excess, min_q, y, boost::math::tools::eps_tolerance<double>(48),
+                                           iterations)
       .first;
 }
 
@@ -89,7 +89,7 @@ double worst_of(std::span<const RigTrials> rigs) {
 
 }  // namespace
 
-std::int64_t fewest_rigs_for_tolerance(double content, double confidence) {
+std::int64_t min_rigs_for_tolerance(double content, double confidence) {
   // A proportion of rigs of which none was seen is below 1 − content: content^R < 1 − confidence.
   auto rigs = static_cast<std::int64_t>(std::floor(std::log1p(-confidence) / std::log(content)));
   while (rank_and_allowance(rigs, content, confidence).rank == 0) ++rigs;
@@ -102,7 +102,7 @@ double tolerance_allowance(std::int64_t rigs, double content, double confidence)
 
 RigTolerance rig_tolerance(std::span<const RigTrials> rigs, double content, double confidence) {
   RigTolerance result{.content = content, .confidence = confidence};
-  result.min_rigs = fewest_rigs_for_tolerance(content, confidence);
+  result.min_rigs = min_rigs_for_tolerance(content, confidence);
   const RankAndAllowance chosen = rank_and_allowance(std::ssize(rigs), content, confidence);
   if (chosen.rank == 0) return result;
   std::vector<RigTrials> sorted(rigs.begin(), rigs.end());

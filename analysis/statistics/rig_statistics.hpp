@@ -49,7 +49,7 @@ struct RigTolerance {
 RigTolerance rig_tolerance(std::span<const RigTrials> rigs, double content, double confidence);
 
 /// The fewest rigs with which a RigTolerance can say something, and the δ above of so many rigs (0 of fewer).
-std::int64_t fewest_rigs_for_tolerance(double content, double confidence);
+std::int64_t min_rigs_for_tolerance(double content, double confidence);
 double tolerance_allowance(std::int64_t rigs, double content, double confidence);
 
 /// "with 95 % confidence at least 90 % of rigs hold zero in at least 97 % of moves", the proportion rounded

@@ -12,17 +12,17 @@
 namespace zerocount {
 namespace {
 
-constexpr std::int64_t most_trials = 1'000'000'000'000;
-constexpr std::int64_t most_failures = 1'000'000'000;
+constexpr std::int64_t max_trials = 1'000'000'000'000;
+constexpr std::int64_t max_failures = 1'000'000'000;
 
-void require_share(const char* what, double share) {
-  if (share > 0.0 && share < 1.0) return;
+void require_proportion(const char* what, double proportion) {
+  if (proportion > 0.0 && proportion < 1.0) return;
   throw Failure(ExitCode::bad_input,
-                fmt::format("a {} of {}; expected a number between 0 and 1", what, share));
+                fmt::format("a {} of {}; expected a number between 0 and 1", what, proportion));
 }
 
 [[noreturn]] void too_many(const char* what) {
-  throw Failure(ExitCode::bad_input, fmt::format("{} would need more than {} trials", what, most_trials));
+  throw Failure(ExitCode::bad_input, fmt::format("{} would need more than {} trials", what, max_trials));
 }
 
 /// The smallest number from `low` on for which `holds`, which once true stays true.
@@ -58,11 +58,11 @@ double halfwidth_of(double n, double rate, double confidence) {
 }  // namespace
 
 std::int64_t trials_for_claim(double success, double confidence, std::int64_t failures) {
-  require_share("success rate", success);
+  require_proportion("success rate", success);
   require_confidence(confidence);
   if (failures < 0)
     throw Failure(ExitCode::bad_input, fmt::format("{} failures; expected 0 or more", failures));
-  return least(failures + 1, most_trials, "the claim", [&](std::int64_t trials) {
+  return least(failures + 1, max_trials, "the claim", [&](std::int64_t trials) {
     return chance_of_claim(trials, failures, success) <= 1.0 - confidence;
   });
 }
@@ -75,9 +75,9 @@ double chance_of_claim(std::int64_t trials, std::int64_t failures, double true_s
 }
 
 ClaimPlan plan_with_power(double success, double confidence, double true_success, double power) {
-  require_share("success rate", success);
-  require_share("true success rate", true_success);
-  require_share("power", power);
+  require_proportion("success rate", success);
+  require_proportion("true success rate", true_success);
+  require_proportion("power", power);
   if (!(true_success > success)) {
     throw Failure(
         ExitCode::bad_input,
@@ -85,7 +85,7 @@ ClaimPlan plan_with_power(double success, double confidence, double true_success
                     "trials would show it",
                     true_success, success));
   }
-  const std::int64_t failures = least(0, most_failures, "the power", [&](std::int64_t allowed) {
+  const std::int64_t failures = least(0, max_failures, "the power", [&](std::int64_t allowed) {
     return chance_of_claim(trials_for_claim(success, confidence, allowed), allowed, true_success) >= power;
   });
   return {failures, trials_for_claim(success, confidence, failures)};
@@ -97,8 +97,8 @@ std::int64_t trials_for_halfwidth(double halfwidth, double confidence, double ra
                   fmt::format("a half-width of {}; expected a number between 0 and 0.5", halfwidth));
   }
   require_confidence(confidence);
-  require_share("success rate", rate);
-  return least(1, most_trials, "the half-width", [&](std::int64_t trials) {
+  require_proportion("success rate", rate);
+  return least(1, max_trials, "the half-width", [&](std::int64_t trials) {
     return halfwidth_of(static_cast<double>(trials), rate, confidence) <= halfwidth;
   });
 }

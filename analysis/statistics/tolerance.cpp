@@ -63,7 +63,7 @@ SuccessClaim success_claim(std::int64_t successes, std::int64_t trials, double c
 
 SuccessClaim success_claim_at_any_time(std::int64_t successes, std::int64_t trials, double confidence) {
   require_confidence(confidence);
-  const ConfidenceInterval bounds = anytime_bounds(successes, trials, confidence);
+  const ConfidenceInterval bounds = confidence_sequence_bounds(successes, trials, confidence);
   return {trials, trials - successes, confidence, bounds.low, 1.0 - bounds.low, bounds.high};
 }
 
@@ -80,15 +80,15 @@ double rule_of_three(const SuccessClaim& claim) {
   return -std::log1p(-claim.confidence) / static_cast<double>(claim.rigs > 0 ? claim.rigs : claim.trials);
 }
 
-std::string percent_at_least(double share) {
-  const double percent = 100.0 * share;
+std::string percent_at_least(double proportion) {
+  const double percent = 100.0 * proportion;
   const int decimals = percent_decimals(std::min(percent, 100.0 - percent));
   const double unit = std::pow(10.0, decimals);
   return percent_with(std::floor(percent * unit + rounding) / unit, decimals);
 }
 
-std::string percent_at_most(double share) {
-  const double percent = 100.0 * share;
+std::string percent_at_most(double proportion) {
+  const double percent = 100.0 * proportion;
   const int decimals = percent_decimals(percent);
   const double unit = std::pow(10.0, decimals);
   return percent_with(std::ceil(percent * unit - rounding) / unit, decimals);

@@ -24,7 +24,7 @@ class TrialClusters {
 
  private:
   struct Rig {
-    Tally<double> observed;
+    Histogram<double> observed;
     std::int64_t size{0};
   };
   std::int64_t rigs_in_all_;

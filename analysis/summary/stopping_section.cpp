@@ -12,7 +12,7 @@ std::vector<ConfidenceInterval> bounds_of(std::span<const PointSummary> points, 
   std::vector<ConfidenceInterval> bounds;
   bounds.reserve(points.size());
   for (const PointSummary& point : points) {
-    bounds.push_back(anytime_bounds(point.outcomes.zero_count, point.judged, confidence));
+    bounds.push_back(confidence_sequence_bounds(point.outcomes.zero_count, point.judged, confidence));
   }
   return bounds;
 }

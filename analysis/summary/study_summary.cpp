@@ -48,7 +48,7 @@ StudySummary summary_of(const Study& study, double confidence) {
   summary.observed = study.observed;
   summary.confidence = confidence;
   summary.features = study_features(study);
-  summary.design = design_words()[static_cast<std::size_t>(study.design)];
+  summary.design = design_labels()[static_cast<std::size_t>(study.design)];
   return summary;
 }
 
@@ -65,7 +65,7 @@ void complete_points(StudySummary& summary, const Study& study,
 /// The statement counts independent trials.
 void add_assurance(StudySummary& summary) {
   if (summary.features.open_loop || summary.features.dependent_trials) return;
-  summary.sections.push_back(assurance_section(summary.points, summary.labels));
+  summary.sections.push_back(tolerance_section(summary.points, summary.labels));
 }
 
 /// Leaves the first `points` points.

@@ -67,10 +67,10 @@ nlohmann::ordered_json summary_json(const StudySummary& summary);
 /// summary_json as text, indented, ending with a line break.
 std::string summary_json_text(const StudySummary& summary);
 
-/// A line per point: point, label, axes, then statistic_fields() by flat_name, then the criteria's shares of
-/// trials, the observation and the columns of the sections. Of an open-loop study, a line per point and
-/// level: point, label, axes, level, then level_fields() by flat_name, and the observation. RFC 4180 with \n;
-/// NaN is `nan`; numbers read back to the same double.
+/// A line per point: point, label, axes, then statistic_fields() by flat_name, then the criteria's
+/// proportions of trials, the observation and the columns of the sections. Of an open-loop study, a line per
+/// point and level: point, label, axes, level, then level_fields() by flat_name, and the observation. RFC
+/// 4180 with \n; NaN is `nan`; numbers read back to the same double.
 std::string summary_csv(const StudySummary& summary);
 
 }  // namespace zerocount

@@ -30,7 +30,7 @@ nlohmann::ordered_json moves_json(const PointSummary& statistics, const StudyFea
   const std::vector<const Measure*> qualities = counted_qualities(features, *statistics.table);
   for (std::size_t move = 0; move < statistics.by_move.size(); ++move) {
     nlohmann::ordered_json counts;
-    for (const FlagMeaning& outcome : outcome_words()) {
+    for (const FlagMeaning& outcome : outcome_labels()) {
       counts[outcome.word] = statistics.by_move[move].*counter_of(static_cast<Outcome>(outcome.value));
     }
     for (const Measure* measure : qualities)

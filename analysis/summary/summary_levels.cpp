@@ -83,7 +83,8 @@ std::vector<TextColumn> level_columns(const StudySummary& summary) {
 std::string level_legend() {
   return "All values are those at the end of a level, means over the trials whose motion was not lost.\n"
          "position: of the rotor from the start, with bounds of the mean after Student; sd: over trials\n"
-         "creep: plastic extension; depth: most reversal points on the stack; broke away: share of trials\n";
+         "creep: plastic extension; depth: most reversal points on the stack; broke away: proportion of "
+         "trials\n";
 }
 
 nlohmann::ordered_json levels_json(const PointSummary& point) {

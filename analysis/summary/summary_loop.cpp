@@ -161,19 +161,22 @@ std::string design_line(const StudySummary& summary) {
 std::string loop_legend(const StudySummary& summary) {
   const StudyFeatures& features = summary.features;
   std::string legend =
-      "stable: share of trials whose moves all arrived and stayed within one count\n"
-      "zero-count: share of trials whose moves all ended at zero error; bounds of it after " +
+      "stable: proportion of trials whose moves all arrived and stayed within one count\n"
+      "zero-count: proportion of trials whose moves all ended at zero error; bounds of it after " +
       std::string(features.rigs ? "Korn and Graubard" : "Clopper and Pearson") + ", in %\n" +
       legend_of(summary, [](const Measure& m) { return m.summary.use == nullptr; });
-  if (features.rigs) legend += "rigs w/o failure: share of rigs all of whose trials ended at zero error\n";
+  if (features.rigs)
+    legend += "rigs w/o failure: proportion of rigs all of whose trials ended at zero error\n";
   if (any_undecided(summary)) {
     legend +=
-        "undecided: share of trials whose worst move ended off target, stalled or still on its way: neither "
+        "undecided: proportion of trials whose worst move ended off target, stalled or still on its way: "
+        "neither "
         "stable nor\nshown unstable\n";
   }
   if (any_unsettled(summary)) {
     legend +=
-        "unsettled: share of trials that ended within one count without being stable: a move had not arrived "
+        "unsettled: proportion of trials that ended within one count without being stable: a move had not "
+        "arrived "
         "yet, hunts by\none count, or had left by more than one; all other trials oscillated\n";
   }
   legend += legend_of(summary, is_quality);
@@ -181,7 +184,8 @@ std::string loop_legend(const StudySummary& summary) {
   legend += legend_of(summary, [](const Measure& m) { return m.summary.use != nullptr && !is_quality(m); });
   if (!summary.predictions.empty()) {
     legend +=
-        "(6), (7): share of trials in which the paper's criterion (6) holds, which promises stability before "
+        "(6), (7): proportion of trials in which the paper's criterion (6) holds, which promises stability "
+        "before "
         "sliding, and\n"
         "in which its criterion (7) is exceeded, which rules it out; by the friction where the trial "
         "starts\n";

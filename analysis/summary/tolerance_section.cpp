@@ -70,9 +70,10 @@ std::vector<PointColumn> columns_of(std::span<const PointSummary> points) {
                   [i](const PointSummary& point) { return point.settles_within.at(i).within; }));
   }
   if (on_rigs(points)) {
-    columns.push_back(column_of(
-        points, "rigs_zero_at_least", "1", "share of moves in which at least 90 % of rigs hold zero at least",
-        [](const PointSummary& point) { return point.rigs.tolerance.zero_at_least; }));
+    columns.push_back(
+        column_of(points, "rigs_zero_at_least", "1",
+                  "proportion of moves in which at least 90 % of rigs hold zero at least",
+                  [](const PointSummary& point) { return point.rigs.tolerance.zero_at_least; }));
   }
   for (const StatisticField& field :
        mean_bound_fields(points.empty() ? measure_table() : *points.front().table))
@@ -97,7 +98,7 @@ std::string text_of(std::span<const PointSummary> points, const std::vector<std:
 
 }  // namespace
 
-SummarySection assurance_section(std::span<const PointSummary> points,
+SummarySection tolerance_section(std::span<const PointSummary> points,
                                  const std::vector<std::string>& labels) {
   SummarySection section{
       .key = "assurance", .json = {}, .columns = columns_of(points), .text = text_of(points, labels)};

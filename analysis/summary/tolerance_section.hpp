@@ -17,7 +17,7 @@ namespace zerocount {
 /// failure_at_most, settling_within_95, _99 and _99_9, and mean_bound_fields(); its text is a sentence for
 /// each point.
 /// @param labels [point]
-SummarySection assurance_section(std::span<const PointSummary> points,
+SummarySection tolerance_section(std::span<const PointSummary> points,
                                  const std::vector<std::string>& labels);
 
 }  // namespace zerocount

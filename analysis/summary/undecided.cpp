@@ -67,7 +67,7 @@ double needed_hold(const MoveOutcome& move, std::size_t number, std::int64_t err
 /// @param needed holds, s
 double advised_hold(const std::vector<double>& needed) {
   if (needed.empty()) return std::numeric_limits<double>::quiet_NaN();
-  Tally<double> holds;
+  Histogram<double> holds;
   for (const double hold : needed) holds.add(hold);
   return rounded_up(quantile(holds, advised_proportion).value);
 }

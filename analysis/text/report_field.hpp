@@ -13,7 +13,7 @@ struct ReportField {
   std::string group;      ///< JSON object that holds it, such as "settling_time"; empty at the top
   std::string name;       ///< within its group
   std::string unit;       ///< "1" where dimensionless
-  std::string long_name;  ///< what it is, with the denominator of a share or mean
+  std::string long_name;  ///< what it is, with the denominator of a proportion or mean
   bool whole{false};      ///< a whole number
   std::function<double(const Subject&)> value;  ///< in `unit`; NaN where not defined
 };

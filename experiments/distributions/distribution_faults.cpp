@@ -35,24 +35,24 @@ std::optional<Fault> fault_of(const Normal& d) {
 std::optional<Fault> fault_of(const TruncatedNormal& d) {
   if (auto fault = positive_fault("sd", d.sd)) return fault;
   if (auto fault = ends_fault(d.low, d.high)) return fault;
-  constexpr double smallest_share = 1e-12;
+  constexpr double min_proportion = 1e-12;
   const boost::math::normal standard;
   const double low = (d.low - d.mean) / d.sd;
   const double high = (d.high - d.mean) / d.sd;
-  const double share = low > 0.0 ? boost::math::cdf(standard, -low) - boost::math::cdf(standard, -high)
-                                 : boost::math::cdf(standard, high) - boost::math::cdf(standard, low);
-  if (share >= smallest_share) return std::nullopt;
-  return Fault{
-      fmt::format("only the share {:.3g} of the normal distribution lies between low and high", share),
-      fmt::format("at least {}", smallest_share)};
+  const double proportion = low > 0.0 ? boost::math::cdf(standard, -low) - boost::math::cdf(standard, -high)
+                                      : boost::math::cdf(standard, high) - boost::math::cdf(standard, low);
+  if (proportion >= min_proportion) return std::nullopt;
+  return Fault{fmt::format("only the proportion {:.3g} of the normal distribution lies between low and high",
+                           proportion),
+               fmt::format("at least {}", min_proportion)};
 }
 
 std::optional<Fault> fault_of(const Lognormal& d) {
   if (auto fault = positive_fault("median", d.median)) return fault;
   if (auto fault = positive_fault("cv", d.cv)) return fault;
-  constexpr double largest_cv = 10.0;
-  if (d.cv <= largest_cv) return std::nullopt;
-  return Fault{fmt::format("cv is {}", d.cv), fmt::format("cv at most {}", largest_cv)};
+  constexpr double max_coefficient_of_variation = 10.0;
+  if (d.cv <= max_coefficient_of_variation) return std::nullopt;
+  return Fault{fmt::format("cv is {}", d.cv), fmt::format("cv at most {}", max_coefficient_of_variation)};
 }
 
 std::optional<Fault> fault_of(const Triangular& d) {

@@ -18,11 +18,11 @@ namespace {
 using Numbers = std::vector<double>;
 
 // Whole numbers that a double holds exactly, so that the draws do.
-constexpr std::int64_t largest_whole = std::int64_t{1} << 53;
+constexpr std::int64_t max_whole_number = std::int64_t{1} << 53;
 
 std::optional<double> read_one(const DistributionForm& form, const Field& field, Problems& problems) {
   if (!form.whole_numbers) return read_real(field, all_numbers(), problems);
-  const auto whole = read_whole(field, -largest_whole, largest_whole, problems);
+  const auto whole = read_whole(field, -max_whole_number, max_whole_number, problems);
   if (!whole) return std::nullopt;
   return static_cast<double>(*whole);
 }

@@ -15,7 +15,7 @@
 namespace zerocount {
 namespace {
 
-constexpr std::size_t most_reported = 20;
+constexpr std::size_t max_reported = 20;
 
 struct Checking {
   const PlanPlaces& places;
@@ -84,11 +84,11 @@ void check_values(Checking& c) {
       if (!are_readable(all)) return true;  // told already
       for (const ValueFault& fault : rule.find_faults(all.first(named.size()), all.subspan(named.size()))) {
         const std::vector<std::size_t> slots = slots_of(fault, involved);
-        if (reported.size() < most_reported && reported.insert({slots.front(), fault.what}).second) {
+        if (reported.size() < max_reported && reported.insert({slots.front(), fault.what}).second) {
           tell(c, place_of_fault(c, slots, point), slots.front(), fault.what, fault.expected, rule.warn_only);
         }
       }
-      return reported.size() < most_reported;
+      return reported.size() < max_reported;
     });
   }
 }

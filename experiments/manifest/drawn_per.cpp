@@ -39,7 +39,7 @@ std::optional<Misfit> misfit_of(Per per, const Parameter& parameter, Drawn drawn
 
 }  // namespace
 
-std::span<const std::string_view> per_words() {
+std::span<const std::string_view> per_labels() {
   static constexpr std::array<std::string_view, 4> words{"study", "rig", "trial", "contact"};
   return words;
 }
@@ -52,7 +52,7 @@ Per usual_per(const Parameter& parameter, Drawn drawn, bool has_rigs) {
 std::optional<Per> read_per(const Field& field, const Parameter& parameter, Drawn drawn, bool has_rigs,
                             Problems& problems) {
   const YamlNode& node = *field.node;
-  const auto words = per_words();
+  const auto words = per_labels();
   const auto word = std::find(words.begin(), words.end(), node.text);
   if (node.kind != YamlNode::Kind::scalar || word == words.end()) {
     problems.add(node.place, field.path, fmt::format("{} is none of its words", in_quotes(flow_text(node))),

@@ -14,7 +14,7 @@ namespace zerocount {
 constexpr std::string_view per_key = "per";
 
 /// Its words, in the order of the enumeration Per.
-std::span<const std::string_view> per_words();
+std::span<const std::string_view> per_labels();
 
 /// What is drawn: a single value, or a profile along the rotor.
 enum class Drawn { value, profile };

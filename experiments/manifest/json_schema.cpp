@@ -88,11 +88,11 @@ Json definitions() {
   for (const DistributionForm& form : distribution_forms()) {
     const std::string name(form.name);
     all[name] = form_schema(form);
-    all[name]["properties"][per] = per_schema(per_words());
+    all[name]["properties"][per] = per_schema(per_labels());
     all[name]["description"] = form.meaning;
   }
   all["profile"] =
-      object_of({{"profile", profile_schema()}, {per, per_schema(per_words().first(2))}}, {"profile"});
+      object_of({{"profile", profile_schema()}, {per, per_schema(per_labels().first(2))}}, {"profile"});
   all["profile"]["description"] = "friction along the rotor: a periodic random field";
   return all;
 }
@@ -104,7 +104,7 @@ Json reference(std::string_view name) {
 // What may stand for one value of the parameter.
 Json value_schema(const Parameter& parameter) {
   if (parameter.kind == ParameterKind::truth) return {{"type", "boolean"}};
-  if (parameter.kind == ParameterKind::enumeration) return {{"enum", parameter.words}};
+  if (parameter.kind == ParameterKind::enumeration) return {{"enum", parameter.labels}};
   const bool whole = parameter.kind == ParameterKind::whole_number;
   Json number{{"type", whole ? "integer" : "number"}};
   // The units are another key's business: a gain may be as large as in SI units.
@@ -130,7 +130,7 @@ std::string description_of(const Parameter& parameter) {
 
 Json key_schema(const Parameter& parameter) {
   Json schema = parameter.listed ? list_of(value_schema(parameter), 1) : value_schema(parameter);
-  if (parameter.listed) schema["maxItems"] = most_listed_values;
+  if (parameter.listed) schema["maxItems"] = max_listed_values;
   schema["description"] = description_of(parameter);
   if (parameter.kind == ParameterKind::truth) {
     schema["default"] = default_value(parameter) != 0.0;
@@ -143,7 +143,7 @@ Json key_schema(const Parameter& parameter) {
 }
 
 Json spacing_schema() {
-  const Json count{{"type", "integer"}, {"minimum", 2}, {"maximum", most_points}};
+  const Json count{{"type", "integer"}, {"minimum", 2}, {"maximum", max_points}};
   const auto spacing = [&](const Json& end) {
     return Json{{"type", "array"}, {"prefixItems", {end, end, count}}, {"minItems", 3}, {"maxItems", 3}};
   };
@@ -165,7 +165,7 @@ Json sweep_schema() {
   for (const Parameter& parameter : parameter_table()) {
     const Json value = value_schema(parameter);
     const Json spaced = {{"anyOf", {list_of(value, 1), spacing_schema()}}};
-    const bool numeric = !has_words(parameter);
+    const bool numeric = !has_labels(parameter);
     const Json whole_value = parameter.listed ? list_of(value, 1) : value;
     assignments[pattern_of(parameter, false)] = whole_value;
     grid[pattern_of(parameter, false)] = numeric && !parameter.listed ? spaced : list_of(whole_value, 1);
@@ -193,7 +193,7 @@ Json general_schemas() {
       {"seed", {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<std::uint64_t>::max()}}},
       {"trials", {{"type", "integer"}, {"minimum", 1}, {"maximum", std::int64_t{1} << 53}}},
       {"rigs", {{"type", "integer"}, {"minimum", min_rigs}, {"maximum", max_rigs}}},
-      {"design", {{"enum", std::vector<std::string_view>(design_words().begin(), design_words().end())}}},
+      {"design", {{"enum", std::vector<std::string_view>(design_labels().begin(), design_labels().end())}}},
       {"independent_points", {{"type", "boolean"}}},
       {"retain",
        object_of(
@@ -211,15 +211,15 @@ Json general_schemas() {
                          {"success_rate_halfwidth", "max_trials"})},
       {"observed", {{"type", "object"}, {"additionalProperties", text}}},
       {"sweep", sweep_schema()},
-      {"axis", {{"enum", axis_words()}, {"default", axis_words().front()}}},
+      {"axis", {{"enum", axis_labels()}, {"default", axis_labels().front()}}},
       {"travel", number_in(above(0))},
-      {"controller.units", {{"enum", gain_unit_words()}, {"default", gain_unit_words().front()}}},
+      {"controller.units", {{"enum", gain_unit_labels()}, {"default", gain_unit_labels().front()}}},
       {"command.sequence.cycles",
        {{"type", "integer"},
         {"minimum", 1},
-        {"maximum", most_sequence_moves},
+        {"maximum", max_sequence_moves},
         {"default", SequenceCycle{}.cycles}}},
-      {"command.sequence.approach", {{"enum", approach_words()}, {"default", approach_words().front()}}}};
+      {"command.sequence.approach", {{"enum", approach_labels()}, {"default", approach_labels().front()}}}};
 }
 
 Json general_schema(const GeneralKey& key) {

@@ -18,7 +18,7 @@ namespace {
 [[noreturn]] void refuse_size(std::string_view source) {
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}:1:1: manifest: the file is too large; expected at most {} bytes", source,
-                            largest_manifest));
+                            max_manifest_size));
 }
 
 // Text and overrides as one text; neither can contain the separator.
@@ -45,7 +45,7 @@ void require_effect(const Study& study, std::string_view source) {
 
 Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides) {
   const std::string source = name_of_text(manifest);
-  std::string text = read_text(manifest, largest_manifest, "a manifest");
+  std::string text = read_text(manifest, max_manifest_size, "a manifest");
   if (text.starts_with("\x89HDF")) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: a file in the HDF5 format, such as results; expected a manifest", source));
@@ -61,7 +61,7 @@ Study parse_study(std::string text, std::string_view source, const std::vector<s
 
 Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
                   std::int64_t version) {
-  if (text.size() > largest_manifest) refuse_size(source);
+  if (text.size() > max_manifest_size) refuse_size(source);
   Problems problems;
   YamlPointer root = parse_yaml(text, source, false, problems);
   if (!root && problems.empty()) {

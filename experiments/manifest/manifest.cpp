@@ -24,7 +24,7 @@
 namespace zerocount {
 namespace {
 
-constexpr std::int64_t most_trials = std::int64_t{1} << 53;
+constexpr std::int64_t max_trials = std::int64_t{1} << 53;
 
 // The manifest while it is read.
 struct Manifest {
@@ -79,7 +79,7 @@ void read_texts(Manifest& m) {
 void read_design(Manifest& m) {
   const auto field = find_field(m, "design");
   if (!field) return;
-  const std::span<const std::string_view> words = design_words();
+  const std::span<const std::string_view> words = design_labels();
   const auto word = std::find(words.begin(), words.end(), field->node->text);
   if (field->node->kind == YamlNode::Kind::scalar && word != words.end()) {
     m.study.design = static_cast<Design>(word - words.begin());
@@ -95,7 +95,7 @@ void read_numbers(Manifest& m) {
     m.study.seed = read_seed(*field, m.problems()).value_or(0);
   }
   if (const auto field = find_required(m, "trials", "the number of trials at each design point")) {
-    m.study.trials = read_whole(*field, 1, most_trials, m.problems()).value_or(0);
+    m.study.trials = read_whole(*field, 1, max_trials, m.problems()).value_or(0);
   }
   if (const auto field = find_field(m, "rigs")) {
     m.reading.has_rigs = true;
@@ -119,10 +119,10 @@ void check_trial_count(Manifest& m) {
   std::int64_t points = 1;
   for (const PlanAxis& axis : m.plan().axes) points *= static_cast<std::int64_t>(option_count(axis));
   const auto field = find_field(m, "trials");
-  if (field && m.study.trials > most_trials / points) {
+  if (field && m.study.trials > max_trials / points) {
     m.problems().add(field->node->place, field->path,
                      fmt::format("{} trials at {} points are too many", m.study.trials, points),
-                     fmt::format("at most {} trials in all", most_trials));
+                     fmt::format("at most {} trials in all", max_trials));
   }
 }
 
@@ -266,7 +266,7 @@ Study read_manifest(const YamlNode& root, std::int64_t version, Problems& proble
   read_sections(m.root, m.reading, m.places);
   read_axes(m);
   read_retained(m);
-  if (const auto field = find_field(m, "stop")) read_stop(*field, most_trials, m.study, problems);
+  if (const auto field = find_field(m, "stop")) read_stop(*field, max_trials, m.study, problems);
   check_trial_count(m);
   check_rigs(m);
   read_observed(m);

@@ -106,13 +106,13 @@ bool is_section(std::string_view path) {
          std::any_of(paths.begin(), paths.end(), [&](std::string_view name) { return is_below(name, path); });
 }
 
-std::span<const std::string_view> design_words() {
+std::span<const std::string_view> design_labels() {
   static constexpr std::array<std::string_view, 4> words{"monte_carlo", "latin_hypercube", "sobol",
                                                          "saltelli"};
   return words;
 }
 
-std::span<const std::string_view> approach_words() {
+std::span<const std::string_view> approach_labels() {
   static constexpr std::array<std::string_view, 3> words{"bidirectional", "positive", "negative"};
   return words;
 }

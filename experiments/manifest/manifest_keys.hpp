@@ -38,9 +38,9 @@ bool is_section(std::string_view path);
 bool is_within(std::string_view path, std::string_view section);
 
 /// The words of the key `design`, in the order of the enumeration Design.
-std::span<const std::string_view> design_words();
+std::span<const std::string_view> design_labels();
 
 /// The words of the key `command.sequence.approach`, in the order of the enumeration SequenceApproach.
-std::span<const std::string_view> approach_words();
+std::span<const std::string_view> approach_labels();
 
 }  // namespace zerocount

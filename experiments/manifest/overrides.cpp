@@ -127,7 +127,7 @@ YamlPointer apply_overrides(YamlPointer root, const std::vector<std::string>& ov
     const std::string& source = sources.emplace_back("--set " + text.substr(0, 200));
     const std::size_t equals = text.find('=');
     const std::string key = text.substr(0, equals);
-    if (equals == std::string::npos || !is_well_formed(key) || text.size() > largest_manifest) {
+    if (equals == std::string::npos || !is_well_formed(key) || text.size() > max_manifest_size) {
       problems.add({source}, "manifest", "this is no override", "--set key=value with the key's dotted path");
       continue;
     }

@@ -25,7 +25,7 @@ struct Listing {
 };
 
 std::string allowed(const Parameter& parameter, const StudyUnits& units) {
-  if (has_words(parameter)) return fmt::format("{}", fmt::join(parameter.words, " | "));
+  if (has_labels(parameter)) return fmt::format("{}", fmt::join(parameter.labels, " | "));
   return (parameter.kind == ParameterKind::whole_number ? "whole, " : "") +
          notation(range_of(parameter, units));
 }
@@ -55,7 +55,7 @@ Listing distribution_listing(const StudyUnits& units) {
            fmt::format(": a periodic random field; correlation_length in {}, marginal normal or lognormal "
                        "(default); the mean may be a distribution, drawn for each {}",
                        unit_on(units.axis, "rad"), text_on(units.axis, "rotor"))});
-  listing.rows.push_back({std::string(per_key), fmt::format("{{…, per: {}}}", fmt::join(per_words(), " | ")),
+  listing.rows.push_back({std::string(per_key), fmt::format("{{…, per: {}}}", fmt::join(per_labels(), " | ")),
                           "beside any of these: how often it is drawn; contact for friction alone, study or "
                           "rig for a profile"});
   return listing;

@@ -24,10 +24,10 @@ struct SectionReading {
 
 void read_list(SectionReading& s, const Field& field) {
   ListedValues& list = s.plan().list;
-  const std::string expected = fmt::format("a list of 1 to {} {}", most_listed_values, listed_noun(list));
+  const std::string expected = fmt::format("a list of 1 to {} {}", max_listed_values, listed_noun(list));
   if (!check_list(field, expected, s.problems())) return;
   const std::size_t count = field.node->items.size();
-  if (count < 1 || count > most_listed_values) {
+  if (count < 1 || count > max_listed_values) {
     s.problems().add(field.node->place, field.path, fmt::format("a list of {} stands here", count), expected);
     return;
   }
@@ -51,7 +51,7 @@ void read_parameter(SectionReading& s, const Field& field, std::size_t row) {
 }
 
 void read_approach(SectionReading& s, const Field& field, SequenceCycle& cycle) {
-  const std::span<const std::string_view> words = approach_words();
+  const std::span<const std::string_view> words = approach_labels();
   const auto word = std::find(words.begin(), words.end(), field.node->text);
   if (field.node->kind == YamlNode::Kind::scalar && word != words.end()) {
     cycle.approach = static_cast<SequenceApproach>(word - words.begin());
@@ -69,7 +69,7 @@ void read_general_key(SectionReading& s, const Field& field) {
   if (field.path == "command.sequence.approach") {
     read_approach(s, field, cycle);
   } else if (field.path == "command.sequence.cycles") {
-    cycle.cycles = read_whole(field, 1, most_sequence_moves, s.problems()).value_or(cycle.cycles);
+    cycle.cycles = read_whole(field, 1, max_sequence_moves, s.problems()).value_or(cycle.cycles);
   }
 }
 
@@ -163,10 +163,10 @@ void check_sequence_length(SectionReading& s, const Field& command) {
   if (!s.plan().sequence) return;
   const std::int64_t moves =
       sequence_move_count(*s.plan().sequence, static_cast<std::int64_t>(s.plan().list.count));
-  if (moves <= most_sequence_moves) return;
+  if (moves <= max_sequence_moves) return;
   const YamlEntry* sequence = find_entry(*command.node, "sequence");
   s.problems().add(sequence->value->place, "command.sequence", fmt::format("it has {} moves", moves),
-                   fmt::format("at most {} moves, cycles times those of a cycle", most_sequence_moves));
+                   fmt::format("at most {} moves, cycles times those of a cycle", max_sequence_moves));
 }
 
 }  // namespace

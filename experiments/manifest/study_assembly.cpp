@@ -98,14 +98,14 @@ void set_common_parameters(const Study& study, StudyPlan& plan) {
 
 std::string column_meaning(const Parameter& parameter, const StudyUnits& units) {
   std::string meaning = meaning_of(parameter, units);
-  for (std::size_t i = 0; i < parameter.words.size(); ++i) {
-    meaning += fmt::format("{}{} {}", i == 0 ? " (" : ", ", i, parameter.words[i]);
+  for (std::size_t i = 0; i < parameter.labels.size(); ++i) {
+    meaning += fmt::format("{}{} {}", i == 0 ? " (" : ", ", i, parameter.labels[i]);
   }
-  return parameter.words.empty() ? meaning : meaning + ")";
+  return parameter.labels.empty() ? meaning : meaning + ")";
 }
 
 // How often the value of the slot is drawn, of different points the most often.
-Per most_often(const StudyPlan& plan, std::size_t slot) {
+Per max_frequent_draw(const StudyPlan& plan, std::size_t slot) {
   Per per = Per::study;
   visit_points(plan, {&slot, 1}, [&](std::size_t point) {
     const Value& value = *value_at_point(plan, slot, point);
@@ -154,8 +154,8 @@ void list_input_columns(const std::vector<bool>& swept, StudyPlan& plan, Study& 
     const std::string name = slot_name(slot, plan.list);
     const std::string unit = unit_of(parameter, plan.units);
     plan.input_slots.push_back(number);
-    add_column({name, unit, column_meaning(parameter, plan.units), most_often(plan, slot)}, {number, false},
-               swept[slot], plan, study);
+    add_column({name, unit, column_meaning(parameter, plan.units), max_frequent_draw(plan, slot)},
+               {number, false}, swept[slot], plan, study);
     if (const auto per = drawn_mean(plan, slot)) {
       add_column({profile_mean_name(name), unit, fmt::format("mean of the profile of {}", name), *per},
                  {number, true}, swept[slot], plan, study);

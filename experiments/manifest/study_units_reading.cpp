@@ -32,7 +32,7 @@ std::optional<Field> find_within(const Field& map, std::string_view key) {
 void read_study_units(const Field& root, Reading& reading) {
   StudyPlan& plan = reading.plan;
   if (const auto axis = find_within(root, "axis")) {
-    plan.units.axis = static_cast<AxisKind>(read_one_of(*axis, axis_words(), reading.problems));
+    plan.units.axis = static_cast<AxisKind>(read_one_of(*axis, axis_labels(), reading.problems));
   }
   const bool linear = plan.units.axis == AxisKind::linear;
   if (linear) plan.period.reset();
@@ -49,7 +49,7 @@ void read_study_units(const Field& root, Reading& reading) {
   const auto controller = find_within(root, "controller");
   const auto gains = controller ? find_within(*controller, "units") : std::nullopt;
   if (gains)
-    plan.units.gains = static_cast<GainUnits>(read_one_of(*gains, gain_unit_words(), reading.problems));
+    plan.units.gains = static_cast<GainUnits>(read_one_of(*gains, gain_unit_labels(), reading.problems));
 }
 
 void check_travel(const Field& root, Reading& reading) {

@@ -35,13 +35,13 @@ std::vector<std::string> swept_names(const ListedValues& list) {
 
 // Reserves room for `options` more values of the product; false, once reported, where there is none.
 bool check_point_count(const Field& sweep, std::size_t options, SweepReading& state) {
-  const bool fits = !state.too_many && (options == 0 || state.points <= most_points / options);
+  const bool fits = !state.too_many && (options == 0 || state.points <= max_points / options);
   if (fits) {
     state.points *= std::max<std::size_t>(options, 1);
   } else if (!state.too_many) {
     state.too_many = true;
     state.reading.problems.add(sweep.node->place, "sweep", "the sweep has too many design points",
-                               fmt::format("at most {} points", most_points));
+                               fmt::format("at most {} points", max_points));
   }
   return fits;
 }
@@ -115,7 +115,7 @@ void note_slots(SweptAxis& axis, const SlotRange& slots) {
 std::string value_label(const SweptAxis& axis, const SlotRange& slots, const YamlNode& node,
                         const ListedValues& list) {
   const std::size_t row = row_of_slot(slots.first, list);
-  if (slots.list || has_words(parameter_table()[row]) || axis.axis.assignments.empty() ||
+  if (slots.list || has_labels(parameter_table()[row]) || axis.axis.assignments.empty() ||
       axis.axis.assignments.back().value.kind != Value::Kind::number) {
     return flow_text(node);
   }
@@ -154,7 +154,7 @@ void read_spaced(const Field& sweep, const Field& field, const SlotRange& slots,
     return;
   }
   const Field inner = entry_of(field, entries[0]);
-  const auto spacing = read_spacing(inner, entries[0].key, most_points, state.reading.problems);
+  const auto spacing = read_spacing(inner, entries[0].key, max_points, state.reading.problems);
   if (!spacing || !check_point_count(sweep, spacing->count, state)) return;
   const std::vector<double> values = spaced_values(*spacing);
   std::vector<std::string> labels = spaced_labels(axis.name, values);

@@ -9,7 +9,7 @@
 
 namespace zerocount {
 
-constexpr std::size_t most_points = 1'000'000;
+constexpr std::size_t max_points = 1'000'000;
 
 /// A factor of the product of design points, as read: the axis for the plan, and what names its options.
 struct SweptAxis {
@@ -23,7 +23,7 @@ struct SweptAxis {
 
 /// Reads `sweep: {grid, cases}`. The cases are the slowest axis; then come the keys of the grid in their
 /// order, the last one fastest. Where both give a value to one parameter, the grid's wins, with a warning. A
-/// product of more than most_points is a problem, found without writing it out. `linspace: [a, b, n]` is n
+/// product of more than max_points is a problem, found without writing it out. `linspace: [a, b, n]` is n
 /// numbers at equal distances from a to b, both included; `logspace: [a, b, n]` is n numbers at equal ratios
 /// from a to b, which are the end values themselves and not exponents. The values between are rounded to 15
 /// significant digits.

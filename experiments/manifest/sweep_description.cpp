@@ -31,7 +31,7 @@ SweepAxis empty_axis(std::size_t slot, const StudyPlan& plan, std::size_t points
   axis.name = slot_name(slot, plan.list);
   axis.unit = unit_of(parameter, plan.units);
   axis.meaning = meaning_of(parameter, plan.units);
-  if (has_words(parameter)) {
+  if (has_labels(parameter)) {
     axis.kind = SweepAxis::Kind::text;
     axis.unit.clear();
     axis.texts.reserve(points);
@@ -43,7 +43,7 @@ SweepAxis empty_axis(std::size_t slot, const StudyPlan& plan, std::size_t points
 
 void append_value(SweepAxis& axis, std::size_t slot, const Value& value) {
   if (axis.kind == SweepAxis::Kind::text) {
-    axis.texts.emplace_back(parameter_table()[slot].words[static_cast<std::size_t>(value.number)]);
+    axis.texts.emplace_back(parameter_table()[slot].labels[static_cast<std::size_t>(value.number)]);
   } else {
     axis.numbers.push_back(value.kind == Value::Kind::number ? value.number
                                                              : std::numeric_limits<double>::quiet_NaN());

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view profile_name = "profile";
 
 std::string expected_of(const Parameter& parameter, const StudyUnits& units) {
-  if (has_words(parameter)) return fmt::format("one of {}", fmt::join(parameter.words, ", "));
+  if (has_labels(parameter)) return fmt::format("one of {}", fmt::join(parameter.labels, ", "));
   const std::string words = in_words(range_of(parameter, units));
   const std::string noun = parameter.kind == ParameterKind::whole_number ? "whole numbers" : "numbers";
   return words.rfind("any", 0) == 0 ? "finite " + noun + " only" : noun + " " + words + " only";
@@ -34,12 +34,12 @@ Value read_truth_value(const Field& field, Problems& problems) {
 
 Value read_word(const Field& field, const Parameter& parameter, Problems& problems) {
   const YamlNode& node = *field.node;
-  const auto word = std::find(parameter.words.begin(), parameter.words.end(), node.text);
-  if (node.kind == YamlNode::Kind::scalar && word != parameter.words.end()) {
-    return number_value(static_cast<double>(word - parameter.words.begin()));
+  const auto word = std::find(parameter.labels.begin(), parameter.labels.end(), node.text);
+  if (node.kind == YamlNode::Kind::scalar && word != parameter.labels.end()) {
+    return number_value(static_cast<double>(word - parameter.labels.begin()));
   }
   problems.add(node.place, field.path, fmt::format("{} is none of its words", in_quotes(flow_text(node))),
-               fmt::format("one of {}", fmt::join(parameter.words, ", ")));
+               fmt::format("one of {}", fmt::join(parameter.labels, ", ")));
   return unreadable_value();
 }
 
@@ -87,7 +87,7 @@ Value read_drawn(const DistributionForm& form, const Field& field, const Paramet
 }
 
 Value read_profile_value(const Field& field, std::size_t row, Per per, Reading& reading) {
-  constexpr std::size_t most_profiles = 1000;
+  constexpr std::size_t max_profiles = 1000;
   if (!reading.plan.period) {
     reading.problems.add(field.node->place, field.path,
                          "the profile of a linear axis needs the key travel, its period",
@@ -96,9 +96,9 @@ Value read_profile_value(const Field& field, std::size_t row, Per per, Reading& 
   }
   const auto form = read_profile(field, *reading.plan.period, reading.problems);
   if (!form) return unreadable_value();
-  if (reading.profiles.size() == most_profiles) {
+  if (reading.profiles.size() == max_profiles) {
     reading.problems.add(field.node->place, field.path, "there are too many profiles",
-                         fmt::format("at most {} in a study", most_profiles));
+                         fmt::format("at most {} in a study", max_profiles));
     return unreadable_value();
   }
   reading.profiles.push_back({row, *form, per, field.node->place, field.path});
@@ -170,7 +170,7 @@ bool check_exists(const Field& field, const Parameter& parameter, Reading& readi
   if (exists_on(parameter, axis)) return true;
   reading.problems.add(
       field.node->place, field.path,
-      fmt::format("a {} axis does not have it", axis_words()[static_cast<std::size_t>(axis)]),
+      fmt::format("a {} axis does not have it", axis_labels()[static_cast<std::size_t>(axis)]),
       parameter.instead);
   return false;
 }

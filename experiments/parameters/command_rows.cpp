@@ -5,7 +5,7 @@ namespace zerocount {
 std::vector<Parameter> command_rows() {
   constexpr std::string_view required = "required";
   constexpr Interval targets{
-      .low = -largest_count, .high = largest_count, .low_included = true, .high_included = true};
+      .low = -max_count, .high = max_count, .low_included = true, .high_included = true};
   return {
       list_of(whole_row("command.targets", "count", "target of each move, from the start of the trial",
                         required, targets)),
@@ -27,7 +27,7 @@ std::vector<Parameter> command_rows() {
                         targets)),
       whole_row("command.sequence.overrun", "count",
                 "how far beyond the first and the last target a sequence turns round", required,
-                closed(1, largest_count)),
+                closed(1, max_count)),
 
       stored_at(
           real_row("command.hold", "s",

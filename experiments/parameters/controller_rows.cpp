@@ -56,7 +56,7 @@ std::vector<Parameter> controller_rows() {
           [](auto& p) -> auto& { return p.controller.coarse.encoder; }),
       stored_at(
           real_row("controller.coarse.fine_within", "count",
-                   "largest |error| with which the fine phase is entered", assumed, closed(0, largest_count)),
+                   "largest |error| with which the fine phase is entered", assumed, closed(0, max_count)),
           [](auto& p) -> auto& { return p.controller.coarse.fine_within; }),
       stored_at(
           real_row("controller.coarse.fine_rate", "count/sample",
@@ -70,7 +70,7 @@ std::vector<Parameter> controller_rows() {
       or_never(
           real_row("controller.coarse.coarse_beyond", "count",
                    "|error| beyond which the coarse phase is entered; 1e12: there is none", assumed,
-                   closed(0, largest_count)),
+                   closed(0, max_count)),
           [](auto& p) -> auto& { return p.controller.coarse.coarse_beyond; }),
   };
 }

@@ -21,12 +21,12 @@ std::vector<Parameter> encoder_rows() {
       only_on(AxisKind::rotary, "encoder.resolution, m per count",
               stored_at(
                   whole_row("encoder.fine", "count/rev", "counts per revolution of the fine encoder",
-                            "paper, section 2", closed(1, largest_count)),
+                            "paper, section 2", closed(1, max_count)),
                   [](auto& p) -> auto& { return p.encoder.fine; })),
       only_on(AxisKind::rotary, "encoder.coarse_resolution, m per count",
               stored_at(
                   whole_row("encoder.coarse", "count/rev", "counts per revolution of the coarse encoder",
-                            "paper, section 2", closed(1, largest_count)),
+                            "paper, section 2", closed(1, max_count)),
                   [](auto& p) -> auto& { return p.encoder.coarse; })),
       only_on(AxisKind::linear, "encoder.fine, counts per revolution",
               without_default(stored_at(

@@ -27,7 +27,7 @@ constexpr std::string_view assumed = "assumed";
 
 /// Largest magnitude of a target and of a counts-per-revolution: far above any machine's, and exact as a
 /// double with the whole arithmetic of counts around it.
-constexpr double largest_count = 1e12;
+constexpr double max_count = 1e12;
 
 /// A row of real numbers.
 inline Parameter real_row(std::string_view name, std::string_view unit, std::string_view meaning,
@@ -64,13 +64,13 @@ Parameter stored_at(Parameter row, At) {
   return row;
 }
 
-/// The same of a limit in counts, which no count exceeds where it is largest_count: in the trial's parameters
+/// The same of a limit in counts, which no count exceeds where it is max_count: in the trial's parameters
 /// that limit is infinite.
 template <class At>
 Parameter or_never(Parameter row, At) {
-  row.get = [](const TrialParameters& parameters) { return std::min(At{}(parameters), largest_count); };
+  row.get = [](const TrialParameters& parameters) { return std::min(At{}(parameters), max_count); };
   row.set = [](TrialParameters& parameters, double value) {
-    At{}(parameters) = value < largest_count ? value : std::numeric_limits<double>::infinity();
+    At{}(parameters) = value < max_count ? value : std::numeric_limits<double>::infinity();
   };
   return row;
 }

@@ -13,7 +13,7 @@ namespace zerocount {
 namespace {
 
 /// Far beyond any machine's, and far from the ends of a double.
-constexpr double largest_si_gain = 1e15;
+constexpr double max_si_gain = 1e15;
 
 std::vector<Parameter> make_table() {
   std::vector<Parameter> table;
@@ -61,7 +61,7 @@ std::string unit_of(const Parameter& parameter, const StudyUnits& units) {
 
 Interval range_of(const Parameter& parameter, const StudyUnits& units) {
   const bool si = units.gains == GainUnits::si && !parameter.si_unit.empty();
-  return si ? closed(0.0, largest_si_gain) : parameter.range;
+  return si ? closed(0.0, max_si_gain) : parameter.range;
 }
 
 std::string meaning_of(const Parameter& parameter, const StudyUnits& units) {
@@ -70,15 +70,15 @@ std::string meaning_of(const Parameter& parameter, const StudyUnits& units) {
 }
 
 bool default_holds(const Parameter& parameter, const StudyUnits& units) {
-  if (!has_default(parameter) || has_words(parameter)) return has_default(parameter);
+  if (!has_default(parameter) || has_labels(parameter)) return has_default(parameter);
   return default_value(parameter) == 0.0 || unit_of(parameter, units) == parameter.unit;
 }
 
 std::string default_text(const Parameter& parameter, const StudyUnits& units) {
   if (!default_holds(parameter, units)) return "none";
   const double value = default_value(parameter);
-  if (has_words(parameter)) {
-    return std::string(parameter.words[static_cast<std::size_t>(value)]);
+  if (has_labels(parameter)) {
+    return std::string(parameter.labels[static_cast<std::size_t>(value)]);
   }
   return fmt::format("{}", value);
 }

@@ -42,13 +42,12 @@ struct Parameter {
 std::span<const Parameter> parameter_table();
 
 /// Most values of a listed parameter.
-constexpr std::size_t most_listed_values = 3000;
+constexpr std::size_t max_listed_values = 3000;
 
 /// Sobol dimension of value i of a listed parameter: this number + i. The rows' own are those below it and
 /// those from first_sobol_dimension_beyond_moves on.
 constexpr std::size_t first_sobol_dimension_of_moves = 64;
-constexpr std::size_t first_sobol_dimension_beyond_moves =
-    first_sobol_dimension_of_moves + most_listed_values;
+constexpr std::size_t first_sobol_dimension_beyond_moves = first_sobol_dimension_of_moves + max_listed_values;
 
 /// Sobol dimension of the mean of a profile: this number + that of its parameter, a row of friction.
 constexpr std::size_t first_sobol_dimension_of_means = 3600;
@@ -62,8 +61,8 @@ inline bool has_default(const Parameter& parameter) {
 }
 
 /// Whether its values are words, and not numbers: that of an enumeration or a truth value.
-inline bool has_words(const Parameter& parameter) {
-  return !parameter.words.empty();
+inline bool has_labels(const Parameter& parameter) {
+  return !parameter.labels.empty();
 }
 
 /// Whether an axis of this kind has the parameter.

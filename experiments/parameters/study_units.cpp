@@ -52,12 +52,12 @@ void replace_word(std::string& text, const Rewording& word) {
 
 }  // namespace
 
-std::span<const std::string_view> axis_words() {
+std::span<const std::string_view> axis_labels() {
   static constexpr std::array<std::string_view, 2> all{"rotary", "linear"};
   return all;
 }
 
-std::span<const std::string_view> gain_unit_words() {
+std::span<const std::string_view> gain_unit_labels() {
   static constexpr std::array<std::string_view, 2> all{"count", "si"};
   return all;
 }

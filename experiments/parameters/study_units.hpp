@@ -23,8 +23,8 @@ struct StudyUnits {
 };
 
 /// The words of the manifest's keys `axis` and `controller.units`, in the order of their values.
-std::span<const std::string_view> axis_words();
-std::span<const std::string_view> gain_unit_words();
+std::span<const std::string_view> axis_labels();
+std::span<const std::string_view> gain_unit_labels();
 
 /// The unit on an axis of this kind of a quantity that has the unit `rotary` on a rotary one: m for rad, N
 /// for N m, kg for kg m^2, and what is made of these. Leaves a unit of a linear axis as it is.

@@ -48,9 +48,9 @@ void add_unknown_key(const Field& map, const YamlEntry& entry, std::span<const s
   const std::string_view nearest = nearest_key(entry.key, known);
   const std::string what =
       nearest.empty() ? "unknown key" : fmt::format("unknown key, nearest known: {}", nearest);
-  constexpr std::size_t most_listed = 24;
+  constexpr std::size_t max_listed = 24;
   const std::string expected =
-      known.size() <= most_listed
+      known.size() <= max_listed
           ? fmt::format("one of {}", fmt::join(known, ", "))
           : std::string("a dotted path of the table of parameters, such as controller.ki");
   problems.add(entry.place, path, what, expected);

@@ -18,10 +18,10 @@ namespace {
 using Limits = std::span<const ValueLimits>;
 using Faults = std::vector<ValueFault>;
 
-constexpr double most_samples = 1e12;  // a year of computing; a slip of the keyboard
+constexpr double max_samples = 1e12;  // a year of computing; a slip of the keyboard
 
 std::string too_many_samples() {
-  return fmt::format("at most {} samples in a trial", most_samples);
+  return fmt::format("at most {} samples in a trial", max_samples);
 }
 
 // A distribution that reaches infinity is told of itself, not of all that it makes endless.
@@ -41,9 +41,9 @@ std::vector<ValueRule> rules_of_samples() {
 ValueRule samples_of_targets(double moves) {
   return {{"command.hold", "controller.sample_rate"}, false, [moves](Limits l, Limits) -> Faults {
             if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high)) return {};  // told already
-            if (l[0].high * l[1].high * moves <= most_samples) return {};
+            if (l[0].high * l[1].high * moves <= max_samples) return {};
             return {{fmt::format("{} moves of {} s at {} Hz can be more than {} samples", moves, l[0].high,
-                                 l[1].high, most_samples),
+                                 l[1].high, max_samples),
                      too_many_samples()}};
           }};
 }
@@ -97,10 +97,10 @@ ValueRule samples_of_torque_levels() {
             const double ramps = time_of_ramps(levels, l[2]);
             if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high) || !std::isfinite(ramps)) return {};
             const double time = static_cast<double>(levels.size()) * l[0].high + ramps;
-            if (time * l[1].high <= most_samples) return {};
+            if (time * l[1].high <= max_samples) return {};
             return {{fmt::format("{} levels held for {} s, and {} s on the way to them, can be more than {} "
                                  "samples at {} Hz",
-                                 levels.size(), l[0].high, ramps, most_samples, l[1].high),
+                                 levels.size(), l[0].high, ramps, max_samples, l[1].high),
                      too_many_samples()}};
           }};
 }
@@ -149,9 +149,9 @@ ValueRule reach_of_the_overrun() {
   return {{"command.sequence.overrun"}, true, [](Limits l, Limits targets) -> Faults {
             const double farthest =
                 l[0].high + std::max(std::abs(targets.front().low), std::abs(targets.back().high));
-            if (farthest <= largest_count) return {};
+            if (farthest <= max_count) return {};
             return {{fmt::format("the sequence can go as far as {} counts", farthest),
-                     fmt::format("at most {} counts from the start", largest_count)}};
+                     fmt::format("at most {} counts from the start", max_count)}};
           }};
 }
 

@@ -24,7 +24,7 @@ double design_uniform(Design design, const SlotRandomness& randomness, std::uint
 RandomKey sobol_place_key(std::uint64_t seed);
 
 /// The point of a Sobol sequence that trial `index` takes where there are `rigs`: trials k·rigs …
-/// (k + 1)·rigs − 1 share the points of the same numbers, in an order that is random for every k. In the
+/// (k + 1)·rigs − 1 proportion the points of the same numbers, in an order that is random for every k. In the
 /// order of the trials a rig would have every rigs-th point alone, which for rigs = 2^m are all in one of 2^m
 /// equal intervals.
 std::uint64_t sobol_place(const RandomKey& key, std::uint64_t index, std::uint64_t rigs);

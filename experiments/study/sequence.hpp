@@ -26,7 +26,7 @@ struct SequenceCycle {
 };
 
 /// Most moves of a sequence.
-constexpr std::int64_t most_sequence_moves = 100'000;
+constexpr std::int64_t max_sequence_moves = 100'000;
 
 /// Number of moves with m targets: cycles·(2m + 2), or cycles·(m + 1) from one side.
 std::int64_t sequence_move_count(const SequenceCycle& cycle, std::int64_t targets);

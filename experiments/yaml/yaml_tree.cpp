@@ -178,9 +178,9 @@ class TreeBuilder : public YAML::EventHandler {
     }
     Open& parent = open_.back();
     parent.size += size;
-    if (parent.size > largest_expansion) {
+    if (parent.size > max_expanded_nodes) {
       refuse(where, "the aliases expand to too much",
-             fmt::format("at most {} values once every alias is written out", largest_expansion));
+             fmt::format("at most {} values once every alias is written out", max_expanded_nodes));
     }
     if (parent.node.kind == YamlNode::Kind::list) {
       parent.node.items.push_back(node);

@@ -31,9 +31,9 @@ struct YamlNode {
 };
 
 /// Limits on what is accepted, so that a hostile file costs neither time nor memory.
-constexpr std::size_t largest_manifest = 1 << 20;     ///< bytes
-constexpr std::size_t deepest_nesting = 24;           ///< lists and maps inside one another
-constexpr std::size_t largest_expansion = 2'000'000;  ///< nodes once every alias is written out
+constexpr std::size_t max_manifest_size = 1 << 20;     ///< bytes
+constexpr std::size_t deepest_nesting = 24;            ///< lists and maps inside one another
+constexpr std::size_t max_expanded_nodes = 2'000'000;  ///< nodes once every alias is written out
 
 /// The document in `text`, or null where it is none; everything found wrong goes to `problems`. Refused: more
 /// than one document, tags, keys that are not scalars, anchors that contain themselves, and what exceeds the

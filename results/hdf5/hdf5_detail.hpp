@@ -14,7 +14,7 @@
 #include "results/hdf5/hdf5.hpp"
 #include "results/storage/byte_file.hpp"
 
-/// What the sources of the HDF5 layer share; not for its users.
+/// What the sources of the HDF5 layer proportion; not for its users.
 namespace zerocount::hdf5 {
 
 static_assert(std::is_same_v<Id, hid_t> && std::is_same_v<Size, hsize_t> && std::is_same_v<int, herr_t>);

@@ -10,9 +10,9 @@
 
 #include "core/hash/sha256.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_descriptor.hpp"
-#include "results/storage/seal.hpp"
 
 namespace zerocount {
 namespace {
@@ -243,7 +243,7 @@ hdf5::File open_results(const std::filesystem::path& path, Seal seal) {
         ExitCode::bad_data,
         fmt::format("{}: not a results file of zerocount: it is not in the HDF5 format", path.string()));
   }
-  if (seal == Seal::required) require_seal(path);
+  if (seal == Seal::required) require_valid_checksum(path);
   return hdf5::File::open_to_read(path);
 }
 

@@ -20,7 +20,7 @@ constexpr ValidValues a_time{"a finite time, not negative"};
 
 }  // namespace
 
-std::vector<FlagMeaning> outcome_words() {
+std::vector<FlagMeaning> outcome_labels() {
   return {{static_cast<int>(Outcome::zero_count), "zero_count"},
           {static_cast<int>(Outcome::one_count), "one_count"},
           {static_cast<int>(Outcome::oscillating), "oscillating"},

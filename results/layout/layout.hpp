@@ -31,7 +31,7 @@ struct FlagMeaning {
 };
 
 /// The outcomes of a move.
-std::vector<FlagMeaning> outcome_words();
+std::vector<FlagMeaning> outcome_labels();
 
 /// What stands for an outcome in files of this version: before version 3 `oscillating` was any move that
 /// ended beyond one count.
@@ -160,7 +160,7 @@ Table rotor_table(const std::string& name, const std::string& unit);
 /// What differs between the rigs: [rig].
 Table rig_table(const std::vector<InputColumn>& inputs);
 /// Successes of the rigs at the design points: [point, rig]. In the group of rig_table, whose scale it
-/// shares.
+/// proportions.
 Table rig_count_table();
 
 /// The table with the units and long names that its columns have on an axis of this kind. The tables above

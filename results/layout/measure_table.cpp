@@ -22,11 +22,11 @@ constexpr ValidValues a_time_or_nan{.expected = "a finite time, not negative, or
 MeasureTable all_measures() {
   return {
       {.field = field<M>("outcome", "1", "verdict on the last window of the move", &M::outcome,
-                         {"0 to 5", 0.0, 5.0}, outcome_words()),
+                         {"0 to 5", 0.0, 5.0}, outcome_labels()),
        .values = {.needs_target = true},
        .of_trial = OfTrial::all,
        .point = {"",
-                 {{{rate}, "zero_count as a share of trials, NaN of an open-loop study"},
+                 {{{rate}, "zero_count as a proportion of trials, NaN of an open-loop study"},
                   {{rate_low, rate_high}, "{1} of success_rate: Clopper-Pearson, with rigs Korn-Graubard"},
                   {{rate_wilson_low, rate_wilson_high},
                    "{1} of success_rate, with rigs for the effective number of trials"}},
@@ -62,7 +62,7 @@ MeasureTable all_measures() {
                                {"p95 (s)", p95, CellText::settling_time},
                                {"arrived", n, CellText::proportion_of_moves}},
                    .legend = "median, p95: settling time of all moves, those that never arrived being later "
-                             "than any time; arrived: share of moves\n"},
+                             "than any time; arrived: proportion of moves\n"},
        .output = {{"settling_time",
                    "time until arrival, the longest of the trial's moves; a move that never arrived counts "
                    "with its duration"}},
@@ -100,7 +100,7 @@ MeasureTable all_measures() {
        .of_trial = OfTrial::all,
        .point = {"",
                  {{{count}, "trials all of whose moves arrived and stayed within one count"},
-                  {{rate}, "stable as a share of trials, NaN of an open-loop study"},
+                  {{rate}, "stable as a proportion of trials, NaN of an open-loop study"},
                   {{rate_low, rate_high}, "{1} of stable_rate: Clopper-Pearson, with rigs Korn-Graubard"},
                   {{rate_wilson_low, rate_wilson_high},
                    "{1} of stable_rate, with rigs for the effective number of trials"}}},
@@ -216,10 +216,11 @@ MeasureTable all_measures() {
                  {{{trials}, "trials with samples at which the fine count made the coarse one impossible"},
                   {{mean}, "mean number of such samples per trial"},
                   {{whole_max}, "largest number of such samples of a trial"}}},
-       .summary = {&StudyFeatures::encoder_errors,
-                   {{"disagreeing", trials, CellText::proportion_of_trials}},
-                   "disagreeing: share of trials in which the coarse count was ever impossible given the "
-                   "fine one\n"}},
+       .summary =
+           {&StudyFeatures::encoder_errors,
+            {{"disagreeing", trials, CellText::proportion_of_trials}},
+            "disagreeing: proportion of trials in which the coarse count was ever impossible given the "
+            "fine one\n"}},
       {.field = field<M>("oscillation_amplitude", "count",
                          "half of the largest minus the smallest count in the last half of an oscillating "
                          "move, NaN of others",
@@ -257,8 +258,8 @@ MeasureTable all_measures() {
        .output = {{"jerk_count", "jerks of all moves"}},
        .gate = {{"jerk_count", Worse::more, 0.05, 0.1}}},
       {.field = field<M>("jerk_agreement", "1",
-                         "share of the jerks in the direction of the holding torque, NaN if none",
-                         &M::jerk_agreement, {"a share, or NaN", 0.0, 1.0, true})},
+                         "proportion of the jerks in the direction of the holding torque, NaN if none",
+                         &M::jerk_agreement, {"a proportion, or NaN", 0.0, 1.0, true})},
       {.field = field<M>("stopped", "1",
                          "the move had diverged and was ended there, or was not run after one that was",
                          &M::stopped),
@@ -267,7 +268,7 @@ MeasureTable all_measures() {
        .point = {"", {{{count}, "trials that were ended early, because a move had diverged"}}},
        .summary = {&StudyFeatures::stopping,
                    {{"stopped", count, CellText::proportion_of_trials}},
-                   "stopped: share of trials that were ended where a move had diverged; they count as "
+                   "stopped: proportion of trials that were ended where a move had diverged; they count as "
                    "oscillating, and what is\nmeasured of their moves is up to there\n"}},
   };
 }

@@ -10,7 +10,7 @@
 #include "core/failure/failure.hpp"
 #include "results/layout/measure_table.hpp"
 #include "results/layout/statistic_io.hpp"
-#include "results/reading/sound_values.hpp"
+#include "results/reading/validation.hpp"
 
 namespace zerocount {
 namespace {
@@ -97,7 +97,7 @@ StudyFile::StudyFile(const std::filesystem::path& path, Require require, const M
     trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
   if (outcomes_.rows() != rows().count)
     outcomes_.row_scale().fail("its size differs from the attribute 'trial_count'");
-  require_sound_numbering(header_, trials_, jerks_);
+  validate_numbering(header_, trials_, jerks_);
 }
 
 std::int64_t StudyFile::local(RowRange range) const {
@@ -162,7 +162,7 @@ std::vector<double> StudyFile::inputs_of(std::int64_t row) const {
 
 std::vector<MoveOutcome> StudyFile::outcomes(RowRange range) const {
   std::vector<MoveOutcome> moves = read_records(outcomes_, measures_, local(range), range.count);
-  require_sound_outcomes(outcomes_, measures_, range.first, moves);
+  validate_outcomes(outcomes_, measures_, range.first, moves);
   return moves;
 }
 
@@ -186,7 +186,7 @@ std::vector<double> StudyFile::measure(std::string_view name, RowRange range) co
     outcomes_.column(static_cast<std::size_t>(column - measures_.begin()))
         .read(first, range.count, bytes.data());
     scatter(field, bytes, std::span(moves));
-    require_sound_measure(outcomes_, measures_, name, range.first, moves);
+    validate_measure(outcomes_, measures_, name, range.first, moves);
   }
   std::vector<double> values(size);
   std::transform(moves.begin(), moves.end(), values.begin(),
@@ -196,7 +196,7 @@ std::vector<double> StudyFile::measure(std::string_view name, RowRange range) co
 
 std::vector<JerkRecord> StudyFile::jerks_at(std::int64_t first, std::int64_t count) const {
   std::vector<JerkRecord> jerks = read_records(jerks_, jerk_fields(), first, count);
-  require_sound_jerks(jerks_, moves(), first, jerks);
+  validate_jerks(jerks_, moves(), first, jerks);
   return jerks;
 }
 
@@ -280,7 +280,7 @@ std::optional<StoredRigs> StudyFile::rigs() const {
   stored.trials.resize(stored.success.size());
   counts.column(0).read(0, counts.rows(), stored.success.data());
   counts.column(1).read(0, counts.rows(), stored.trials.data());
-  require_sound_rigs(header_, counts, stored.success, stored.trials);
+  validate_rigs(header_, counts, stored.success, stored.trials);
   return stored;
 }
 

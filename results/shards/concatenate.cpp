@@ -13,7 +13,7 @@
 namespace zerocount {
 namespace {
 
-/// One shard's share of the table.
+/// One shard's proportion of the table.
 struct Source {
   std::filesystem::path path;
   RowRange rows;  ///< where its rows go in the table written

@@ -80,8 +80,8 @@ Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& wo
   }
   if (has("help")) return;
   if (operands_.size() < spec.least_operands) refuse(fmt::format("{} expected", spec.operands));
-  if (operands_.size() > spec.most_operands) {
-    refuse(fmt::format("'{}' is one word too many", operands_[spec.most_operands]));
+  if (operands_.size() > spec.max_operands) {
+    refuse(fmt::format("'{}' is one word too many", operands_[spec.max_operands]));
   }
 }
 

@@ -21,7 +21,7 @@ struct CommandSpec {
   std::string name;
   std::string operands;  ///< as the usage line shows them, e.g. "MANIFEST"
   std::size_t least_operands{1};
-  std::size_t most_operands{1};
+  std::size_t max_operands{1};
   std::vector<OptionSpec> options;
 };
 

@@ -42,9 +42,9 @@ constexpr const char* check_help =
     "\n"
     "Example: zerocount check experiments/manifests/paper-gains.yaml\n";
 
-constexpr std::int64_t most_trials_examined = 200;
-constexpr std::int64_t most_trials_examined_closely = 20;
-constexpr std::int64_t most_rigs_examined = 10'000;
+constexpr std::int64_t max_trials_examined = 200;
+constexpr std::int64_t max_trials_examined_closely = 20;
+constexpr std::int64_t max_rigs_examined = 10'000;
 constexpr std::int64_t points_shown = 20;
 
 /// A quantity over the trials of a point.
@@ -131,7 +131,7 @@ void examine_free(const Study& study, std::int64_t point, PointTheory& theory) {
   theory.free = first.friction.model == FrictionModel::none && first.command.torque.levels.empty();
   if (!theory.free) return;
   theory.hold = static_cast<double>(samples_of_move(first, 0)) / first.controller.sample_rate;
-  for (std::int64_t index = 0; index < std::min(study.trials, most_trials_examined_closely); ++index) {
+  for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {
     const TrialParameters p = study_trial(study, point, index).parameters;
     const ControllerParameters fine = controller_in_phase(p.controller, ControlPhase::fine);
     theory.ki.add(as_given(study.units, p, p.controller.ki));
@@ -218,7 +218,7 @@ void add_low_end(const Study& study, const TrialParameters& p, double k1, PointT
 /// The lowest k1 of the rotors of all rigs: trial i is on rig i mod rigs. The sampled loop, whose bound takes
 /// longer to find, at the lowest of them.
 void examine_rotors(const Study& study, std::int64_t point, PointTheory& theory) {
-  theory.rigs = std::min(study.rigs, most_rigs_examined);
+  theory.rigs = std::min(study.rigs, max_rigs_examined);
   TrialParameters softest;
   double lowest = std::numeric_limits<double>::infinity();
   for (std::int64_t rig = 0; rig < theory.rigs; ++rig) {
@@ -240,7 +240,7 @@ void examine_beyond(const Study& study, std::int64_t point, PointTheory& theory)
   theory.hold = static_cast<double>(samples_of_move(first, 0)) / first.controller.sample_rate;
   theory.phases.push_back({has_coarse_phase(first.controller) ? "fine phase" : "loop", {}, {}});
   if (has_coarse_phase(first.controller)) theory.phases.push_back({"coarse phase", {}, {}});
-  for (std::int64_t index = 0; index < std::min(study.trials, most_trials_examined_closely); ++index) {
+  for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {
     const TrialParameters p = study_trial(study, point, index).parameters;
     const FrictionParameters contact = friction_at(p.friction, p.initial.position);
     const Range slowest = time_constants(p, contact);
@@ -271,7 +271,7 @@ PointTheory examine(const Study& study, std::int64_t point) {
   TrialParameters softest;
   TrialParameters stiffest;
   Range k1;  // N m/rad
-  for (std::int64_t index = 0; index < std::min(study.trials, most_trials_examined); ++index) {
+  for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined); ++index) {
     const TrialParameters p = study_trial(study, point, index).parameters;
     const FrictionParameters contact = friction_at(p.friction, p.initial.position);
     const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
@@ -460,7 +460,7 @@ ExitCode check(const Arguments& arguments) {
   warn(study);
   print_plan(study);
   fmt::print("\nTheory, over the first {} trials of each point, each with the friction it starts on:\n",
-             std::min(study.trials, most_trials_examined));
+             std::min(study.trials, max_trials_examined));
   const std::int64_t shown =
       arguments.has("all-points") ? point_count(study) : std::min(point_count(study), points_shown);
   for (std::int64_t point = 0; point < shown; ++point) {

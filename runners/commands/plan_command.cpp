@@ -143,7 +143,7 @@ std::vector<RigPlan> halfwidth_plans(const PlanRequest& request) {
 
 /// From the fewest rigs on: more rigs need fewer trials on each.
 std::vector<RigPlan> tolerance_plans(const PlanRequest& request) {
-  const std::int64_t fewest = fewest_rigs_for_tolerance(*request.rigs_share, request.confidence);
+  const std::int64_t fewest = min_rigs_for_tolerance(*request.rigs_share, request.confidence);
   std::vector<RigPlan> plans;
   for (const std::int64_t rigs : {fewest, fewest + (fewest + 1) / 2, 2 * fewest, 4 * fewest})
     plans.push_back(plan_tolerance(*request.rigs_share, *request.success, request.confidence, rigs));
@@ -270,22 +270,23 @@ ExitCode print_plan(const Arguments& arguments) {
 }  // namespace
 
 Command plan_command() {
-  return {{"plan",
-           "[PILOT]",
-           0,
-           1,
-           {{"success", "P", "proportion of axes that is to be shown to succeed at least"},
-            {"confidence", "LEVEL", "of the claim, or of the bounds (default 0.95)"},
-            {"failures", "K", "list plans for 0 to K failures (default 3)"},
-            {"true-success", "P", "share that succeeds in truth: says the chance of each plan"},
-            {"power", "P", "find the plan with this chance"},
-            {"halfwidth", "H", "half the distance of the two-sided bounds of a rate"},
-            {"rigs-share", "P", "share of rigs that is to be shown to succeed in --success of their trials"},
-            {"rig-sd", "SD", "standard deviation of the success probability between rigs"},
-            {"format", "FORMAT", "table (default) or json"}}},
-          "say how many trials a claim needs",
-          plan_help,
-          print_plan};
+  return {
+      {"plan",
+       "[PILOT]",
+       0,
+       1,
+       {{"success", "P", "proportion of axes that is to be shown to succeed at least"},
+        {"confidence", "LEVEL", "of the claim, or of the bounds (default 0.95)"},
+        {"failures", "K", "list plans for 0 to K failures (default 3)"},
+        {"true-success", "P", "proportion that succeeds in truth: says the chance of each plan"},
+        {"power", "P", "find the plan with this chance"},
+        {"halfwidth", "H", "half the distance of the two-sided bounds of a rate"},
+        {"rigs-share", "P", "proportion of rigs that is to be shown to succeed in --success of their trials"},
+        {"rig-sd", "SD", "standard deviation of the success probability between rigs"},
+        {"format", "FORMAT", "table (default) or json"}}},
+      "say how many trials a claim needs",
+      plan_help,
+      print_plan};
 }
 
 }  // namespace zerocount

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* sensitivity_help =
     "Says which of the random parameters drive an output of the trials, with bounds, point by\n"
     "point: of a study with design: saltelli by Sobol' indices, first order and total; of any\n"
-    "other by what its trials tell: the share of the variance that each parameter explains\n"
+    "other by what its trials tell: the proportion of the variance that each parameter explains\n"
     "alone, rank correlations, and partial ones; of outputs that are yes or no also by a\n"
     "logistic fit. Parameters that do not vary are left out, and named.\n"
     "\n"

@@ -26,19 +26,19 @@ TrialParameters beginning_of(TrialParameters trial, std::int64_t most) {
   }
   if (samples <= most) return trial;
   // The last of them goes beyond: all are shortened alike.
-  const double share = static_cast<double>(most) / static_cast<double>(samples);
-  command.hold *= share;
-  command.torque.rate /= share;
+  const double proportion = static_cast<double>(most) / static_cast<double>(samples);
+  command.hold *= proportion;
+  command.torque.rate /= proportion;
   return trial;
 }
 
 }  // namespace
 
 StudyCost measure_cost(const Study& study) {
-  constexpr double patience = 0.3;               // s
-  constexpr std::int64_t most_samples = 200000;  // of one trial
-  constexpr std::int64_t stride = 7919;          // a prime, so that the sample wanders over points and trials
-  constexpr double samples_at_once = 1e6;        // enough to fill the lanes, unless trials are long
+  constexpr double patience = 0.3;              // s
+  constexpr std::int64_t max_samples = 200000;  // of one trial
+  constexpr std::int64_t stride = 7919;         // a prime, so that the sample wanders over points and trials
+  constexpr double samples_at_once = 1e6;       // enough to fill the lanes, unless trials are long
   StudyCost cost;
   const double per_trial = samples_per_trial(study);
   cost.samples = per_trial * static_cast<double>(trial_count(study));
@@ -55,7 +55,7 @@ StudyCost measure_cost(const Study& study) {
     for (const std::int64_t end = std::min(most, i + at_once); i < end; ++i) {
       const std::int64_t row = i * stride % rows;
       trials.push_back(
-          beginning_of(study_trial(study, row / study.trials, row % study.trials).parameters, most_samples));
+          beginning_of(study_trial(study, row / study.trials, row % study.trials).parameters, max_samples));
       samples += static_cast<double>(samples_of_trial(trials.back()));
     }
     std::vector<const TrialParameters*> places;

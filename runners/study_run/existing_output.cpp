@@ -42,7 +42,7 @@ void require_extensible(const fs::path& output, const FileHeader& header, const 
   if (study.trials < header.trials) refuse_more("a results file can only be extended");
   if (!trials_stay_when_extended(study.design)) {
     refuse_more(fmt::format("the trials of design: {} are laid out for their number, and all change with it",
-                            design_words()[static_cast<std::size_t>(study.design)]));
+                            design_labels()[static_cast<std::size_t>(study.design)]));
   }
   if (!same_build(header.provenance, current_provenance()) || header.version != format_version) {
     refuse_more(

@@ -28,9 +28,10 @@ Progress::Progress(std::int64_t total, std::int64_t kept, double samples, bool q
       last_(start_) {}
 
 std::string Progress::line(std::int64_t done, double elapsed) const {
-  const double share = total_ > 0 ? 100.0 * static_cast<double>(done) / static_cast<double>(total_) : 100.0;
+  const double proportion =
+      total_ > 0 ? 100.0 * static_cast<double>(done) / static_cast<double>(total_) : 100.0;
   std::string text =
-      fmt::format("{} of {}{} trials ({:.1f} %)", done, projected_ ? "about " : "", total_, share);
+      fmt::format("{} of {}{} trials ({:.1f} %)", done, projected_ ? "about " : "", total_, proportion);
   if (kept_ > 0) text += fmt::format(", {} of them from before", kept_);
   const double rate = elapsed > 0.0 ? static_cast<double>(done - kept_) / elapsed : 0.0;
   if (rate > 0.0) {

@@ -59,7 +59,8 @@ bool sure(const Study& study, const Successes& successes, std::int64_t trials) {
   const StoppingRule& rule = *study.stop;
   if (trials < rule.min_trials) return false;
   for (std::int64_t point = 0; point < point_count(study); ++point) {
-    const ConfidenceInterval bounds = anytime_bounds(successes.among(point, trials), trials, rule.confidence);
+    const ConfidenceInterval bounds =
+        confidence_sequence_bounds(successes.among(point, trials), trials, rule.confidence);
     if (0.5 * (bounds.high - bounds.low) > rule.success_rate_halfwidth) return false;
   }
   return true;

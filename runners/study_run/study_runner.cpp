@@ -29,8 +29,8 @@ struct BlockLimits {
 constexpr BlockLimits reference_block{1e5, 256};
 constexpr BlockLimits batch_block{1e7, 4096};
 
-constexpr std::size_t most_trials_per_shard = 1 << 16;
-constexpr std::size_t most_bytes_per_shard = std::size_t{64} << 20;
+constexpr std::size_t max_trials_per_shard = 1 << 16;
+constexpr std::size_t max_bytes_per_shard = std::size_t{64} << 20;
 /// A shard waits for a tenth of the time that the run has taken, within these bounds: a crash loses little,
 /// and a long run does not end in thousands of files.
 constexpr std::chrono::duration<double> shortest_wait{0.5};
@@ -75,8 +75,7 @@ class ShardWriter {
     for (const TrialResult& result : block) bytes_ += bytes_of(result);
     waiting_.insert(waiting_.end(), std::make_move_iterator(block.begin()),
                     std::make_move_iterator(block.end()));
-    if (waiting_.size() >= most_trials_per_shard || bytes_ >= most_bytes_per_shard || waited_enough())
-      flush();
+    if (waiting_.size() >= max_trials_per_shard || bytes_ >= max_bytes_per_shard || waited_enough()) flush();
   }
 
   void flush() {
@@ -96,8 +95,8 @@ class ShardWriter {
   Provenance provenance_;
   bool waited_enough() const {
     const Clock::time_point now = Clock::now();
-    const std::chrono::duration<double> share = 0.1 * (now - run_begun_);
-    return now - begun_ >= std::clamp(share, shortest_wait, longest_wait);
+    const std::chrono::duration<double> proportion = 0.1 * (now - run_begun_);
+    return now - begun_ >= std::clamp(proportion, shortest_wait, longest_wait);
   }
 
   std::vector<TrialResult> waiting_;
@@ -112,9 +111,9 @@ std::int64_t block_size_of(const Study& study, std::int64_t rows, int threads) {
   const BlockLimits limits = study.engine == Engine::batch ? batch_block : reference_block;
   const double size = limits.samples / std::max(samples_per_trial(study), 1.0);
   // A short run is spread over the threads, too.
-  const std::int64_t share = rows / (std::int64_t{4} * threads) + 1;
+  const std::int64_t proportion = rows / (std::int64_t{4} * threads) + 1;
   return std::clamp(static_cast<std::int64_t>(size), std::int64_t{1},
-                    std::min(limits.trials, std::max<std::int64_t>(share, 256)));
+                    std::min(limits.trials, std::max<std::int64_t>(proportion, 256)));
 }
 
 int threads_to_use(int asked) {
@@ -144,10 +143,10 @@ double peak_memory(const Study& study, double bytes_of_trial, double record_byte
   const int workers = threads_to_use(threads);
   const std::int64_t rows = trial_count(study);
   const double in_work = 4.0 * workers * static_cast<double>(block_size_of(study, rows, workers));
-  const double waiting = std::min(static_cast<double>(most_trials_per_shard),
-                                  static_cast<double>(most_bytes_per_shard) / bytes_of_trial);
+  const double waiting = std::min(static_cast<double>(max_trials_per_shard),
+                                  static_cast<double>(max_bytes_per_shard) / bytes_of_trial);
   // A shard is written from copies of its columns.
-  const double records = std::min(record_bytes, static_cast<double>(most_bytes_per_shard));
+  const double records = std::min(record_bytes, static_cast<double>(max_bytes_per_shard));
   return program + 3.0 * records +
          bytes_of_trial * std::min(in_work + 2.0 * waiting, 3.0 * static_cast<double>(rows));
 }

@@ -8,7 +8,7 @@
 
 namespace zerocount::testing {
 
-/// What the benchmarks of one run share.
+/// What the benchmarks of one run proportion.
 struct BenchmarkRun {
   std::vector<Workload> workloads;
   bool failed{false};  ///< an engine does not agree with the reference

@@ -72,7 +72,7 @@ class FailingCalls : public ::testing::Test {
                                          "FAIL_ERROR=" + fault.error,
                                          "FAIL_COUNT=" + (counts_ / "count").string()};
     if (fault.lasting) environment.emplace_back("FAIL_LASTING=1");
-    return zerocount_program(writer.words, folder_.path(), environment);
+    return zerocount_program(writer.labels, folder_.path(), environment);
   }
 
   /// Puts the outputs as they were before.
@@ -121,7 +121,7 @@ class FailingCalls : public ::testing::Test {
                     [&](const std::string& output) { return fs::exists(folder_ / output); });
     if (!writer.resumes && !all_there) restore(writer);
     if (!writer.resumes && all_there) return;
-    const ProgramResult result = zerocount_program(writer.words, folder_.path());
+    const ProgramResult result = zerocount_program(writer.labels, folder_.path());
     EXPECT_EQ(result.code, 0) << result.err;
     for (const std::string& output : writer.outputs) EXPECT_TRUE(is_right(output)) << output;
   }
@@ -134,7 +134,7 @@ class FailingCalls : public ::testing::Test {
     for (long at = 1; at <= count; at += step) {
       for (std::size_t way = 0; way < ways; ++way) {
         const Fault& fault = faults[(static_cast<std::size_t>(at / step) + way) % faults.size()];
-        SCOPED_TRACE(writer.words.front() + ", call " + std::to_string(at) + " of " + std::to_string(count) +
+        SCOPED_TRACE(writer.labels.front() + ", call " + std::to_string(at) + " of " + std::to_string(count) +
                      ", error " + fault.error + (fault.lasting ? ", lasting" : ""));
         restore(writer);
         expect_nothing_wrong(writer, run_with(writer, calls, at, fault));

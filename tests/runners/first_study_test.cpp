@@ -33,7 +33,7 @@ std::string block(const std::string& text, const std::string& language) {
 }
 
 /// The words of a command line without its comment.
-std::vector<std::string> words_of(const std::string& line) {
+std::vector<std::string> label_text(const std::string& line) {
   std::istringstream text(line.substr(0, line.find(" #")));
   std::vector<std::string> words;
   for (std::string word; text >> word;) words.push_back(word);
@@ -70,7 +70,7 @@ TEST_F(FirstStudy, ItsCommandsWork) {
   std::istringstream lines(block(text_, "sh"));
   std::vector<std::string> verbs;
   for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> words = words_of(line);
+    std::vector<std::string> words = label_text(line);
     ASSERT_FALSE(words.empty());
     EXPECT_EQ(words.front(), "build/release/zerocount") << line;
     words.erase(words.begin());

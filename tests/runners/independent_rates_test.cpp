@@ -1,4 +1,4 @@
-// The rates of a study against a Monte Carlo that shares nothing with it: other random numbers, other
+// The rates of a study against a Monte Carlo that proportions nothing with it: other random numbers, other
 // distributions code, another integrator, measures written again from their definitions.
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 constexpr int study_trials = 4000;
 constexpr int judge_trials = 500;
 
-struct Tally {
+struct Histogram {
   int trials{0};
   int zero_count{0};
   int stable{0};
@@ -36,19 +36,19 @@ std::string manifest(double ki) {
          "initial: {encoder_phase: {uniform: [0, 1]}}\nverdict: {dwell: 0.02, window: 0.02}\n";
 }
 
-Tally tally_of_study(double ki) {
+Histogram tally_of_study(double ki) {
   const Study study = parse_study(manifest(ki), "rates.yaml");
   EXPECT_EQ(study_trial(study, 0, 0).parameters.controller.ki, ki);
-  Tally tally;
+  Histogram histogram;
   for (std::int64_t row = 0; row < study.trials; ++row) {
     const MoveOutcome move = run_study_trial(study, row).outcome.moves[0];
-    ++tally.trials;
-    tally.zero_count += move.outcome == Outcome::zero_count;
-    tally.stable += move.stable;
-    tally.broke_away += move.broke_away;
-    if (move.arrived) tally.settling_times.push_back(move.settling_time);
+    ++histogram.trials;
+    histogram.zero_count += move.outcome == Outcome::zero_count;
+    histogram.stable += move.stable;
+    histogram.broke_away += move.broke_away;
+    if (move.arrived) histogram.settling_times.push_back(move.settling_time);
   }
-  return tally;
+  return histogram;
 }
 
 TrialParameters random_rig(std::mt19937_64& random, double ki) {
@@ -65,9 +65,9 @@ TrialParameters random_rig(std::mt19937_64& random, double ki) {
   return p;
 }
 
-Tally tally_of_judge(double ki) {
+Histogram tally_of_judge(double ki) {
   std::mt19937_64 random(20021);
-  Tally tally;
+  Histogram histogram;
   for (int i = 0; i < judge_trials; ++i) {
     EventCounts events;
     const std::vector<SampleRecord> samples = odeint_trial(random_rig(random, ki), &events);
@@ -78,13 +78,13 @@ Tally tally_of_judge(double ki) {
       if (std::all_of(at, at + 40, zero)) arrival = at;
     }
     const bool arrived = arrival != samples.end();
-    ++tally.trials;
-    tally.zero_count += std::all_of(samples.end() - 40, samples.end(), zero);
-    tally.stable += arrived && std::all_of(arrival, samples.end(), within_one);
-    tally.broke_away += events.breakaways > 0;
-    if (arrived) tally.settling_times.push_back(static_cast<double>(arrival - samples.begin()) / 2000.0);
+    ++histogram.trials;
+    histogram.zero_count += std::all_of(samples.end() - 40, samples.end(), zero);
+    histogram.stable += arrived && std::all_of(arrival, samples.end(), within_one);
+    histogram.broke_away += events.breakaways > 0;
+    if (arrived) histogram.settling_times.push_back(static_cast<double>(arrival - samples.begin()) / 2000.0);
   }
-  return tally;
+  return histogram;
 }
 
 /// Distance of two proportions in standard errors of their difference.
@@ -119,14 +119,14 @@ class IndependentRates : public ::testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Gains, IndependentRates, ::testing::Values(3.85e-5, 9.45e-5));
 
 TEST_P(IndependentRates, AgreeWithinSamplingError) {
-  const Tally study = tally_of_study(GetParam());
-  const Tally judge = tally_of_judge(GetParam());
-  const auto z = [&](int Tally::*count) {
+  const Histogram study = tally_of_study(GetParam());
+  const Histogram judge = tally_of_judge(GetParam());
+  const auto z = [&](int Histogram::*count) {
     return distance(study.*count, study.trials, judge.*count, judge.trials);
   };
-  EXPECT_LT(std::abs(z(&Tally::zero_count)), 3.5);
-  EXPECT_LT(std::abs(z(&Tally::stable)), 3.5);
-  EXPECT_LT(std::abs(z(&Tally::broke_away)), 3.5);
+  EXPECT_LT(std::abs(z(&Histogram::zero_count)), 3.5);
+  EXPECT_LT(std::abs(z(&Histogram::stable)), 3.5);
+  EXPECT_LT(std::abs(z(&Histogram::broke_away)), 3.5);
   EXPECT_LT(kolmogorov_smirnov(study.settling_times, judge.settling_times), 2.0);
   std::printf(
       "zero-count %.3f / %.3f, stable %.3f / %.3f, broke away %.3f / %.3f\n",

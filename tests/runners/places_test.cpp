@@ -67,21 +67,21 @@ TEST_F(Places, NoVerbReplacesWhatExistsWithoutForce) {
       {"gate.xml", {"compare", "all.h5", "all.h5", "--junit", "gate.xml"}},
       {"gate.md", {"compare", "all.h5", "all.h5", "--markdown", "gate.md"}}};
   for (const Writing& verb : writing) {
-    SCOPED_TRACE(verb.words[0] + " to " + verb.output);
-    if (verb.words[0] == "export") fs::create_directory(at("tables"));
+    SCOPED_TRACE(verb.labels[0] + " to " + verb.output);
+    if (verb.labels[0] == "export") fs::create_directory(at("tables"));
     folder_.write(verb.output, "my notes");
-    const ProgramResult refused = program(verb.words);
+    const ProgramResult refused = program(verb.labels);
     EXPECT_EQ(refused.code, 2) << refused.err;
     EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
     EXPECT_EQ(folder_.read(verb.output), "my notes");
 
-    std::vector<std::string> forced = verb.words;
+    std::vector<std::string> forced = verb.labels;
     forced.emplace_back("--force");
     const ProgramResult replaced = program(forced);
     EXPECT_EQ(replaced.code, 0) << replaced.err;
     EXPECT_NE(folder_.read(verb.output), "my notes");
 
-    const ProgramResult help = program({verb.words[0], "--help"});
+    const ProgramResult help = program({verb.labels[0], "--help"});
     EXPECT_NE(help.out.find("is not replaced without --force"), std::string::npos) << help.out;
   }
 }

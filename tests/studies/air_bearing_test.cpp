@@ -2,7 +2,7 @@
 // balance, as the paper says of such systems (section 1); on a ball bearing the spring holds the difference.
 #include <string>
 
-#include "tests/studies/share_bounds.hpp"
+#include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 
 namespace zerocount::testing {

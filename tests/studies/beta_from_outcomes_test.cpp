@@ -1,8 +1,8 @@
 // beta-from-outcomes: the default of β is the one at which the five gains behave as the paper reports
-// (section 4). The shares are those of moves that arrived and stayed within one count.
+// (section 4). The proportions are those of moves that arrived and stayed within one count.
 #include <string>
 
-#include "tests/studies/share_bounds.hpp"
+#include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 
 namespace zerocount::testing {

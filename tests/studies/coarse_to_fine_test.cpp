@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/studies/share_bounds.hpp"
+#include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 #include "tests/support/stop_elements.hpp"
 

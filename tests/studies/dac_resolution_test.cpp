@@ -1,7 +1,7 @@
 // dac-resolution: what a coarse converter costs, beside the paper's condition Δu < k1·Δx (practical issue 4).
 #include <string>
 
-#include "tests/studies/share_bounds.hpp"
+#include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 
 namespace zerocount::testing {

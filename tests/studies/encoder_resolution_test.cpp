@@ -1,7 +1,7 @@
 // encoder-resolution: a finer encoder helps until the converter is too coarse for it, or creep too slow.
 #include <string>
 
-#include "tests/studies/share_bounds.hpp"
+#include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 
 namespace zerocount::testing {

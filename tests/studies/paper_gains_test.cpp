@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/batch/batch.hpp"
-#include "tests/studies/share_bounds.hpp"
+#include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 
 namespace zerocount::testing {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/iso230/repeatability_trial.hpp"
-#include "tests/studies/share_bounds.hpp"
+#include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 
 namespace zerocount::testing {

@@ -1,7 +1,7 @@
 // sample-rate: a slow loop costs the proportional gain its stability, and the integral alone next to nothing.
 #include <string>
 
-#include "tests/studies/share_bounds.hpp"
+#include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 
 namespace zerocount::testing {

@@ -204,8 +204,8 @@ void OdeintMotion::advance(const Torque& torque, Real duration) {
     for (std::size_t j = 0; j < error.size(); ++j) {
       const Real allowed =
           (j == 1 ? velocity_tolerance : position_tolerance) + relative_tolerance * std::abs(end[j]);
-      const Real share = std::abs(error[j]) / allowed;
-      worst = share <= worst ? worst : std::isfinite(share) ? share : 1e12L;
+      const Real proportion = std::abs(error[j]) / allowed;
+      worst = proportion <= worst ? worst : std::isfinite(proportion) ? proportion : 1e12L;
     }
     const Real growth = 0.9L * std::pow(std::max(worst, 1e-8L), -0.125L);
     step_ = length * std::clamp(growth, 0.1L, 3.0L);

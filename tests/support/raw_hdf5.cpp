@@ -5,7 +5,7 @@
 
 #include <hdf5.h>
 
-#include "results/storage/seal.hpp"
+#include "results/storage/checksum_trailer.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -87,7 +87,7 @@ void replace(const std::filesystem::path& path, const std::string& name, hid_t t
   H5Awrite(attribute, type, value);
   H5Sclose(space);
   H5Fclose(file);
-  seal(path);
+  append_checksum(path);
 }
 
 }  // namespace
@@ -129,7 +129,7 @@ void remove_attribute(const std::filesystem::path& path, const std::string& name
   const hid_t file = open_file(path, H5F_ACC_RDWR);
   H5Adelete(file, name.c_str());
   H5Fclose(file);
-  seal(path);
+  append_checksum(path);
 }
 
 void write_empty_hdf5(const std::filesystem::path& path) {
@@ -137,7 +137,7 @@ void write_empty_hdf5(const std::filesystem::path& path) {
 }
 
 void unseal(const std::filesystem::path& path) {
-  std::filesystem::resize_file(path, std::filesystem::file_size(path) - seal_length);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - checksum_trailer_length);
 }
 
 std::uint64_t chunk_address(const std::filesystem::path& path, const std::string& name) {

@@ -11,7 +11,7 @@
 #include "analysis/comparison/matching.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
-#include "results/storage/seal.hpp"
+#include "results/storage/checksum_trailer.hpp"
 #include "tests/analysis/study_files.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -146,7 +146,7 @@ void give_commit(const std::filesystem::path& path, const std::string& commit) {
       "{}",
       ZEROCOUNT_PYTHON, path.string(), commit);
   ASSERT_EQ(std::system(command.c_str()), 0);
-  seal(path);
+  append_checksum(path);
 }
 
 TEST_F(ComparedStudies, OneBuildMustMakeOneResult) {

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/comparison/mean_tests.hpp"
+#include "analysis/comparison/proportion_tests.hpp"
 #include "analysis/comparison/rank_tests.hpp"
-#include "analysis/comparison/share_tests.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::testing {

@@ -73,9 +73,10 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
   EXPECT_EQ(
       fault("margins: {success_rate: {}}\n"),
       "gate.yaml:1:25: margins.success_rate: the margin has no size; expected absolute or relative, or both");
-  EXPECT_EQ(fault("margins: {success_rate: 2}\n"),
-            "gate.yaml:1:25: margins.success_rate: no share of trials can be worse by so much; expected less "
-            "than 1, such as 0.02 for two percent points");
+  EXPECT_EQ(
+      fault("margins: {success_rate: 2}\n"),
+      "gate.yaml:1:25: margins.success_rate: no proportion of trials can be worse by so much; expected less "
+      "than 1, such as 0.02 for two percent points");
   EXPECT_EQ(fault("points: {c: {success_rate: 0.1}}\n"),
             "gate.yaml:1:10: points.c: no design point of the files has this label; expected one of theirs, "
             "such as "
@@ -85,7 +86,7 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
             "'success_rate "
             "≥ 0.995' (or >=, ≤, <=)");
   EXPECT_EQ(fault("require: [success_rate ≥ 99.5]\n"),
-            "gate.yaml:1:11: require.0: 99.5 is no share; expected a number from 0 to 1");
+            "gate.yaml:1:11: require.0: 99.5 is no proportion; expected a number from 0 to 1");
   EXPECT_EQ(fault("require: settling_time.p95 ≥ 0.1\n"),
             "gate.yaml:1:10: require: a least settling_time.p95 is asked for; expected ≤ and a limit");
   EXPECT_EQ(

@@ -7,8 +7,8 @@
 
 #include "analysis/comparison/false_discovery.hpp"
 #include "analysis/comparison/mean_tests.hpp"
+#include "analysis/comparison/proportion_tests.hpp"
 #include "analysis/comparison/rank_tests.hpp"
-#include "analysis/comparison/share_tests.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -54,24 +54,24 @@ TEST(ShareTests, TheBoundsOfTheOppositeAreOpposite) {
 // The probability that the bound misses, summed over all tables, is near what it says.
 TEST(ShareTests, BoundsOfPairsHoldAsOftenAsTheySay) {
   constexpr std::int64_t n = 60;
-  for (const double share : {0.02, 0.05, 0.1}) {
+  for (const double proportion : {0.02, 0.05, 0.1}) {
     for (const double difference : {0.0, 0.05, 0.1}) {
-      const double p10 = share + difference;
+      const double p10 = proportion + difference;
       double missed = 0.0;
       for (std::int64_t b = 0; b <= n; ++b) {
         for (std::int64_t c = 0; c <= n - b; ++c) {
           const auto same = static_cast<double>(n - b - c);
           const auto worse = static_cast<double>(b);
           const auto better = static_cast<double>(c);
-          const double log_probability = std::lgamma(static_cast<double>(n) + 1.0) -
-                                         std::lgamma(worse + 1.0) - std::lgamma(better + 1.0) -
-                                         std::lgamma(same + 1.0) + worse * std::log(p10) +
-                                         better * std::log(share) + same * std::log(1.0 - p10 - share);
+          const double log_probability =
+              std::lgamma(static_cast<double>(n) + 1.0) - std::lgamma(worse + 1.0) -
+              std::lgamma(better + 1.0) - std::lgamma(same + 1.0) + worse * std::log(p10) +
+              better * std::log(proportion) + same * std::log(1.0 - p10 - proportion);
           if (tango({n, b, c}, 0.95).high < difference) missed += std::exp(log_probability);
         }
       }
-      EXPECT_LE(missed, 0.06) << share << " " << difference;
-      EXPECT_GE(missed, 0.005) << share << " " << difference;
+      EXPECT_LE(missed, 0.06) << proportion << " " << difference;
+      EXPECT_GE(missed, 0.005) << proportion << " " << difference;
     }
   }
 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int quantities = 4;
 constexpr double sample = 0.0005;  // s
-constexpr double jerking = 0.2;    // share of the trials that jerk at all
+constexpr double jerking = 0.2;    // proportion of the trials that jerk at all
 
 std::vector<double> draw_trial(std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform;

@@ -85,9 +85,9 @@ TEST(CheckedRecord, TimeMustRise) {
 }
 
 TEST(CheckedRecord, SamplesMustBeEquallySpacedButForJitter) {
-  const auto jitter = [](double share) {
-    return [share](RawSeries& s) {
-      for (std::size_t k = 1; k + 1 < s.time.size(); k += 2) s.time[k] += share * 5e-4;
+  const auto jitter = [](double proportion) {
+    return [proportion](RawSeries& s) {
+      for (std::size_t k = 1; k + 1 < s.time.size(); k += 2) s.time[k] += proportion * 5e-4;
     };
   };
   EXPECT_EQ(record_refusal(jitter(0.1)), "not refused");

@@ -73,13 +73,13 @@ Study study_with(const std::string& fragment) {
 }
 
 /// Quantile of the parameter over the study's trials.
-double sampled(const Study& study, const std::string& key, double share) {
+double sampled(const Study& study, const std::string& key, double proportion) {
   std::size_t column = 0;
   while (study.input_columns[column].name != key) ++column;
   std::vector<double> values;
   for (std::int64_t i = 0; i < study.trials; ++i) values.push_back(study_trial(study, 0, i).inputs[column]);
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
+  return values[static_cast<std::size_t>(proportion * static_cast<double>(values.size()))];
 }
 
 TEST(ManifestFragment, IsPartOfAManifestWhateverTheNumbers) {

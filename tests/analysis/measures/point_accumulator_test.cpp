@@ -220,7 +220,7 @@ TEST(PointStatistics, SlowingDownIsJudgedPerMoveByTheTrendOfItsIntervals) {
   EXPECT_EQ(slowing.moves, 4);
   EXPECT_EQ(slowing.slowing, 2);
   EXPECT_EQ(slowing.quickening, 1);
-  EXPECT_EQ(slowing.share, 0.5);
+  EXPECT_EQ(slowing.proportion, 0.5);
   EXPECT_NEAR(slowing.tau, (5.0 - 2.0) / 13.0, 1e-15);
 }
 

@@ -71,7 +71,7 @@ TEST(TheoryPrediction, TheCriteriaAreNotAboutOpenLoopsAndFrictionWithoutASpring)
   EXPECT_EQ(predicted_trials(point), 0);
   EXPECT_EQ(verdict(point), "not applicable");
   point.add(predict(spring));
-  EXPECT_EQ(predicted_trials(point), 4) << "a share is of all trials";
+  EXPECT_EQ(predicted_trials(point), 4) << "a proportion is of all trials";
 }
 
 TEST(TheoryPrediction, VerdictIsThatOfAllTrialsOrUndecidedWithItsShares) {

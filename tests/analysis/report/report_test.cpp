@@ -102,7 +102,7 @@ TEST_F(Report, TheSettlingCurvesAreDistributionFunctionsInTheirBands) {
   const std::vector<double> all = file.measure("settling_time", file.rows());
   for (std::size_t row = 0; row < all.size(); ++row) times[labels[row / 40]].push_back(all[row]);
   const std::vector<double> at = column(data, "time");
-  const std::vector<double> share = column(data, "share");
+  const std::vector<double> proportion = column(data, "share");
   const std::vector<double> low = column(data, "low");
   const std::vector<double> high = column(data, "high");
   for (std::size_t i = 0; i < data.rows.size(); ++i) {
@@ -110,10 +110,10 @@ TEST_F(Report, TheSettlingCurvesAreDistributionFunctionsInTheirBands) {
     const auto arrived =
         std::count_if(settled.begin(), settled.end(), [&](double t) { return t <= at[i] + 1e-9; });
     if (at[i] > 0.0) {
-      EXPECT_NEAR(share[i], static_cast<double>(arrived) / 40.0, 1e-6);
+      EXPECT_NEAR(proportion[i], static_cast<double>(arrived) / 40.0, 1e-6);
     }
-    EXPECT_NEAR(low[i], std::max(0.0, share[i] - half_width), 2e-6);
-    EXPECT_NEAR(high[i], std::min(1.0, share[i] + half_width), 2e-6);
+    EXPECT_NEAR(low[i], std::max(0.0, proportion[i] - half_width), 2e-6);
+    EXPECT_NEAR(high[i], std::min(1.0, proportion[i] + half_width), 2e-6);
   }
 }
 

@@ -46,7 +46,7 @@ struct Coverage {
     covered += number.low <= truth && truth <= number.high;
     ++samples;
   }
-  double share() const { return static_cast<double>(covered) / samples; }
+  double proportion() const { return static_cast<double>(covered) / samples; }
 };
 
 SaltelliSample saltelli_of(const testing::UnitFunction& function, std::size_t factors, std::size_t rows,
@@ -86,10 +86,10 @@ void expect_saltelli_coverage(const testing::UnitFunction& function, const std::
     }
   }
   for (std::size_t j = 0; j < factors; ++j) {
-    EXPECT_GE(of_first[j].share(), 0.92) << "first order of factor " << j;
-    EXPECT_GE(of_total[j].share(), 0.92) << "total of factor " << j;
-    EXPECT_LE(of_first[j].share(), first_orders[j] < 0.1 ? 1.0 : 0.98) << "first order of factor " << j;
-    EXPECT_LE(of_total[j].share(), totals[j] < 0.1 ? 1.0 : 0.98) << "total of factor " << j;
+    EXPECT_GE(of_first[j].proportion(), 0.92) << "first order of factor " << j;
+    EXPECT_GE(of_total[j].proportion(), 0.92) << "total of factor " << j;
+    EXPECT_LE(of_first[j].proportion(), first_orders[j] < 0.1 ? 1.0 : 0.98) << "first order of factor " << j;
+    EXPECT_LE(of_total[j].proportion(), totals[j] < 0.1 ? 1.0 : 0.98) << "total of factor " << j;
   }
 }
 
@@ -136,8 +136,8 @@ TEST(SensitivityCoverage, BoundsOfSobolIndicesOfARareYesOrNo) {
         }
         for (std::size_t j = 0; j < 3; ++j) {
           const std::string place = fmt::format("factor {}, {} rows, p = {}, q = {}", j, rows, p, q);
-          EXPECT_GE(of_first[j].share(), 0.93) << place;
-          EXPECT_GE(of_total[j].share(), 0.93) << place;
+          EXPECT_GE(of_first[j].proportion(), 0.93) << place;
+          EXPECT_GE(of_total[j].proportion(), 0.93) << place;
         }
       }
     }
@@ -175,8 +175,8 @@ TEST(SensitivityCoverage, BoundsOfSobolIndicesOfANumberThatJumpsRarely) {
       }
       for (std::size_t j = 0; j < 2 && of_first[j].samples >= 100; ++j) {
         const std::string place = fmt::format("factor {}, {} rows, q = {}", j, rows, q);
-        EXPECT_GE(of_first[j].share(), 0.93) << place;
-        EXPECT_GE(of_total[j].share(), 0.93) << place;
+        EXPECT_GE(of_first[j].proportion(), 0.93) << place;
+        EXPECT_GE(of_total[j].proportion(), 0.93) << place;
       }
     }
   }
@@ -213,8 +213,8 @@ TEST(SensitivityCoverage, BoundsOfRankCorrelations) {
         const auto u = uniform_columns(2, n, sample);
         coverage.add(rank_correlation(u[0], outputs_of(function, u), 0.95), truth);
       }
-      EXPECT_GE(coverage.share(), n == 50 ? 0.88 : 0.92) << name << ", " << n << " trials";
-      EXPECT_LE(coverage.share(), 0.98) << name << ", " << n << " trials";
+      EXPECT_GE(coverage.proportion(), n == 50 ? 0.88 : 0.92) << name << ", " << n << " trials";
+      EXPECT_LE(coverage.proportion(), 0.98) << name << ", " << n << " trials";
     }
   }
 }
@@ -228,15 +228,15 @@ TEST(SensitivityCoverage, BoundsOfFirstOrderIndicesFromAnySample) {
       int above = 0;
       for (std::uint64_t sample = 0; sample < 400; ++sample) {
         const auto u = uniform_columns(2, n, sample);
-        const BoundedNumber share = given_data_first_order(u[0], outputs_of(function, u), 0.95);
-        coverage.add(share, truth);
-        above += share.low > 0.0;
+        const BoundedNumber proportion = given_data_first_order(u[0], outputs_of(function, u), 0.95);
+        coverage.add(proportion, truth);
+        above += proportion.low > 0.0;
       }
-      EXPECT_GE(coverage.share(), n == 50 ? 0.87 : 0.91) << name << ", " << n << " trials";
+      EXPECT_GE(coverage.proportion(), n == 50 ? 0.87 : 0.91) << name << ", " << n << " trials";
       if (truth < 0.01) {
         EXPECT_LE(above, 16) << name << ", " << n << " trials: found what is not there";
       } else {
-        EXPECT_LE(coverage.share(), 0.98) << name << ", " << n << " trials";
+        EXPECT_LE(coverage.proportion(), 0.98) << name << ", " << n << " trials";
       }
     }
   }
@@ -268,8 +268,8 @@ TEST(SensitivityCoverage, BoundsOfPartialRankCorrelations) {
         for (std::size_t j = 0; j < 3; ++j) coverage[j].add(found[j], j == 2 ? 0.0 : truth[j].value);
       }
       for (std::size_t j = 0; j < 3; ++j) {
-        EXPECT_GE(coverage[j].share(), n == 50 ? 0.88 : 0.92) << name << ", factor " << j << ", " << n;
-        EXPECT_LE(coverage[j].share(), 0.98) << name << ", factor " << j << ", " << n;
+        EXPECT_GE(coverage[j].proportion(), n == 50 ? 0.88 : 0.92) << name << ", factor " << j << ", " << n;
+        EXPECT_LE(coverage[j].proportion(), 0.98) << name << ", factor " << j << ", " << n;
       }
     }
   }
@@ -301,8 +301,8 @@ TEST(SensitivityCoverage, BoundsOfLogOdds) {
     }
   }
   for (const Coverage& of_factor : coverage) {
-    EXPECT_GE(of_factor.share(), 0.92);
-    EXPECT_LE(of_factor.share(), 0.98);
+    EXPECT_GE(of_factor.proportion(), 0.92);
+    EXPECT_LE(of_factor.proportion(), 0.98);
   }
 }
 

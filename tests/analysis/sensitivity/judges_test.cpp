@@ -96,7 +96,7 @@ TEST(SensitivityJudges, SobolIndicesAreThoseOfTheTestFunctions) {
   }
 }
 
-// Of any design of these, the share explained alone; that of Ishigami's third factor is 0.
+// Of any design of these, the proportion explained alone; that of Ishigami's third factor is 0.
 TEST(SensitivityJudges, FirstOrderIndicesFromAnySampleAreThoseOfTheTestFunctions) {
   for (const DesignCase& known : design_cases()) {
     for (const char* design : {"monte_carlo", "latin_hypercube", "sobol"}) {

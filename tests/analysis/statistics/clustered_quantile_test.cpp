@@ -25,7 +25,7 @@ ClusteredSample sample_of(const std::vector<std::vector<double>>& clusters, std:
 
 TEST(ClusteredQuantile, OfSingleValuesIsThatOfIndependentOnes) {
   std::mt19937_64 random(41);
-  Tally<double> plain;
+  Histogram<double> plain;
   ClusteredSample single;
   for (int i = 0; i < 300; ++i) {
     std::vector<double> value{static_cast<double>(random() % 100)};

@@ -23,37 +23,38 @@ double evidence_against(double p, std::int64_t successes, std::int64_t trials) {
 TEST(AnytimeBounds, AreWhereTheMixtureIsTwentyTimesAsLikely) {
   for (const std::int64_t trials : {1, 2, 7, 40, 300}) {
     for (std::int64_t successes = 0; successes <= trials; ++successes) {
-      const ConfidenceInterval bounds = anytime_bounds(successes, trials, 0.95);
+      const ConfidenceInterval bounds = confidence_sequence_bounds(successes, trials, 0.95);
       if (successes > 0) {
         EXPECT_NEAR(evidence_against(bounds.low, successes, trials), std::log(20.0), 1e-6);
       }
       if (successes < trials) {
         EXPECT_NEAR(evidence_against(bounds.high, successes, trials), std::log(20.0), 1e-6);
       }
-      const double share = static_cast<double>(successes) / static_cast<double>(trials);
-      EXPECT_LE(bounds.low, share);
-      EXPECT_GE(bounds.high, share);
+      const double proportion = static_cast<double>(successes) / static_cast<double>(trials);
+      EXPECT_LE(bounds.low, proportion);
+      EXPECT_GE(bounds.high, proportion);
     }
   }
 }
 
 TEST(AnytimeBounds, EndAtZeroAndOne) {
-  EXPECT_EQ(anytime_bounds(0, 0, 0.95).low, 0.0);
-  EXPECT_EQ(anytime_bounds(0, 0, 0.95).high, 1.0);
-  EXPECT_EQ(anytime_bounds(0, 50, 0.95).low, 0.0);
-  EXPECT_EQ(anytime_bounds(50, 50, 0.95).high, 1.0);
-  EXPECT_NEAR(anytime_bounds(0, 50, 0.9).high, 1.0 - anytime_bounds(50, 50, 0.9).low, 1e-12);
+  EXPECT_EQ(confidence_sequence_bounds(0, 0, 0.95).low, 0.0);
+  EXPECT_EQ(confidence_sequence_bounds(0, 0, 0.95).high, 1.0);
+  EXPECT_EQ(confidence_sequence_bounds(0, 50, 0.95).low, 0.0);
+  EXPECT_EQ(confidence_sequence_bounds(50, 50, 0.95).high, 1.0);
+  EXPECT_NEAR(confidence_sequence_bounds(0, 50, 0.9).high, 1.0 - confidence_sequence_bounds(50, 50, 0.9).low,
+              1e-12);
 }
 
 TEST(AnytimeBounds, AreWiderThanThoseOfOneLook) {
   for (const std::int64_t trials : {20, 1000, 100000, 10000000}) {
-    for (const double share : {0.0, 0.1, 0.5, 0.99, 1.0}) {
-      const auto successes = static_cast<std::int64_t>(share * static_cast<double>(trials));
-      const ConfidenceInterval anytime = anytime_bounds(successes, trials, 0.95);
+    for (const double proportion : {0.0, 0.1, 0.5, 0.99, 1.0}) {
+      const auto successes = static_cast<std::int64_t>(proportion * static_cast<double>(trials));
+      const ConfidenceInterval anytime = confidence_sequence_bounds(successes, trials, 0.95);
       const ConfidenceInterval fixed = clopper_pearson(successes, trials, 0.95);
       EXPECT_LE(anytime.low, fixed.low);
       EXPECT_GE(anytime.high, fixed.high);
-      EXPECT_LT(anytime.high - anytime.low, 3.5 * (fixed.high - fixed.low)) << trials << " " << share;
+      EXPECT_LT(anytime.high - anytime.low, 3.5 * (fixed.high - fixed.low)) << trials << " " << proportion;
     }
   }
 }
@@ -73,7 +74,7 @@ Looks look_after_every_block(double p, int studies) {
     bool fixed_always = true;
     for (std::int64_t trials = 25; trials <= 5000; trials += 25) {
       successes += std::binomial_distribution<std::int64_t>(25, p)(engine);
-      const ConfidenceInterval bounds = anytime_bounds(successes, trials, 0.95);
+      const ConfidenceInterval bounds = confidence_sequence_bounds(successes, trials, 0.95);
       const bool covers = bounds.low <= p && p <= bounds.high;
       const ConfidenceInterval fixed = wilson(successes, trials, 0.95);
       always = always && covers;
@@ -117,7 +118,7 @@ TEST(AnytimeBounds, CoverTheMeanOverTheRigsHoweverOftenOneLooks) {
     bool always = true, narrow = false;
     for (std::int64_t trials = 20; always && !narrow; trials += 20) {
       for (const double p : rigs) successes += std::bernoulli_distribution(p)(engine);
-      const ConfidenceInterval bounds = anytime_bounds(successes, trials, 0.95);
+      const ConfidenceInterval bounds = confidence_sequence_bounds(successes, trials, 0.95);
       always = bounds.low <= mean && mean <= bounds.high;
       narrow = bounds.high - bounds.low <= 0.08;
     }
@@ -127,12 +128,12 @@ TEST(AnytimeBounds, CoverTheMeanOverTheRigsHoweverOftenOneLooks) {
 }
 
 TEST(ProjectedTrials, AreEnoughAndNotMore) {
-  for (const double share : {0.0, 0.03, 0.5, 0.9, 1.0}) {
-    const auto successes = static_cast<std::int64_t>(1000 * share);
+  for (const double proportion : {0.0, 0.03, 0.5, 0.9, 1.0}) {
+    const auto successes = static_cast<std::int64_t>(1000 * proportion);
     const std::int64_t n = projected_trials(successes, 1000, 0.01, 0.95, 100, 10000000);
     const auto halfwidth = [&](std::int64_t trials) {
-      const auto s = static_cast<std::int64_t>(std::llround(share * static_cast<double>(trials)));
-      const ConfidenceInterval bounds = anytime_bounds(s, trials, 0.95);
+      const auto s = static_cast<std::int64_t>(std::llround(proportion * static_cast<double>(trials)));
+      const ConfidenceInterval bounds = confidence_sequence_bounds(s, trials, 0.95);
       return 0.5 * (bounds.high - bounds.low);
     };
     EXPECT_EQ(n % 100, 0);

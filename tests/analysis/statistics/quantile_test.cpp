@@ -52,10 +52,10 @@ constexpr Reference references[] = {
     {5000, 0.95, 96, 4719, 4781},
 };
 
-Tally<std::int64_t> tally_of(std::int64_t n) {
-  Tally<std::int64_t> tally;
-  for (std::int64_t i = 0; i < n; ++i) tally.add((7 * i * i + 3 * i) % 101);
-  return tally;
+Histogram<std::int64_t> tally_of(std::int64_t n) {
+  Histogram<std::int64_t> histogram;
+  for (std::int64_t i = 0; i < n; ++i) histogram.add((7 * i * i + 3 * i) % 101);
+  return histogram;
 }
 
 TEST(Quantile, IsNumpysInvertedCdf) {
@@ -77,15 +77,15 @@ TEST(Quantile, ValueAndBoundsAreTheOrderedSamplesOfTheirRanks) {
   std::mt19937_64 random(31);
   for (int round = 0; round < 100; ++round) {
     std::vector<double> values(1 + random() % 300);
-    Tally<double> tally;
+    Histogram<double> histogram;
     for (double& value : values) {
       value = 0.0005 * static_cast<double>(random() % 50);
-      tally.add(value);
+      histogram.add(value);
     }
     std::sort(values.begin(), values.end());
     const auto n = static_cast<std::int64_t>(values.size());
     for (const double p : {0.05, 0.5, 0.95}) {
-      const Quantile found = quantile(tally, p);
+      const Quantile found = quantile(histogram, p);
       const RankBounds ranks = quantile_rank_bounds(n, p);
       EXPECT_EQ(found.value, values[static_cast<std::size_t>(quantile_rank(n, p) - 1)]);
       if (ranks.low >= 1) {
@@ -119,7 +119,7 @@ TEST(Quantile, BoundsOfAnExtremeNeedEnoughObservations) {
 }
 
 TEST(Quantile, NothingIsKnownOfAnEmptySample) {
-  const Quantile none = quantile(Tally<double>{}, 0.5);
+  const Quantile none = quantile(Histogram<double>{}, 0.5);
   EXPECT_TRUE(std::isnan(none.value));
   EXPECT_TRUE(std::isnan(none.low));
   EXPECT_TRUE(std::isnan(none.high));
@@ -132,9 +132,9 @@ double quantile_coverage(int n, double p, double truth, Draw draw) {
   constexpr int rounds = 4000;
   int enclosed = 0;
   for (int round = 0; round < rounds; ++round) {
-    Tally<double> tally;
-    for (int i = 0; i < n; ++i) tally.add(draw());
-    const Quantile found = quantile(tally, p);
+    Histogram<double> histogram;
+    for (int i = 0; i < n; ++i) histogram.add(draw());
+    const Quantile found = quantile(histogram, p);
     enclosed += !(found.low > truth) && !(found.high < truth);
   }
   return enclosed / static_cast<double>(rounds);
@@ -168,24 +168,24 @@ TEST(Quantile, ProbabilitiesOutsideTheOpenUnitIntervalAreRefused) {
   }
 }
 
-TEST(Tally, MeanSpreadAndTotalOfAHandMadeSample) {
-  Tally<std::int64_t> tally;
-  for (const std::int64_t value : {2, 4, 4, 4, 5, 5, 7, 9}) tally.add(value);
-  EXPECT_EQ(mean(tally), 5.0);
-  EXPECT_NEAR(standard_deviation(tally), std::sqrt(32.0 / 7.0), 1e-15);
-  EXPECT_EQ(total(tally), 40);
-  EXPECT_EQ(smallest(tally), 2.0);
-  EXPECT_EQ(largest(tally), 9.0);
-  EXPECT_EQ(order_statistic(tally, 4), 4.0);
-  EXPECT_EQ(order_statistic(tally, 5), 5.0);
-  EXPECT_TRUE(std::isnan(order_statistic(tally, 0)));
-  EXPECT_TRUE(std::isnan(order_statistic(tally, 9)));
+TEST(Histogram, MeanSpreadAndTotalOfAHandMadeSample) {
+  Histogram<std::int64_t> histogram;
+  for (const std::int64_t value : {2, 4, 4, 4, 5, 5, 7, 9}) histogram.add(value);
+  EXPECT_EQ(mean(histogram), 5.0);
+  EXPECT_NEAR(standard_deviation(histogram), std::sqrt(32.0 / 7.0), 1e-15);
+  EXPECT_EQ(total(histogram), 40);
+  EXPECT_EQ(smallest(histogram), 2.0);
+  EXPECT_EQ(largest(histogram), 9.0);
+  EXPECT_EQ(order_statistic(histogram, 4), 4.0);
+  EXPECT_EQ(order_statistic(histogram, 5), 5.0);
+  EXPECT_TRUE(std::isnan(order_statistic(histogram, 0)));
+  EXPECT_TRUE(std::isnan(order_statistic(histogram, 9)));
 }
 
-TEST(Tally, DoesNotDependOnTheOrderOfItsValues) {
+TEST(Histogram, DoesNotDependOnTheOrderOfItsValues) {
   std::vector<double> values;
   for (int i = 0; i < 1000; ++i) values.push_back(0.0005 * (i * i % 97));
-  Tally<double> ordered, shuffled;
+  Histogram<double> ordered, shuffled;
   for (const double value : values) ordered.add(value);
   std::shuffle(values.begin(), values.end(), std::mt19937_64(33));
   for (const double value : values) shuffled.add(value);

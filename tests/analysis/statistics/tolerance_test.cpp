@@ -129,9 +129,10 @@ TEST(Tolerance, PercentagesAreRoundedToTheSafeSide) {
   std::uniform_real_distribution<double> exponent(-6.0, 0.0);
   for (int round = 0; round < 2000; ++round) {
     const double missing = std::pow(10.0, exponent(random));
-    const double share = 1.0 - missing;
-    EXPECT_LE(std::stod(percent_at_least(share)), 100.0 * share + 1e-9);
-    EXPECT_GE(std::stod(percent_at_least(share)), 100.0 * share - 100.0 * std::max(0.1 * missing, 1e-3));
+    const double proportion = 1.0 - missing;
+    EXPECT_LE(std::stod(percent_at_least(proportion)), 100.0 * proportion + 1e-9);
+    EXPECT_GE(std::stod(percent_at_least(proportion)),
+              100.0 * proportion - 100.0 * std::max(0.1 * missing, 1e-3));
     EXPECT_GE(std::stod(percent_at_most(missing)), 100.0 * missing - 1e-9);
     EXPECT_LE(std::stod(percent_at_most(missing)), 100.0 * std::max(1.1 * missing, missing + 1e-3));
   }

@@ -163,7 +163,7 @@ TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
   EXPECT_EQ(observed_at(summary, 0), "stable in all tests");
   EXPECT_EQ(observed_at(summary, 1), "");
 
-  // (6) at k1 = 100 is 3.50e-5, at 120 it is 4.20e-5: it holds for the share of trials with the stiffer
+  // (6) at k1 = 100 is 3.50e-5, at 120 it is 4.20e-5: it holds for the proportion of trials with the stiffer
   // spring.
   ASSERT_EQ(summary.predictions.size(), 2U);
   std::int64_t stiff = 0;
@@ -228,7 +228,7 @@ TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
   };
   std::vector<PointColumn> columns = prediction_columns(study_predictions(study));
   columns[0].values[1] = 1.5;
-  expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: 1.5 is no share");
+  expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: 1.5 is no proportion");
   columns.erase(columns.begin());
   expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: the dataset is missing");
 }

@@ -299,7 +299,7 @@ TEST(Summary, SaysHowManyTrialsWereStoppedWhereAStudyCanStopThem) {
   const std::vector<std::string> lines = lines_of(summary_table(summary));
   EXPECT_NE(lines[2].find("stopped"), std::string::npos);
   EXPECT_NE(lines[5].find(" 71.4 % "), std::string::npos) << lines[5];
-  EXPECT_NE(summary_table(summary).find("\nstopped: share of trials"), std::string::npos);
+  EXPECT_NE(summary_table(summary).find("\nstopped: proportion of trials"), std::string::npos);
   EXPECT_NE(summary_csv(summary).find("encoder_disagreement_max,stopped,predicted"), std::string::npos);
   const auto json = nlohmann::json::parse(summary_json_text(summary));
   EXPECT_EQ(json["points"][0]["stopped"], 0);

@@ -66,7 +66,7 @@ TEST(AssuranceSection, TellsTheSameInEveryForm) {
   const std::vector<PointSummary> points{
       trials_of_two_moves(400, 3, slowest).statistics({.confidence = 0.9}),
       trials_of_two_moves(100, 0, slowest).statistics({.confidence = 0.9})};
-  const SummarySection section = assurance_section(points, {"some", "all"});
+  const SummarySection section = tolerance_section(points, {"some", "all"});
   EXPECT_EQ(section.key, "assurance");
   ASSERT_EQ(section.json.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -128,7 +128,7 @@ TEST(AssuranceSection, TellsOfRigsWhereTrialsShareThem) {
   EXPECT_NEAR(point.rigs.without_failure, 39.0 / 40.0, 1e-15);
   EXPECT_NEAR(point.success_rate().value, 39.0 / 40.0, 1e-15);
   EXPECT_LT(point.success_rate().clopper_pearson.low, 0.9);  // of 4000 independent trials 0.97
-  const SummarySection section = assurance_section(points, {"only"});
+  const SummarySection section = tolerance_section(points, {"only"});
   EXPECT_NE(section.text.find(tolerance_sentence(point.rigs.tolerance)), std::string::npos) << section.text;
   EXPECT_NE(section.text.find("of trials on all rigs succeed"), std::string::npos) << section.text;
   EXPECT_NE(section.text.find("(100 failures in 4000 trials on 40 rigs)"), std::string::npos);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Below this share of the breakaway torque σ has no sign but by rounding (as in core/plant).
+/// Below this proportion of the breakaway torque σ has no sign but by rounding (as in core/plant).
 constexpr double torque_without_sign = 1e-14;
 
 /// Of the difference of two velocities that are the same.

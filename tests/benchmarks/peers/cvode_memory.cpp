@@ -14,7 +14,7 @@ namespace zerocount::testing {
 namespace {
 
 constexpr sunindextype size = std::tuple_size_v<PeerState>;
-constexpr long most_steps = 1000000;  // between two samples
+constexpr long max_steps = 1000000;  // between two samples
 
 const CvodeSystem& system_of(void* user) {
   return *static_cast<const CvodeSystem*>(user);
@@ -103,7 +103,7 @@ CvodeMemory::CvodeMemory(const CvodeSettings& settings) : settings_(settings) {
   require_success(CVodeSetErrHandlerFn(cvode_, silent, nullptr), "CVodeSetErrHandlerFn");
   require_success(CVodeInit(cvode_, slopes, 0.0, state_), "CVodeInit");
   require_success(CVodeWFtolerances(cvode_, weights), "CVodeWFtolerances");
-  require_success(CVodeSetMaxNumSteps(cvode_, most_steps), "CVodeSetMaxNumSteps");
+  require_success(CVodeSetMaxNumSteps(cvode_, max_steps), "CVodeSetMaxNumSteps");
   if (settings.solver == CvodeSolver::fixed_point) {
     nonlinear_ = SUNNonlinSol_FixedPoint(state_, 0, context_);
     require_success(CVodeSetNonlinearSolver(cvode_, nonlinear_), "CVodeSetNonlinearSolver");

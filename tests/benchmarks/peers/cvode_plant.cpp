@@ -10,7 +10,7 @@
 namespace zerocount::testing {
 namespace {
 
-constexpr int most_events = 100000;  // between two samples
+constexpr int max_events = 100000;  // between two samples
 constexpr int bits_of_event_time = 40;
 constexpr double no_stop = 1e30;         // s: later than any sample
 constexpr double no_longest_step = 0.0;  // as CVODE has it
@@ -56,7 +56,7 @@ void CvodePlant::limit_step() {
 
 void CvodePlant::advance(double duration) {
   double until = clock_ + duration;
-  for (int i = 0; i < most_events; ++i) {
+  for (int i = 0; i < max_events; ++i) {
     if (contact().resting()) {
       contact().hold(now_, until - clock_);
       return restart();

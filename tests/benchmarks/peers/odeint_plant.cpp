@@ -11,7 +11,7 @@ namespace odeint = boost::numeric::odeint;
 
 using ErrorChecker = odeint::default_error_checker<double, odeint::array_algebra, odeint::default_operations>;
 
-constexpr int most_events = 100000;      // between two samples
+constexpr int max_events = 100000;       // between two samples
 constexpr double shortest_step = 1e-12;  // of the one that was tried first
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -51,7 +51,7 @@ void OdeintPlant::restart() {
 
 void OdeintPlant::advance(double duration) {
   double until = clock_ + duration;
-  for (int events = 0; events < most_events; ++events) {
+  for (int events = 0; events < max_events; ++events) {
     while (!contact_.resting() && valid_until_ < until && pending_ == PeerEvent::none) step(until);
     if (contact_.resting()) {
       contact_.hold(now_, until - clock_);

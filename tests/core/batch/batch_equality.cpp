@@ -26,12 +26,12 @@ using namespace zerocount;
 using namespace zerocount::testing;
 
 /// Samples that a batch keeps until they are compared.
-constexpr double most_samples = 1e6;
+constexpr double max_samples = 1e6;
 
 BatchAgreement agreement_over(const Study& study, std::int64_t point, std::int64_t first,
                               std::int64_t trials) {
   const double per_trial = static_cast<double>(samples_of_trial(study_trial(study, point, first).parameters));
-  const auto block = std::clamp(static_cast<std::int64_t>(most_samples / per_trial), std::int64_t{1}, trials);
+  const auto block = std::clamp(static_cast<std::int64_t>(max_samples / per_trial), std::int64_t{1}, trials);
   std::atomic<std::int64_t> next{first};
   std::mutex adding;
   BatchAgreement agreement;
@@ -67,8 +67,8 @@ int main(int count, char** words) {
   try {
     const Study study = load_study(words[1], {fmt::format("trials={}", first + trials)});
     const BatchAgreement agreement = agreement_over(study, point, first, trials);
-    constexpr std::size_t most_shown = 20;
-    for (std::size_t i = 0; i < std::min(most_shown, agreement.failures.size()); ++i) {
+    constexpr std::size_t max_shown = 20;
+    for (std::size_t i = 0; i < std::min(max_shown, agreement.failures.size()); ++i) {
       fmt::print(stderr, "{}\n", agreement.failures[i]);
     }
     fmt::print("{}: {}\n", study.name, agreement.figures());

@@ -20,7 +20,7 @@ double uniform(std::mt19937_64& engine, double low, double high) {
 /// Largest difference of the two torques over a random sequence of elongations, and over its bound.
 struct Difference {
   double absolute{0.0};
-  double share{0.0};
+  double proportion{0.0};
 };
 
 Difference largest_difference(const FrictionParameters& friction, std::size_t elements, std::uint64_t seed) {
@@ -38,7 +38,7 @@ Difference largest_difference(const FrictionParameters& friction, std::size_t el
     stops.move_to(x);
     const double difference = std::abs(spring.torque() - stops.torque());
     worst.absolute = std::max(worst.absolute, difference);
-    worst.share = std::max(worst.share, difference / (stops.error_bound(spring.depth()) + 1e-14));
+    worst.proportion = std::max(worst.proportion, difference / (stops.error_bound(spring.depth()) + 1e-14));
   }
   return worst;
 }
@@ -55,7 +55,7 @@ FrictionParameters random_friction(std::uint64_t seed) {
 TEST(StopElements, SumEqualsTheSpringWithinTheBoundOfTheDiscretisation) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const Difference difference = largest_difference(random_friction(seed), 400, seed + 1000);
-    EXPECT_LT(difference.share, 1.0) << "seed " << seed;
+    EXPECT_LT(difference.proportion, 1.0) << "seed " << seed;
   }
 }
 

@@ -71,7 +71,7 @@ class RandomDrive {
 /// Largest differences in θ, over what is promised.
 struct Differences {
   double before{0.0};  // until the first breakaway, counts
-  double after{0.0};   // after it, share of 1e-3 count + 1e-7 of the travel
+  double after{0.0};   // after it, proportion of 1e-3 count + 1e-7 of the travel
   std::int64_t intervals{0};
   std::int64_t sliding{0};
   EventCounts events{};
@@ -112,8 +112,8 @@ void compare_motion(const Family& family, std::uint64_t index, Differences& wors
     if (!plant.sliding()) {
       ASSERT_NEAR(plant.read().creep.hardening, static_cast<double>(judge.state()[3]), allowed) << name;
     }
-    double& share = slid ? worst.after : worst.before;
-    share = std::max(share, difference / (slid ? allowed : count));
+    double& proportion = slid ? worst.after : worst.before;
+    proportion = std::max(proportion, difference / (slid ? allowed : count));
     worst.intervals += 1;
     worst.sliding += plant.sliding();
   }

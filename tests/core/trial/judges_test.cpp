@@ -48,8 +48,9 @@ TEST(Judges, ReadBackTheParametersTheyWrite) {
   }
 }
 
-// Under a constant torque U the rotor comes to rest with the spring carrying U less the damper's share, and
-// creep follows xh(t) = (|U|ⁿ/λ)·(1 − exp(−αt)). A stiff, well damped rotor brings the start-up to nothing.
+// Under a constant torque U the rotor comes to rest with the spring carrying U less the damper's proportion,
+// and creep follows xh(t) = (|U|ⁿ/λ)·(1 − exp(−αt)). A stiff, well damped rotor brings the start-up to
+// nothing.
 TEST(OdeintMotion, CreepsExactlyAtConstantTorque) {
   TrialParameters parameters;
   parameters.plant = {1e-6, 0.02, 1e-3};

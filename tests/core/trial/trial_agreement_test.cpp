@@ -48,7 +48,7 @@ TEST_P(RandomTrialAgreement, EqualsBoostOdeintSampleBySample) {
   std::cout << GetParam().name << ": " << total.figures() << "\n";
   for (const std::string& failure : total.failures) ADD_FAILURE() << failure;
   EXPECT_LE(total.edge_trials, static_cast<std::int64_t>(GetParam().trials / 50));
-  // Promised are 1e-6 count and a share of 1; an integrator that lost an order would show here first.
+  // Promised are 1e-6 count and a proportion of 1; an integrator that lost an order would show here first.
   EXPECT_LT(total.before_breakaway, 1e-7);
   EXPECT_LT(total.after_breakaway_share, 0.1);
 }

@@ -292,7 +292,8 @@ INSTANTIATE_TEST_SUITE_P(
              "m.yaml:6:29: friction.k1.triangular: the mode 5 is outside of 1 to 3; expected low <= mode <= "
              "high"},
         Case{"friction: {k1: {truncated_normal: {mean: 0, sd: 1, low: 20, high: 30}}}",
-             "m.yaml:6:35: friction.k1.truncated_normal: only the share 2.75e-89 of the normal distribution "
+             "m.yaml:6:35: friction.k1.truncated_normal: only the proportion 2.75e-89 of the normal "
+             "distribution "
              "lies between "
              "low and high; expected at least 1e-12"},
         Case{"friction: {k1: {choice: []}}",

@@ -134,7 +134,7 @@ TEST(ParameterTable, EachRowWritesItsOwnFieldAndNoOther) {
 
 TEST(ParameterTable, OnlyNumbersOfFrictionMayVaryAlongTheRotorAndGoToTheSameField) {
   for (const Parameter& parameter : parameter_table()) {
-    const bool friction = parameter.name.rfind("friction.", 0) == 0 && !has_words(parameter);
+    const bool friction = parameter.name.rfind("friction.", 0) == 0 && !has_labels(parameter);
     ASSERT_EQ(parameter.profiled != nullptr, friction) << parameter.name;
     if (!friction) continue;
     TrialParameters changed;
@@ -188,7 +188,7 @@ TEST(ParameterTable, EveryRowIsDocumented) {
         << parameter.name;
     const bool numbers =
         parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::whole_number;
-    EXPECT_EQ(has_words(parameter), !numbers) << parameter.name;
+    EXPECT_EQ(has_labels(parameter), !numbers) << parameter.name;
   }
 }
 

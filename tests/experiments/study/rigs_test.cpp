@@ -1,4 +1,4 @@
-// What trials of one rig share, and what a study's rigs do not.
+// What trials of one rig proportion, and what a study's rigs do not.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

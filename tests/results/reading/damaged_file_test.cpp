@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "results/reading/study_file.hpp"
-#include "results/storage/seal.hpp"
+#include "results/storage/checksum_trailer.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/results/walk.hpp"
@@ -45,7 +45,7 @@ TEST_F(DamagedFile, OfAnotherFormatIsSaidToBe) {
   expect_bad(directory / "empty.h5", "not in the HDF5 format");
   write_empty_hdf5(directory / "foreign.h5");
   expect_bad(directory / "foreign.h5", "the seal at its end is missing");
-  seal(directory / "foreign.h5");
+  append_checksum(directory / "foreign.h5");
   expect_bad(directory / "foreign.h5", "foreign.h5: not a results file of zerocount");
   replace_attribute(copy("format.h5"), "format", std::string("else"));
   expect_bad(directory / "format.h5", "format.h5: its format is 'else'; expected 'zerocount-study'");
@@ -100,7 +100,7 @@ TEST_F(DamagedFile, WithOneFlippedBitOfAColumnFailsItsChecksums) {
     write_bytes(path, damaged);
     expect_bad(path, "changed since it was written, or damaged");
     unseal(path);
-    seal(path);
+    append_checksum(path);
     expect_bad(path, column);
     expect_bad(path, "their checksum is wrong");
   }

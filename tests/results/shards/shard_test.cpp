@@ -102,7 +102,7 @@ TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const ShardProblem& found = survey.problems[i];
     EXPECT_EQ(found.path.filename(), expected[i].file);
-    EXPECT_NE(found.problem.find(expected[i].words), std::string::npos) << found.problem;
+    EXPECT_NE(found.problem.find(expected[i].labels), std::string::npos) << found.problem;
     EXPECT_NE(found.problem.find(expected[i].file), std::string::npos) << found.problem;
     EXPECT_EQ(found.kind, expected[i].kind) << found.problem;
   }

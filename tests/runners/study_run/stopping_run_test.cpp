@@ -68,7 +68,8 @@ std::int64_t successes_among(const StudyFile& file, std::int64_t point, std::int
 
 bool narrow(const StudyFile& file, std::int64_t trials) {
   for (std::int64_t point = 0; point < 2; ++point) {
-    const ConfidenceInterval bounds = anytime_bounds(successes_among(file, point, trials), trials, 0.95);
+    const ConfidenceInterval bounds =
+        confidence_sequence_bounds(successes_among(file, point, trials), trials, 0.95);
     if (bounds.high - bounds.low > 2.0 * halfwidth) return false;
   }
   return true;
@@ -163,7 +164,8 @@ TEST_F(StoppingRun, SummaryHasTheBoundsThatHold) {
   ASSERT_EQ(result.code, 0) << result.err;
   const auto points = nlohmann::json::parse(result.out).at("points");
   for (std::int64_t point = 0; point < 2; ++point) {
-    const ConfidenceInterval bounds = anytime_bounds(successes_among(file, point, trials), trials, 0.95);
+    const ConfidenceInterval bounds =
+        confidence_sequence_bounds(successes_among(file, point, trials), trials, 0.95);
     const auto& stopped = points.at(static_cast<std::size_t>(point)).at("stopped");
     EXPECT_EQ(stopped.at("success_rate_low").get<double>(), bounds.low);
     EXPECT_EQ(stopped.at("success_rate_high").get<double>(), bounds.high);

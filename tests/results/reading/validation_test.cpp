@@ -7,7 +7,7 @@
 
 #include "results/hdf5/hdf5.hpp"
 #include "results/reading/study_file.hpp"
-#include "results/storage/seal.hpp"
+#include "results/storage/checksum_trailer.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/support/raw_hdf5.hpp"
@@ -45,7 +45,7 @@ class SoundValues : public ::testing::Test {
     hdf5::File file = hdf5::File::open_to_change(path);
     write_row(file.open_dataset(dataset), row, value);
     file.close();
-    seal(path);
+    append_checksum(path);
     return path;
   }
 

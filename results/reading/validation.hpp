@@ -18,24 +18,24 @@ namespace zerocount {
 /// the trials of the jerks rise within the rows of the file. Of more than 131072 trials, eight blocks
 /// of 16384 are looked at, spread evenly: nothing is made of these two columns, and to read them whole would
 /// take a tenth of the time of a summary.
-void require_sound_numbering(const FileHeader& header, const TableIo& trials, const TableIo& jerks);
+void validate_numbering(const FileHeader& header, const TableIo& trials, const TableIo& jerks);
 
 /// Measures of the moves: `moves` are those of the global rows from `first_row` on.
 /// @param fields the columns of `outcomes`; what the file does not have is not looked at.
-void require_sound_outcomes(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
-                            std::int64_t first_row, std::span<const MoveOutcome> moves);
+void validate_outcomes(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
+                       std::int64_t first_row, std::span<const MoveOutcome> moves);
 
 /// The same for the one measure `name`, the others of `moves` being unknown.
-void require_sound_measure(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
-                           std::string_view name, std::int64_t first_row, std::span<const MoveOutcome> moves);
+void validate_measure(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
+                      std::string_view name, std::int64_t first_row, std::span<const MoveOutcome> moves);
 
 /// `jerks` are the rows of the table of jerks from `first` on, of a study with `moves` moves. Within a trial
 /// they must be in the order of their onsets, move by move.
-void require_sound_jerks(const TableIo& table, std::int64_t moves, std::int64_t first,
-                         std::span<const JerkRecord> jerks);
+void validate_jerks(const TableIo& table, std::int64_t moves, std::int64_t first,
+                    std::span<const JerkRecord> jerks);
 
 /// Counts of the rigs, [point][rig]: all rigs have equally many trials, or none, and not more successes.
-void require_sound_rigs(const FileHeader& header, const TableIo& counts,
-                        std::span<const std::int64_t> success, std::span<const std::int64_t> trials);
+void validate_rigs(const FileHeader& header, const TableIo& counts, std::span<const std::int64_t> success,
+                   std::span<const std::int64_t> trials);
 
 }  // namespace zerocount

@@ -6,7 +6,7 @@
 namespace zerocount {
 
 /// Length of the seal in bytes: the text "zerocount-seal sha256 ", 64 hexadecimal digits and a line feed.
-inline constexpr std::size_t seal_length = 22 + 64 + 1;
+inline constexpr std::size_t checksum_trailer_length = 22 + 64 + 1;
 
 /// Appends the seal to a finished file: the SHA-256 of everything before it. HDF5 ends where its own header
 /// says, and takes no notice of what follows.
@@ -14,17 +14,17 @@ inline constexpr std::size_t seal_length = 22 + 64 + 1;
 /// HDF5's checksums do not reach texts and parts of its index, and the library can crash on a damaged file.
 /// The seal is checked before the library sees a file. The sealed file is on the disk.
 /// @throws Failure (machine_failed) with the path and the reason
-void seal(const std::filesystem::path& path);
+void append_checksum(const std::filesystem::path& path);
 
-enum class SealState { sound, missing, wrong };
+enum class ChecksumState { valid, missing, wrong };
 
 /// Reads the file once from beginning to end, and compares it with its seal.
 /// @throws Failure (machine_failed) where the file cannot be read.
-SealState check_seal(const std::filesystem::path& path);
+ChecksumState check_checksum(const std::filesystem::path& path);
 
-/// check_seal, for a file that must be sound.
+/// check_checksum, for a file that must be sound.
 /// @throws Failure: bad_data where the seal is missing or wrong, machine_failed where the file cannot be
 /// read.
-void require_seal(const std::filesystem::path& path);
+void require_valid_checksum(const std::filesystem::path& path);
 
 }  // namespace zerocount

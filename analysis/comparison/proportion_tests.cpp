@@ -1,4 +1,4 @@
-#include "analysis/comparison/share_tests.hpp"
+#include "analysis/comparison/proportion_tests.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -23,8 +23,8 @@ double score(const PairedFailures& failures, double difference) {
   const double constant = -c * difference * (1.0 - difference);
   const double root = std::sqrt(std::max(0.0, linear * linear - 8.0 * n * constant));
   // Of the two forms of the positive root, the one that does not cancel.
-  const double share = linear > 0.0 ? -2.0 * constant / (root + linear) : (root - linear) / (4.0 * n);
-  const double variance = n * (2.0 * share + difference * (1.0 - difference));
+  const double proportion = linear > 0.0 ? -2.0 * constant / (root + linear) : (root - linear) / (4.0 * n);
+  const double variance = n * (2.0 * proportion + difference * (1.0 - difference));
   const double distance = b - c - n * difference;
   if (variance > 0.0) return distance / std::sqrt(variance);
   return distance == 0.0 ? 0.0 : std::copysign(1e300, distance);

@@ -1,4 +1,4 @@
-#include "results/storage/seal.hpp"
+#include "results/storage/checksum_trailer.hpp"
 
 #include <random>
 
@@ -18,11 +18,11 @@ TEST(Seal, IsTheChecksumOfEverythingBeforeIt) {
     std::string bytes(size, '\0');
     for (char& byte : bytes) byte = static_cast<char>(random());
     const std::filesystem::path path = folder.write("file", bytes);
-    seal(path);
+    append_checksum(path);
     const std::string text = "zerocount-seal sha256 " + sha256_hex(bytes) + "\n";
-    EXPECT_EQ(text.size(), seal_length);
+    EXPECT_EQ(text.size(), checksum_trailer_length);
     EXPECT_TRUE(folder.read("file") == bytes + text) << size;
-    if (size > 0) require_seal(path);
+    if (size > 0) require_valid_checksum(path);
   }
 }
 
@@ -31,12 +31,12 @@ TEST(Seal, ThatIsMissingOrWrongMeansChangedOrDamaged) {
   const std::filesystem::path path =
       folder.write("file", "some contents, longer than a seal" + std::string(200, '.'));
   const std::string words = "changed since it was written, or damaged";
-  expect_failure(ExitCode::bad_data, words, [&] { require_seal(path); });
-  seal(path);
+  expect_failure(ExitCode::bad_data, words, [&] { require_valid_checksum(path); });
+  append_checksum(path);
   std::string bytes = folder.read("file");
   bytes[3] = 'E';
   folder.write("file", bytes);
-  expect_failure(ExitCode::bad_data, words, [&] { require_seal(path); });
+  expect_failure(ExitCode::bad_data, words, [&] { require_valid_checksum(path); });
 }
 
 }  // namespace

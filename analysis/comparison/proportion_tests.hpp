@@ -4,8 +4,8 @@
 
 #include "analysis/statistics/proportion.hpp"
 
-/// Tests of a share of trials that fail something, in a baseline and in what is compared with it. Effects and
-/// alternatives are for the worse: more failures than in the baseline.
+/// Tests of a proportion of trials that fail something, in a baseline and in what is compared with it.
+/// Effects and alternatives are for the worse: more failures than in the baseline.
 namespace zerocount {
 
 /// Failures of both, trial by trial.
@@ -28,22 +28,22 @@ struct FailureCounts {
 /// McNemar, Psychometrika 12 (1947), 153; exact form as in Fay, R Journal 2 (2010), 53.
 double mcnemar(const PairedFailures& failures);
 
-/// Bounds of the difference of the two shares, λ = (b − c)/n, each by itself with `confidence`: where the
-/// score statistic
+/// Bounds of the difference of the two proportions, λ = (b − c)/n, each by itself with `confidence`: where
+/// the score statistic
 ///
 ///   Z(λ) = (b − c − nλ)/√(n(2q + λ(1 − λ))),
 ///
-/// q the likeliest share of the pairs that only the baseline failed, given λ, is ∓ the normal quantile.
+/// q the likeliest proportion of the pairs that only the baseline failed, given λ, is ∓ the normal quantile.
 /// Source: Tango, Statistics in Medicine 17 (1998), 891, equations (6), (10).
 ConfidenceInterval tango(const PairedFailures& failures, double confidence);
 
 /// Fisher's exact one-sided test: given the sum of failures, the probability of as many or more in the
-/// current sample where both have the same share (hypergeometric). Source: Fisher, Journal of the Royal
+/// current sample where both have the same proportion (hypergeometric). Source: Fisher, Journal of the Royal
 /// Statistical Society 98 (1935), 39.
 double fisher(const FailureCounts& failures);
 
-/// Bounds of the difference of the two shares, each by itself with `confidence`, from the Wilson bounds (l,
-/// u) of both: with d = p₂ − p₁,
+/// Bounds of the difference of the two proportions, each by itself with `confidence`, from the Wilson bounds
+/// (l, u) of both: with d = p₂ − p₁,
 ///
 ///   low = d − √((p₂ − l₂)² + (u₁ − p₁)²), high = d + √((u₂ − p₂)² + (p₁ − l₁)²).
 ///

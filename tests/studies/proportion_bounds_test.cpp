@@ -1,5 +1,5 @@
 // The binomial tests by which the studies are judged, against closed forms.
-#include "tests/studies/share_bounds.hpp"
+#include "tests/studies/proportion_bounds.hpp"
 
 #include <cmath>
 

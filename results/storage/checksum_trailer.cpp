@@ -1,4 +1,4 @@
-#include "results/storage/seal.hpp"
+#include "results/storage/checksum_trailer.hpp"
 
 #include <cerrno>
 #include <cstddef>
@@ -28,7 +28,7 @@ std::string seal_of(const fs::path& path, const FileDescriptor& file, std::size_
 
 }  // namespace
 
-void seal(const fs::path& path) {
+void append_checksum(const fs::path& path) {
   const FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
   if (!file.valid()) fail_with(path, "open for writing", errno);
   const std::string text = seal_of(path, file, size_of_file(path, file));
@@ -36,31 +36,31 @@ void seal(const fs::path& path) {
   synchronise(path, file);
 }
 
-SealState check_seal(const fs::path& path) {
+ChecksumState check_checksum(const fs::path& path) {
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file.valid()) fail_with(path, "read", errno);
   const std::size_t size = size_of_file(path, file);
-  std::string found(seal_length, '\0');
+  std::string found(checksum_trailer_length, '\0');
   std::string expected;
-  if (size > seal_length) {
-    expected = seal_of(path, file, size - seal_length);
+  if (size > checksum_trailer_length) {
+    expected = seal_of(path, file, size - checksum_trailer_length);
     read_some(path, file, std::as_writable_bytes(std::span(found)));
   }
-  if (!found.starts_with(seal_start)) return SealState::missing;
-  return found == expected ? SealState::sound : SealState::wrong;
+  if (!found.starts_with(seal_start)) return ChecksumState::missing;
+  return found == expected ? ChecksumState::valid : ChecksumState::wrong;
 }
 
-void require_seal(const fs::path& path) {
-  switch (check_seal(path)) {
-    case SealState::sound:
+void require_valid_checksum(const fs::path& path) {
+  switch (check_checksum(path)) {
+    case ChecksumState::valid:
       return;
-    case SealState::missing:
+    case ChecksumState::missing:
       throw Failure(
           ExitCode::bad_data,
           fmt::format("{}: the seal at its end is missing: it was changed since it was written, or damaged, "
                       "or is no results file of zerocount",
                       path.string()));
-    case SealState::wrong:
+    case ChecksumState::wrong:
       throw Failure(
           ExitCode::bad_data,
           fmt::format("{}: changed since it was written, or damaged: the checksum at its end is not that "

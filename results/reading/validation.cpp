@@ -1,4 +1,4 @@
-#include "results/reading/sound_values.hpp"
+#include "results/reading/validation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +78,7 @@ void require_numbers(const hdf5::Dataset& dataset, std::int64_t rows, Expected e
 
 }  // namespace
 
-void require_sound_numbering(const FileHeader& header, const TableIo& trials, const TableIo& jerks) {
+void validate_numbering(const FileHeader& header, const TableIo& trials, const TableIo& jerks) {
   const RowRange rows = header.rows;
   const auto global = [&](std::int64_t row) { return rows.first + row; };
   require_numbers(trials.column(0), rows.count,
@@ -100,8 +100,8 @@ void require_sound_numbering(const FileHeader& header, const TableIo& trials, co
   }
 }
 
-void require_sound_outcomes(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
-                            std::int64_t first_row, std::span<const MoveOutcome> moves) {
+void validate_outcomes(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
+                       std::int64_t first_row, std::span<const MoveOutcome> moves) {
   for (const RecordField<MoveOutcome>& field : fields)
     require_valid(outcomes, fields, field, first_row, moves);
   require_of_moves(outcomes, fields, *find_field(fields, "arrived"), first_row, moves,
@@ -109,14 +109,13 @@ void require_sound_outcomes(const TableIo& outcomes, const std::vector<RecordFie
                    [](const MoveOutcome& move) { return move.arrived != std::isnan(move.settling_time); });
 }
 
-void require_sound_measure(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
-                           std::string_view name, std::int64_t first_row,
-                           std::span<const MoveOutcome> moves) {
+void validate_measure(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
+                      std::string_view name, std::int64_t first_row, std::span<const MoveOutcome> moves) {
   require_valid(outcomes, fields, *find_field(fields, name), first_row, moves);
 }
 
-void require_sound_jerks(const TableIo& table, std::int64_t moves, std::int64_t first,
-                         std::span<const JerkRecord> jerks) {
+void validate_jerks(const TableIo& table, std::int64_t moves, std::int64_t first,
+                    std::span<const JerkRecord> jerks) {
   const std::vector<RecordField<JerkRecord>>& fields = jerk_fields();
   const auto column = [&](std::string_view name) -> const hdf5::Dataset& {
     return table.column(static_cast<std::size_t>(find_field(fields, name) - fields.data()));
@@ -138,8 +137,8 @@ void require_sound_jerks(const TableIo& table, std::int64_t moves, std::int64_t 
   }
 }
 
-void require_sound_rigs(const FileHeader& header, const TableIo& counts,
-                        std::span<const std::int64_t> success, std::span<const std::int64_t> trials) {
+void validate_rigs(const FileHeader& header, const TableIo& counts, std::span<const std::int64_t> success,
+                   std::span<const std::int64_t> trials) {
   const std::int64_t rigs = counts.width();
   if (counts.rows() != header.points || header.trials % rigs != 0) {
     counts.column(0).fail("its size differs from the points and rigs of the study");

@@ -70,7 +70,7 @@ ComparisonRow row_of(const PointComparison& point, const RequirementResult& requ
   row.baseline = "–";
   row.current = text(requirement.value);
   row.worse_by = "–";
-  const bool quantile = requirement.quantity.starts_with("settling_time.");
+  const bool quantile = requirement.quantity.find('.') != std::string::npos;
   row.bounds = quantile ? fmt::format("{} within", interval_text(requirement.bounds, "_rate", "1"))
                         : interval_text(requirement.bounds, requirement.quantity, requirement.unit);
   row.margin = fmt::format("{} {}", requirement.at_least ? "≥" : "≤", text(requirement.limit));

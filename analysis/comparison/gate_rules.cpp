@@ -1,74 +1,64 @@
 #include "analysis/comparison/gate_rules.hpp"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 
 namespace zerocount {
 namespace {
 
-template <class Named>
-const Named* find_named(std::span<const Named> all, std::string_view name) {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
-  return found == all.end() ? nullptr : &*found;
+template <class List>
+auto find_named(const List& all, std::string_view name) {
+  return std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
+}
+
+std::vector<RequirableQuantity> all_requirable() {
+  std::vector<RequirableQuantity> quantities;
+  for (const GateMeasure& measure : gate_measures()) {
+    const std::string name(measure.name);
+    if (measure.proportion()) {
+      quantities.push_back({name, measure.unit, RequirementKind::proportion, measure});
+    } else if (measure.measure->of_trial == OfTrial::sum) {
+      quantities.push_back({name, measure.unit, RequirementKind::mean, measure});
+    } else {
+      for (const auto& [quantile, probability] :
+           {std::pair(".median", 0.5), std::pair(".p95", 0.95), std::pair(".p99", 0.99)})
+        quantities.push_back(
+            {name + quantile, measure.unit, RequirementKind::quantile, measure, probability});
+    }
+  }
+  return quantities;
 }
 
 }  // namespace
 
-std::span<const GateMeasure> gate_measures() {
-  static constexpr std::array<GateMeasure, 5> measures{{
-      {GateQuantity::success,
-       "success_rate",
-       "1",
-       "proportion of trials all of whose moves ended in zero counts",
-       true,
-       {0.02, 0.0, false}},
-      {GateQuantity::arrival,
-       "arrival_rate",
-       "1",
-       "proportion of trials all of whose moves arrived",
-       true,
-       {0.02, 0.0, false}},
-      {GateQuantity::stability,
-       "stable_rate",
-       "1",
-       "proportion of trials all of whose moves were stable",
-       true,
-       {0.02, 0.0, false}},
-      {GateQuantity::settling_time,
-       "settling_time",
-       "s",
-       "mean settling time of a trial: of the moves that arrived, where trials are paired in both files",
-       false,
-       {0.0005, 0.05, false}},
-      {GateQuantity::jerk_count,
-       "jerk_count",
-       "1",
-       "mean number of jerks of a trial, over all its moves",
-       false,
-       {0.05, 0.1, false}},
-  }};
-  return measures;
+std::vector<GateMeasure> gate_measures(const MeasureTable& measures) {
+  std::vector<GateMeasure> gated;
+  for (const bool proportion : {true, false}) {
+    for (const Measure& measure : measures) {
+      if (!measure.gate || is_quality(measure) != proportion) continue;
+      gated.push_back({&measure,
+                       measure.gate->name,
+                       measure.field.column.unit,
+                       {measure.gate->absolute, measure.gate->relative, false}});
+    }
+  }
+  return gated;
 }
 
-const GateMeasure* find_gate_measure(std::string_view name) {
-  return find_named(gate_measures(), name);
+std::optional<GateMeasure> find_gate_measure(std::string_view name) {
+  const std::vector<GateMeasure> all = gate_measures();
+  const auto found = find_named(all, name);
+  return found == all.end() ? std::nullopt : std::optional(*found);
 }
 
 std::span<const RequirableQuantity> requirable_quantities() {
-  static constexpr std::array<RequirableQuantity, 7> quantities{{
-      {"success_rate", "1", RequirementKind::proportion, GateQuantity::success, 0.0},
-      {"arrival_rate", "1", RequirementKind::proportion, GateQuantity::arrival, 0.0},
-      {"stable_rate", "1", RequirementKind::proportion, GateQuantity::stability, 0.0},
-      {"settling_time.median", "s", RequirementKind::quantile, GateQuantity::settling_time, 0.5},
-      {"settling_time.p95", "s", RequirementKind::quantile, GateQuantity::settling_time, 0.95},
-      {"settling_time.p99", "s", RequirementKind::quantile, GateQuantity::settling_time, 0.99},
-      {"jerk_count", "1", RequirementKind::mean, GateQuantity::jerk_count, 0.0},
-  }};
+  static const std::vector<RequirableQuantity> quantities = all_requirable();
   return quantities;
 }
 
 const RequirableQuantity* find_requirable(std::string_view name) {
-  return find_named(requirable_quantities(), name);
+  const auto found = find_named(requirable_quantities(), name);
+  return found == requirable_quantities().end() ? nullptr : &*found;
 }
 
 bool is_judged(const GateRules& rules, const GateMeasure& measure) {

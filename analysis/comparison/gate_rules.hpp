@@ -2,10 +2,13 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "results/layout/measure_table.hpp"
 
 /// What a comparison judges, and by how much a measure may change.
 namespace zerocount {
@@ -17,39 +20,39 @@ struct GateMargin {
   bool both_ways{false};  ///< a change for the better beyond the margin is a failure too
 };
 
-enum class GateQuantity { success, arrival, stability, settling_time, jerk_count };
-
-/// One measure that a comparison judges. Of a proportion of trials, less is worse; of a mean, more is.
+/// One measure that a comparison judges.
 struct GateMeasure {
-  GateQuantity quantity;
+  const Measure* measure;
   std::string_view name;
   std::string_view unit;
-  std::string_view long_name;
-  bool proportion;  ///< of trials; otherwise a mean over trials
-  GateMargin margin;
+  GateMargin margin;  ///< the default
+
+  /// Judged by the proportion of trials with a quality; otherwise by a mean over trials.
+  bool proportion() const { return is_quality(*measure); }
 };
 
-/// All of them, with their default margins, in the order of the report.
-std::span<const GateMeasure> gate_measures();
+/// Those of the table, in the order of the report: proportions before means.
+std::vector<GateMeasure> gate_measures(const MeasureTable& measures = measure_table());
 
-/// Null where there is none of this name.
-const GateMeasure* find_gate_measure(std::string_view name);
+/// The gate measure of this name of the program's own table.
+std::optional<GateMeasure> find_gate_measure(std::string_view name);
 
 enum class RequirementKind {
   proportion,  ///< of trials with the quality of a gate measure
-  quantile,    ///< of the settling time
-  mean         ///< of the jerks per trial
+  quantile,    ///< over trials, of the worst of their moves
+  mean         ///< over trials, of a sum over their moves
 };
 
 /// What can be required of a file whatever the baseline says.
 struct RequirableQuantity {
-  std::string_view name;
+  std::string name;
   std::string_view unit;
   RequirementKind kind;
-  GateQuantity quantity;
-  double probability;  ///< of a quantile
+  GateMeasure measure;
+  double probability{0.0};  ///< of a quantile
 };
 
+/// Of every gate measure: a proportion or the mean of a sum under its own name, otherwise quantiles.
 std::span<const RequirableQuantity> requirable_quantities();
 const RequirableQuantity* find_requirable(std::string_view name);
 

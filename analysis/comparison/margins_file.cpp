@@ -26,11 +26,11 @@ const std::vector<std::string> top_keys{
     "confidence", "false_discovery_rate", "measures", "margins", "require", "points"};
 const std::vector<std::string> margin_keys{"absolute", "relative", "both_ways"};
 
-template <class Named>
-std::vector<std::string> names_of(std::span<const Named> all) {
+template <class List>
+std::vector<std::string> names_of(const List& all) {
   std::vector<std::string> names;
   std::transform(all.begin(), all.end(), std::back_inserter(names),
-                 [](const Named& one) { return std::string(one.name); });
+                 [](const auto& one) { return std::string(one.name); });
   return names;
 }
 
@@ -66,15 +66,15 @@ std::optional<GateMargin> read_margin(const Field& field, Problems& problems) {
 
 void read_margin_of(const Field& map, const YamlEntry& entry, std::map<std::string, GateMargin>& margins,
                     Problems& problems) {
-  const GateMeasure* const measure = find_gate_measure(entry.key);
-  if (measure == nullptr) {
+  const std::optional<GateMeasure> measure = find_gate_measure(entry.key);
+  if (!measure) {
     add_unknown_key(map, entry, names_of(gate_measures()), problems);
     return;
   }
   const Field field = entry_of(map, entry);
   const std::optional<GateMargin> margin = read_margin(field, problems);
   if (!margin) return;
-  if (measure->proportion && (margin->absolute >= 1.0 || margin->relative >= 1.0)) {
+  if (measure->proportion() && (margin->absolute >= 1.0 || margin->relative >= 1.0)) {
     problems.add(field.node->place, field.path, "no proportion of trials can be worse by so much",
                  "less than 1, such as 0.02 for two percent points");
     return;
@@ -162,7 +162,7 @@ void read_measures(const Field& field, std::vector<std::string>& measures, Probl
     const Field item = item_of(field, i);
     const std::optional<std::string> name = read_text(item, problems);
     if (!name) continue;
-    if (find_gate_measure(*name) == nullptr) {
+    if (!find_gate_measure(*name)) {
       problems.add(
           item.node->place, item.path,
           fmt::format("{} is no measure, nearest known: {}", in_quotes(*name), nearest_name(*name, known)),

@@ -37,20 +37,25 @@ ComparedValues over_rigs(const ComparedValues& values, std::int64_t baseline_rig
           means_by_rig(values.differences, current_rigs)};
 }
 
-/// Settling times trial by trial, over the moves that arrived in both; NaN where none did.
-ComparedValues paired_settling_times(const PointTrials& baseline, const PointTrials& current) {
+/// Values trial by trial, over the moves that have one in both; NaN where none has.
+ComparedValues paired_values(const PointTrials& baseline, const PointTrials& current,
+                             const GateMeasure& measure) {
   ComparedValues values;
-  const auto moves = static_cast<std::size_t>(std::min(baseline.moves, current.moves));
-  for (std::size_t trial = 0; trial < static_cast<std::size_t>(baseline.trials); ++trial) {
+  const std::vector<double>& before = baseline.of(measure);
+  const std::vector<double>& after = current.of(measure);
+  const auto trials = static_cast<std::size_t>(baseline.trials);
+  const std::size_t before_width = before.size() / trials;
+  const std::size_t after_width = after.size() / trials;
+  for (std::size_t trial = 0; trial < trials; ++trial) {
     double one = 0.0;
     double two = 0.0;
     double count = 0.0;
-    for (std::size_t move = 0; move < moves; ++move) {
-      const double before = baseline.settling_time[trial * static_cast<std::size_t>(baseline.moves) + move];
-      const double after = current.settling_time[trial * static_cast<std::size_t>(current.moves) + move];
-      if (std::isnan(before) || std::isnan(after)) continue;
-      one += before;
-      two += after;
+    for (std::size_t move = 0; move < std::min(before_width, after_width); ++move) {
+      const double old_value = before[trial * before_width + move];
+      const double new_value = after[trial * after_width + move];
+      if (std::isnan(old_value) || std::isnan(new_value)) continue;
+      one += old_value;
+      two += new_value;
       count += 1.0;
     }
     values.baseline.push_back(one / count);
@@ -60,30 +65,24 @@ ComparedValues paired_settling_times(const PointTrials& baseline, const PointTri
   return over_rigs(values, baseline.rigs, current.rigs);
 }
 
-ComparedValues compared_values(const PointTrials& baseline, const PointTrials& current, GateQuantity quantity,
-                               bool paired) {
-  if (quantity == GateQuantity::settling_time) {
-    if (paired) return paired_settling_times(baseline, current);
-    return {settling_times(baseline), settling_times(current), {}};
+/// 1 for each trial that failed: that lacks a quality of which less is worse, or has one of which more is.
+std::vector<double> failures_of(const PointTrials& trials, const GateMeasure& measure) {
+  std::vector<double> failures = trials.of(measure);
+  if (measure.measure->gate->worse == Worse::less) {
+    for (double& quality : failures) quality = 1.0 - quality;
   }
-  ComparedValues values{baseline.jerks, current.jerks, {}};
-  if (paired) {
-    values.differences.resize(baseline.jerks.size());
-    std::transform(current.jerks.begin(), current.jerks.end(), baseline.jerks.begin(),
-                   values.differences.begin(), std::minus<>());
-  }
-  return over_rigs(values, baseline.rigs, current.rigs);
+  return failures;
 }
 
-/// Failures as numbers, 1 for each trial that failed: their means are the rates of failure.
+/// The proportion of trials with a quality, where a proportion `failures` of them failed.
+double proportion_with(const GateMeasure& measure, double failures) {
+  return measure.measure->gate->worse == Worse::less ? 1.0 - failures : failures;
+}
+
+/// Failures as numbers: their means are the rates of failure.
 ComparedValues compared_failures(const PointTrials& baseline, const PointTrials& current,
-                                 GateQuantity quantity, bool paired) {
-  const auto failures_of = [&](const PointTrials& trials) {
-    std::vector<double> failures;
-    for (const bool quality : qualities(trials, quantity)) failures.push_back(quality ? 0.0 : 1.0);
-    return failures;
-  };
-  ComparedValues values{failures_of(baseline), failures_of(current), {}};
+                                 const GateMeasure& measure, bool paired) {
+  ComparedValues values{failures_of(baseline, measure), failures_of(current, measure), {}};
   if (paired) {
     for (std::size_t i = 0; i < values.baseline.size(); ++i)
       values.differences.push_back(values.current[i] - values.baseline[i]);
@@ -91,27 +90,27 @@ ComparedValues compared_failures(const PointTrials& baseline, const PointTrials&
   return over_rigs(values, baseline.rigs, current.rigs);
 }
 
-PairedFailures paired_failures(const std::vector<bool>& baseline, const std::vector<bool>& current) {
+/// @param baseline 1 for each trial that failed. @param current likewise
+PairedFailures paired_failures(const std::vector<double>& baseline, const std::vector<double>& current) {
   PairedFailures failures;
   failures.pairs = std::ssize(baseline);
   for (std::size_t trial = 0; trial < baseline.size(); ++trial) {
-    failures.only_current += baseline[trial] && !current[trial];
-    failures.only_baseline += !baseline[trial] && current[trial];
+    failures.only_current += baseline[trial] < current[trial];
+    failures.only_baseline += baseline[trial] > current[trial];
   }
   return failures;
 }
 
-void compare_share(MeasureComparison& result, const std::vector<bool>& baseline,
-                   const std::vector<bool>& current, bool paired, double confidence) {
-  const auto failures_in = [](const std::vector<bool>& quality) {
-    return static_cast<std::int64_t>(std::count(quality.begin(), quality.end(), false));
-  };
-  const FailureCounts counts{failures_in(baseline), std::ssize(baseline), failures_in(current),
-                             std::ssize(current)};
+void compare_share(MeasureComparison& result, const GateMeasure& measure, const PointTrials& baseline_trials,
+                   const PointTrials& current_trials, bool paired, double confidence) {
+  const std::vector<double> baseline = failures_of(baseline_trials, measure);
+  const std::vector<double> current = failures_of(current_trials, measure);
+  const FailureCounts counts{std::count(baseline.begin(), baseline.end(), 1.0), std::ssize(baseline),
+                             std::count(current.begin(), current.end(), 1.0), std::ssize(current)};
   result.baseline_n = counts.baseline_trials;
   result.current_n = counts.current_trials;
-  result.baseline = 1.0 - rate(counts.baseline_failures, counts.baseline_trials);
-  result.current = 1.0 - rate(counts.current_failures, counts.current_trials);
+  result.baseline = proportion_with(measure, rate(counts.baseline_failures, counts.baseline_trials));
+  result.current = proportion_with(measure, rate(counts.current_failures, counts.current_trials));
   if (paired) {
     const PairedFailures failures = paired_failures(baseline, current);
     result.test = "McNemar, exact";
@@ -131,11 +130,11 @@ void compare_share(MeasureComparison& result, const std::vector<bool>& baseline,
                                  counts.current_trials - counts.current_failures, counts.current_trials});
 }
 
-/// What one trial may well differ by: a jerk; the time that settling takes.
-double unit_of(GateQuantity quantity, const MeasureComparison& result) {
-  if (quantity == GateQuantity::jerk_count) return 1.0;
-  const double time = std::max(result.baseline, result.current);
-  return time > 0.0 ? time : 1e-3;
+/// What one trial may well differ by: 1 of what is counted; the time that settling takes.
+double unit_of(const GateMeasure& measure, const MeasureComparison& result) {
+  if (measure.measure->field.column.element != Element::float64) return 1.0;
+  const double value = std::max(std::abs(result.baseline), std::abs(result.current));
+  return value > 0.0 ? value : 1e-3;
 }
 
 std::string test_of_means(bool paired, bool over_rigs) {
@@ -162,9 +161,12 @@ void test_means(MeasureComparison& result, const ComparedValues& values, double 
   result.effect = worse.value;
 }
 
-/// @param values of trials, or of rigs
-void compare_mean(MeasureComparison& result, const ComparedValues& values, GateQuantity quantity, bool paired,
-                  bool over_rigs, double confidence) {
+void compare_mean(MeasureComparison& result, const GateMeasure& measure, const PointTrials& baseline,
+                  const PointTrials& current, bool paired, double confidence) {
+  const bool over_rigs = baseline.rigs > 0 || current.rigs > 0;
+  ComparedValues values =
+      paired ? paired_values(baseline, current, measure)
+             : ComparedValues{trial_means(baseline, measure), trial_means(current, measure), {}};
   result.baseline_n = std::ssize(values.baseline);
   result.current_n = std::ssize(values.current);
   if (result.baseline_n > 0) result.baseline = mean_of(values.baseline);
@@ -175,16 +177,19 @@ void compare_mean(MeasureComparison& result, const ComparedValues& values, GateQ
                               paired ? " in both files" : "");
     return;
   }
-  test_means(result, values, unit_of(quantity, result), paired, confidence);
+  if (measure.measure->gate->worse == Worse::less) {
+    values = {negated(values.baseline), negated(values.current), negated(values.differences)};
+  }
+  test_means(result, values, unit_of(measure, result), paired, confidence);
 }
 
 /// Shares of trials on rigs: the rates of failure of the rigs. One rig more might fail in all of its trials.
-void compare_share_over_rigs(MeasureComparison& result, const ComparedValues& failures, bool paired,
-                             double confidence) {
+void compare_share_over_rigs(MeasureComparison& result, const GateMeasure& measure,
+                             const ComparedValues& failures, bool paired, double confidence) {
   result.baseline_n = std::ssize(failures.baseline);
   result.current_n = std::ssize(failures.current);
-  result.baseline = 1.0 - mean_of(failures.baseline);
-  result.current = 1.0 - mean_of(failures.current);
+  result.baseline = proportion_with(measure, mean_of(failures.baseline));
+  result.current = proportion_with(measure, mean_of(failures.current));
   result.test = test_of_means(paired, true);
   test_means(result, failures, 1.0, paired, confidence);
 }
@@ -195,21 +200,18 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
                                                 const PointTrials& baseline, const PointTrials& current,
                                                 bool paired) {
   std::vector<MeasureComparison> results;
-  for (const GateMeasure& measure : gate_measures()) {
+  for (const GateMeasure& measure : gate_measures(*current.table)) {
     if (!is_judged(rules, measure)) continue;
     MeasureComparison result;
     result.measure = measure.name;
     result.unit = measure.unit;
-    const bool rigs = baseline.rigs > 0 || current.rigs > 0;
-    if (measure.proportion && rigs) {
-      compare_share_over_rigs(result, compared_failures(baseline, current, measure.quantity, paired), paired,
+    if (!measure.proportion()) {
+      compare_mean(result, measure, baseline, current, paired, rules.confidence);
+    } else if (baseline.rigs > 0 || current.rigs > 0) {
+      compare_share_over_rigs(result, measure, compared_failures(baseline, current, measure, paired), paired,
                               rules.confidence);
-    } else if (measure.proportion) {
-      compare_share(result, qualities(baseline, measure.quantity), qualities(current, measure.quantity),
-                    paired, rules.confidence);
     } else {
-      compare_mean(result, compared_values(baseline, current, measure.quantity, paired), measure.quantity,
-                   paired, rigs, rules.confidence);
+      compare_share(result, measure, baseline, current, paired, rules.confidence);
     }
     const GateMargin margin = margin_of(rules, label, measure);
     result.margin = margin.absolute;

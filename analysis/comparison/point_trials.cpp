@@ -5,59 +5,54 @@
 #include <cstddef>
 #include <limits>
 
+#include "analysis/measures/trial_value.hpp"
+
 namespace zerocount {
 
-PointTrials gather_trials(std::span<const MoveOutcome> outcomes, std::int64_t moves) {
+PointTrials gather_trials(std::span<const MoveOutcome> outcomes, std::int64_t moves,
+                          const MeasureTable& table) {
   PointTrials result;
   result.trials = std::ssize(outcomes) / moves;
   result.moves = moves;
-  for (auto move = outcomes.begin(); move != outcomes.end(); move += moves) {
-    const std::span<const MoveOutcome> trial(move, move + moves);
-    result.zero_count.push_back(succeeded(trial));
-    result.arrived.push_back(has_arrived(trial));
-    result.stable.push_back(was_stable(trial));
-    double jerks = 0.0;
-    for (auto one = move; one != move + moves; ++one) {
-      result.settling_time.push_back(one->arrived ? one->settling_time
-                                                  : std::numeric_limits<double>::quiet_NaN());
-      jerks += static_cast<double>(one->jerk_count);
-      add_move(result.undecided, *one);
+  result.table = &table;
+  for (const GateMeasure& gated : gate_measures(table)) {
+    const Measure& measure = *gated.measure;
+    std::vector<double>& values = result.values[std::string(gated.name)];
+    if (is_quality(measure) || measure.of_trial == OfTrial::sum) {
+      for (auto move = outcomes.begin(); move != outcomes.end(); move += moves)
+        values.push_back(value_of_trial(measure, {move, move + moves}));
+    } else {
+      for (const MoveOutcome& move : outcomes) values.push_back(counted_value(measure, move));
     }
-    result.jerks.push_back(jerks);
   }
+  for (const MoveOutcome& move : outcomes) add_move(result.undecided, move);
   return result;
 }
 
 PointTrials read_point_trials(const StudyFile& file, std::int64_t point) {
   const std::int64_t trials = file.header().trials;
-  return gather_trials(file.outcomes({point * trials, trials}), file.moves());
+  return gather_trials(file.outcomes({point * trials, trials}), file.moves(), file.table());
 }
 
 PointTrials first_trials(const PointTrials& all, std::int64_t trials) {
   PointTrials some = all;
   some.trials = std::min(trials, all.trials);
-  const auto count = static_cast<std::size_t>(some.trials);
-  some.zero_count.resize(count);
-  some.arrived.resize(count);
-  some.stable.resize(count);
-  some.settling_time.resize(count * static_cast<std::size_t>(all.moves));
-  some.jerks.resize(count);
+  for (auto& [name, values] : some.values)
+    values.resize(values.size() / static_cast<std::size_t>(all.trials) *
+                  static_cast<std::size_t>(some.trials));
   return some;
 }
 
-const std::vector<bool>& qualities(const PointTrials& trials, GateQuantity proportion) {
-  if (proportion == GateQuantity::arrival) return trials.arrived;
-  return proportion == GateQuantity::stability ? trials.stable : trials.zero_count;
-}
-
-std::vector<double> settling_times(const PointTrials& trials) {
+std::vector<double> trial_means(const PointTrials& trials, const GateMeasure& measure) {
+  const std::vector<double>& values = trials.of(measure);
+  const auto width = std::ssize(values) / trials.trials;
   std::vector<double> means;
-  for (auto move = trials.settling_time.begin(); move != trials.settling_time.end(); move += trials.moves) {
+  for (auto move = values.begin(); move != values.end(); move += width) {
     double sum = 0.0;
     int count = 0;
-    std::for_each(move, move + trials.moves, [&](double time) {
-      if (std::isnan(time)) return;
-      sum += time;
+    std::for_each(move, move + width, [&](double value) {
+      if (std::isnan(value)) return;
+      sum += value;
       ++count;
     });
     means.push_back(count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN());
@@ -81,16 +76,17 @@ std::vector<double> means_by_rig(std::span<const double> values, std::int64_t ri
   return means;
 }
 
-std::vector<double> slowest_settling_times(const PointTrials& trials) {
-  std::vector<double> slowest;
-  for (auto move = trials.settling_time.begin(); move != trials.settling_time.end(); move += trials.moves) {
+std::vector<double> largest_of_moves(const PointTrials& trials, const GateMeasure& measure) {
+  const std::vector<double>& values = trials.of(measure);
+  std::vector<double> largest;
+  for (auto move = values.begin(); move != values.end(); move += trials.moves) {
     double most = 0.0;
-    std::for_each(move, move + trials.moves, [&](double time) {
-      most = std::isnan(time) ? std::numeric_limits<double>::infinity() : std::max(most, time);
+    std::for_each(move, move + trials.moves, [&](double value) {
+      most = std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(most, value);
     });
-    slowest.push_back(most);
+    largest.push_back(most);
   }
-  return slowest;
+  return largest;
 }
 
 }  // namespace zerocount

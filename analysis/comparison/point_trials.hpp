@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "analysis/comparison/gate_rules.hpp"
@@ -14,19 +17,23 @@ namespace zerocount {
 /// What a comparison looks at of the trials of one design point.
 struct PointTrials {
   std::int64_t trials{0};
-  std::int64_t moves{0};              ///< of each
-  std::vector<bool> zero_count;       ///< [trial] every move ended in zero counts
-  std::vector<bool> arrived;          ///< [trial] every move arrived
-  std::vector<bool> stable;           ///< [trial] every move was stable
-  std::vector<double> settling_time;  ///< [trial][move], flattened, s; NaN where it did not arrive
-  std::vector<double> jerks;          ///< [trial] of all moves
-  UndecidedMoves undecided;           ///< of all moves
+  std::int64_t moves{0};  ///< of each
+  /// [name of the gate measure] of qualities, as 1 or 0, and of sums: [trial]; of other measures:
+  /// [trial][move], flattened, NaN where a move has no value.
+  std::map<std::string, std::vector<double>, std::less<>> values{};
+  UndecidedMoves undecided{};  ///< of all moves
   std::int64_t rigs{0};  ///< that the trials run on, trial i on rig i mod rigs; 0: no trials share a rig
+  const MeasureTable* table{&measure_table()};
+
+  const std::vector<double>& of(const GateMeasure& measure) const {
+    return values.find(measure.name)->second;
+  }
 };
 
 /// From the outcomes of all moves of the trials, [trial][move], flattened.
 /// @param moves of each trial
-PointTrials gather_trials(std::span<const MoveOutcome> outcomes, std::int64_t moves);
+PointTrials gather_trials(std::span<const MoveOutcome> outcomes, std::int64_t moves,
+                          const MeasureTable& table = measure_table());
 
 /// The trials of design point `point` of a whole study, with `rigs` 0: a file does not say it by itself.
 /// @throws Failure (bad_data) where the file is damaged.
@@ -35,19 +42,16 @@ PointTrials read_point_trials(const StudyFile& file, std::int64_t point);
 /// The first `trials` of them. `undecided` stays that of all.
 PointTrials first_trials(const PointTrials& all, std::int64_t trials);
 
-/// Whether the trials have the quality of a proportion, [trial].
-const std::vector<bool>& qualities(const PointTrials& trials, GateQuantity proportion);
-
-/// Mean settling time of every trial with a move that arrived, over those moves, s; with rigs, the mean of
-/// these of every rig with one.
-std::vector<double> settling_times(const PointTrials& trials);
+/// The value of every trial with one, over those of its moves that have one: their mean; with rigs, the mean
+/// of these of every rig with one.
+std::vector<double> trial_means(const PointTrials& trials, const GateMeasure& measure);
 
 /// Mean over the trials of every rig, of those values that are not NaN; rigs without a value are left out.
 /// Without rigs the values themselves, without NaN.
 /// @param values [trial]
 std::vector<double> means_by_rig(std::span<const double> values, std::int64_t rigs);
 
-/// Settling time of the slowest move of every trial, [trial], s; infinite where one did not arrive.
-std::vector<double> slowest_settling_times(const PointTrials& trials);
+/// The largest value of the moves of every trial, [trial]; infinite where a move has none.
+std::vector<double> largest_of_moves(const PointTrials& trials, const GateMeasure& measure);
 
 }  // namespace zerocount

@@ -33,14 +33,15 @@ ClusterSums scaled(const ClusterSums& sums, double times) {
           times * sums.hits_by_events, times * sums.events_squared};
 }
 
-std::optional<ClusterSums> sums_by_rig(const std::vector<bool>& quality, std::int64_t rigs) {
+/// @param quality 1 for each trial that has it, otherwise 0
+std::optional<ClusterSums> sums_by_rig(const std::vector<double>& quality, std::int64_t rigs) {
   if (rigs == 0) return std::nullopt;
   ClusterSums sums;
   for (std::int64_t rig = 0; rig < rigs; ++rig) {
     std::int64_t hits = 0;
     std::int64_t trials = 0;
     for (auto i = static_cast<std::size_t>(rig); i < quality.size(); i += static_cast<std::size_t>(rigs)) {
-      hits += quality[i];
+      hits += quality[i] > 0.0;
       ++trials;
     }
     sums.add(hits, trials);
@@ -105,9 +106,9 @@ void judge_proportion(RequirementResult& result, const ProportionClaim& claim, d
   }
 }
 
-void judge_quality(RequirementResult& result, const std::vector<bool>& quality, std::int64_t rigs,
+void judge_quality(RequirementResult& result, const std::vector<double>& quality, std::int64_t rigs,
                    double confidence, double failing) {
-  const ProportionClaim claim{std::count(quality.begin(), quality.end(), true), std::ssize(quality),
+  const ProportionClaim claim{std::count(quality.begin(), quality.end(), 1.0), std::ssize(quality),
                               result.limit, result.at_least, sums_by_rig(quality, rigs)};
   result.value = rate(claim.successes, claim.trials);
   judge_proportion(result, claim, confidence, failing);
@@ -115,9 +116,9 @@ void judge_quality(RequirementResult& result, const std::vector<bool>& quality, 
 
 void judge_quantile(RequirementResult& result, std::vector<double> times, std::int64_t rigs,
                     double probability, double confidence, double failing) {
-  std::vector<bool> in_time;
+  std::vector<double> in_time;
   in_time.reserve(times.size());
-  for (const double time : times) in_time.push_back(time <= result.limit);
+  for (const double time : times) in_time.push_back(time <= result.limit ? 1.0 : 0.0);
   std::sort(times.begin(), times.end());
   const auto n = static_cast<double>(times.size());
   const auto position = static_cast<std::size_t>(std::ceil(probability * n));
@@ -156,15 +157,14 @@ RequirementResult judge_requirement(const Requirement& requirement, const PointT
   result.limit = requirement.limit;
   switch (quantity.kind) {
     case RequirementKind::proportion:
-      judge_quality(result, qualities(trials, quantity.quantity), trials.rigs, confidence,
-                    failing_confidence);
+      judge_quality(result, trials.of(quantity.measure), trials.rigs, confidence, failing_confidence);
       break;
     case RequirementKind::quantile:
-      judge_quantile(result, slowest_settling_times(trials), trials.rigs, quantity.probability, confidence,
-                     failing_confidence);
+      judge_quantile(result, largest_of_moves(trials, quantity.measure), trials.rigs, quantity.probability,
+                     confidence, failing_confidence);
       break;
     case RequirementKind::mean:
-      judge_mean(result, means_by_rig(trials.jerks, trials.rigs), confidence, failing_confidence);
+      judge_mean(result, trial_means(trials, quantity.measure), confidence, failing_confidence);
       break;
   }
   return result;

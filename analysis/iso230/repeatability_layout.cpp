@@ -82,7 +82,7 @@ Table trial_table_of_targets() {
 Table point_table_of_axis() {
   Table table{"repeatability/point", rows_of_points(), {}, {}};
   for (const ReportField<PointRepeatability>& field : point_repeatability_fields()) {
-    table.columns.push_back(numbers(std::string(field.name), "1", std::string(field.long_name)));
+    table.columns.push_back(numbers(field.name, "1", field.long_name));
   }
   add_statistics(table.columns, axis_fields(), false);
   return table;

@@ -11,20 +11,6 @@ namespace {
 
 constexpr double no_rank = std::numeric_limits<double>::quiet_NaN();
 
-/// The value of a rank from 1; NaN outside.
-double at_rank(std::span<const double> sorted, std::int64_t rank) {
-  if (rank < 1 || rank > std::ssize(sorted)) return no_rank;
-  return sorted[static_cast<std::size_t>(rank - 1)];
-}
-
-/// As quantile() of a Histogram.
-Quantile sorted_quantile(std::span<const double> sorted, double probability, double confidence) {
-  const std::int64_t n = std::ssize(sorted);
-  const RankBounds bounds = quantile_rank_bounds(n, probability, confidence);
-  return {at_rank(sorted, quantile_rank(n, probability)), at_rank(sorted, bounds.low),
-          at_rank(sorted, bounds.high)};
-}
-
 }  // namespace
 
 ValueStatistics statistics_of(std::vector<double> values, double confidence) {
@@ -33,8 +19,10 @@ ValueStatistics statistics_of(std::vector<double> values, double confidence) {
   std::sort(values.begin(), values.end());
   ValueStatistics result;
   result.n = std::ssize(values);
-  result.median = sorted_quantile(values, 0.5, confidence);
-  result.p95 = sorted_quantile(values, 0.95, confidence);
+  Histogram<double> histogram;
+  for (const double value : values) histogram.add(value);
+  result.median = quantile(histogram, 0.5, confidence);
+  result.p95 = quantile(histogram, 0.95, confidence);
   if (values.empty()) return result;
   result.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   result.max = values.back();
@@ -60,9 +48,9 @@ std::span<const ValueStatisticField> value_statistic_fields() {
   return fields;
 }
 
-std::span<const ReportField<PointRepeatability>> point_repeatability_fields() {
+const std::vector<ReportField<PointRepeatability>>& point_repeatability_fields() {
   using P = const PointRepeatability&;
-  static constexpr std::array<ReportField<PointRepeatability>, 6> fields{{
+  static const std::vector<ReportField<PointRepeatability>> fields{
       {"", "trials", "1", "trials of the point", true, [](P p) { return to_double(p.trials); }},
       {"", "evaluated", "1", "trials without a nonfinite move, of which the values are", true,
        [](P p) { return to_double(p.evaluated); }},
@@ -76,7 +64,7 @@ std::span<const ReportField<PointRepeatability>> point_repeatability_fields() {
        false, [](P p) { return p.zero_bounds.low; }},
       {"", "zero_repeatability_rate_high", "1", "upper 95 % Clopper-Pearson bound of zero_repeatability_rate",
        false, [](P p) { return p.zero_bounds.high; }},
-  }};
+  };
   return fields;
 }
 

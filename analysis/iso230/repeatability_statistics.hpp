@@ -58,7 +58,7 @@ struct PointRepeatability {
 };
 
 /// The numbers of a point that are neither of the axis nor of a target.
-std::span<const ReportField<PointRepeatability>> point_repeatability_fields();
+const std::vector<ReportField<PointRepeatability>>& point_repeatability_fields();
 
 /// What the summary of a study with a sequence says of it.
 struct RepeatabilitySummary {

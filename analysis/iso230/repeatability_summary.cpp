@@ -76,10 +76,7 @@ std::vector<PointColumn> section_columns(const RepeatabilitySummary& summary) {
   using Point = const PointRepeatability&;
   std::vector<PointColumn> columns;
   for (const ReportField<PointRepeatability>& field : point_repeatability_fields()) {
-    PointColumn column{fmt::format("repeatability_{}", field.name),
-                       std::string(field.unit),
-                       std::string(field.long_name),
-                       {}};
+    PointColumn column{"repeatability_" + field.name, field.unit, field.long_name, {}};
     for (Point point : summary.points) column.values.push_back(field.value(point));
     columns.push_back(std::move(column));
   }

@@ -4,15 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
 #include "core/numerics/sign.hpp"
 #include "core/trial/divergence.hpp"
-#include "experiments/designs/random_key.hpp"
 
 namespace zerocount {
 namespace {
@@ -21,18 +18,6 @@ namespace {
 /// equal intervals differ, in a histogram and in a comparison: to the picosecond they do not.
 double rounded_interval(double seconds) {
   return std::round(seconds * 1e12) / 1e12;
-}
-
-RateWithBounds rate_with_bounds(std::int64_t successes, std::int64_t trials, double confidence) {
-  if (trials == 0) return {};
-  return {rate(successes, trials), clopper_pearson(successes, trials, confidence),
-          wilson(successes, trials, confidence)};
-}
-
-RateWithBounds rate_on_rigs(std::span<const RigTrials> rigs, std::int64_t RigTrials::*hits,
-                            double confidence) {
-  const ClusteredProportion proportion = clustered_proportion(sums_over_rigs(rigs, hits), confidence);
-  return {proportion.value, proportion.korn_graubard, proportion.wilson};
 }
 
 /// No limit is known for trials whose number was decided by their outcomes.
@@ -45,23 +30,6 @@ auto tolerance_limits(const ClusteredSample& slowest, const StatisticsOptions& o
   }
   return limits;
 }
-
-/// Without bounds of the mean, and without limits.
-SettlingStatistics settling_statistics(const ClusteredSample& sample, double confidence) {
-  const Histogram<double>& times = sample.observed();
-  const auto settled = [&](double probability) {
-    return clustered_quantile(sample, probability, confidence);
-  };
-  return {times.size,    sample.size(), mean(times),  smallest(times), largest(times),
-          settled(0.05), settled(0.25), settled(0.5), settled(0.75),   settled(0.95)};
-}
-
-RandomStream bootstrap_stream(const BootstrapDraws& draws, std::string_view name) {
-  return {random_key(draws.seed, name), draws.stream};
-}
-
-constexpr ConfidenceInterval not_asked_for{std::numeric_limits<double>::quiet_NaN(),
-                                           std::numeric_limits<double>::quiet_NaN()};
 
 void require_move_count(std::size_t moves, std::int64_t trials, std::size_t expected) {
   if (moves > 0 && (trials == 0 || moves == expected)) return;
@@ -77,37 +45,24 @@ void require_kind(const MoveOutcome& move, bool open_loop) {
                                               : "a move with a torque level; expected one with a target");
 }
 
-void count_move(const MoveOutcome& move, MoveCounts& counts) {
-  ++(counts.outcomes.*counter_of(move.outcome));
-  counts.stable += move.stable;
-  counts.arrived += move.arrived;
-  counts.broke_away += move.broke_away;
-  counts.saturated += move.saturated;
-  counts.stopped += move.stopped;
-}
-
-std::int64_t sum_of(const std::vector<MoveOutcome>& moves, std::int64_t MoveOutcome::*measure) {
-  std::int64_t sum = 0;
-  for (const MoveOutcome& move : moves) sum += move.*measure;
-  return sum;
-}
-
-std::int64_t cluster_of(const MoveKind& kind, std::int64_t trial) {
-  return kind.rigs > 0 ? trial % kind.rigs : trial;
+std::vector<MeasureStatistics> statistics_of(const std::vector<MeasureAccumulator>& measures,
+                                             const StatisticsOptions& options) {
+  std::vector<MeasureStatistics> statistics;
+  for (const MeasureAccumulator& measure : measures) statistics.push_back(measure.statistics(options));
+  return statistics;
 }
 
 }  // namespace
 
-PointAccumulator::PointAccumulator(MoveKind kind)
-    : kind_(kind),
-      settling_times_(kind.rigs),
-      final_settling_times_(kind.rigs),
-      slowest_times_(kind.rigs),
-      final_errors_(kind.rigs) {}
+PointAccumulator::PointAccumulator(const MoveKind& kind, const MeasureTable& table)
+    : kind_(kind), slowest_times_(kind.rigs) {
+  counted_.table = &table;
+  for (const Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
+}
 
 void PointAccumulator::add(const TrialOutcome& trial, std::span<const Jerk> jerks) {
   require_move_count(trial.moves.size(), counted_.trials, counted_.by_move.size());
-  add_moves(trial);
+  add_moves(trial.moves);
   std::size_t next = 0;
   for (std::size_t move = 0; move < trial.moves.size(); ++move) {
     const std::size_t first = next;
@@ -120,38 +75,36 @@ void PointAccumulator::add(const TrialOutcome& trial, std::span<const Jerk> jerk
         fmt::format("jerk {} of a trial is of move {}; expected jerks in order of their moves, 0 to {}", next,
                     jerks[next].move, trial.moves.size() - 1));
   }
-  jerk_counts_.add(static_cast<std::int64_t>(jerks.size()));
-  jerk_totals_.add(cluster_of(kind_, counted_.trials), static_cast<double>(jerks.size()), 1.0);
+  jerks_ += std::ssize(jerks);
   ++counted_.trials;
 }
 
-void PointAccumulator::add_moves(const TrialOutcome& trial) {
-  const std::vector<MoveOutcome>& moves = trial.moves;
+void PointAccumulator::add_moves(const std::vector<MoveOutcome>& moves) {
   counted_.by_move.resize(moves.size());
-  if (kind_.open_loop) counted_.levels.resize(moves.size());
   for (std::size_t i = 0; i < moves.size(); ++i) {
     require_kind(moves[i], kind_.open_loop);
-    count_move(moves[i], counted_.by_move[i]);
-    add_measures(moves[i]);
-    if (kind_.open_loop) counted_.levels[i].add(moves[i]);
+    ++(counted_.by_move[i].*counter_of(moves[i].outcome));
+    if (kind_.open_loop) add_level(i, std::span(moves).subspan(i, 1));
   }
-  counted_.moves += static_cast<std::int64_t>(moves.size());
+  counted_.moves += std::ssize(moves);
   ++(counted_.outcomes.*counter_of(worst_outcome(moves)));
-  if (!kind_.open_loop) {
-    if (kind_.rigs > 0) add_to_rig(moves);
-    add_times(moves);
-    add_final_times(moves);
-    if (kind_.final_error_known) add_errors(moves);
+  for (MeasureAccumulator& measure : measures_) measure.add(moves);
+  if (kind_.open_loop) return;
+  if (kind_.rigs > 0) add_to_rig(moves);
+  add_slowest_time(moves);
+}
+
+void PointAccumulator::add_level(std::size_t level, std::span<const MoveOutcome> move) {
+  if (level == levels_.size()) {
+    counted_.levels.emplace_back().table = counted_.table;
+    levels_.emplace_back();
+    for (const Measure& measure : *counted_.table) levels_[level].emplace_back(measure, measure.level, kind_);
   }
-  counted_.stable += was_stable(moves);
-  counted_.arrived += has_arrived(moves);
-  counted_.broke_away +=
-      std::any_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.broke_away; });
-  counted_.saturated +=
-      std::any_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.saturated; });
-  counted_.stopped += std::any_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return m.stopped; });
-  counted_.phase_changes.add(sum_of(moves, &MoveOutcome::phase_changes));
-  counted_.encoder_disagreement.add(sum_of(moves, &MoveOutcome::encoder_disagreement));
+  if (move.front().outcome == Outcome::nonfinite) {
+    ++counted_.levels[level].nonfinite;
+  } else {
+    for (MeasureAccumulator& measure : levels_[level]) measure.add(move);
+  }
 }
 
 void PointAccumulator::add_to_rig(const std::vector<MoveOutcome>& moves) {
@@ -162,64 +115,19 @@ void PointAccumulator::add_to_rig(const std::vector<MoveOutcome>& moves) {
       std::count_if(moves.begin(), moves.end(), [](const MoveOutcome& m) { return is_success(m.outcome); });
   ++rig.trials;
   rig.successes += succeeded(moves);
-  rig.stable += was_stable(moves);
   rig.moves += std::ssize(moves);
   rig.zero_moves += zero;
 }
 
 /// A move that never arrived, or was not run because one before it had diverged, is later than any time.
-void PointAccumulator::add_times(const std::vector<MoveOutcome>& moves) {
+void PointAccumulator::add_slowest_time(const std::vector<MoveOutcome>& moves) {
   values_.clear();
-  double sum = 0.0;
-  for (const MoveOutcome& move : moves) {
-    if (!was_run(move) || !move.arrived) continue;
-    values_.push_back(move.settling_time);
-    sum += move.settling_time;
-  }
-  settling_totals_.add(cluster_of(kind_, counted_.trials), sum, static_cast<double>(values_.size()));
-  settling_times_.add_trial(counted_.trials, values_, std::ssize(moves));
-  const bool all_arrived = values_.size() == moves.size();
-  if (all_arrived) {
-    values_.assign(1, *std::max_element(values_.begin(), values_.end()));
-  } else {
-    values_.clear();
+  if (std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return was_run(m) && m.arrived; })) {
+    double slowest = 0.0;
+    for (const MoveOutcome& move : moves) slowest = std::max(slowest, move.settling_time);
+    values_.push_back(slowest);
   }
   slowest_times_.add_trial(counted_.trials, values_, 1);
-}
-
-void PointAccumulator::add_final_times(const std::vector<MoveOutcome>& moves) {
-  values_.clear();
-  double sum = 0.0;
-  for (const MoveOutcome& move : moves) {
-    if (!was_run(move) || std::isnan(move.final_settling_time)) continue;
-    values_.push_back(move.final_settling_time);
-    sum += move.final_settling_time;
-  }
-  final_settling_totals_.add(cluster_of(kind_, counted_.trials), sum, static_cast<double>(values_.size()));
-  final_settling_times_.add_trial(counted_.trials, values_, std::ssize(moves));
-}
-
-void PointAccumulator::add_errors(const std::vector<MoveOutcome>& moves) {
-  values_.clear();
-  for (const MoveOutcome& move : moves) {
-    if (!was_run(move) || move.outcome == Outcome::nonfinite) continue;
-    values_.push_back(static_cast<double>(std::abs(move.final_error)));
-  }
-  final_errors_.add_trial(counted_.trials, values_, std::ssize(values_));
-}
-
-void PointAccumulator::add_measures(const MoveOutcome& move) {
-  if (!was_run(move)) return;
-  counted_.true_error.add(std::abs(move.true_error));
-  if (move.arrived) counted_.zero_fraction.add(move.zero_fraction);
-  if (!std::isnan(move.oscillation_amplitude)) amplitudes_.add(move.oscillation_amplitude);
-  if (!std::isnan(move.oscillation_period)) periods_.add(move.oscillation_period);
-  if (!kind_.open_loop) counted_.overshoot.add(static_cast<double>(move.overshoot));
-  counted_.holding_torque.add(move.holding_torque);
-  counted_.creep.add(move.creep);
-  counted_.peak_torque.add(move.peak_torque);
-  counted_.travel_time.add(move.travel_time);
-  counted_.reversal_depth = std::max(counted_.reversal_depth, move.reversal_depth);
 }
 
 void PointAccumulator::add_jerks(const MoveOutcome& move, std::span<const Jerk> jerks) {
@@ -227,7 +135,7 @@ void PointAccumulator::add_jerks(const MoveOutcome& move, std::span<const Jerk> 
     throw Failure(ExitCode::bad_data,
                   fmt::format("{} jerks recorded of a move that counted {}", jerks.size(), move.jerk_count));
   }
-  intervals_.clear();
+  values_.clear();
   for (std::size_t i = 0; i < jerks.size(); ++i) {
     counted_.jerks_agreeing += jerks[i].direction == sign_of(move.holding_torque);
     one_count_jerks_ += jerks[i].magnitude == 1;
@@ -238,77 +146,46 @@ void PointAccumulator::add_jerks(const MoveOutcome& move, std::span<const Jerk> 
                     fmt::format("a jerk at {} s after one at {} s; expected jerks in order of onset",
                                 jerks[i].onset, jerks[i - 1].onset));
     }
-    intervals_.push_back(interval);
+    values_.push_back(interval);
     jerk_intervals_.add(interval);
   }
-  if (intervals_.size() < 2) return;
-  const RankTrend trend = rank_trend(intervals_);
+  if (values_.size() < 2) return;
+  const RankTrend trend = rank_trend(values_);
   interval_trend_ += trend;
   ++counted_.jerk_slowing.moves;
   counted_.jerk_slowing.slowing += trend.rising > trend.falling;
   counted_.jerk_slowing.quickening += trend.rising < trend.falling;
 }
 
+SuccessClaim PointAccumulator::claim(const PointSummary& point, const StatisticsOptions& options) const {
+  const std::int64_t successes = point.judged > 0 ? point.outcomes.zero_count : 0;
+  const auto at_any_time = [&] {
+    return success_claim_at_any_time(successes, point.judged, options.confidence);
+  };
+  if (kind_.rigs == 0 || point.judged == 0) {
+    return options.stopped_by_outcomes ? at_any_time()
+                                       : success_claim(successes, point.judged, options.confidence);
+  }
+  const SuccessClaim on_rigs = success_claim_on_rigs(point.rigs.successes, options.confidence);
+  return options.stopped_by_outcomes ? weaker_claim(on_rigs, at_any_time()) : on_rigs;
+}
+
 PointSummary PointAccumulator::statistics(const StatisticsOptions& options) const {
-  const double confidence = options.confidence;
   PointSummary result = counted_;
-  result.confidence = confidence;
-  for (LevelStatistics& level : result.levels) level.confidence = confidence;
   result.judged = kind_.open_loop ? 0 : result.trials;
-  if (kind_.rigs > 0 && result.judged > 0) {
-    result.success_rate = rate_on_rigs(rigs_, &RigTrials::successes, confidence);
-    result.stable_rate = rate_on_rigs(rigs_, &RigTrials::stable, confidence);
-    result.rigs = rig_statistics(rigs_, confidence);
-    result.claim = success_claim_on_rigs(result.rigs.successes, confidence);
-    if (options.stopped_by_outcomes) {
-      result.claim = weaker_claim(
-          result.claim, success_claim_at_any_time(result.outcomes.zero_count, result.judged, confidence));
-      result.rigs.tolerance = {};  // it takes a number of trials that was fixed beforehand
-    }
-  } else {
-    result.success_rate = rate_with_bounds(result.outcomes.zero_count, result.judged, confidence);
-    result.stable_rate = rate_with_bounds(result.stable, result.judged, confidence);
-    const std::int64_t successes = result.judged > 0 ? result.outcomes.zero_count : 0;
-    result.claim = options.stopped_by_outcomes
-                       ? success_claim_at_any_time(successes, result.judged, confidence)
-                       : success_claim(successes, result.judged, confidence);
-  }
-
-  result.settling_time = settling_statistics(settling_times_.sample(), confidence);
-  result.settling_time.tolerance = tolerance_limits(slowest_times_.sample(), options);
-  result.final_settling_time = settling_statistics(final_settling_times_.sample(), confidence);
-
-  const ClusteredSample errors = final_errors_.sample();
-  result.final_error = {errors.size(), mean(errors.observed()), largest(errors.observed()),
-                        clustered_quantile(errors, 0.5, confidence),
-                        clustered_quantile(errors, 0.95, confidence)};
-
-  result.oscillation = {amplitudes_.size, quantile(amplitudes_, 0.5).value, quantile(periods_, 0.5).value};
-
-  const Histogram<std::int64_t>& jerks = jerk_counts_;
-  const std::int64_t jerk_total = total(jerks);
-  result.jerk_count = {jerks.size,
-                       mean(jerks),
-                       standard_deviation(jerks),
-                       quantile(jerks, 0.5).value,
-                       quantile(jerks, 0.95).value,
-                       largest(jerks),
-                       jerk_total,
-                       not_asked_for};
-  if (options.bootstrap && result.judged > 0) {
-    result.settling_time.mean_bounds = clustered_mean_bounds(
-        settling_totals_, bootstrap_stream(*options.bootstrap, "bootstrap/settling_time.mean"), confidence);
-    result.final_settling_time.mean_bounds = clustered_mean_bounds(
-        final_settling_totals_, bootstrap_stream(*options.bootstrap, "bootstrap/final_settling_time.mean"),
-        confidence);
-    result.jerk_count.mean_bounds = clustered_count_bounds(
-        jerk_totals_, bootstrap_stream(*options.bootstrap, "bootstrap/jerk_count.mean"), confidence);
-  }
+  result.measures = statistics_of(measures_, options);
+  for (std::size_t i = 0; i < levels_.size(); ++i)
+    result.levels[i].measures = statistics_of(levels_[i], options);
+  if (kind_.rigs > 0 && result.judged > 0) result.rigs = rig_statistics(rigs_, options.confidence);
+  result.claim = claim(result, options);
+  if (options.stopped_by_outcomes)
+    result.rigs.tolerance = {};  // it takes a number of trials that was fixed beforehand
+  result.settles_within = tolerance_limits(slowest_times_.sample(), options);
   result.jerk_interval = {jerk_intervals_.size, mean(jerk_intervals_), quantile(jerk_intervals_, 0.5).value};
   result.jerk_slowing.proportion = rate(result.jerk_slowing.slowing, result.jerk_slowing.moves);
   result.jerk_slowing.tau = kendall_tau(interval_trend_);
-  result.jerk_agreement = rate(result.jerks_agreeing, jerk_total);
-  result.jerk_one_count_share = rate(one_count_jerks_, jerk_total);
+  result.jerk_agreement = rate(result.jerks_agreeing, jerks_);
+  result.jerk_one_count_share = rate(one_count_jerks_, jerks_);
   return result;
 }
 

@@ -1,25 +1,18 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
+#include "analysis/measures/measure_accumulator.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/measures/statistics_options.hpp"
-#include "analysis/statistics/clustered_mean.hpp"
 #include "analysis/statistics/histogram.hpp"
+#include "analysis/statistics/trend.hpp"
 #include "analysis/statistics/trial_clusters.hpp"
 #include "core/trial/outcome.hpp"
 
 namespace zerocount {
-
-/// What is known of the moves before they are looked at.
-struct MoveKind {
-  bool open_loop{false};         ///< they have torque levels, and no target
-  bool final_error_known{true};  ///< false in results that do not hold it
-  std::int64_t rigs{0};  ///< that the trials run on, trial i on rig i mod rigs; 0: no trials share one
-};
 
 /// Takes the trials of one design point, one after the other, and gives its statistics. The trials of one rig
 /// and the moves of one trial are clusters: bounds allow for what they have in common.
@@ -29,7 +22,8 @@ struct MoveKind {
 /// a move and the counts that the rotor strays.
 class PointAccumulator {
  public:
-  explicit PointAccumulator(MoveKind kind = {});
+  /// @param table the measures that are taken; stays as long as this.
+  explicit PointAccumulator(const MoveKind& kind = {}, const MeasureTable& table = measure_table());
 
   /// Adds a trial with its jerks in order of move and onset.
   /// @throws Failure (bad_data) where the trial has no move or another number of moves than those before it,
@@ -41,31 +35,24 @@ class PointAccumulator {
   PointSummary statistics(const StatisticsOptions& options = {}) const;
 
  private:
-  void add_moves(const TrialOutcome& trial);
+  void add_moves(const std::vector<MoveOutcome>& moves);
+  void add_level(std::size_t level, std::span<const MoveOutcome> move);
   void add_to_rig(const std::vector<MoveOutcome>& moves);
-  void add_times(const std::vector<MoveOutcome>& moves);
-  void add_final_times(const std::vector<MoveOutcome>& moves);
-  void add_errors(const std::vector<MoveOutcome>& moves);
-  void add_measures(const MoveOutcome& move);
+  void add_slowest_time(const std::vector<MoveOutcome>& moves);
   void add_jerks(const MoveOutcome& move, std::span<const Jerk> jerks);
+  SuccessClaim claim(const PointSummary& point, const StatisticsOptions& options) const;
 
   MoveKind kind_;
-  PointSummary counted_;                    ///< the fields that are plain counts and moments
-  std::vector<RigTrials> rigs_;             ///< [rig], of those that have trials
-  TrialClusters settling_times_;            ///< of moves with a target
-  ClusterTotals settling_totals_;           ///< of the moves that arrived
-  TrialClusters final_settling_times_;      ///< likewise
-  ClusterTotals final_settling_totals_;     ///< of the moves that stayed at zero error
-  TrialClusters slowest_times_;             ///< of trials: of the move that took longest
-  TrialClusters final_errors_;              ///< of moves with a known error
-  Histogram<double> amplitudes_, periods_;  ///< of oscillations, counts and s
-  Histogram<std::int64_t> jerk_counts_;
-  ClusterTotals jerk_totals_;  ///< of trials
+  PointSummary counted_;                                 ///< the fields that are plain counts
+  std::vector<MeasureAccumulator> measures_;             ///< [row of the table]
+  std::vector<std::vector<MeasureAccumulator>> levels_;  ///< [move][row of the table]
+  std::vector<RigTrials> rigs_;                          ///< [rig], of those that have trials
+  TrialClusters slowest_times_;                          ///< of trials: of the move that took longest
+  std::int64_t jerks_{0};
   Histogram<double> jerk_intervals_;
   RankTrend interval_trend_;
   std::int64_t one_count_jerks_{0};
-  std::vector<double> intervals_;  ///< of the move at hand; kept for its memory
-  std::vector<double> values_;     ///< of the trial at hand; likewise
+  std::vector<double> values_;  ///< of the trial or move at hand; kept for its memory
 };
 
 }  // namespace zerocount

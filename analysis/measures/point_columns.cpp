@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/measures/level_statistics.hpp"
 #include "analysis/measures/statistic_fields.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "core/failure/failure.hpp"
@@ -39,24 +38,25 @@ std::int64_t trials_of_proportion(double proportion, std::int64_t trials, std::s
 
 }  // namespace
 
-std::vector<PointColumn> point_columns(std::span<const PointSummary> points, const StudyFeatures& features) {
+std::vector<PointColumn> point_columns(std::span<const PointSummary> points, const StudyFeatures& features,
+                                       const MeasureTable& measures) {
   std::vector<PointColumn> columns;
-  for (const StatisticField& field : statistic_fields(features)) {
-    PointColumn column{flat_name(field), std::string(field.unit), std::string(field.long_name), {}};
+  for (const StatisticField& field : statistic_fields(features, measures)) {
+    PointColumn& column =
+        columns.emplace_back(PointColumn{flat_name(field), field.unit, field.long_name, {}});
     for (const PointSummary& point : points) column.values.push_back(field.value(point));
-    columns.push_back(std::move(column));
   }
   return columns;
 }
 
-StatisticTable level_table(std::span<const PointSummary> points) {
+StatisticTable level_table(std::span<const PointSummary> points, const MeasureTable& measures) {
   StatisticTable table{&level_group(), points.empty() ? 1 : std::ssize(points.front().levels), {}};
-  for (const LevelField& field : level_fields()) {
-    PointColumn column{flat_name(field), std::string(field.unit), std::string(field.long_name), {}};
+  for (const LevelField& field : level_fields(measures)) {
+    PointColumn& column =
+        table.columns.emplace_back(PointColumn{flat_name(field), field.unit, field.long_name, {}});
     for (const PointSummary& point : points) {
       for (const LevelStatistics& level : point.levels) column.values.push_back(field.value(level));
     }
-    table.columns.push_back(std::move(column));
   }
   return table;
 }

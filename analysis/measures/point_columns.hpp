@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "analysis/measures/point_statistics.hpp"
-#include "analysis/measures/study_features.hpp"
 #include "analysis/measures/theory_prediction.hpp"
+#include "experiments/study/study_features.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount {
@@ -16,11 +16,13 @@ namespace zerocount {
 /// The statistics of all points as columns of the results file's /point: one for each of statistic_fields(),
 /// by flat_name.
 std::vector<PointColumn> point_columns(std::span<const PointSummary> points,
-                                       const StudyFeatures& features = {});
+                                       const StudyFeatures& features = {},
+                                       const MeasureTable& measures = measure_table());
 
 /// The levels of an open-loop study, of all its points, as the group /level of the results file: a column for
 /// each of level_fields(), by flat_name.
-StatisticTable level_table(std::span<const PointSummary> points);
+StatisticTable level_table(std::span<const PointSummary> points,
+                           const MeasureTable& measures = measure_table());
 
 /// A proportion of trials that the criteria foretell, as it is reported. The list of them is the one source
 /// of the names in the CSV summary and in the results file.

@@ -1,15 +1,17 @@
 #include "analysis/measures/statistic_fields.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
-#include <vector>
+#include <iterator>
+
+#include <fmt/format.h>
 
 namespace zerocount {
 namespace {
 
 using S = const PointSummary&;
 
-std::vector<StatisticField> outcome_and_jerk_fields() {
+std::vector<StatisticField> outcome_count_fields() {
   return {
       {"", "trials", "1", "trials of the point", true, [](S s) { return to_double(s.trials); }},
       {"", "zero_count", "1", "trials whose worst move ended at zero error", true,
@@ -26,95 +28,12 @@ std::vector<StatisticField> outcome_and_jerk_fields() {
        [](S s) { return to_double(s.outcomes.nonfinite); }},
       {"", "open_loop", "1", "trials with torque levels in place of targets, which are not judged", true,
        [](S s) { return to_double(s.outcomes.open_loop); }},
-      {"", "stable", "1", "trials all of whose moves arrived and stayed within one count", true,
-       [](S s) { return to_double(s.stable); }},
-      {"", "arrived", "1", "trials all of whose moves arrived", true,
-       [](S s) { return to_double(s.arrived); }},
-      {"", "broke_away", "1", "trials in which the hook slid during any move", true,
-       [](S s) { return to_double(s.broke_away); }},
-      {"", "saturated", "1", "trials in which the DAC clipped during any move", true,
-       [](S s) { return to_double(s.saturated); }},
-      {"", "success_rate", "1", "zero_count as a proportion of trials, NaN of an open-loop study", false,
-       [](S s) { return s.success_rate.value; }},
-      {"", "success_rate_low", "1",
-       "lower 95 % bound of success_rate: Clopper-Pearson, with rigs Korn-Graubard", false,
-       [](S s) { return s.success_rate.clopper_pearson.low; }},
-      {"", "success_rate_high", "1",
-       "upper 95 % bound of success_rate: Clopper-Pearson, with rigs Korn-Graubard", false,
-       [](S s) { return s.success_rate.clopper_pearson.high; }},
-      {"", "success_rate_wilson_low", "1",
-       "lower 95 % Wilson bound of success_rate, with rigs for the effective number of trials", false,
-       [](S s) { return s.success_rate.wilson.low; }},
-      {"", "success_rate_wilson_high", "1",
-       "upper 95 % Wilson bound of success_rate, with rigs for the effective number of trials", false,
-       [](S s) { return s.success_rate.wilson.high; }},
-      {"", "stable_rate", "1", "stable as a proportion of trials, NaN of an open-loop study", false,
-       [](S s) { return s.stable_rate.value; }},
-      {"", "stable_rate_low", "1",
-       "lower 95 % bound of stable_rate: Clopper-Pearson, with rigs Korn-Graubard", false,
-       [](S s) { return s.stable_rate.clopper_pearson.low; }},
-      {"", "stable_rate_high", "1",
-       "upper 95 % bound of stable_rate: Clopper-Pearson, with rigs Korn-Graubard", false,
-       [](S s) { return s.stable_rate.clopper_pearson.high; }},
-      {"", "stable_rate_wilson_low", "1",
-       "lower 95 % Wilson bound of stable_rate, with rigs for the effective number of trials", false,
-       [](S s) { return s.stable_rate.wilson.low; }},
-      {"", "stable_rate_wilson_high", "1",
-       "upper 95 % Wilson bound of stable_rate, with rigs for the effective number of trials", false,
-       [](S s) { return s.stable_rate.wilson.high; }},
-      {"settling_time", "n", "1", "moves that arrived, of which mean, min and max are", true,
-       [](S s) { return to_double(s.settling_time.n); }},
-      {"settling_time", "moves", "1", "moves with a target, of which the quantiles are", true,
-       [](S s) { return to_double(s.settling_time.moves); }},
-      {"settling_time", "mean", "s", "mean settling time of the moves that arrived", false,
-       [](S s) { return s.settling_time.mean; }},
-      {"settling_time", "min", "s", "shortest settling time of the moves that arrived", false,
-       [](S s) { return s.settling_time.min; }},
-      {"settling_time", "p05", "s",
-       "5 % quantile of the settling time of all moves with a target, NaN if not within the hold", false,
-       [](S s) { return s.settling_time.p05.value; }},
-      {"settling_time", "p25", "s",
-       "25 % quantile of the settling time of all moves with a target, NaN if not within the hold", false,
-       [](S s) { return s.settling_time.p25.value; }},
-      {"settling_time", "median", "s",
-       "median of the settling time of all moves with a target, NaN if not within the hold", false,
-       [](S s) { return s.settling_time.median.value; }},
-      {"settling_time", "median_low", "s",
-       "lower 95 % order-statistic bound of the median of the settling time, NaN if not within the hold",
-       false, [](S s) { return s.settling_time.median.low; }},
-      {"settling_time", "median_high", "s",
-       "upper 95 % order-statistic bound of the median of the settling time, NaN if not within the hold",
-       false, [](S s) { return s.settling_time.median.high; }},
-      {"settling_time", "p75", "s",
-       "75 % quantile of the settling time of all moves with a target, NaN if not within the hold", false,
-       [](S s) { return s.settling_time.p75.value; }},
-      {"settling_time", "p95", "s",
-       "95 % quantile of the settling time of all moves with a target, NaN if not within the hold", false,
-       [](S s) { return s.settling_time.p95.value; }},
-      {"settling_time", "p95_low", "s",
-       "lower 95 % order-statistic bound of the 95 % quantile of the settling time, NaN if not within the "
-       "hold",
-       false, [](S s) { return s.settling_time.p95.low; }},
-      {"settling_time", "p95_high", "s",
-       "upper 95 % order-statistic bound of the 95 % quantile of the settling time, NaN if not within the "
-       "hold",
-       false, [](S s) { return s.settling_time.p95.high; }},
-      {"settling_time", "max", "s", "longest settling time of the moves that arrived", false,
-       [](S s) { return s.settling_time.max; }},
-      {"jerk_count", "n", "1", "trials, of which the jerk counts are", true,
-       [](S s) { return to_double(s.jerk_count.n); }},
-      {"jerk_count", "mean", "1", "mean number of jerks per trial", false,
-       [](S s) { return s.jerk_count.mean; }},
-      {"jerk_count", "sd", "1", "standard deviation of the number of jerks per trial", false,
-       [](S s) { return s.jerk_count.sd; }},
-      {"jerk_count", "median", "1", "median number of jerks per trial", false,
-       [](S s) { return s.jerk_count.median; }},
-      {"jerk_count", "p95", "1", "95 % quantile of the number of jerks per trial", false,
-       [](S s) { return s.jerk_count.p95; }},
-      {"jerk_count", "max", "1", "largest number of jerks of a trial", false,
-       [](S s) { return s.jerk_count.max; }},
-      {"jerk_count", "total", "1", "jerks of all trials", true,
-       [](S s) { return to_double(s.jerk_count.total); }},
+  };
+}
+
+/// What is reported of the jerks themselves, not of a measure of a move.
+std::vector<StatisticField> jerk_statistic_fields() {
+  return {
       {"jerk_interval", "n", "1", "intervals between the onsets of successive jerks of a move", true,
        [](S s) { return to_double(s.jerk_interval.n); }},
       {"jerk_interval", "mean", "s", "mean interval between successive jerks of a move", false,
@@ -140,55 +59,6 @@ std::vector<StatisticField> outcome_and_jerk_fields() {
   };
 }
 
-/// Of the time from which the error is 0 to the end of the move.
-std::vector<StatisticField> final_settling_fields() {
-  return {
-      {"final_settling_time", "n", "1", "moves that ended at zero error, of which mean, min and max are",
-       true, [](S s) { return to_double(s.final_settling_time.n); }},
-      {"final_settling_time", "moves", "1", "moves with a target, of which the quantiles are", true,
-       [](S s) { return to_double(s.final_settling_time.moves); }},
-      {"final_settling_time", "mean", "s",
-       "mean time until the error is zero for good, of the moves that ended at zero error", false,
-       [](S s) { return s.final_settling_time.mean; }},
-      {"final_settling_time", "min", "s", "shortest time until the error is zero for good", false,
-       [](S s) { return s.final_settling_time.min; }},
-      {"final_settling_time", "p05", "s",
-       "5 % quantile of the time until the error is zero for good, of all moves with a target, NaN if not "
-       "within the hold",
-       false, [](S s) { return s.final_settling_time.p05.value; }},
-      {"final_settling_time", "p25", "s",
-       "25 % quantile of the time until the error is zero for good, of all moves with a target, NaN if not "
-       "within the hold",
-       false, [](S s) { return s.final_settling_time.p25.value; }},
-      {"final_settling_time", "median", "s",
-       "median of the time until the error is zero for good, of all moves with a target, NaN if not within "
-       "the hold",
-       false, [](S s) { return s.final_settling_time.median.value; }},
-      {"final_settling_time", "median_low", "s",
-       "lower 95 % order-statistic bound of final_settling_time_median, NaN if not within the hold", false,
-       [](S s) { return s.final_settling_time.median.low; }},
-      {"final_settling_time", "median_high", "s",
-       "upper 95 % order-statistic bound of final_settling_time_median, NaN if not within the hold", false,
-       [](S s) { return s.final_settling_time.median.high; }},
-      {"final_settling_time", "p75", "s",
-       "75 % quantile of the time until the error is zero for good, of all moves with a target, NaN if not "
-       "within the hold",
-       false, [](S s) { return s.final_settling_time.p75.value; }},
-      {"final_settling_time", "p95", "s",
-       "95 % quantile of the time until the error is zero for good, of all moves with a target, NaN if not "
-       "within the hold",
-       false, [](S s) { return s.final_settling_time.p95.value; }},
-      {"final_settling_time", "p95_low", "s",
-       "lower 95 % order-statistic bound of final_settling_time_p95, NaN if not within the hold", false,
-       [](S s) { return s.final_settling_time.p95.low; }},
-      {"final_settling_time", "p95_high", "s",
-       "upper 95 % order-statistic bound of final_settling_time_p95, NaN if not within the hold", false,
-       [](S s) { return s.final_settling_time.p95.high; }},
-      {"final_settling_time", "max", "s", "longest time until the error is zero for good", false,
-       [](S s) { return s.final_settling_time.max; }},
-  };
-}
-
 std::vector<StatisticField> rig_fields() {
   return {
       {"rigs", "n", "1", "rigs that the trials ran on", true, [](S s) { return to_double(s.rigs.n); }},
@@ -207,59 +77,98 @@ std::vector<StatisticField> rig_fields() {
   };
 }
 
-std::vector<StatisticField> fields_of_all_studies() {
-  std::vector<StatisticField> all = outcome_and_jerk_fields();
-  const std::vector<StatisticField> final_settling = final_settling_fields();
-  all.insert(all.end(), final_settling.begin(), final_settling.end());
-  const std::span<const StatisticField> measures = measure_statistic_fields();
-  all.insert(all.end(), measures.begin(), measures.end());
-  return all;
+/// The fields of the statistics of a measure that `wanted` picks.
+template <class Subject, class Wanted>
+void add_measure(std::vector<ReportField<Subject>>& fields, const MeasureTable& measures,
+                 const Measure& measure, const ReportedStatistics& reported, const Wanted& wanted) {
+  const Column& column = measure.field.column;
+  const std::string stem(reported.stem.empty() ? std::string_view(column.name) : reported.stem);
+  for (const StatisticKind& kind : statistic_kinds()) {
+    for (const StatisticText& text : reported.texts) {
+      if (!wanted(kind.statistic) ||
+          std::count(text.statistics.begin(), text.statistics.end(), kind.statistic) == 0)
+        continue;
+      std::string name(text.name.empty() ? kind.name : text.name);
+      if (text.name.empty() && reported.group.empty()) name = stem + (name.empty() ? "" : "_" + name);
+      const std::string meaning(kind.bound.empty() ? std::string(kind.meaning)
+                                                   : fmt::format("{} of {}", kind.bound, kind.meaning));
+      fields.push_back(
+          {std::string(reported.group), name, kind.statistic <= Statistic::trials ? "1" : column.unit,
+           fmt::format(fmt::runtime(text.long_name), meaning, kind.bound), kind.whole,
+           [row = static_cast<std::size_t>(&measure - measures.data()),
+            value = kind.value](const Subject& subject) { return value(subject.measures.at(row)); }});
+    }
+  }
+}
+
+template <class Field>
+void append(std::vector<Field>& fields, std::vector<Field> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(fields));
+}
+
+bool is_count(Statistic statistic) {
+  return statistic == Statistic::count;
+}
+bool is_bootstrap(Statistic statistic) {
+  return statistic >= Statistic::bootstrap_low;
+}
+bool is_any_other(Statistic statistic) {
+  return !is_count(statistic) && !is_bootstrap(statistic);
+}
+
+/// Those that every study has, in the order of the report.
+std::vector<const Measure*> general_measures(const MeasureTable& measures) {
+  return measures_of(measures, ReportOrder::statistics,
+                     [](const Measure& measure) { return measure.file.only_with == nullptr; });
 }
 
 }  // namespace
 
-std::span<const StatisticField> mean_bound_fields() {
-  static constexpr std::array<StatisticField, 6> fields{{
-      {"settling_time", "mean_low", "s",
-       "lower bound of the mean settling time of the moves that arrived: Student and studentised bootstrap",
-       false, [](S s) { return s.settling_time.mean_bounds.low; }},
-      {"settling_time", "mean_high", "s",
-       "upper bound of the mean settling time of the moves that arrived: Student and studentised bootstrap",
-       false, [](S s) { return s.settling_time.mean_bounds.high; }},
-      {"final_settling_time", "mean_low", "s",
-       "lower bound of final_settling_time_mean: Student and studentised bootstrap", false,
-       [](S s) { return s.final_settling_time.mean_bounds.low; }},
-      {"final_settling_time", "mean_high", "s",
-       "upper bound of final_settling_time_mean: Student and studentised bootstrap", false,
-       [](S s) { return s.final_settling_time.mean_bounds.high; }},
-      {"jerk_count", "mean_low", "1",
-       "lower bound of the mean number of jerks per trial: Student and studentised bootstrap, Garwood for "
-       "few",
-       false, [](S s) { return s.jerk_count.mean_bounds.low; }},
-      {"jerk_count", "mean_high", "1",
-       "upper bound of the mean number of jerks per trial: Student and studentised bootstrap, Garwood for "
-       "few",
-       false, [](S s) { return s.jerk_count.mean_bounds.high; }},
-  }};
+std::vector<StatisticField> statistic_fields(const StudyFeatures& features, const MeasureTable& measures) {
+  std::vector<StatisticField> fields = outcome_count_fields();
+  const auto add = [&](const Measure& measure, bool (*wanted)(Statistic)) {
+    add_measure(fields, measures, measure, measure.point, wanted);
+  };
+  for (const Measure* measure : general_measures(measures)) add(*measure, is_count);
+  for (const Measure* measure : general_measures(measures)) {
+    add(*measure, is_any_other);
+    if (measure->field.column.name == "jerk_count") append(fields, jerk_statistic_fields());
+  }
+  if (features.rigs) append(fields, rig_fields());
+  for (const Measure& measure : measures) {
+    if (measure.file.only_with == nullptr || !is_in_file(measure, format_version, {features.stopping}))
+      continue;
+    add(measure, is_count);
+    add(measure, is_any_other);
+  }
   return fields;
 }
 
-std::span<const StatisticField> statistic_fields(const StudyFeatures& features) {
-  static const auto fields_with = [](bool stopping, bool rigs) {
-    std::vector<StatisticField> all = fields_of_all_studies();
-    if (rigs) {
-      const std::vector<StatisticField> own = rig_fields();
-      all.insert(all.end(), own.begin(), own.end());
-    }
-    if (stopping) {
-      all.push_back({"", "stopped", "1", "trials that were ended early, because a move had diverged", true,
-                     [](S s) { return to_double(s.stopped); }});
-    }
-    return all;
-  };
-  static const std::array<std::vector<StatisticField>, 4> fields{
-      fields_with(false, false), fields_with(true, false), fields_with(false, true), fields_with(true, true)};
-  return fields[(features.stopping ? 1U : 0U) + (features.rigs ? 2U : 0U)];
+std::vector<StatisticField> mean_bound_fields(const MeasureTable& measures) {
+  std::vector<StatisticField> fields;
+  for (const Measure& measure : measures) add_measure(fields, measures, measure, measure.point, is_bootstrap);
+  return fields;
+}
+
+std::vector<LevelField> level_fields(const MeasureTable& measures) {
+  std::vector<LevelField> fields{
+      {"", "n", "1", "trials whose motion was not lost, of which the values of the level are", true,
+       [](const LevelStatistics& s) { return to_double(s.of(&MoveOutcome::holding_torque).n); }},
+      {"", "nonfinite", "1", "trials whose motion was lost in the level or before", true,
+       [](const LevelStatistics& s) { return to_double(s.nonfinite); }}};
+  for (const Measure* measure :
+       measures_of(measures, ReportOrder::levels, [](const Measure& m) { return !m.level.texts.empty(); })) {
+    add_measure(fields, measures, *measure, measure->level, [](Statistic) { return true; });
+  }
+  return fields;
+}
+
+std::vector<const Measure*> counted_qualities(const StudyFeatures& features, const MeasureTable& measures) {
+  std::vector<const Measure*> counted = measures_of(
+      measures, ReportOrder::statistics, [](const Measure& m) { return reports(m.point, Statistic::count); });
+  std::erase_if(counted,
+                [&](const Measure* m) { return !is_in_file(*m, format_version, {features.stopping}); });
+  return counted;
 }
 
 }  // namespace zerocount

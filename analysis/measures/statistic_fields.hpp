@@ -1,10 +1,10 @@
 #pragma once
 
-#include <span>
+#include <vector>
 
 #include "analysis/measures/point_statistics.hpp"
-#include "analysis/measures/study_features.hpp"
 #include "analysis/text/report_field.hpp"
+#include "experiments/study/study_features.hpp"
 
 namespace zerocount {
 
@@ -12,13 +12,17 @@ namespace zerocount {
 using StatisticField = ReportField<PointSummary>;
 
 /// Those of a study with these features, in the order of the report: what only some studies have comes last.
-std::span<const StatisticField> statistic_fields(const StudyFeatures& features = {});
+std::vector<StatisticField> statistic_fields(const StudyFeatures& features = {},
+                                             const MeasureTable& measures = measure_table());
 
 /// The bounds of means, which are in summaries only: the results file does not hold them.
-std::span<const StatisticField> mean_bound_fields();
+std::vector<StatisticField> mean_bound_fields(const MeasureTable& measures = measure_table());
 
-/// The last of those that all studies have: those of the measures of the moves, without settling times and
-/// jerks.
-std::span<const StatisticField> measure_statistic_fields();
+/// What is reported of a torque level, in the order of the report.
+using LevelField = ReportField<LevelStatistics>;
+std::vector<LevelField> level_fields(const MeasureTable& measures = measure_table());
+
+/// The qualities by which trials are counted in a study with these features, in the order of the report.
+std::vector<const Measure*> counted_qualities(const StudyFeatures& features, const MeasureTable& measures);
 
 }  // namespace zerocount

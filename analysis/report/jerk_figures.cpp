@@ -30,7 +30,8 @@ struct ShownMoves {
 std::int64_t point_with_most_jerks(const std::vector<PointSummary>& points) {
   std::size_t most = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
-    if (points[i].jerk_count.total > points[most].jerk_count.total) most = i;
+    if (points[i].of(&MoveOutcome::jerk_count).total > points[most].of(&MoveOutcome::jerk_count).total)
+      most = i;
   }
   return static_cast<std::int64_t>(most);
 }
@@ -151,7 +152,7 @@ std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point) {
 std::vector<Figure> jerk_figures(const ReportedStudy& reported) {
   const std::vector<PointSummary>& points = reported.summary.points;
   const std::int64_t point = point_with_most_jerks(points);
-  if (points[static_cast<std::size_t>(point)].jerk_count.total == 0) return {};
+  if (points[static_cast<std::size_t>(point)].of(&MoveOutcome::jerk_count).total == 0) return {};
   std::vector<Figure> figures{raster(reported, point)};
   if (std::optional<Figure> rates = rate(reported, point)) figures.push_back(std::move(*rates));
   return figures;

@@ -24,7 +24,8 @@ bool shows_targets(const ReportedStudy& reported) {
 /// Fig. 8: needs one point with one move, and jerks in most trials.
 bool shows_jerks(const ReportedStudy& reported) {
   const PointSummary& point = reported.summary.points.front();
-  return reported.summary.points.size() == 1 && reported.file.moves() == 1 && point.jerk_count.median >= 1.0;
+  return reported.summary.points.size() == 1 && reported.file.moves() == 1 &&
+         point.of(&MoveOutcome::jerk_count).median.value >= 1.0;
 }
 
 SampleTrial first_trial(std::int64_t point) {
@@ -35,13 +36,14 @@ SampleTrial first_trial(std::int64_t point) {
 SampleTrial typical_trial(const ReportedStudy& reported) {
   SampleTrial typical = first_trial(0);
   bool found = false;
-  visit_trials(reported.file, rows_of(reported, 0),
-               [&](std::int64_t row, std::span<const MoveOutcome> moves) {
-                 const auto jerks = static_cast<double>(moves.front().jerk_count);
-                 if (found || jerks != reported.summary.points.front().jerk_count.median) return;
-                 found = true;
-                 typical.index = row;
-               });
+  visit_trials(
+      reported.file, rows_of(reported, 0), [&](std::int64_t row, std::span<const MoveOutcome> moves) {
+        const auto jerks = static_cast<double>(moves.front().jerk_count);
+        if (found || jerks != reported.summary.points.front().of(&MoveOutcome::jerk_count).median.value)
+          return;
+        found = true;
+        typical.index = row;
+      });
   return typical;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/measures/statistic_fields.hpp"
 #include "analysis/report/escaping.hpp"
 #include "analysis/report/html_table.hpp"
 #include "analysis/report/report_texts.hpp"
@@ -80,24 +81,26 @@ constexpr PointCell point_cells[] = {
      [](const PointSummary& point, const TheoryPrediction&) { return counted(point.outcomes.nonfinite); }},
     {"stable", "",
      [](const PointSummary& point, const TheoryPrediction&) {
-       return percentage(point.stable, point.trials);
+       return percentage(point.of(&MoveOutcome::stable).trials, point.trials);
      }},
     {"settling, median", "s",
      [](const PointSummary& point, const TheoryPrediction&) {
-       return settling_text(point, point.settling_time.median.value);
+       return settling_text(point, point.of(&MoveOutcome::settling_time).median.value);
      },
      [](const PointSummary& point, const ConfidenceInterval&) {
-       return settling_bounds(point, point.settling_time.median);
+       return settling_bounds(point, point.of(&MoveOutcome::settling_time).median);
      }},
     {"settling, 95 %", "s",
      [](const PointSummary& point, const TheoryPrediction&) {
-       return settling_text(point, point.settling_time.p95.value);
+       return settling_text(point, point.of(&MoveOutcome::settling_time).p95.value);
      },
      [](const PointSummary& point, const ConfidenceInterval&) {
-       return settling_bounds(point, point.settling_time.p95);
+       return settling_bounds(point, point.of(&MoveOutcome::settling_time).p95);
      }},
     {"jerks per trial", "",
-     [](const PointSummary& point, const TheoryPrediction&) { return short_number(point.jerk_count.mean); }},
+     [](const PointSummary& point, const TheoryPrediction&) {
+       return short_number(point.of(&MoveOutcome::jerk_count).mean);
+     }},
     {"(6) holds", "",
      [](const PointSummary&, const TheoryPrediction& prediction) {
        return percentage(prediction.stable, predicted_trials(prediction));
@@ -162,7 +165,8 @@ std::string title_of(std::string key) {
 std::string level_table_html(const StudySummary& summary, std::size_t rows) {
   std::vector<HtmlColumn> columns{{"point", "", true, {}}, {"level", "", false, {}}};
   const AxisKind axis = summary.features.axis;
-  for (const LevelField& field : level_fields())
+  const std::vector<LevelField> fields = level_fields(summary.table());
+  for (const LevelField& field : fields)
     columns.push_back(
         {text_on(axis, field.long_name), field.unit == "1" ? "" : unit_on(axis, field.unit), false, {}});
   std::size_t written = 0;
@@ -172,7 +176,7 @@ std::string level_table_html(const StudySummary& summary, std::size_t rows) {
       columns[0].cells.push_back(summary.labels[point]);
       columns[1].cells.push_back(fmt::format("{}", level + 1));
       std::size_t column = 2;
-      for (const LevelField& field : level_fields())
+      for (const LevelField& field : fields)
         columns[column++].cells.push_back(short_number(field.value(summary.points[point].levels[level])));
     }
   }

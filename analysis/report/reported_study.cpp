@@ -18,13 +18,14 @@ bool better(const PointSummary& one, const PointSummary& other) {
   if (one.outcomes.zero_count != other.outcomes.zero_count)
     return static_cast<double>(one.outcomes.zero_count) * static_cast<double>(other.trials) >
            static_cast<double>(other.outcomes.zero_count) * static_cast<double>(one.trials);
-  return one.settling_time.median.value < other.settling_time.median.value;
+  return one.of(&MoveOutcome::settling_time).median.value <
+         other.of(&MoveOutcome::settling_time).median.value;
 }
 
 /// With sequential stopping the bounds are those of a confidence sequence. With rigs they are the outer
 /// bounds of these and of the bounds over rigs.
 ConfidenceInterval success_bounds_of(const PointSummary& point, bool stopped_by_outcomes) {
-  const ConfidenceInterval& fixed = point.success_rate.clopper_pearson;
+  const ConfidenceInterval& fixed = point.success_rate().clopper_pearson;
   if (!stopped_by_outcomes) return fixed;
   const ConfidenceInterval stopped =
       confidence_sequence_bounds(point.outcomes.zero_count, point.judged, summary_confidence);
@@ -54,7 +55,7 @@ std::int64_t best_point(const std::vector<PointSummary>& points) {
 }
 
 std::int64_t most_telling_point(const std::vector<PointSummary>& points) {
-  const auto distance = [](const PointSummary& point) { return std::abs(point.success_rate.value - 0.5); };
+  const auto distance = [](const PointSummary& point) { return std::abs(point.success_rate().value - 0.5); };
   return std::min_element(points.begin(), points.end(),
                           [&](const auto& a, const auto& b) { return distance(a) < distance(b); }) -
          points.begin();

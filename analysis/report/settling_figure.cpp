@@ -46,12 +46,13 @@ std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   std::vector<std::int64_t> with_arrivals;
   const auto& points = reported.summary.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].settling_time.n > 0) with_arrivals.push_back(static_cast<std::int64_t>(i));
+    if (points[i].of(&MoveOutcome::settling_time).n > 0)
+      with_arrivals.push_back(static_cast<std::int64_t>(i));
   }
   if (std::ssize(with_arrivals) <= max_curves) return with_arrivals;
   std::stable_sort(with_arrivals.begin(), with_arrivals.end(), [&](std::int64_t a, std::int64_t b) {
-    return points[static_cast<std::size_t>(a)].settling_time.n >
-           points[static_cast<std::size_t>(b)].settling_time.n;
+    return points[static_cast<std::size_t>(a)].of(&MoveOutcome::settling_time).n >
+           points[static_cast<std::size_t>(b)].of(&MoveOutcome::settling_time).n;
   });
   std::vector<std::int64_t> shown;
   for (const std::int64_t i : spread_over(std::ssize(with_arrivals), max_curves))
@@ -101,8 +102,9 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
                               : fmt::format("{} trials", points.front().trials),
       reported.study.rigs == 0 && moves_per_trial > 1 ? fmt::format(" of {} moves each", moves_per_trial)
                                                       : "");
-  const auto arriving = std::count_if(points.begin(), points.end(),
-                                      [](const PointSummary& point) { return point.settling_time.n > 0; });
+  const auto arriving = std::count_if(points.begin(), points.end(), [](const PointSummary& point) {
+    return point.of(&MoveOutcome::settling_time).n > 0;
+  });
   if (std::ssize(shown) < arriving) {
     caption +=
         fmt::format("Shown are {} of {} points, from the one with most arrivals to the one with fewest. ",
@@ -121,8 +123,9 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   double end = 0.0;
   double start = std::numeric_limits<double>::infinity();
   for (const std::int64_t point : shown) {
-    end = std::max(end, points[static_cast<std::size_t>(point)].settling_time.max);
-    start = std::min(start, points[static_cast<std::size_t>(point)].settling_time.median.value);
+    end = std::max(end, points[static_cast<std::size_t>(point)].of(&MoveOutcome::settling_time).max);
+    start =
+        std::min(start, points[static_cast<std::size_t>(point)].of(&MoveOutcome::settling_time).median.value);
   }
   for (const std::int64_t point : shown) {
     const auto at = static_cast<std::size_t>(point);

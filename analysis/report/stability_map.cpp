@@ -60,7 +60,7 @@ FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, cons
                     {"unstable", "(7) exceeded in", "1"}}};
   for (const std::int64_t point : group.points) {
     const auto at = static_cast<std::size_t>(point);
-    const RateWithBounds& rate = reported.summary.points[at].success_rate;
+    const RateWithBounds& rate = reported.summary.points[at].success_rate();
     const ConfidenceInterval& bounds = reported.success_bounds[at];
     const bool predicted = !reported.summary.predictions.empty();
     const TheoryPrediction prediction = predicted ? reported.summary.predictions[at] : TheoryPrediction{};

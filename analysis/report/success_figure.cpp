@@ -29,7 +29,7 @@ std::vector<FigureColumn> common_columns() {
 
 ordered_json row_of(const ReportedStudy& reported, std::int64_t point) {
   const PointSummary& summary = reported.summary.points[static_cast<std::size_t>(point)];
-  const RateWithBounds& rate = summary.success_rate;
+  const RateWithBounds& rate = summary.success_rate();
   const ConfidenceInterval& bounds = reported.success_bounds[static_cast<std::size_t>(point)];
   return ordered_json::array({reported.summary.labels[static_cast<std::size_t>(point)], datum(rate.value),
                               datum(bounds.low), datum(bounds.high), summary.outcomes.zero_count,
@@ -43,8 +43,8 @@ std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int64_t>(i);
   if (std::ssize(order) <= max_lines) return order;
   std::stable_sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
-    return points[static_cast<std::size_t>(a)].success_rate.value >
-           points[static_cast<std::size_t>(b)].success_rate.value;
+    return points[static_cast<std::size_t>(a)].success_rate().value >
+           points[static_cast<std::size_t>(b)].success_rate().value;
   });
   std::vector<std::int64_t> shown;
   for (const std::int64_t i : spread_over(std::ssize(order), max_lines))

@@ -45,8 +45,9 @@ struct RowsOfPoint {
 RowsOfPoint rows_to_show(const ReportedStudy& reported) {
   RowsOfPoint rows;
   TrialRank worst;
-  const double median =
-      reported.summary.points[static_cast<std::size_t>(reported.focus)].settling_time.median.value;
+  const double median = reported.summary.points[static_cast<std::size_t>(reported.focus)]
+                            .of(&MoveOutcome::settling_time)
+                            .median.value;
   visit_trials(reported.file, rows_of(reported, reported.focus),
                [&](std::int64_t row, std::span<const MoveOutcome> moves) {
                  const TrialRank rank = rank_of(moves);

@@ -150,7 +150,7 @@ void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported) 
       points.begin(), points.end(), [](const PointSummary& p) { return p.outcomes.zero_count == p.trials; });
   const auto worst =
       std::min_element(points.begin(), points.end(), [](const PointSummary& a, const PointSummary& b) {
-        return a.success_rate.value < b.success_rate.value;
+        return a.success_rate().value < b.success_rate().value;
       });
   const std::string proportion = flawless == 0 ? fmt::format("None of the {} points is", points.size())
                                                : fmt::format("{} of the {} points {}", flawless,
@@ -177,23 +177,24 @@ std::string median_bounds_text(const ReportedStudy& reported, const Quantile& me
 
 void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const PointSummary& point = point_of(reported, best);
-  const SettlingStatistics& settling = point.settling_time;
+  const MeasureStatistics& settling = point.of(&MoveOutcome::settling_time);
+  const MeasureStatistics& jerks = point.of(&MoveOutcome::jerk_count);
   if (settling.n == 0) return;
   lines.push_back(fmt::format("{} of the moves arrived{}: {}, {}.", percentage(settling.n, point.moves),
                               at_point(reported, best),
                               within_text(point, "half of all moves", settling.median.value) +
                                   median_bounds_text(reported, settling.median),
                               within_text(point, "95 % of them", settling.p95.value)));
-  if (point.jerk_count.total == 0) {
+  if (jerks.total == 0) {
     lines.push_back("No move was disturbed by a jerk after it arrived.");
     return;
   }
-  lines.push_back(
-      text_on(reported.file.axis(),
-              fmt::format("After arrival there were {} jerks per trial; {} of them went in the direction of "
-                          "the holding torque, {} were of one count.",
-                          short_number(point.jerk_count.mean), proportion_text(point.jerk_agreement),
-                          proportion_text(point.jerk_one_count_share))));
+  lines.push_back(text_on(
+      reported.file.axis(),
+      fmt::format("After arrival there were {} jerks per trial; {} of them went in the direction of the "
+                  "holding torque, {} were of one count.",
+                  short_number(jerks.mean), proportion_text(point.jerk_agreement),
+                  proportion_text(point.jerk_one_count_share))));
 }
 
 void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) {
@@ -211,13 +212,13 @@ void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) 
     if (predicted_trials(prediction) == 0) continue;
     if (prediction.stable == prediction.trials) {
       ++stable_points;
-      stable_trials += point.stable;
+      stable_trials += point.of(&MoveOutcome::stable).trials;
       stable_of += point.trials;
       stable_undecided += point.outcomes.off_target;
     }
     if (prediction.unstable == prediction.trials) {
       ++beyond_points;
-      beyond_stable += point.stable;
+      beyond_stable += point.of(&MoveOutcome::stable).trials;
       beyond_of += point.trials;
       beyond_undecided += point.outcomes.off_target;
     }
@@ -248,7 +249,7 @@ std::string open_loop_verdict(const ReportedStudy& reported) {
   std::int64_t trials = 0;
   for (const PointSummary& point : reported.summary.points) {
     lost += point.outcomes.nonfinite;
-    broke_away += point.broke_away;
+    broke_away += point.of(&MoveOutcome::broke_away).trials;
     trials += point.trials;
   }
   return as_html(

@@ -220,7 +220,7 @@ OutputSensitivity output_sensitivity(const PointInputs& inputs, const Sensitivit
     const Varying varying = varying_inputs(inputs, used, result);
     if (from_saltelli) add_design_indices(inputs, trials.values, used, confidence, bootstrap, result);
     add_correlations(varying, y, !from_saltelli, confidence, result);
-    if (output.yes_or_no) add_log_odds(varying, y, confidence, result);
+    if (output.yes_or_no()) add_log_odds(varying, y, confidence, result);
     rank_factors(from_saltelli, result);
   }
   result.conclusion = sensitivity_conclusion(result, from_saltelli, confidence);

@@ -2,13 +2,13 @@
 
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/sensitivity/bounded_number.hpp"
 #include "analysis/statistics/proportion.hpp"
+#include "results/layout/measure_table.hpp"
 #include "results/reading/study_file.hpp"
 
 /// Which of the random parameters of a study drive what its trials do. Methods, formulas and sources:
@@ -73,11 +73,13 @@ struct SensitivityOutput {
   std::string_view name;
   std::string_view unit;
   std::string_view meaning;
-  bool yes_or_no{false};
+  const Measure* measure;  ///< that it is made of
+
+  bool yes_or_no() const { return is_quality(*measure); }
 };
 
 /// All of them, in the order of the help. The first two are asked about unless told otherwise.
-std::span<const SensitivityOutput> sensitivity_outputs();
+std::vector<SensitivityOutput> sensitivity_outputs(const MeasureTable& measures = measure_table());
 
 /// What to ask of a file.
 struct SensitivityQuestion {

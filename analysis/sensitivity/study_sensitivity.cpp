@@ -28,11 +28,13 @@ std::vector<std::int64_t> points_asked(const StudyFile& file, const SensitivityQ
   return all;
 }
 
-std::vector<SensitivityOutput> outputs_asked(const SensitivityQuestion& question) {
+std::vector<SensitivityOutput> outputs_asked(const SensitivityQuestion& question,
+                                             const MeasureTable& measures) {
   std::vector<SensitivityOutput> outputs;
-  for (const std::string& name : question.outputs) outputs.push_back(find_sensitivity_output(name));
+  for (const std::string& name : question.outputs) outputs.push_back(find_sensitivity_output(name, measures));
   if (outputs.empty()) {
-    outputs = {find_sensitivity_output("success"), find_sensitivity_output("settling_time")};
+    outputs = sensitivity_outputs(measures);
+    outputs.resize(2);
   }
   return outputs;
 }
@@ -60,7 +62,7 @@ StudySensitivity study_sensitivity(const StudyFile& file, const SensitivityQuest
   check_confidence(question.confidence);
   const FileHeader& header = file.header();
   const Study study = recorded_study(header, file.path());
-  const std::vector<SensitivityOutput> outputs = outputs_asked(question);
+  const std::vector<SensitivityOutput> outputs = outputs_asked(question, file.table());
   const std::vector<std::string> labels = file.point_labels();
   // The resampling is the same for all outputs and points, as the trials are.
   const RandomStream bootstrap{random_key(header.seed, "sensitivity/bootstrap"), 0};

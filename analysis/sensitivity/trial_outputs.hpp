@@ -18,7 +18,7 @@ struct TrialOutputs {
 
 /// The output with this name.
 /// @throws Failure (bad_input) where there is none; the message lists them.
-const SensitivityOutput& find_sensitivity_output(std::string_view name);
+SensitivityOutput find_sensitivity_output(std::string_view name, const MeasureTable& measures);
 
 /// @param study of the file. @param output of sensitivity_outputs().
 TrialOutputs trial_outputs(const StudyFile& file, const Study& study, std::int64_t point,

@@ -139,7 +139,7 @@ RigStatistics rig_statistics(std::span<const RigTrials> rigs, double confidence)
   result.without_failure = rate(faultless, result.n);
   result.without_failure_bounds = clopper_pearson(faultless, result.n, confidence);
   result.worst_5_percent = worst_of(rigs);
-  result.successes = sums_over_rigs(rigs, &RigTrials::successes);
+  for (const RigTrials& rig : rigs) result.successes.add(rig.successes, rig.trials);
   result.tolerance = rig_tolerance(rigs, result.tolerance.content, confidence);
   return result;
 }
@@ -149,12 +149,6 @@ SuccessClaim success_claim_on_rigs(const ClusterSums& sums, double confidence) {
   return {sums.events,  sums.events - sums.hits, confidence,
           at_least,     1.0 - at_least,          clustered_at_most(sums, confidence),
           sums.clusters};
-}
-
-ClusterSums sums_over_rigs(std::span<const RigTrials> rigs, std::int64_t RigTrials::*hits) {
-  ClusterSums sums;
-  for (const RigTrials& rig : rigs) sums.add(rig.*hits, rig.trials);
-  return sums;
 }
 
 }  // namespace zerocount

@@ -18,7 +18,6 @@ namespace zerocount {
 struct RigTrials {
   std::int64_t trials{0};
   std::int64_t successes{0};   ///< trials all of whose moves ended at zero error
-  std::int64_t stable{0};      ///< trials all of whose moves were stable
   std::int64_t moves{0};       ///< moves with a target
   std::int64_t zero_moves{0};  ///< of them, those that ended at zero error
 };
@@ -86,8 +85,5 @@ RigStatistics rig_statistics(std::span<const RigTrials> rigs, double confidence 
 /// Tolerance statement for a trial on any rig, from the one-sided Korn–Graubard bounds.
 /// @param successes of the trials; each rig is a cluster
 SuccessClaim success_claim_on_rigs(const ClusterSums& successes, double confidence);
-
-/// Sums over the trials with each rig as a cluster.
-ClusterSums sums_over_rigs(std::span<const RigTrials> rigs, std::int64_t RigTrials::*hits);
 
 }  // namespace zerocount

@@ -10,10 +10,9 @@
 #include <fmt/format.h>
 
 #include "analysis/iso230/repeatability_file.hpp"
-#include "analysis/measures/level_statistics.hpp"
 #include "analysis/measures/point_columns.hpp"
-#include "analysis/measures/study_features.hpp"
 #include "core/failure/failure.hpp"
+#include "experiments/study/study_features.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 
@@ -95,7 +94,7 @@ StudyAccumulator::StudyAccumulator(const Study& study, double confidence, bool b
 
 void StudyAccumulator::add(const StudyFile& file, RowRange rows) {
   const std::int64_t moves = file.moves();
-  const MoveKind kind{study_.open_loop, file.final_error_known(), study_.rigs};
+  const MoveKind kind{study_.open_loop, file.header().version, study_.rigs};
   JerkStream jerks(file, rows);
   TrialOutcome trial;
   const std::int64_t trials_at_once = chunk_rows(moves);
@@ -103,7 +102,7 @@ void StudyAccumulator::add(const StudyFile& file, RowRange rows) {
     const RowRange block{first, std::min(trials_at_once, rows.end() - first)};
     const std::vector<MoveOutcome> outcomes = file.outcomes(block);
     for (std::int64_t row = block.first; row < block.end(); ++row) {
-      while (!point_ || std::ssize(points_) < row / study_.trials) begin_point(kind);
+      while (!point_ || std::ssize(points_) < row / study_.trials) begin_point(kind, file.table());
       const auto begin = outcomes.begin() + (row - block.first) * moves;
       trial.moves.assign(begin, begin + moves);
       add_trial(*point_, file, row, trial, jerks);
@@ -112,9 +111,9 @@ void StudyAccumulator::add(const StudyFile& file, RowRange rows) {
   if (!jerks.at_end()) fail(file, "jerks are recorded beyond those that the trials counted");
 }
 
-void StudyAccumulator::begin_point(const MoveKind& kind) {
+void StudyAccumulator::begin_point(const MoveKind& kind, const MeasureTable& table) {
   if (point_) end_point();
-  point_.emplace(kind);
+  point_.emplace(kind, table);
 }
 
 void StudyAccumulator::end_point() {
@@ -155,11 +154,11 @@ std::vector<TheoryPrediction> study_predictions(const Study& study) {
 StoredStatistics stored_statistics(const StudyFile& file, const Study& study) {
   const std::vector<PointSummary> points = study_statistics(file, study);
   StoredStatistics stored;
-  stored.points = point_columns(points, study_features(study));
+  stored.points = point_columns(points, study_features(study), file.table());
   const std::vector<PointColumn> predictions = prediction_columns(study_predictions(study));
   stored.points.insert(stored.points.end(), predictions.begin(), predictions.end());
   if (study.open_loop) {
-    stored.tables.push_back(level_table(points));
+    stored.tables.push_back(level_table(points, file.table()));
   }
   if (!study.sequence.empty()) {
     stored.groups = [&study](hdf5::File& part) { write_repeatability(part, study); };

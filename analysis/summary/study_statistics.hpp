@@ -31,7 +31,7 @@ class StudyAccumulator {
   std::vector<PointSummary> statistics();
 
  private:
-  void begin_point(const MoveKind& kind);
+  void begin_point(const MoveKind& kind, const MeasureTable& table);
   void end_point();
 
   const Study& study_;

@@ -12,13 +12,13 @@
 
 #include "analysis/iso230/repeatability_summary.hpp"
 #include "analysis/measures/point_columns.hpp"
-#include "analysis/measures/study_features.hpp"
 #include "analysis/summary/stopping_section.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/summary/tolerance_section.hpp"
 #include "analysis/summary/undecided.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/study/study_features.hpp"
 #include "results/layout/header.hpp"
 #include "results/shards/shard.hpp"
 

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/measures/point_statistics.hpp"
-#include "analysis/measures/study_features.hpp"
 #include "analysis/measures/summary_section.hpp"
 #include "analysis/measures/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
+#include "experiments/study/study_features.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount {
@@ -37,6 +37,9 @@ struct StudySummary {
   StudyFeatures features{};                     ///< what the table has columns for
   std::optional<UnfinishedStudy> unfinished{};  ///< where the run has not ended
   std::vector<SummarySection> sections{};
+
+  /// The measures that the points have statistics of.
+  const MeasureTable& table() const { return points.empty() ? measure_table() : *points.front().table; }
 };
 
 /// @throws Failure (bad_data) where labels, axes, statistics and predictions are not of the same points. The

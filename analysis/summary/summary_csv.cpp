@@ -1,10 +1,8 @@
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "analysis/measures/level_statistics.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/measures/statistic_fields.hpp"
 #include "analysis/statistics/proportion.hpp"
@@ -32,20 +30,20 @@ Line point_values(const StudySummary& summary, std::size_t point) {
 }
 
 template <class Subject>
-void add_names(Line& line, std::span<const ReportField<Subject>> fields) {
+void add_names(Line& line, const std::vector<ReportField<Subject>>& fields) {
   for (const ReportField<Subject>& field : fields) line.push_back(flat_name(field));
 }
 template <class Subject>
-void add_values(Line& line, std::span<const ReportField<Subject>> fields, const Subject& subject) {
+void add_values(Line& line, const std::vector<ReportField<Subject>>& fields, const Subject& subject) {
   for (const ReportField<Subject>& field : fields) {
     const double value = field.value(subject);
     line.push_back(field.whole ? std::to_string(static_cast<std::int64_t>(value)) : number_text(value));
   }
 }
 
-Line csv_header(const StudySummary& summary) {
+Line csv_header(const StudySummary& summary, const std::vector<StatisticField>& fields) {
   Line header = point_names(summary);
-  add_names(header, statistic_fields(summary.features));
+  add_names(header, fields);
   for (const PredictionField& field : prediction_fields()) header.emplace_back(field.name);
   header.insert(header.end(), {"predicted", "observed"});
   for (const SummarySection& section : summary.sections) {
@@ -54,9 +52,9 @@ Line csv_header(const StudySummary& summary) {
   return header;
 }
 
-Line csv_row(const StudySummary& summary, std::size_t point) {
+Line csv_row(const StudySummary& summary, const std::vector<StatisticField>& fields, std::size_t point) {
   Line row = point_values(summary, point);
-  add_values(row, statistic_fields(summary.features), summary.points[point]);
+  add_values(row, fields, summary.points[point]);
   const TheoryPrediction prediction =
       summary.predictions.empty() ? TheoryPrediction{} : summary.predictions[point];
   for (const PredictionField& field : prediction_fields()) {
@@ -70,18 +68,19 @@ Line csv_row(const StudySummary& summary, std::size_t point) {
   return row;
 }
 
-Line level_header(const StudySummary& summary) {
+Line level_header(const StudySummary& summary, const std::vector<LevelField>& fields) {
   Line header = point_names(summary);
   header.emplace_back("level");
-  add_names(header, level_fields());
+  add_names(header, fields);
   header.emplace_back("observed");
   return header;
 }
 
-Line level_row(const StudySummary& summary, std::size_t point, std::size_t level) {
+Line level_row(const StudySummary& summary, const std::vector<LevelField>& fields, std::size_t point,
+               std::size_t level) {
   Line row = point_values(summary, point);
   row.push_back(std::to_string(level));
-  add_values(row, level_fields(), summary.points[point].levels[level]);
+  add_values(row, fields, summary.points[point].levels[level]);
   row.push_back(observed_at(summary, static_cast<std::int64_t>(point)));
   return row;
 }
@@ -96,10 +95,11 @@ std::string csv_line(const Line& fields) {
 }
 
 std::string levels_csv(const StudySummary& summary) {
-  std::string text = csv_line(level_header(summary));
+  const std::vector<LevelField> fields = level_fields(summary.table());
+  std::string text = csv_line(level_header(summary, fields));
   for (std::size_t point = 0; point < summary.points.size(); ++point) {
     for (std::size_t level = 0; level < summary.points[point].levels.size(); ++level) {
-      text += csv_line(level_row(summary, point, level));
+      text += csv_line(level_row(summary, fields, point, level));
     }
   }
   return text;
@@ -110,8 +110,9 @@ std::string levels_csv(const StudySummary& summary) {
 std::string summary_csv(const StudySummary& summary) {
   require_consistent(summary);
   if (summary.features.open_loop) return levels_csv(summary);
-  std::string text = csv_line(csv_header(summary));
-  for (std::size_t i = 0; i < summary.points.size(); ++i) text += csv_line(csv_row(summary, i));
+  const std::vector<StatisticField> fields = statistic_fields(summary.features, summary.table());
+  std::string text = csv_line(csv_header(summary, fields));
+  for (std::size_t i = 0; i < summary.points.size(); ++i) text += csv_line(csv_row(summary, fields, i));
   return text;
 }
 

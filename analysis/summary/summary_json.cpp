@@ -27,16 +27,14 @@ nlohmann::ordered_json axes_json(const StudySummary& summary, std::size_t point)
 
 nlohmann::ordered_json moves_json(const PointSummary& statistics, const StudyFeatures& features) {
   nlohmann::ordered_json moves = nlohmann::ordered_json::array();
-  for (const MoveCounts& move : statistics.by_move) {
+  const std::vector<const Measure*> qualities = counted_qualities(features, *statistics.table);
+  for (std::size_t move = 0; move < statistics.by_move.size(); ++move) {
     nlohmann::ordered_json counts;
     for (const FlagMeaning& outcome : outcome_labels()) {
-      counts[outcome.word] = move.outcomes.*counter_of(static_cast<Outcome>(outcome.value));
+      counts[outcome.word] = statistics.by_move[move].*counter_of(static_cast<Outcome>(outcome.value));
     }
-    counts["stable"] = move.stable;
-    counts["arrived"] = move.arrived;
-    counts["broke_away"] = move.broke_away;
-    counts["saturated"] = move.saturated;
-    if (features.stopping) counts["stopped"] = move.stopped;
+    for (const Measure* measure : qualities)
+      counts[measure->field.column.name] = statistics.of(*measure).by_move.at(move);
     moves.push_back(std::move(counts));
   }
   return moves;
@@ -55,11 +53,13 @@ nlohmann::ordered_json prediction_json(const TheoryPrediction& prediction) {
 
 nlohmann::ordered_json summary_json(const StudySummary& summary) {
   require_consistent(summary);
+  const std::vector<StatisticField> fields = statistic_fields(summary.features, summary.table());
+  const std::vector<StatisticField> bounds = mean_bound_fields(summary.table());
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     nlohmann::ordered_json point{{"point", i}, {"label", summary.labels[i]}, {"axes", axes_json(summary, i)}};
-    add_fields(point, statistic_fields(summary.features), summary.points[i]);
-    add_fields(point, mean_bound_fields(), summary.points[i]);
+    add_fields(point, fields, summary.points[i]);
+    add_fields(point, bounds, summary.points[i]);
     point["moves"] = moves_json(summary.points[i], summary.features);
     if (summary.features.open_loop) point["levels"] = levels_json(summary.points[i]);
     if (!summary.predictions.empty()) point["prediction"] = prediction_json(summary.predictions[i]);

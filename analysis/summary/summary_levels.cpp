@@ -4,8 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/measures/level_statistics.hpp"
-#include "analysis/statistics/mean_bounds.hpp"
+#include "analysis/measures/statistic_fields.hpp"
 #include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/report_json.hpp"
 
@@ -25,13 +24,12 @@ std::string bounded_number(double value, double uncertainty) {
   return fmt::format("{:.{}f}", value, decimals_below(uncertainty));
 }
 
-std::string position_text(const LevelStatistics& level) {
-  const ConfidenceInterval bounds = student_t(level.position, level.confidence);
-  return bounded_number(micro * level.position.mean, 0.5 * micro * (bounds.high - bounds.low));
+std::string position_text(const MeasureStatistics& position) {
+  const ConfidenceInterval& bounds = position.mean_bounds;
+  return bounded_number(micro * position.mean, 0.5 * micro * (bounds.high - bounds.low));
 }
 
-std::string bounds_text(const LevelStatistics& level) {
-  const ConfidenceInterval bounds = student_t(level.position, level.confidence);
+std::string bounds_text(const ConfidenceInterval& bounds) {
   if (std::isnan(bounds.low)) return "–";
   const double uncertainty = 0.5 * micro * (bounds.high - bounds.low);
   return fmt::format("[{}, {}]", bounded_number(micro * bounds.low, uncertainty),
@@ -42,11 +40,11 @@ std::string bounds_text(const LevelStatistics& level) {
 
 std::vector<TextColumn> level_columns(const StudySummary& summary) {
   const AxisKind axis = summary.features.axis;
-  const std::string torque = fmt::format("{} ({})", text_on(axis, "torque"), unit_on(axis, "N m"));
+  const std::string torque_head = fmt::format("{} ({})", text_on(axis, "torque"), unit_on(axis, "N m"));
   const std::string small = unit_on(axis, "µrad");
   std::vector<TextColumn> columns{{"point", false, {}},
                                   {"level", true, {}},
-                                  {torque, true, {}},
+                                  {torque_head, true, {}},
                                   {"trials", true, {}},
                                   {fmt::format("position ({})", small), true, {}},
                                   {bounds_head(summary), true, {}},
@@ -60,17 +58,19 @@ std::vector<TextColumn> level_columns(const StudySummary& summary) {
     const std::vector<LevelStatistics>& levels = summary.points[point].levels;
     for (std::size_t i = 0; i < levels.size(); ++i) {
       const LevelStatistics& level = levels[i];
-      const bool empty = level.torque.n == 0;
+      const MeasureStatistics& torque = level.of(&MoveOutcome::holding_torque);
+      const MeasureStatistics& position = level.of(&MoveOutcome::final_position);
+      const double depth = level.of(&MoveOutcome::reversal_depth).max;
       std::vector<std::string> cells{printable(summary.labels[point]),
                                      std::to_string(i),
-                                     short_number(level.torque.mean),
-                                     std::to_string(level.torque.n),
-                                     position_text(level),
-                                     bounds_text(level),
-                                     short_number(micro * level.position.sd()),
-                                     short_number(micro * level.creep.mean),
-                                     empty ? "–" : std::to_string(level.reversal_depth),
-                                     percentage(level.broke_away, level.torque.n)};
+                                     short_number(torque.mean),
+                                     std::to_string(torque.n),
+                                     position_text(position),
+                                     bounds_text(position.mean_bounds),
+                                     short_number(micro * position.sd),
+                                     short_number(micro * level.of(&MoveOutcome::creep).mean),
+                                     torque.n == 0 ? "–" : fmt::format("{:.0f}", depth),
+                                     percentage(level.of(&MoveOutcome::broke_away).trials, torque.n)};
       if (!observed.empty()) cells.push_back(i == 0 ? printable(observed[point]) : "");
       for (std::size_t column = 0; column < columns.size(); ++column) {
         columns[column].cells.push_back(cells[column]);
@@ -89,9 +89,10 @@ std::string level_legend() {
 
 nlohmann::ordered_json levels_json(const PointSummary& point) {
   nlohmann::ordered_json levels = nlohmann::ordered_json::array();
+  const std::vector<LevelField> fields = level_fields(*point.table);
   for (std::size_t i = 0; i < point.levels.size(); ++i) {
     nlohmann::ordered_json level{{"level", i}};
-    add_fields(level, level_fields(), point.levels[i]);
+    add_fields(level, fields, point.levels[i]);
     levels.push_back(std::move(level));
   }
   return levels;

@@ -25,7 +25,7 @@ bool any_undecided(const StudySummary& summary) {
 
 /// Trials that ended within one count and are not stable.
 std::int64_t unsettled(const PointSummary& point) {
-  return point.outcomes.zero_count + point.outcomes.one_count - point.stable;
+  return point.outcomes.zero_count + point.outcomes.one_count - point.of(&MoveOutcome::stable).trials;
 }
 
 /// Whether these are many enough at some point to have a column.
@@ -47,7 +47,8 @@ TextColumn by_point(const StudySummary& summary, std::string head, Cell cell) {
 void add_outcomes(std::vector<TextColumn>& columns, const StudySummary& summary) {
   using Point = const PointSummary&;
   columns.push_back(by_point(summary, "trials", [](Point p) { return fmt::format("{}", p.trials); }));
-  columns.push_back(by_point(summary, "stable", [](Point p) { return percentage(p.stable, p.judged); }));
+  columns.push_back(by_point(
+      summary, "stable", [](Point p) { return percentage(p.of(&MoveOutcome::stable).trials, p.judged); }));
   if (any_undecided(summary)) {
     columns.push_back(
         by_point(summary, "undecided", [](Point p) { return percentage(p.outcomes.off_target, p.judged); }));
@@ -59,50 +60,54 @@ void add_outcomes(std::vector<TextColumn>& columns, const StudySummary& summary)
   columns.push_back(
       by_point(summary, "zero-count", [](Point p) { return percentage(p.outcomes.zero_count, p.judged); }));
   columns.push_back(by_point(summary, bounds_head(summary),
-                             [](Point p) { return interval_in_percent(p.success_rate.clopper_pearson); }));
+                             [](Point p) { return interval_in_percent(p.success_rate().clopper_pearson); }));
   if (summary.features.rigs) {
     columns.push_back(by_point(summary, "rigs w/o failure",
                                [](Point p) { return percentage(rigs_without_failure(p), p.rigs.n); }));
   }
-  columns.push_back(by_point(summary, "median (s)",
-                             [](Point p) { return settling_text(p, p.settling_time.median.value); }));
-  columns.push_back(
-      by_point(summary, "p95 (s)", [](Point p) { return settling_text(p, p.settling_time.p95.value); }));
-  columns.push_back(
-      by_point(summary, "arrived", [](Point p) { return percentage(p.settling_time.n, p.moves); }));
-  columns.push_back(
-      by_point(summary, "jerks/trial", [](Point p) { return short_number(p.jerk_count.mean); }));
 }
 
-/// What only some studies use.
-void add_features(std::vector<TextColumn>& columns, const StudySummary& summary) {
-  using Point = const PointSummary&;
-  const StudyFeatures& features = summary.features;
-  if (features.stopping) {
-    columns.push_back(by_point(summary, "stopped", [](Point p) { return percentage(p.stopped, p.trials); }));
+/// The measures of the table that have columns in this summary.
+std::vector<const Measure*> shown_measures(const StudySummary& summary) {
+  std::vector<const Measure*> shown = measures_of(
+      summary.table(), ReportOrder::summary, [](const Measure& m) { return !m.summary.columns.empty(); });
+  std::erase_if(shown, [&](const Measure* m) {
+    return m->summary.use != nullptr && !(summary.features.*m->summary.use);
+  });
+  return shown;
+}
+
+std::string cell_text(CellText text, const PointSummary& point, double value) {
+  switch (text) {
+    case CellText::number:
+      break;
+    case CellText::settling_time:
+      return settling_text(point, value);
+    case CellText::proportion_of_trials:
+      return percentage(std::llround(value), point.trials);
+    case CellText::proportion_of_moves:
+      return percentage(std::llround(value), point.moves);
   }
-  if (features.travel) {
-    columns.push_back(
-        by_point(summary, "travel (s)", [](Point p) { return short_number(p.travel_time.mean); }));
+  return short_number(value);
+}
+
+void add_measures(std::vector<TextColumn>& columns, const StudySummary& summary) {
+  for (const Measure* measure : shown_measures(summary)) {
+    for (const SummaryColumn& column : measure->summary.columns) {
+      columns.push_back(by_point(summary, std::string(column.head), [&](const PointSummary& point) {
+        return cell_text(column.text, point, value_of(column.statistic, point.of(*measure)));
+      }));
+    }
   }
-  if (features.final_error) {
-    columns.push_back(
-        by_point(summary, "|e| median", [](Point p) { return short_number(p.final_error.median.value); }));
-    columns.push_back(
-        by_point(summary, "|e| p95", [](Point p) { return short_number(p.final_error.p95.value); }));
+}
+
+/// What the columns mean of the measures that `belongs` picks.
+std::string legend_of(const StudySummary& summary, bool (*belongs)(const Measure&)) {
+  std::string legend;
+  for (const Measure* measure : shown_measures(summary)) {
+    if (belongs(*measure)) legend += measure->summary.legend;
   }
-  if (features.phases) {
-    columns.push_back(by_point(summary, "phase changes",
-                               [](Point p) { return short_number(rate(p.phase_changes.total, p.trials)); }));
-  }
-  if (features.encoder_errors) {
-    columns.push_back(
-        by_point(summary, "|true e| mean", [](Point p) { return short_number(p.true_error.mean); }));
-    columns.push_back(
-        by_point(summary, "|true e| max", [](Point p) { return short_number(p.true_error.max); }));
-    columns.push_back(by_point(summary, "disagreeing",
-                               [](Point p) { return percentage(p.encoder_disagreement.trials, p.trials); }));
-  }
+  return legend;
 }
 
 void add_predictions(std::vector<TextColumn>& columns, const StudySummary& summary) {
@@ -120,7 +125,7 @@ void add_predictions(std::vector<TextColumn>& columns, const StudySummary& summa
 std::vector<TextColumn> loop_columns(const StudySummary& summary) {
   std::vector<TextColumn> columns = sweep_columns(summary);
   add_outcomes(columns, summary);
-  add_features(columns, summary);
+  add_measures(columns, summary);
   if (!summary.predictions.empty()) add_predictions(columns, summary);
   if (const std::vector<std::string> observed = observations(summary); !observed.empty()) {
     TextColumn column{"observed", false, {}};
@@ -158,11 +163,8 @@ std::string loop_legend(const StudySummary& summary) {
   std::string legend =
       "stable: proportion of trials whose moves all arrived and stayed within one count\n"
       "zero-count: proportion of trials whose moves all ended at zero error; bounds of it after " +
-      std::string(features.rigs ? "Korn and Graubard" : "Clopper and Pearson") +
-      ", in %\n"
-      "median, p95: settling time of all moves, those that never arrived being later than any time; arrived: "
-      "proportion of moves\n"
-      "jerks/trial: mean over all trials\n";
+      std::string(features.rigs ? "Korn and Graubard" : "Clopper and Pearson") + ", in %\n" +
+      legend_of(summary, [](const Measure& m) { return m.summary.use == nullptr; });
   if (features.rigs)
     legend += "rigs w/o failure: proportion of rigs all of whose trials ended at zero error\n";
   if (any_undecided(summary)) {
@@ -177,25 +179,9 @@ std::string loop_legend(const StudySummary& summary) {
         "arrived "
         "yet, hunts by\none count, or had left by more than one; all other trials oscillated\n";
   }
-  if (features.stopping) {
-    legend +=
-        "stopped: proportion of trials that were ended where a move had diverged; they count as oscillating, "
-        "and "
-        "what is\n"
-        "measured of their moves is up to there\n";
-  }
+  legend += legend_of(summary, is_quality);
   legend += design_line(summary) + "\n";
-  if (features.travel) legend += "travel: mean time that the reference takes to its target\n";
-  if (features.final_error) legend += "|e|: error at the last sample of the moves, in counts\n";
-  if (features.phases) legend += "phase changes: from coarse to fine control or back, mean over all trials\n";
-  if (features.encoder_errors) {
-    legend +=
-        "|true e|: distance from the rotor to the middle of the target's count at the last sample of the "
-        "moves,\n"
-        "whatever the encoder says, in counts\n"
-        "disagreeing: proportion of trials in which the coarse count was ever impossible given the fine "
-        "one\n";
-  }
+  legend += legend_of(summary, [](const Measure& m) { return m.summary.use != nullptr && !is_quality(m); });
   if (!summary.predictions.empty()) {
     legend +=
         "(6), (7): proportion of trials in which the paper's criterion (6) holds, which promises stability "

@@ -15,13 +15,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string statement(const PointSummary& point) {
-  const std::string settling = settling_sentence(point.settling_time.tolerance);
+  const std::string settling = settling_sentence(point.settles_within);
   return claim_sentence(point.claim) + (settling.empty() ? "" : "; " + settling);
 }
 
 Json point_json(const PointSummary& point) {
   Json limits = Json::array();
-  for (const ToleranceLimit& limit : point.settling_time.tolerance)
+  for (const ToleranceLimit& limit : point.settles_within)
     limits.push_back({{"content", limit.content}, {"within", limit.within}});
   Json json{{"success_at_least", point.claim.success_at_least},
             {"failure_at_most", point.claim.failure_at_most},
@@ -67,7 +67,7 @@ std::vector<PointColumn> columns_of(std::span<const PointSummary> points) {
     columns.push_back(
         column_of(points, "settling_within_" + content_name(content), "s",
                   fmt::format("time in which at least {:.6g} % of axes settle", 100.0 * content),
-                  [i](const PointSummary& point) { return point.settling_time.tolerance.at(i).within; }));
+                  [i](const PointSummary& point) { return point.settles_within.at(i).within; }));
   }
   if (on_rigs(points)) {
     columns.push_back(
@@ -75,10 +75,9 @@ std::vector<PointColumn> columns_of(std::span<const PointSummary> points) {
                   "proportion of moves in which at least 90 % of rigs hold zero at least",
                   [](const PointSummary& point) { return point.rigs.tolerance.zero_at_least; }));
   }
-  for (const StatisticField& field : mean_bound_fields()) {
-    columns.push_back(column_of(points, flat_name(field), std::string(field.unit),
-                                std::string(field.long_name), field.value));
-  }
+  for (const StatisticField& field :
+       mean_bound_fields(points.empty() ? measure_table() : *points.front().table))
+    columns.push_back(column_of(points, flat_name(field), field.unit, field.long_name, field.value));
   return columns;
 }
 

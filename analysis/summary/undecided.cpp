@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/statistics/quantile.hpp"
 #include "analysis/text/text.hpp"
 #include "core/theory/slow_approach.hpp"
 #include "core/trial/last_half.hpp"
@@ -63,19 +64,18 @@ double needed_hold(const MoveOutcome& move, std::size_t number, std::int64_t err
          std::max(p.verdict.dwell, p.verdict.window);
 }
 
-/// @param needed holds, s; put into another order
-double advised_hold(std::vector<double>& needed) {
+/// @param needed holds, s
+double advised_hold(const std::vector<double>& needed) {
   if (needed.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto rank =
-      static_cast<std::ptrdiff_t>(std::ceil(advised_proportion * static_cast<double>(needed.size())) - 1.0);
-  std::nth_element(needed.begin(), needed.begin() + rank, needed.end());
-  return rounded_up(needed[static_cast<std::size_t>(rank)]);
+  Histogram<double> holds;
+  for (const double hold : needed) holds.add(hold);
+  return rounded_up(quantile(holds, advised_proportion).value);
 }
 
 /// A converter that clips keeps moves from their targets, too.
 std::string clipping_remark(const PointSummary& point) {
-  if (point.saturated == 0) return {};
-  return fmt::format("; the converter clipped in {} of {} trials", point.saturated, point.trials);
+  const std::int64_t clipped = point.of(&MoveOutcome::saturated).trials;
+  return clipped == 0 ? "" : fmt::format("; the converter clipped in {} of {} trials", clipped, point.trials);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
-#include <string_view>
 
 namespace zerocount {
 
@@ -10,19 +10,18 @@ namespace zerocount {
 /// summaries and in the results file.
 template <class Subject>
 struct ReportField {
-  std::string_view group;           ///< JSON object that holds it, such as "settling_time"; empty at the top
-  std::string_view name;            ///< within its group
-  std::string_view unit;            ///< "1" where dimensionless
-  std::string_view long_name;       ///< what it is, with the denominator of a proportion or mean
-  bool whole{false};                ///< a whole number
-  double (*value)(const Subject&);  ///< in `unit`; NaN if undefined
+  std::string group;      ///< JSON object that holds it, such as "settling_time"; empty at the top
+  std::string name;       ///< within its group
+  std::string unit;       ///< "1" where dimensionless
+  std::string long_name;  ///< what it is, with the denominator of a proportion or mean
+  bool whole{false};      ///< a whole number
+  std::function<double(const Subject&)> value;  ///< in `unit`; NaN if undefined
 };
 
 /// "group_name", or "name" without a group: the field's name in flat formats.
 template <class Subject>
 std::string flat_name(const ReportField<Subject>& field) {
-  if (field.group.empty()) return std::string(field.name);
-  return std::string(field.group) + "_" + std::string(field.name);
+  return field.group.empty() ? field.name : field.group + "_" + field.name;
 }
 
 /// A count as the value of a field.

@@ -2,8 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
-#include <span>
-#include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -14,15 +13,15 @@ namespace zerocount {
 /// Adds the numbers of `subject` to a JSON object under the names of their fields, by group. Whole numbers
 /// are written as integers, NaN as null.
 template <class Subject>
-void add_fields(nlohmann::ordered_json& json, std::span<const ReportField<Subject>> fields,
+void add_fields(nlohmann::ordered_json& json, const std::vector<ReportField<Subject>>& fields,
                 const Subject& subject) {
   for (const ReportField<Subject>& field : fields) {
-    nlohmann::ordered_json& place = field.group.empty() ? json : json[std::string(field.group)];
+    nlohmann::ordered_json& place = field.group.empty() ? json : json[field.group];
     const double value = field.value(subject);
     if (field.whole && !std::isnan(value)) {
-      place[std::string(field.name)] = static_cast<std::int64_t>(value);
+      place[field.name] = static_cast<std::int64_t>(value);
     } else {
-      place[std::string(field.name)] = value;
+      place[field.name] = value;
     }
   }
 }

@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -17,15 +19,56 @@ template <class Value>
 using Stored = std::conditional_t<std::is_same_v<Value, bool>, std::uint8_t,
                                   std::conditional_t<std::is_enum_v<Value>, std::int8_t, Value>>;
 
+/// The type of the value that a member of a record has, or a function of the record gives.
+template <class Record, class Member>
+using ValueOf = std::remove_cvref_t<std::invoke_result_t<Member, const Record&>>;
+
+template <class Value>
+constexpr Element element_of() {
+  if constexpr (std::is_same_v<Value, double>) return Element::float64;
+  if constexpr (std::is_same_v<Value, std::int64_t>) return Element::int64;
+  if constexpr (std::is_same_v<Value, int>) return Element::int32;
+  if constexpr (std::is_same_v<Value, bool>) return Element::flag;
+  return Element::int8;
+}
+
+/// @param member of Record or of what it derives from, or a function of the record.
+template <class Record, class Member>
+RecordField<Record> field(const char* name, const char* unit, const char* long_name, Member member,
+                          const ValidValues& valid = {}, std::vector<FlagMeaning> flags = {}) {
+  using Value = ValueOf<Record, Member>;
+  if constexpr (std::is_same_v<Value, bool>) flags = {{0, "no"}, {1, "yes"}};
+  const Column column{name, unit, long_name, element_of<Value>(), std::move(flags), {}};
+  if constexpr (std::is_member_object_pointer_v<Member>) {
+    return {column, static_cast<Value Record::*>(member), valid};
+  } else {
+    return {column, member, valid};
+  }
+}
+
+/// The value of a field, whatever its type in the file.
+template <class Record>
+double value_of(const RecordField<Record>& field, const Record& record) {
+  return std::visit([&](auto member) { return static_cast<double>(std::invoke(member, record)); },
+                    field.member);
+}
+
+/// Whether the field is a function of the others: it is written, and worked out again when it is read.
+template <class Record>
+bool is_computed(const RecordField<Record>& field) {
+  return std::holds_alternative<double (*)(const Record&)>(field.member);
+}
+
 /// One column of `records` as the bytes of its elements.
 template <class Record>
 std::vector<std::byte> gather(const RecordField<Record>& field, std::span<const Record> records) {
   std::vector<std::byte> bytes(records.size() * size_of(field.column.element));
   std::visit(
-      [&]<class Value>(Value Record::*member) {
+      [&](auto member) {
         std::byte* to = bytes.data();
         for (const Record& record : records) {
-          const auto stored = static_cast<Stored<Value>>(record.*member);
+          const auto stored =
+              static_cast<Stored<ValueOf<Record, decltype(member)>>>(std::invoke(member, record));
           std::memcpy(to, &stored, sizeof stored);
           to += sizeof stored;
         }
@@ -34,17 +77,20 @@ std::vector<std::byte> gather(const RecordField<Record>& field, std::span<const 
   return bytes;
 }
 
-/// The reverse of gather.
+/// The reverse of gather. What is computed from a record is not read.
 template <class Record>
 void scatter(const RecordField<Record>& field, std::span<const std::byte> bytes, std::span<Record> records) {
   std::visit(
-      [&]<class Value>(Value Record::*member) {
-        const std::byte* from = bytes.data();
-        for (Record& record : records) {
-          Stored<Value> stored{};
-          std::memcpy(&stored, from, sizeof stored);
-          record.*member = static_cast<Value>(stored);
-          from += sizeof stored;
+      [&](auto member) {
+        if constexpr (std::is_member_object_pointer_v<decltype(member)>) {
+          using Value = ValueOf<Record, decltype(member)>;
+          const std::byte* from = bytes.data();
+          for (Record& record : records) {
+            Stored<Value> stored{};
+            std::memcpy(&stored, from, sizeof stored);
+            record.*member = static_cast<Value>(stored);
+            from += sizeof stored;
+          }
         }
       },
       field.member);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,7 +21,7 @@
 namespace zerocount {
 
 /// Version of the layout that is written. A file with a higher number was written by a later program, and is
-/// refused; what those with a lower one lack is told by RecordField::since.
+/// refused; what those with a lower one lack is told by Measure::file.
 inline constexpr std::int64_t format_version = 3;
 
 /// One value of an enumeration, and its word in `flag_meanings` and in CSV.
@@ -57,18 +58,32 @@ struct Table {
   std::vector<Column> columns;
 };
 
-/// Where a column's value stands in a record.
+/// The values that a column can have. A file with any other is damaged.
+struct ValidValues {
+  std::string_view expected{};  ///< in words; empty where every value is possible
+  double low{0.0};              ///< lowest
+  double high{std::numeric_limits<double>::max()};
+  bool nan{false};  ///< NaN is possible
+};
+
+/// Where a column's value stands in a record, or the function that computes it.
 template <class Record>
-using Member = std::variant<double Record::*, std::int64_t Record::*, int Record::*, bool Record::*,
-                            Outcome Record::*, HookMode Record::*, ControlPhase Record::*>;
+using Member =
+    std::variant<double Record::*, std::int64_t Record::*, int Record::*, bool Record::*, Outcome Record::*,
+                 HookMode Record::*, ControlPhase Record::*, double (*)(const Record&)>;
 
 template <class Record>
 struct RecordField {
   Column column;
   Member<Record> member;
-  std::int64_t since{1};  ///< first version of the layout that has the column
-  double before{0.0};     ///< value in files of earlier versions; NaN where it is not known
+  ValidValues valid{};
 };
+
+struct Measure;
+/// The measures of a move, in the order of the file (see measure_table.hpp).
+using MeasureTable = std::vector<Measure>;
+/// The measures of this program.
+const MeasureTable& measure_table();
 
 /// A jerk, and the trial it belongs to.
 struct JerkRecord : Jerk {
@@ -80,9 +95,10 @@ struct TraceRecord : SampleRecord {
   std::int64_t trial{0};  ///< global row
 };
 
-/// The measures of a move that a file of `version` has; those of `extras` come last.
-const std::vector<RecordField<MoveOutcome>>& outcome_fields(std::int64_t version = format_version,
-                                                            const OutcomeExtras& extras = {});
+/// The columns of the measures of a move that a file of `version` with these extras has.
+std::vector<RecordField<MoveOutcome>> outcome_fields(std::int64_t version = format_version,
+                                                     const OutcomeExtras& extras = {},
+                                                     const MeasureTable& measures = measure_table());
 const std::vector<RecordField<JerkRecord>>& jerk_fields();
 /// The columns of a sample record; those of `extras` come last.
 std::vector<RecordField<TraceRecord>> trace_fields(const TraceExtras& extras);
@@ -133,7 +149,8 @@ std::int64_t profile_angles_of_rig(std::size_t harmonics, std::int64_t rigs);
 
 Table point_table(const std::vector<SweepAxis>& axes, const std::vector<PointColumn>& statistics);
 Table trial_table(const std::vector<InputColumn>& inputs);
-Table outcome_table(std::int64_t version = format_version, const OutcomeExtras& extras = {});
+Table outcome_table(std::int64_t version = format_version, const OutcomeExtras& extras = {},
+                    const MeasureTable& measures = measure_table());
 Table jerk_table();
 Table trace_table(const TraceExtras& extras);
 Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn>& columns);

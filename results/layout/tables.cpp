@@ -76,9 +76,9 @@ Table trial_table(const std::vector<InputColumn>& inputs) {
   return table;
 }
 
-Table outcome_table(std::int64_t version, const OutcomeExtras& extras) {
+Table outcome_table(std::int64_t version, const OutcomeExtras& extras, const MeasureTable& measures) {
   return {"outcome", whole_numbers("trial", "global row of the trial"),
-          whole_numbers("move", "index of the move"), columns_of(outcome_fields(version, extras))};
+          whole_numbers("move", "index of the move"), columns_of(outcome_fields(version, extras, measures))};
 }
 
 Table jerk_table() {

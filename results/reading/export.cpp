@@ -34,20 +34,7 @@ void add_names(CsvFile& csv, const std::vector<RecordField<Record>>& fields, Axi
 
 template <class Record>
 void add_values(CsvFile& csv, const std::vector<RecordField<Record>>& fields, const Record& record) {
-  for (const RecordField<Record>& field : fields) {
-    std::visit(
-        [&]<class Value>(Value Record::*member) {
-          const Value value = record.*member;
-          if constexpr (std::is_enum_v<Value>) {
-            csv.add(word_of(field.column, static_cast<std::int64_t>(value)));
-          } else if constexpr (std::is_same_v<Value, double>) {
-            csv.add(value);
-          } else {
-            csv.add(static_cast<std::int64_t>(value));
-          }
-        },
-        field.member);
-  }
+  for (const RecordField<Record>& field : fields) csv.add(value_text(field, record));
 }
 
 void export_points(const StudyFile& file, CsvFile& csv) {

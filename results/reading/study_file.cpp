@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
-#include <variant>
 
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "results/layout/measure_table.hpp"
 #include "results/layout/statistic_io.hpp"
 #include "results/reading/validation.hpp"
 
@@ -48,8 +48,14 @@ AxisKind read_axis(const hdf5::File& file) {
   return unit == unit_on(AxisKind::linear, "rad") ? AxisKind::linear : AxisKind::rotary;
 }
 
-OutcomeExtras read_outcome_extras(const hdf5::File& file) {
-  return {file.open_group("outcome").contains("stopped")};
+OutcomeExtras read_outcome_extras(const hdf5::File& file, const MeasureTable& table) {
+  const hdf5::Group group = file.open_group("outcome");
+  OutcomeExtras extras;
+  for (const Measure& measure : table) {
+    if (measure.file.only_with != nullptr)
+      extras.*measure.file.only_with = group.contains(measure.field.column.name);
+  }
+  return extras;
 }
 
 TraceExtras read_trace_extras(const hdf5::File& file) {
@@ -71,29 +77,19 @@ std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
   return values;
 }
 
-template <class Record>
-std::vector<double> as_doubles(const RecordField<Record>& field, const std::vector<Record>& records) {
-  std::vector<double> values(records.size());
-  std::visit(
-      [&](auto member) {
-        std::transform(records.begin(), records.end(), values.begin(),
-                       [member](const Record& record) { return static_cast<double>(record.*member); });
-      },
-      field.member);
-  return values;
-}
-
 }  // namespace
 
-StudyFile::StudyFile(const std::filesystem::path& path, Require require)
+StudyFile::StudyFile(const std::filesystem::path& path, Require require, const MeasureTable& table)
     : path_(path),
       file_(open_results(path, require == Require::unfinished ? Checksum::not_yet : Checksum::required)),
       header_(read_required(file_, path, require)),
       axis_(read_axis(file_)),
       inputs_(read_input_columns(file_.open_group("trial"))),
       trials_(TableIo::open(file_, trial_table(inputs_))),
-      outcome_extras_(read_outcome_extras(file_)),
-      outcomes_(TableIo::open(file_, outcome_table(header_.version, outcome_extras_))),
+      table_(&table),
+      outcome_extras_(read_outcome_extras(file_, table)),
+      measures_(outcome_fields(header_.version, outcome_extras_, table)),
+      outcomes_(TableIo::open(file_, outcome_table(header_.version, outcome_extras_, table))),
       jerks_(TableIo::open(file_, jerk_table())),
       trace_extras_(read_trace_extras(file_)),
       trace_(open_trace(file_, trace_extras_)) {
@@ -165,28 +161,37 @@ std::vector<double> StudyFile::inputs_of(std::int64_t row) const {
 }
 
 std::vector<MoveOutcome> StudyFile::outcomes(RowRange range) const {
-  std::vector<MoveOutcome> moves = read_records(outcomes_, measures(), local(range), range.count);
-  validate_outcomes(outcomes_, measures(), range.first, moves);
+  std::vector<MoveOutcome> moves = read_records(outcomes_, measures_, local(range), range.count);
+  validate_outcomes(outcomes_, measures_, range.first, moves);
   return moves;
 }
 
 std::vector<double> StudyFile::measure(std::string_view name, RowRange range) const {
-  const auto has_name = [name](const RecordField<MoveOutcome>& field) { return field.column.name == name; };
-  const std::vector<RecordField<MoveOutcome>>& known = outcome_fields(format_version, {true});
-  const auto field = std::find_if(known.begin(), known.end(), has_name);
-  if (field == known.end()) throw std::invalid_argument(fmt::format("'{}' is no measure of a move", name));
+  const auto known = std::find_if(table_->begin(), table_->end(), [name](const Measure& measure) {
+    return measure.field.column.name == name;
+  });
+  if (known == table_->end()) throw std::invalid_argument(fmt::format("'{}' is no measure of a move", name));
 
+  const RecordField<MoveOutcome>& field = known->field;
   const std::int64_t first = local(range);
   const auto size = static_cast<std::size_t>(range.count * outcomes_.width());
-  const auto column = std::find_if(measures().begin(), measures().end(), has_name);
-  if (column == measures().end()) return std::vector<double>(size, field->before);
+  const auto column = std::find_if(measures_.begin(), measures_.end(),
+                                   [name](const auto& one) { return one.column.name == name; });
+  if (column == measures_.end()) return std::vector<double>(size, known->file.before);
   std::vector<MoveOutcome> moves(size);
-  std::vector<std::byte> bytes(size * size_of(field->column.element));
-  outcomes_.column(static_cast<std::size_t>(column - measures().begin()))
-      .read(first, range.count, bytes.data());
-  scatter(*field, bytes, std::span(moves));
-  validate_measure(outcomes_, measures(), name, range.first, moves);
-  return as_doubles(*field, moves);
+  if (is_computed(field)) {
+    moves = outcomes(range);
+  } else {
+    std::vector<std::byte> bytes(size * size_of(field.column.element));
+    outcomes_.column(static_cast<std::size_t>(column - measures_.begin()))
+        .read(first, range.count, bytes.data());
+    scatter(field, bytes, std::span(moves));
+    validate_measure(outcomes_, measures_, name, range.first, moves);
+  }
+  std::vector<double> values(size);
+  std::transform(moves.begin(), moves.end(), values.begin(),
+                 [&](const MoveOutcome& move) { return value_of(field, move); });
+  return values;
 }
 
 std::vector<JerkRecord> StudyFile::jerks_at(std::int64_t first, std::int64_t count) const {

@@ -50,7 +50,9 @@ class StudyFile {
   /// have the numbers of their places (see sound_values.hpp). Reads the file once from beginning to end.
   /// @throws ForeignFile for another format or a newer version; Failure: bad_input where there is no such
   /// file, machine_failed where it cannot be read, otherwise bad_data.
-  explicit StudyFile(const std::filesystem::path& path, Require require = Require::complete);
+  /// @param table the measures that its moves may have; stays as long as this.
+  explicit StudyFile(const std::filesystem::path& path, Require require = Require::complete,
+                     const MeasureTable& table = measure_table());
 
   const std::filesystem::path& path() const { return path_; }
   const FileHeader& header() const { return header_; }
@@ -71,11 +73,8 @@ class StudyFile {
   std::vector<double> inputs_of(std::int64_t row) const;               ///< [input column]
 
   /// The measures that the file has; one of an earlier version of the layout lacks some.
-  const std::vector<RecordField<MoveOutcome>>& measures() const {
-    return outcome_fields(header_.version, outcome_extras_);
-  }
-  /// Whether the final errors of the moves are in the file.
-  bool final_error_known() const { return header_.version >= 2; }
+  const std::vector<RecordField<MoveOutcome>>& measures() const { return measures_; }
+  const MeasureTable& table() const { return *table_; }
   /// All measures of the moves of these trials: [row][move], flattened. Those that the file lacks are 0, or
   /// false, which is their true value in such files but for final_error; true_error is NaN.
   std::vector<MoveOutcome> outcomes(RowRange rows) const;
@@ -116,7 +115,9 @@ class StudyFile {
   AxisKind axis_;
   std::vector<InputColumn> inputs_;
   TableIo trials_;  ///< point, index, then one column per input
+  const MeasureTable* table_;
   OutcomeExtras outcome_extras_;
+  std::vector<RecordField<MoveOutcome>> measures_;
   TableIo outcomes_;
   TableIo jerks_;
   TraceExtras trace_extras_;

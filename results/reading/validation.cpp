@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <string>
 #include <tuple>
-#include <variant>
 
 #include <fmt/format.h>
+
+#include "results/layout/fields.hpp"
 
 namespace zerocount {
 namespace {
@@ -15,78 +16,17 @@ namespace {
 constexpr std::int64_t rows_at_once = chunk_elements;
 constexpr std::int64_t numbered_blocks = 8;
 
-/// What one column of a record must be.
-template <class Record>
-struct ValueRule {
-  std::string_view column;
-  bool (*sound)(const Record& record);
-  std::string_view expected;
-};
-
-bool not_negative(double value) {
-  return std::isfinite(value) && value >= 0.0;
+bool is_valid(const ValidValues& valid, double value) {
+  if (valid.expected.empty()) return true;
+  return std::isnan(value) ? valid.nan : value >= valid.low && value <= valid.high;
 }
 
-constexpr std::string_view a_count = "a count, not negative";
-constexpr std::string_view a_time = "a finite time, not negative";
-
-using M = MoveOutcome;
-
-constexpr ValueRule<M> measure_rules[] = {
-    {"outcome",
-     [](const M& m) { return m.outcome >= Outcome::zero_count && m.outcome <= Outcome::off_target; },
-     "0 to 5"},
-    {"arrival", [](const M& m) { return m.arrival >= -1; }, "a sample, or -1"},
-    {"settling_time", [](const M& m) { return std::isnan(m.settling_time) || not_negative(m.settling_time); },
-     "a finite time, not negative, or NaN"},
-    {"final_settling_time",
-     [](const M& m) { return std::isnan(m.final_settling_time) || not_negative(m.final_settling_time); },
-     "a finite time, not negative, or NaN"},
-    {"zero_fraction", [](const M& m) { return !(m.zero_fraction < 0.0 || m.zero_fraction > 1.0); },
-     "a fraction, or NaN"},
-    {"oscillation_amplitude",
-     [](const M& m) { return std::isnan(m.oscillation_amplitude) || not_negative(m.oscillation_amplitude); },
-     "a finite amplitude, not negative, or NaN"},
-    {"oscillation_period",
-     [](const M& m) { return std::isnan(m.oscillation_period) || not_negative(m.oscillation_period); },
-     "a finite time, not negative, or NaN"},
-    {"overshoot", [](const M& m) { return m.overshoot >= 0; }, a_count},
-    {"travel_time", [](const M& m) { return not_negative(m.travel_time); }, a_time},
-    {"phase_changes", [](const M& m) { return m.phase_changes >= 0; }, a_count},
-    {"encoder_disagreement", [](const M& m) { return m.encoder_disagreement >= 0; }, a_count},
-    {"reversal_depth", [](const M& m) { return m.reversal_depth >= 0; }, a_count},
-    {"jerk_count", [](const M& m) { return m.jerk_count >= 0; }, a_count},
-    {"jerk_agreement", [](const M& m) { return !(m.jerk_agreement < 0.0 || m.jerk_agreement > 1.0); },
-     "a proportion, or NaN"},
-};
-
-/// Of two measures, and so of no use where only one is known.
-constexpr ValueRule<M> arrival_rule{"arrived",
-                                    [](const M& m) { return m.arrived != std::isnan(m.settling_time); },
-                                    "1 exactly where there is a settling time"};
-
-using J = JerkRecord;
-
-constexpr ValueRule<J> jerk_rules[] = {
-    {"onset", [](const J& j) { return not_negative(j.onset); }, a_time},
-    {"duration", [](const J& j) { return not_negative(j.duration); }, a_time},
-    {"magnitude", [](const J& j) { return j.magnitude >= 0; }, a_count},
-    {"direction", [](const J& j) { return j.direction >= -1 && j.direction <= 1; }, "-1, 0 or 1"},
-};
-
+/// The field of this name; null where there is none.
 template <class Record>
-std::string text_of(const RecordField<Record>& field, const Record& record) {
-  return std::visit([&](auto member) { return fmt::format("{}", static_cast<double>(record.*member)); },
-                    field.member);
-}
-
-/// The column of `table` with this name: one of `fields`, or none.
-template <class Record>
-std::size_t place_of(const std::vector<RecordField<Record>>& fields, std::string_view name) {
-  return static_cast<std::size_t>(
-      std::find_if(fields.begin(), fields.end(),
-                   [name](const auto& field) { return field.column.name == name; }) -
-      fields.begin());
+const RecordField<Record>* find_field(const std::vector<RecordField<Record>>& fields, std::string_view name) {
+  const auto found = std::find_if(fields.begin(), fields.end(),
+                                  [name](const auto& field) { return field.column.name == name; });
+  return found == fields.end() ? nullptr : &*found;
 }
 
 [[noreturn]] void fail(const hdf5::Dataset& dataset, const std::string& row, const std::string& value,
@@ -94,15 +34,25 @@ std::size_t place_of(const std::vector<RecordField<Record>>& fields, std::string
   dataset.fail(fmt::format("{}: it is {}; expected {}", row, value, expected));
 }
 
-void require_sound(const TableIo& outcomes, const std::vector<RecordField<M>>& fields,
-                   const ValueRule<M>& rule, std::int64_t first_row, std::span<const M> moves) {
-  const auto found = std::find_if_not(moves.begin(), moves.end(), rule.sound);
-  const std::size_t column = place_of(fields, rule.column);
-  if (found == moves.end() || column == fields.size()) return;
+/// Of a column of the outcomes: `holds` is what every move must fulfil.
+template <class Holds>
+void require_of_moves(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
+                      const RecordField<MoveOutcome>& field, std::int64_t first_row,
+                      std::span<const MoveOutcome> moves, std::string_view expected, const Holds& holds) {
+  const auto found = std::find_if_not(moves.begin(), moves.end(), holds);
+  if (found == moves.end()) return;
   const std::int64_t at = found - moves.begin();
-  fail(outcomes.column(column),
+  fail(outcomes.column(static_cast<std::size_t>(&field - fields.data())),
        fmt::format("trial {}, move {}", first_row + at / outcomes.width(), at % outcomes.width()),
-       text_of(fields[column], *found), rule.expected);
+       fmt::format("{}", value_of(field, *found)), expected);
+}
+
+void require_valid(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
+                   const RecordField<MoveOutcome>& field, std::int64_t first_row,
+                   std::span<const MoveOutcome> moves) {
+  if (field.valid.expected.empty()) return;
+  require_of_moves(outcomes, fields, field, first_row, moves, field.valid.expected,
+                   [&](const MoveOutcome& move) { return is_valid(field.valid, value_of(field, move)); });
 }
 
 /// Reads a column of whole numbers, in at most `numbered_blocks` blocks, which are spread evenly over it;
@@ -152,34 +102,36 @@ void validate_numbering(const FileHeader& header, const TableIo& trials, const T
 
 void validate_outcomes(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
                        std::int64_t first_row, std::span<const MoveOutcome> moves) {
-  for (const ValueRule<M>& rule : measure_rules) require_sound(outcomes, fields, rule, first_row, moves);
-  require_sound(outcomes, fields, arrival_rule, first_row, moves);
+  for (const RecordField<MoveOutcome>& field : fields)
+    require_valid(outcomes, fields, field, first_row, moves);
+  require_of_moves(outcomes, fields, *find_field(fields, "arrived"), first_row, moves,
+                   "1 exactly where there is a settling time",
+                   [](const MoveOutcome& move) { return move.arrived != std::isnan(move.settling_time); });
 }
 
 void validate_measure(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
                       std::string_view name, std::int64_t first_row, std::span<const MoveOutcome> moves) {
-  for (const ValueRule<M>& rule : measure_rules) {
-    if (rule.column == name) require_sound(outcomes, fields, rule, first_row, moves);
-  }
+  require_valid(outcomes, fields, *find_field(fields, name), first_row, moves);
 }
 
 void validate_jerks(const TableIo& table, std::int64_t moves, std::int64_t first,
                     std::span<const JerkRecord> jerks) {
-  const std::vector<RecordField<J>>& fields = jerk_fields();
+  const std::vector<RecordField<JerkRecord>>& fields = jerk_fields();
   const auto column = [&](std::string_view name) -> const hdf5::Dataset& {
-    return table.column(place_of(fields, name));
+    return table.column(static_cast<std::size_t>(find_field(fields, name) - fields.data()));
   };
   for (std::size_t i = 0; i < jerks.size(); ++i) {
-    const J& jerk = jerks[i];
+    const JerkRecord& jerk = jerks[i];
     const auto row = [&] { return fmt::format("row {}", first + static_cast<std::int64_t>(i)); };
     if (jerk.move < 0 || jerk.move >= moves)
       fail(column("move"), row(), fmt::format("{}", jerk.move), fmt::format("0 to {}", moves - 1));
-    for (const ValueRule<J>& rule : jerk_rules) {
-      if (!rule.sound(jerk))
-        fail(column(rule.column), row(), text_of(fields[place_of(fields, rule.column)], jerk), rule.expected);
+    for (const RecordField<JerkRecord>& field : fields) {
+      const double value = value_of(field, jerk);
+      if (!is_valid(field.valid, value))
+        fail(column(field.column.name), row(), fmt::format("{}", value), field.valid.expected);
     }
     if (i == 0 || jerks[i - 1].trial != jerk.trial) continue;
-    const J& before = jerks[i - 1];
+    const JerkRecord& before = jerks[i - 1];
     if (std::tie(jerk.move, jerk.onset) < std::tie(before.move, before.onset))
       column("onset").fail(fmt::format("{}: it is before the jerk above it, of the same trial", row()));
   }

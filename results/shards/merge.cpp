@@ -100,14 +100,14 @@ void write_points(hdf5::File& file, const Study& study) {
 /// Writes everything except the statistics and the completion mark.
 hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const Study& study,
                                     const fs::path& part, RowRange rows, const Provenance& provenance,
-                                    const Renumbering& renumber) {
+                                    const Renumbering& renumber, const MeasureTable& measures) {
   hdf5::File file = hdf5::File::create(part);
   write_header(file, make_header(study, FileKind::study, rows, provenance));
   write_points(file, study);
   concatenate(file, trial_table(study.input_columns), shards, 1, rows.first);
   const AxisKind axis = study.units.axis;
-  concatenate(file, on_axis(outcome_table(format_version, study.outcome_extras), axis), shards, study.moves,
-              rows.first);
+  concatenate(file, on_axis(outcome_table(format_version, study.outcome_extras, measures), axis), shards,
+              study.moves, rows.first);
   concatenate(file, jerk_table(), shards, 1, 0, renumber);
   write_profiles(file, study);
   if (study.rigs > 0) write_rigs(file, study);
@@ -118,9 +118,9 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const Stu
 }
 
 StoredStatistics statistics_of(const fs::path& part, const hdf5::WrittenValues& written,
-                               const StatisticsOfPoints& statistics) {
+                               const StatisticsOfPoints& statistics, const MeasureTable& measures) {
   try {
-    return statistics(StudyFile(part, Require::unfinished));
+    return statistics(StudyFile(part, Require::unfinished, measures));
   } catch (const Failure&) {
     hdf5::require_written(part, written);  // if the write failed, report that instead
     throw;
@@ -172,16 +172,17 @@ FileHeader first_header(std::span<const fs::path> inputs) {
 
 void merge_shards(std::span<const ShardInfo> shards, const Study& study, const fs::path& output,
                   RowRange rows, const StatisticsOfPoints& statistics, const Provenance& provenance,
-                  const Renumbering& renumber) {
+                  const Renumbering& renumber, const MeasureTable& measures) {
   std::vector<ShardInfo> ordered(shards.begin(), shards.end());
   std::sort(ordered.begin(), ordered.end(),
             [](const ShardInfo& left, const ShardInfo& right) { return left.rows.first < right.rows.first; });
   require_cover(ordered, rows, output);
   const UnfinishedFile part(output);
-  hdf5::WrittenValues written =
-      write_trials_of(ordered, study, part.path(), rows, merged_provenance(ordered, provenance), renumber);
+  hdf5::WrittenValues written = write_trials_of(ordered, study, part.path(), rows,
+                                                merged_provenance(ordered, provenance), renumber, measures);
   StoredStatistics stored;
-  if (statistics && rows == all_rows(study)) stored = statistics_of(part.path(), written, statistics);
+  if (statistics && rows == all_rows(study))
+    stored = statistics_of(part.path(), written, statistics, measures);
   finish_results(output, write_statistics(part.path(), study, rows, std::move(written), stored));
 }
 

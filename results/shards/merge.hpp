@@ -39,6 +39,7 @@ FileHeader first_header(std::span<const std::filesystem::path> inputs);
 /// reason if the file cannot be written.
 void merge_shards(std::span<const ShardInfo> shards, const Study& study, const std::filesystem::path& output,
                   RowRange rows, const StatisticsOfPoints& statistics,
-                  const Provenance& provenance = current_provenance(), const Renumbering& renumber = {});
+                  const Provenance& provenance = current_provenance(), const Renumbering& renumber = {},
+                  const MeasureTable& measures = measure_table());
 
 }  // namespace zerocount

@@ -52,16 +52,16 @@ void write_trials(hdf5::File& file, const Study& study, std::span<const TrialRes
 }
 
 void write_outcomes(hdf5::File& file, const Study& study, std::span<const TrialResult> results,
-                    Compression compression) {
+                    Compression compression, const MeasureTable& measures) {
   std::vector<MoveOutcome> moves;
   for (const TrialResult& result : results) {
     moves.insert(moves.end(), result.outcome.moves.begin(), result.outcome.moves.end());
   }
   const OutcomeExtras& extras = study.outcome_extras;
-  TableIo io = TableIo::create(file, outcome_table(format_version, extras), std::ssize(results), study.moves,
-                               compression);
+  TableIo io = TableIo::create(file, outcome_table(format_version, extras, measures), std::ssize(results),
+                               study.moves, compression);
   io.number_rows(results.front().row);
-  write_records(io, outcome_fields(format_version, extras), 0, std::span<const MoveOutcome>(moves));
+  write_records(io, outcome_fields(format_version, extras, measures), 0, std::span<const MoveOutcome>(moves));
 }
 
 void write_jerks(hdf5::File& file, std::span<const TrialResult> results, Compression compression) {
@@ -111,14 +111,14 @@ fs::path shard_path(const fs::path& directory, RowRange rows) {
 }
 
 void write_shard(const fs::path& path, const Study& study, std::int64_t first_row,
-                 std::span<const TrialResult> results, const Provenance& provenance,
-                 Compression compression) {
+                 std::span<const TrialResult> results, const Provenance& provenance, Compression compression,
+                 const MeasureTable& measures) {
   require_fit(study, first_row, results);
   const UnfinishedFile part(path);
   hdf5::File file = hdf5::File::create(part.path());
   write_header(file, make_header(study, FileKind::shard, {first_row, std::ssize(results)}, provenance));
   write_trials(file, study, results, compression);
-  write_outcomes(file, study, results, compression);
+  write_outcomes(file, study, results, compression, measures);
   write_jerks(file, results, compression);
   if (!study.retained_trials.empty()) write_trace(file, study.trace_extras, results, compression);
   mark_finished(file);

@@ -12,6 +12,7 @@
 #include "results/hdf5/element.hpp"
 #include "results/layout/build_info.hpp"
 #include "results/layout/header.hpp"
+#include "results/layout/layout.hpp"
 #include "results/layout/row_range.hpp"
 
 namespace zerocount {
@@ -37,7 +38,7 @@ inline constexpr Compression shard_compression = Compression::none;
 /// not those rows in order, or do not fit the study.
 void write_shard(const std::filesystem::path& path, const Study& study, std::int64_t first_row,
                  std::span<const TrialResult> results, const Provenance& provenance = current_provenance(),
-                 Compression compression = shard_compression);
+                 Compression compression = shard_compression, const MeasureTable& measures = measure_table());
 
 /// A complete shard (or part) of the study.
 struct ShardInfo {

@@ -70,7 +70,7 @@ void measure_pilot(PlanRequest& request, const std::string& path) {
                               path));
   }
   const PointSummary& point = summary.points[worst];
-  const double rate = point.success_rate.value;
+  const double rate = point.success_rate().value;
   if (!(rate > 0.0 && rate < 1.0)) {
     throw Failure(ExitCode::bad_input, fmt::format("{}: no point has both successes and failures; expected "
                                                    "--rig-sd and --true-success in place of a pilot",

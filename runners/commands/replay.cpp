@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
-#include <variant>
 
 #include <fmt/format.h>
 
+#include "results/layout/fields.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount {
@@ -35,15 +34,12 @@ void compare(const std::vector<RecordField<Record>>& fields, const std::vector<R
   }
   for (std::size_t i = 0; i < recorded.size(); ++i) {
     for (const RecordField<Record>& field : fields) {
-      const auto compare_member = [&](auto member) {
-        const auto before = static_cast<double>(recorded[i].*member);
-        const auto now = static_cast<double>(replayed[i].*member);
-        const bool real = std::is_same_v<decltype(member), double Record::*>;
-        if (real ? same(before, now, allowed_in(field.column)) : before == now) return;
-        lines.push_back(
-            fmt::format("{} {}: {}: recorded {}, replayed {}", what, i, field.column.name, before, now));
-      };
-      std::visit(compare_member, field.member);
+      const double before = value_of(field, recorded[i]);
+      const double now = value_of(field, replayed[i]);
+      const bool real = field.column.element == Element::float64;
+      if (real ? same(before, now, allowed_in(field.column)) : before == now) continue;
+      lines.push_back(
+          fmt::format("{} {}: {}: recorded {}, replayed {}", what, i, field.column.name, before, now));
     }
   }
 }

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
-#include <variant>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,39 +19,23 @@ std::vector<RecordField<TraceRecord>> columns_of(const TraceExtras& extras) {
   return columns;
 }
 
-std::string value_text(const RecordField<TraceRecord>& field, const TraceRecord& record, bool json) {
-  const auto text = [&](auto member) -> std::string {
-    const auto value = record.*member;
-    using Value = std::remove_const_t<decltype(value)>;
-    if constexpr (std::is_same_v<Value, double>) {
-      return json && !std::isfinite(value) ? "null" : number_text(value);
-    } else if constexpr (std::is_enum_v<Value>) {
-      const std::string word = word_of(field.column, static_cast<std::int64_t>(value));
-      return json ? '"' + word + '"' : word;
-    } else {
-      return std::to_string(value);
-    }
-  };
-  return std::visit(text, field.member);
+/// As a value of JSON: null where a number is not finite.
+template <class Record>
+std::string json_text(const RecordField<Record>& field, const Record& record) {
+  if (!std::isfinite(value_of(field, record))) return "null";
+  const std::string text = value_text(field, record);
+  return field.column.element == Element::int8 ? '"' + text + '"' : text;
 }
 
 nlohmann::ordered_json outcome_json(const MoveOutcome& outcome,
                                     const std::vector<RecordField<MoveOutcome>>& measures) {
   nlohmann::ordered_json object;
   for (const RecordField<MoveOutcome>& field : measures) {
-    const auto put = [&](auto member) {
-      const auto value = outcome.*member;
-      using Value = std::remove_const_t<decltype(value)>;
-      if constexpr (std::is_same_v<Value, double>) {
-        object[field.column.name] =
-            std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
-      } else if constexpr (std::is_enum_v<Value>) {
-        object[field.column.name] = word_of(field.column, static_cast<std::int64_t>(value));
-      } else {
-        object[field.column.name] = value;
-      }
-    };
-    std::visit(put, field.member);
+    if (field.column.element == Element::flag) {
+      object[field.column.name] = value_of(field, outcome) != 0.0;
+    } else {
+      object[field.column.name] = nlohmann::ordered_json::parse(json_text(field, outcome));
+    }
   }
   return object;
 }
@@ -88,7 +70,7 @@ void TraceWriter::write(const SampleRecord& sample) {
   for (const RecordField<TraceRecord>& field : columns_) {
     if (!line.empty()) line += json_ ? ", " : ",";
     if (json_) line += fmt::format("\"{}\": ", field.column.name);
-    line += value_text(field, record, json_);
+    line += json_ ? json_text(field, record) : value_text(field, record);
   }
   if (json_) {
     sink_(fmt::format("{}\n  {{{}}}", first_ ? "" : ",", line));

@@ -99,7 +99,8 @@ void write_study_file(const std::filesystem::path& path, const Study& study,
 }
 
 void write_study_file(const std::filesystem::path& path, const Study& study,
-                      const std::vector<TrialRecord>& trials, const StatisticsOfPoints& statistics) {
+                      const std::vector<TrialRecord>& trials, const StatisticsOfPoints& statistics,
+                      const MeasureTable& measures) {
   std::vector<TrialResult> results(trials.size());
   for (std::size_t row = 0; row < trials.size(); ++row) {
     results[row].row = static_cast<std::int64_t>(row);
@@ -109,9 +110,9 @@ void write_study_file(const std::filesystem::path& path, const Study& study,
   }
   const RowRange rows{0, static_cast<std::int64_t>(trials.size())};
   const std::filesystem::path shard = path.string() + ".shard.h5";
-  write_shard(shard, study, 0, results);
+  write_shard(shard, study, 0, results, current_provenance(), shard_compression, measures);
   const std::vector<ShardInfo> shards{{shard, rows}};
-  merge_shards(shards, study, path, rows, statistics);
+  merge_shards(shards, study, path, rows, statistics, current_provenance(), {}, measures);
 }
 
 }  // namespace zerocount::testing

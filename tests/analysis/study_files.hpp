@@ -32,6 +32,7 @@ void write_study_file(const std::filesystem::path& path, const Study& study,
                       const std::vector<TrialRecord>& trials,
                       const std::vector<PointColumn>& statistics = {});
 void write_study_file(const std::filesystem::path& path, const Study& study,
-                      const std::vector<TrialRecord>& trials, const StatisticsOfPoints& statistics);
+                      const std::vector<TrialRecord>& trials, const StatisticsOfPoints& statistics,
+                      const MeasureTable& measures = measure_table());
 
 }  // namespace zerocount::testing

@@ -111,11 +111,11 @@ PointTrials some_of(const PointTrials& all, const std::vector<std::size_t>& lot,
   some.trials = static_cast<std::int64_t>(count);
   some.moves = 1;
   for (std::size_t i = first; i < first + count; ++i) {
-    some.zero_count.push_back(all.zero_count[lot[i]]);
-    some.arrived.push_back(all.arrived[lot[i]]);
-    some.stable.push_back(all.stable[lot[i]]);
-    some.settling_time.push_back(all.settling_time[lot[i]]);
-    some.jerks.push_back(all.jerks[lot[i]]);
+    some.values["success_rate"].push_back(all.values.at("success_rate")[lot[i]]);
+    some.values["arrival_rate"].push_back(all.values.at("arrival_rate")[lot[i]]);
+    some.values["stable_rate"].push_back(all.values.at("stable_rate")[lot[i]]);
+    some.values["settling_time"].push_back(all.values.at("settling_time")[lot[i]]);
+    some.values["jerk_count"].push_back(all.values.at("jerk_count")[lot[i]]);
   }
   return some;
 }

@@ -90,11 +90,11 @@ PointTrials agreeing(std::int64_t trials) {
   all.trials = trials;
   all.moves = 1;
   const auto count = static_cast<std::size_t>(trials);
-  all.zero_count.assign(count, true);
-  all.arrived.assign(count, true);
-  all.stable.assign(count, true);
-  all.settling_time.assign(count, 0.03);
-  all.jerks.assign(count, 0.0);
+  all.values["success_rate"].assign(count, true);
+  all.values["arrival_rate"].assign(count, true);
+  all.values["stable_rate"].assign(count, true);
+  all.values["settling_time"].assign(count, 0.03);
+  all.values["jerk_count"].assign(count, 0.0);
   return all;
 }
 
@@ -120,8 +120,8 @@ TEST(Evidence, AFewTrialsThatAgreeShowNothing) {
 
 TEST(Evidence, TrialsThatNoLongerArriveFailByTheirArrivalAndNotByTheirTimes) {
   PointTrials after = agreeing(500);
-  std::fill(after.arrived.begin(), after.arrived.end(), false);
-  std::fill(after.settling_time.begin(), after.settling_time.end(), std::nan(""));
+  std::fill(after.values["arrival_rate"].begin(), after.values["arrival_rate"].end(), false);
+  std::fill(after.values["settling_time"].begin(), after.values["settling_time"].end(), std::nan(""));
   for (const bool paired : {false, true}) {
     const auto measures = compare_measures({}, "", agreeing(500), after, paired);
     EXPECT_TRUE(std::isnan(measures[3].p));
@@ -133,11 +133,11 @@ TEST(Evidence, TrialsThatNoLongerArriveFailByTheirArrivalAndNotByTheirTimes) {
 TEST(Evidence, MovesAreComparedWithTheirPartners) {
   PointTrials before = agreeing(100);
   before.moves = 2;
-  before.settling_time.clear();
+  before.values["settling_time"].clear();
   PointTrials after = before;
   for (int trial = 0; trial < 100; ++trial) {
-    before.settling_time.insert(before.settling_time.end(), {0.01, 0.5});
-    after.settling_time.insert(after.settling_time.end(), {0.02, std::nan("")});
+    before.values["settling_time"].insert(before.values["settling_time"].end(), {0.01, 0.5});
+    after.values["settling_time"].insert(after.values["settling_time"].end(), {0.02, std::nan("")});
   }
   const auto measures = compare_measures({}, "", before, after, true);
   EXPECT_NEAR(measures[3].effect, 0.01, 1e-15);

@@ -41,8 +41,8 @@ points:
 )");
   EXPECT_EQ(rules.confidence, 0.99);
   EXPECT_EQ(rules.false_discovery_rate, 0.01);
-  const GateMeasure& success = *find_gate_measure("success_rate");
-  const GateMeasure& settling = *find_gate_measure("settling_time");
+  const GateMeasure success = *find_gate_measure("success_rate");
+  const GateMeasure settling = *find_gate_measure("settling_time");
   EXPECT_EQ(margin_of(rules, "a", success).absolute, 0.005);
   EXPECT_EQ(margin_of(rules, "b-with-kp", success).absolute, 0.05);
   EXPECT_EQ(margin_of(rules, "b-with-kp", settling).relative, 0.1);
@@ -57,7 +57,7 @@ points:
 
 TEST(MarginsFile, LeavesTheDefaultsToWhatItDoesNotName) {
   const GateRules rules = read("margins: {success_rate: 0.1}\n");
-  const GateMeasure& stable = *find_gate_measure("stable_rate");
+  const GateMeasure stable = *find_gate_measure("stable_rate");
   EXPECT_EQ(margin_of(rules, "a", stable).absolute, stable.margin.absolute);
   EXPECT_EQ(rules.confidence, GateRules{}.confidence);
   EXPECT_TRUE(rules.requirements.empty());

@@ -18,11 +18,11 @@ PointTrials with_successes(std::int64_t successes, std::int64_t trials) {
   all.trials = trials;
   all.moves = 1;
   for (std::int64_t i = 0; i < trials; ++i) {
-    all.zero_count.push_back(i < successes);
-    all.arrived.push_back(i < successes);
-    all.stable.push_back(i < successes);
-    all.settling_time.push_back(i < successes ? 0.001 * static_cast<double>(i + 1) : std::nan(""));
-    all.jerks.push_back(static_cast<double>(i % 2));
+    all.values["success_rate"].push_back(i < successes);
+    all.values["arrival_rate"].push_back(i < successes);
+    all.values["stable_rate"].push_back(i < successes);
+    all.values["settling_time"].push_back(i < successes ? 0.001 * static_cast<double>(i + 1) : std::nan(""));
+    all.values["jerk_count"].push_back(static_cast<double>(i % 2));
   }
   return all;
 }

@@ -20,11 +20,11 @@ PointTrials trials_on_rigs(std::int64_t rigs, std::int64_t trials, std::mt19937_
   all.rigs = rigs;
   for (std::int64_t trial = 0; trial < trials; ++trial) {
     const bool success = uniform(random) < chances[static_cast<std::size_t>(trial % rigs)];
-    all.zero_count.push_back(success);
-    all.arrived.push_back(success);
-    all.stable.push_back(success);
-    all.settling_time.push_back(success ? 0.03 : std::nan(""));
-    all.jerks.push_back(success ? 0.0 : 1.0);
+    all.values["success_rate"].push_back(success);
+    all.values["arrival_rate"].push_back(success);
+    all.values["stable_rate"].push_back(success);
+    all.values["settling_time"].push_back(success ? 0.03 : std::nan(""));
+    all.values["jerk_count"].push_back(success ? 0.0 : 1.0);
   }
   return all;
 }
@@ -54,7 +54,7 @@ TEST(ComparisonOverRigs, FindsRigsThatFailNow) {
   const PointTrials before = trials_on_rigs(60, 1200, random);
   PointTrials after = before;
   for (std::size_t trial = 0; trial < 1200; ++trial) {
-    if (trial % 60 < 20) after.zero_count[trial] = false;
+    if (trial % 60 < 20) after.values["success_rate"][trial] = false;
   }
   const MeasureComparison success = compare_measures({}, "", before, after, true).front();
   EXPECT_EQ(success.current_n, 60);  // rigs

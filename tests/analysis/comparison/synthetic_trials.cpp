@@ -41,13 +41,14 @@ PointTrials synthetic_trials(const SyntheticPoint& point, const TrialChances& ch
   for (const std::vector<double>& trial : chances) {
     const bool success = trial[0] < point.success;
     const bool arrived = trial[0] < point.success + 0.5 * (1.0 - point.success);
-    trials.zero_count.push_back(success);
-    trials.arrived.push_back(arrived);
-    trials.stable.push_back(arrived && trial[1] < 0.97);
+    trials.values["success_rate"].push_back(success);
+    trials.values["arrival_rate"].push_back(arrived);
+    trials.values["stable_rate"].push_back(arrived && trial[1] < 0.97);
     const double time = sample * std::round(-point.settling * std::log1p(-trial[2]) / sample);
-    trials.settling_time.push_back(arrived ? time : std::numeric_limits<double>::quiet_NaN());
+    trials.values["settling_time"].push_back(arrived ? time : std::numeric_limits<double>::quiet_NaN());
     const double rest = trial[3] / jerking;  // uniform among those that jerk
-    trials.jerks.push_back(rest < 1.0 ? std::ceil(-point.jerks / jerking * std::log1p(-rest)) : 0.0);
+    trials.values["jerk_count"].push_back(rest < 1.0 ? std::ceil(-point.jerks / jerking * std::log1p(-rest))
+                                                     : 0.0);
   }
   return trials;
 }

@@ -1,5 +1,3 @@
-#include "analysis/measures/level_statistics.hpp"
-
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,6 +5,7 @@
 
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/measures/point_columns.hpp"
+#include "analysis/measures/statistic_fields.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "core/failure/failure.hpp"
@@ -32,18 +31,18 @@ TEST(Levels, AreCountedAndNotJudged) {
   EXPECT_EQ(statistics.judged, 0);
   EXPECT_EQ(statistics.outcomes.open_loop, 8);
   EXPECT_EQ(statistics.outcomes.zero_count, 0);
-  EXPECT_EQ(statistics.by_move[1].outcomes.open_loop, 8);
-  for (const RateWithBounds& rate : {statistics.success_rate, statistics.stable_rate}) {
+  EXPECT_EQ(statistics.by_move[1].open_loop, 8);
+  for (const RateWithBounds& rate : {statistics.success_rate(), statistics.of(&MoveOutcome::stable).rate}) {
     EXPECT_TRUE(std::isnan(rate.value));
     EXPECT_TRUE(std::isnan(rate.clopper_pearson.low) && std::isnan(rate.clopper_pearson.high));
     EXPECT_TRUE(std::isnan(rate.wilson.low) && std::isnan(rate.wilson.high));
   }
-  EXPECT_EQ(statistics.final_error.n, 0);
-  EXPECT_EQ(statistics.true_error.n, 0);
-  EXPECT_EQ(statistics.overshoot.n, 0);
+  EXPECT_EQ(statistics.of(&MoveOutcome::final_error).n, 0);
+  EXPECT_EQ(statistics.of(&MoveOutcome::true_error).n, 0);
+  EXPECT_EQ(statistics.of(&MoveOutcome::overshoot).n, 0);
   ASSERT_EQ(statistics.levels.size(), 2U);
-  EXPECT_EQ(statistics.levels[0].torque.mean, 0.1);
-  EXPECT_EQ(statistics.levels[1].position.mean, 1e-5);
+  EXPECT_EQ(statistics.levels[0].of(&MoveOutcome::holding_torque).mean, 0.1);
+  EXPECT_EQ(statistics.levels[1].of(&MoveOutcome::final_position).mean, 1e-5);
 }
 
 TEST(Levels, AreOfTheTrialsWhoseMotionWasNotLost) {
@@ -53,23 +52,27 @@ TEST(Levels, AreOfTheTrialsWhoseMotionWasNotLost) {
   const PointSummary statistics = point.statistics();
   EXPECT_EQ(statistics.outcomes.open_loop, 1);
   EXPECT_EQ(statistics.outcomes.nonfinite, 1) << "the worst of a trial's moves";
-  EXPECT_TRUE(std::isnan(statistics.success_rate.value)) << "no trial was judged, lost ones neither";
-  EXPECT_EQ(statistics.levels[0].position.n, 2);
+  EXPECT_TRUE(std::isnan(statistics.success_rate().value)) << "no trial was judged, lost ones neither";
+  EXPECT_EQ(statistics.levels[0].of(&MoveOutcome::final_position).n, 2);
   EXPECT_EQ(statistics.levels[0].nonfinite, 0);
-  EXPECT_EQ(statistics.levels[1].position.n, 1);
-  EXPECT_EQ(statistics.levels[1].position.mean, 3e-4);
+  EXPECT_EQ(statistics.levels[1].of(&MoveOutcome::final_position).n, 1);
+  EXPECT_EQ(statistics.levels[1].of(&MoveOutcome::final_position).mean, 3e-4);
   EXPECT_EQ(statistics.levels[1].nonfinite, 1);
 }
 
 TEST(Levels, HaveBoundsOfTheConfidenceAskedFor) {
   PointAccumulator point({.open_loop = true});
-  for (int i = 0; i < 5; ++i) point.add({{level_that(0.1, 1e-4 + 1e-6 * i)}}, {});
+  Moments positions;
+  for (int i = 0; i < 5; ++i) {
+    positions.add(1e-4 + 1e-6 * i);
+    point.add({{level_that(0.1, 1e-4 + 1e-6 * i)}}, {});
+  }
   const LevelStatistics wide = point.statistics({.confidence = 0.99}).levels[0];
   const LevelStatistics usual = point.statistics().levels[0];
   for (const LevelField& field : level_fields()) {
     if (flat_name(field) == "position_low") {
-      EXPECT_EQ(field.value(wide), student_t(wide.position, 0.99).low);
-      EXPECT_EQ(field.value(usual), student_t(usual.position, 0.95).low);
+      EXPECT_EQ(field.value(wide), student_t(positions, 0.99).low);
+      EXPECT_EQ(field.value(usual), student_t(positions, 0.95).low);
     }
     if (flat_name(field) == "position_mean") {
       EXPECT_EQ(field.value(wide), field.value(usual));
@@ -82,8 +85,8 @@ TEST(Levels, OfNoTrialAreNotKnown) {
   point.add({{MoveOutcome{}}}, {});
   const PointSummary statistics = point.statistics();
   ASSERT_EQ(statistics.levels.size(), 1U);
-  EXPECT_TRUE(std::isnan(statistics.success_rate.value));
-  EXPECT_TRUE(std::isnan(statistics.levels[0].torque.mean));
+  EXPECT_TRUE(std::isnan(statistics.success_rate().value));
+  EXPECT_TRUE(std::isnan(statistics.levels[0].of(&MoveOutcome::holding_torque).mean));
   EXPECT_EQ(statistics.levels[0].nonfinite, 1);
 }
 

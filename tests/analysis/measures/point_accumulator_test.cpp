@@ -39,12 +39,12 @@ void add_jerking(PointAccumulator& point, double torque, const std::vector<doubl
 TEST(PointStatistics, WithoutTrialsNothingIsKnown) {
   const PointSummary none = PointAccumulator().statistics();
   EXPECT_EQ(none.trials, 0);
-  EXPECT_TRUE(std::isnan(none.success_rate.value));
-  EXPECT_TRUE(std::isnan(none.success_rate.clopper_pearson.low));
-  EXPECT_TRUE(std::isnan(none.success_rate.clopper_pearson.high));
-  EXPECT_TRUE(std::isnan(none.final_error.mean));
-  EXPECT_TRUE(std::isnan(none.settling_time.median.value));
-  EXPECT_TRUE(std::isnan(none.jerk_count.mean));
+  EXPECT_TRUE(std::isnan(none.success_rate().value));
+  EXPECT_TRUE(std::isnan(none.success_rate().clopper_pearson.low));
+  EXPECT_TRUE(std::isnan(none.success_rate().clopper_pearson.high));
+  EXPECT_TRUE(std::isnan(none.of(&MoveOutcome::final_error).mean));
+  EXPECT_TRUE(std::isnan(none.of(&MoveOutcome::settling_time).median.value));
+  EXPECT_TRUE(std::isnan(none.of(&MoveOutcome::jerk_count).mean));
   EXPECT_TRUE(std::isnan(none.jerk_agreement));
 }
 
@@ -62,20 +62,20 @@ TEST(PointStatistics, EachTrialCountsOnceByTheWorstOfItsMoves) {
   EXPECT_EQ(statistics.outcomes.one_count, 1);
   EXPECT_EQ(statistics.outcomes.oscillating, 1);
   EXPECT_EQ(statistics.outcomes.nonfinite, 1);
-  EXPECT_EQ(statistics.stable, 2);   // all moves stable
-  EXPECT_EQ(statistics.arrived, 2);  // all moves arrived
-  EXPECT_EQ(statistics.success_rate.value, 0.25);
-  EXPECT_EQ(statistics.stable_rate.value, 0.5);
-  EXPECT_EQ(statistics.success_rate.clopper_pearson.high, clopper_pearson(1, 4).high);
-  EXPECT_EQ(statistics.success_rate.wilson.low, wilson(1, 4).low);
-  EXPECT_EQ(statistics.stable_rate.clopper_pearson.low, clopper_pearson(2, 4).low);
+  EXPECT_EQ(statistics.of(&MoveOutcome::stable).trials, 2);   // all moves stable
+  EXPECT_EQ(statistics.of(&MoveOutcome::arrived).trials, 2);  // all moves arrived
+  EXPECT_EQ(statistics.success_rate().value, 0.25);
+  EXPECT_EQ(statistics.of(&MoveOutcome::stable).rate.value, 0.5);
+  EXPECT_EQ(statistics.success_rate().clopper_pearson.high, clopper_pearson(1, 4).high);
+  EXPECT_EQ(statistics.success_rate().wilson.low, wilson(1, 4).low);
+  EXPECT_EQ(statistics.of(&MoveOutcome::stable).rate.clopper_pearson.low, clopper_pearson(2, 4).low);
 
   ASSERT_EQ(statistics.by_move.size(), 2U);
-  EXPECT_EQ(statistics.by_move[0].outcomes.oscillating, 2);
-  EXPECT_EQ(statistics.by_move[0].arrived, 2);
-  EXPECT_EQ(statistics.by_move[1].outcomes.zero_count, 2);
-  EXPECT_EQ(statistics.by_move[1].outcomes.nonfinite, 1);
-  EXPECT_EQ(statistics.by_move[1].stable, 3);
+  EXPECT_EQ(statistics.by_move[0].oscillating, 2);
+  EXPECT_EQ(statistics.of(&MoveOutcome::arrived).by_move[0], 2);
+  EXPECT_EQ(statistics.by_move[1].zero_count, 2);
+  EXPECT_EQ(statistics.by_move[1].nonfinite, 1);
+  EXPECT_EQ(statistics.of(&MoveOutcome::stable).by_move[1], 3);
 }
 
 TEST(PointStatistics, BreakawayAndSaturationInAnyMoveCountTheTrialOnce) {
@@ -86,10 +86,10 @@ TEST(PointStatistics, BreakawayAndSaturationInAnyMoveCountTheTrialOnce) {
   point.add({{plain, marked}}, {});
   point.add({{marked, marked}}, {});
   const PointSummary statistics = point.statistics();
-  EXPECT_EQ(statistics.broke_away, 2);
-  EXPECT_EQ(statistics.saturated, 2);
-  EXPECT_EQ(statistics.by_move[0].broke_away, 1);
-  EXPECT_EQ(statistics.by_move[1].saturated, 2);
+  EXPECT_EQ(statistics.of(&MoveOutcome::broke_away).trials, 2);
+  EXPECT_EQ(statistics.of(&MoveOutcome::saturated).trials, 2);
+  EXPECT_EQ(statistics.of(&MoveOutcome::broke_away).by_move[0], 1);
+  EXPECT_EQ(statistics.of(&MoveOutcome::saturated).by_move[1], 2);
 }
 
 TEST(PointStatistics, StoppedTrialsCountInEveryRateAndTheirMovesAsFarAsTheyWereRun) {
@@ -106,25 +106,27 @@ TEST(PointStatistics, StoppedTrialsCountInEveryRateAndTheirMovesAsFarAsTheyWereR
   point.add({{stopped, move_not_run(), move_not_run()}}, {});
   const PointSummary statistics = point.statistics();
   EXPECT_EQ(statistics.trials, 3);
-  EXPECT_EQ(statistics.stopped, 2);
+  EXPECT_EQ(statistics.of(&MoveOutcome::stopped).trials, 2);
   EXPECT_EQ(statistics.outcomes.zero_count, 1);
   EXPECT_EQ(statistics.outcomes.oscillating, 2);
-  EXPECT_EQ(statistics.success_rate.value, 1.0 / 3.0);
+  EXPECT_EQ(statistics.success_rate().value, 1.0 / 3.0);
   ASSERT_EQ(statistics.by_move.size(), 3U);
   for (int move = 0; move < 3; ++move) {
-    EXPECT_EQ(statistics.by_move[static_cast<std::size_t>(move)].stopped, std::min(move + 1, 2));
-    EXPECT_EQ(statistics.by_move[static_cast<std::size_t>(move)].outcomes.oscillating, std::min(move + 1, 2));
+    EXPECT_EQ(statistics.of(&MoveOutcome::stopped).by_move[static_cast<std::size_t>(move)],
+              std::min(move + 1, 2));
+    EXPECT_EQ(statistics.by_move[static_cast<std::size_t>(move)].oscillating, std::min(move + 1, 2));
   }
   EXPECT_EQ(statistics.moves, 9);
-  for (const Moments& measure : {statistics.overshoot, statistics.holding_torque, statistics.peak_torque,
-                                 statistics.creep, statistics.travel_time}) {
-    EXPECT_EQ(measure.n, 6);  // three were not run
-    EXPECT_EQ(measure.nonfinite, 0);
+  EXPECT_EQ(statistics.of(&MoveOutcome::overshoot).n, 6);  // three were not run
+  for (double MoveOutcome::*measure : {&MoveOutcome::holding_torque, &MoveOutcome::peak_torque,
+                                       &MoveOutcome::creep, &MoveOutcome::travel_time}) {
+    EXPECT_EQ(statistics.of(measure).n, 6);
+    EXPECT_EQ(statistics.of(measure).nonfinite, 0);
   }
-  EXPECT_EQ(statistics.final_error.n, 6);
-  EXPECT_EQ(statistics.final_error.max, 1500.0);
-  EXPECT_NEAR(statistics.overshoot.mean, (4 * 4 + 2 * 1500) / 6.0, 1e-9);
-  EXPECT_NEAR(statistics.holding_torque.mean, (4 * 0.01 + 2 * 0.03) / 6.0, 1e-15);
+  EXPECT_EQ(statistics.of(&MoveOutcome::final_error).n, 6);
+  EXPECT_EQ(statistics.of(&MoveOutcome::final_error).max, 1500.0);
+  EXPECT_NEAR(statistics.of(&MoveOutcome::overshoot).mean, (4 * 4 + 2 * 1500) / 6.0, 1e-9);
+  EXPECT_NEAR(statistics.of(&MoveOutcome::holding_torque).mean, (4 * 0.01 + 2 * 0.03) / 6.0, 1e-15);
 }
 
 TEST(PointStatistics, FinalSettlingTimesAreOfAllMovesToo) {
@@ -134,7 +136,7 @@ TEST(PointStatistics, FinalSettlingTimesAreOfAllMovesToo) {
     if (i <= 60) move.final_settling_time = i / 2000.0;
     point.add({{move}}, {});
   }
-  const SettlingStatistics final = point.statistics().final_settling_time;
+  const MeasureStatistics final = point.statistics().of(&MoveOutcome::final_settling_time);
   EXPECT_EQ(final.n, 60);
   EXPECT_EQ(final.moves, 100);
   EXPECT_EQ(final.median.value, 50 / 2000.0);
@@ -149,8 +151,8 @@ TEST(PointStatistics, LimitsOnRigsAreOfTheSlowestMove) {
     on_rigs.add(moves, {});
     plain.add(moves, {});
   }
-  EXPECT_EQ(plain.statistics().settling_time.tolerance[0].within, 0.5);
-  EXPECT_EQ(on_rigs.statistics().settling_time.tolerance[0].within, 0.5);
+  EXPECT_EQ(plain.statistics().settles_within[0].within, 0.5);
+  EXPECT_EQ(on_rigs.statistics().settles_within[0].within, 0.5);
 }
 
 TEST(PointStatistics, QuantilesOfSettlingTimesAreOfAllMovesAndTheRestOfThoseThatArrived) {
@@ -158,7 +160,7 @@ TEST(PointStatistics, QuantilesOfSettlingTimesAreOfAllMovesAndTheRestOfThoseThat
   for (int i = 1; i <= 100; ++i) point.add({{move_that(Outcome::zero_count, i / 2000.0)}}, {});
   for (int i = 0; i < 50; ++i) point.add({{move_that(Outcome::oscillating, never)}}, {});
   const PointSummary statistics = point.statistics();
-  const SettlingStatistics& settling = statistics.settling_time;
+  const MeasureStatistics& settling = statistics.of(&MoveOutcome::settling_time);
   EXPECT_EQ(statistics.trials, 150);
   EXPECT_EQ(settling.n, 100);
   EXPECT_NEAR(settling.mean, 50.5 / 2000.0, 1e-15);
@@ -181,13 +183,13 @@ TEST(PointStatistics, TrialsWithoutJerksCountInTheJerksPerTrial) {
   add_jerking(point, 0.1, {0.2});
   add_jerking(point, 0.1, {0.2, 0.4, 0.7, 1.2, 2.0});
   point.add({{move_that(Outcome::oscillating, never)}}, {});
-  const JerkCountStatistics jerks = point.statistics().jerk_count;
+  const MeasureStatistics jerks = point.statistics().of(&MoveOutcome::jerk_count);
   EXPECT_EQ(jerks.n, 4);
   EXPECT_EQ(jerks.total, 6);
   EXPECT_EQ(jerks.mean, 1.5);
   EXPECT_NEAR(jerks.sd, std::sqrt((2.25 + 0.25 + 12.25 + 2.25) / 3.0), 1e-15);
-  EXPECT_EQ(jerks.median, 0.0);
-  EXPECT_EQ(jerks.p95, 5.0);
+  EXPECT_EQ(jerks.median.value, 0.0);
+  EXPECT_EQ(jerks.p95.value, 5.0);
   EXPECT_EQ(jerks.max, 5.0);
 }
 
@@ -257,16 +259,16 @@ TEST(PointStatistics, MeansNameTheFiniteValuesTheyAreOf) {
   lost.holding_torque = lost.creep = never;
   point.add({{lost}}, {});
   const PointSummary statistics = point.statistics();
-  EXPECT_EQ(statistics.holding_torque.n, 2);
-  EXPECT_EQ(statistics.holding_torque.nonfinite, 1);
-  EXPECT_NEAR(statistics.holding_torque.mean, 0.01, 1e-16);
-  EXPECT_EQ(statistics.holding_torque.min, -0.01);
-  EXPECT_EQ(statistics.holding_torque.max, 0.03);
-  EXPECT_NEAR(statistics.creep.mean, -1e-7, 1e-20);
-  EXPECT_NEAR(statistics.overshoot.mean, 2.0 / 3.0, 1e-15);
-  EXPECT_EQ(statistics.overshoot.max, 2.0);
-  EXPECT_EQ(statistics.peak_torque.max, 0.05);
-  EXPECT_EQ(statistics.reversal_depth, 7);
+  EXPECT_EQ(statistics.of(&MoveOutcome::holding_torque).n, 2);
+  EXPECT_EQ(statistics.of(&MoveOutcome::holding_torque).nonfinite, 1);
+  EXPECT_NEAR(statistics.of(&MoveOutcome::holding_torque).mean, 0.01, 1e-16);
+  EXPECT_EQ(statistics.of(&MoveOutcome::holding_torque).min, -0.01);
+  EXPECT_EQ(statistics.of(&MoveOutcome::holding_torque).max, 0.03);
+  EXPECT_NEAR(statistics.of(&MoveOutcome::creep).mean, -1e-7, 1e-20);
+  EXPECT_NEAR(statistics.of(&MoveOutcome::overshoot).mean, 2.0 / 3.0, 1e-15);
+  EXPECT_EQ(statistics.of(&MoveOutcome::overshoot).max, 2.0);
+  EXPECT_EQ(statistics.of(&MoveOutcome::peak_torque).max, 0.05);
+  EXPECT_EQ(statistics.of(&MoveOutcome::reversal_depth).max, 7.0);
 }
 
 TEST(PointStatistics, FinalErrorsAreDistancesOfTheMovesThatWereFollowed) {
@@ -279,7 +281,7 @@ TEST(PointStatistics, FinalErrorsAreDistancesOfTheMovesThatWereFollowed) {
   MoveOutcome lost = move_that(Outcome::nonfinite, never);
   lost.final_error = 1000;
   point.add({{lost}}, {});
-  const FinalErrorStatistics errors = point.statistics().final_error;
+  const MeasureStatistics errors = point.statistics().of(&MoveOutcome::final_error);
   EXPECT_EQ(errors.n, 5);
   EXPECT_EQ(errors.mean, 11.0 / 5.0);
   EXPECT_EQ(errors.median.value, 1.0);
@@ -288,12 +290,12 @@ TEST(PointStatistics, FinalErrorsAreDistancesOfTheMovesThatWereFollowed) {
 }
 
 TEST(PointStatistics, FinalErrorsThatAreNotInTheResultsAreNotTakenForZero) {
-  PointAccumulator point({.final_error_known = false});
+  PointAccumulator point({.version = 1});
   point.add({{move_that(Outcome::zero_count, 0.1)}}, {});
-  const FinalErrorStatistics errors = point.statistics().final_error;
+  const MeasureStatistics errors = point.statistics().of(&MoveOutcome::final_error);
   EXPECT_EQ(errors.n, 0);
   EXPECT_TRUE(std::isnan(errors.mean) && std::isnan(errors.median.value) && std::isnan(errors.max));
-  EXPECT_EQ(point.statistics().success_rate.value, 1.0);
+  EXPECT_EQ(point.statistics().success_rate().value, 1.0);
 }
 
 TEST(PointStatistics, TrueErrorsAreDistancesOfTheMovesThatHaveOne) {
@@ -303,10 +305,10 @@ TEST(PointStatistics, TrueErrorsAreDistancesOfTheMovesThatHaveOne) {
     move.true_error = error;
     point.add({{move}}, {});
   }
-  const Moments errors = point.statistics().true_error;
+  const MeasureStatistics errors = point.statistics().of(&MoveOutcome::true_error);
   EXPECT_EQ(errors.n, 3);
   EXPECT_EQ(errors.mean, 6.5 / 3.0);
-  EXPECT_DOUBLE_EQ(errors.rms(), std::sqrt((16.0 + 6.25) / 3.0));
+  EXPECT_DOUBLE_EQ(errors.rms, std::sqrt((16.0 + 6.25) / 3.0));
   EXPECT_EQ(errors.max, 4.0);
   EXPECT_TRUE(std::isnan(Moments{}.rms()));
 }
@@ -321,14 +323,14 @@ TEST(PointStatistics, PhaseChangesAndDisagreementsAreCountedPerTrial) {
   point.add({{some, some}}, {});
   point.add({{none, some}}, {});
   const PointSummary statistics = point.statistics();
-  EXPECT_EQ(statistics.phase_changes.trials, 2);
-  EXPECT_EQ(statistics.phase_changes.total, 9);
-  EXPECT_EQ(statistics.phase_changes.max, 6);
-  EXPECT_EQ(statistics.encoder_disagreement.trials, 2);
-  EXPECT_EQ(statistics.encoder_disagreement.total, 30);
-  EXPECT_EQ(statistics.encoder_disagreement.max, 20);
-  EXPECT_EQ(statistics.travel_time.mean, 0.25);
-  EXPECT_EQ(statistics.travel_time.max, 0.5);
+  EXPECT_EQ(statistics.of(&MoveOutcome::phase_changes).trials, 2);
+  EXPECT_EQ(statistics.of(&MoveOutcome::phase_changes).total, 9);
+  EXPECT_EQ(statistics.of(&MoveOutcome::phase_changes).max, 6);
+  EXPECT_EQ(statistics.of(&MoveOutcome::encoder_disagreement).trials, 2);
+  EXPECT_EQ(statistics.of(&MoveOutcome::encoder_disagreement).total, 30);
+  EXPECT_EQ(statistics.of(&MoveOutcome::encoder_disagreement).max, 20);
+  EXPECT_EQ(statistics.of(&MoveOutcome::travel_time).mean, 0.25);
+  EXPECT_EQ(statistics.of(&MoveOutcome::travel_time).max, 0.5);
 }
 
 TEST(PointStatistics, TrialsThatContradictThemselvesAreRefused) {

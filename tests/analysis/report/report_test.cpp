@@ -87,9 +87,9 @@ TEST_F(Report, TheFigureOfSuccessHasTheNumbersOfTheSummary) {
     const auto label = row[0].get<std::string>();
     const auto at = static_cast<std::size_t>(std::find(summary.labels.begin(), summary.labels.end(), label) -
                                              summary.labels.begin());
-    EXPECT_NEAR(row[1].get<double>(), summary.points[at].success_rate.value, 1e-6);
-    EXPECT_NEAR(row[2].get<double>(), summary.points[at].success_rate.clopper_pearson.low, 1e-6);
-    EXPECT_NEAR(row[3].get<double>(), summary.points[at].success_rate.clopper_pearson.high, 1e-6);
+    EXPECT_NEAR(row[1].get<double>(), summary.points[at].success_rate().value, 1e-6);
+    EXPECT_NEAR(row[2].get<double>(), summary.points[at].success_rate().clopper_pearson.low, 1e-6);
+    EXPECT_NEAR(row[3].get<double>(), summary.points[at].success_rate().clopper_pearson.high, 1e-6);
   }
 }
 
@@ -125,8 +125,9 @@ TEST_F(Report, TheSampleTrialsAreWhatTheySay) {
     return outcomes[static_cast<std::size_t>(trial.point * 40 + trial.index)];
   };
   ASSERT_FALSE(trials.empty());
-  const double median =
-      reported.summary.points[static_cast<std::size_t>(reported.focus)].settling_time.median.value;
+  const double median = reported.summary.points[static_cast<std::size_t>(reported.focus)]
+                            .of(&MoveOutcome::settling_time)
+                            .median.value;
   for (const SampleTrial& trial : trials) {
     if (trial.name == "median") {
       EXPECT_EQ(of(trial).settling_time, median);

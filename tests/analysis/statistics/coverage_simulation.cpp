@@ -243,17 +243,18 @@ std::vector<Coverage> coverage_of(const Population& population, const Sample& sa
     const PointSummary found = clustered.statistics({.bootstrap = BootstrapDraws{seed, stream}});
     const PointSummary of_trials = trials.statistics();
     const PointSummary of_moves = moves.statistics();
-    counter.count("success", is_inside(found.success_rate.clopper_pearson, truth.success),
-                  is_inside(of_trials.success_rate.clopper_pearson, truth.success));
-    counter.count("stable", is_inside(found.stable_rate.clopper_pearson, truth.success),
-                  is_inside(of_trials.stable_rate.clopper_pearson, truth.success));
-    counter.count("settling mean", is_inside(found.settling_time.mean_bounds, truth.mean_time),
+    counter.count("success", is_inside(found.success_rate().clopper_pearson, truth.success),
+                  is_inside(of_trials.success_rate().clopper_pearson, truth.success));
+    counter.count("stable", is_inside(found.of(&MoveOutcome::stable).rate.clopper_pearson, truth.success),
+                  is_inside(of_trials.of(&MoveOutcome::stable).rate.clopper_pearson, truth.success));
+    counter.count("settling mean",
+                  is_inside(found.of(&MoveOutcome::settling_time).mean_bounds, truth.mean_time),
                   is_inside(student_t(times), truth.mean_time));
-    counter.count("settling median", is_inside(found.settling_time.median, truth.median),
-                  is_inside(of_moves.settling_time.median, truth.median));
-    counter.count("settling p95", is_inside(found.settling_time.p95, truth.p95),
-                  is_inside(of_moves.settling_time.p95, truth.p95));
-    counter.count("jerk mean", is_inside(found.jerk_count.mean_bounds, truth.jerks),
+    counter.count("settling median", is_inside(found.of(&MoveOutcome::settling_time).median, truth.median),
+                  is_inside(of_moves.of(&MoveOutcome::settling_time).median, truth.median));
+    counter.count("settling p95", is_inside(found.of(&MoveOutcome::settling_time).p95, truth.p95),
+                  is_inside(of_moves.of(&MoveOutcome::settling_time).p95, truth.p95));
+    counter.count("jerk mean", is_inside(found.of(&MoveOutcome::jerk_count).mean_bounds, truth.jerks),
                   is_inside(student_t(jerks), truth.jerks));
     if (sample.rigs == 0) continue;
     counter.count("rigs without failure",

@@ -30,7 +30,7 @@ TEST(RigPlan, ManyTrialsLeaveWhatDiffersBetweenRigs) {
 
 TEST(RigPlan, ToleranceIsShownWithSoManyTrialsAndNotWithFewer) {
   const auto shown = [](std::int64_t rigs, std::int64_t trials) {
-    const RigTrials flawless{trials, trials, trials, trials, trials};
+    const RigTrials flawless{trials, trials, trials, trials};
     return rig_tolerance(std::vector<RigTrials>(static_cast<std::size_t>(rigs), flawless), 0.9, 0.95)
         .zero_at_least;
   };

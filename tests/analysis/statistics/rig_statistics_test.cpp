@@ -14,7 +14,7 @@ namespace zerocount {
 namespace {
 
 RigTrials rig_with(std::int64_t trials, std::int64_t successes, std::int64_t moves = 1) {
-  return {trials, successes, successes, trials * moves, successes * moves};
+  return {trials, successes, trials * moves, successes * moves};
 }
 
 std::vector<RigTrials> rigs_with(std::int64_t trials, const std::vector<std::int64_t>& successes) {

@@ -196,15 +196,16 @@ TEST(Summarise, ReadsAFileOfFormatVersion1) {
   const testing::TemporaryFolder folder;
   const StudySummary summary = summarise(StudyFile(testing::version_1_file(folder.path())));
   EXPECT_EQ(summary.labels, (std::vector<std::string>{"low", "high"}));
-  EXPECT_EQ(summary.points[0].success_rate.value, 1.0);
-  EXPECT_EQ(summary.points[1].success_rate.value, 0.0);
+  EXPECT_EQ(summary.points[0].success_rate().value, 1.0);
+  EXPECT_EQ(summary.points[1].success_rate().value, 0.0);
   for (const PointSummary& point : summary.points) {
     EXPECT_EQ(point.judged, 3);
-    EXPECT_EQ(point.final_error.n, 0);
-    EXPECT_TRUE(std::isnan(point.final_error.mean));
-    EXPECT_EQ(point.true_error.n, 0);
-    EXPECT_TRUE(std::isnan(point.true_error.mean) && std::isnan(point.true_error.rms()));
-    EXPECT_EQ(point.travel_time.mean, 0.0);
+    EXPECT_EQ(point.of(&MoveOutcome::final_error).n, 0);
+    EXPECT_TRUE(std::isnan(point.of(&MoveOutcome::final_error).mean));
+    EXPECT_EQ(point.of(&MoveOutcome::true_error).n, 0);
+    EXPECT_TRUE(std::isnan(point.of(&MoveOutcome::true_error).mean) &&
+                std::isnan(point.of(&MoveOutcome::true_error).rms));
+    EXPECT_EQ(point.of(&MoveOutcome::travel_time).mean, 0.0);
   }
   const nlohmann::ordered_json json = nlohmann::ordered_json::parse(summary_json_text(summary));
   EXPECT_TRUE(json["points"][0]["final_error"]["median"].is_null());

@@ -261,13 +261,13 @@ TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {
     EXPECT_EQ(plain.find(head), std::string::npos) << head;
   }
   summary.features = {.travel = true, .phases = true, .encoder_errors = true, .final_error = true};
-  summary.points[0].travel_time.mean = 0.25;
-  summary.points[0].phase_changes.total = 3 * 40;
-  summary.points[0].final_error.median.value = 17.0;
-  summary.points[0].final_error.p95.value = 29.0;
-  summary.points[0].encoder_disagreement.trials = 10;
-  summary.points[0].true_error.add(2.5);
-  summary.points[0].true_error.add(4.0);
+  summary.points[0].of(&MoveOutcome::travel_time).mean = 0.25;
+  summary.points[0].of(&MoveOutcome::phase_changes).mean = 3.0;
+  summary.points[0].of(&MoveOutcome::final_error).median.value = 17.0;
+  summary.points[0].of(&MoveOutcome::final_error).p95.value = 29.0;
+  summary.points[0].of(&MoveOutcome::encoder_disagreement).trials = 10;
+  summary.points[0].of(&MoveOutcome::true_error).mean = 3.25;
+  summary.points[0].of(&MoveOutcome::true_error).max = 4.0;
   const std::vector<std::string> lines = lines_of(summary_table(summary));
   for (const char* head : {"travel (s)", "|e| median", "|e| p95", "phase changes", "|true e| mean",
                            "|true e| max", "disagreeing"}) {
@@ -288,7 +288,8 @@ TEST(Summary, SaysThatTheBoundsOfASaltelliDesignAreTooNarrow) {
 
 TEST(Summary, SaysHowManyTrialsWereStoppedWhereAStudyCanStopThem) {
   StudySummary summary = two_cases();
-  summary.points[1].stopped = summary.points[1].by_move[0].stopped = 5;
+  MeasureStatistics& stopped = summary.points[1].of(&MoveOutcome::stopped);
+  stopped.trials = stopped.by_move[0] = 5;
   EXPECT_EQ(summary_table(summary).find("stopped"), std::string::npos);
   EXPECT_EQ(summary_csv(summary).find("stopped"), std::string::npos);
   EXPECT_EQ(summary_json_text(summary).find("stopped"), std::string::npos);

@@ -48,7 +48,7 @@ TEST(AssuranceSection, LimitsAreOfTheSlowestMovesAndNeverArrivingIsBeyondThemAll
     std::vector<double> slowest;
     const PointSummary point = trials_of_two_moves(400, lost, slowest).statistics();
     for (std::size_t i = 0; i < std::size(tolerance_contents); ++i) {
-      const ToleranceLimit& limit = point.settling_time.tolerance.at(i);
+      const ToleranceLimit& limit = point.settles_within.at(i);
       const auto rank = static_cast<std::size_t>(tolerance_rank(400, tolerance_contents[i], 0.95));
       EXPECT_EQ(limit.content, tolerance_contents[i]);
       if (rank <= slowest.size()) {
@@ -57,7 +57,7 @@ TEST(AssuranceSection, LimitsAreOfTheSlowestMovesAndNeverArrivingIsBeyondThemAll
         EXPECT_TRUE(std::isnan(limit.within)) << lost << " lost, content " << limit.content;
       }
     }
-    EXPECT_EQ(std::isnan(point.settling_time.tolerance[0].within), lost == 20);
+    EXPECT_EQ(std::isnan(point.settles_within[0].within), lost == 20);
   }
 }
 
@@ -88,11 +88,14 @@ TEST(AssuranceSection, TellsTheSameInEveryForm) {
 TEST(AssuranceSection, BoundsOfMeansAreThoseOfTheBootstrapOfTheirPoint) {
   std::vector<double> slowest;
   const PointAccumulator point = trials_of_two_moves(60, 0, slowest);
-  const SettlingStatistics none = point.statistics().settling_time;
+  const MeasureStatistics none = point.statistics().of(&MoveOutcome::settling_time);
   EXPECT_TRUE(std::isnan(none.mean_bounds.low));
-  const SettlingStatistics first = point.statistics({.bootstrap = BootstrapDraws{7, 0}}).settling_time;
-  const SettlingStatistics again = point.statistics({.bootstrap = BootstrapDraws{7, 0}}).settling_time;
-  const SettlingStatistics other = point.statistics({.bootstrap = BootstrapDraws{7, 1}}).settling_time;
+  const MeasureStatistics first =
+      point.statistics({.bootstrap = BootstrapDraws{7, 0}}).of(&MoveOutcome::settling_time);
+  const MeasureStatistics again =
+      point.statistics({.bootstrap = BootstrapDraws{7, 0}}).of(&MoveOutcome::settling_time);
+  const MeasureStatistics other =
+      point.statistics({.bootstrap = BootstrapDraws{7, 1}}).of(&MoveOutcome::settling_time);
   EXPECT_LT(first.mean_bounds.low, first.mean);
   EXPECT_GT(first.mean_bounds.high, first.mean);
   EXPECT_EQ(again.mean_bounds.low, first.mean_bounds.low);
@@ -109,7 +112,7 @@ TEST(AssuranceSection, TrialsThatWereStoppedByTheirOutcomesClaimLess) {
   EXPECT_LT(stopped.claim.success_at_least, planned.claim.success_at_least);
   EXPECT_GT(stopped.claim.success_at_least, 0.9);
   EXPECT_EQ(stopped.claim.failure_at_most, 1.0 - stopped.claim.success_at_least);
-  for (const ToleranceLimit& limit : stopped.settling_time.tolerance) EXPECT_TRUE(std::isnan(limit.within));
+  for (const ToleranceLimit& limit : stopped.settles_within) EXPECT_TRUE(std::isnan(limit.within));
 }
 
 TEST(AssuranceSection, TellsOfRigsWhereTrialsShareThem) {
@@ -123,8 +126,8 @@ TEST(AssuranceSection, TellsOfRigsWhereTrialsShareThem) {
   const PointSummary& point = points.front();
   EXPECT_EQ(point.rigs.n, 40);
   EXPECT_NEAR(point.rigs.without_failure, 39.0 / 40.0, 1e-15);
-  EXPECT_NEAR(point.success_rate.value, 39.0 / 40.0, 1e-15);
-  EXPECT_LT(point.success_rate.clopper_pearson.low, 0.9);  // of 4000 independent trials 0.97
+  EXPECT_NEAR(point.success_rate().value, 39.0 / 40.0, 1e-15);
+  EXPECT_LT(point.success_rate().clopper_pearson.low, 0.9);  // of 4000 independent trials 0.97
   const SummarySection section = tolerance_section(points, {"only"});
   EXPECT_NE(section.text.find(tolerance_sentence(point.rigs.tolerance)), std::string::npos) << section.text;
   EXPECT_NE(section.text.find("of trials on all rigs succeed"), std::string::npos) << section.text;

@@ -4,21 +4,16 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
-#include <variant>
 
 #include <fmt/core.h>
 
-#include "results/layout/layout.hpp"
+#include "results/layout/fields.hpp"
 #include "tests/core/batch/reversal_depths.hpp"
 
 namespace zerocount::testing {
 namespace {
 
 constexpr double accuracy = 1e-6;  // counts, before a slide
-
-double value_of(const RecordField<MoveOutcome>& field, const MoveOutcome& move) {
-  return std::visit([&move](auto member) { return static_cast<double>(move.*member); }, field.member);
-}
 
 /// What the comparison of one trial has found so far.
 class Comparison {

@@ -52,7 +52,6 @@ TEST_F(Version1, LacksMeasuresThatWereZeroOrAreNotKnown) {
   for (const char* measure : {"travel_time", "phase_changes", "encoder_disagreement", "stopped"}) {
     EXPECT_EQ(file.measure(measure, {0, 6}), std::vector<double>(12, 0.0)) << measure;
   }
-  EXPECT_FALSE(file.final_error_known());
   EXPECT_TRUE(std::isnan(move.true_error));
   for (const char* measure : {"final_error", "true_error", "final_settling_time", "zero_fraction",
                               "midway_error", "oscillation_amplitude", "oscillation_period"}) {

@@ -1,4 +1,4 @@
-#include "analysis/measures/study_features.hpp"
+#include "experiments/study/study_features.hpp"
 
 #include <stdexcept>
 

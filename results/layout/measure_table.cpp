@@ -1,0 +1,335 @@
+#include "results/layout/measure_table.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <variant>
+
+#include "results/layout/fields.hpp"
+
+namespace zerocount {
+namespace {
+
+using M = MoveOutcome;
+using enum Statistic;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double margin_of_rates = 0.02;
+
+constexpr ValidValues a_count{"a count, not negative"};
+constexpr ValidValues a_fraction_or_nan{"a fraction, or NaN", 0.0, 1.0, true};
+constexpr ValidValues a_time_or_nan{.expected = "a finite time, not negative, or NaN", .nan = true};
+
+MeasureTable all_measures() {
+  return {
+      {.field = field<M>("outcome", "1", "verdict on the last window of the move", &M::outcome,
+                         {"0 to 5", 0.0, 5.0}, outcome_labels()),
+       .values = {.needs_target = true},
+       .of_trial = OfTrial::all,
+       .point = {"",
+                 {{{rate}, "zero_count as a proportion of trials, NaN of an open-loop study"},
+                  {{rate_low, rate_high}, "{1} of success_rate: Clopper-Pearson, with rigs Korn-Graubard"},
+                  {{rate_wilson_low, rate_wilson_high},
+                   "{1} of success_rate, with rigs for the effective number of trials"}},
+                 "success"},
+       .output = {{"success", "all moves ended at zero counts"}},
+       .gate = {{"success_rate", Worse::less, margin_of_rates}}},
+      {.field = field<M>("arrived", "1", "the error was 0 for a whole dwell", &M::arrived),
+       .values = {.needs_target = true},
+       .of_trial = OfTrial::all,
+       .point = {"", {{{count}, "trials all of whose moves arrived"}}},
+       .output = {{"arrived", "all moves arrived"}},
+       .gate = {{"arrival_rate", Worse::less, margin_of_rates}}},
+      {.field = field<M>("arrival", "1",
+                         "first sample of the arrival dwell from the start of the move, -1 if never",
+                         &M::arrival, {"a sample, or -1", -1.0})},
+      {.field = field<M>("settling_time", "s", "time of arrival from the start of the move, NaN if never",
+                         &M::settling_time, a_time_or_nan),
+       .values = {.needs_target = true, .nan_is_late = true},
+       .of_trial = OfTrial::largest,
+       .point = {"settling_time",
+                 {{{n}, "moves that arrived, of which mean, min and max are"},
+                  {{all}, "moves with a target, of which the quantiles are"},
+                  {{mean}, "mean settling time of the moves that arrived"},
+                  {{min}, "shortest settling time of the moves that arrived"},
+                  {{p05, p25, median, p75, p95},
+                   "{0} of the settling time of all moves with a target, NaN if not within the hold"},
+                  {{median_low, median_high, p95_low, p95_high},
+                   "{0} of the settling time, NaN if not within the hold"},
+                  {{max}, "longest settling time of the moves that arrived"},
+                  {{bootstrap_low, bootstrap_high},
+                   "{0} settling time of the moves that arrived: Student and studentised bootstrap"}}},
+       .summary = {.columns = {{"median (s)", median, CellText::settling_time},
+                               {"p95 (s)", p95, CellText::settling_time},
+                               {"arrived", n, CellText::proportion_of_moves}},
+                   .legend = "median, p95: settling time of all moves, those that never arrived being later "
+                             "than any time; arrived: proportion of moves\n"},
+       .output = {{"settling_time",
+                   "time until arrival, the longest of the trial's moves; a move that never arrived counts "
+                   "with its duration"}},
+       .gate = {{"settling_time", Worse::more, 0.0005, 0.05}}},
+      {.field = field<M>("final_settling_time", "s",
+                         "time from which the error is 0 to the end, from the start of the move, NaN if none",
+                         &M::final_settling_time, a_time_or_nan),
+       .file = {.since = 3, .before = unknown},
+       .values = {.needs_target = true, .nan_is_late = true},
+       .point =
+           {"final_settling_time",
+            {{{n}, "moves that ended at zero error, of which mean, min and max are"},
+             {{all}, "moves with a target, of which the quantiles are"},
+             {{mean}, "mean time until the error is zero for good, of the moves that ended at zero error"},
+             {{min}, "shortest time until the error is zero for good"},
+             {{p05, p25, median, p75, p95},
+              "{0} of the time until the error is zero for good, of all moves with a target, NaN if not "
+              "within the hold"},
+             {{median_low, median_high}, "{1} of final_settling_time_median, NaN if not within the hold"},
+             {{p95_low, p95_high}, "{1} of final_settling_time_p95, NaN if not within the hold"},
+             {{max}, "longest time until the error is zero for good"},
+             {{bootstrap_low, bootstrap_high},
+              "{1} of final_settling_time_mean: Student and studentised bootstrap"}}}},
+      {.field = field<M>(
+           "zero_fraction", "1",
+           "fraction of the samples from arrival to the end with an error of 0, NaN if never arrived",
+           &M::zero_fraction, a_fraction_or_nan),
+       .file = {.since = 3, .before = unknown},
+       .point = {"zero_fraction",
+                 {{{n}, "moves that arrived, of which the zero fractions are"},
+                  {{mean}, "mean fraction of the samples since arrival with an error of 0"}}}},
+      {.field = field<M>("stable", "1", "arrived, and the error within one count from then to the end",
+                         &M::stable),
+       .values = {.needs_target = true},
+       .of_trial = OfTrial::all,
+       .point = {"",
+                 {{{count}, "trials all of whose moves arrived and stayed within one count"},
+                  {{rate}, "stable as a proportion of trials, NaN of an open-loop study"},
+                  {{rate_low, rate_high}, "{1} of stable_rate: Clopper-Pearson, with rigs Korn-Graubard"},
+                  {{rate_wilson_low, rate_wilson_high},
+                   "{1} of stable_rate, with rigs for the effective number of trials"}}},
+       .output = {{"stable", "all moves arrived and stayed within one count"}},
+       .gate = {{"stable_rate", Worse::less, margin_of_rates}}},
+      {.field = field<M>("broke_away", "1", "the hook slid during the move", &M::broke_away),
+       .of_trial = OfTrial::any,
+       .point = {"", {{{count}, "trials in which the hook slid during any move"}}},
+       .level = {"", {{{count}, "trials in which the hook slid during the level"}}},
+       .output = {{"broke_away", "the hook slid in some move"}}},
+      {.field = field<M>("saturated", "1", "the DAC clipped", &M::saturated),
+       .of_trial = OfTrial::any,
+       .point = {"", {{{count}, "trials in which the DAC clipped during any move"}}}},
+      {.field = field<M>("overshoot", "count",
+                         "largest excursion beyond the target, seen from the first count of the move",
+                         &M::overshoot, a_count),
+       .values = {.needs_target = true},
+       .of_trial = OfTrial::largest,
+       .point = {"overshoot",
+                 {{{n}, "moves with a target, of which the overshoots are"},
+                  {{mean, max}, "{0} overshoot of the moves"}}},
+       .output = {{"overshoot", "largest excursion beyond a target"}}},
+      {.field = field<M>("holding_torque", "N m", "torque decided at the last sample", &M::holding_torque),
+       .point = {"holding_torque",
+                 {{{n}, "moves with a finite holding torque, of which these are"},
+                  {{mean, min, max}, "{0} holding torque of the moves"}}},
+       .level = {"", {{{mean}, "mean torque at the end of the level", "torque"}}},
+       .output = {{"holding_torque", "torque decided at the last sample of the last move"}}},
+      {.field = field<M>("peak_torque", "N m", "largest absolute torque decided", &M::peak_torque),
+       .of_trial = OfTrial::largest,
+       .point = {"peak_torque",
+                 {{{n}, "moves with a finite peak torque, of which these are"},
+                  {{mean, max}, "{0} peak torque of the moves"}}},
+       .output = {{"peak_torque", "largest absolute torque decided"}}},
+      {.field = field<M>("creep", "rad", "plastic extension xp at the last sample", &M::creep),
+       .point = {"creep",
+                 {{{n}, "moves with a finite creep, of which these are"},
+                  {{mean, min, max}, "{0} creep of the moves"}}},
+       .level = {"creep",
+                 {{{mean}, "mean plastic extension at the end of the level"},
+                  {{student_low, student_high}, "{0} plastic extension (Student's t)"},
+                  {{sd}, "standard deviation of the plastic extension"},
+                  {{min, max}, "{0} plastic extension"}}},
+       .output = {{"creep", "plastic extension at the last sample of the last move"}}},
+      {.field = field<M>("final_position", "rad", "rotor angle at the last sample", &M::final_position),
+       .level = {"position",
+                 {{{mean}, "mean rotor angle at the end of the level"},
+                  {{student_low, student_high}, "{0} rotor angle (Student's t)"},
+                  {{sd}, "standard deviation of the rotor angle"},
+                  {{min, max}, "{0} rotor angle"}}},
+       .output = {{"final_position", "rotor angle at the last sample of the last move"}}},
+      {.field =
+           field<M>("midway_error", "count",
+                    "target minus count at the first sample of the last half of the move", &M::midway_error),
+       .file = {.since = 3, .before = unknown}},
+      {.field = field<M>("final_error", "count", "target minus count at the last sample", &M::final_error),
+       .file = {.since = 2, .before = unknown},
+       .values = {.needs_target = true, .needs_motion = true, .magnitude = true},
+       .point = {"final_error",
+                 {{{n}, "moves whose motion was not lost, of which the final errors are"},
+                  {{mean}, "mean absolute error at the last sample of the moves"},
+                  {{median, p95}, "{0} of the absolute error at the last sample"},
+                  {{median_low, median_high, p95_low, p95_high}, "{0} of the final error"},
+                  {{max}, "largest absolute error at the last sample"}}},
+       .summary = {&StudyFeatures::final_error,
+                   {{"|e| median", median}, {"|e| p95", p95}},
+                   "|e|: error at the last sample of the moves, in counts\n"}},
+      {.field = field<M>(
+           "true_error", "count",
+           "distance from the rotor to the middle of the target's count at the last sample, NaN if none",
+           &M::true_error),
+       .file = {.since = 2, .before = unknown},
+       .values = {.magnitude = true},
+       .of_trial = OfTrial::largest,
+       .point = {"true_error",
+                 {{{n}, "moves with a target whose motion was not lost, of which the true errors are"},
+                  {{mean},
+                   "mean distance from the rotor to the middle of the target's count at the last sample"},
+                  {{rms, max}, "{0} distance from the rotor to the middle of the target's count"}}},
+       .summary = {&StudyFeatures::encoder_errors,
+                   {{"|true e| mean", mean}, {"|true e| max", max}},
+                   "|true e|: distance from the rotor to the middle of the target's count at the last sample "
+                   "of the moves,\nwhatever the encoder says, in counts\n"},
+       .output = {{"true_error",
+                   "largest distance from the middle of a target's count at the end of a "
+                   "move"}}},
+      {.field = field<M>("travel_time", "s", "time until the reference or the torque is where it is held",
+                         &M::travel_time, {"a finite time, not negative"}),
+       .file = {.since = 2},
+       .point = {"travel_time",
+                 {{{mean}, "mean time until the reference or the torque is where it is held, of the moves"},
+                  {{max}, "longest time until the reference or the torque is where it is held"}}},
+       .summary = {&StudyFeatures::travel,
+                   {{"travel (s)", mean}},
+                   "travel: mean time that the reference takes to its target\n"}},
+      {.field = field<M>("phase_changes", "1", "changes of the control from coarse to fine or back",
+                         &M::phase_changes, a_count),
+       .file = {.since = 2},
+       .of_trial = OfTrial::sum,
+       .point = {"phase_changes",
+                 {{{trials}, "trials in which the control changed its phase"},
+                  {{mean}, "mean number of phase changes per trial"},
+                  {{whole_max}, "largest number of phase changes of a trial"}}},
+       .summary = {&StudyFeatures::phases,
+                   {{"phase changes", mean}},
+                   "phase changes: from coarse to fine control or back, mean over all trials\n"}},
+      {.field = field<M>("encoder_disagreement", "1",
+                         "samples at which the fine count made the coarse one impossible",
+                         &M::encoder_disagreement, a_count),
+       .file = {.since = 2},
+       .of_trial = OfTrial::sum,
+       .point = {"encoder_disagreement",
+                 {{{trials}, "trials with samples at which the fine count made the coarse one impossible"},
+                  {{mean}, "mean number of such samples per trial"},
+                  {{whole_max}, "largest number of such samples of a trial"}}},
+       .summary =
+           {&StudyFeatures::encoder_errors,
+            {{"disagreeing", trials, CellText::proportion_of_trials}},
+            "disagreeing: proportion of trials in which the coarse count was ever impossible given the "
+            "fine one\n"}},
+      {.field = field<M>("oscillation_amplitude", "count",
+                         "half of the largest minus the smallest count in the last half of an oscillating "
+                         "move, NaN of others",
+                         &M::oscillation_amplitude,
+                         {.expected = "a finite amplitude, not negative, or NaN", .nan = true}),
+       .file = {.since = 3, .before = unknown},
+       .point = {"oscillation",
+                 {{{n}, "moves that oscillated to their end"},
+                  {{median}, "median amplitude of these moves in their last half", "amplitude_median"}}}},
+      {.field = field<M>("oscillation_period", "s",
+                         "mean time between upward crossings of the middle of these counts, NaN if fewer "
+                         "than two",
+                         &M::oscillation_period, a_time_or_nan),
+       .file = {.since = 3, .before = unknown},
+       .point = {"oscillation",
+                 {{{median}, "median period of those of these moves that have one", "period_median"}}}},
+      {.field = field<M>("reversal_depth", "1", "largest number of reversal points on the stack",
+                         &M::reversal_depth, a_count),
+       .of_trial = OfTrial::largest,
+       .point = {"", {{{whole_max}, "largest number of reversal points on the stack"}}},
+       .level = {"", {{{whole_max}, "largest number of reversal points on the stack during the level"}}}},
+      {.field = field<M>("jerk_count", "1", "excursions of the error from zero after arrival", &M::jerk_count,
+                         a_count),
+       .values = {.needs_target = true},
+       .of_trial = OfTrial::sum,
+       .point = {"jerk_count",
+                 {{{n}, "trials, of which the jerk counts are"},
+                  {{mean, median}, "{0} number of jerks per trial"},
+                  {{sd, p95}, "{0} of the number of jerks per trial"},
+                  {{max}, "largest number of jerks of a trial"},
+                  {{total}, "jerks of all trials"},
+                  {{bootstrap_low, bootstrap_high},
+                   "{0} number of jerks per trial: Student and studentised bootstrap, Garwood for few"}}},
+       .summary = {.columns = {{"jerks/trial", mean}}, .legend = "jerks/trial: mean over all trials\n"},
+       .output = {{"jerk_count", "jerks of all moves"}},
+       .gate = {{"jerk_count", Worse::more, 0.05, 0.1}}},
+      {.field = field<M>("jerk_agreement", "1",
+                         "proportion of the jerks in the direction of the holding torque, NaN if none",
+                         &M::jerk_agreement, {"a proportion, or NaN", 0.0, 1.0, true})},
+      {.field = field<M>("stopped", "1",
+                         "the move had diverged and was ended there, or was not run after one that was",
+                         &M::stopped),
+       .file = {.only_with = &OutcomeExtras::stopped},
+       .of_trial = OfTrial::any,
+       .point = {"", {{{count}, "trials that were ended early, because a move had diverged"}}},
+       .summary = {&StudyFeatures::stopping,
+                   {{"stopped", count, CellText::proportion_of_trials}},
+                   "stopped: proportion of trials that were ended where a move had diverged; they count as "
+                   "oscillating, and what is\nmeasured of their moves is up to there\n"}},
+  };
+}
+
+/// The measures that come first; none of them twice.
+std::vector<std::string_view> first_of(ReportOrder order) {
+  switch (order) {
+    case ReportOrder::statistics:
+      return {"outcome",           "stable",         "arrived",       "broke_away",
+              "saturated",         "settling_time",  "jerk_count",    "final_settling_time",
+              "overshoot",         "holding_torque", "peak_torque",   "creep",
+              "reversal_depth",    "final_error",    "zero_fraction", "oscillation_amplitude",
+              "oscillation_period"};
+    case ReportOrder::levels:
+      return {"holding_torque", "final_position", "creep"};
+    case ReportOrder::summary:
+      return {"settling_time", "jerk_count", "stopped", "travel_time", "final_error", "phase_changes"};
+    case ReportOrder::outputs:
+      return {"outcome",    "settling_time", "arrived",    "stable",     "broke_away",
+              "jerk_count", "overshoot",     "true_error", "peak_torque"};
+  }
+  return {};
+}
+
+}  // namespace
+
+const MeasureTable& measure_table() {
+  static const MeasureTable measures = all_measures();
+  return measures;
+}
+
+bool is_in_file(const Measure& measure, std::int64_t version, const OutcomeExtras& extras) {
+  return measure.file.since <= version &&
+         (measure.file.only_with == nullptr || extras.*measure.file.only_with);
+}
+
+bool is_quality(const Measure& measure) {
+  return measure.of_trial == OfTrial::all || measure.of_trial == OfTrial::any;
+}
+
+bool has_quality(const Measure& measure, const MoveOutcome& move) {
+  const double value = value_of(measure.field, move);
+  if (std::holds_alternative<Outcome M::*>(measure.field.member))
+    return is_success(static_cast<Outcome>(static_cast<std::int8_t>(value)));
+  return value != 0.0;
+}
+
+std::vector<const Measure*> measures_of(const MeasureTable& measures, ReportOrder order,
+                                        bool (*belongs)(const Measure&)) {
+  std::vector<const Measure*> found;
+  const auto add = [&](const Measure& measure) {
+    if (belongs(measure) && std::find(found.begin(), found.end(), &measure) == found.end())
+      found.push_back(&measure);
+  };
+  for (const std::string_view name : first_of(order)) {
+    for (const Measure& measure : measures) {
+      if (measure.field.column.name == name) add(measure);
+    }
+  }
+  for (const Measure& measure : measures) add(measure);
+  return found;
+}
+
+}  // namespace zerocount

@@ -1,0 +1,153 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/trial/outcome.hpp"
+#include "experiments/study/study_features.hpp"
+#include "results/layout/layout.hpp"
+
+/// The table of the measures of a move. A measure is one row: its column in the results file with the valid
+/// values, its statistics at a point and at a torque level, its columns in the summary, its output in the
+/// sensitivity analysis, and its judgement by the gate. Everything that is written, read or reported of a
+/// measure comes from its row.
+namespace zerocount {
+
+/// What becomes of a measure in files without its column.
+struct FileHistory {
+  std::int64_t since{1};                    ///< first version of the layout that has it
+  double before{0.0};                       ///< value in files of earlier versions; NaN where it is not known
+  bool OutcomeExtras::*only_with{nullptr};  ///< the extra without which no file has it
+};
+
+/// Which values of the moves count, in statistics and in outputs of a trial.
+struct CountedValues {
+  bool needs_target{false};  ///< moves with a torque level have none; but such a sum is 0
+  bool needs_motion{false};  ///< moves whose motion was lost have none
+  bool nan_is_late{false};   ///< NaN is a time later than any other; otherwise it is no value
+  bool magnitude{false};     ///< statistics are of the absolute value
+};
+
+/// How the values of the moves make one value of their trial.
+enum class OfTrial {
+  all,      ///< a quality: 1 where every move has it, otherwise 0
+  any,      ///< a quality: 1 where some move has it
+  sum,      ///< over the moves
+  largest,  ///< largest absolute value
+  last      ///< that of the last move
+};
+
+/// A statistic of the values at a point, in the order of every report. Names and meanings: statistic_kinds()
+/// of analysis/measures.
+enum class Statistic {
+  count,  ///< trials with the quality
+  rate,
+  rate_low,
+  rate_high,
+  rate_wilson_low,
+  rate_wilson_high,
+  n,       ///< values
+  all,     ///< values, with those that are later than any
+  trials,  ///< trials, or values, above 0
+  mean,
+  student_low,  ///< bounds of the mean
+  student_high,
+  sd,
+  rms,
+  min,
+  p05,
+  p25,
+  median,
+  median_low,
+  median_high,
+  p75,
+  p95,
+  p95_low,
+  p95_high,
+  max,
+  whole_max,  ///< as a whole number; 0 of no values
+  total,
+  bootstrap_low,  ///< bounds of the mean, which only summaries have
+  bootstrap_high
+};
+
+/// Statistics and their long name, in which {0} stands for what a statistic is, such as "5 % quantile" or
+/// "lower bound of the mean", and {1} for the bound alone, "lower bound".
+struct StatisticText {
+  std::vector<Statistic> statistics;
+  std::string_view long_name;
+  std::string_view name{};  ///< where it is not that of the statistic
+};
+
+/// What is reported of a measure.
+struct ReportedStatistics {
+  std::string_view group{};            ///< of the JSON; empty: the statistics stand at the top
+  std::vector<StatisticText> texts{};  ///< in any order
+  std::string_view stem{};             ///< of names at the top, where it is not the measure's name
+};
+
+/// How the cell of a column is written.
+enum class CellText { number, settling_time, proportion_of_trials, proportion_of_moves };
+
+struct SummaryColumn {
+  std::string_view head;
+  Statistic statistic;
+  CellText text{CellText::number};
+};
+
+/// The columns of a measure in the summary's table.
+struct SummaryColumns {
+  bool StudyFeatures::*use{nullptr};  ///< what a study must make use of to have them; null: nothing
+  std::vector<SummaryColumn> columns{};
+  std::string_view legend{};  ///< whole lines below the table
+};
+
+/// A measure as an output of a trial that `sensitivity` explains.
+struct ExplainedOutput {
+  std::string_view name;
+  std::string_view meaning;
+};
+
+enum class Worse { less, more };
+
+/// A measure as the gate judges it: qualities by the proportion of trials that have them, sums by their mean
+/// over trials, others by the mean over trials of the mean over the moves that have a value.
+struct GatedMeasure {
+  std::string_view name;
+  Worse worse{Worse::more};
+  double absolute{0.0};  ///< default margin, in the measure's unit
+  double relative{0.0};  ///< default margin, as a proportion of the baseline's value
+};
+
+/// One measure of a move.
+struct Measure {
+  RecordField<MoveOutcome> field;
+  FileHistory file{};
+  CountedValues values{};
+  OfTrial of_trial{OfTrial::last};
+  ReportedStatistics point{};  ///< at a design point
+  ReportedStatistics level{};  ///< at a torque level of an open-loop study
+  SummaryColumns summary{};
+  std::optional<ExplainedOutput> output{};
+  std::optional<GatedMeasure> gate{};
+};
+
+/// Whether a file of this version with these extras has the measure.
+bool is_in_file(const Measure& measure, std::int64_t version, const OutcomeExtras& extras);
+
+/// Whether the moves have, or lack, the measure as a quality.
+bool is_quality(const Measure& measure);
+bool has_quality(const Measure& measure, const MoveOutcome& move);
+
+/// Orders that reports of earlier versions have: the measures named here come first, the others follow in the
+/// order of the table.
+enum class ReportOrder { statistics, levels, summary, outputs };
+
+/// The measures of the table that `belongs` picks, in the order of the report. They point into the table.
+std::vector<const Measure*> measures_of(const MeasureTable& measures, ReportOrder order,
+                                        bool (*belongs)(const Measure&));
+
+}  // namespace zerocount

@@ -86,7 +86,7 @@ Eigen::MatrixXd loop_map(const HeldPlant& plant, const LinearChain& controller, 
   const Row in_force = pending < states ? state(pending) : Row::Zero(states);
   const Row decided =
       wanted_torque<Row>(controller, state(0), in_force, [&](const TransferFunction& transfer, const Row& x) {
-        const Row output = realise(transfer, x, next, map);
+        Row output = realise(transfer, x, next, map);
         next += order_of(transfer);
         return output;
       });

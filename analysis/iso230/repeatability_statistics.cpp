@@ -29,22 +29,17 @@ ValueStatistics statistics_of(std::vector<double> values, double confidence) {
   return result;
 }
 
-std::span<const ValueStatisticField> value_statistic_fields() {
-  using V = const ValueStatistics&;
-  static constexpr std::array<ValueStatisticField, 8> fields{{
-      {"mean", "mean of the", false, [](V v) { return v.mean; }},
-      {"median", "median of the", true, [](V v) { return v.median.value; }},
-      {"median_low", "lower 95 % order-statistic bound of the median of the", false,
-       [](V v) { return v.median.low; }},
-      {"median_high", "upper 95 % order-statistic bound of the median of the", false,
-       [](V v) { return v.median.high; }},
-      {"p95", "95 % quantile of the", true, [](V v) { return v.p95.value; }},
-      {"p95_low", "lower 95 % order-statistic bound of the 95 % quantile of the", false,
-       [](V v) { return v.p95.low; }},
-      {"p95_high", "upper 95 % order-statistic bound of the 95 % quantile of the", false,
-       [](V v) { return v.p95.high; }},
-      {"max", "largest", false, [](V v) { return v.max; }},
-  }};
+const std::vector<ValueStatisticField>& value_statistic_fields() {
+  using enum Statistic;
+  static const std::vector<ValueStatisticField> fields = [] {
+    std::vector<ValueStatisticField> all;
+    for (const Statistic one : {mean, median, median_low, median_high, p95, p95_low, p95_high, max}) {
+      const StatisticKind& kind = statistic_kinds()[static_cast<std::size_t>(one)];
+      all.push_back({kind.name, meaning_of(kind) + (one == max ? "" : " of the"), one == median || one == p95,
+                     kind.value});
+    }
+    return all;
+  }();
   return fields;
 }
 

@@ -3,27 +3,21 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/iso230/repeatability_trial.hpp"
+#include "analysis/measures/measure_statistics.hpp"
 #include "analysis/statistics/moments.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/quantile.hpp"
 #include "analysis/text/report_field.hpp"
 
 namespace zerocount {
 
-/// How a value is distributed over the trials of a design point for which it is defined, in the value's unit;
-/// NaN where there are none.
-struct ValueStatistics {
-  std::int64_t n{0};  ///< those trials
-  double mean{std::numeric_limits<double>::quiet_NaN()};
-  double max{std::numeric_limits<double>::quiet_NaN()};
-  Quantile median;  ///< with order-statistic bounds
-  Quantile p95;     ///< likewise
-};
+/// How a value is distributed over the trials of a design point for which it is defined: n, mean, max, median
+/// and p95 with order-statistic bounds.
+using ValueStatistics = MeasureStatistics;
 
 /// Of values in any order; those that are NaN are left out.
 ValueStatistics statistics_of(std::vector<double> values, double confidence = summary_confidence);
@@ -31,12 +25,12 @@ ValueStatistics statistics_of(std::vector<double> values, double confidence = su
 /// One number of ValueStatistics as it is reported, under "<value>_<name>" where there are no groups.
 struct ValueStatisticField {
   std::string_view name;
-  std::string_view long_name;  ///< begins that of the number
-  bool of_targets;             ///< reported of the values of a target, too
+  std::string long_name;  ///< begins that of the number
+  bool of_targets;        ///< reported of the values of a target, too
   double (*value)(const ValueStatistics&);
 };
 
-std::span<const ValueStatisticField> value_statistic_fields();
+const std::vector<ValueStatisticField>& value_statistic_fields();
 
 /// The values of ISO 230-2 over the trials of a point, from one kind of deviation.
 struct SourceRepeatability {

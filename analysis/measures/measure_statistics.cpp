@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace zerocount {
 
 std::span<const StatisticKind> statistic_kinds() {
@@ -45,6 +47,10 @@ std::span<const StatisticKind> statistic_kinds() {
       {bootstrap_high, "mean_high", "the mean", "upper bound", false, [](M s) { return s.mean_bounds.high; }},
   };
   return kinds;
+}
+
+std::string meaning_of(const StatisticKind& kind) {
+  return kind.bound.empty() ? std::string(kind.meaning) : fmt::format("{} of {}", kind.bound, kind.meaning);
 }
 
 double value_of(Statistic statistic, const MeasureStatistics& statistics) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -78,6 +79,9 @@ struct StatisticKind {
 
 /// All of them, in the order of Statistic.
 std::span<const StatisticKind> statistic_kinds();
+
+/// "lower 95 % bound of the mean".
+std::string meaning_of(const StatisticKind& kind);
 
 /// A statistic of those of a measure, as a number.
 double value_of(Statistic statistic, const MeasureStatistics& statistics);

@@ -90,11 +90,9 @@ void add_measure(std::vector<ReportField<Subject>>& fields, const MeasureTable& 
         continue;
       std::string name(text.name.empty() ? kind.name : text.name);
       if (text.name.empty() && reported.group.empty()) name = stem + (name.empty() ? "" : "_" + name);
-      const std::string meaning(kind.bound.empty() ? std::string(kind.meaning)
-                                                   : fmt::format("{} of {}", kind.bound, kind.meaning));
       fields.push_back(
           {std::string(reported.group), name, kind.statistic <= Statistic::trials ? "1" : column.unit,
-           fmt::format(fmt::runtime(text.long_name), meaning, kind.bound), kind.whole,
+           fmt::format(fmt::runtime(text.long_name), meaning_of(kind), kind.bound), kind.whole,
            [row = static_cast<std::size_t>(&measure - measures.data()),
             value = kind.value](const Subject& subject) { return value(subject.measures.at(row)); }});
     }
@@ -116,12 +114,6 @@ bool is_any_other(Statistic statistic) {
   return !is_count(statistic) && !is_bootstrap(statistic);
 }
 
-/// Those that every study has, in the order of the report.
-std::vector<const Measure*> general_measures(const MeasureTable& measures) {
-  return measures_of(measures, ReportOrder::statistics,
-                     [](const Measure& measure) { return measure.file.only_with == nullptr; });
-}
-
 }  // namespace
 
 std::vector<StatisticField> statistic_fields(const StudyFeatures& features, const MeasureTable& measures) {
@@ -129,17 +121,17 @@ std::vector<StatisticField> statistic_fields(const StudyFeatures& features, cons
   const auto add = [&](const Measure& measure, bool (*wanted)(Statistic)) {
     add_measure(fields, measures, measure, measure.point, wanted);
   };
-  for (const Measure* measure : general_measures(measures)) add(*measure, is_count);
-  for (const Measure* measure : general_measures(measures)) {
+  const std::vector<const Measure*> ordered = measures_of(
+      measures, ReportOrder::statistics, [](const Measure& m) { return m.file.only_with == nullptr; });
+  for (const Measure* measure : ordered) add(*measure, is_count);
+  for (const Measure* measure : ordered) {
     add(*measure, is_any_other);
     if (measure->field.column.name == "jerk_count") append(fields, jerk_statistic_fields());
   }
   if (features.rigs) append(fields, rig_fields());
   for (const Measure& measure : measures) {
-    if (measure.file.only_with == nullptr || !is_in_file(measure, format_version, {features.stopping}))
-      continue;
-    add(measure, is_count);
-    add(measure, is_any_other);
+    if (measure.file.only_with != nullptr && is_in_file(measure, format_version, {features.stopping}))
+      add(measure, [](Statistic statistic) { return !is_bootstrap(statistic); });
   }
   return fields;
 }

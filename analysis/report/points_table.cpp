@@ -25,12 +25,16 @@ std::string settling_bounds(const PointSummary& point, const Quantile& quantile)
   return fmt::format("{} … {}", low, settling_text(point, quantile.high));
 }
 
+using Point = const PointSummary&;
+using Theory = const TheoryPrediction&;
+using Bounds = const ConfidenceInterval&;
+
 /// A column of the table of points, with the function that makes its cells.
 struct PointCell {
   const char* head;
   const char* unit;
-  std::string (*text)(const PointSummary& point, const TheoryPrediction& prediction);
-  std::string (*below)(const PointSummary& point, const ConfidenceInterval& success){nullptr};
+  std::string (*text)(Point point, Theory prediction);
+  std::string (*below)(Point point, Bounds success){nullptr};
   bool needs_independence{false};  ///< valid only for independent trials
   bool needs_rigs{false};
 };
@@ -40,75 +44,51 @@ std::string counted(std::int64_t number) {
 }
 
 constexpr PointCell point_cells[] = {
-    {"trials", "", [](const PointSummary& point, const TheoryPrediction&) { return counted(point.trials); }},
+    {"trials", "", [](Point point, Theory) { return counted(point.trials); }},
     {"zero-count", "95 % bounds",
-     [](const PointSummary& point, const TheoryPrediction&) {
-       return percentage(point.outcomes.zero_count, point.trials);
-     },
-     [](const PointSummary&, const ConfidenceInterval& rate) {
-       return fmt::format("{:.1f} … {:.1f}", 100.0 * rate.low, 100.0 * rate.high);
-     }},
+     [](Point point, Theory) { return percentage(point.outcomes.zero_count, point.trials); },
+     [](Point, Bounds rate) { return fmt::format("{:.1f} … {:.1f}", 100.0 * rate.low, 100.0 * rate.high); }},
     {"failures at most", "at 95 %",
-     [](const PointSummary& point, const TheoryPrediction&) {
-       return percent_at_most(point.claim.failure_at_most);
-     },
-     nullptr, true},
+     [](Point point, Theory) { return percent_at_most(point.claim.failure_at_most); }, nullptr, true},
     {"rigs without failure", "95 % bounds",
-     [](const PointSummary& point, const TheoryPrediction&) {
+     [](Point point, Theory) {
        return fmt::format("{:.0f} of {}", point.rigs.without_failure * static_cast<double>(point.rigs.n),
                           point.rigs.n);
      },
-     [](const PointSummary& point, const ConfidenceInterval&) {
+     [](Point point, Bounds) {
        return fmt::format("{:.1f} … {:.1f}", 100.0 * point.rigs.without_failure_bounds.low,
                           100.0 * point.rigs.without_failure_bounds.high);
      },
      false, true},
-    {"sd between rigs", "",
-     [](const PointSummary& point, const TheoryPrediction&) { return short_number(point.rigs.success_sd); },
-     nullptr, false, true},
+    {"sd between rigs", "", [](Point point, Theory) { return short_number(point.rigs.success_sd); }, nullptr,
+     false, true},
     {"worst 5 % of rigs", "",
-     [](const PointSummary& point, const TheoryPrediction&) {
-       return fmt::format("{:.1f} %", 100.0 * point.rigs.worst_5_percent);
-     },
-     nullptr, false, true},
-    {"one count", "",
-     [](const PointSummary& point, const TheoryPrediction&) { return counted(point.outcomes.one_count); }},
-    {"undecided", "",
-     [](const PointSummary& point, const TheoryPrediction&) { return counted(point.outcomes.off_target); }},
-    {"oscil\u00adlating", "",
-     [](const PointSummary& point, const TheoryPrediction&) { return counted(point.outcomes.oscillating); }},
-    {"lost", "",
-     [](const PointSummary& point, const TheoryPrediction&) { return counted(point.outcomes.nonfinite); }},
+     [](Point point, Theory) { return fmt::format("{:.1f} %", 100.0 * point.rigs.worst_5_percent); }, nullptr,
+     false, true},
+    {"one count", "", [](Point point, Theory) { return counted(point.outcomes.one_count); }},
+    {"undecided", "", [](Point point, Theory) { return counted(point.outcomes.off_target); }},
+    {"oscil\u00adlating", "", [](Point point, Theory) { return counted(point.outcomes.oscillating); }},
+    {"lost", "", [](Point point, Theory) { return counted(point.outcomes.nonfinite); }},
     {"stable", "",
-     [](const PointSummary& point, const TheoryPrediction&) {
-       return percentage(point.of(&MoveOutcome::stable).trials, point.trials);
-     }},
+     [](Point point, Theory) { return percentage(point.of(&MoveOutcome::stable).trials, point.trials); }},
     {"settling, median", "s",
-     [](const PointSummary& point, const TheoryPrediction&) {
+     [](Point point, Theory) {
        return settling_text(point, point.of(&MoveOutcome::settling_time).median.value);
      },
-     [](const PointSummary& point, const ConfidenceInterval&) {
+     [](Point point, Bounds) {
        return settling_bounds(point, point.of(&MoveOutcome::settling_time).median);
      }},
     {"settling, 95 %", "s",
-     [](const PointSummary& point, const TheoryPrediction&) {
+     [](Point point, Theory) {
        return settling_text(point, point.of(&MoveOutcome::settling_time).p95.value);
      },
-     [](const PointSummary& point, const ConfidenceInterval&) {
-       return settling_bounds(point, point.of(&MoveOutcome::settling_time).p95);
-     }},
+     [](Point point, Bounds) { return settling_bounds(point, point.of(&MoveOutcome::settling_time).p95); }},
     {"jerks per trial", "",
-     [](const PointSummary& point, const TheoryPrediction&) {
-       return short_number(point.of(&MoveOutcome::jerk_count).mean);
-     }},
+     [](Point point, Theory) { return short_number(point.of(&MoveOutcome::jerk_count).mean); }},
     {"(6) holds", "",
-     [](const PointSummary&, const TheoryPrediction& prediction) {
-       return percentage(prediction.stable, predicted_trials(prediction));
-     }},
+     [](Point, Theory prediction) { return percentage(prediction.stable, predicted_trials(prediction)); }},
     {"(7) ex\u00adceeded", "",
-     [](const PointSummary&, const TheoryPrediction& prediction) {
-       return percentage(prediction.unstable, predicted_trials(prediction));
-     }},
+     [](Point, Theory prediction) { return percentage(prediction.unstable, predicted_trials(prediction)); }},
 };
 
 std::string loop_table(const ReportedStudy& reported, std::size_t rows) {

@@ -188,7 +188,7 @@ MeasureTable all_measures() {
                    "largest distance from the middle of a target's count at the end of a "
                    "move"}}},
       {.field = field<M>("travel_time", "s", "time until the reference or the torque is where it is held",
-                         &M::travel_time, {"a finite time, not negative"}),
+                         &M::travel_time, a_time_or_nan),
        .file = {.since = 2},
        .point = {"travel_time",
                  {{{mean}, "mean time until the reference or the torque is where it is held, of the moves"},

@@ -34,25 +34,29 @@ const RecordField<Record>* find_field(const std::vector<RecordField<Record>>& fi
   dataset.fail(fmt::format("{}: it is {}; expected {}", row, value, expected));
 }
 
-/// Of a column of the outcomes: `holds` is what every move must fulfil.
-template <class Holds>
-void require_of_moves(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
-                      const RecordField<MoveOutcome>& field, std::int64_t first_row,
-                      std::span<const MoveOutcome> moves, std::string_view expected, const Holds& holds) {
-  const auto found = std::find_if_not(moves.begin(), moves.end(), holds);
-  if (found == moves.end()) return;
-  const std::int64_t at = found - moves.begin();
-  fail(outcomes.column(static_cast<std::size_t>(&field - fields.data())),
-       fmt::format("trial {}, move {}", first_row + at / outcomes.width(), at % outcomes.width()),
+/// Every record has a value of the field for which `holds`; `row_of` names the row of the i-th.
+template <class Record, class RowOf, class Holds>
+void require_all(const TableIo& table, const std::vector<RecordField<Record>>& fields,
+                 const RecordField<Record>& field, std::span<const Record> records, const RowOf& row_of,
+                 std::string_view expected, const Holds& holds) {
+  const auto found = std::find_if_not(records.begin(), records.end(), holds);
+  if (found == records.end()) return;
+  fail(table.column(static_cast<std::size_t>(&field - fields.data())), row_of(found - records.begin()),
        fmt::format("{}", value_of(field, *found)), expected);
 }
 
-void require_valid(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
-                   const RecordField<MoveOutcome>& field, std::int64_t first_row,
-                   std::span<const MoveOutcome> moves) {
+template <class Record, class RowOf>
+void require_valid(const TableIo& table, const std::vector<RecordField<Record>>& fields,
+                   const RecordField<Record>& field, std::span<const Record> records, const RowOf& row_of) {
   if (field.valid.expected.empty()) return;
-  require_of_moves(outcomes, fields, field, first_row, moves, field.valid.expected,
-                   [&](const MoveOutcome& move) { return is_valid(field.valid, value_of(field, move)); });
+  require_all(table, fields, field, records, row_of, field.valid.expected,
+              [&](const Record& record) { return is_valid(field.valid, value_of(field, record)); });
+}
+
+auto rows_of_moves(const TableIo& outcomes, std::int64_t first_row) {
+  return [first_row, moves = outcomes.width()](std::int64_t at) {
+    return fmt::format("trial {}, move {}", first_row + at / moves, at % moves);
+  };
 }
 
 /// Reads a column of whole numbers, in at most `numbered_blocks` blocks, which are spread evenly over it;
@@ -102,38 +106,33 @@ void validate_numbering(const FileHeader& header, const TableIo& trials, const T
 
 void validate_outcomes(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
                        std::int64_t first_row, std::span<const MoveOutcome> moves) {
-  for (const RecordField<MoveOutcome>& field : fields)
-    require_valid(outcomes, fields, field, first_row, moves);
-  require_of_moves(outcomes, fields, *find_field(fields, "arrived"), first_row, moves,
-                   "1 exactly where there is a settling time",
-                   [](const MoveOutcome& move) { return move.arrived != std::isnan(move.settling_time); });
+  const auto row_of = rows_of_moves(outcomes, first_row);
+  for (const RecordField<MoveOutcome>& field : fields) require_valid(outcomes, fields, field, moves, row_of);
+  require_all(outcomes, fields, *find_field(fields, "arrived"), moves, row_of,
+              "1 exactly where there is a settling time",
+              [](const MoveOutcome& move) { return move.arrived != std::isnan(move.settling_time); });
 }
 
 void validate_measure(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
                       std::string_view name, std::int64_t first_row, std::span<const MoveOutcome> moves) {
-  require_valid(outcomes, fields, *find_field(fields, name), first_row, moves);
+  require_valid(outcomes, fields, *find_field(fields, name), moves, rows_of_moves(outcomes, first_row));
 }
 
 void validate_jerks(const TableIo& table, std::int64_t moves, std::int64_t first,
                     std::span<const JerkRecord> jerks) {
   const std::vector<RecordField<JerkRecord>>& fields = jerk_fields();
-  const auto column = [&](std::string_view name) -> const hdf5::Dataset& {
-    return table.column(static_cast<std::size_t>(find_field(fields, name) - fields.data()));
-  };
-  for (std::size_t i = 0; i < jerks.size(); ++i) {
-    const JerkRecord& jerk = jerks[i];
-    const auto row = [&] { return fmt::format("row {}", first + static_cast<std::int64_t>(i)); };
-    if (jerk.move < 0 || jerk.move >= moves)
-      fail(column("move"), row(), fmt::format("{}", jerk.move), fmt::format("0 to {}", moves - 1));
-    for (const RecordField<JerkRecord>& field : fields) {
-      const double value = value_of(field, jerk);
-      if (!is_valid(field.valid, value))
-        fail(column(field.column.name), row(), fmt::format("{}", value), field.valid.expected);
-    }
-    if (i == 0 || jerks[i - 1].trial != jerk.trial) continue;
+  const auto row_of = [first](std::int64_t at) { return fmt::format("row {}", first + at); };
+  require_all(table, fields, *find_field(fields, "move"), jerks, row_of, fmt::format("0 to {}", moves - 1),
+              [moves](const JerkRecord& jerk) { return jerk.move >= 0 && jerk.move < moves; });
+  for (const RecordField<JerkRecord>& field : fields) require_valid(table, fields, field, jerks, row_of);
+  for (std::size_t i = 1; i < jerks.size(); ++i) {
     const JerkRecord& before = jerks[i - 1];
-    if (std::tie(jerk.move, jerk.onset) < std::tie(before.move, before.onset))
-      column("onset").fail(fmt::format("{}: it is before the jerk above it, of the same trial", row()));
+    if (before.trial == jerks[i].trial &&
+        std::tie(jerks[i].move, jerks[i].onset) < std::tie(before.move, before.onset)) {
+      table.column(static_cast<std::size_t>(find_field(fields, "onset") - fields.data()))
+          .fail(fmt::format("{}: it is before the jerk above it, of the same trial",
+                            row_of(static_cast<std::int64_t>(i))));
+    }
   }
 }
 

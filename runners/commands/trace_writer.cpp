@@ -31,10 +31,16 @@ nlohmann::ordered_json outcome_json(const MoveOutcome& outcome,
                                     const std::vector<RecordField<MoveOutcome>>& measures) {
   nlohmann::ordered_json object;
   for (const RecordField<MoveOutcome>& field : measures) {
+    const double value = value_of(field, outcome);
+    nlohmann::ordered_json& place = object[field.column.name];  // null where a number is not finite
     if (field.column.element == Element::flag) {
-      object[field.column.name] = value_of(field, outcome) != 0.0;
-    } else {
-      object[field.column.name] = nlohmann::ordered_json::parse(json_text(field, outcome));
+      place = value != 0.0;
+    } else if (field.column.element == Element::int8) {
+      place = value_text(field, outcome);
+    } else if (field.column.element != Element::float64) {
+      place = static_cast<std::int64_t>(value);
+    } else if (std::isfinite(value)) {
+      place = value;
     }
   }
   return object;

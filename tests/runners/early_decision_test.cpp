@@ -1,6 +1,7 @@
 // A study with early decision from its manifest to its summary: the same outcomes as without, what was
 // stopped is told, and a trial replays.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 
@@ -55,6 +56,17 @@ TEST_F(EarlyDecision, KeepsTheOutcomesAndSaysWhatWasStopped) {
     if (stopped[row] == 0.0) continue;
     EXPECT_EQ(outcomes[row], static_cast<double>(Outcome::oscillating)) << row;
   }
+}
+
+// Real measures of a move that was not run are NaN, and its file is read all the same.
+TEST_F(EarlyDecision, MovesAfterOneThatDivergedAreReadAsNotRun) {
+  std::vector<std::string> words = with_stop({"run", "study.yaml", "-o", "moves.h5"});
+  words.insert(words.end(), {"--set", "command.targets=[20, 0]"});
+  const ProgramResult result = run(words);
+  ASSERT_EQ(result.code, 0) << result.err;
+  const std::vector<double> times = measure("moves.h5", "travel_time");
+  EXPECT_GT(std::count_if(times.begin(), times.end(), [](double time) { return std::isnan(time); }), 0);
+  EXPECT_EQ(run({"summary", "moves.h5"}).code, 0);
 }
 
 TEST_F(EarlyDecision, LeavesNoColumnWhereItIsNotUsed) {

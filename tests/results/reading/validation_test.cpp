@@ -81,7 +81,7 @@ TEST_F(SoundValues, AreAskedOfEveryMeasure) {
   expect_refused("outcome/outcome", 41, std::int8_t{-1}, "trial 41, move 0: it is -1; expected 0 to 5");
   for (const double time : {infinity, -infinity, -0.5})
     expect_refused("outcome/settling_time", 7, time, "trial 7, move 0: it is ");
-  expect_refused("outcome/travel_time", 7, nan, "trial 7, move 0: it is nan; expected a finite time");
+  expect_refused("outcome/travel_time", 7, -0.5, "trial 7, move 0: it is -0.5; expected a finite time");
   expect_refused("outcome/arrival", 7, std::int64_t{-2}, "trial 7, move 0: it is -2; expected a sample");
   for (const char* count :
        {"overshoot", "phase_changes", "encoder_disagreement", "reversal_depth", "jerk_count"})

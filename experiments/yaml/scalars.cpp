@@ -183,7 +183,7 @@ std::optional<std::size_t> read_label(const Field& field, std::span<const std::s
   if (node.kind == YamlNode::Kind::scalar && label != labels.end()) {
     return static_cast<std::size_t>(label - labels.begin());
   }
-  problems.add(node.place, field.path, fmt::format("{} is none of its allowed", in_quotes(flow_text(node))),
+  problems.add(node.place, field.path, fmt::format("{} is none of its words", in_quotes(flow_text(node))),
                fmt::format("one of {}", fmt::join(labels, ", ")));
   return std::nullopt;
 }

@@ -82,7 +82,7 @@ TEST_F(Places, NoVerbReplacesWhatExistsWithoutForce) {
     EXPECT_NE(folder_.read(verb.output), "my notes");
 
     const ProgramResult help = program({verb.arguments[0], "--help"});
-    EXPECT_NE(help.out.find("is not replaced without --force"), std::string::npos) << help.out;
+    EXPECT_NE(help.out.find("is replaced only with --force"), std::string::npos) << help.out;
   }
 }
 

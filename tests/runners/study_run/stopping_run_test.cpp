@@ -122,7 +122,7 @@ TEST_F(StoppingRun, SaysWhatItCameToAndWhy) {
   folder_.write("study.yaml", stopping_manifest());
   const ProgramResult sure = run("study.yaml", "out.h5");
   const std::string trials = std::to_string(StudyFile(at("out.h5")).header().trials);
-  EXPECT_NE(sure.err.find("wrote out.h5: " + trials + " trials at each point (every point's success rate"),
+  EXPECT_NE(sure.err.find("wrote out.h5: " + trials + " trials at each point (all success rates"),
             std::string::npos)
       << sure.err;
   const ProgramResult unsure = run("study.yaml", "few.h5", {"--set", "stop.max_trials=120"});

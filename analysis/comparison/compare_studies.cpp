@@ -75,7 +75,7 @@ void require_same_kind(const StudyFile& baseline, const StudyFile& current, cons
                             baseline.path().string(), current.path().string()));
 }
 
-/// Every test here takes trials for independent, and those of a saltelli design proportion most of their
+/// Every test here takes trials for independent, and those of a saltelli design share most of their
 /// numbers.
 void require_independent_trials(const StudyFile& file, const ManifestValues& values) {
   const auto design = values.find("design");

@@ -7,7 +7,7 @@ namespace zerocount {
 
 /// Wilcoxon's signed-rank test: the probability of a sum of the ranks of the positive differences as large or
 /// larger, where each difference is as likely to have the other sign. Differences of 0 are left out; those of
-/// equal size proportion their mean rank. 1 where none is left.
+/// equal size share their mean rank. 1 where none is left.
 ///
 /// Exact with up to 200 differences that are not 0, ties or not (the distribution over all signs, by adding
 /// one rank after the other); beyond that by the normal distribution, with the variance ¼Σ rank² and half a

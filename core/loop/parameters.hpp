@@ -18,8 +18,7 @@ struct EncoderErrors {
 };
 
 /// The two encoders: Δx = length/counts. On a rotary axis `fine` and `coarse` are the counts of a revolution,
-/// 2π rad; on a linear axis one count has the length of the resolution (linear_encoders). Defaults: the
-/// paper's rig.
+/// 2π rad; on a linear axis one count has the length of the resolution. Defaults: the paper's rig.
 struct EncoderParameters {
   double fine{1620000.0};  ///< counts in `fine_length` of the encoder that closes the loop, a whole number
   double coarse{86400.0};  ///< counts in `coarse_length` of the encoder read beside it, a whole number
@@ -28,11 +27,6 @@ struct EncoderParameters {
   EncoderErrors fine_errors{};
   EncoderErrors coarse_errors{};
 };
-
-/// The encoders of a linear axis, with one count in each length, m.
-inline EncoderParameters linear_encoders(double resolution, double coarse_resolution) {
-  return {.fine = 1.0, .coarse = 1.0, .fine_length = resolution, .coarse_length = coarse_resolution};
-}
 
 /// The digital-to-analogue converter. Defaults: the paper's rig.
 struct DacParameters {

@@ -122,12 +122,4 @@ inline bool succeeded(std::span<const MoveOutcome> moves) {
                      [](const MoveOutcome& move) { return is_success(move.outcome); });
 }
 
-/// Whether a trial was stable, or arrived: all of its moves were, or did.
-inline bool was_stable(std::span<const MoveOutcome> moves) {
-  return std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& move) { return move.stable; });
-}
-inline bool has_arrived(std::span<const MoveOutcome> moves) {
-  return std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& move) { return move.arrived; });
-}
-
 }  // namespace zerocount

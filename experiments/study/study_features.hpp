@@ -17,7 +17,7 @@ struct StudyFeatures {
   /// pre-sliding motion, or moves that are long.
   bool final_error{false};
   bool stopping{false};  ///< at some point, a trial is ended where a move diverges
-  /// The design is saltelli: the trials of a row proportion most of their numbers, and bounds that take
+  /// The design is saltelli: the trials of a row share most of their numbers, and bounds that take
   /// trials for independent are too narrow.
   bool dependent_trials{false};
   bool rigs{false};  ///< trials share rigs: bounds allow for what the trials of one rig have in common

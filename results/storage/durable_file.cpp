@@ -49,15 +49,6 @@ UnfinishedFile::~UnfinishedFile() {
   ::unlink(part_.c_str());
 }
 
-void require_new(const fs::path& path) {
-  std::error_code error;
-  const bool exists = fs::exists(fs::symlink_status(path, error));
-  if (exists) {
-    throw Failure(ExitCode::bad_input, fmt::format("{}: exists; give another name with -o", path.string()));
-  }
-  if (error && error != std::errc::no_such_file_or_directory) fail_with(path, "write", error.value());
-}
-
 void publish(const fs::path& path) {
   const fs::path part = part_of(path);
   if (::rename(part.c_str(), path.c_str()) != 0)

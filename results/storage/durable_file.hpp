@@ -26,10 +26,6 @@ class UnfinishedFile {
   std::filesystem::path part_;
 };
 
-/// For output that must not overwrite anything. @throws Failure: bad_input if `path` exists; machine_failed
-/// with the system's reason if that cannot be determined.
-void require_new(const std::filesystem::path& path);
-
 /// Renames the finished and flushed file part_of(path) to `path` and flushes the directory. Replaces an
 /// existing `path`.
 /// @throws Failure (machine_failed) with the path and the system's reason. If only the flush of the directory

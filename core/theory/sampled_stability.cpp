@@ -51,7 +51,9 @@ double sampled_critical_integral_gain(double stiffness, const PlantParameters& p
     return spectral_radius(held, linear_chain(controller), controller.delay) < 1.0;
   };
   double low = 1e-6 * (stiffness * fine_resolution(encoder) + controller.kp);  // N m/count
-  if (!stable(low)) return 0.0;
+  // Without stiffness and kp no integral gain is stable; the eigenvalue 1 of the free rotor may round to
+  // less.
+  if (low == 0.0 || !stable(low)) return 0.0;
   constexpr double step = 1.02;
   double high = low * step;
   for (; stable(high); high *= step) low = high;

@@ -243,5 +243,12 @@ TEST(SlowestTimeConstant, IsInfiniteBeyondTheBound) {
   EXPECT_TRUE(std::isfinite(slowest_time_constant(110.0, rig, paper_encoder, controller)));
 }
 
+TEST(SampledCriticalIntegralGain, OfAFreeRotorWithoutKpIsZero) {
+  for (const double damping : {0.0, 1e-4, 0.05, 3.0}) {  // the search has no gain to begin with
+    const PlantParameters free{.inertia = 5.54e-4, .presliding_damping = damping};
+    EXPECT_EQ(sampled_critical_integral_gain(0.0, free, paper_encoder, {.kd = 1e-3}), 0.0) << damping;
+  }
+}
+
 }  // namespace
 }  // namespace zerocount

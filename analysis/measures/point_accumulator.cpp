@@ -48,6 +48,7 @@ void require_kind(const MoveOutcome& move, bool open_loop) {
 std::vector<MeasureStatistics> statistics_of(const std::vector<MeasureAccumulator>& measures,
                                              const StatisticsOptions& options) {
   std::vector<MeasureStatistics> statistics;
+  statistics.reserve(measures.size());
   for (const MeasureAccumulator& measure : measures) statistics.push_back(measure.statistics(options));
   return statistics;
 }

@@ -89,7 +89,8 @@ void add_measure(std::vector<ReportField<Subject>>& fields, const MeasureTable& 
           std::count(text.statistics.begin(), text.statistics.end(), kind.statistic) == 0)
         continue;
       std::string name(text.name.empty() ? kind.name : text.name);
-      if (text.name.empty() && reported.group.empty()) name = stem + (name.empty() ? "" : "_" + name);
+      if (text.name.empty() && reported.group.empty())
+        name = name.empty() ? stem : fmt::format("{}_{}", stem, name);
       fields.push_back(
           {std::string(reported.group), name, kind.statistic <= Statistic::trials ? "1" : column.unit,
            fmt::format(fmt::runtime(text.long_name), meaning_of(kind), kind.bound), kind.whole,

@@ -46,13 +46,6 @@ class EngineOption : public ::testing::Test {
     ASSERT_EQ(result.code, 0) << result.err;
   }
 
-  void expect_same_datasets(const std::string& one, const std::string& other) const {
-    const auto left = stored_datasets(at(one));
-    const auto right = stored_datasets(at(other));
-    ASSERT_EQ(left.size(), right.size());
-    for (const auto& [path, bytes] : left) EXPECT_TRUE(right.at(path) == bytes) << path;
-  }
-
   TemporaryFolder folder_;
 };
 
@@ -114,7 +107,7 @@ TEST_F(EngineOption, IsBatchUnlessSaidOtherwiseAndIsRecorded) {
   EXPECT_EQ(StudyFile(at("reference.h5")).header().engine, Engine::reference);
   EXPECT_EQ(StudyFile(at("default.h5")).root().text("engine"), "batch");
   EXPECT_EQ(StudyFile(at("reference.h5")).root().text("engine"), "reference");
-  expect_same_datasets("default.h5", "batch.h5");
+  expect_same_datasets(at("default.h5"), at("batch.h5"));
 
   const ProgramResult unknown = run({"run", "study.yaml", "-o", "x.h5", "--engine", "steam"});
   EXPECT_EQ(unknown.code, 2);
@@ -164,7 +157,7 @@ TEST_F(EngineOption, OfAnUnfinishedRunIsNotOverruled) {
     EXPECT_TRUE(fs::exists(at(output + ".shards") / "part.h5"));
     complete("study.yaml", output, {"--engine", engine});
     complete("study.yaml", std::string("whole-") + engine + ".h5", {"--engine", engine});
-    expect_same_datasets(output, std::string("whole-") + engine + ".h5");
+    expect_same_datasets(at(output), at(std::string("whole-") + engine + ".h5"));
   }
 }
 
@@ -186,7 +179,7 @@ TEST_F(EngineOption, IsTheSameInAllPartsOfAMerge) {
     ASSERT_EQ(run({"merge", initial + "2.h5", initial + "1.h5", "-o", merged}).code, 0);
     EXPECT_EQ(StudyFile(at(merged)).root().text("engine"), engine);
     complete("study.yaml", "whole-" + initial + ".h5", {"--engine", engine});
-    expect_same_datasets(merged, "whole-" + initial + ".h5");
+    expect_same_datasets(at(merged), at("whole-" + initial + ".h5"));
   }
 }
 
@@ -196,7 +189,7 @@ TEST_F(EngineOption, GivesTheSameBytesHoweverTheTrialsShareTheLanes) {
   complete("study.yaml", "one.h5", {"--threads", "1"});
   for (const char* threads : {"2", "7"}) {
     complete("study.yaml", std::string(threads) + ".h5", {"--threads", threads});
-    expect_same_datasets("one.h5", std::string(threads) + ".h5");
+    expect_same_datasets(at("one.h5"), at(std::string(threads) + ".h5"));
   }
   std::vector<std::string> merge{"merge"};
   for (int part = 1; part <= 5; ++part) {
@@ -206,7 +199,7 @@ TEST_F(EngineOption, GivesTheSameBytesHoweverTheTrialsShareTheLanes) {
   }
   merge.insert(merge.end(), {"-o", "merged.h5"});
   ASSERT_EQ(run(merge).code, 0);
-  expect_same_datasets("one.h5", "merged.h5");
+  expect_same_datasets(at("one.h5"), at("merged.h5"));
 }
 
 /// Records and replays are the reference's, whichever engine ran the study.

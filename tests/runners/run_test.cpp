@@ -47,13 +47,6 @@ class Run : public ::testing::Test {
     return program;
   }
 
-  void expect_same_datasets(const std::string& one, const std::string& other) const {
-    const auto left = stored_datasets(at(one));
-    const auto right = stored_datasets(at(other));
-    ASSERT_EQ(left.size(), right.size());
-    for (const auto& [path, bytes] : left) EXPECT_TRUE(right.at(path) == bytes) << path;
-  }
-
   TemporaryFolder folder_;
 };
 
@@ -63,7 +56,7 @@ TEST_F(Run, GivesTheSameDatasetsForAnyNumberOfThreads) {
   for (const char* threads : {"2", "5"}) {
     const std::string name = std::string("threads") + threads + ".h5";
     complete("study.yaml", name, {"--threads", threads});
-    expect_same_datasets("one.h5", name);
+    expect_same_datasets(at("one.h5"), at(name));
   }
 }
 
@@ -79,7 +72,7 @@ TEST_F(Run, GivesTheSameDatasetsInParts) {
   EXPECT_EQ(run({"summary", "part1.h5"}).code, 4);
   const ProgramResult merged = run({"merge", "part3.h5", "part1.h5", "part2.h5", "-o", "merged.h5"});
   EXPECT_EQ(merged.code, 0) << merged.err;
-  expect_same_datasets("whole.h5", "merged.h5");
+  expect_same_datasets(at("whole.h5"), at("merged.h5"));
   EXPECT_EQ(run({"merge", "part3.h5", "part1.h5", "part2.h5", "-o", "merged.h5"}).code, 2);  // it exists
   EXPECT_EQ(run({"merge", "part1.h5", "part1.h5", "part2.h5", "part3.h5", "-o", "twice.h5"}).code, 4);
 }
@@ -100,7 +93,7 @@ TEST_F(Run, SurvivesBeingKilledAtRandomMoments) {
       EXPECT_TRUE(code == 0 || code == 130 || code == 128 + signal) << code;
     }
     complete("study.yaml", name);
-    expect_same_datasets("whole.h5", name);
+    expect_same_datasets(at("whole.h5"), at(name));
   }
 }
 
@@ -149,7 +142,7 @@ TEST_F(Run, UsesWhatItCanOfOverlappingShards) {
   fs::copy(at("middle.h5"), at("out.h5.shards/middle.h5"));
   fs::copy(at("half.h5"), at("out.h5.shards/half.h5"));
   complete("study.yaml", "out.h5");
-  expect_same_datasets("whole.h5", "out.h5");
+  expect_same_datasets(at("whole.h5"), at("out.h5"));
 }
 
 TEST_F(Run, TidiesUpAfterARunThatDiedAtItsEnd) {
@@ -179,7 +172,7 @@ TEST_F(Run, RunsAgainWhatADamagedShardHeld) {
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.err.find("warning"), std::string::npos) << result.err;
   EXPECT_EQ(folder_.read("new.h5.shards/damaged.h5.damaged").size(), bytes.size() / 2);
-  expect_same_datasets("whole.h5", "new.h5");
+  expect_same_datasets(at("whole.h5"), at("new.h5"));
 }
 
 TEST_F(Run, RefusesASecondRunOnTheSameOutput) {
@@ -216,7 +209,7 @@ TEST_F(Run, AFullDiskLosesNothingThatWasFinished) {
   EXPECT_NE(folder_.read("err").find("out.h5"), std::string::npos) << folder_.read("err");
   EXPECT_FALSE(fs::exists(at("out.h5")));
   complete("study.yaml", "out.h5");
-  expect_same_datasets("whole.h5", "out.h5");
+  expect_same_datasets(at("whole.h5"), at("out.h5"));
 }
 
 TEST_F(Run, RecordsOverridesAndTraceReplaysThem) {

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <hdf5.h>
 
 #include "results/storage/checksum_trailer.hpp"
@@ -98,6 +99,16 @@ std::map<std::string, std::string> stored_datasets(const std::filesystem::path& 
   H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, visit, &datasets, H5O_INFO_BASIC);
   H5Fclose(file);
   return datasets;
+}
+
+void expect_same_datasets(const std::filesystem::path& one, const std::filesystem::path& other) {
+  const auto left = stored_datasets(one);
+  const auto right = stored_datasets(other);
+  ASSERT_EQ(left.size(), right.size());
+  for (const auto& [path, bytes] : left) {
+    const auto same = right.find(path);
+    EXPECT_TRUE(same != right.end() && same->second == bytes) << path;
+  }
 }
 
 std::set<std::string> attribute_names(const std::filesystem::path& path) {

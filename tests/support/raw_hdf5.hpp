@@ -13,6 +13,9 @@ namespace zerocount::testing {
 /// alone.
 std::map<std::string, std::string> stored_datasets(const std::filesystem::path& path);
 
+/// Expects the same stored datasets in both files.
+void expect_same_datasets(const std::filesystem::path& one, const std::filesystem::path& other);
+
 /// Names of the attributes of the root group.
 std::set<std::string> attribute_names(const std::filesystem::path& path);
 

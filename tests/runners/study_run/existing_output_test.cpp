@@ -36,13 +36,6 @@ class ExistingOutput : public ::testing::Test {
     EXPECT_FALSE(fs::exists(at(output + ".shards")));
   }
 
-  void expect_same_datasets(const std::string& one, const std::string& other) const {
-    const auto left = stored_datasets(at(one));
-    const auto right = stored_datasets(at(other));
-    ASSERT_EQ(left.size(), right.size());
-    for (const auto& [path, bytes] : left) EXPECT_TRUE(right.at(path) == bytes) << path;
-  }
-
   /// Expects exit code 2, every text in the message, and the bytes of the file as they were.
   void expect_refused(const std::vector<std::string>& more, const std::vector<std::string>& texts) {
     const std::string before = folder_.read("out.h5");
@@ -78,7 +71,7 @@ TEST_F(ExistingOutput, IsExtendedToWhatARunOfAllItsTrialsGives) {
     complete("study.yaml", name + ".h5", {"--set", first});
     complete("study.yaml", name + ".h5", {"--set", all});
     complete("study.yaml", name + "-fresh.h5", {"--set", all});
-    expect_same_datasets(name + "-fresh.h5", name + ".h5");
+    expect_same_datasets(at(name + "-fresh.h5"), at(name + ".h5"));
   }
 }
 
@@ -87,7 +80,7 @@ TEST_F(ExistingOutput, OfTheDesignSaltelliIsExtendedByRows) {
   complete("study.yaml", "out.h5");
   complete("study.yaml", "out.h5", {"--set", "trials=120"});
   complete("study.yaml", "fresh.h5", {"--set", "trials=120"});
-  expect_same_datasets("fresh.h5", "out.h5");
+  expect_same_datasets(at("fresh.h5"), at("out.h5"));
 }
 
 TEST_F(ExistingOutput, ThatIsCompleteStaysAsItIs) {
@@ -128,7 +121,7 @@ TEST_F(ExistingOutput, AnExtensionThatIsKilledLosesNothing) {
   EXPECT_EQ(run("study.yaml", "out.h5", {"--set", "trials=150"}).code, 2);
   complete("study.yaml", "out.h5", {"--set", "trials=150", "--force"});
   complete("study.yaml", "fresh.h5", {"--set", "trials=150"});
-  expect_same_datasets("fresh.h5", "out.h5");
+  expect_same_datasets(at("fresh.h5"), at("out.h5"));
 }
 
 TEST_F(ExistingOutput, IsRefusedWithWhatDiffers) {
@@ -174,7 +167,7 @@ TEST_F(ExistingOutput, IsReplacedWithForceWhateverItHolds) {
   complete("study.yaml", "fresh.h5");
   complete("study.yaml", "out.h5", {"--set", "seed=43"});
   complete("study.yaml", "out.h5", {"--force"});
-  expect_same_datasets("fresh.h5", "out.h5");
+  expect_same_datasets(at("fresh.h5"), at("out.h5"));
 }
 
 }  // namespace

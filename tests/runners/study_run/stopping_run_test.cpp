@@ -49,13 +49,6 @@ class StoppingRun : public ::testing::Test {
     ASSERT_EQ(result.code, 0) << result.err;
   }
 
-  void expect_same_datasets(const std::string& one, const std::string& other) const {
-    const auto left = stored_datasets(at(one));
-    const auto right = stored_datasets(at(other));
-    ASSERT_EQ(left.size(), right.size());
-    for (const auto& [path, bytes] : left) EXPECT_TRUE(right.at(path) == bytes) << path;
-  }
-
   TemporaryFolder folder_;
 };
 
@@ -107,7 +100,7 @@ TEST_F(StoppingRun, ComesToTheSameForAnyThreadsAndInterruptions) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "one.h5", {"--threads", "1"});
   complete("study.yaml", "three.h5", {"--threads", "3"});
-  expect_same_datasets("one.h5", "three.h5");
+  expect_same_datasets(at("one.h5"), at("three.h5"));
   for (const int signal : {SIGKILL, SIGINT, SIGKILL, SIGINT}) {
     RunningProgram program({"run", "study.yaml", "-o", "cut.h5", "--threads", "1", "-q"}, folder_.path());
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
@@ -115,7 +108,7 @@ TEST_F(StoppingRun, ComesToTheSameForAnyThreadsAndInterruptions) {
     program.wait();
   }
   complete("study.yaml", "cut.h5");
-  expect_same_datasets("one.h5", "cut.h5");
+  expect_same_datasets(at("one.h5"), at("cut.h5"));
 }
 
 TEST_F(StoppingRun, SaysWhatItCameToAndWhy) {

@@ -21,7 +21,7 @@ ExitCode say(ExitCode code, const std::string& message) {
 
 ExitCode run(const std::vector<std::string>& words) {
   try {
-    const ExitCode code = zerocount::run_command_line(words);
+    const ExitCode code = zerocount::commands::run_command_line(words);
     const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
     // Some file systems report a failed write only here. EBADF: there is no standard output, so nothing is
     // lost.

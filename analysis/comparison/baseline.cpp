@@ -17,7 +17,7 @@
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_file.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,7 +28,7 @@ std::string bytes_of(const fs::path& path) {
   if (!fs::exists(path, error)) return {};
   std::ifstream file(path, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file.is_open() || file.bad()) fail_with(path, "read", errno);
+  if (!file.is_open() || file.bad()) storage::fail_with(path, "read", errno);
   return bytes;
 }
 
@@ -45,16 +45,16 @@ std::string comparison_with(const fs::path& before, const fs::path& now) {
   }
 }
 
-std::string log_entry(const FileHeader& header, const std::string& sha256, const std::string& reason,
+std::string log_entry(const layout::FileHeader& header, const std::string& sha256, const std::string& reason,
                       const std::string& replaced, const std::string& comparison) {
-  const Provenance& build = header.provenance;
+  const layout::Provenance& build = header.provenance;
   std::string entry = fmt::format(
       "- date: {}\n  reason: {}\n  sha256: {}\n  study: {}\n  overrides: {}\n  trials: {}\n  points: {}\n  "
       "seed: {}\n"
       "  zerocount_version: {}\n  git_commit: {}\n  engine: {}\n",
-      quoted(current_provenance().created), quoted(reason), quoted(sha256), quoted(header.name),
+      quoted(layout::current_provenance().created), quoted(reason), quoted(sha256), quoted(header.name),
       nlohmann::json(header.overrides).dump(), header.trials, header.points, header.seed,
-      quoted(build.zerocount_version), quoted(build.git_commit), name_of(header.engine));
+      quoted(build.zerocount_version), quoted(build.git_commit), layout::name_of(header.engine));
   if (!replaced.empty())
     entry += fmt::format("  replaces: {}\n  comparison: {}\n", quoted(replaced), quoted(comparison));
   return entry;
@@ -65,9 +65,9 @@ std::string log_entry(const FileHeader& header, const std::string& sha256, const
 std::string log_so_far(const fs::path& path) {
   std::string log = bytes_of(path);
   if (log.empty()) return log;
-  Problems problems;
-  const YamlPointer entries = parse_yaml(log, path.string(), false, problems);
-  const bool is_list = problems.empty() && entries && entries->kind == YamlNode::Kind::list;
+  yaml::Problems problems;
+  const yaml::YamlPointer entries = yaml::parse_yaml(log, path.string(), false, problems);
+  const bool is_list = problems.empty() && entries && entries->kind == yaml::YamlNode::Kind::list;
   if (is_list && log.back() == '\n') return log;
   throw Failure(ExitCode::bad_data,
                 fmt::format("{}: is no log of baselines that another entry can be put after; expected a YAML "
@@ -84,9 +84,9 @@ fs::path baseline_log(const fs::path& baseline) {
 }
 
 BaselineUpdate update_baseline(const fs::path& file, const fs::path& output, const std::string& reason) {
-  const StudyFile study(file);
+  const reading::StudyFile study(file);
   study.require_sound_values();
-  const FileHeader& header = study.header();
+  const layout::FileHeader& header = study.header();
   const std::string bytes = bytes_of(file);
   const std::string before = bytes_of(output);
   BaselineUpdate update;
@@ -94,7 +94,7 @@ BaselineUpdate update_baseline(const fs::path& file, const fs::path& output, con
   const std::string log = log_so_far(baseline_log(output));
   std::string replaced;
   if (!before.empty()) {
-    replaced = sha256_hex(before);
+    replaced = hash::sha256_hex(before);
     update.comparison = comparison_with(output, file);
     if (log.find(replaced) == std::string::npos) {
       update.warnings.push_back(
@@ -102,15 +102,15 @@ BaselineUpdate update_baseline(const fs::path& file, const fs::path& output, con
                       output.string()));
     }
   }
-  if (is_dirty(header.provenance)) {
+  if (layout::is_dirty(header.provenance)) {
     update.warnings.push_back(fmt::format(
         "{} was made by a build with changes that were not committed: nobody else can make it again",
         file.string()));
   }
-  OutputFile record(baseline_log(output));
-  record.write(log + log_entry(header, sha256_hex(bytes), reason, replaced, update.comparison));
+  storage::OutputFile record(baseline_log(output));
+  record.write(log + log_entry(header, hash::sha256_hex(bytes), reason, replaced, update.comparison));
   record.finish();
-  OutputFile baseline(output);
+  storage::OutputFile baseline(output);
   baseline.write(bytes);
   baseline.finish();
   record.publish();
@@ -118,4 +118,4 @@ BaselineUpdate update_baseline(const fs::path& file, const fs::path& output, con
   return update;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// What became of a baseline.
 struct BaselineUpdate {
@@ -22,4 +22,4 @@ std::filesystem::path baseline_log(const std::filesystem::path& baseline);
 BaselineUpdate update_baseline(const std::filesystem::path& file, const std::filesystem::path& output,
                                const std::string& reason);
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

@@ -18,29 +18,29 @@
 #include "core/failure/failure.hpp"
 #include "results/reading/first_difference.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
-ComparedFile described(const StudyFile& file) {
-  const FileHeader& header = file.header();
+ComparedFile described(const reading::StudyFile& file) {
+  const layout::FileHeader& header = file.header();
   return {file.path().string(),
           header.name,
           header.provenance.zerocount_version,
           header.provenance.git_commit,
-          std::string(name_of(header.engine)),
+          std::string(layout::name_of(header.engine)),
           header.provenance.created,
           header.seed,
           header.trials};
 }
 
 /// Why the datasets of the two need not be equal to the bit; empty where they must be.
-std::string why_bits_may_differ(const FileHeader& one, const FileHeader& other) {
+std::string why_bits_may_differ(const layout::FileHeader& one, const layout::FileHeader& other) {
   if (one.study_sha256 != other.study_sha256) return "the manifests or overrides differ";
   if (one.engine != other.engine) return "they are of different engines";
-  if (!same_build(one.provenance, other.provenance)) return "they are of different builds";
+  if (!layout::same_build(one.provenance, other.provenance)) return "they are of different builds";
   if (one.provenance.compiler != other.provenance.compiler) return "they are of different compilers";
   if (one.version != other.version) return "they are of different versions of the layout";
-  if (is_dirty(one.provenance) || is_dirty(other.provenance)) {
+  if (layout::is_dirty(one.provenance) || layout::is_dirty(other.provenance)) {
     return "a build had changes that were not committed, and need not be that of the other";
   }
   if (one.provenance.git_commit == "unknown") return "the commits they were built from are unknown";
@@ -48,10 +48,11 @@ std::string why_bits_may_differ(const FileHeader& one, const FileHeader& other) 
 }
 
 /// Finds the layer, and compares the datasets where that can be decisive.
-void find_layer(StudyComparison& result, const StudyFile& baseline, const StudyFile& current) {
+void find_layer(StudyComparison& result, const reading::StudyFile& baseline,
+                const reading::StudyFile& current) {
   const std::string different = why_bits_may_differ(baseline.header(), current.header());
   if (baseline.header().study_sha256 == current.header().study_sha256) {
-    result.first_difference = first_difference(baseline.root(), current.root()).value_or("");
+    result.first_difference = reading::first_difference(baseline.root(), current.root()).value_or("");
     result.equal_to_the_bit = result.first_difference.empty();
   }
   if (different.empty() || result.equal_to_the_bit) {
@@ -63,8 +64,8 @@ void find_layer(StudyComparison& result, const StudyFile& baseline, const StudyF
   result.layer_reason = different;
 }
 
-void require_same_kind(const StudyFile& baseline, const StudyFile& current, const ManifestValues& old_values,
-                       const ManifestValues& new_values) {
+void require_same_kind(const reading::StudyFile& baseline, const reading::StudyFile& current,
+                       const ManifestValues& old_values, const ManifestValues& new_values) {
   const auto open_loop = [](const ManifestValues& values) {
     return std::any_of(values.begin(), values.end(),
                        [](const auto& value) { return value.first.starts_with("command.torque."); });
@@ -77,7 +78,7 @@ void require_same_kind(const StudyFile& baseline, const StudyFile& current, cons
 
 /// Every test here takes trials for independent, and those of a saltelli design share most of their
 /// numbers.
-void require_independent_trials(const StudyFile& file, const ManifestValues& values) {
+void require_independent_trials(const reading::StudyFile& file, const ManifestValues& values) {
   const auto design = values.find("design");
   if (design == values.end() || design->second != "saltelli") return;
   throw Failure(ExitCode::bad_data,
@@ -117,14 +118,15 @@ std::int64_t count_requirements(const GateRules& rules, const std::vector<Matche
 }
 
 /// An open-loop study has moves, but none that could be judged.
-bool judges_nothing(const StudyFile& file) {
+bool judges_nothing(const reading::StudyFile& file) {
   const std::vector<double> outcomes = file.measure("outcome", file.rows());
-  return std::all_of(outcomes.begin(), outcomes.end(),
-                     [](double outcome) { return outcome == static_cast<double>(Outcome::open_loop); });
+  return std::all_of(outcomes.begin(), outcomes.end(), [](double outcome) {
+    return outcome == static_cast<double>(trial::Outcome::open_loop);
+  });
 }
 
-void compare_points(StudyComparison& result, const GateRules& rules, const StudyFile& baseline,
-                    const StudyFile& current, const std::vector<MatchedPoint>& points,
+void compare_points(StudyComparison& result, const GateRules& rules, const reading::StudyFile& baseline,
+                    const reading::StudyFile& current, const std::vector<MatchedPoint>& points,
                     std::int64_t baseline_rigs, std::int64_t current_rigs) {
   const double failing = failing_confidence(rules.confidence, count_requirements(rules, points));
   const bool nothing = judges_nothing(current) || judges_nothing(baseline);
@@ -180,18 +182,19 @@ GateVerdict verdict_of(StudyComparison& result) {
 }
 
 void note_undecided_moves(StudyComparison& result) {
-  UndecidedMoves before, after;
+  measures::UndecidedMoves before, after;
   for (const PointComparison& point : result.points) {
-    before = sum_of(before, point.baseline_undecided);
-    after = sum_of(after, point.current_undecided);
+    before = measures::sum_of(before, point.baseline_undecided);
+    after = measures::sum_of(after, point.current_undecided);
   }
-  if (!any_undecided(before) && !any_undecided(after)) return;
-  const auto text = [](const UndecidedMoves& moves) {
-    return any_undecided(moves) ? undecided_sentence(moves) : fmt::format("none of {} moves", moves.moves);
+  if (!measures::any_undecided(before) && !measures::any_undecided(after)) return;
+  const auto text = [](const measures::UndecidedMoves& moves) {
+    return measures::any_undecided(moves) ? measures::undecided_sentence(moves)
+                                          : fmt::format("none of {} moves", moves.moves);
   };
   result.notes.push_back(fmt::format("undecided in the baseline: {}", text(before)));
   result.notes.push_back(fmt::format("undecided in the file: {}", text(after)));
-  result.notes.emplace_back(undecided_meaning);
+  result.notes.emplace_back(measures::undecided_meaning);
 }
 
 void note_unpaired_trials(StudyComparison& result) {
@@ -206,7 +209,8 @@ void note_unpaired_trials(StudyComparison& result) {
 
 }  // namespace
 
-StudyComparison compare_studies(const StudyFile& baseline, const StudyFile& current, const GateRules& rules) {
+StudyComparison compare_studies(const reading::StudyFile& baseline, const reading::StudyFile& current,
+                                const GateRules& rules) {
   const std::vector<MatchedPoint> points = match_points(baseline, current);
   ManifestValues old_values = manifest_values(baseline.header(), baseline.path().string());
   ManifestValues new_values = manifest_values(current.header(), current.path().string());
@@ -243,8 +247,8 @@ StudyComparison compare_studies(const StudyFile& baseline, const StudyFile& curr
 
 StudyComparison compare_files(const std::filesystem::path& baseline, const std::filesystem::path& current,
                               const std::optional<std::filesystem::path>& margins) {
-  const StudyFile before(baseline);
-  const StudyFile after(current);
+  const reading::StudyFile before(baseline);
+  const reading::StudyFile after(current);
   const GateRules rules = margins ? read_gate_rules(*margins, after.point_labels()) : GateRules{};
   StudyComparison result = compare_studies(before, after, rules);
   std::error_code error;
@@ -254,4 +258,4 @@ StudyComparison compare_files(const std::filesystem::path& baseline, const std::
   return result;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

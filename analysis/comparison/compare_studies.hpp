@@ -7,13 +7,13 @@
 #include "analysis/comparison/gate_rules.hpp"
 #include "results/reading/study_file.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// Compares a results file with a baseline: finds what the two have in common, matches their design points,
 /// tests every measure at every point, controls the false discoveries over all of them, and gives verdicts.
 /// @throws Failure (bad_data) where points cannot be matched, one file has targets and the other torque
 /// levels, or a file is damaged.
-StudyComparison compare_studies(const StudyFile& baseline, const StudyFile& current,
+StudyComparison compare_studies(const reading::StudyFile& baseline, const reading::StudyFile& current,
                                 const GateRules& rules = {});
 
 /// The same of two files, with the rules of the file `margins`, where one is given.
@@ -21,4 +21,4 @@ StudyComparison compare_studies(const StudyFile& baseline, const StudyFile& curr
 StudyComparison compare_files(const std::filesystem::path& baseline, const std::filesystem::path& current,
                               const std::optional<std::filesystem::path>& margins = std::nullopt);
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

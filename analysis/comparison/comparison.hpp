@@ -10,7 +10,7 @@
 #include "analysis/statistics/proportion.hpp"
 
 /// What the comparison of a results file with a baseline found: see README.md of this folder for the method.
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// How much the two files have in common, which decides how they can be compared.
 enum class ComparisonLayer {
@@ -39,9 +39,10 @@ struct MeasureComparison {
   double baseline{unknown};    ///< proportion or mean
   double current{unknown};     ///< proportion or mean
   double effect{unknown};      ///< how much worse the current file is
-  ConfidenceInterval bounds{unknown, unknown};  ///< of the effect: each holds by itself with the confidence
-  double margin{unknown};                       ///< effect that is still accepted
-  bool both_ways{false};                        ///< a change for the better beyond the margin fails too
+  statistics::ConfidenceInterval bounds{
+      unknown, unknown};          ///< of the effect: each holds by itself with the confidence
+  double margin{unknown};         ///< effect that is still accepted
+  bool both_ways{false};          ///< a change for the better beyond the margin fails too
   double p{unknown};              ///< of no difference, against a change for the worse (either, if both_ways)
   double adjusted_p{unknown};     ///< after control of the false discoveries
   double improvement_p{unknown};  ///< of no difference, against a change for the better
@@ -62,7 +63,7 @@ struct RequirementResult {
   std::int64_t n{0};  ///< trials or moves that the value is of
   double value{MeasureComparison::unknown};
   /// One-sided bounds: the one against the limit at the confidence, the other stricter (see README.md).
-  ConfidenceInterval bounds{MeasureComparison::unknown, MeasureComparison::unknown};
+  statistics::ConfidenceInterval bounds{MeasureComparison::unknown, MeasureComparison::unknown};
   GateVerdict verdict{GateVerdict::inconclusive};
   std::optional<double> trials_to_decide;  ///< per design point, where known
 };
@@ -74,8 +75,8 @@ struct PointComparison {
   std::int64_t current_point{0};
   std::int64_t baseline_trials{0};
   std::int64_t current_trials{0};
-  UndecidedMoves baseline_undecided;  ///< of all moves of the file
-  UndecidedMoves current_undecided;
+  measures::UndecidedMoves baseline_undecided;  ///< of all moves of the file
+  measures::UndecidedMoves current_undecided;
   std::int64_t pairs{0};  ///< trials that were compared one by one; 0 where they were not
   GateVerdict verdict{GateVerdict::not_measured};
   std::vector<MeasureComparison> measures;
@@ -120,4 +121,4 @@ struct StudyComparison {
   std::vector<std::string> notes;                  ///< what else the reader should know, a line each
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

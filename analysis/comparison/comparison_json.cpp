@@ -6,7 +6,7 @@
 
 #include "analysis/comparison/comparison_report.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -15,7 +15,7 @@ Json trials_json(const std::optional<double>& trials) {
   return trials ? Json(static_cast<std::int64_t>(*trials)) : Json(nullptr);
 }
 
-Json interval_json(const ConfidenceInterval& bounds) {
+Json interval_json(const statistics::ConfidenceInterval& bounds) {
   return Json::array({bounds.low, bounds.high});
 }
 
@@ -59,7 +59,7 @@ Json requirement_json(const RequirementResult& requirement) {
           {"trials_to_decide", trials_json(requirement.trials_to_decide)}};
 }
 
-Json undecided_json(const UndecidedMoves& moves) {
+Json undecided_json(const measures::UndecidedMoves& moves) {
   return {{"moves", moves.moves},
           {"off_target", moves.off_target},
           {"still_falling", moves.still_falling},
@@ -119,4 +119,4 @@ std::string comparison_json(const StudyComparison& comparison) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

@@ -7,12 +7,12 @@
 #include "analysis/comparison/comparison_rows.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 /// As text or an attribute of XML; what XML cannot hold is replaced.
 std::string xml(std::string_view text) {
-  return escaped_markup(printable(text));
+  return text::escaped_markup(text::printable(text));
 }
 
 /// What the case holds beside its name.
@@ -70,4 +70,4 @@ std::string comparison_junit(const StudyComparison& comparison) {
       numbers, xml(suite), cases);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

@@ -6,7 +6,7 @@
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 
 std::string_view word_of(GateVerdict verdict) {
   switch (verdict) {
@@ -91,7 +91,7 @@ std::string verdict_sentence(const StudyComparison& comparison) {
 std::string value_text(double value, std::string_view quantity, std::string_view unit) {
   if (std::isnan(value)) return "–";
   if (quantity.ends_with("_rate")) return fmt::format("{:.4g} %", 100.0 * value);
-  return unit == "1" ? short_number(value) : fmt::format("{} {}", short_number(value), unit);
+  return unit == "1" ? text::short_number(value) : fmt::format("{} {}", text::short_number(value), unit);
 }
 
 std::string trials_text(double trials) {
@@ -100,4 +100,4 @@ std::string trials_text(double trials) {
   return fmt::format("{:.0f}", std::ceil(trials / step) * step);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

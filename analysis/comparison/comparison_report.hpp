@@ -7,7 +7,7 @@
 #include "analysis/comparison/comparison.hpp"
 
 /// A comparison as text for people and for machines.
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// "passed", "regression", "inconclusive" or "not measured".
 std::string_view word_of(GateVerdict verdict);
@@ -53,4 +53,4 @@ std::string comparison_junit(const StudyComparison& comparison);
 /// A summary for a pull request or a job's page.
 std::string comparison_markdown(const StudyComparison& comparison);
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

@@ -9,10 +9,10 @@
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
-std::string interval_text(const ConfidenceInterval& bounds, std::string_view quantity,
+std::string interval_text(const statistics::ConfidenceInterval& bounds, std::string_view quantity,
                           std::string_view unit) {
   if (std::isnan(bounds.low)) return "–";
   return fmt::format("[{}, {}]", value_text(bounds.low, quantity, unit),
@@ -37,8 +37,8 @@ std::string remarks(std::string note, const std::string& undecided, const std::o
 /// "undecided: 12 of 300 moves in the baseline, 4 of 300 in the file" beside a proportion of stable trials;
 /// empty where there are none.
 std::string undecided_remark(const PointComparison& point, std::string_view quantity) {
-  const UndecidedMoves& before = point.baseline_undecided;
-  const UndecidedMoves& after = point.current_undecided;
+  const measures::UndecidedMoves& before = point.baseline_undecided;
+  const measures::UndecidedMoves& after = point.current_undecided;
   if (quantity != "stable_rate" || before.off_target + after.off_target == 0) return {};
   return fmt::format("undecided: {} of {} moves in the baseline, {} of {} in the file", before.off_target,
                      before.moves, after.off_target, after.moves);
@@ -47,7 +47,7 @@ std::string undecided_remark(const PointComparison& point, std::string_view quan
 ComparisonRow row_of(const PointComparison& point, const MeasureComparison& measure) {
   const auto text = [&](double value) { return value_text(value, measure.measure, measure.unit); };
   ComparisonRow row;
-  row.point = printable(point.label);
+  row.point = text::printable(point.label);
   row.measure = measure.measure;
   row.baseline = text(measure.baseline);
   row.current = text(measure.current);
@@ -65,7 +65,7 @@ ComparisonRow row_of(const PointComparison& point, const MeasureComparison& meas
 ComparisonRow row_of(const PointComparison& point, const RequirementResult& requirement) {
   const auto text = [&](double value) { return value_text(value, requirement.quantity, requirement.unit); };
   ComparisonRow row;
-  row.point = printable(point.label);
+  row.point = text::printable(point.label);
   row.measure = "require " + requirement.quantity;
   row.baseline = "–";
   row.current = text(requirement.value);
@@ -82,7 +82,7 @@ ComparisonRow row_of(const PointComparison& point, const RequirementResult& requ
 }
 
 std::string file_text(const ComparedFile& file, std::size_t points) {
-  return printable(fmt::format(
+  return text::printable(fmt::format(
       "{}: study {}, seed {}, {} trials at {} points, zerocount {} ({}), {} engine, {}", file.path, file.name,
       file.seed, file.trials, points, file.version, file.commit, file.engine, file.created));
 }
@@ -108,9 +108,9 @@ std::vector<std::pair<std::string, std::string>> comparison_facts(const StudyCom
     facts.emplace_back("first difference", comparison.first_difference);
   for (const ManifestDifference& difference : comparison.manifest_differences) {
     const auto shown = [](const std::string& value) {
-      return value.empty() ? std::string("(absent)") : printable(value);
+      return value.empty() ? std::string("(absent)") : text::printable(value);
     };
-    facts.emplace_back("manifest", fmt::format("{}: {} → {}", printable(difference.key),
+    facts.emplace_back("manifest", fmt::format("{}: {} → {}", text::printable(difference.key),
                                                shown(difference.baseline), shown(difference.current)));
   }
   if (!comparison.changed_inputs.empty()) {
@@ -120,4 +120,4 @@ std::vector<std::pair<std::string, std::string>> comparison_facts(const StudyCom
   return facts;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

@@ -5,7 +5,7 @@
 
 #include "analysis/comparison/comparison.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// One judgement as the cells of a table.
 struct ComparisonRow {
@@ -28,4 +28,4 @@ std::vector<ComparisonRow> comparison_rows(const StudyComparison& comparison);
 /// What was compared with what, as names and values.
 std::vector<std::pair<std::string, std::string>> comparison_facts(const StudyComparison& comparison);
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

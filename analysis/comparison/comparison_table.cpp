@@ -7,7 +7,7 @@
 #include "analysis/comparison/comparison_rows.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 constexpr std::size_t max_rows = 60;
@@ -46,7 +46,7 @@ std::string comparison_table(const StudyComparison& comparison) {
                      row.p, row.verdict, row.note});
   }
   const std::vector<bool> numeric{false, false, true, true, true, true, true, true, false, false};
-  const std::string table = rows.empty() ? "" : aligned_table(cells, numeric);
+  const std::string table = rows.empty() ? "" : text::aligned_table(cells, numeric);
   return fmt::format(
       "{}\n{}{}\nBounds: {:.6g} % each. p: of {} tests, adjusted for a false discovery rate of {:.6g} "
       "%.\n{}\n",
@@ -58,7 +58,7 @@ std::string comparison_markdown(const StudyComparison& comparison) {
   const std::string_view mark = comparison.verdict == GateVerdict::passed       ? "✅"
                                 : comparison.verdict == GateVerdict::regression ? "❌"
                                                                                 : "❓";
-  std::string text = fmt::format("## {} {}: {}\n\n", mark, cell(printable(comparison.current.name)),
+  std::string text = fmt::format("## {} {}: {}\n\n", mark, cell(text::printable(comparison.current.name)),
                                  cell(verdict_sentence(comparison)));
   for (const auto& [name, value] : comparison_facts(comparison))
     text += fmt::format("- {}: {}\n", name, cell(value));
@@ -83,4 +83,4 @@ std::string comparison_markdown(const StudyComparison& comparison) {
                     100.0 * comparison.false_discovery_rate);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

@@ -8,7 +8,7 @@
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/statistics/normal.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 /// Probability with which the number of trials that would decide does decide.
@@ -48,8 +48,8 @@ GateVerdict verdict_of(const MeasureComparison& measure, double rate) {
 /// With s the standard error, e the effect and M the margin: equivalence is shown where e + z_c·s < M; a
 /// failure where e/s > z_t, z_t of the strictest test of the family, and e > M. Each with the planned power.
 double times_to_decide(const MeasureComparison& measure, const GateRules& rules, std::size_t tests) {
-  const double z_confidence = normal_quantile(rules.confidence);
-  const double z_power = normal_quantile(planned_power);
+  const double z_confidence = statistics::normal_quantile(rules.confidence);
+  const double z_power = statistics::normal_quantile(planned_power);
   const bool better = measure.both_ways && measure.effect < 0.0;
   const double reach = better ? measure.effect - measure.bounds.low : measure.bounds.high - measure.effect;
   const double error = reach / z_confidence;
@@ -60,7 +60,7 @@ double times_to_decide(const MeasureComparison& measure, const GateRules& rules,
   double harmonic = 0.0;
   for (std::size_t i = 1; i <= tests; ++i) harmonic += 1.0 / static_cast<double>(i);
   const double strictest = rules.false_discovery_rate / (static_cast<double>(tests) * harmonic);
-  return std::max(square((normal_quantile(1.0 - strictest) + z_power) * error / effect),
+  return std::max(square((statistics::normal_quantile(1.0 - strictest) + z_power) * error / effect),
                   square(z_power * error / (effect - measure.margin)));
 }
 
@@ -107,4 +107,4 @@ std::int64_t decide(std::span<PointComparison> points, const GateRules& rules) {
   return std::ssize(tested);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

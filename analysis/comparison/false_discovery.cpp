@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <numeric>
 
-namespace zerocount {
+namespace zerocount::comparison {
 
 std::vector<double> benjamini_yekutieli(std::span<const double> p) {
   const std::size_t count = p.size();
@@ -24,4 +24,4 @@ std::vector<double> benjamini_yekutieli(std::span<const double> p) {
   return adjusted;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

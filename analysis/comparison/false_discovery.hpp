@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// Adjusted p-values that control the false discovery rate whatever the dependence between the tests: with
 /// p_(1) ≤ … ≤ p_(m) and H_m = 1 + 1/2 + … + 1/m,
@@ -17,4 +17,4 @@ namespace zerocount {
 /// @param p in [0, 1], any order; @return in the same order.
 std::vector<double> benjamini_yekutieli(std::span<const double> p);
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

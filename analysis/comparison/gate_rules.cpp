@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 template <class List>
@@ -17,7 +17,7 @@ std::vector<RequirableQuantity> all_requirable() {
     const std::string name(measure.name);
     if (measure.proportion()) {
       quantities.push_back({name, measure.unit, RequirementKind::proportion, measure});
-    } else if (measure.measure->of_trial == OfTrial::sum) {
+    } else if (measure.measure->of_trial == layout::OfTrial::sum) {
       quantities.push_back({name, measure.unit, RequirementKind::mean, measure});
     } else {
       for (const auto& [quantile, probability] :
@@ -31,11 +31,11 @@ std::vector<RequirableQuantity> all_requirable() {
 
 }  // namespace
 
-std::vector<GateMeasure> gate_measures(const MeasureTable& measures) {
+std::vector<GateMeasure> gate_measures(const layout::MeasureTable& measures) {
   std::vector<GateMeasure> gated;
   for (const bool proportion : {true, false}) {
-    for (const Measure& measure : measures) {
-      if (!measure.gate || is_quality(measure) != proportion) continue;
+    for (const layout::Measure& measure : measures) {
+      if (!measure.gate || layout::is_quality(measure) != proportion) continue;
       gated.push_back({&measure,
                        measure.gate->name,
                        measure.field.column.unit,
@@ -83,4 +83,4 @@ std::vector<Requirement> requirements_of(const GateRules& rules, const std::stri
   return all;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

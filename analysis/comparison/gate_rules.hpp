@@ -11,7 +11,7 @@
 #include "results/layout/measure_table.hpp"
 
 /// What a comparison judges, and by how much a measure may change.
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// How much worse a measure may be: the larger of `absolute` and `relative` times the baseline's value.
 struct GateMargin {
@@ -22,17 +22,17 @@ struct GateMargin {
 
 /// One measure that a comparison judges.
 struct GateMeasure {
-  const Measure* measure;
+  const layout::Measure* measure;
   std::string_view name;
   std::string_view unit;
   GateMargin margin;  ///< the default
 
   /// Judged by the proportion of trials with a quality; otherwise by a mean over trials.
-  bool proportion() const { return is_quality(*measure); }
+  bool proportion() const { return layout::is_quality(*measure); }
 };
 
 /// Those of the table, in the order of the report: proportions before means.
-std::vector<GateMeasure> gate_measures(const MeasureTable& measures = measure_table());
+std::vector<GateMeasure> gate_measures(const layout::MeasureTable& measures = layout::measure_table());
 
 /// The gate measure of this name of the program's own table.
 std::optional<GateMeasure> find_gate_measure(std::string_view name);
@@ -82,4 +82,4 @@ GateMargin margin_of(const GateRules& rules, const std::string& label, const Gat
 /// What holds at a point: the requirements of every point and its own.
 std::vector<Requirement> requirements_of(const GateRules& rules, const std::string& label);
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

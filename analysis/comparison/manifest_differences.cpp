@@ -14,15 +14,15 @@
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
-void collect(const YamlNode& node, const std::string& path, ManifestValues& values) {
-  if (node.kind != YamlNode::Kind::map || node.entries.empty()) {
-    values[path] = flow_text(node);
+void collect(const yaml::YamlNode& node, const std::string& path, ManifestValues& values) {
+  if (node.kind != yaml::YamlNode::Kind::map || node.entries.empty()) {
+    values[path] = yaml::flow_text(node);
     return;
   }
-  for (const YamlEntry& entry : node.entries) {
+  for (const yaml::YamlEntry& entry : node.entries) {
     collect(*entry.value, path.empty() ? entry.key : path + "." + entry.key, values);
   }
 }
@@ -30,14 +30,14 @@ void collect(const YamlNode& node, const std::string& path, ManifestValues& valu
 /// Whether the manifest gives the parameter a value, or one to every point of a grid.
 bool gives(const ManifestValues& values, std::string_view parameter) {
   return std::any_of(values.begin(), values.end(), [&](const auto& entry) {
-    return is_within(entry.first, parameter) ||
-           is_within(entry.first, fmt::format("sweep.grid.{}", parameter));
+    return manifest::is_within(entry.first, parameter) ||
+           manifest::is_within(entry.first, fmt::format("sweep.grid.{}", parameter));
   });
 }
 
-void write_default(ManifestValues& values, const Parameter& parameter, std::int64_t version) {
+void write_default(ManifestValues& values, const parameters::Parameter& parameter, std::int64_t version) {
   if (gives(values, parameter.name)) return;
-  values[std::string(parameter.name)] = fmt::format("{}", default_value_in(parameter, version));
+  values[std::string(parameter.name)] = fmt::format("{}", parameters::default_value_in(parameter, version));
 }
 
 std::optional<double> number_in(const std::string& text) {
@@ -55,12 +55,12 @@ bool same_value(const std::string& one, const std::string& other) {
 
 }  // namespace
 
-ManifestValues manifest_values(const FileHeader& header, const std::string& source) {
+ManifestValues manifest_values(const layout::FileHeader& header, const std::string& source) {
   const std::string place = source + ":/manifest";
-  Problems problems;
+  yaml::Problems problems;
   std::deque<std::string> override_sources;
-  YamlPointer root = parse_yaml(header.manifest, place, false, problems);
-  if (root) root = apply_overrides(root, header.overrides, override_sources, problems);
+  yaml::YamlPointer root = yaml::parse_yaml(header.manifest, place, false, problems);
+  if (root) root = manifest::apply_overrides(root, header.overrides, override_sources, problems);
   try {
     problems.raise_if_any();
   } catch (const Failure& failure) {
@@ -74,9 +74,11 @@ ManifestValues manifest_values(const FileHeader& header, const std::string& sour
 
 void write_changed_defaults(ManifestValues& baseline, std::int64_t baseline_version, ManifestValues& current,
                             std::int64_t current_version) {
-  for (const EarlierDefault& earlier : earlier_defaults()) {
-    const Parameter& parameter = parameter_table()[find_parameter(earlier.name).value()];
-    if (default_value_in(parameter, baseline_version) == default_value_in(parameter, current_version))
+  for (const parameters::EarlierDefault& earlier : parameters::earlier_defaults()) {
+    const parameters::Parameter& parameter =
+        parameters::parameter_table()[parameters::find_parameter(earlier.name).value()];
+    if (parameters::default_value_in(parameter, baseline_version) ==
+        parameters::default_value_in(parameter, current_version))
       continue;
     write_default(baseline, parameter, baseline_version);
     write_default(current, parameter, current_version);
@@ -101,4 +103,4 @@ std::vector<ManifestDifference> manifest_differences(const ManifestValues& basel
   return differences;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

@@ -8,7 +8,7 @@
 #include "analysis/comparison/comparison.hpp"
 #include "results/layout/header.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// The values of a manifest by their dotted paths, with the overrides in place: what is no map is one value,
 /// as YAML on one line.
@@ -16,7 +16,7 @@ using ManifestValues = std::map<std::string, std::string>;
 
 /// @param source the file that the header is of, for messages
 /// @throws Failure (bad_data) where the manifest is no YAML that this program accepts.
-ManifestValues manifest_values(const FileHeader& header, const std::string& source);
+ManifestValues manifest_values(const layout::FileHeader& header, const std::string& source);
 
 /// Writes into the values of two files of different format versions the defaults that changed between these
 /// versions, where a manifest leaves the parameter out: two equal manifests need not be of the same trials.
@@ -31,4 +31,4 @@ std::string value_or(const ManifestValues& values, const std::string& key, const
 std::vector<ManifestDifference> manifest_differences(const ManifestValues& baseline,
                                                      const ManifestValues& current);
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

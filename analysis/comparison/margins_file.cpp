@@ -19,7 +19,7 @@
 #include "experiments/yaml/text_file.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 const std::vector<std::string> top_keys{
@@ -35,28 +35,28 @@ std::vector<std::string> names_of(const List& all) {
 }
 
 /// A number by itself is the absolute margin.
-std::optional<GateMargin> read_margin(const Field& field, Problems& problems) {
+std::optional<GateMargin> read_margin(const yaml::Field& field, yaml::Problems& problems) {
   GateMargin margin;
-  if (field.node->kind == YamlNode::Kind::scalar) {
-    const std::optional<double> absolute = read_real(field, at_least(0.0), problems);
+  if (field.node->kind == yaml::YamlNode::Kind::scalar) {
+    const std::optional<double> absolute = yaml::read_real(field, numerics::at_least(0.0), problems);
     if (absolute) margin.absolute = *absolute;
     return absolute ? std::optional(margin) : std::nullopt;
   }
-  if (!check_map(field, "a number, or a map with absolute, relative, both_ways", problems))
+  if (!yaml::check_map(field, "a number, or a map with absolute, relative, both_ways", problems))
     return std::nullopt;
   bool sized = false;
-  for (const YamlEntry& entry : field.node->entries) {
-    const Field value = entry_of(field, entry);
+  for (const yaml::YamlEntry& entry : field.node->entries) {
+    const yaml::Field value = yaml::entry_of(field, entry);
     if (entry.key == "absolute") {
-      margin.absolute = read_real(value, at_least(0.0), problems).value_or(0.0);
+      margin.absolute = yaml::read_real(value, numerics::at_least(0.0), problems).value_or(0.0);
       sized = true;
     } else if (entry.key == "relative") {
-      margin.relative = read_real(value, at_least(0.0), problems).value_or(0.0);
+      margin.relative = yaml::read_real(value, numerics::at_least(0.0), problems).value_or(0.0);
       sized = true;
     } else if (entry.key == "both_ways") {
-      margin.both_ways = read_truth(value, problems).value_or(false);
+      margin.both_ways = yaml::read_truth(value, problems).value_or(false);
     } else {
-      add_unknown_key(field, entry, margin_keys, problems);
+      parameters::add_unknown_key(field, entry, margin_keys, problems);
     }
   }
   if (!sized)
@@ -64,14 +64,14 @@ std::optional<GateMargin> read_margin(const Field& field, Problems& problems) {
   return margin;
 }
 
-void read_margin_of(const Field& map, const YamlEntry& entry, std::map<std::string, GateMargin>& margins,
-                    Problems& problems) {
+void read_margin_of(const yaml::Field& map, const yaml::YamlEntry& entry,
+                    std::map<std::string, GateMargin>& margins, yaml::Problems& problems) {
   const std::optional<GateMeasure> measure = find_gate_measure(entry.key);
   if (!measure) {
-    add_unknown_key(map, entry, names_of(gate_measures()), problems);
+    parameters::add_unknown_key(map, entry, names_of(gate_measures()), problems);
     return;
   }
-  const Field field = entry_of(map, entry);
+  const yaml::Field field = yaml::entry_of(map, entry);
   const std::optional<GateMargin> margin = read_margin(field, problems);
   if (!margin) return;
   if (measure->proportion() && (margin->absolute >= 1.0 || margin->relative >= 1.0)) {
@@ -82,15 +82,16 @@ void read_margin_of(const Field& map, const YamlEntry& entry, std::map<std::stri
   margins[entry.key] = *margin;
 }
 
-void read_margins(const Field& field, std::map<std::string, GateMargin>& margins, Problems& problems) {
-  if (!check_map(field, "a map from measures to margins", problems)) return;
-  for (const YamlEntry& entry : field.node->entries) read_margin_of(field, entry, margins, problems);
+void read_margins(const yaml::Field& field, std::map<std::string, GateMargin>& margins,
+                  yaml::Problems& problems) {
+  if (!yaml::check_map(field, "a map from measures to margins", problems)) return;
+  for (const yaml::YamlEntry& entry : field.node->entries) read_margin_of(field, entry, margins, problems);
 }
 
 const char* const requirement_form = "a text such as 'success_rate ≥ 0.995' (or >=, ≤, <=)";
 
-std::optional<Requirement> read_requirement(const Field& field, Problems& problems) {
-  const std::optional<std::string> text = read_text(field, problems);
+std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Problems& problems) {
+  const std::optional<std::string> text = yaml::read_text(field, problems);
   if (!text) return std::nullopt;
   static const std::regex form(R"(\s*([a-z_.0-9]+)\s*(≥|>=|≤|<=)\s*(\S+)\s*)");
   std::smatch match;
@@ -100,18 +101,18 @@ std::optional<Requirement> read_requirement(const Field& field, Problems& proble
     return std::nullopt;
   };
   if (!std::regex_match(*text, match, form)) {
-    return refuse(fmt::format("{} cannot be understood", in_quotes(*text)), requirement_form);
+    return refuse(fmt::format("{} cannot be understood", yaml::in_quotes(*text)), requirement_form);
   }
   requirement.quantity = find_requirable(match[1].str());
   requirement.at_least = match[2] == "≥" || match[2] == ">=";
   const std::string number = match[3];
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), requirement.limit);
   if (requirement.quantity == nullptr) {
-    return refuse(fmt::format("{} cannot be required", in_quotes(match[1].str())),
+    return refuse(fmt::format("{} cannot be required", yaml::in_quotes(match[1].str())),
                   fmt::format("one of {}", fmt::join(names_of(requirable_quantities()), ", ")));
   }
   if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(requirement.limit)) {
-    return refuse(fmt::format("{} is not a number", in_quotes(number)), requirement_form);
+    return refuse(fmt::format("{} is not a number", yaml::in_quotes(number)), requirement_form);
   }
   const bool proportion = requirement.quantity->kind == RequirementKind::proportion;
   if (proportion && (requirement.limit < 0.0 || requirement.limit > 1.0)) {
@@ -124,28 +125,31 @@ std::optional<Requirement> read_requirement(const Field& field, Problems& proble
 }
 
 /// One requirement, or a list of them.
-void read_requirements(const Field& field, std::vector<Requirement>& requirements, Problems& problems) {
-  const auto add = [&](const Field& one) {
+void read_requirements(const yaml::Field& field, std::vector<Requirement>& requirements,
+                       yaml::Problems& problems) {
+  const auto add = [&](const yaml::Field& one) {
     if (auto requirement = read_requirement(one, problems)) requirements.push_back(*std::move(requirement));
   };
-  if (field.node->kind != YamlNode::Kind::list) return add(field);
-  for (std::size_t i = 0; i < field.node->items.size(); ++i) add(item_of(field, i));
+  if (field.node->kind != yaml::YamlNode::Kind::list) return add(field);
+  for (std::size_t i = 0; i < field.node->items.size(); ++i) add(yaml::item_of(field, i));
 }
 
-void read_points(const Field& field, std::span<const std::string> labels, GateRules& rules,
-                 Problems& problems) {
-  if (!check_map(field, "a map from labels of design points to margins and requirements", problems)) return;
-  for (const YamlEntry& entry : field.node->entries) {
-    const Field point = entry_of(field, entry);
+void read_points(const yaml::Field& field, std::span<const std::string> labels, GateRules& rules,
+                 yaml::Problems& problems) {
+  if (!yaml::check_map(field, "a map from labels of design points to margins and requirements", problems))
+    return;
+  for (const yaml::YamlEntry& entry : field.node->entries) {
+    const yaml::Field point = yaml::entry_of(field, entry);
     if (std::find(labels.begin(), labels.end(), entry.key) == labels.end()) {
-      problems.add(entry.place, point.path, "no design point of the files has this label",
-                   fmt::format("one of theirs, such as {}", in_quotes(nearest_name(entry.key, labels))));
+      problems.add(
+          entry.place, point.path, "no design point of the files has this label",
+          fmt::format("one of theirs, such as {}", yaml::in_quotes(yaml::nearest_name(entry.key, labels))));
       continue;
     }
-    if (!check_map(point, "a map from measures to margins, and require", problems)) continue;
-    for (const YamlEntry& own : point.node->entries) {
+    if (!yaml::check_map(point, "a map from measures to margins, and require", problems)) continue;
+    for (const yaml::YamlEntry& own : point.node->entries) {
       if (own.key == "require") {
-        read_requirements(entry_of(point, own), rules.requirements_at[entry.key], problems);
+        read_requirements(yaml::entry_of(point, own), rules.requirements_at[entry.key], problems);
       } else {
         read_margin_of(point, own, rules.margins_at[entry.key], problems);
       }
@@ -153,36 +157,37 @@ void read_points(const Field& field, std::span<const std::string> labels, GateRu
   }
 }
 
-void read_measures(const Field& field, std::vector<std::string>& measures, Problems& problems) {
+void read_measures(const yaml::Field& field, std::vector<std::string>& measures, yaml::Problems& problems) {
   const std::vector<std::string> known = names_of(gate_measures());
   const std::string expected = fmt::format("a list of some of {}", fmt::join(known, ", "));
-  if (!check_list(field, expected, problems)) return;
+  if (!yaml::check_list(field, expected, problems)) return;
   if (field.node->items.empty()) problems.add(field.node->place, field.path, "the list is empty", expected);
   for (std::size_t i = 0; i < field.node->items.size(); ++i) {
-    const Field item = item_of(field, i);
-    const std::optional<std::string> name = read_text(item, problems);
+    const yaml::Field item = yaml::item_of(field, i);
+    const std::optional<std::string> name = yaml::read_text(item, problems);
     if (!name) continue;
     if (!find_gate_measure(*name)) {
-      problems.add(
-          item.node->place, item.path,
-          fmt::format("{} is no measure, nearest known: {}", in_quotes(*name), nearest_name(*name, known)),
-          expected);
+      problems.add(item.node->place, item.path,
+                   fmt::format("{} is no measure, nearest known: {}", yaml::in_quotes(*name),
+                               yaml::nearest_name(*name, known)),
+                   expected);
     }
     measures.push_back(*name);
   }
 }
 
-GateRules read_rules(const Field& top, std::span<const std::string> labels, Problems& problems) {
+GateRules read_rules(const yaml::Field& top, std::span<const std::string> labels, yaml::Problems& problems) {
   GateRules rules;
-  if (!check_map(top, fmt::format("a map with some of {}", fmt::join(top_keys, ", ")), problems))
+  if (!yaml::check_map(top, fmt::format("a map with some of {}", fmt::join(top_keys, ", ")), problems))
     return rules;
-  for (const YamlEntry& entry : top.node->entries) {
-    const Field field = entry_of(top, entry);
+  for (const yaml::YamlEntry& entry : top.node->entries) {
+    const yaml::Field field = yaml::entry_of(top, entry);
     if (entry.key == "confidence") {
-      rules.confidence = read_real(field, closed(0.5, 0.999999), problems).value_or(rules.confidence);
+      rules.confidence =
+          yaml::read_real(field, numerics::closed(0.5, 0.999999), problems).value_or(rules.confidence);
     } else if (entry.key == "false_discovery_rate") {
       rules.false_discovery_rate =
-          read_real(field, closed(1e-6, 0.5), problems).value_or(rules.false_discovery_rate);
+          yaml::read_real(field, numerics::closed(1e-6, 0.5), problems).value_or(rules.false_discovery_rate);
     } else if (entry.key == "measures") {
       read_measures(field, rules.measures, problems);
     } else if (entry.key == "margins") {
@@ -192,7 +197,7 @@ GateRules read_rules(const Field& top, std::span<const std::string> labels, Prob
     } else if (entry.key == "points") {
       read_points(field, labels, rules, problems);
     } else {
-      add_unknown_key(top, entry, top_keys, problems);
+      parameters::add_unknown_key(top, entry, top_keys, problems);
     }
   }
   return rules;
@@ -202,13 +207,13 @@ GateRules read_rules(const Field& top, std::span<const std::string> labels, Prob
 
 GateRules parse_gate_rules(const std::string& text, std::string_view source,
                            std::span<const std::string> labels) {
-  Problems problems;
-  if (text.size() > max_manifest_size) {
+  yaml::Problems problems;
+  if (text.size() > yaml::max_manifest_size) {
     problems.add({source, 1, 1}, "margins", "the file is too large",
-                 fmt::format("at most {} bytes", max_manifest_size));
+                 fmt::format("at most {} bytes", yaml::max_manifest_size));
     problems.raise_if_any();
   }
-  const YamlPointer root = parse_yaml(text, source, false, problems);
+  const yaml::YamlPointer root = yaml::parse_yaml(text, source, false, problems);
   if (!root && problems.empty()) {
     problems.add({source, 1, 1}, "margins", "the file is empty",
                  fmt::format("a map with some of {}", fmt::join(top_keys, ", ")));
@@ -220,7 +225,8 @@ GateRules parse_gate_rules(const std::string& text, std::string_view source,
 }
 
 GateRules read_gate_rules(const std::filesystem::path& path, std::span<const std::string> labels) {
-  return parse_gate_rules(read_text(path, max_manifest_size, "margins in YAML"), name_of_text(path), labels);
+  return parse_gate_rules(yaml::read_text(path, yaml::max_manifest_size, "margins in YAML"),
+                          yaml::name_of_text(path), labels);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

@@ -7,7 +7,7 @@
 
 #include "analysis/comparison/gate_rules.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// Reads the YAML file of margins and requirements (its language: README.md of this folder).
 /// @param labels of the design points that are compared, which the file may name
@@ -19,4 +19,4 @@ GateRules read_gate_rules(const std::filesystem::path& path, std::span<const std
 GateRules parse_gate_rules(const std::string& text, std::string_view source,
                            std::span<const std::string> labels);
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

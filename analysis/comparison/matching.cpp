@@ -11,7 +11,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 constexpr std::size_t most_named = 8;
@@ -23,7 +23,7 @@ std::string some_of(const std::vector<std::string>& names) {
   return names.size() > shown ? fmt::format("{} and {} more", text, names.size() - shown) : text;
 }
 
-std::map<std::string, std::int64_t> points_by_label(const StudyFile& file) {
+std::map<std::string, std::int64_t> points_by_label(const reading::StudyFile& file) {
   std::map<std::string, std::int64_t> points;
   const std::vector<std::string> labels = file.point_labels();
   for (std::size_t point = 0; point < labels.size(); ++point) {
@@ -35,15 +35,16 @@ std::map<std::string, std::int64_t> points_by_label(const StudyFile& file) {
   return points;
 }
 
-std::vector<std::string> without_partner(const StudyFile& file,
+std::vector<std::string> without_partner(const reading::StudyFile& file,
                                          const std::map<std::string, std::int64_t>& others) {
   std::vector<std::string> lonely = file.point_labels();
   std::erase_if(lonely, [&](const std::string& label) { return others.contains(label); });
   return lonely;
 }
 
-bool has_cases(const std::vector<SweepAxis>& axes) {
-  return std::any_of(axes.begin(), axes.end(), [](const SweepAxis& axis) { return axis.name == "case"; });
+bool has_cases(const std::vector<study::SweepAxis>& axes) {
+  return std::any_of(axes.begin(), axes.end(),
+                     [](const study::SweepAxis& axis) { return axis.name == "case"; });
 }
 
 /// A number so that it reads back to the same; two NaN agree, whatever their signs.
@@ -51,23 +52,23 @@ std::string exact_text(double value) {
   return std::isnan(value) ? "drawn" : fmt::format("{}", value);
 }
 
-std::string value_at(const std::vector<SweepAxis>& axes, const std::string& name, std::int64_t point) {
+std::string value_at(const std::vector<study::SweepAxis>& axes, const std::string& name, std::int64_t point) {
   const auto at = static_cast<std::size_t>(point);
-  for (const SweepAxis& axis : axes) {
+  for (const study::SweepAxis& axis : axes) {
     if (axis.name != name) continue;
-    return axis.kind == SweepAxis::Kind::text ? axis.texts.at(at) : exact_text(axis.numbers.at(at));
+    return axis.kind == study::SweepAxis::Kind::text ? axis.texts.at(at) : exact_text(axis.numbers.at(at));
   }
   return "missing";
 }
 
-void require_equal_axes(const StudyFile& baseline, const StudyFile& current,
+void require_equal_axes(const reading::StudyFile& baseline, const reading::StudyFile& current,
                         const std::vector<MatchedPoint>& points) {
-  const std::vector<SweepAxis> before = baseline.axes();
-  const std::vector<SweepAxis> after = current.axes();
+  const std::vector<study::SweepAxis> before = baseline.axes();
+  const std::vector<study::SweepAxis> after = current.axes();
   if (has_cases(before) && has_cases(after)) return;
   std::set<std::string> names;
-  for (const SweepAxis& axis : before) names.insert(axis.name);
-  for (const SweepAxis& axis : after) names.insert(axis.name);
+  for (const study::SweepAxis& axis : before) names.insert(axis.name);
+  for (const study::SweepAxis& axis : after) names.insert(axis.name);
   for (const MatchedPoint& point : points) {
     for (const std::string& name : names) {
       const std::string one = value_at(before, name, point.baseline);
@@ -97,15 +98,15 @@ InputRelation relation_of(const std::vector<double>& before, const std::vector<d
   return InputRelation::same_order;
 }
 
-const InputColumn* find_input(const StudyFile& file, const std::string& name) {
-  const std::vector<InputColumn>& inputs = file.input_columns();
-  const auto found =
-      std::find_if(inputs.begin(), inputs.end(), [&](const InputColumn& one) { return one.name == name; });
+const study::InputColumn* find_input(const reading::StudyFile& file, const std::string& name) {
+  const std::vector<study::InputColumn>& inputs = file.input_columns();
+  const auto found = std::find_if(inputs.begin(), inputs.end(),
+                                  [&](const study::InputColumn& one) { return one.name == name; });
   return found == inputs.end() ? nullptr : &*found;
 }
 
 /// The worst relation of one parameter over all points.
-InputRelation relation_over_points(const StudyFile& baseline, const StudyFile& current,
+InputRelation relation_over_points(const reading::StudyFile& baseline, const reading::StudyFile& current,
                                    std::size_t old_column, std::size_t new_column,
                                    const std::vector<MatchedPoint>& points) {
   const std::int64_t trials = std::min(baseline.header().trials, current.header().trials);
@@ -121,7 +122,8 @@ InputRelation relation_over_points(const StudyFile& baseline, const StudyFile& c
 
 }  // namespace
 
-std::vector<MatchedPoint> match_points(const StudyFile& baseline, const StudyFile& current) {
+std::vector<MatchedPoint> match_points(const reading::StudyFile& baseline,
+                                       const reading::StudyFile& current) {
   const std::map<std::string, std::int64_t> old_points = points_by_label(baseline);
   const std::map<std::string, std::int64_t> new_points = points_by_label(current);
   std::string problem;
@@ -142,7 +144,7 @@ std::vector<MatchedPoint> match_points(const StudyFile& baseline, const StudyFil
   return points;
 }
 
-DrawComparison compare_draws(const StudyFile& baseline, const StudyFile& current,
+DrawComparison compare_draws(const reading::StudyFile& baseline, const reading::StudyFile& current,
                              const ManifestValues& old_values, const ManifestValues& new_values,
                              const std::vector<MatchedPoint>& points) {
   if (baseline.header().seed != current.header().seed) return {false, "the seeds differ", {}};
@@ -156,7 +158,7 @@ DrawComparison compare_draws(const StudyFile& baseline, const StudyFile& current
   DrawComparison result{true, "trial i drew the same random numbers in both", {}};
   for (std::size_t column = 0; column < baseline.input_columns().size(); ++column) {
     const std::string& name = baseline.input_columns()[column].name;
-    const InputColumn* const partner = find_input(current, name);
+    const study::InputColumn* const partner = find_input(current, name);
     if (partner == nullptr) continue;
     const auto new_column = static_cast<std::size_t>(partner - current.input_columns().data());
     const InputRelation relation = relation_over_points(baseline, current, column, new_column, points);
@@ -168,4 +170,4 @@ DrawComparison compare_draws(const StudyFile& baseline, const StudyFile& current
   return result;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

@@ -7,7 +7,7 @@
 #include "analysis/comparison/manifest_differences.hpp"
 #include "results/reading/study_file.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// A design point that both files have.
 struct MatchedPoint {
@@ -20,7 +20,7 @@ struct MatchedPoint {
 /// case, or holds one, the axes may differ: the case may have been given another gain. Otherwise the axes
 /// must agree to the bit.
 /// @throws Failure (bad_data) that names what has no partner.
-std::vector<MatchedPoint> match_points(const StudyFile& baseline, const StudyFile& current);
+std::vector<MatchedPoint> match_points(const reading::StudyFile& baseline, const reading::StudyFile& current);
 
 /// Whether trial i of both files drew the same random numbers.
 struct DrawComparison {
@@ -32,8 +32,8 @@ struct DrawComparison {
 /// The seeds and designs must be the same, and every drawn parameter of both files must have the same value
 /// in trial i, to the bit, or, where its distribution was changed, rise in the same order of trials: equal
 /// draws through another distribution. Looked at in all trials that both have.
-DrawComparison compare_draws(const StudyFile& baseline, const StudyFile& current,
+DrawComparison compare_draws(const reading::StudyFile& baseline, const reading::StudyFile& current,
                              const ManifestValues& old_values, const ManifestValues& new_values,
                              const std::vector<MatchedPoint>& points);
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

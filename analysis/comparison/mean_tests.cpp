@@ -6,7 +6,7 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 struct SampleMoments {
@@ -62,17 +62,19 @@ double p_of(const MeanDifference& difference) {
   return boost::math::cdf(boost::math::complement(law, difference.value / difference.standard_error));
 }
 
-ConfidenceInterval cautious_bounds(std::span<const double> differences, double unit, double confidence) {
+statistics::ConfidenceInterval cautious_bounds(std::span<const double> differences, double unit,
+                                               double confidence) {
   const MeanDifference lower = mean_difference(with_one_more(differences, -unit));
   const MeanDifference upper = mean_difference(with_one_more(differences, unit));
   return {lower.value - half_width(lower, confidence), upper.value + half_width(upper, confidence)};
 }
 
-ConfidenceInterval cautious_bounds(std::span<const double> baseline, std::span<const double> current,
-                                   double unit, double confidence) {
+statistics::ConfidenceInterval cautious_bounds(std::span<const double> baseline,
+                                               std::span<const double> current, double unit,
+                                               double confidence) {
   const MeanDifference lower = mean_difference(baseline, with_one_more(current, -unit));
   const MeanDifference upper = mean_difference(baseline, with_one_more(current, unit));
   return {lower.value - half_width(lower, confidence), upper.value + half_width(upper, confidence)};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

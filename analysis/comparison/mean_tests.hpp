@@ -6,7 +6,7 @@
 #include "analysis/statistics/proportion.hpp"
 
 /// Tests and bounds of a difference of means by Student's t. A positive difference is for the worse.
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// Difference of the means, and what its bounds come from.
 struct MeanDifference {
@@ -32,8 +32,10 @@ double p_of(const MeanDifference& difference);
 /// are 0 the spread that is seen says little; in n trials that all agree, the upper bound is so
 /// about 2.7·unit/n, where the rule of three has 3/n for the proportion of trials that might differ.
 /// @param unit what one trial may well differ by, greater than 0
-ConfidenceInterval cautious_bounds(std::span<const double> differences, double unit, double confidence);
-ConfidenceInterval cautious_bounds(std::span<const double> baseline, std::span<const double> current,
-                                   double unit, double confidence);
+statistics::ConfidenceInterval cautious_bounds(std::span<const double> differences, double unit,
+                                               double confidence);
+statistics::ConfidenceInterval cautious_bounds(std::span<const double> baseline,
+                                               std::span<const double> current, double unit,
+                                               double confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

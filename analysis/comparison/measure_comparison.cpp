@@ -11,7 +11,7 @@
 #include "analysis/comparison/proportion_tests.hpp"
 #include "analysis/comparison/rank_tests.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 /// The values of a mean in two files: differences where they are paired.
@@ -68,7 +68,7 @@ ComparedValues paired_values(const PointTrials& baseline, const PointTrials& cur
 /// 1 for each trial that failed: that lacks a quality of which less is worse, or has one of which more is.
 std::vector<double> failures_of(const PointTrials& trials, const GateMeasure& measure) {
   std::vector<double> failures = trials.of(measure);
-  if (measure.measure->gate->worse == Worse::less) {
+  if (measure.measure->gate->worse == layout::Worse::less) {
     for (double& quality : failures) quality = 1.0 - quality;
   }
   return failures;
@@ -76,7 +76,7 @@ std::vector<double> failures_of(const PointTrials& trials, const GateMeasure& me
 
 /// The proportion of trials with a quality, where a proportion `failures` of them failed.
 double proportion_with(const GateMeasure& measure, double failures) {
-  return measure.measure->gate->worse == Worse::less ? 1.0 - failures : failures;
+  return measure.measure->gate->worse == layout::Worse::less ? 1.0 - failures : failures;
 }
 
 /// Failures as numbers: their means are the rates of failure.
@@ -109,8 +109,9 @@ void compare_share(MeasureComparison& result, const GateMeasure& measure, const 
                              std::count(current.begin(), current.end(), 1.0), std::ssize(current)};
   result.baseline_n = counts.baseline_trials;
   result.current_n = counts.current_trials;
-  result.baseline = proportion_with(measure, rate(counts.baseline_failures, counts.baseline_trials));
-  result.current = proportion_with(measure, rate(counts.current_failures, counts.current_trials));
+  result.baseline =
+      proportion_with(measure, statistics::rate(counts.baseline_failures, counts.baseline_trials));
+  result.current = proportion_with(measure, statistics::rate(counts.current_failures, counts.current_trials));
   if (paired) {
     const PairedFailures failures = paired_failures(baseline, current);
     result.test = "McNemar, exact";
@@ -122,8 +123,8 @@ void compare_share(MeasureComparison& result, const GateMeasure& measure, const 
     return;
   }
   result.test = "Fisher, exact";
-  result.effect = rate(counts.current_failures, counts.current_trials) -
-                  rate(counts.baseline_failures, counts.baseline_trials);
+  result.effect = statistics::rate(counts.current_failures, counts.current_trials) -
+                  statistics::rate(counts.baseline_failures, counts.baseline_trials);
   result.bounds = newcombe(counts, confidence);
   result.p = fisher(counts);
   result.improvement_p = fisher({counts.baseline_trials - counts.baseline_failures, counts.baseline_trials,
@@ -132,7 +133,7 @@ void compare_share(MeasureComparison& result, const GateMeasure& measure, const 
 
 /// What one trial may well differ by: 1 of what is counted; the time that settling takes.
 double unit_of(const GateMeasure& measure, const MeasureComparison& result) {
-  if (measure.measure->field.column.element != Element::float64) return 1.0;
+  if (measure.measure->field.column.element != hdf5::Element::float64) return 1.0;
   const double value = std::max(std::abs(result.baseline), std::abs(result.current));
   return value > 0.0 ? value : 1e-3;
 }
@@ -177,7 +178,7 @@ void compare_mean(MeasureComparison& result, const GateMeasure& measure, const P
                               paired ? " in both files" : "");
     return;
   }
-  if (measure.measure->gate->worse == Worse::less) {
+  if (measure.measure->gate->worse == layout::Worse::less) {
     values = {negated(values.baseline), negated(values.current), negated(values.differences)};
   }
   test_means(result, values, unit_of(measure, result), paired, confidence);
@@ -225,4 +226,4 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
   return results;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

@@ -8,7 +8,7 @@
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/point_trials.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// Values that a mean must have, in both files, to be judged: fewer say nothing of a mean, and where so few
 /// trials arrive it is the proportion of arrivals that is compared.
@@ -33,4 +33,4 @@ std::int64_t decide(std::span<PointComparison> points, const GateRules& rules);
 /// Of several verdicts: regression before inconclusive before passed; not_measured where all are.
 GateVerdict worst_of(std::span<const GateVerdict> verdicts);
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

@@ -7,29 +7,30 @@
 
 #include "analysis/measures/trial_value.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 
-PointTrials gather_trials(std::span<const MoveOutcome> outcomes, std::int64_t moves,
-                          const MeasureTable& table) {
+PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
+                          const layout::MeasureTable& table) {
   PointTrials result;
   result.trials = std::ssize(outcomes) / moves;
   result.moves = moves;
   result.table = &table;
   for (const GateMeasure& gated : gate_measures(table)) {
-    const Measure& measure = *gated.measure;
+    const layout::Measure& measure = *gated.measure;
     std::vector<double>& values = result.values[std::string(gated.name)];
-    if (is_quality(measure) || measure.of_trial == OfTrial::sum) {
+    if (layout::is_quality(measure) || measure.of_trial == layout::OfTrial::sum) {
       for (auto move = outcomes.begin(); move != outcomes.end(); move += moves)
-        values.push_back(value_of_trial(measure, {move, move + moves}));
+        values.push_back(measures::value_of_trial(measure, {move, move + moves}));
     } else {
-      for (const MoveOutcome& move : outcomes) values.push_back(counted_value(measure, move));
+      for (const trial::MoveOutcome& move : outcomes)
+        values.push_back(measures::counted_value(measure, move));
     }
   }
-  for (const MoveOutcome& move : outcomes) add_move(result.undecided, move);
+  for (const trial::MoveOutcome& move : outcomes) measures::add_move(result.undecided, move);
   return result;
 }
 
-PointTrials read_point_trials(const StudyFile& file, std::int64_t point) {
+PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point) {
   const std::int64_t trials = file.header().trials;
   return gather_trials(file.outcomes({point * trials, trials}), file.moves(), file.table());
 }
@@ -89,4 +90,4 @@ std::vector<double> largest_of_moves(const PointTrials& trials, const GateMeasur
   return largest;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

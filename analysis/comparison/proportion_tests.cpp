@@ -11,7 +11,7 @@
 
 #include "analysis/statistics/normal.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 /// Tango's statistic Z(λ).
@@ -49,9 +49,9 @@ double mcnemar(const PairedFailures& failures) {
                                                   static_cast<double>(failures.only_current - 1)));
 }
 
-ConfidenceInterval tango(const PairedFailures& failures, double confidence) {
+statistics::ConfidenceInterval tango(const PairedFailures& failures, double confidence) {
   if (failures.pairs == 0) return {-1.0, 1.0};
-  const double z = normal_quantile(confidence);
+  const double z = statistics::normal_quantile(confidence);
   const double difference = static_cast<double>(failures.only_current - failures.only_baseline) /
                             static_cast<double>(failures.pairs);
   return {crossing(failures, z, -1.0, difference), crossing(failures, -z, difference, 1.0)};
@@ -68,15 +68,17 @@ double fisher(const FailureCounts& failures) {
   return boost::math::cdf(boost::math::complement(law, unsigned_of(failures.current_failures - 1)));
 }
 
-ConfidenceInterval newcombe(const FailureCounts& failures, double confidence) {
+statistics::ConfidenceInterval newcombe(const FailureCounts& failures, double confidence) {
   if (failures.baseline_trials == 0 || failures.current_trials == 0) return {-1.0, 1.0};
   const double two_sided = 2.0 * confidence - 1.0;
-  const ConfidenceInterval one = wilson(failures.baseline_failures, failures.baseline_trials, two_sided);
-  const ConfidenceInterval two = wilson(failures.current_failures, failures.current_trials, two_sided);
-  const double p1 = rate(failures.baseline_failures, failures.baseline_trials);
-  const double p2 = rate(failures.current_failures, failures.current_trials);
+  const statistics::ConfidenceInterval one =
+      statistics::wilson(failures.baseline_failures, failures.baseline_trials, two_sided);
+  const statistics::ConfidenceInterval two =
+      statistics::wilson(failures.current_failures, failures.current_trials, two_sided);
+  const double p1 = statistics::rate(failures.baseline_failures, failures.baseline_trials);
+  const double p2 = statistics::rate(failures.current_failures, failures.current_trials);
   return {p2 - p1 - std::hypot(p2 - two.low, one.high - p1),
           p2 - p1 + std::hypot(two.high - p2, p1 - one.low)};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

@@ -6,7 +6,7 @@
 
 /// Tests of a proportion of trials that fail something, in a baseline and in what is compared with it.
 /// Effects and alternatives are for the worse: more failures than in the baseline.
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// Failures of both, trial by trial.
 struct PairedFailures {
@@ -35,7 +35,7 @@ double mcnemar(const PairedFailures& failures);
 ///
 /// q the likeliest proportion of the pairs that only the baseline failed, given λ, is ∓ the normal quantile.
 /// Source: Tango, Statistics in Medicine 17 (1998), 891, equations (6), (10).
-ConfidenceInterval tango(const PairedFailures& failures, double confidence);
+statistics::ConfidenceInterval tango(const PairedFailures& failures, double confidence);
 
 /// Fisher's exact one-sided test: given the sum of failures, the probability of as many or more in the
 /// current sample where both have the same proportion (hypergeometric). Source: Fisher, Journal of the Royal
@@ -48,6 +48,6 @@ double fisher(const FailureCounts& failures);
 ///   low = d − √((p₂ − l₂)² + (u₁ − p₁)²), high = d + √((u₂ − p₂)² + (p₁ − l₁)²).
 ///
 /// Source: Newcombe, Statistics in Medicine 17 (1998), 873, method 10.
-ConfidenceInterval newcombe(const FailureCounts& failures, double confidence);
+statistics::ConfidenceInterval newcombe(const FailureCounts& failures, double confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

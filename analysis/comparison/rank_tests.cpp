@@ -8,7 +8,7 @@
 
 #include "analysis/statistics/normal.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 constexpr std::size_t max_exact_ranks = 200;
@@ -64,7 +64,8 @@ double normal_tail(const DoubledRanks& doubled) {
     mean += 0.5 * static_cast<double>(rank);
     variance += 0.25 * static_cast<double>(rank) * static_cast<double>(rank);
   }
-  return normal_upper_tail((static_cast<double>(doubled.positive) - mean - 1.0) / std::sqrt(variance));
+  return statistics::normal_upper_tail((static_cast<double>(doubled.positive) - mean - 1.0) /
+                                       std::sqrt(variance));
 }
 
 /// How the pooled samples rise: the sizes of the groups of equal values, as where they end, and the largest
@@ -132,4 +133,4 @@ double smirnov(std::span<const double> baseline, std::span<const double> current
   return std::exp(-2.0 * distance * distance * product / static_cast<double>(n1 + n2));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

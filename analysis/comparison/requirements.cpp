@@ -9,7 +9,7 @@
 #include "analysis/comparison/mean_tests.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 constexpr std::int64_t max_planned = 1'000'000'000;
@@ -20,11 +20,11 @@ struct ProportionClaim {
   std::int64_t trials{0};
   double limit{0.0};
   bool at_least{true};
-  std::optional<ClusterSums> by_rig{};  ///< where trials share rigs
+  std::optional<statistics::ClusterSums> by_rig{};  ///< where trials share rigs
 };
 
 /// As if there were `times` as many rigs like those that were seen.
-ClusterSums scaled(const ClusterSums& sums, double times) {
+statistics::ClusterSums scaled(const statistics::ClusterSums& sums, double times) {
   const auto whole = [&](std::int64_t number) {
     return static_cast<std::int64_t>(std::llround(times * static_cast<double>(number)));
   };
@@ -34,9 +34,9 @@ ClusterSums scaled(const ClusterSums& sums, double times) {
 }
 
 /// @param quality 1 for each trial that has it, otherwise 0
-std::optional<ClusterSums> sums_by_rig(const std::vector<double>& quality, std::int64_t rigs) {
+std::optional<statistics::ClusterSums> sums_by_rig(const std::vector<double>& quality, std::int64_t rigs) {
   if (rigs == 0) return std::nullopt;
-  ClusterSums sums;
+  statistics::ClusterSums sums;
   for (std::int64_t rig = 0; rig < rigs; ++rig) {
     std::int64_t hits = 0;
     std::int64_t trials = 0;
@@ -50,20 +50,21 @@ std::optional<ClusterSums> sums_by_rig(const std::vector<double>& quality, std::
 }
 
 /// One-sided bounds: `low` with one confidence, `high` with another.
-ConfidenceInterval one_sided(const ProportionClaim& claim, double low_confidence, double high_confidence) {
+statistics::ConfidenceInterval one_sided(const ProportionClaim& claim, double low_confidence,
+                                         double high_confidence) {
   if (claim.by_rig) {
-    return {clustered_at_least(*claim.by_rig, low_confidence),
-            clustered_at_most(*claim.by_rig, high_confidence)};
+    return {statistics::clustered_at_least(*claim.by_rig, low_confidence),
+            statistics::clustered_at_most(*claim.by_rig, high_confidence)};
   }
-  return {clopper_pearson(claim.successes, claim.trials, 2.0 * low_confidence - 1.0).low,
-          clopper_pearson(claim.successes, claim.trials, 2.0 * high_confidence - 1.0).high};
+  return {statistics::clopper_pearson(claim.successes, claim.trials, 2.0 * low_confidence - 1.0).low,
+          statistics::clopper_pearson(claim.successes, claim.trials, 2.0 * high_confidence - 1.0).high};
 }
 
-ConfidenceInterval bounds_of(const ProportionClaim& claim, double confidence, double failing) {
+statistics::ConfidenceInterval bounds_of(const ProportionClaim& claim, double confidence, double failing) {
   return claim.at_least ? one_sided(claim, confidence, failing) : one_sided(claim, failing, confidence);
 }
 
-GateVerdict verdict_of(const ConfidenceInterval& bounds, double limit, bool at_least) {
+GateVerdict verdict_of(const statistics::ConfidenceInterval& bounds, double limit, bool at_least) {
   const bool shown = at_least ? bounds.low >= limit : bounds.high <= limit;
   const bool contradicted = at_least ? bounds.high < limit : bounds.low > limit;
   if (shown) return GateVerdict::passed;
@@ -72,7 +73,7 @@ GateVerdict verdict_of(const ConfidenceInterval& bounds, double limit, bool at_l
 
 /// The fewest trials that decide, if the proportion in them is the one that was seen.
 std::optional<double> trials_to_decide(const ProportionClaim& claim, double confidence, double failing) {
-  const double proportion = rate(claim.successes, claim.trials);
+  const double proportion = statistics::rate(claim.successes, claim.trials);
   const auto decides = [&](std::int64_t trials) {
     const auto successes = std::llround(proportion * static_cast<double>(trials));
     ProportionClaim more{successes, trials, claim.limit, claim.at_least};
@@ -110,7 +111,7 @@ void judge_quality(RequirementResult& result, const std::vector<double>& quality
                    double confidence, double failing) {
   const ProportionClaim claim{std::count(quality.begin(), quality.end(), 1.0), std::ssize(quality),
                               result.limit, result.at_least, sums_by_rig(quality, rigs)};
-  result.value = rate(claim.successes, claim.trials);
+  result.value = statistics::rate(claim.successes, claim.trials);
   judge_proportion(result, claim, confidence, failing);
 }
 
@@ -174,4 +175,4 @@ double failing_confidence(double confidence, std::int64_t count) {
   return 1.0 - (1.0 - confidence) / static_cast<double>(std::max<std::int64_t>(count, 1));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

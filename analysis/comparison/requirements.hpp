@@ -7,7 +7,7 @@
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/point_trials.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 
 /// Judges a requirement at one point by one-sided bounds: it passes where the bound against the limit, at
 /// `confidence`, meets it; it fails where the other bound, at `failing_confidence`, contradicts it; otherwise
@@ -24,4 +24,4 @@ RequirementResult judge_requirement(const Requirement& requirement, const PointT
 /// none of those that are met fails (Bonferroni): 1 − (1 − confidence)/count.
 double failing_confidence(double confidence, std::int64_t count);
 
-}  // namespace zerocount
+}  // namespace zerocount::comparison

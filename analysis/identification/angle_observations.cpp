@@ -6,7 +6,7 @@
 
 #include <boost/math/tools/roots.hpp>
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 /// Variance of a uniform distribution of width 1.
@@ -115,4 +115,4 @@ double counting_noise(const Eigen::VectorXd& path, const Eigen::VectorXd& readin
   return 0.5 * (bracket.first + bracket.second);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

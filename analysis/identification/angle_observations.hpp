@@ -7,7 +7,7 @@
 
 #include "analysis/identification/test_record.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 /// An observation of the rotor: its mean angle over the samples first … last is `position`, with the variance
 /// `variance`. Both refer to the record's unit and to an encoder with phase 0.
@@ -52,4 +52,4 @@ auto mean_over(const AngleObservation& observation, const Values& values) {
 /// deviations from `path` have little influence.
 double counting_noise(const Eigen::VectorXd& path, const Eigen::VectorXd& readings);
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -8,7 +8,7 @@
 #include "analysis/identification/record_checks.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 /// Unit (rad) of angles that are not counts.
@@ -17,8 +17,8 @@ constexpr double angle_unit = 1e-6;
 /// The torque over each sample interval. If the motor torque was sampled behind an amplifier of known
 /// bandwidth, its samples u and u′ at both ends of an interval are two points of one exponential, which gives
 /// the commanded torque.
-std::vector<TorqueCourse> courses_of(const RawSeries& series, double sample_time) {
-  std::vector<TorqueCourse> courses;
+std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, double sample_time) {
+  std::vector<motion::TorqueCourse> courses;
   const double rate = 2.0 * std::numbers::pi * series.bandwidth;
   const double left = std::exp(-rate * sample_time);
   const double gone = -std::expm1(-rate * sample_time);
@@ -26,7 +26,7 @@ std::vector<TorqueCourse> courses_of(const RawSeries& series, double sample_time
   for (std::size_t k = 0; k < series.torque.size(); ++k) {
     const double torque = k < series.delay ? 0.0 : series.torque[k - series.delay];
     if (rate == 0.0) {
-      courses.push_back(constant_torque(torque));
+      courses.push_back(motion::constant_torque(torque));
     } else if (series.torque_kind == TorqueKind::commanded) {
       courses.push_back({lagging, torque, rate});
       lagging = torque + (lagging - torque) * left;
@@ -106,4 +106,4 @@ TestRecord checked_record(const RawSeries& series, bool any_magnitude) {
   return record;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

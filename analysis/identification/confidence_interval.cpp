@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 FittedQuantity of_coordinate(std::string_view name, std::string_view unit, Coordinate coordinate,
@@ -165,4 +165,4 @@ QuantityEstimate interval_by_profile(std::span<const TestRecord> records, const 
   return result;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

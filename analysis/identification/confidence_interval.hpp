@@ -8,7 +8,7 @@
 #include "analysis/identification/contact_fit.hpp"
 #include "analysis/identification/reading_replicates.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 /// A reported quantity: a linear or nearly linear function of the coordinates.
 struct FittedQuantity {
@@ -42,4 +42,4 @@ QuantityEstimate interval_by_replicates(const FittedQuantity& quantity, const Re
 QuantityEstimate interval_by_profile(std::span<const TestRecord> records, const ContactFit& fit,
                                      const FittedQuantity& quantity, const QuantityEstimate& estimate);
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

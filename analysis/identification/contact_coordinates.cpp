@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 /// Breakaway torque in multiples of σ0, above all torques of a record, so that the hook never slides.
@@ -37,4 +37,4 @@ ContactPoint point_of(const ContactParameters& contact, double creep_torque) {
   return point;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

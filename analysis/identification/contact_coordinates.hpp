@@ -9,12 +9,12 @@
 #include "core/friction/parameters.hpp"
 #include "core/motion/parameters.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 /// The identified parameters of a rotor and its contact.
 struct ContactParameters {
-  PlantParameters plant;
-  FrictionParameters friction;
+  motion::PlantParameters plant;
+  friction::FrictionParameters friction;
 };
 
 /// The coordinates in which a contact is fitted. All but the last are logarithms, because the parameters are
@@ -51,4 +51,4 @@ ContactParameters contact_at(const ContactPoint& point, double creep_torque);
 /// The inverse of contact_at, except for the breakaway torque.
 ContactPoint point_of(const ContactParameters& contact, double creep_torque);
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -12,7 +12,7 @@
 #include "analysis/identification/starting_point.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 /// Lower limit of the noise of readings that are not counts: smaller residuals are rounding errors.
@@ -247,4 +247,4 @@ bool improve_softening(std::span<const TestRecord> records, ContactFit& fit) {
   return true;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

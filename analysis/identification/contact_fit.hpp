@@ -7,7 +7,7 @@
 #include "analysis/identification/joint_fit.hpp"
 #include "analysis/identification/record_parts.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 /// A parameter with a value given by the user.
 struct KnownParameter {
@@ -43,4 +43,4 @@ ContactFit fit_contact(std::span<const TestRecord> records, std::span<const Reco
 /// @returns whether `fit` changed.
 bool improve_softening(std::span<const TestRecord> records, ContactFit& fit);
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

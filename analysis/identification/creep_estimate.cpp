@@ -4,7 +4,7 @@
 
 #include "analysis/identification/starting_point.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 constexpr std::array exponents{1.0, 1.5, 2.0, 2.5, 3.0, 4.0};
@@ -93,4 +93,4 @@ CreepEstimate estimate_creep(std::span<const TestRecord> records, std::span<cons
   return best;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

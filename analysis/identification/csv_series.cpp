@@ -7,7 +7,7 @@
 #include "analysis/identification/raw_series.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 /// The first column of `known` that the table has, or the chosen one.
@@ -91,4 +91,4 @@ RawSeries read_csv_series(const std::filesystem::path& path, const SeriesChoice&
   return series;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

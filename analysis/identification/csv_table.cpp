@@ -10,7 +10,7 @@
 #include "core/failure/failure.hpp"
 #include "experiments/yaml/text_file.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 constexpr std::size_t max_faults_listed = 5;
@@ -49,7 +49,7 @@ double number_of(std::string_view text) {
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& path)
-    : name_(name_of_text(path)), text_(read_text(path, max_table_size, "a table")) {
+    : name_(yaml::name_of_text(path)), text_(yaml::read_text(path, max_table_size, "a table")) {
   if (text_.size() > max_table_size) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: the file is too large; expected at most {} bytes", name_, max_table_size));
@@ -99,7 +99,7 @@ void CsvTable::read_header(std::string_view line) {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (find(columns_[i].name) == i) continue;
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: two columns are named '{}'", name_, printable(columns_[i].name)));
+                  fmt::format("{}: two columns are named '{}'", name_, text::printable(columns_[i].name)));
   }
 }
 
@@ -114,7 +114,7 @@ void CsvTable::add_row(std::string_view line, std::size_t number) {
 
 std::string CsvTable::columns_text() const {
   std::string text;
-  for (const Column& column : columns_) text += (text.empty() ? "" : ", ") + printable(column.name);
+  for (const Column& column : columns_) text += (text.empty() ? "" : ", ") + text::printable(column.name);
   return text;
 }
 
@@ -141,7 +141,7 @@ std::vector<double> CsvTable::numbers(std::string_view column) const {
     values.push_back(number_of(cell(row, at)));
     if (std::isfinite(values.back())) continue;
     if (++fault_count > max_faults_listed) continue;
-    const std::string text = printable(cell(row, at).substr(0, 40));
+    const std::string text = text::printable(cell(row, at).substr(0, 40));
     faults.push_back(fmt::format("{}:{}: {}: {} is no finite number", name_, line(row), column,
                                  text.empty() ? "an empty cell" : "'" + text + "'"));
   }
@@ -159,4 +159,4 @@ std::vector<bool> CsvTable::equals(std::string_view column, std::string_view wor
   return equal;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::identification {
 
 /// A table of comma-separated values whose first line names the columns. Empty lines, and lines that begin
 /// with
@@ -52,4 +52,4 @@ class CsvTable {
   std::vector<std::size_t> starts_;  ///< [row] offset in the text
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -9,7 +9,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 /// Maximum residual, as a fraction of a record's travel.
@@ -88,4 +88,4 @@ void refuse_implausible_frequency(std::span<const TestRecord> records, double k1
                   min_frequency, max_frequency));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -5,7 +5,7 @@
 #include "analysis/identification/contact_fit.hpp"
 #include "analysis/identification/residual_checks.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 // Checks of the records after a fit. Each throws Failure (bad_data) with the record, the place in it and the
 // // reason.
@@ -25,4 +25,4 @@ void refuse_gross_misfit(std::span<const TestRecord> records, const ContactFit& 
 /// units of all records are trusted or one of the two values is NaN.
 void refuse_implausible_frequency(std::span<const TestRecord> records, double k1, double inertia);
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -13,7 +13,7 @@
 #include "analysis/identification/residual_checks.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 constexpr std::size_t min_reversals = 2;
@@ -41,7 +41,7 @@ void check_reversals(std::span<const RecordParts> parts, const IdentificationOpt
                             reversals == 0 ? "never" : "once", min_reversals));
 }
 
-bool is_same(const TorqueCourse& one, const TorqueCourse& other) {
+bool is_same(const motion::TorqueCourse& one, const motion::TorqueCourse& other) {
   return one.now == other.now && one.settled == other.settled && one.rate == other.rate;
 }
 
@@ -242,4 +242,4 @@ Identification identify(const std::vector<TestRecord>& records, const Identifica
   return result;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

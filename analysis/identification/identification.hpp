@@ -8,7 +8,7 @@
 #include "analysis/identification/residual_checks.hpp"
 #include "analysis/identification/test_record.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 enum class EstimateStatus {
   estimated,        ///< from the records
@@ -74,4 +74,4 @@ struct IdentificationOptions {
 /// implausible and the units are not trusted.
 Identification identify(const std::vector<TestRecord>& records, const IdentificationOptions& options = {});
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -6,7 +6,7 @@
 #include "analysis/identification/manifest_fragment.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -45,10 +45,17 @@ Json parameter_json(const ParameterEstimate& parameter) {
 }
 
 Json record_json(const RecordSummary& record) {
-  return {{"name", printable(record.name)}, {"samples", record.samples}, {"duration", record.duration},
-          {"counted", record.counted},      {"unit", record.unit},       {"branches", record.branches},
-          {"reversals", record.reversals},  {"holds", record.holds},     {"ring_downs", record.ring_downs},
-          {"misfit", record.misfit},        {"noise", record.noise}};
+  return {{"name", text::printable(record.name)},
+          {"samples", record.samples},
+          {"duration", record.duration},
+          {"counted", record.counted},
+          {"unit", record.unit},
+          {"branches", record.branches},
+          {"reversals", record.reversals},
+          {"holds", record.holds},
+          {"ring_downs", record.ring_downs},
+          {"misfit", record.misfit},
+          {"noise", record.noise}};
 }
 
 Json checks_json(const ResidualChecks& checks) {
@@ -84,4 +91,4 @@ std::string identification_json(const Identification& identification) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -6,7 +6,7 @@
 #include "analysis/identification/manifest_fragment.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 std::vector<std::string> row_of(const ParameterEstimate& parameter) {
@@ -32,7 +32,7 @@ std::string record_line(const RecordSummary& record) {
   return fmt::format(
       "  {}: {} samples, {:.4g} s; {} branches, {} reversals, {} holds, {} ring-downs\n"
       "    read in {} of {:.6g} rad{}; the model leaves {:.3g} (root mean square)\n",
-      printable(record.name), record.samples, record.duration, record.branches, record.reversals,
+      text::printable(record.name), record.samples, record.duration, record.branches, record.reversals,
       record.holds, record.ring_downs, record.counted ? "counts" : "units", record.unit, noise,
       record.misfit);
 }
@@ -57,7 +57,7 @@ std::string checks_text(const ResidualChecks& checks) {
 std::string identification_text(const Identification& identification) {
   std::vector<std::vector<std::string>> cells{{"parameter", "value", "unit", "95 % interval", "±", "status"}};
   for (const ParameterEstimate& parameter : identification.parameters) cells.push_back(row_of(parameter));
-  std::string text = aligned_table(cells, {false, true, false, true, true, false});
+  std::string text = text::aligned_table(cells, {false, true, false, true, true, false});
   text += "\n";
   for (const ParameterEstimate& parameter : identification.parameters) {
     if (parameter.status != EstimateStatus::not_identifiable) continue;
@@ -69,4 +69,4 @@ std::string identification_text(const Identification& identification) {
   return text + "\nTo paste into a manifest:\n\n" + manifest_fragment(identification);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

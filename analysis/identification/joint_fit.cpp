@@ -10,7 +10,7 @@
 #include <ceres/solver.h>
 #include <glog/logging.h>
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 /// Maximum distance (of logarithms) of a coordinate from the prior: a factor of 100. Far beyond, simulations
@@ -153,4 +153,4 @@ FitResult fit_jointly(std::span<const TestRecord> records, const Observations& o
   return {point, 2.0 * summary.final_cost};  // Ceres' cost is half the sum
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

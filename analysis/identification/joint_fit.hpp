@@ -11,7 +11,7 @@
 #include "analysis/identification/record_motion.hpp"
 #include "analysis/identification/test_record.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 /// The unknowns of a fit: one contact, and for each record the encoder's reading at θ = 0.
 struct FitPoint {
@@ -85,4 +85,4 @@ class NormalEquationsSum {
   NormalEquations sum_;
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 constexpr double two_sided_95 = 1.959963984540054;  // Φ⁻¹(0.975)
@@ -103,4 +103,4 @@ std::string manifest_fragment(const Identification& identification) {
   return text;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -4,7 +4,7 @@
 
 #include "analysis/identification/identification.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 /// The identified parameters as a fragment of a manifest, the maps `plant` and `friction`: for each estimated
 /// parameter a distribution whose central 95 % are its confidence interval, for a given parameter its value,
@@ -19,4 +19,4 @@ std::string with_digits(double value, const ParameterEstimate& parameter);
 /// The distribution of one estimated parameter in the fragment.
 std::string distribution_text(const ParameterEstimate& parameter);
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 /// A hold in which the rotor creeps.
@@ -97,4 +97,4 @@ std::string missing_information(std::span<const TestRecord> records, std::span<c
   return of_creep(creeping_holds(records, parts, fit), coordinate);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

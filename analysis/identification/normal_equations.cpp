@@ -2,7 +2,7 @@
 
 #include "analysis/identification/joint_fit.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {}  // namespace
 
 FittedModel model_at(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting) {
@@ -69,4 +69,4 @@ NormalEquations NormalEquationsSum::with_prior(const ContactPoint& at) const {
   return equations;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

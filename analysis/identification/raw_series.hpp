@@ -10,7 +10,7 @@
 #include "analysis/identification/test_record.hpp"
 #include "core/motion/plant_start.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 /// Meaning of the torque of a series.
 enum class TorqueKind {
@@ -32,7 +32,7 @@ struct RawSeries {
   std::vector<double> code;           ///< DAC codes; empty if unknown
   int dac_bits{0};                    ///< 0 if unknown
   std::vector<bool> sliding;          ///< whether the hook slid; empty if unknown
-  PlantStart start;                   ///< initial state of the contact
+  motion::PlantStart start;           ///< initial state of the contact
   bool units_known{false};            ///< certainly SI units, because this program wrote the file
 };
 
@@ -75,4 +75,4 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
 /// @throws Failure (bad_data) with the reason if a check fails: see record_checks.hpp.
 TestRecord checked_record(const RawSeries& series, bool any_magnitude);
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

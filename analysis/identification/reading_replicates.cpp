@@ -9,20 +9,22 @@
 #include "core/random/random_numbers.hpp"
 #include "core/random/variates.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 /// Standard deviation of the replicates' true parameters, in textbook standard deviations.
 constexpr double truth_spread = 3.0;
 
 /// Key of the replicates' random numbers: arbitrary but constant, so that results are reproducible.
-constexpr RandomStream replicate_stream{{0x1d3a71f1U, 0xca710bb5U}, 0};
+constexpr random::RandomStream replicate_stream{{0x1d3a71f1U, 0xca710bb5U}, 0};
 
 /// The standard normal numbers of one replicate.
 class ReplicateNoise {
  public:
   explicit ReplicateNoise(std::size_t replicate) : replicate_(replicate) {}
-  double next() { return standard_normal(random_bits(replicate_stream, replicate_, draw_++)); }
+  double next() {
+    return random::standard_normal(random::random_bits(replicate_stream, replicate_, draw_++));
+  }
   Eigen::VectorXd next(Eigen::Index size) {
     return Eigen::VectorXd::NullaryExpr(size, [this] { return next(); });
   }
@@ -125,4 +127,4 @@ ReadingReplicates replicate_readings(std::span<const TestRecord> records, const 
   return result;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

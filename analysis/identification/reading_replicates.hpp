@@ -8,7 +8,7 @@
 
 #include "analysis/identification/joint_fit.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 /// Statistics of the residuals, in units of the observations' standard deviations, in the order of time and
 /// of the records.
@@ -47,4 +47,4 @@ ReadingReplicates replicate_readings(std::span<const TestRecord> records, const 
                                      const FitSetting& setting, const std::vector<double>& noise,
                                      std::size_t replicates);
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -12,7 +12,7 @@
 #include "analysis/statistics/median.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 constexpr std::size_t min_record_samples = 100;
@@ -51,7 +51,7 @@ double travel(const TestRecord& record) {
 double usual_interval(const std::vector<double>& time) {
   std::vector<double> over_two;
   for (std::size_t k = 2; k < time.size(); ++k) over_two.push_back(0.5 * (time[k] - time[k - 2]));
-  return upper_median(std::move(over_two));
+  return statistics::upper_median(std::move(over_two));
 }
 
 void check_gaps(const RawSeries& series) {
@@ -249,7 +249,7 @@ void check_clipping(const RawSeries& series, const TestRecord& record) {
   const double range = torque_range(record);
   double high = 0.0;
   double low = 0.0;
-  for (const TorqueCourse& torque : record.torque) {
+  for (const motion::TorqueCourse& torque : record.torque) {
     high = std::max(high, torque.now);
     low = std::min(low, torque.now);
   }
@@ -260,4 +260,4 @@ void check_clipping(const RawSeries& series, const TestRecord& record) {
   }
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

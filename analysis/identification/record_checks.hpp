@@ -2,7 +2,7 @@
 
 #include "analysis/identification/raw_series.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 // Requirements on a series. Each check throws Failure (bad_data) with the place and the reason.
 
@@ -38,4 +38,4 @@ void check_sticking(const RawSeries& series);
 /// stays at its extreme after a slow rise while the angle continues and returns.
 void check_clipping(const RawSeries& series, const TestRecord& record);
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

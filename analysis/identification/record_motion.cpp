@@ -5,7 +5,7 @@
 
 #include "core/plant/plant.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 /// Truncation error allowed per Taylor step, in units of the readings.
@@ -78,16 +78,16 @@ class RecordRun {
 
   /// Whether the torque is constant over sample k and equal to the one before.
   bool same_torque(std::size_t k) const {
-    return k > 0 && is_constant(record_.torque[k]) && is_constant(record_.torque[k - 1]) &&
+    return k > 0 && motion::is_constant(record_.torque[k]) && motion::is_constant(record_.torque[k - 1]) &&
            record_.torque[k].now == record_.torque[k - 1].now;
   }
 
   /// The last sample with the same torque as sample k.
   std::size_t hold_end(std::size_t k) const {
-    const TorqueCourse& torque = record_.torque[k];
+    const motion::TorqueCourse& torque = record_.torque[k];
     std::size_t end = k;
-    while (end + 1 < sample_count(record_) && end < k + creep_stride_ && is_constant(record_.torque[end]) &&
-           record_.torque[end].now == torque.now) {
+    while (end + 1 < sample_count(record_) && end < k + creep_stride_ &&
+           motion::is_constant(record_.torque[end]) && record_.torque[end].now == torque.now) {
       ++end;
     }
     return end;
@@ -102,7 +102,7 @@ class RecordRun {
   }
 
   const TestRecord& record_;
-  Plant plant_;
+  plant::Plant plant_;
   Eigen::VectorXd path_;
   std::size_t settled_after_;
   std::size_t creep_stride_;
@@ -130,4 +130,4 @@ RecordMotion motion_with_sensitivity(const TestRecord& record, const ContactPoin
   return motion;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

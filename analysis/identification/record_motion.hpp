@@ -5,7 +5,7 @@
 #include "analysis/identification/contact_coordinates.hpp"
 #include "analysis/identification/test_record.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 /// Derivatives of a path with respect to the coordinates, [sample, coordinate].
 using PathSensitivity = Eigen::Matrix<double, Eigen::Dynamic, coordinate_count, Eigen::RowMajor>;
@@ -28,4 +28,4 @@ Eigen::VectorXd angle_path(const TestRecord& record, const ContactParameters& co
 RecordMotion motion_with_sensitivity(const TestRecord& record, const ContactPoint& point, double creep_torque,
                                      const FreeCoordinates& free);
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

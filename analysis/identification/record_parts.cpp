@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 constexpr double turn_threshold = 0.02;       // of the range
@@ -76,4 +76,4 @@ bool is_slow(const LoadingBranch& branch, double range) {
          std::abs(branch.to - branch.from) >= slow_threshold * range;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -5,7 +5,7 @@
 
 #include "analysis/identification/test_record.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 /// A part with a monotonic torque, from sample `first` to sample `last`.
 struct LoadingBranch {
@@ -42,4 +42,4 @@ bool rings_down(const TorqueHold& hold, double range);
 /// 20 % of `range` (N m).
 bool is_slow(const LoadingBranch& branch, double range);
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

@@ -5,7 +5,7 @@
 
 #include "analysis/statistics/median.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 constexpr double least_chance = 0.01;
@@ -68,8 +68,8 @@ std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::Ve
   constexpr double deviations = 12.0;
   constexpr double deviation_over_median = 1.4826;  // of a normal distribution
   constexpr double arithmetic = 1e-3;
-  const double least =
-      (record.counted ? 1.5 : arithmetic) + deviations * deviation_over_median * upper_median(off);
+  const double least = (record.counted ? 1.5 : arithmetic) +
+                       deviations * deviation_over_median * statistics::upper_median(off);
   constexpr std::size_t near = 3;
   constexpr std::size_t far = 6;
   for (std::size_t k = far; k + far < samples; ++k) {
@@ -97,4 +97,4 @@ std::size_t largest_misfit_growth(const TestRecord& record, const Eigen::VectorX
   return static_cast<std::size_t>(sample);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

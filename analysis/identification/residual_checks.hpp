@@ -7,7 +7,7 @@
 #include "analysis/identification/reading_replicates.hpp"
 #include "analysis/identification/test_record.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 /// Tests whether quantisation and noise explain the residuals. Each statistic is compared with its
 /// distribution in the replicates (see ReadingReplicates).
@@ -39,4 +39,4 @@ std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::Ve
 /// The sample at which the residuals change most over 20 samples.
 std::size_t largest_misfit_growth(const TestRecord& record, const Eigen::VectorXd& path);
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

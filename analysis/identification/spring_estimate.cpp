@@ -5,7 +5,7 @@
 #include "analysis/identification/starting_point.hpp"
 #include "analysis/statistics/median.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 /// Torque over travel of one branch, from its reversal point.
@@ -114,10 +114,11 @@ SpringEstimate estimate_spring(std::span<const TestRecord> records, std::span<co
   }
   if (slopes.empty()) return secant_estimate(records, parts);
   SpringEstimate estimate;
-  estimate.k1 = upper_median(slopes);
-  estimate.offset = offsets.empty() ? 0.01 * estimate.k1 * records[0].unit : upper_median(offsets);
-  estimate.beta = rates.empty() ? 1.0 / records[0].unit : upper_median(rates);
+  estimate.k1 = statistics::upper_median(slopes);
+  estimate.offset =
+      offsets.empty() ? 0.01 * estimate.k1 * records[0].unit : statistics::upper_median(offsets);
+  estimate.beta = rates.empty() ? 1.0 / records[0].unit : statistics::upper_median(rates);
   return estimate;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

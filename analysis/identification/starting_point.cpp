@@ -9,7 +9,7 @@
 
 #include "analysis/identification/record_motion.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 /// A ring-down and its record.
@@ -151,8 +151,8 @@ FirstSwing first_swing(const TestRecord& record, const TorqueHold& ring_down) {
   return {static_cast<std::size_t>(peak + 1), travel, travel > 0.0 ? swing[peak] / travel - 1.0 : 0.0};
 }
 
-PlantParameters estimate_ring_down(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                                   double k1) {
+motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records,
+                                           std::span<const RecordParts> parts, double k1) {
   const RingDown ring = largest_ring_down(records, parts);
   const double sample_time = records.front().sample_time;
   // Without a ring-down: an oscillation too fast for the sampling, with a third of the critical damping.
@@ -168,7 +168,7 @@ PlantParameters estimate_ring_down(std::span<const TestRecord> records, std::spa
   }
   const double ratio = std::clamp(damping_ratio, 0.05, 0.9);
   const double frequency = 2.0 * std::numbers::pi / period / std::sqrt(1.0 - ratio * ratio);
-  PlantParameters plant;
+  motion::PlantParameters plant;
   plant.inertia = k1 / (frequency * frequency);
   plant.presliding_damping = 2.0 * ratio * std::sqrt(k1 * plant.inertia);
   return plant;
@@ -211,4 +211,4 @@ std::vector<ContactPoint> other_starting_points(std::span<const TestRecord> reco
   return others;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

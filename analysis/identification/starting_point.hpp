@@ -7,7 +7,7 @@
 #include "analysis/identification/record_parts.hpp"
 #include "analysis/identification/test_record.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 
 /// The measured angle at every sample, rad; for counts the middle of the count.
 Eigen::VectorXd measured_angle(const TestRecord& record);
@@ -49,8 +49,8 @@ struct FirstSwing {
 FirstSwing first_swing(const TestRecord& record, const TorqueHold& ring_down);
 
 /// J and c from the first oscillation after the largest step, for a linear spring of stiffness k1.
-PlantParameters estimate_ring_down(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                                   double k1);
+motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records,
+                                           std::span<const RecordParts> parts, double k1);
 
 /// Starting point of the joint fit: the estimates above, with β, J and c from a coarse grid search around
 /// them (sum of squares over all readings).
@@ -63,4 +63,4 @@ std::vector<ContactPoint> other_starting_points(std::span<const TestRecord> reco
                                                 std::span<const RecordParts> parts, const ContactPoint& start,
                                                 double creep_torque);
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

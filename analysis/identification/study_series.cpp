@@ -7,12 +7,12 @@
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 
-namespace zerocount {
+namespace zerocount::identification {
 namespace {
 
 /// Index of the first sample of global row `row` in the trace, which is ordered by trial; the size of the
 /// trace if there is none.
-std::int64_t first_record(const StudyFile& file, std::int64_t row) {
+std::int64_t first_record(const reading::StudyFile& file, std::int64_t row) {
   std::int64_t low = 0;
   std::int64_t high = file.trace_count();
   while (low < high) {
@@ -26,16 +26,16 @@ std::int64_t first_record(const StudyFile& file, std::int64_t row) {
   return low;
 }
 
-std::vector<TraceRecord> records_of(const StudyFile& file, std::int64_t row) {
+std::vector<layout::TraceRecord> records_of(const reading::StudyFile& file, std::int64_t row) {
   const std::int64_t first = first_record(file, row);
   return file.trace_at(first, first_record(file, row + 1) - first);
 }
 
-PlantStart start_of(const TrialParameters& trial, const SeriesChoice& choice) {
-  PlantStart start;
+motion::PlantStart start_of(const trial::TrialParameters& trial, const SeriesChoice& choice) {
+  motion::PlantStart start;
   start.hardening = choice.hardening.value_or(trial.initial.hardening);
   start.preload = choice.preload.value_or(trial.initial.preload);
-  start.history = draw_history(trial.initial.history, trial.randomness);
+  start.history = trial::draw_history(trial.initial.history, trial.randomness);
   start.velocity = trial.initial.velocity;
   return start;
 }
@@ -44,28 +44,28 @@ PlantStart start_of(const TrialParameters& trial, const SeriesChoice& choice) {
 
 RawSeries read_study_series(const std::filesystem::path& path, std::int64_t point, std::int64_t index,
                             const SeriesChoice& choice) {
-  const StudyFile file(path, Require::any_part);
-  const Study study = recorded_study(file.header(), path);
-  if (point >= point_count(study) || index >= study.trials) {
+  const reading::StudyFile file(path, reading::Require::any_part);
+  const study::Study study = layout::recorded_study(file.header(), path);
+  if (point >= study::point_count(study) || index >= study.trials) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: has no point {}, trial {}; it has {} points of {} trials", path.string(),
-                              point, index, point_count(study), study.trials));
+                              point, index, study::point_count(study), study.trials));
   }
-  if (study.units.axis == AxisKind::linear) {
+  if (study.units.axis == parameters::AxisKind::linear) {
     throw Failure(
         ExitCode::bad_input,
         fmt::format("{}: it is of a linear axis; expected a rotary one, whose friction is in N m and "
                     "rad: identify knows no other units",
                     path.string()));
   }
-  const std::vector<TraceRecord> records = records_of(file, point * study.trials + index);
+  const std::vector<layout::TraceRecord> records = records_of(file, point * study.trials + index);
   if (records.empty()) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: keeps no records of point {}, trial {}; a study keeps those that its "
                               "manifest names: retain: {{trials: [{}]}}",
                               path.string(), point, index, index));
   }
-  const TrialParameters trial = study_trial(study, point, index).parameters;
+  const trial::TrialParameters trial = study::study_trial(study, point, index).parameters;
 
   RawSeries series;
   series.name = fmt::format("{} (point {}, trial {})", path.string(), point, index);
@@ -73,12 +73,12 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
   // Without a drive_torque column, the motor torque equals the commanded torque after the control delay.
   const bool commanded =
       choice.torque.value_or("drive_torque") == "torque" || !file.trace_extras().drive_torque;
-  for (const TraceRecord& record : records) {
+  for (const layout::TraceRecord& record : records) {
     series.time.push_back(record.t);
     series.torque.push_back(commanded ? record.torque : record.drive_torque);
     series.angle.push_back(counts ? static_cast<double>(record.count) : record.theta);
     series.code.push_back(static_cast<double>(record.code));
-    series.sliding.push_back(record.mode == HookMode::slide);
+    series.sliding.push_back(record.mode == trial::HookMode::slide);
   }
   series.torque_kind = commanded ? TorqueKind::commanded : TorqueKind::motor;
   series.bandwidth = choice.bandwidth.value_or(trial.amplifier.bandwidth);
@@ -90,4 +90,4 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
   return series;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::identification

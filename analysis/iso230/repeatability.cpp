@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <iterator>
 
-namespace zerocount {
+namespace zerocount::iso230 {
 namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
@@ -108,4 +108,4 @@ Repeatability repeatability_of(std::span<const TargetDeviations> targets) {
   return result;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

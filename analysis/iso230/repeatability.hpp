@@ -31,7 +31,7 @@
 /// 3.25 are by their order between the others, which clause 6.2 cites. The standard's test has n = 5. With n
 /// = 1 (clause 6.2, for long axes) the values that need an si do not exist, the others do; if there are
 /// approaches from one side only, the unidirectional values of that side are all there is.
-namespace zerocount {
+namespace zerocount::iso230 {
 
 /// The deviations at one target, any unit.
 struct TargetDeviations {
@@ -78,4 +78,4 @@ struct Repeatability {
 /// numbers, such as counts, give an si of exactly 0.
 Repeatability repeatability_of(std::span<const TargetDeviations> targets);
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace zerocount {
+namespace zerocount::iso230 {
 
 std::span<const DeviationSource> deviation_sources() {
   static constexpr std::array<DeviationSource, 2> sources{
@@ -55,4 +55,4 @@ std::span<const RepeatabilityField<TargetRepeatability>> target_fields() {
   return fields;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

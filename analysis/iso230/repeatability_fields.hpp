@@ -8,7 +8,7 @@
 
 /// The names of the values of ISO 230-2 in the results file, the JSON and CSV summary and the table: each
 /// list here is the one source of them.
-namespace zerocount {
+namespace zerocount::iso230 {
 
 /// What the deviations are measured by.
 struct DeviationSource {
@@ -32,4 +32,4 @@ struct RepeatabilityField {
 std::span<const RepeatabilityField<AxisRepeatability>> axis_fields();
 std::span<const RepeatabilityField<TargetRepeatability>> target_fields();
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

@@ -16,16 +16,16 @@
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
 
-namespace zerocount {
+namespace zerocount::iso230 {
 namespace {
 
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 /// What is read of the outcomes.
-const std::vector<RecordField<MoveOutcome>>& measured_fields() {
-  static const std::vector<RecordField<MoveOutcome>> fields = [] {
-    std::vector<RecordField<MoveOutcome>> kept;
-    for (const RecordField<MoveOutcome>& field : outcome_fields()) {
+const std::vector<layout::RecordField<trial::MoveOutcome>>& measured_fields() {
+  static const std::vector<layout::RecordField<trial::MoveOutcome>> fields = [] {
+    std::vector<layout::RecordField<trial::MoveOutcome>> kept;
+    for (const layout::RecordField<trial::MoveOutcome>& field : layout::outcome_fields()) {
       const std::string& name = field.column.name;
       if (name == "outcome" || name == "final_position" || name == "final_error") kept.push_back(field);
     }
@@ -34,11 +34,12 @@ const std::vector<RecordField<MoveOutcome>>& measured_fields() {
   return fields;
 }
 
-TableIo open_outcomes(const hdf5::Group& root) {
-  Table table = outcome_table();
+layout::TableIo open_outcomes(const hdf5::Group& root) {
+  layout::Table table = layout::outcome_table();
   table.columns.clear();
-  for (const RecordField<MoveOutcome>& field : measured_fields()) table.columns.push_back(field.column);
-  return TableIo::open(root, table);
+  for (const layout::RecordField<trial::MoveOutcome>& field : measured_fields())
+    table.columns.push_back(field.column);
+  return layout::TableIo::open(root, table);
 }
 
 /// The values of some trials: a vector for each numeric column of the two tables of trials.
@@ -70,17 +71,19 @@ struct TrialValues {
 };
 
 /// The values of the trials of these rows.
-TrialValues evaluate(const Study& study, const hdf5::Group& root, const TableIo& outcomes, std::int64_t first,
-                     std::int64_t count) {
+TrialValues evaluate(const study::Study& study, const hdf5::Group& root, const layout::TableIo& outcomes,
+                     std::int64_t first, std::int64_t count) {
   const std::size_t sources = deviation_sources().size();
   TrialValues values;
   values.axis.resize(sources * axis_fields().size());
   values.targets.resize(1 + sources * target_fields().size());
-  const std::vector<MoveOutcome> moves = read_records(outcomes, measured_fields(), first, count);
+  const std::vector<trial::MoveOutcome> moves =
+      layout::read_records(outcomes, measured_fields(), first, count);
   for (std::int64_t row = first; row < first + count; ++row) {
-    const TrialParameters parameters = study_trial(study, row / study.trials, row % study.trials).parameters;
+    const trial::TrialParameters parameters =
+        study::study_trial(study, row / study.trials, row % study.trials).parameters;
     const auto begin = static_cast<std::size_t>((row - first) * outcomes.width());
-    const std::span<const MoveOutcome> trial =
+    const std::span<const trial::MoveOutcome> trial =
         std::span(moves).subspan(begin, static_cast<std::size_t>(outcomes.width()));
     try {
       values.add(trial_repeatability(study.sequence, parameters, trial),
@@ -92,16 +95,17 @@ TrialValues evaluate(const Study& study, const hdf5::Group& root, const TableIo&
   return values;
 }
 
-void write_trials(hdf5::File& file, const Study& study, const SequenceShape& shape) {
-  const std::int64_t rows = trial_count(study);
-  const TableIo outcomes = open_outcomes(file);
+void write_trials(hdf5::File& file, const study::Study& study, const SequenceShape& shape) {
+  const std::int64_t rows = study::trial_count(study);
+  const layout::TableIo outcomes = open_outcomes(file);
   if (outcomes.rows() != rows) outcomes.row_scale().fail("it is not of all trials of the study");
-  TableIo axis = TableIo::create(file, on_axis(trial_table_of_axis(), study.units.axis), rows, 1);
-  TableIo targets =
-      TableIo::create(file, on_axis(trial_table_of_targets(), study.units.axis), rows, shape.targets);
+  layout::TableIo axis =
+      layout::TableIo::create(file, layout::on_axis(trial_table_of_axis(), study.units.axis), rows, 1);
+  layout::TableIo targets = layout::TableIo::create(
+      file, layout::on_axis(trial_table_of_targets(), study.units.axis), rows, shape.targets);
   axis.number_rows(0);
   targets.number_rows(0);
-  const std::int64_t at_once = chunk_rows(outcomes.width());
+  const std::int64_t at_once = layout::chunk_rows(outcomes.width());
   for (std::int64_t first = 0; first < rows; first += at_once) {
     const std::int64_t count = std::min(at_once, rows - first);
     const TrialValues values = evaluate(study, file, outcomes, first, count);
@@ -117,7 +121,7 @@ void write_trials(hdf5::File& file, const Study& study, const SequenceShape& sha
 
 /// Writes a column of a table of points: `value(point, target)`; of a table without targets, target 0.
 template <typename Value>
-void write_column(TableIo& io, std::size_t column, std::span<const PointRepeatability> points,
+void write_column(layout::TableIo& io, std::size_t column, std::span<const PointRepeatability> points,
                   const Value& value) {
   std::vector<double> values;
   for (const PointRepeatability& point : points) {
@@ -130,10 +134,11 @@ void write_column(TableIo& io, std::size_t column, std::span<const PointRepeatab
 
 void write_points_of_axis(hdf5::File& file, const RepeatabilitySummary& summary) {
   const std::vector<PointRepeatability>& points = summary.points;
-  TableIo io = TableIo::create(file, on_axis(point_table_of_axis(), summary.axis), std::ssize(points), 1);
+  layout::TableIo io = layout::TableIo::create(file, layout::on_axis(point_table_of_axis(), summary.axis),
+                                               std::ssize(points), 1);
   io.number_rows(0);
   std::size_t column = 0;
-  for (const ReportField<PointRepeatability>& field : point_repeatability_fields()) {
+  for (const text::ReportField<PointRepeatability>& field : point_repeatability_fields()) {
     write_column(io, column++, points,
                  [&](const PointRepeatability& p, std::size_t) { return field.value(p); });
   }
@@ -150,8 +155,8 @@ void write_points_of_axis(hdf5::File& file, const RepeatabilitySummary& summary)
 
 void write_points_of_targets(hdf5::File& file, const RepeatabilitySummary& summary) {
   const std::vector<PointRepeatability>& points = summary.points;
-  TableIo io = TableIo::create(file, on_axis(point_table_of_targets(), summary.axis), std::ssize(points),
-                               summary.shape.targets);
+  layout::TableIo io = layout::TableIo::create(file, layout::on_axis(point_table_of_targets(), summary.axis),
+                                               std::ssize(points), summary.shape.targets);
   io.number_rows(0);
   std::size_t column = 0;
   using P = const PointRepeatability&;
@@ -171,11 +176,11 @@ void write_points_of_targets(hdf5::File& file, const RepeatabilitySummary& summa
 
 }  // namespace
 
-void write_repeatability(hdf5::File& file, const Study& study) {
+void write_repeatability(hdf5::File& file, const study::Study& study) {
   write_trials(file, study, shape_of(study.sequence));
   const RepeatabilitySummary summary = read_repeatability(file, study);
   write_points_of_axis(file, summary);
   write_points_of_targets(file, summary);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

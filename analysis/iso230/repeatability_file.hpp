@@ -6,7 +6,7 @@
 #include "results/reading/study_file.hpp"
 
 /// The group /repeatability of a results file, described in results/README.md.
-namespace zerocount {
+namespace zerocount::iso230 {
 
 /// Adds the group to a file that holds all trials of a study with a sequence: the values of ISO 230-2 of
 /// every trial, and their statistics at every design point.
@@ -14,15 +14,15 @@ namespace zerocount {
 /// The trials go by in blocks; then, of each point, one column is held at a time, 8 bytes a trial and target.
 /// @throws Failure (bad_data) where the file contradicts the study; machine_failed where it cannot be
 /// written.
-void write_repeatability(hdf5::File& file, const Study& study);
+void write_repeatability(hdf5::File& file, const study::Study& study);
 
 /// The statistics of every design point from the values of the trials in the file.
 /// @throws Failure (bad_data) where they are not there or not those of the study.
-RepeatabilitySummary read_repeatability(const hdf5::Group& root, const Study& study,
-                                        double confidence = summary_confidence);
+RepeatabilitySummary read_repeatability(const hdf5::Group& root, const study::Study& study,
+                                        double confidence = statistics::summary_confidence);
 
 /// As read_repeatability, of a complete results file.
-RepeatabilitySummary study_repeatability(const StudyFile& file, const Study& study,
-                                         double confidence = summary_confidence);
+RepeatabilitySummary study_repeatability(const reading::StudyFile& file, const study::Study& study,
+                                         double confidence = statistics::summary_confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

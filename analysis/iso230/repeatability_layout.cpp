@@ -10,30 +10,30 @@
 #include "analysis/iso230/repeatability_fields.hpp"
 #include "analysis/iso230/repeatability_statistics.hpp"
 
-namespace zerocount {
+namespace zerocount::iso230 {
 namespace {
 
-Column numbers(const std::string& name, std::string_view unit, const std::string& long_name) {
-  return {name, std::string(unit), long_name, Element::float64, {}, {}};
+layout::Column numbers(const std::string& name, std::string_view unit, const std::string& long_name) {
+  return {name, std::string(unit), long_name, hdf5::Element::float64, {}, {}};
 }
 
-Column scale(const char* name, const char* long_name) {
-  return {name, "1", long_name, Element::int64, {}, {}};
+layout::Column scale(const char* name, const char* long_name) {
+  return {name, "1", long_name, hdf5::Element::int64, {}, {}};
 }
 
-Column rows_of_trials() {
+layout::Column rows_of_trials() {
   return scale("trial", "global row of the trial");
 }
-Column rows_of_points() {
+layout::Column rows_of_points() {
   return scale("point", "index of the design point");
 }
-Column targets_of_list() {
+layout::Column targets_of_list() {
   return scale("target", "index of the target in its list");
 }
 
 /// A column for every value of `fields`, from every source.
 template <typename Values>
-void add_values(std::vector<Column>& columns, std::span<const RepeatabilityField<Values>> fields) {
+void add_values(std::vector<layout::Column>& columns, std::span<const RepeatabilityField<Values>> fields) {
   for (const DeviationSource& source : deviation_sources()) {
     for (const RepeatabilityField<Values>& field : fields) {
       columns.push_back(numbers(fmt::format("{}/{}", source.name, field.name), source.unit,
@@ -44,7 +44,7 @@ void add_values(std::vector<Column>& columns, std::span<const RepeatabilityField
 
 /// A column for every statistic of every value of `fields`, from every source.
 template <typename Values>
-void add_statistics(std::vector<Column>& columns, std::span<const RepeatabilityField<Values>> fields,
+void add_statistics(std::vector<layout::Column>& columns, std::span<const RepeatabilityField<Values>> fields,
                     bool of_targets) {
   for (const DeviationSource& source : deviation_sources()) {
     for (const RepeatabilityField<Values>& field : fields) {
@@ -60,40 +60,40 @@ void add_statistics(std::vector<Column>& columns, std::span<const RepeatabilityF
 
 }  // namespace
 
-Table trial_table_of_axis() {
-  Table table{"repeatability/trial", rows_of_trials(), {}, {}};
+layout::Table trial_table_of_axis() {
+  layout::Table table{"repeatability/trial", rows_of_trials(), {}, {}};
   table.columns.push_back({"evaluated",
                            "1",
                            "the trial has no nonfinite move, and so has values",
-                           Element::flag,
+                           hdf5::Element::flag,
                            {{0, "no"}, {1, "yes"}},
                            {}});
   add_values(table.columns, axis_fields());
   return table;
 }
 
-Table trial_table_of_targets() {
-  Table table{"repeatability/trial_target", rows_of_trials(), targets_of_list(), {}};
+layout::Table trial_table_of_targets() {
+  layout::Table table{"repeatability/trial_target", rows_of_trials(), targets_of_list(), {}};
   table.columns.push_back(numbers("position", "count", "the target, from the start of the trial"));
   add_values(table.columns, target_fields());
   return table;
 }
 
-Table point_table_of_axis() {
-  Table table{"repeatability/point", rows_of_points(), {}, {}};
-  for (const ReportField<PointRepeatability>& field : point_repeatability_fields()) {
+layout::Table point_table_of_axis() {
+  layout::Table table{"repeatability/point", rows_of_points(), {}, {}};
+  for (const text::ReportField<PointRepeatability>& field : point_repeatability_fields()) {
     table.columns.push_back(numbers(field.name, "1", field.long_name));
   }
   add_statistics(table.columns, axis_fields(), false);
   return table;
 }
 
-Table point_table_of_targets() {
-  Table table{"repeatability/point_target", rows_of_points(), targets_of_list(), {}};
+layout::Table point_table_of_targets() {
+  layout::Table table{"repeatability/point_target", rows_of_points(), targets_of_list(), {}};
   table.columns.push_back(numbers("position_min", "count", "smallest position of the target in a trial"));
   table.columns.push_back(numbers("position_max", "count", "largest position of the target in a trial"));
   add_statistics(table.columns, target_fields(), true);
   return table;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

@@ -9,17 +9,18 @@
 #include "analysis/iso230/repeatability_layout.hpp"
 #include "results/layout/table_io.hpp"
 
-namespace zerocount {
+namespace zerocount::iso230 {
 namespace {
 
-void require_rows(const TableIo& io, std::int64_t rows) {
+void require_rows(const layout::TableIo& io, std::int64_t rows) {
   if (io.rows() != rows) io.row_scale().fail("it is not of all trials of the study");
 }
 
 /// The trials of one point, column by column.
 class PointReader {
  public:
-  PointReader(const TableIo& axis, const TableIo& targets, std::int64_t first, std::int64_t trials)
+  PointReader(const layout::TableIo& axis, const layout::TableIo& targets, std::int64_t first,
+              std::int64_t trials)
       : axis_(axis), targets_(targets), first_(first), trials_(trials) {}
 
   std::int64_t evaluated() const {
@@ -46,8 +47,8 @@ class PointReader {
   }
 
  private:
-  const TableIo& axis_;
-  const TableIo& targets_;
+  const layout::TableIo& axis_;
+  const layout::TableIo& targets_;
   std::int64_t first_;
   std::int64_t trials_;
 };
@@ -91,11 +92,11 @@ PointRepeatability point_statistics(const PointReader& reader, const SequenceSha
     const std::vector<double> values = reader.axis(encoder, overall_repeatability(shape));
     const std::int64_t zero = std::count(values.begin(), values.end(), 0.0);
     point.zero_repeatability = zero;
-    point.zero_rate = rate(zero, trials);
-    point.zero_bounds = clopper_pearson(zero, trials, confidence);
+    point.zero_rate = statistics::rate(zero, trials);
+    point.zero_bounds = statistics::clopper_pearson(zero, trials, confidence);
   }
   for (const std::vector<double>& positions : reader.target_column(0)) {
-    Moments& moments = point.positions.emplace_back();
+    statistics::Moments& moments = point.positions.emplace_back();
     for (const double position : positions) moments.add(position);
   }
   for (std::size_t source = 0; source < deviation_sources().size(); ++source) {
@@ -106,23 +107,25 @@ PointRepeatability point_statistics(const PointReader& reader, const SequenceSha
 
 }  // namespace
 
-RepeatabilitySummary read_repeatability(const hdf5::Group& root, const Study& study, double confidence) {
-  const TableIo axis = TableIo::open(root, trial_table_of_axis());
-  const TableIo targets = TableIo::open(root, trial_table_of_targets());
+RepeatabilitySummary read_repeatability(const hdf5::Group& root, const study::Study& study,
+                                        double confidence) {
+  const layout::TableIo axis = layout::TableIo::open(root, trial_table_of_axis());
+  const layout::TableIo targets = layout::TableIo::open(root, trial_table_of_targets());
   RepeatabilitySummary summary{confidence, shape_of(study.sequence), {}, study.units.axis};
-  require_rows(axis, trial_count(study));
-  require_rows(targets, trial_count(study));
+  require_rows(axis, study::trial_count(study));
+  require_rows(targets, study::trial_count(study));
   if (targets.width() != summary.shape.targets)
     targets.row_scale().fail("it is of another number of targets");
-  for (std::int64_t point = 0; point < point_count(study); ++point) {
+  for (std::int64_t point = 0; point < study::point_count(study); ++point) {
     const PointReader reader(axis, targets, point * study.trials, study.trials);
     summary.points.push_back(point_statistics(reader, summary.shape, study.trials, confidence));
   }
   return summary;
 }
 
-RepeatabilitySummary study_repeatability(const StudyFile& file, const Study& study, double confidence) {
+RepeatabilitySummary study_repeatability(const reading::StudyFile& file, const study::Study& study,
+                                         double confidence) {
   return read_repeatability(hdf5::File::open_to_read(file.path()), study, confidence);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

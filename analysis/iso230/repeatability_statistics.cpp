@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numeric>
 
-namespace zerocount {
+namespace zerocount::iso230 {
 namespace {
 
 constexpr double no_rank = std::numeric_limits<double>::quiet_NaN();
@@ -19,10 +19,10 @@ ValueStatistics statistics_of(std::vector<double> values, double confidence) {
   std::sort(values.begin(), values.end());
   ValueStatistics result;
   result.n = std::ssize(values);
-  Histogram<double> histogram;
+  statistics::Histogram<double> histogram;
   for (const double value : values) histogram.add(value);
-  result.median = quantile(histogram, 0.5, confidence);
-  result.p95 = quantile(histogram, 0.95, confidence);
+  result.median = statistics::quantile(histogram, 0.5, confidence);
+  result.p95 = statistics::quantile(histogram, 0.95, confidence);
   if (values.empty()) return result;
   result.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   result.max = values.back();
@@ -30,28 +30,28 @@ ValueStatistics statistics_of(std::vector<double> values, double confidence) {
 }
 
 const std::vector<ValueStatisticField>& value_statistic_fields() {
-  using enum Statistic;
+  using enum layout::Statistic;
   static const std::vector<ValueStatisticField> fields = [] {
     std::vector<ValueStatisticField> all;
-    for (const Statistic one : {mean, median, median_low, median_high, p95, p95_low, p95_high, max}) {
-      const StatisticKind& kind = statistic_kinds()[static_cast<std::size_t>(one)];
-      all.push_back({kind.name, meaning_of(kind) + (one == max ? "" : " of the"), one == median || one == p95,
-                     kind.value});
+    for (const layout::Statistic one : {mean, median, median_low, median_high, p95, p95_low, p95_high, max}) {
+      const measures::StatisticKind& kind = measures::statistic_kinds()[static_cast<std::size_t>(one)];
+      all.push_back({kind.name, measures::meaning_of(kind) + (one == max ? "" : " of the"),
+                     one == median || one == p95, kind.value});
     }
     return all;
   }();
   return fields;
 }
 
-const std::vector<ReportField<PointRepeatability>>& point_repeatability_fields() {
+const std::vector<text::ReportField<PointRepeatability>>& point_repeatability_fields() {
   using P = const PointRepeatability&;
-  static const std::vector<ReportField<PointRepeatability>> fields{
-      {"", "trials", "1", "trials of the point", true, [](P p) { return to_double(p.trials); }},
+  static const std::vector<text::ReportField<PointRepeatability>> fields{
+      {"", "trials", "1", "trials of the point", true, [](P p) { return text::to_double(p.trials); }},
       {"", "evaluated", "1", "trials without a nonfinite move, of which the values are", true,
-       [](P p) { return to_double(p.evaluated); }},
+       [](P p) { return text::to_double(p.evaluated); }},
       {"", "zero_repeatability", "1",
        "trials whose repeatability by the fine encoder is exactly 0, NaN of a single cycle", true,
-       [](P p) { return p.zero_repeatability ? to_double(*p.zero_repeatability) : no_rank; }},
+       [](P p) { return p.zero_repeatability ? text::to_double(*p.zero_repeatability) : no_rank; }},
       {"", "zero_repeatability_rate", "1",
        "zero_repeatability as a proportion of trials, NaN of a single cycle", false,
        [](P p) { return p.zero_rate; }},
@@ -63,4 +63,4 @@ const std::vector<ReportField<PointRepeatability>>& point_repeatability_fields()
   return fields;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

@@ -13,14 +13,14 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/text/report_field.hpp"
 
-namespace zerocount {
+namespace zerocount::iso230 {
 
 /// How a value is distributed over the trials of a design point for which it is defined: n, mean, max, median
 /// and p95 with order-statistic bounds.
-using ValueStatistics = MeasureStatistics;
+using ValueStatistics = measures::MeasureStatistics;
 
 /// Of values in any order; those that are NaN are left out.
-ValueStatistics statistics_of(std::vector<double> values, double confidence = summary_confidence);
+ValueStatistics statistics_of(std::vector<double> values, double confidence = statistics::summary_confidence);
 
 /// One number of ValueStatistics as it is reported, under "<value>_<name>" where there are no groups.
 struct ValueStatisticField {
@@ -46,20 +46,20 @@ struct PointRepeatability {
   /// where there is one direction only. Nothing of a single cycle, which has no repeatability.
   std::optional<std::int64_t> zero_repeatability{};
   double zero_rate{std::numeric_limits<double>::quiet_NaN()};  ///< zero_repeatability / trials; NaN for n = 1
-  ConfidenceInterval zero_bounds{0.0, 1.0};                    ///< of zero_rate, Clopper–Pearson
-  std::vector<Moments> positions;                              ///< [target], counts
+  statistics::ConfidenceInterval zero_bounds{0.0, 1.0};        ///< of zero_rate, Clopper–Pearson
+  std::vector<statistics::Moments> positions;                  ///< [target], counts
   std::vector<SourceRepeatability> sources;                    ///< [deviation_sources()]
 };
 
 /// The numbers of a point that are neither of the axis nor of a target.
-const std::vector<ReportField<PointRepeatability>>& point_repeatability_fields();
+const std::vector<text::ReportField<PointRepeatability>>& point_repeatability_fields();
 
 /// What the summary of a study with a sequence says of it.
 struct RepeatabilitySummary {
-  double confidence{summary_confidence};  ///< of all bounds
+  double confidence{statistics::summary_confidence};  ///< of all bounds
   SequenceShape shape;
-  std::vector<PointRepeatability> points;  ///< [point]
-  AxisKind axis{AxisKind::rotary};         ///< whose units the deviations have
+  std::vector<PointRepeatability> points;                   ///< [point]
+  parameters::AxisKind axis{parameters::AxisKind::rotary};  ///< whose units the deviations have
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

@@ -10,7 +10,7 @@
 #include "analysis/iso230/repeatability_fields.hpp"
 #include "analysis/text/report_json.hpp"
 
-namespace zerocount {
+namespace zerocount::iso230 {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -28,7 +28,7 @@ void add_values(Json& json, std::span<const RepeatabilityField<Values>> fields,
   }
 }
 
-Json source_json(const PointRepeatability& point, std::size_t source, AxisKind axis_kind) {
+Json source_json(const PointRepeatability& point, std::size_t source, parameters::AxisKind axis_kind) {
   const SourceRepeatability& values = point.sources[source];
   Json axis;
   add_values(axis, axis_fields(), values.axis, false);
@@ -39,14 +39,14 @@ Json source_json(const PointRepeatability& point, std::size_t source, AxisKind a
     add_values(target, target_fields(), values.targets[i], true);
     targets.push_back(std::move(target));
   }
-  return {{"unit", unit_on(axis_kind, deviation_sources()[source].unit)},
+  return {{"unit", parameters::unit_on(axis_kind, deviation_sources()[source].unit)},
           {"axis", std::move(axis)},
           {"targets", std::move(targets)}};
 }
 
-Json point_json(const PointRepeatability& point, AxisKind axis) {
+Json point_json(const PointRepeatability& point, parameters::AxisKind axis) {
   Json json;
-  add_fields(json, point_repeatability_fields(), point);
+  text::add_fields(json, point_repeatability_fields(), point);
   for (std::size_t source = 0; source < point.sources.size(); ++source) {
     json[std::string(deviation_sources()[source].name)] = source_json(point, source, axis);
   }
@@ -55,16 +55,17 @@ Json point_json(const PointRepeatability& point, AxisKind axis) {
 
 /// The columns of one kind of value. `values(point)` are their statistics at a point.
 template <typename Values, typename ValuesAt>
-void add_columns(std::vector<PointColumn>& columns, std::span<const PointRepeatability> points,
+void add_columns(std::vector<layout::PointColumn>& columns, std::span<const PointRepeatability> points,
                  std::span<const RepeatabilityField<Values>> fields, const std::string& prefix,
                  const DeviationSource& source, const ValuesAt& values, bool of_targets) {
   for (std::size_t i = 0; i < fields.size(); ++i) {
     for (const ValueStatisticField& statistic : value_statistic_fields()) {
       if (of_targets && !statistic.of_targets) continue;
-      PointColumn column{fmt::format("{}_{}_{}", prefix, fields[i].name, statistic.name),
-                         std::string(source.unit),
-                         fmt::format("{} {}, {}", statistic.long_name, fields[i].long_name, source.long_name),
-                         {}};
+      layout::PointColumn column{
+          fmt::format("{}_{}_{}", prefix, fields[i].name, statistic.name),
+          std::string(source.unit),
+          fmt::format("{} {}, {}", statistic.long_name, fields[i].long_name, source.long_name),
+          {}};
       for (const PointRepeatability& point : points)
         column.values.push_back(statistic.value(values(point)[i]));
       columns.push_back(std::move(column));
@@ -72,11 +73,11 @@ void add_columns(std::vector<PointColumn>& columns, std::span<const PointRepeata
   }
 }
 
-std::vector<PointColumn> section_columns(const RepeatabilitySummary& summary) {
+std::vector<layout::PointColumn> section_columns(const RepeatabilitySummary& summary) {
   using Point = const PointRepeatability&;
-  std::vector<PointColumn> columns;
-  for (const ReportField<PointRepeatability>& field : point_repeatability_fields()) {
-    PointColumn column{"repeatability_" + field.name, field.unit, field.long_name, {}};
+  std::vector<layout::PointColumn> columns;
+  for (const text::ReportField<PointRepeatability>& field : point_repeatability_fields()) {
+    layout::PointColumn column{"repeatability_" + field.name, field.unit, field.long_name, {}};
     for (Point point : summary.points) column.values.push_back(field.value(point));
     columns.push_back(std::move(column));
   }
@@ -95,22 +96,23 @@ std::vector<PointColumn> section_columns(const RepeatabilitySummary& summary) {
   return columns;
 }
 
-std::vector<PointColumn> on_axis(std::vector<PointColumn> columns, AxisKind axis) {
-  for (PointColumn& column : columns) column = zerocount::on_axis(std::move(column), axis);
+std::vector<layout::PointColumn> on_axis(std::vector<layout::PointColumn> columns,
+                                         parameters::AxisKind axis) {
+  for (layout::PointColumn& column : columns) column = zerocount::layout::on_axis(std::move(column), axis);
   return columns;
 }
 
 }  // namespace
 
-SummarySection repeatability_section(const RepeatabilitySummary& summary,
-                                     const std::vector<std::string>& labels) {
-  SummarySection section{.key = "repeatability",
-                         .json = {},
-                         .columns = on_axis(section_columns(summary), summary.axis),
-                         .text = repeatability_tables(summary, labels)};
+measures::SummarySection repeatability_section(const RepeatabilitySummary& summary,
+                                               const std::vector<std::string>& labels) {
+  measures::SummarySection section{.key = "repeatability",
+                                   .json = {},
+                                   .columns = on_axis(section_columns(summary), summary.axis),
+                                   .text = repeatability_tables(summary, labels)};
   for (const PointRepeatability& point : summary.points)
     section.json.push_back(point_json(point, summary.axis));
   return section;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

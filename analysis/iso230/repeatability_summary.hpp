@@ -7,7 +7,7 @@
 #include "analysis/measures/summary_section.hpp"
 
 /// How a summary tells of the repeatability of a study with a sequence of moves.
-namespace zerocount {
+namespace zerocount::iso230 {
 
 /// The section "repeatability" of the summary.
 ///
@@ -17,11 +17,11 @@ namespace zerocount {
 /// columns have the same numbers by names such as "repeatability_true_accuracy_median" and
 /// "repeatability_encoder_target_0_reversal_p95".
 /// @param labels [point]
-SummarySection repeatability_section(const RepeatabilitySummary& summary,
-                                     const std::vector<std::string>& labels);
+measures::SummarySection repeatability_section(const RepeatabilitySummary& summary,
+                                               const std::vector<std::string>& labels);
 
 /// Two tables for people, of the axis and of the targets: a row for each point (and target) and source, each
 /// value as its median and 95 % quantile over the trials; a legend below.
 std::string repeatability_tables(const RepeatabilitySummary& summary, const std::vector<std::string>& labels);
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

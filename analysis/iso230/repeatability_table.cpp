@@ -15,18 +15,18 @@
 #include "analysis/statistics/tolerance.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::iso230 {
 namespace {
 
 /// Positions are shown as the trade states them: in seconds of arc, or µm.
-std::string shown_unit(const DeviationSource& source, AxisKind axis) {
-  return source.unit == "rad" ? unit_on(axis, "arcsec") : std::string(source.unit);
+std::string shown_unit(const DeviationSource& source, parameters::AxisKind axis) {
+  return source.unit == "rad" ? parameters::unit_on(axis, "arcsec") : std::string(source.unit);
 }
-double in_shown_unit(const DeviationSource& source, AxisKind axis, double value) {
+double in_shown_unit(const DeviationSource& source, parameters::AxisKind axis, double value) {
   if (source.unit != "rad") return value;
   constexpr double arcsec = std::numbers::pi / (180.0 * 3600.0);  // rad
   constexpr double micrometre = 1e-6;                             // m
-  return value / (axis == AxisKind::linear ? micrometre : arcsec);
+  return value / (axis == parameters::AxisKind::linear ? micrometre : arcsec);
 }
 
 /// Three digits, or all of a larger whole part.
@@ -34,7 +34,8 @@ std::string three_digits(double value) {
   return std::abs(value) < 999.5 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
 }
 
-std::string median_and_p95(const DeviationSource& source, AxisKind axis, const ValueStatistics& value) {
+std::string median_and_p95(const DeviationSource& source, parameters::AxisKind axis,
+                           const ValueStatistics& value) {
   if (value.n == 0) return "–";
   return fmt::format("{} ({})", three_digits(in_shown_unit(source, axis, value.median.value)),
                      three_digits(in_shown_unit(source, axis, value.p95.value)));
@@ -46,7 +47,7 @@ struct RowOfValues {
   const PointRepeatability& point;
   std::size_t target;
   std::size_t source;
-  AxisKind axis;
+  parameters::AxisKind axis;
 
   const DeviationSource& from() const { return deviation_sources()[source]; }
 };
@@ -57,7 +58,7 @@ std::vector<RowOfValues> rows_of(const RepeatabilitySummary& summary, const std:
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     for (std::size_t target = 0; target < targets; ++target) {
       for (std::size_t source = 0; source < deviation_sources().size(); ++source) {
-        rows.push_back({printable(labels[i]), summary.points[i], target, source, summary.axis});
+        rows.push_back({text::printable(labels[i]), summary.points[i], target, source, summary.axis});
       }
     }
   }
@@ -65,14 +66,14 @@ std::vector<RowOfValues> rows_of(const RepeatabilitySummary& summary, const std:
 }
 
 template <typename Cell>
-TextColumn column_of(std::string_view head, bool numeric, std::span<const RowOfValues> rows,
-                     const Cell& cell) {
-  TextColumn column{std::string(head), numeric, {}};
+text::TextColumn column_of(std::string_view head, bool numeric, std::span<const RowOfValues> rows,
+                           const Cell& cell) {
+  text::TextColumn column{std::string(head), numeric, {}};
   for (const RowOfValues& row : rows) column.cells.push_back(cell(row));
   return column;
 }
 
-TextColumn sources_of(std::span<const RowOfValues> rows) {
+text::TextColumn sources_of(std::span<const RowOfValues> rows) {
   return column_of("from", false, rows, [](const RowOfValues& row) {
     return fmt::format("{} ({})", row.from().name, shown_unit(row.from(), row.axis));
   });
@@ -92,7 +93,7 @@ struct Shown {
 
 /// A column for each shown value; `statistics(row)` are those of the fields in the row.
 template <typename Values, typename Statistics>
-void add_values(std::vector<TextColumn>& columns, std::span<const RepeatabilityField<Values>> fields,
+void add_values(std::vector<text::TextColumn>& columns, std::span<const RepeatabilityField<Values>> fields,
                 const Shown<Values>& shown, const SequenceShape& shape, std::span<const RowOfValues> rows,
                 const Statistics& statistics) {
   for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -106,13 +107,13 @@ void add_values(std::vector<TextColumn>& columns, std::span<const RepeatabilityF
 std::string zero_share(const RowOfValues& row) {
   if (row.from().unit != "count") return {};
   if (!row.point.zero_repeatability) return "–";
-  return percentage(*row.point.zero_repeatability, row.point.trials);
+  return text::percentage(*row.point.zero_repeatability, row.point.trials);
 }
 
 std::string zero_bounds(const RowOfValues& row) {
   if (row.from().unit != "count") return {};
   if (!row.point.zero_repeatability) return "–";
-  const ConfidenceInterval& bounds = row.point.zero_bounds;
+  const statistics::ConfidenceInterval& bounds = row.point.zero_bounds;
   return fmt::format("[{:.1f}, {:.1f}]", 100.0 * bounds.low, 100.0 * bounds.high);
 }
 
@@ -124,8 +125,8 @@ std::string table_of_axis(const RepeatabilitySummary& summary, const std::vector
                               {&A::repeatability_negative, &A::systematic_negative, &A::accuracy_negative}};
   using Row = const RowOfValues&;
   const std::vector<RowOfValues> rows = rows_of(summary, labels, 1);
-  std::vector<TextColumn> columns{column_of("point", false, rows, [](Row row) { return row.label; }),
-                                  sources_of(rows)};
+  std::vector<text::TextColumn> columns{column_of("point", false, rows, [](Row row) { return row.label; }),
+                                        sources_of(rows)};
   columns.push_back(
       column_of("trials", true, rows, [](Row row) { return fmt::format("{}", row.point.evaluated); }));
   add_values(columns, axis_fields(), shown, summary.shape, rows,
@@ -133,10 +134,10 @@ std::string table_of_axis(const RepeatabilitySummary& summary, const std::vector
   columns.push_back(column_of("zero", true, rows, zero_share));
   columns.push_back(
       column_of(fmt::format("{:.6g} % bounds", 100.0 * summary.confidence), true, rows, zero_bounds));
-  return aligned_table(columns);
+  return text::aligned_table(columns);
 }
 
-std::string position_text(const Moments& position) {
+std::string position_text(const statistics::Moments& position) {
   if (position.min == position.max) return fmt::format("{:.0f}", position.min);
   return fmt::format("{:.0f} to {:.0f}", position.min, position.max);
 }
@@ -150,13 +151,13 @@ std::string table_of_targets(const RepeatabilitySummary& summary, const std::vec
   using Row = const RowOfValues&;
   const auto targets = static_cast<std::size_t>(summary.shape.targets);
   const std::vector<RowOfValues> rows = rows_of(summary, labels, targets);
-  std::vector<TextColumn> columns{column_of("point", false, rows, [](Row row) { return row.label; })};
+  std::vector<text::TextColumn> columns{column_of("point", false, rows, [](Row row) { return row.label; })};
   columns.push_back(column_of("target", true, rows,
                               [](Row row) { return position_text(row.point.positions[row.target]); }));
   columns.push_back(sources_of(rows));
   add_values(columns, target_fields(), shown, summary.shape, rows,
              [](Row row) { return std::span(row.point.sources[row.source].targets[row.target]); });
-  return aligned_table(columns);
+  return text::aligned_table(columns);
 }
 
 std::string title(const SequenceShape& shape) {
@@ -177,8 +178,9 @@ std::string exact_points(const RepeatabilitySummary& summary, const std::vector<
     lines += fmt::format(
         "{}: all {} trials repeat exactly: not 100 %, but at most {} of axes do not, with {:.6g} % "
         "confidence\n",
-        printable(labels[i]), point.trials,
-        percent_at_most(proportion_at_most(0, point.trials, summary.confidence)), 100.0 * summary.confidence);
+        text::printable(labels[i]), point.trials,
+        statistics::percent_at_most(statistics::proportion_at_most(0, point.trials, summary.confidence)),
+        100.0 * summary.confidence);
   }
   return lines;
 }
@@ -204,4 +206,4 @@ std::string repeatability_tables(const RepeatabilitySummary& summary,
          table_of_targets(summary, labels) + "\n" + exact_points(summary, labels) + std::string(legend);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

@@ -9,18 +9,19 @@
 #include "core/failure/failure.hpp"
 #include "core/loop/encoder.hpp"
 
-namespace zerocount {
+namespace zerocount::iso230 {
 namespace {
 
-std::int64_t target_count(std::span<const SequenceMove> sequence) {
+std::int64_t target_count(std::span<const study::SequenceMove> sequence) {
   std::int64_t last = -1;
-  for (const SequenceMove& move : sequence) last = std::max(last, move.target);
+  for (const study::SequenceMove& move : sequence) last = std::max(last, move.target);
   return last + 1;
 }
 
 /// The deviations that `deviation(move)` gives for the moves that go to a target.
 template <typename Deviation>
-std::vector<TargetDeviations> deviations(std::span<const SequenceMove> sequence, const Deviation& deviation) {
+std::vector<TargetDeviations> deviations(std::span<const study::SequenceMove> sequence,
+                                         const Deviation& deviation) {
   std::vector<TargetDeviations> targets(static_cast<std::size_t>(target_count(sequence)));
   for (std::size_t move = 0; move < sequence.size(); ++move) {
     if (sequence[move].target < 0) continue;
@@ -30,17 +31,17 @@ std::vector<TargetDeviations> deviations(std::span<const SequenceMove> sequence,
   return targets;
 }
 
-bool lost(const MoveOutcome& move) {
-  return move.outcome == Outcome::nonfinite || !std::isfinite(move.final_position);
+bool lost(const trial::MoveOutcome& move) {
+  return move.outcome == trial::Outcome::nonfinite || !std::isfinite(move.final_position);
 }
 
 }  // namespace
 
-SequenceShape shape_of(std::span<const SequenceMove> sequence) {
+SequenceShape shape_of(std::span<const study::SequenceMove> sequence) {
   SequenceShape shape{.targets = target_count(sequence)};
   std::vector<std::int64_t> from_below(static_cast<std::size_t>(shape.targets), 0);
   std::vector<std::int64_t> from_above(from_below);
-  for (const SequenceMove& move : sequence) {
+  for (const study::SequenceMove& move : sequence) {
     if (move.target < 0) continue;
     ++(move.direction > 0 ? from_below : from_above)[static_cast<std::size_t>(move.target)];
   }
@@ -53,8 +54,8 @@ SequenceShape shape_of(std::span<const SequenceMove> sequence) {
   return shape;
 }
 
-std::vector<double> listed_targets(std::span<const SequenceMove> sequence,
-                                   const TrialParameters& parameters) {
+std::vector<double> listed_targets(std::span<const study::SequenceMove> sequence,
+                                   const trial::TrialParameters& parameters) {
   std::vector<double> positions(static_cast<std::size_t>(target_count(sequence)),
                                 std::numeric_limits<double>::quiet_NaN());
   for (std::size_t move = 0; move < sequence.size(); ++move) {
@@ -65,9 +66,9 @@ std::vector<double> listed_targets(std::span<const SequenceMove> sequence,
   return positions;
 }
 
-std::optional<TrialRepeatability> trial_repeatability(std::span<const SequenceMove> sequence,
-                                                      const TrialParameters& parameters,
-                                                      std::span<const MoveOutcome> moves) {
+std::optional<TrialRepeatability> trial_repeatability(std::span<const study::SequenceMove> sequence,
+                                                      const trial::TrialParameters& parameters,
+                                                      std::span<const trial::MoveOutcome> moves) {
   if (moves.size() != sequence.size() || parameters.command.targets.size() != sequence.size()) {
     throw Failure(ExitCode::bad_data,
                   fmt::format("a trial with {} moves to {} targets; expected the {} of the "
@@ -75,7 +76,7 @@ std::optional<TrialRepeatability> trial_repeatability(std::span<const SequenceMo
                               moves.size(), parameters.command.targets.size(), sequence.size()));
   }
   if (std::any_of(moves.begin(), moves.end(), lost)) return std::nullopt;
-  const double resolution = fine_resolution(parameters.encoder);
+  const double resolution = loop::fine_resolution(parameters.encoder);
   const auto from_position = [&](std::size_t move) {
     const auto target = static_cast<double>(parameters.command.targets[move]);
     return moves[move].final_position - (target + 0.5 - parameters.initial.encoder_phase) * resolution;
@@ -85,4 +86,4 @@ std::optional<TrialRepeatability> trial_repeatability(std::span<const SequenceMo
                             repeatability_of(deviations(sequence, from_encoder))};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

@@ -10,7 +10,7 @@
 #include "core/trial/parameters.hpp"
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::iso230 {
 
 /// What a sequence of moves measures.
 struct SequenceShape {
@@ -20,7 +20,7 @@ struct SequenceShape {
   bool negative{false};     ///< there are approaches from above
 };
 
-SequenceShape shape_of(std::span<const SequenceMove> sequence);
+SequenceShape shape_of(std::span<const study::SequenceMove> sequence);
 
 /// A trial as one run of the test of ISO 230-2, seen in two ways.
 ///
@@ -33,13 +33,14 @@ struct TrialRepeatability {
 };
 
 /// The targets of a trial in the order of their list, counts.
-std::vector<double> listed_targets(std::span<const SequenceMove> sequence, const TrialParameters& parameters);
+std::vector<double> listed_targets(std::span<const study::SequenceMove> sequence,
+                                   const trial::TrialParameters& parameters);
 
 /// The repeatability of one trial. Every move to a target counts as it ended, whether it arrived or not, but
 /// where the motion of any move was lost (nonfinite) there is nothing to measure: empty.
 /// @throws Failure (bad_data) where moves and sequence are not of the same number.
-std::optional<TrialRepeatability> trial_repeatability(std::span<const SequenceMove> sequence,
-                                                      const TrialParameters& parameters,
-                                                      std::span<const MoveOutcome> moves);
+std::optional<TrialRepeatability> trial_repeatability(std::span<const study::SequenceMove> sequence,
+                                                      const trial::TrialParameters& parameters,
+                                                      std::span<const trial::MoveOutcome> moves);
 
-}  // namespace zerocount
+}  // namespace zerocount::iso230

@@ -9,10 +9,10 @@
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 namespace {
 
-bool has_errors(const EncoderErrors& errors) {
+bool has_errors(const loop::EncoderErrors& errors) {
   return errors.eccentricity != 0.0 || errors.interpolation != 0.0 || errors.noise != 0.0 ||
          errors.missed != 0.0;
 }
@@ -20,13 +20,14 @@ bool has_errors(const EncoderErrors& errors) {
 template <class Entry>
 bool has_creep_parameter(const std::vector<Entry>& entries) {
   return std::any_of(entries.begin(), entries.end(), [](const Entry& entry) {
-    return entry.parameter == &FrictionParameters::alpha || entry.parameter == &FrictionParameters::lambda ||
-           entry.parameter == &FrictionParameters::n;
+    return entry.parameter == &friction::FrictionParameters::alpha ||
+           entry.parameter == &friction::FrictionParameters::lambda ||
+           entry.parameter == &friction::FrictionParameters::n;
   });
 }
 
-std::string why_not(const TrialParameters& parameters) {
-  if (!has_creep(parameters.friction.model) || parameters.friction.uniform.alpha == 0.0)
+std::string why_not(const trial::TrialParameters& parameters) {
+  if (!friction::has_creep(parameters.friction.model) || parameters.friction.uniform.alpha == 0.0)
     return "the friction does not creep";
   if (has_creep_parameter(parameters.friction.profiled)) return "a creep parameter varies along the rotor";
   if (has_creep_parameter(parameters.friction.per_contact)) {
@@ -34,18 +35,18 @@ std::string why_not(const TrialParameters& parameters) {
   }
   if (parameters.dac.noise != 0.0) return "the converter has noise";
   if (has_errors(parameters.encoder.fine_errors)) return "the encoder has errors";
-  if (parameters.controller.encoder != EncoderChoice::fine) return "the coarse encoder closes the loop";
+  if (parameters.controller.encoder != loop::EncoderChoice::fine) return "the coarse encoder closes the loop";
   return {};
 }
 
 /// The time (s) after `state` at which a jerk begins; infinite if there is none.
-double time_to_edge(const TrialParameters& parameters, const SampleRecord& state) {
+double time_to_edge(const trial::TrialParameters& parameters, const trial::SampleRecord& state) {
   constexpr double never = std::numeric_limits<double>::infinity();
-  const FrictionParameters& friction = parameters.friction.uniform;
+  const friction::FrictionParameters& friction = parameters.friction.uniform;
   const double torque = state.drive_torque;
-  const double room = hardening_limit(friction, torque) - state.xh;
+  const double room = friction::hardening_limit(friction, torque) - state.xh;
   if (!(room > 0.0)) return never;
-  const double count = fine_resolution(parameters.encoder);
+  const double count = loop::fine_resolution(parameters.encoder);
   const double edges_passed = static_cast<double>(state.target) + (torque > 0.0 ? 1.0 : 0.0);
   const double distance = std::abs((edges_passed - parameters.initial.encoder_phase) * count - state.theta);
   return distance < room ? -std::log1p(-distance / room) / friction.alpha : never;
@@ -54,15 +55,15 @@ double time_to_edge(const TrialParameters& parameters, const SampleRecord& state
 /// Collects the waits of a trial, sample by sample.
 class WaitFollower {
  public:
-  WaitFollower(const TrialParameters& parameters, std::int64_t trial, CreepComparison& comparison)
+  WaitFollower(const trial::TrialParameters& parameters, std::int64_t trial, CreepComparison& comparison)
       : parameters_(parameters),
         trial_(trial),
         comparison_(comparison),
         rate_(parameters.controller.sample_rate),
-        dwell_(samples_in(parameters.verdict.dwell, rate_)),
-        move_end_(samples_of_move(parameters, 0)) {}
+        dwell_(trial::samples_in(parameters.verdict.dwell, rate_)),
+        move_end_(trial::samples_of_move(parameters, 0)) {}
 
-  void take(const SampleRecord& sample) {
+  void take(const trial::SampleRecord& sample) {
     if (sample.k == move_end_) next_move();
     last_ = sample.k;
     const std::int64_t k = sample.k - move_start_;
@@ -79,7 +80,7 @@ class WaitFollower {
     // One sample after the dwell, because a torque acts during the following sample.
     if (arrived_ && zeros_ == dwell_ + 1) state_ = sample;
     const bool constant =
-        state_ && sample.drive_torque == state_->drive_torque && sample.mode == HookMode::stick;
+        state_ && sample.drive_torque == state_->drive_torque && sample.mode == trial::HookMode::stick;
     if (state_ && !constant) steady_ = false;
   }
 
@@ -93,7 +94,7 @@ class WaitFollower {
     finish();
     ++move_;
     move_start_ = move_end_;
-    move_end_ += samples_of_move(parameters_, static_cast<std::size_t>(move_));
+    move_end_ += trial::samples_of_move(parameters_, static_cast<std::size_t>(move_));
     zeros_ = 0;
     arrived_ = false;
   }
@@ -115,7 +116,7 @@ class WaitFollower {
     first_ = false;
   }
 
-  const TrialParameters& parameters_;
+  const trial::TrialParameters& parameters_;
   std::int64_t trial_;
   CreepComparison& comparison_;
   double rate_;
@@ -123,19 +124,20 @@ class WaitFollower {
   std::int64_t move_start_{0}, move_end_, move_{0};
   std::int64_t zeros_{0}, last_{-1};
   bool arrived_{false}, first_{false}, steady_{true};
-  std::optional<SampleRecord> state_;
+  std::optional<trial::SampleRecord> state_;
 };
 
 }  // namespace
 
-CreepComparison compare_with_creep(const Study& study, std::int64_t point, std::int64_t trials) {
+CreepComparison compare_with_creep(const study::Study& study, std::int64_t point, std::int64_t trials) {
   CreepComparison comparison;
   for (std::int64_t index = 0; index < std::min(trials, study.trials); ++index) {
-    const TrialParameters parameters = study_trial(study, point, index).parameters;
+    const trial::TrialParameters parameters = study::study_trial(study, point, index).parameters;
     comparison.not_applicable = why_not(parameters);
     if (!comparison.not_applicable.empty()) return comparison;
     WaitFollower follower(parameters, index, comparison);
-    run_trial(parameters, {.sample = [&](const SampleRecord& sample) { follower.take(sample); }, .jerk = {}});
+    trial::run_trial(parameters, {.sample = [&](const trial::SampleRecord& sample) { follower.take(sample); },
+                                  .jerk = {}});
     follower.finish();
     ++comparison.trials;
   }
@@ -163,4 +165,4 @@ CreepAgreement agreement_of(const CreepComparison& comparison, double sample_tim
   return agreement;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::jerks

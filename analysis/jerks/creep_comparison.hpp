@@ -7,7 +7,7 @@
 
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 
 /// The interval of zero error before the next jerk. The torque is constant, and only creep moves the rotor.
 /// Times in s from the start of the move.
@@ -44,7 +44,7 @@ struct CreepComparison {
 /// torque through the integral, so each wait is predicted separately. The closed form does not apply if the
 /// friction does not creep, the encoder or the converter has noise, the encoder has errors, or a creep
 /// parameter varies along the rotor.
-CreepComparison compare_with_creep(const Study& study, std::int64_t point, std::int64_t trials);
+CreepComparison compare_with_creep(const study::Study& study, std::int64_t point, std::int64_t trials);
 
 /// Summary of a comparison.
 struct CreepAgreement {
@@ -59,4 +59,4 @@ struct CreepAgreement {
 /// @param sample_time s.
 CreepAgreement agreement_of(const CreepComparison& comparison, double sample_time);
 
-}  // namespace zerocount
+}  // namespace zerocount::jerks

@@ -6,7 +6,7 @@
 
 #include "analysis/jerks/jerk_report.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -46,7 +46,7 @@ Json slowing_json(const LaplaceSummary& slowing) {
           {"p_value", slowing.p_slowing}};
 }
 
-Json proportion_json(const ClusteredProportion& proportion) {
+Json proportion_json(const statistics::ClusteredProportion& proportion) {
   return {{"hits", proportion.hits},
           {"jerks", proportion.events},
           {"share", proportion.value},
@@ -110,4 +110,4 @@ std::string jerk_json_text(const JerkReport& report) {
   return jerk_json(report).dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::jerks

@@ -5,7 +5,7 @@
 
 #include "analysis/statistics/poisson_bounds.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 namespace {
 
 constexpr double per_decade = 5.0;
@@ -73,7 +73,7 @@ void JerkRates::add(const ObservedMove& move) {
 }
 
 std::vector<JerkRate> JerkRates::rates(double confidence) const {
-  require_confidence(confidence);
+  statistics::require_confidence(confidence);
   std::vector<JerkRate> rates;
   for (const auto& [j, counted] : ranges_) {
     Range range = counted;
@@ -91,9 +91,9 @@ std::vector<JerkRate> JerkRates::rates(double confidence) const {
       rate.dispersion = clusters / (clusters - 1.0) * std::max(0.0, squares) / jerks;
     }
     const auto scaled_bounds = [&](double divisor) {
-      const ConfidenceInterval mean = poisson_bounds(jerks / divisor, confidence);
+      const statistics::ConfidenceInterval mean = statistics::poisson_bounds(jerks / divisor, confidence);
       const double exposure = range.exposure / divisor;
-      return ConfidenceInterval{mean.low / exposure, mean.high / exposure};
+      return statistics::ConfidenceInterval{mean.low / exposure, mean.high / exposure};
     };
     rate.poisson = scaled_bounds(1.0);
     rate.bounds = scaled_bounds(std::max(1.0, rate.dispersion));
@@ -102,4 +102,4 @@ std::vector<JerkRate> JerkRates::rates(double confidence) const {
   return rates;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::jerks

@@ -8,7 +8,7 @@
 #include "analysis/jerks/jerk_statistics.hpp"
 #include "analysis/jerks/observed_move.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 
 /// Counts jerks and exposure (the time in which jerks could begin) in ranges of the time since arrival. The
 /// ranges are bounded by 10^(j/5) s for integers j: five per decade.
@@ -46,4 +46,4 @@ class JerkRates {
   double latest_{0.0};                                        ///< s
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::jerks

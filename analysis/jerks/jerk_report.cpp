@@ -6,12 +6,12 @@
 
 #include "analysis/jerks/creep_comparison.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 
-JerkReport jerk_report(const StudyFile& file, const Study& study, std::vector<std::int64_t> points,
-                       double confidence, std::int64_t creep_trials) {
+JerkReport jerk_report(const reading::StudyFile& file, const study::Study& study,
+                       std::vector<std::int64_t> points, double confidence, std::int64_t creep_trials) {
   if (points.empty()) {
-    points.resize(static_cast<std::size_t>(point_count(study)));
+    points.resize(static_cast<std::size_t>(study::point_count(study)));
     std::iota(points.begin(), points.end(), 0);
   }
   JerkReport report{.name = study.name, .axis = study.units.axis, .confidence = confidence, .points = {}};
@@ -20,7 +20,7 @@ JerkReport jerk_report(const StudyFile& file, const Study& study, std::vector<st
     jerks.statistics = jerk_statistics(file, study, point, confidence);
     jerks.label = study.point_labels[static_cast<std::size_t>(point)];
     jerks.creep = compare_with_creep(study, point, std::min(creep_trials, file.header().trials));
-    const double sample_time = 1.0 / study_trial(study, point, 0).parameters.controller.sample_rate;
+    const double sample_time = 1.0 / study::study_trial(study, point, 0).parameters.controller.sample_rate;
     jerks.creep_agreement = agreement_of(jerks.creep, sample_time);
     report.points.push_back(std::move(jerks));
   }
@@ -33,4 +33,4 @@ bool any_arrival(const JerkReport& report) {
   });
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::jerks

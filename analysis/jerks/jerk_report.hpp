@@ -9,21 +9,21 @@
 #include "analysis/jerks/jerk_statistics.hpp"
 
 /// Output of the verb `jerks`.
-namespace zerocount {
+namespace zerocount::jerks {
 
 /// The reported data of a study.
 struct JerkReport {
   std::string name;  ///< of the study
-  AxisKind axis{AxisKind::rotary};
-  double confidence{summary_confidence};
+  parameters::AxisKind axis{parameters::AxisKind::rotary};
+  double confidence{statistics::summary_confidence};
   std::vector<PointJerks> points;
 };
 
 /// The jerks of `points` (all points if empty) of a complete results file. `creep_trials` trials of each
 /// point are simulated again and compared with the closed form of creep.
 /// @throws Failure as jerk_statistics.
-JerkReport jerk_report(const StudyFile& file, const Study& study, std::vector<std::int64_t> points,
-                       double confidence, std::int64_t creep_trials);
+JerkReport jerk_report(const reading::StudyFile& file, const study::Study& study,
+                       std::vector<std::int64_t> points, double confidence, std::int64_t creep_trials);
 
 /// Whether any move arrived. Without an arrival there are no measurements.
 bool any_arrival(const JerkReport& report);
@@ -37,4 +37,4 @@ std::string jerk_json_text(const JerkReport& report);
 /// The report as text: for each point a paragraph and the table of rates. UTF-8.
 std::string jerk_text(const JerkReport& report);
 
-}  // namespace zerocount
+}  // namespace zerocount::jerks

@@ -15,7 +15,7 @@
 #include "analysis/statistics/histogram.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 namespace {
 
 constexpr std::size_t magnitude_classes = 3;  // one count, two, and more
@@ -54,7 +54,7 @@ class EventSums {
     counts.hits += hit;
     ++counts.events;
   }
-  const ClusterSums& sums() {
+  const statistics::ClusterSums& sums() {
     close();
     return sums_;
   }
@@ -69,7 +69,7 @@ class EventSums {
   }
   bool clusters_return_;
   std::map<std::int64_t, Counts> open_;
-  ClusterSums sums_;
+  statistics::ClusterSums sums_;
 };
 
 /// First pass over the moves of a point: everything except the bounds of the intervals.
@@ -103,19 +103,19 @@ class JerkCollector {
     result.confidence = confidence_;
     result.rates = rates_.rates(confidence_);
     result.slowing = laplace_.summary();
-    result.agreement = clustered_proportion(agreeing_.sums(), confidence_);
+    result.agreement = statistics::clustered_proportion(agreeing_.sums(), confidence_);
     result.intervals.n = intervals_.size;
-    result.intervals.mean = mean(intervals_);
+    result.intervals.mean = statistics::mean(intervals_);
     JerkMagnitudes& magnitudes = result.magnitudes;
-    magnitudes.one_count = clustered_proportion(one_count_.sums(), confidence_);
+    magnitudes.one_count = statistics::clustered_proportion(one_count_.sums(), confidence_);
     magnitudes.counts.assign(magnitude_counts_.begin(), magnitude_counts_.end());
-    magnitudes.mean = mean(magnitudes_);
+    magnitudes.mean = statistics::mean(magnitudes_);
     magnitudes.max = magnitudes_.size > 0 ? magnitudes_.counts.rbegin()->first : 0;
-    magnitudes.median_duration = quantile(durations_, 0.5, confidence_).value;
-    magnitudes.longest_duration = largest(durations_);
+    magnitudes.median_duration = statistics::quantile(durations_, 0.5, confidence_).value;
+    magnitudes.longest_duration = statistics::largest(durations_);
     return result;
   }
-  const Histogram<double>& intervals() const { return intervals_; }
+  const statistics::Histogram<double>& intervals() const { return intervals_; }
 
  private:
   void add_jerk(const ObservedMove& move, const SampledJerk& jerk) {
@@ -135,33 +135,36 @@ class JerkCollector {
   JerkRates rates_;
   LaplaceSum laplace_;
   EventSums agreeing_, one_count_;
-  Histogram<double> intervals_, durations_;
-  Histogram<std::int64_t> magnitudes_;
+  statistics::Histogram<double> intervals_, durations_;
+  statistics::Histogram<std::int64_t> magnitudes_;
   std::array<std::int64_t, magnitude_classes> magnitude_counts_{};
   std::int64_t last_with_jerks_{-1};
 };
 
 /// Quantile of the intervals with order-statistic bounds: ranks for `independent` observations, scaled to all
 /// n (Woodruff 1952).
-Quantile quantile_of_clusters(const Histogram<double>& histogram, double probability, double independent,
-                              double confidence) {
-  const double value = order_statistic(histogram, quantile_rank(histogram.size, probability));
+statistics::Quantile quantile_of_clusters(const statistics::Histogram<double>& histogram, double probability,
+                                          double independent, double confidence) {
+  const double value =
+      statistics::order_statistic(histogram, statistics::quantile_rank(histogram.size, probability));
   const auto whole = std::max<std::int64_t>(1, static_cast<std::int64_t>(independent));
-  const RankBounds ranks = quantile_rank_bounds(whole, probability, confidence);
+  const statistics::RankBounds ranks = statistics::quantile_rank_bounds(whole, probability, confidence);
   const double scale = static_cast<double>(histogram.size) / static_cast<double>(whole);
   const auto low = static_cast<std::int64_t>(std::floor(static_cast<double>(ranks.low) * scale));
   const auto high = static_cast<std::int64_t>(std::ceil(static_cast<double>(ranks.high) * scale));
-  return {value, order_statistic(histogram, low), order_statistic(histogram, ranks.high > whole ? 0 : high)};
+  return {value, statistics::order_statistic(histogram, low),
+          statistics::order_statistic(histogram, ranks.high > whole ? 0 : high)};
 }
 
 /// Second pass: the correlation of the intervals of a trial, for their bounds.
-void add_interval_quantiles(JerkIntervals& intervals, const Histogram<double>& histogram,
-                            const StudyFile& file, const Study& study, std::int64_t point,
+void add_interval_quantiles(JerkIntervals& intervals, const statistics::Histogram<double>& histogram,
+                            const reading::StudyFile& file, const study::Study& study, std::int64_t point,
                             double confidence) {
   constexpr std::size_t count = std::size(jerk_interval_probabilities);
   std::array<double, count> values{};
   for (std::size_t q = 0; q < count; ++q)
-    values[q] = order_statistic(histogram, quantile_rank(histogram.size, jerk_interval_probabilities[q]));
+    values[q] = statistics::order_statistic(
+        histogram, statistics::quantile_rank(histogram.size, jerk_interval_probabilities[q]));
   std::vector<EventSums> sums(count, EventSums(study.rigs > 0));
   if (histogram.size > 0) {
     for_each_move(file, study, point, [&](const ObservedMove& move) {
@@ -173,30 +176,30 @@ void add_interval_quantiles(JerkIntervals& intervals, const Histogram<double>& h
     });
   }
   for (std::size_t q = 0; q < count; ++q) {
-    const double independent = adjusted_events(sums[q].sums(), 0.5 * (1.0 - confidence));
-    intervals.independent.push_back(effective_events(sums[q].sums()));
+    const double independent = statistics::adjusted_events(sums[q].sums(), 0.5 * (1.0 - confidence));
+    intervals.independent.push_back(statistics::effective_events(sums[q].sums()));
     intervals.quantiles.push_back(
         quantile_of_clusters(histogram, jerk_interval_probabilities[q], independent, confidence));
   }
 }
 
-void require_jerks(const StudyFile& file, const Study& study, std::int64_t point) {
+void require_jerks(const reading::StudyFile& file, const study::Study& study, std::int64_t point) {
   if (study.open_loop) {
     throw Failure(ExitCode::bad_data, fmt::format("{}: an open-loop study has no targets, and so no jerks",
                                                   file.path().string()));
   }
-  if (point < 0 || point >= point_count(study)) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("point {}; the study has points 0 to {}", point, point_count(study) - 1));
+  if (point < 0 || point >= study::point_count(study)) {
+    throw Failure(ExitCode::bad_input, fmt::format("point {}; the study has points 0 to {}", point,
+                                                   study::point_count(study) - 1));
   }
 }
 
 }  // namespace
 
-JerkStatistics jerk_statistics(const StudyFile& file, const Study& study, std::int64_t point,
+JerkStatistics jerk_statistics(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
                                double confidence) {
   require_jerks(file, study, point);
-  require_confidence(confidence);
+  statistics::require_confidence(confidence);
   JerkCollector collector(confidence, study.rigs > 0);
   for_each_move(file, study, point, [&](const ObservedMove& move) { collector.add(move); });
   JerkStatistics result = collector.statistics();
@@ -205,4 +208,4 @@ JerkStatistics jerk_statistics(const StudyFile& file, const Study& study, std::i
   return result;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::jerks

@@ -16,7 +16,7 @@
 
 /// Statistics of the jerks of a design point: rates, intervals, trend, direction and magnitude. README.md of
 /// this folder describes the method.
-namespace zerocount {
+namespace zerocount::jerks {
 
 /// Rate of jerks in a range of the time since arrival.
 struct JerkRate {
@@ -26,12 +26,12 @@ struct JerkRate {
   double exposure{0.0};   ///< s, sum over all moves of the time in which a jerk could have begun
   std::int64_t jerks{0};  ///< that began in the range
   double rate{std::numeric_limits<double>::quiet_NaN()};  ///< jerks / exposure, 1/s
-  ConfidenceInterval poisson{};  ///< of the rate, 1/s: Garwood's, valid for independent jerks
+  statistics::ConfidenceInterval poisson{};  ///< of the rate, 1/s: Garwood's, valid for independent jerks
   /// Variance of the jerks of a trial about rate·exposure, divided by that of a Poisson number; 1 if unknown.
   double dispersion{1.0};
   /// Of the rate, 1/s: Garwood's, with jerks and exposure divided by the dispersion if that is above 1
   /// (trials differ). These are the bounds to report.
-  ConfidenceInterval bounds{};
+  statistics::ConfidenceInterval bounds{};
 };
 
 /// Time between the onsets of successive jerks of a move, s.
@@ -39,7 +39,7 @@ struct JerkIntervals {
   std::int64_t n{0};
   double mean{std::numeric_limits<double>::quiet_NaN()};
   /// At jerk_interval_probabilities, with order-statistic bounds for the effective number of intervals.
-  std::vector<Quantile> quantiles;
+  std::vector<statistics::Quantile> quantiles;
   std::vector<double> independent;  ///< [quantile]: effective number of intervals
 };
 
@@ -48,8 +48,8 @@ inline constexpr std::array<double, 5> jerk_interval_probabilities{0.05, 0.25, 0
 
 /// The largest |error| of the jerks, counts.
 struct JerkMagnitudes {
-  ClusteredProportion one_count;     ///< proportion of jerks of one count
-  std::vector<std::int64_t> counts;  ///< [m]: jerks of magnitude m + 1; last: or more
+  statistics::ClusteredProportion one_count;  ///< proportion of jerks of one count
+  std::vector<std::int64_t> counts;           ///< [m]: jerks of magnitude m + 1; last: or more
   double mean{std::numeric_limits<double>::quiet_NaN()};
   std::int64_t max{0};
   double median_duration{std::numeric_limits<double>::quiet_NaN()};   ///< s
@@ -58,7 +58,7 @@ struct JerkMagnitudes {
 
 /// The jerks of all trials of a design point.
 struct JerkStatistics {
-  double confidence{summary_confidence};  ///< of all bounds
+  double confidence{statistics::summary_confidence};  ///< of all bounds
   std::int64_t trials{0};
   std::int64_t moves{0};       ///< of all trials
   std::int64_t arrived{0};     ///< moves that arrived; only these can jerk
@@ -67,16 +67,16 @@ struct JerkStatistics {
   std::int64_t jerks{0};
   std::vector<JerkRate> rates;  ///< consecutive ranges, equally spaced in the logarithm
   JerkIntervals intervals;
-  LaplaceSummary slowing;         ///< trend of the jerks after the first of their move
-  ClusteredProportion agreement;  ///< jerks in the direction of their holding torque
+  LaplaceSummary slowing;                     ///< trend of the jerks after the first of their move
+  statistics::ClusteredProportion agreement;  ///< jerks in the direction of their holding torque
   JerkMagnitudes magnitudes;
 };
 
 /// The jerks of one design point of a complete results file.
 /// @throws Failure: bad_input if there is no such point or the confidence is outside (0, 1); bad_data for an
 /// open-loop study, which has no jerks, and for inconsistent data.
-JerkStatistics jerk_statistics(const StudyFile& file, const Study& study, std::int64_t point,
-                               double confidence = summary_confidence);
+JerkStatistics jerk_statistics(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
+                               double confidence = statistics::summary_confidence);
 
 /// The data of one point that the verb `jerks` reports.
 struct PointJerks {
@@ -87,4 +87,4 @@ struct PointJerks {
   CreepAgreement creep_agreement;
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::jerks

@@ -7,45 +7,46 @@
 #include "analysis/jerks/jerk_report.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 namespace {
 
-std::string bounds_text(const ConfidenceInterval& bounds) {
-  return fmt::format("[{}, {}]", short_number(bounds.low), short_number(bounds.high));
+std::string bounds_text(const statistics::ConfidenceInterval& bounds) {
+  return fmt::format("[{}, {}]", text::short_number(bounds.low), text::short_number(bounds.high));
 }
 
 std::string rate_table(const std::vector<JerkRate>& rates, const std::string& level) {
-  std::vector<TextColumn> columns{{"since arrival (s)", true, {}}, {"moves", true, {}},
-                                  {"watched (s)", true, {}},       {"jerks", true, {}},
-                                  {"rate (1/s)", true, {}},        {level + " bounds", true, {}},
-                                  {"dispersion", true, {}}};
+  std::vector<text::TextColumn> columns{{"since arrival (s)", true, {}}, {"moves", true, {}},
+                                        {"watched (s)", true, {}},       {"jerks", true, {}},
+                                        {"rate (1/s)", true, {}},        {level + " bounds", true, {}},
+                                        {"dispersion", true, {}}};
   for (const JerkRate& rate : rates) {
-    const std::string cells[] = {fmt::format("{} to {}", short_number(rate.from), short_number(rate.to)),
-                                 std::to_string(rate.moves),
-                                 short_number(rate.exposure),
-                                 std::to_string(rate.jerks),
-                                 short_number(rate.rate),
-                                 bounds_text(rate.bounds),
-                                 short_number(rate.dispersion)};
+    const std::string cells[] = {
+        fmt::format("{} to {}", text::short_number(rate.from), text::short_number(rate.to)),
+        std::to_string(rate.moves),
+        text::short_number(rate.exposure),
+        std::to_string(rate.jerks),
+        text::short_number(rate.rate),
+        bounds_text(rate.bounds),
+        text::short_number(rate.dispersion)};
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i].cells.push_back(cells[i]);
   }
-  return aligned_table(columns);
+  return text::aligned_table(columns);
 }
 
-std::string proportion_text(const ClusteredProportion& proportion) {
-  return fmt::format("{} of {}, bounds [{:.1f}, {:.1f}] %", percentage(proportion.hits, proportion.events),
-                     proportion.events, 100.0 * proportion.korn_graubard.low,
-                     100.0 * proportion.korn_graubard.high);
+std::string proportion_text(const statistics::ClusteredProportion& proportion) {
+  return fmt::format("{} of {}, bounds [{:.1f}, {:.1f}] %",
+                     text::percentage(proportion.hits, proportion.events), proportion.events,
+                     100.0 * proportion.korn_graubard.low, 100.0 * proportion.korn_graubard.high);
 }
 
 std::string intervals_text(const JerkIntervals& intervals) {
   std::string text = fmt::format("intervals: {}", intervals.n);
   if (intervals.n == 0) return text + "\n";
   for (std::size_t i = 0; i < intervals.quantiles.size(); ++i) {
-    const Quantile& quantile = intervals.quantiles[i];
-    text +=
-        fmt::format("; {:.0f} % below {} s [{}, {}]", 100.0 * jerk_interval_probabilities[i],
-                    short_number(quantile.value), short_number(quantile.low), short_number(quantile.high));
+    const statistics::Quantile& quantile = intervals.quantiles[i];
+    text += fmt::format("; {:.0f} % below {} s [{}, {}]", 100.0 * jerk_interval_probabilities[i],
+                        text::short_number(quantile.value), text::short_number(quantile.low),
+                        text::short_number(quantile.high));
   }
   return text + "\n";
 }
@@ -72,21 +73,21 @@ std::string creep_text(const CreepComparison& creep, const CreepAgreement& agree
   return text + "\n";
 }
 
-std::string point_text(const PointJerks& point, const std::string& level, AxisKind axis) {
+std::string point_text(const PointJerks& point, const std::string& level, parameters::AxisKind axis) {
   const JerkStatistics& jerks = point.statistics;
   std::string text =
-      fmt::format("{}\n{} jerks in {} of {} trials; {} of {} moves arrived", printable(point.label),
+      fmt::format("{}\n{} jerks in {} of {} trials; {} of {} moves arrived", text::printable(point.label),
                   jerks.jerks, jerks.with_jerks, jerks.trials, jerks.arrived, jerks.moves);
   if (jerks.lost > 0) text += fmt::format(", {} of these failed numerically and are excluded", jerks.lost);
   text += "\n\n";
   if (!jerks.rates.empty()) text += rate_table(jerks.rates, level) + "\n";
   text += intervals_text(jerks.intervals) + slowing_text(jerks.slowing, level);
   if (jerks.jerks > 0) {
-    text += text_on(
+    text += parameters::text_on(
         axis, fmt::format("in the direction of the holding torque: {}\n", proportion_text(jerks.agreement)));
     text += fmt::format("of one count: {}; largest {} counts; median duration {} s\n",
                         proportion_text(jerks.magnitudes.one_count), jerks.magnitudes.max,
-                        short_number(jerks.magnitudes.median_duration));
+                        text::short_number(jerks.magnitudes.median_duration));
   }
   return text + creep_text(point.creep, point.creep_agreement) + "\n";
 }
@@ -103,9 +104,9 @@ constexpr const char* legend =
 
 std::string jerk_text(const JerkReport& report) {
   const std::string level = fmt::format("{:.6g} %", 100.0 * report.confidence);
-  std::string text = printable(report.name) + "\n\n";
+  std::string text = text::printable(report.name) + "\n\n";
   for (const PointJerks& point : report.points) text += point_text(point, level, report.axis);
   return text + legend;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::jerks

@@ -6,7 +6,7 @@
 #include "analysis/statistics/normal.hpp"
 #include "analysis/statistics/proportion.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 
 LaplaceTerm laplace_term(std::span<const std::int64_t> instants, std::int64_t size) {
   const auto n = static_cast<double>(instants.size());
@@ -21,8 +21,8 @@ double laplace_score(const LaplaceTerm& term) {
 }
 
 LaplaceSum::LaplaceSum(double confidence) {
-  require_confidence(confidence);
-  critical_ = normal_quantile(confidence);
+  statistics::require_confidence(confidence);
+  critical_ = statistics::normal_quantile(confidence);
 }
 
 void LaplaceSum::add(const LaplaceTerm& term) {
@@ -43,8 +43,8 @@ LaplaceSummary LaplaceSum::summary() const {
   if (result.moves == 0) return result;
   result.summed = excess_ / std::sqrt(variance_);
   result.stouffer = scores_ / std::sqrt(static_cast<double>(result.moves));
-  result.p_slowing = normal_upper_tail(-result.summed);
+  result.p_slowing = statistics::normal_upper_tail(-result.summed);
   return result;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::jerks

@@ -4,7 +4,7 @@
 #include <limits>
 #include <span>
 
-namespace zerocount {
+namespace zerocount::jerks {
 
 /// Laplace's statistic of one series of instants 1 … M, of which n have an event.
 struct LaplaceTerm {
@@ -58,4 +58,4 @@ class LaplaceSum {
   double scores_{0.0};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::jerks

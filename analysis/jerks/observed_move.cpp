@@ -13,44 +13,45 @@
 #include "core/trial/divergence.hpp"
 #include "results/layout/table_io.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 namespace {
 
-[[noreturn]] void fail(const StudyFile& file, std::int64_t row, const std::string& what) {
+[[noreturn]] void fail(const reading::StudyFile& file, std::int64_t row, const std::string& what) {
   throw Failure(ExitCode::bad_data, fmt::format("{}: trial {}: {}", file.path().string(), row, what));
 }
 
 /// The timing parameters of the trials of a point. Drawn only once if they are the same in all trials.
 class Timings {
  public:
-  Timings(const Study& study, std::int64_t point) : study_(study), point_(point) {
-    const std::vector<InputColumn>& inputs = study.input_columns;
-    vary_ = std::any_of(inputs.begin(), inputs.end(), [](const InputColumn& input) {
+  Timings(const study::Study& study, std::int64_t point) : study_(study), point_(point) {
+    const std::vector<study::InputColumn>& inputs = study.input_columns;
+    vary_ = std::any_of(inputs.begin(), inputs.end(), [](const study::InputColumn& input) {
       return input.name == "controller.sample_rate" || input.name == "command.hold" ||
              input.name == "verdict.dwell";
     });
-    parameters_ = study_trial(study, point, 0).parameters;
+    parameters_ = study::study_trial(study, point, 0).parameters;
   }
 
-  const TrialParameters& of(std::int64_t index) {
-    if (vary_) parameters_ = study_trial(study_, point_, index).parameters;
+  const trial::TrialParameters& of(std::int64_t index) {
+    if (vary_) parameters_ = study::study_trial(study_, point_, index).parameters;
     return parameters_;
   }
 
  private:
-  const Study& study_;
+  const study::Study& study_;
   std::int64_t point_;
   bool vary_{false};
-  TrialParameters parameters_;
+  trial::TrialParameters parameters_;
 };
 
-SampledJerk sampled(const Jerk& jerk, const MoveOutcome& move, double sample_rate) {
+SampledJerk sampled(const trial::Jerk& jerk, const trial::MoveOutcome& move, double sample_rate) {
   return {std::llround(jerk.onset * sample_rate) - move.arrival, std::llround(jerk.duration * sample_rate),
-          jerk.magnitude, jerk.direction == sign_of(move.holding_torque)};
+          jerk.magnitude, jerk.direction == numerics::sign_of(move.holding_torque)};
 }
 
 /// A move that was stopped early had diverged: it counts as a jerk that lasted to the end.
-std::int64_t observed_end(const ObservedMove& observed, const MoveOutcome& move, std::int64_t samples) {
+std::int64_t observed_end(const ObservedMove& observed, const trial::MoveOutcome& move,
+                          std::int64_t samples) {
   if (!move.stopped || observed.jerks.empty()) return samples - move.arrival;
   return observed.jerks.back().onset + observed.jerks.back().length;
 }
@@ -64,16 +65,16 @@ bool in_order(const ObservedMove& move) {
   return true;
 }
 
-ObservedMove observe(const TrialParameters& parameters, std::size_t index, const MoveOutcome& move,
-                     std::span<const JerkRecord> jerks) {
+ObservedMove observe(const trial::TrialParameters& parameters, std::size_t index,
+                     const trial::MoveOutcome& move, std::span<const layout::JerkRecord> jerks) {
   const double rate = parameters.controller.sample_rate;
   ObservedMove observed;
   observed.arrived = move.arrived;
-  observed.lost = move.outcome == Outcome::nonfinite;
+  observed.lost = move.outcome == trial::Outcome::nonfinite;
   observed.sample_time = 1.0 / rate;
-  observed.dwell = samples_in(parameters.verdict.dwell, rate);
-  for (const JerkRecord& jerk : jerks) observed.jerks.push_back(sampled(jerk, move, rate));
-  observed.end = observed_end(observed, move, samples_of_move(parameters, index));
+  observed.dwell = trial::samples_in(parameters.verdict.dwell, rate);
+  for (const layout::JerkRecord& jerk : jerks) observed.jerks.push_back(sampled(jerk, move, rate));
+  observed.end = observed_end(observed, move, trial::samples_of_move(parameters, index));
   return observed;
 }
 
@@ -89,24 +90,24 @@ void for_each_run_at_risk(const ObservedMove& move,
   if (first < move.end) take(first, move.end);
 }
 
-void for_each_move(const StudyFile& file, const Study& study, std::int64_t point,
+void for_each_move(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
                    const std::function<void(const ObservedMove&)>& take) {
   const std::int64_t moves = file.moves();
   const std::int64_t trials = file.header().trials;
   const std::int64_t begin = point * trials;
   const std::int64_t end = begin + trials;
   Timings timings(study, point);
-  for (std::int64_t first = begin; first < end; first += chunk_rows(moves)) {
-    const RowRange block{first, std::min(chunk_rows(moves), end - first)};
-    const std::vector<MoveOutcome> outcomes = file.outcomes(block);
-    const std::vector<JerkRecord> jerks = file.jerks(block);
+  for (std::int64_t first = begin; first < end; first += layout::chunk_rows(moves)) {
+    const layout::RowRange block{first, std::min(layout::chunk_rows(moves), end - first)};
+    const std::vector<trial::MoveOutcome> outcomes = file.outcomes(block);
+    const std::vector<layout::JerkRecord> jerks = file.jerks(block);
     std::size_t next = 0;
     for (std::int64_t i = 0; i < block.count * moves; ++i) {
       const std::int64_t row = block.first + i / moves;
-      const MoveOutcome& move = outcomes[static_cast<std::size_t>(i)];
+      const trial::MoveOutcome& move = outcomes[static_cast<std::size_t>(i)];
       const std::size_t start = next;
       while (next < jerks.size() && jerks[next].trial == row && jerks[next].move == i % moves) ++next;
-      const std::span<const JerkRecord> own = std::span(jerks).subspan(start, next - start);
+      const std::span<const layout::JerkRecord> own = std::span(jerks).subspan(start, next - start);
       if (std::ssize(own) != move.jerk_count) {
         fail(file, row,
              fmt::format("{} jerks recorded of a move that counted {}", own.size(), move.jerk_count));
@@ -114,7 +115,7 @@ void for_each_move(const StudyFile& file, const Study& study, std::int64_t point
       ObservedMove observed =
           observe(timings.of(row - begin), static_cast<std::size_t>(i % moves), move, own);
       observed.trial = row;
-      observed.cluster = study.rigs > 0 ? rig_of(study, row - begin) : row;
+      observed.cluster = study.rigs > 0 ? study::rig_of(study, row - begin) : row;
       if (observed.arrived && !observed.lost && !in_order(observed)) {
         fail(file, row, "jerks that are not in order, or outside the time of their move");
       }
@@ -124,4 +125,4 @@ void for_each_move(const StudyFile& file, const Study& study, std::int64_t point
   }
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::jerks

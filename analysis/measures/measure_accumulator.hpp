@@ -10,12 +10,12 @@
 #include "analysis/statistics/trial_clusters.hpp"
 #include "core/trial/outcome.hpp"
 
-namespace zerocount {
+namespace zerocount::measures {
 
 /// What is known of the moves before they are looked at.
 struct MoveKind {
-  bool open_loop{false};                 ///< they have torque levels, and no target
-  std::int64_t version{format_version};  ///< of the layout of the results they are from
+  bool open_loop{false};                         ///< they have torque levels, and no target
+  std::int64_t version{layout::format_version};  ///< of the layout of the results they are from
   std::int64_t rigs{0};  ///< that the trials run on, trial i on rig i mod rigs; 0: no trials share one
 };
 
@@ -28,27 +28,28 @@ class MeasureAccumulator {
  public:
   /// @param measure stays as long as this. @param reported of the measure: its statistics at a point, or at
   /// a level.
-  MeasureAccumulator(const Measure& measure, const ReportedStatistics& reported, const MoveKind& kind);
+  MeasureAccumulator(const layout::Measure& measure, const layout::ReportedStatistics& reported,
+                     const MoveKind& kind);
 
-  void add(std::span<const MoveOutcome> moves);
+  void add(std::span<const trial::MoveOutcome> moves);
   MeasureStatistics statistics(const StatisticsOptions& options) const;
 
  private:
-  void add_quality(std::span<const MoveOutcome> moves);
+  void add_quality(std::span<const trial::MoveOutcome> moves);
   void add_clusters(std::int64_t size);
   RateWithBounds rate(double confidence) const;
 
-  const Measure* measure_;
-  const ReportedStatistics* reported_;
+  const layout::Measure* measure_;
+  const layout::ReportedStatistics* reported_;
   MoveKind kind_;
   bool in_clusters_;  ///< kept by their values; otherwise by their moments
   std::int64_t trials_{0};
-  Moments moments_;
-  TrialClusters clusters_;
-  ClusterTotals totals_;
+  statistics::Moments moments_;
+  statistics::TrialClusters clusters_;
+  statistics::ClusterTotals totals_;
   std::vector<std::int64_t> by_move_;  ///< [move] trials whose move has the quality
   std::vector<std::int64_t> hits_;     ///< [rig], or one for all: trials that have the quality
   std::vector<double> values_;         ///< of the trial at hand; kept for its memory
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

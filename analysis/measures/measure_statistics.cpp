@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::measures {
 
 std::span<const StatisticKind> statistic_kinds() {
-  using enum Statistic;
+  using enum layout::Statistic;
   using M = const MeasureStatistics&;
   static constexpr auto number = [](std::int64_t count) { return static_cast<double>(count); };
   static constexpr std::string_view lower = "lower 95 % bound", upper = "upper 95 % bound";
@@ -53,14 +53,15 @@ std::string meaning_of(const StatisticKind& kind) {
   return kind.bound.empty() ? std::string(kind.meaning) : fmt::format("{} of {}", kind.bound, kind.meaning);
 }
 
-double value_of(Statistic statistic, const MeasureStatistics& statistics) {
+double value_of(layout::Statistic statistic, const MeasureStatistics& statistics) {
   return statistic_kinds()[static_cast<std::size_t>(statistic)].value(statistics);
 }
 
-bool reports(const ReportedStatistics& reported, Statistic statistic) {
-  return std::any_of(reported.texts.begin(), reported.texts.end(), [statistic](const StatisticText& text) {
-    return std::count(text.statistics.begin(), text.statistics.end(), statistic) > 0;
-  });
+bool reports(const layout::ReportedStatistics& reported, layout::Statistic statistic) {
+  return std::any_of(reported.texts.begin(), reported.texts.end(),
+                     [statistic](const layout::StatisticText& text) {
+                       return std::count(text.statistics.begin(), text.statistics.end(), statistic) > 0;
+                     });
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

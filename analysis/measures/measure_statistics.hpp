@@ -14,21 +14,21 @@
 #include "analysis/statistics/quantile.hpp"
 #include "results/layout/measure_table.hpp"
 
-namespace zerocount {
+namespace zerocount::measures {
 
 /// Share of trials with bounds; NaN where there are none that could be a part of it.
 struct RateWithBounds {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double value{unknown};
-  ConfidenceInterval clopper_pearson{unknown, unknown};
-  ConfidenceInterval wilson{unknown, unknown};
+  statistics::ConfidenceInterval clopper_pearson{unknown, unknown};
+  statistics::ConfidenceInterval wilson{unknown, unknown};
 };
 
 /// The statistics of one measure over the moves or, of a sum or a quality, over the trials: in the measure's
 /// unit, NaN where there is none. Only what its row of the table reports is worked out.
 struct MeasureStatistics {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  static constexpr Quantile no_quantile{unknown, unknown, unknown};
+  static constexpr statistics::Quantile no_quantile{unknown, unknown, unknown};
   std::int64_t n{0};                  ///< values that are known
   std::int64_t moves{0};              ///< values, with those that are later than any
   std::int64_t nonfinite{0};          ///< values left out because they are not finite
@@ -41,35 +41,37 @@ struct MeasureStatistics {
   double rms{unknown};
   double min{unknown};
   double max{unknown};
-  Quantile p05{no_quantile}, p25{no_quantile}, median{no_quantile}, p75{no_quantile}, p95{no_quantile};
-  ConfidenceInterval mean_bounds{unknown, unknown};  ///< Student's of a level; otherwise if asked for
+  statistics::Quantile p05{no_quantile}, p25{no_quantile}, median{no_quantile}, p75{no_quantile},
+      p95{no_quantile};
+  statistics::ConfidenceInterval mean_bounds{unknown,
+                                             unknown};  ///< Student's of a level; otherwise if asked for
 };
 
 /// The statistics of all measures of a table.
 struct StatisticsOfMeasures {
-  const MeasureTable* table{&measure_table()};
+  const layout::MeasureTable* table{&layout::measure_table()};
   std::vector<MeasureStatistics> measures = std::vector<MeasureStatistics>(table->size());  ///< [row]
 
   /// @param measure of `table`.
-  const MeasureStatistics& of(const Measure& measure) const {
+  const MeasureStatistics& of(const layout::Measure& measure) const {
     return measures.at(static_cast<std::size_t>(&measure - table->data()));
   }
   /// Those of the measure that stands there in the outcome of a move.
   template <class Value>
-  const MeasureStatistics& of(Value MoveOutcome::*member) const {
+  const MeasureStatistics& of(Value trial::MoveOutcome::*member) const {
     std::size_t row = 0;
-    while (table->at(row).field.member != Member<MoveOutcome>(member)) ++row;
+    while (table->at(row).field.member != layout::Member<trial::MoveOutcome>(member)) ++row;
     return measures[row];
   }
   template <class Value>
-  MeasureStatistics& of(Value MoveOutcome::*member) {
+  MeasureStatistics& of(Value trial::MoveOutcome::*member) {
     return const_cast<MeasureStatistics&>(std::as_const(*this).of(member));
   }
 };
 
 /// How a statistic is named and worked out.
 struct StatisticKind {
-  Statistic statistic;
+  layout::Statistic statistic;
   std::string_view name;     ///< empty: it has that of the measure
   std::string_view meaning;  ///< stands in the long name
   std::string_view bound{};  ///< likewise, before the meaning
@@ -84,9 +86,9 @@ std::span<const StatisticKind> statistic_kinds();
 std::string meaning_of(const StatisticKind& kind);
 
 /// A statistic of those of a measure, as a number.
-double value_of(Statistic statistic, const MeasureStatistics& statistics);
+double value_of(layout::Statistic statistic, const MeasureStatistics& statistics);
 
 /// Whether a statistic is among those reported.
-bool reports(const ReportedStatistics& reported, Statistic statistic);
+bool reports(const layout::ReportedStatistics& reported, layout::Statistic statistic);
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

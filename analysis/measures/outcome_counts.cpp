@@ -4,25 +4,25 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::measures {
 
-std::int64_t OutcomeCounts::*counter_of(Outcome outcome) {
+std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome) {
   switch (outcome) {
-    case Outcome::zero_count:
+    case trial::Outcome::zero_count:
       return &OutcomeCounts::zero_count;
-    case Outcome::one_count:
+    case trial::Outcome::one_count:
       return &OutcomeCounts::one_count;
-    case Outcome::off_target:
+    case trial::Outcome::off_target:
       return &OutcomeCounts::off_target;
-    case Outcome::oscillating:
+    case trial::Outcome::oscillating:
       return &OutcomeCounts::oscillating;
-    case Outcome::nonfinite:
+    case trial::Outcome::nonfinite:
       return &OutcomeCounts::nonfinite;
-    case Outcome::open_loop:
+    case trial::Outcome::open_loop:
       return &OutcomeCounts::open_loop;
   }
   throw Failure(ExitCode::bad_data,
                 fmt::format("a move with outcome {}; expected 0 to 5", static_cast<int>(outcome)));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

@@ -4,7 +4,7 @@
 
 #include "core/trial/outcome.hpp"
 
-namespace zerocount {
+namespace zerocount::measures {
 
 /// How many trials (or moves) had each outcome.
 struct OutcomeCounts {
@@ -18,6 +18,6 @@ struct OutcomeCounts {
 
 /// Where an outcome is counted.
 /// @throws Failure (bad_data) for a value that is no outcome, which only a damaged file has.
-std::int64_t OutcomeCounts::*counter_of(Outcome outcome);
+std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome);
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

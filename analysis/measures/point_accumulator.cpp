@@ -11,7 +11,7 @@
 #include "core/numerics/sign.hpp"
 #include "core/trial/divergence.hpp"
 
-namespace zerocount {
+namespace zerocount::measures {
 namespace {
 
 /// Onsets are whole multiples of the sample time. Their differences carry rounding errors that would make
@@ -21,12 +21,12 @@ double rounded_interval(double seconds) {
 }
 
 /// No limit is known for trials whose number was decided by their outcomes.
-auto tolerance_limits(const ClusteredSample& slowest, const StatisticsOptions& options) {
-  std::array<ToleranceLimit, std::size(tolerance_contents)> limits{};
+auto tolerance_limits(const statistics::ClusteredSample& slowest, const StatisticsOptions& options) {
+  std::array<statistics::ToleranceLimit, std::size(statistics::tolerance_contents)> limits{};
   for (std::size_t i = 0; i < limits.size(); ++i) {
-    limits[i].content = tolerance_contents[i];
+    limits[i].content = statistics::tolerance_contents[i];
     if (options.stopped_by_outcomes || slowest.size() == 0) continue;
-    limits[i].within = clustered_upper_limit(slowest, limits[i].content, options.confidence);
+    limits[i].within = statistics::clustered_upper_limit(slowest, limits[i].content, options.confidence);
   }
   return limits;
 }
@@ -39,8 +39,9 @@ void require_move_count(std::size_t moves, std::int64_t trials, std::size_t expe
 }
 
 /// @throws Failure (bad_data) where a judged move stands in an open-loop study, or the reverse.
-void require_kind(const MoveOutcome& move, bool open_loop) {
-  if (move.outcome == Outcome::nonfinite || (move.outcome == Outcome::open_loop) == open_loop) return;
+void require_kind(const trial::MoveOutcome& move, bool open_loop) {
+  if (move.outcome == trial::Outcome::nonfinite || (move.outcome == trial::Outcome::open_loop) == open_loop)
+    return;
   throw Failure(ExitCode::bad_data, open_loop ? "a move that was judged; expected a torque level"
                                               : "a move with a torque level; expected one with a target");
 }
@@ -55,13 +56,13 @@ std::vector<MeasureStatistics> statistics_of(const std::vector<MeasureAccumulato
 
 }  // namespace
 
-PointAccumulator::PointAccumulator(const MoveKind& kind, const MeasureTable& table)
+PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTable& table)
     : kind_(kind), slowest_times_(kind.rigs) {
   counted_.table = &table;
-  for (const Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
+  for (const layout::Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
 }
 
-void PointAccumulator::add(const TrialOutcome& trial, std::span<const Jerk> jerks) {
+void PointAccumulator::add(const trial::TrialOutcome& trial, std::span<const trial::Jerk> jerks) {
   require_move_count(trial.moves.size(), counted_.trials, counted_.by_move.size());
   add_moves(trial.moves);
   std::size_t next = 0;
@@ -80,7 +81,7 @@ void PointAccumulator::add(const TrialOutcome& trial, std::span<const Jerk> jerk
   ++counted_.trials;
 }
 
-void PointAccumulator::add_moves(const std::vector<MoveOutcome>& moves) {
+void PointAccumulator::add_moves(const std::vector<trial::MoveOutcome>& moves) {
   counted_.by_move.resize(moves.size());
   for (std::size_t i = 0; i < moves.size(); ++i) {
     require_kind(moves[i], kind_.open_loop);
@@ -88,57 +89,59 @@ void PointAccumulator::add_moves(const std::vector<MoveOutcome>& moves) {
     if (kind_.open_loop) add_level(i, std::span(moves).subspan(i, 1));
   }
   counted_.moves += std::ssize(moves);
-  ++(counted_.outcomes.*counter_of(worst_outcome(moves)));
+  ++(counted_.outcomes.*counter_of(trial::worst_outcome(moves)));
   for (MeasureAccumulator& measure : measures_) measure.add(moves);
   if (kind_.open_loop) return;
   if (kind_.rigs > 0) add_to_rig(moves);
   add_slowest_time(moves);
 }
 
-void PointAccumulator::add_level(std::size_t level, std::span<const MoveOutcome> move) {
+void PointAccumulator::add_level(std::size_t level, std::span<const trial::MoveOutcome> move) {
   if (level == levels_.size()) {
     counted_.levels.emplace_back().table = counted_.table;
     levels_.emplace_back();
-    for (const Measure& measure : *counted_.table) levels_[level].emplace_back(measure, measure.level, kind_);
+    for (const layout::Measure& measure : *counted_.table)
+      levels_[level].emplace_back(measure, measure.level, kind_);
   }
-  if (move.front().outcome == Outcome::nonfinite) {
+  if (move.front().outcome == trial::Outcome::nonfinite) {
     ++counted_.levels[level].nonfinite;
   } else {
     for (MeasureAccumulator& measure : levels_[level]) measure.add(move);
   }
 }
 
-void PointAccumulator::add_to_rig(const std::vector<MoveOutcome>& moves) {
+void PointAccumulator::add_to_rig(const std::vector<trial::MoveOutcome>& moves) {
   const auto number = static_cast<std::size_t>(counted_.trials % kind_.rigs);
   if (number >= rigs_.size()) rigs_.resize(number + 1);
-  RigTrials& rig = rigs_[number];
-  const auto zero =
-      std::count_if(moves.begin(), moves.end(), [](const MoveOutcome& m) { return is_success(m.outcome); });
+  statistics::RigTrials& rig = rigs_[number];
+  const auto zero = std::count_if(moves.begin(), moves.end(),
+                                  [](const trial::MoveOutcome& m) { return trial::is_success(m.outcome); });
   ++rig.trials;
-  rig.successes += succeeded(moves);
+  rig.successes += trial::succeeded(moves);
   rig.moves += std::ssize(moves);
   rig.zero_moves += zero;
 }
 
 /// A move that never arrived, or was not run because one before it had diverged, is later than any time.
-void PointAccumulator::add_slowest_time(const std::vector<MoveOutcome>& moves) {
+void PointAccumulator::add_slowest_time(const std::vector<trial::MoveOutcome>& moves) {
   values_.clear();
-  if (std::all_of(moves.begin(), moves.end(), [](const MoveOutcome& m) { return was_run(m) && m.arrived; })) {
+  if (std::all_of(moves.begin(), moves.end(),
+                  [](const trial::MoveOutcome& m) { return trial::was_run(m) && m.arrived; })) {
     double slowest = 0.0;
-    for (const MoveOutcome& move : moves) slowest = std::max(slowest, move.settling_time);
+    for (const trial::MoveOutcome& move : moves) slowest = std::max(slowest, move.settling_time);
     values_.push_back(slowest);
   }
   slowest_times_.add_trial(counted_.trials, values_, 1);
 }
 
-void PointAccumulator::add_jerks(const MoveOutcome& move, std::span<const Jerk> jerks) {
+void PointAccumulator::add_jerks(const trial::MoveOutcome& move, std::span<const trial::Jerk> jerks) {
   if (static_cast<std::int64_t>(jerks.size()) != move.jerk_count) {
     throw Failure(ExitCode::bad_data,
                   fmt::format("{} jerks recorded of a move that counted {}", jerks.size(), move.jerk_count));
   }
   values_.clear();
   for (std::size_t i = 0; i < jerks.size(); ++i) {
-    counted_.jerks_agreeing += jerks[i].direction == sign_of(move.holding_torque);
+    counted_.jerks_agreeing += jerks[i].direction == numerics::sign_of(move.holding_torque);
     one_count_jerks_ += jerks[i].magnitude == 1;
     if (i == 0) continue;
     const double interval = rounded_interval(jerks[i].onset - jerks[i - 1].onset);
@@ -151,24 +154,27 @@ void PointAccumulator::add_jerks(const MoveOutcome& move, std::span<const Jerk> 
     jerk_intervals_.add(interval);
   }
   if (values_.size() < 2) return;
-  const RankTrend trend = rank_trend(values_);
+  const statistics::RankTrend trend = statistics::rank_trend(values_);
   interval_trend_ += trend;
   ++counted_.jerk_slowing.moves;
   counted_.jerk_slowing.slowing += trend.rising > trend.falling;
   counted_.jerk_slowing.quickening += trend.rising < trend.falling;
 }
 
-SuccessClaim PointAccumulator::claim(const PointSummary& point, const StatisticsOptions& options) const {
+statistics::SuccessClaim PointAccumulator::claim(const PointSummary& point,
+                                                 const StatisticsOptions& options) const {
   const std::int64_t successes = point.judged > 0 ? point.outcomes.zero_count : 0;
   const auto at_any_time = [&] {
-    return success_claim_at_any_time(successes, point.judged, options.confidence);
+    return statistics::success_claim_at_any_time(successes, point.judged, options.confidence);
   };
   if (kind_.rigs == 0 || point.judged == 0) {
-    return options.stopped_by_outcomes ? at_any_time()
-                                       : success_claim(successes, point.judged, options.confidence);
+    return options.stopped_by_outcomes
+               ? at_any_time()
+               : statistics::success_claim(successes, point.judged, options.confidence);
   }
-  const SuccessClaim on_rigs = success_claim_on_rigs(point.rigs.successes, options.confidence);
-  return options.stopped_by_outcomes ? weaker_claim(on_rigs, at_any_time()) : on_rigs;
+  const statistics::SuccessClaim on_rigs =
+      statistics::success_claim_on_rigs(point.rigs.successes, options.confidence);
+  return options.stopped_by_outcomes ? statistics::weaker_claim(on_rigs, at_any_time()) : on_rigs;
 }
 
 PointSummary PointAccumulator::statistics(const StatisticsOptions& options) const {
@@ -177,17 +183,19 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
   result.measures = statistics_of(measures_, options);
   for (std::size_t i = 0; i < levels_.size(); ++i)
     result.levels[i].measures = statistics_of(levels_[i], options);
-  if (kind_.rigs > 0 && result.judged > 0) result.rigs = rig_statistics(rigs_, options.confidence);
+  if (kind_.rigs > 0 && result.judged > 0)
+    result.rigs = statistics::rig_statistics(rigs_, options.confidence);
   result.claim = claim(result, options);
   if (options.stopped_by_outcomes)
     result.rigs.tolerance = {};  // it takes a number of trials that was fixed beforehand
   result.settles_within = tolerance_limits(slowest_times_.sample(), options);
-  result.jerk_interval = {jerk_intervals_.size, mean(jerk_intervals_), quantile(jerk_intervals_, 0.5).value};
-  result.jerk_slowing.proportion = rate(result.jerk_slowing.slowing, result.jerk_slowing.moves);
-  result.jerk_slowing.tau = kendall_tau(interval_trend_);
-  result.jerk_agreement = rate(result.jerks_agreeing, jerks_);
-  result.jerk_one_count_share = rate(one_count_jerks_, jerks_);
+  result.jerk_interval = {jerk_intervals_.size, statistics::mean(jerk_intervals_),
+                          statistics::quantile(jerk_intervals_, 0.5).value};
+  result.jerk_slowing.proportion = statistics::rate(result.jerk_slowing.slowing, result.jerk_slowing.moves);
+  result.jerk_slowing.tau = statistics::kendall_tau(interval_trend_);
+  result.jerk_agreement = statistics::rate(result.jerks_agreeing, jerks_);
+  result.jerk_one_count_share = statistics::rate(one_count_jerks_, jerks_);
   return result;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

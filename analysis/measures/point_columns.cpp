@@ -13,17 +13,17 @@
 #include "analysis/statistics/proportion.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::measures {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, std::string_view column, const std::string& what) {
   throw Failure(ExitCode::bad_data, fmt::format("{}: damaged: /point/{}: {}", file.string(), column, what));
 }
 
-const PointColumn& find_column(std::span<const PointColumn> columns, std::string_view name,
-                               const std::filesystem::path& file) {
+const layout::PointColumn& find_column(std::span<const layout::PointColumn> columns, std::string_view name,
+                                       const std::filesystem::path& file) {
   const auto found = std::find_if(columns.begin(), columns.end(),
-                                  [name](const PointColumn& column) { return column.name == name; });
+                                  [name](const layout::PointColumn& column) { return column.name == name; });
   if (found == columns.end()) fail(file, name, "the dataset is missing");
   return *found;
 }
@@ -38,22 +38,25 @@ std::int64_t trials_of_proportion(double proportion, std::int64_t trials, std::s
 
 }  // namespace
 
-std::vector<PointColumn> point_columns(std::span<const PointSummary> points, const StudyFeatures& features,
-                                       const MeasureTable& measures) {
-  std::vector<PointColumn> columns;
+std::vector<layout::PointColumn> point_columns(std::span<const PointSummary> points,
+                                               const study::StudyFeatures& features,
+                                               const layout::MeasureTable& measures) {
+  std::vector<layout::PointColumn> columns;
   for (const StatisticField& field : statistic_fields(features, measures)) {
-    PointColumn& column =
-        columns.emplace_back(PointColumn{flat_name(field), field.unit, field.long_name, {}});
+    layout::PointColumn& column =
+        columns.emplace_back(layout::PointColumn{text::flat_name(field), field.unit, field.long_name, {}});
     for (const PointSummary& point : points) column.values.push_back(field.value(point));
   }
   return columns;
 }
 
-StatisticTable level_table(std::span<const PointSummary> points, const MeasureTable& measures) {
-  StatisticTable table{&level_group(), points.empty() ? 1 : std::ssize(points.front().levels), {}};
+layout::StatisticTable level_table(std::span<const PointSummary> points,
+                                   const layout::MeasureTable& measures) {
+  layout::StatisticTable table{
+      &layout::level_group(), points.empty() ? 1 : std::ssize(points.front().levels), {}};
   for (const LevelField& field : level_fields(measures)) {
-    PointColumn& column =
-        table.columns.emplace_back(PointColumn{flat_name(field), field.unit, field.long_name, {}});
+    layout::PointColumn& column = table.columns.emplace_back(
+        layout::PointColumn{text::flat_name(field), field.unit, field.long_name, {}});
     for (const PointSummary& point : points) {
       for (const LevelStatistics& level : point.levels) column.values.push_back(field.value(level));
     }
@@ -70,20 +73,20 @@ std::span<const PredictionField> prediction_fields() {
   return fields;
 }
 
-std::vector<PointColumn> prediction_columns(std::span<const TheoryPrediction> predictions) {
-  std::vector<PointColumn> columns;
+std::vector<layout::PointColumn> prediction_columns(std::span<const TheoryPrediction> predictions) {
+  std::vector<layout::PointColumn> columns;
   for (const PredictionField& field : prediction_fields()) {
-    PointColumn column{std::string(field.name), "1", std::string(field.long_name), {}};
+    layout::PointColumn column{std::string(field.name), "1", std::string(field.long_name), {}};
     for (const TheoryPrediction& prediction : predictions) {
-      column.values.push_back(rate(prediction.*field.trials, predicted_trials(prediction)));
+      column.values.push_back(statistics::rate(prediction.*field.trials, predicted_trials(prediction)));
     }
     columns.push_back(std::move(column));
   }
   return columns;
 }
 
-std::vector<TheoryPrediction> predictions_of(std::span<const PointColumn> columns, std::int64_t trials,
-                                             const std::filesystem::path& file) {
+std::vector<TheoryPrediction> predictions_of(std::span<const layout::PointColumn> columns,
+                                             std::int64_t trials, const std::filesystem::path& file) {
   std::vector<TheoryPrediction> predictions;
   for (const PredictionField& field : prediction_fields()) {
     const std::vector<double>& proportions = find_column(columns, field.name, file).values;
@@ -99,4 +102,4 @@ std::vector<TheoryPrediction> predictions_of(std::span<const PointColumn> column
   return predictions;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

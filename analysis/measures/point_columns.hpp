@@ -11,18 +11,18 @@
 #include "experiments/study/study_features.hpp"
 #include "results/layout/layout.hpp"
 
-namespace zerocount {
+namespace zerocount::measures {
 
 /// The statistics of all points as columns of the results file's /point: one for each of statistic_fields(),
 /// by flat_name.
-std::vector<PointColumn> point_columns(std::span<const PointSummary> points,
-                                       const StudyFeatures& features = {},
-                                       const MeasureTable& measures = measure_table());
+std::vector<layout::PointColumn> point_columns(
+    std::span<const PointSummary> points, const study::StudyFeatures& features = {},
+    const layout::MeasureTable& measures = layout::measure_table());
 
 /// The levels of an open-loop study, of all its points, as the group /level of the results file: a column for
 /// each of level_fields(), by flat_name.
-StatisticTable level_table(std::span<const PointSummary> points,
-                           const MeasureTable& measures = measure_table());
+layout::StatisticTable level_table(std::span<const PointSummary> points,
+                                   const layout::MeasureTable& measures = layout::measure_table());
 
 /// A proportion of trials that the criteria foretell, as it is reported. The list of them is the one source
 /// of the names in the CSV summary and in the results file.
@@ -36,12 +36,12 @@ struct PredictionField {
 std::span<const PredictionField> prediction_fields();
 
 /// The proportions of prediction_fields() as columns of /point, NaN where the criteria are about no trial.
-std::vector<PointColumn> prediction_columns(std::span<const TheoryPrediction> predictions);
+std::vector<layout::PointColumn> prediction_columns(std::span<const TheoryPrediction> predictions);
 
 /// The reverse of prediction_columns, [point]: the predictions behind the columns of those names, for points
 /// with `trials` trials each.
 /// @throws Failure (bad_data), with `file` in the message, where a column is missing or holds no proportions.
-std::vector<TheoryPrediction> predictions_of(std::span<const PointColumn> columns, std::int64_t trials,
-                                             const std::filesystem::path& file);
+std::vector<TheoryPrediction> predictions_of(std::span<const layout::PointColumn> columns,
+                                             std::int64_t trials, const std::filesystem::path& file);
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

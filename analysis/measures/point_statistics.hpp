@@ -15,7 +15,7 @@
 /// What is reported of a design point. All bounds have the confidence of the summary. Every proportion and
 /// mean names what it is a proportion or mean of: "of trials" is of all trials of the point, "of moves" of
 /// all moves of all its trials. No trial is left out of either.
-namespace zerocount {
+namespace zerocount::measures {
 
 /// Time between the onsets of successive jerks of a move, s.
 struct JerkIntervalStatistics {
@@ -54,11 +54,12 @@ struct PointSummary : StatisticsOfMeasures {
   std::int64_t judged{0};              ///< trials with targets: all, or none in an open-loop study
   OutcomeCounts outcomes;              ///< trials by the worst of their moves
   std::vector<OutcomeCounts> by_move;  ///< [move] trials by this move, which all of them have
-  SuccessClaim claim;  ///< what zero_count of judged shows of all axes; none of an open-loop study
-  RigStatistics rigs;  ///< how the rigs differ; of a study with rigs
+  statistics::SuccessClaim
+      claim;  ///< what zero_count of judged shows of all axes; none of an open-loop study
+  statistics::RigStatistics rigs;  ///< how the rigs differ; of a study with rigs
   /// Limits of the settling time of the slowest move of a trial, with the contents of tolerance_contents; a
   /// move that never arrives is beyond every limit.
-  std::array<ToleranceLimit, std::size(tolerance_contents)> settles_within{};
+  std::array<statistics::ToleranceLimit, std::size(statistics::tolerance_contents)> settles_within{};
   JerkIntervalStatistics jerk_interval;
   JerkSlowing jerk_slowing;
   std::int64_t jerks_agreeing{0};  ///< jerks in the direction of the sign of their move's holding torque
@@ -68,7 +69,7 @@ struct PointSummary : StatisticsOfMeasures {
   std::vector<LevelStatistics> levels;  ///< [move] in an open-loop study, otherwise empty
 
   /// The proportion of trials all of whose moves ended at zero error.
-  const RateWithBounds& success_rate() const { return of(&MoveOutcome::outcome).rate; }
+  const RateWithBounds& success_rate() const { return of(&trial::MoveOutcome::outcome).rate; }
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

@@ -5,7 +5,7 @@
 
 #include "analysis/statistics/proportion.hpp"
 
-namespace zerocount {
+namespace zerocount::measures {
 
 /// Where the resampling of a design point draws its random numbers.
 struct BootstrapDraws {
@@ -15,11 +15,11 @@ struct BootstrapDraws {
 
 /// How the statistics of a design point are made.
 struct StatisticsOptions {
-  double confidence{summary_confidence};
+  double confidence{statistics::summary_confidence};
   std::optional<BootstrapDraws> bootstrap{};  ///< none: the bounds of means are left open
   /// Whether the trials went on until their outcomes were known well enough: claims about all axes need
   /// bounds that allow for it then.
   bool stopped_by_outcomes{false};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

@@ -7,14 +7,14 @@
 
 #include "results/layout/layout.hpp"
 
-namespace zerocount {
+namespace zerocount::measures {
 
 /// A part of a summary that only some studies have, made apart from the rest.
 struct SummarySection {
   std::string key;                           ///< its name in the JSON of each point
   std::vector<nlohmann::ordered_json> json;  ///< [point]
-  std::vector<PointColumn> columns;          ///< of the CSV: a value per point
+  std::vector<layout::PointColumn> columns;  ///< of the CSV: a value per point
   std::string text;                          ///< below the table, whole lines
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

@@ -4,17 +4,18 @@
 
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::measures {
 
-TrialPrediction predict(const TrialParameters& parameters) {
+TrialPrediction predict(const trial::TrialParameters& parameters) {
   TrialPrediction prediction;
-  if (!parameters.command.torque.levels.empty() || !has_spring(parameters.friction.model)) {
+  if (!parameters.command.torque.levels.empty() || !friction::has_spring(parameters.friction.model)) {
     prediction.applies = false;
     return prediction;
   }
-  const FrictionParameters contact = friction_at(parameters.friction, parameters.initial.position);
+  const friction::FrictionParameters contact =
+      friction::friction_at(parameters.friction, parameters.initial.position);
   prediction.bounds =
-      integral_gain_bounds(parameters.plant, contact, parameters.encoder, parameters.controller);
+      theory::integral_gain_bounds(parameters.plant, contact, parameters.encoder, parameters.controller);
   const double ki = parameters.controller.ki;
   prediction.stable = ki > 0.0 && ki < prediction.bounds.stable_below;
   prediction.unstable = ki < 0.0 || ki > prediction.bounds.unstable_above;
@@ -38,8 +39,8 @@ std::string verdict(const TheoryPrediction& prediction) {
   if (prediction.stable == prediction.trials) return "stable";
   if (prediction.unstable == prediction.trials) return "unstable";
   return fmt::format("undecided: (6) holds in {}, (7) exceeded in {}",
-                     percentage(prediction.stable, prediction.trials),
-                     percentage(prediction.unstable, prediction.trials));
+                     text::percentage(prediction.stable, prediction.trials),
+                     text::percentage(prediction.unstable, prediction.trials));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

@@ -7,7 +7,7 @@
 #include "core/trial/parameters.hpp"
 
 /// What the paper's criteria (6) and (7) say of the trials of a design point, each with its own friction.
-namespace zerocount {
+namespace zerocount::measures {
 
 /// What the criteria say of one trial.
 ///
@@ -18,12 +18,12 @@ struct TrialPrediction {
   /// Whether the criteria are about this trial: the loop is closed, and friction has a spring before it
   /// slides.
   bool applies{true};
-  IntegralGainBounds bounds;  ///< N m/count
-  bool stable{false};         ///< (6): 0 < ki < bounds.stable_below
+  theory::IntegralGainBounds bounds;  ///< N m/count
+  bool stable{false};                 ///< (6): 0 < ki < bounds.stable_below
   bool unstable{false};  ///< (7): ki > bounds.unstable_above; also ki < 0, which no PID loop is stable with
 };
 
-TrialPrediction predict(const TrialParameters& parameters);
+TrialPrediction predict(const trial::TrialParameters& parameters);
 
 /// The trials of a point by what the criteria say of them; those of neither kind are left undecided by the
 /// paper.
@@ -44,4 +44,4 @@ std::int64_t predicted_trials(const TheoryPrediction& prediction);
 /// proportions of trials, such as "undecided: (6) holds in 12 %, (7) exceeded in 0 %".
 std::string verdict(const TheoryPrediction& prediction);
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

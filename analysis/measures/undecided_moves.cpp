@@ -5,38 +5,38 @@
 
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::measures {
 namespace {
 
-bool falls(const MoveOutcome& move) {
+bool falls(const trial::MoveOutcome& move) {
   return std::abs(move.final_error) < std::abs(move.midway_error);
 }
 
 /// Whether the count went towards its target all through the last half, but for one count to either side.
 /// With a last error of 2 counts or more the error has then kept its sign.
-bool falls_with_ripple(const MoveOutcome& move) {
+bool falls_with_ripple(const trial::MoveOutcome& move) {
   const auto fallen = static_cast<double>(std::abs(move.midway_error) - std::abs(move.final_error));
   return falls(move) && std::abs(move.final_error) >= 2 && 2.0 * move.oscillation_amplitude <= fallen + 2.0;
 }
 
 /// Whether the error fell to within one count, which was not yet held for long enough. One that was within
 /// one count all through the last half hunts.
-bool is_about_to_arrive(const MoveOutcome& move) {
+bool is_about_to_arrive(const trial::MoveOutcome& move) {
   return !move.arrived && std::abs(move.midway_error) >= 2 && falls(move);
 }
 
 /// The count that a move still falling belongs to; null where it is none.
-std::int64_t UndecidedMoves::*falling_count(const MoveOutcome& move) {
+std::int64_t UndecidedMoves::*falling_count(const trial::MoveOutcome& move) {
   switch (move.outcome) {
-    case Outcome::off_target:
+    case trial::Outcome::off_target:
       return falls(move) ? &UndecidedMoves::still_falling : nullptr;
-    case Outcome::oscillating:
+    case trial::Outcome::oscillating:
       return falls_with_ripple(move) ? &UndecidedMoves::falling_with_ripple : nullptr;
-    case Outcome::zero_count:
-    case Outcome::one_count:
+    case trial::Outcome::zero_count:
+    case trial::Outcome::one_count:
       return is_about_to_arrive(move) ? &UndecidedMoves::about_to_arrive : nullptr;
-    case Outcome::nonfinite:
-    case Outcome::open_loop:
+    case trial::Outcome::nonfinite:
+    case trial::Outcome::open_loop:
       break;
   }
   return nullptr;
@@ -44,13 +44,13 @@ std::int64_t UndecidedMoves::*falling_count(const MoveOutcome& move) {
 
 }  // namespace
 
-bool is_still_falling(const MoveOutcome& move) {
+bool is_still_falling(const trial::MoveOutcome& move) {
   return falling_count(move) != nullptr;
 }
 
-void add_move(UndecidedMoves& counts, const MoveOutcome& move) {
+void add_move(UndecidedMoves& counts, const trial::MoveOutcome& move) {
   ++counts.moves;
-  counts.off_target += move.outcome == Outcome::off_target;
+  counts.off_target += move.outcome == trial::Outcome::off_target;
   if (const auto count = falling_count(move)) ++(counts.*count);
 }
 
@@ -89,4 +89,4 @@ std::string undecided_sentence(const UndecidedMoves& moves) {
   return text;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

@@ -7,7 +7,7 @@
 
 #include "core/trial/outcome.hpp"
 
-namespace zerocount {
+namespace zerocount::measures {
 
 /// Moves that are off target: stalled, or still on their way when their hold ended. They are undecided,
 /// neither stable nor shown unstable.
@@ -27,10 +27,10 @@ struct UndecidedMoves {
 
 /// Whether a longer hold may be what a move lacks: it did not arrive, with an error that fell in the last
 /// half of its hold.
-bool is_still_falling(const MoveOutcome& move);
+bool is_still_falling(const trial::MoveOutcome& move);
 
 /// Counts a move.
-void add_move(UndecidedMoves& counts, const MoveOutcome& move);
+void add_move(UndecidedMoves& counts, const trial::MoveOutcome& move);
 
 /// The moves of both, without an advised hold.
 UndecidedMoves sum_of(const UndecidedMoves& one, const UndecidedMoves& other);
@@ -47,4 +47,4 @@ inline constexpr std::string_view undecided_meaning =
     "Such moves are undecided: neither stable nor shown unstable. A longer hold decides those whose error "
     "was still falling";
 
-}  // namespace zerocount
+}  // namespace zerocount::measures

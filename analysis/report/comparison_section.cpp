@@ -11,7 +11,7 @@
 #include "analysis/report/html_table.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -21,28 +21,28 @@ constexpr std::size_t max_bars = 60;
 
 /// A measure at a point.
 struct ComparedMeasure {
-  const PointComparison* point{nullptr};
-  const MeasureComparison* measure{nullptr};
+  const comparison::PointComparison* point{nullptr};
+  const comparison::MeasureComparison* measure{nullptr};
 };
 
-int severity(GateVerdict verdict) {
+int severity(comparison::GateVerdict verdict) {
   switch (verdict) {
-    case GateVerdict::regression:
+    case comparison::GateVerdict::regression:
       return 0;
-    case GateVerdict::inconclusive:
+    case comparison::GateVerdict::inconclusive:
       return 1;
-    case GateVerdict::passed:
+    case comparison::GateVerdict::passed:
       return 2;
-    case GateVerdict::not_measured:
+    case comparison::GateVerdict::not_measured:
       break;
   }
   return 3;
 }
 
-std::vector<ComparedMeasure> worst_first(const StudyComparison& comparison) {
+std::vector<ComparedMeasure> worst_first(const comparison::StudyComparison& comparison) {
   std::vector<ComparedMeasure> all;
-  for (const PointComparison& point : comparison.points) {
-    for (const MeasureComparison& measure : point.measures) all.push_back({&point, &measure});
+  for (const comparison::PointComparison& point : comparison.points) {
+    for (const comparison::MeasureComparison& measure : point.measures) all.push_back({&point, &measure});
   }
   std::stable_sort(all.begin(), all.end(), [](const ComparedMeasure& a, const ComparedMeasure& b) {
     return severity(a.measure->verdict) < severity(b.measure->verdict);
@@ -56,8 +56,8 @@ std::string table_of(const std::vector<ComparedMeasure>& measures) {
       bounds{"bounds", "", false, {}}, margin{"margin", "", false, {}}, p{"adjusted p", "", false, {}},
       verdict{"verdict", "", true, {}};
   for (std::size_t i = 0; i < std::min(measures.size(), max_measures); ++i) {
-    const MeasureComparison& one = *measures[i].measure;
-    const auto text = [&](double value) { return value_text(value, one.measure, one.unit); };
+    const comparison::MeasureComparison& one = *measures[i].measure;
+    const auto text = [&](double value) { return comparison::value_text(value, one.measure, one.unit); };
     point.cells.push_back(measures[i].point->label);
     measure.cells.push_back(one.measure);
     baseline.cells.push_back(text(one.baseline));
@@ -65,8 +65,9 @@ std::string table_of(const std::vector<ComparedMeasure>& measures) {
     effect.cells.push_back(text(one.effect));
     bounds.cells.push_back(fmt::format("{} … {}", text(one.bounds.low), text(one.bounds.high)));
     margin.cells.push_back(text(one.margin));
-    p.cells.push_back(short_number(one.adjusted_p));
-    verdict.cells.push_back(fmt::format("{}{}", word_of(one.verdict), one.improved ? ", improved" : ""));
+    p.cells.push_back(text::short_number(one.adjusted_p));
+    verdict.cells.push_back(
+        fmt::format("{}{}", comparison::word_of(one.verdict), one.improved ? ", improved" : ""));
   }
   std::string html = html_table({point, measure, baseline, current, effect, bounds, margin, p, verdict});
   if (measures.size() > max_measures) {
@@ -78,25 +79,26 @@ std::string table_of(const std::vector<ComparedMeasure>& measures) {
   return html;
 }
 
-std::string requirements_table(const StudyComparison& comparison) {
+std::string requirements_table(const comparison::StudyComparison& comparison) {
   HtmlColumn point{"point", "", true, {}}, text{"requirement", "", true, {}}, value{"value", "", false, {}},
       verdict{"verdict", "", true, {}};
-  for (const PointComparison& compared : comparison.points) {
-    for (const RequirementResult& requirement : compared.requirements) {
+  for (const comparison::PointComparison& compared : comparison.points) {
+    for (const comparison::RequirementResult& requirement : compared.requirements) {
       point.cells.push_back(compared.label);
       text.cells.push_back(requirement.text);
-      value.cells.push_back(value_text(requirement.value, requirement.quantity, requirement.unit));
-      verdict.cells.push_back(std::string(word_of(requirement.verdict)));
+      value.cells.push_back(
+          comparison::value_text(requirement.value, requirement.quantity, requirement.unit));
+      verdict.cells.push_back(std::string(comparison::word_of(requirement.verdict)));
     }
   }
   if (point.cells.empty()) return "";
   return "<h3>Requirements</h3>\n" + html_table({point, text, value, verdict});
 }
 
-std::string differences_table(const StudyComparison& comparison) {
+std::string differences_table(const comparison::StudyComparison& comparison) {
   if (comparison.manifest_differences.empty()) return "<p>The manifests are the same.</p>\n";
   HtmlColumn key{"key", "", true, {}}, before{"baseline", "", true, {}}, now{"now", "", true, {}};
-  for (const ManifestDifference& difference : comparison.manifest_differences) {
+  for (const comparison::ManifestDifference& difference : comparison.manifest_differences) {
     key.cells.push_back(difference.key);
     before.cells.push_back(difference.baseline.empty() ? "–" : difference.baseline);
     now.cells.push_back(difference.current.empty() ? "–" : difference.current);
@@ -104,13 +106,14 @@ std::string differences_table(const StudyComparison& comparison) {
   return "<h3>Differences of the manifests</h3>\n" + html_table({key, before, now});
 }
 
-std::string file_text(const ComparedFile& file) {
+std::string file_text(const comparison::ComparedFile& file) {
   return fmt::format("{}: {}, made {} by zerocount {} ({}), {} trials per point", file.path, file.name,
                      file.created, file.version, file.commit, file.trials);
 }
 
 /// Figure of the change of the success rate at each point.
-Figure success_change(const StudyComparison& comparison, const std::vector<ComparedMeasure>& measures) {
+Figure success_change(const comparison::StudyComparison& comparison,
+                      const std::vector<ComparedMeasure>& measures) {
   FigureData data{"changes",
                   {{"label", "point", ""},
                    {"change", "change", "percentage points"},
@@ -119,10 +122,11 @@ Figure success_change(const StudyComparison& comparison, const std::vector<Compa
                    {"verdict", "verdict", ""},
                    {"margin", "margin", "percentage points"}}};
   for (const ComparedMeasure& one : measures) {
-    if (one.measure->measure != gate_measures().front().name || data.rows.size() == max_bars) continue;
+    if (one.measure->measure != comparison::gate_measures().front().name || data.rows.size() == max_bars)
+      continue;
     data.rows.push_back(ordered_json::array(
         {one.point->label, datum(-100.0 * one.measure->effect), datum(-100.0 * one.measure->bounds.high),
-         datum(-100.0 * one.measure->bounds.low), std::string(word_of(one.measure->verdict)),
+         datum(-100.0 * one.measure->bounds.low), std::string(comparison::word_of(one.measure->verdict)),
          datum(-100.0 * one.measure->margin)}));
   }
   std::string caption = fmt::format(
@@ -141,13 +145,14 @@ Figure success_change(const StudyComparison& comparison, const std::vector<Compa
 
 }  // namespace
 
-PageSection comparison_section(const StudyComparison& comparison) {
+PageSection comparison_section(const comparison::StudyComparison& comparison) {
   const std::vector<ComparedMeasure> measures = worst_first(comparison);
   PageSection section{"baseline", "Against the baseline", "", {}};
-  section.html = fmt::format("<div class=\"verdict\"><p class=\"headline\">{}</p><p>{}</p></div>\n",
-                             html_prose(verdict_sentence(comparison)), html_text(comparison.layer_reason)) +
-                 html_facts({{"Baseline", file_text(comparison.baseline)},
-                             {"This study", file_text(comparison.current)}});
+  section.html =
+      fmt::format("<div class=\"verdict\"><p class=\"headline\">{}</p><p>{}</p></div>\n",
+                  html_prose(comparison::verdict_sentence(comparison)), html_text(comparison.layer_reason)) +
+      html_facts(
+          {{"Baseline", file_text(comparison.baseline)}, {"This study", file_text(comparison.current)}});
   for (const std::string& note : comparison.notes)
     section.html += fmt::format("<p>{}</p>\n", html_text(note));
   section.html += differences_table(comparison);
@@ -160,4 +165,4 @@ PageSection comparison_section(const StudyComparison& comparison) {
   return section;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -11,7 +11,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/trial_completion.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 constexpr std::int64_t max_trials = 200;
@@ -21,30 +21,31 @@ constexpr int bisections = 40;
 
 struct Criterion {
   const char* name;
-  double IntegralGainBounds::*bound;
+  double theory::IntegralGainBounds::*bound;
   bool first;  ///< the trial that reaches the criterion at the lowest gain; otherwise at the highest
 };
 
 constexpr Criterion criteria[] = {
-    {"(6)", &IntegralGainBounds::stable_below, true},
-    {"(6)", &IntegralGainBounds::stable_below, false},
-    {"(7)", &IntegralGainBounds::unstable_above, true},
-    {"(7)", &IntegralGainBounds::unstable_above, false},
+    {"(6)", &theory::IntegralGainBounds::stable_below, true},
+    {"(6)", &theory::IntegralGainBounds::stable_below, false},
+    {"(7)", &theory::IntegralGainBounds::unstable_above, true},
+    {"(7)", &theory::IntegralGainBounds::unstable_above, false},
 };
 
 /// The examined trials, with two variable parameters.
 class CriterionTrials {
  public:
-  CriterionTrials(const Study& study, std::int64_t point, const CriterionPlane& plane) : units_(study.units) {
-    const auto x = find_parameter(plane.x);
-    const auto y = find_parameter(plane.y);
+  CriterionTrials(const study::Study& study, std::int64_t point, const CriterionPlane& plane)
+      : units_(study.units) {
+    const auto x = parameters::find_parameter(plane.x);
+    const auto y = parameters::find_parameter(plane.y);
     if (!x || !y) return;
-    set_x_ = parameter_table()[*x].set;
-    set_y_ = parameter_table()[*y].set;
+    set_x_ = parameters::parameter_table()[*x].set;
+    set_y_ = parameters::parameter_table()[*y].set;
     if (set_x_ == nullptr || set_y_ == nullptr) return;
     for (const std::int64_t index : spread_over(study.trials, max_trials)) {
-      TrialParameters parameters = study_trial_as_given(study, point, index).parameters;
-      if (!predict(parameters).applies) continue;
+      trial::TrialParameters parameters = study::study_trial_as_given(study, point, index).parameters;
+      if (!measures::predict(parameters).applies) continue;
       given_.push_back({parameters.encoder, parameters.controller});
       trials_.push_back(std::move(parameters));
     }
@@ -56,13 +57,13 @@ class CriterionTrials {
   double gain_over_bound(const Criterion& criterion, double x, double y) {
     double extreme = criterion.first ? 0.0 : std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < trials_.size(); ++i) {
-      TrialParameters& trial = trials_[i];
+      trial::TrialParameters& trial = trials_[i];
       trial.encoder = given_[i].encoder;
       trial.controller = given_[i].controller;
       set_x_(trial, x);
       set_y_(trial, y);
-      complete_trial(units_, trial);
-      const double ratio = trial.controller.ki / (predict(trial).bounds.*criterion.bound);
+      study::complete_trial(units_, trial);
+      const double ratio = trial.controller.ki / (measures::predict(trial).bounds.*criterion.bound);
       extreme = criterion.first ? std::max(extreme, ratio) : std::min(extreme, ratio);
     }
     return extreme;
@@ -71,15 +72,15 @@ class CriterionTrials {
  private:
   /// Values of a trial before its completion.
   struct Given {
-    EncoderParameters encoder;
-    ControllerParameters controller;
+    loop::EncoderParameters encoder;
+    loop::ControllerParameters controller;
   };
 
-  StudyUnits units_;
-  std::vector<TrialParameters> trials_;
+  parameters::StudyUnits units_;
+  std::vector<trial::TrialParameters> trials_;
   std::vector<Given> given_;  ///< [trial]
-  void (*set_x_)(TrialParameters&, double){nullptr};
-  void (*set_y_)(TrialParameters&, double){nullptr};
+  void (*set_x_)(trial::TrialParameters&, double){nullptr};
+  void (*set_y_)(trial::TrialParameters&, double){nullptr};
 };
 
 double between(double low, double high, double fraction, bool by_ratio) {
@@ -127,7 +128,7 @@ std::vector<CurvePoint> curve(CriterionTrials& trials, const Criterion& criterio
 
 }  // namespace
 
-std::vector<CriterionCurve> criterion_curves(const Study& study, std::int64_t point,
+std::vector<CriterionCurve> criterion_curves(const study::Study& study, std::int64_t point,
                                              const CriterionPlane& plane) {
   CriterionTrials trials(study, point, plane);
   std::vector<CriterionCurve> curves;
@@ -142,4 +143,4 @@ std::vector<CriterionCurve> criterion_curves(const Study& study, std::int64_t po
   return curves;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -6,7 +6,7 @@
 
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 
 /// The two axes of a stability map.
 struct CriterionPlane {
@@ -31,7 +31,7 @@ struct CriterionCurve {
 /// lowest and the highest bound. Empty if the criteria do not apply or the plane's axes are not parameters.
 /// Curves outside the plane are omitted. Below the first curve of (6) every trial is stable by the paper;
 /// above the last curve of (7) every trial is unstable. At most 200 evenly spaced trials are examined.
-std::vector<CriterionCurve> criterion_curves(const Study& study, std::int64_t point,
+std::vector<CriterionCurve> criterion_curves(const study::Study& study, std::int64_t point,
                                              const CriterionPlane& plane);
 
-}  // namespace zerocount
+}  // namespace zerocount::report

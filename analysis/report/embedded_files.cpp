@@ -7,7 +7,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 
 std::string_view embedded_file(std::string_view name) {
   const std::span<const EmbeddedFile> files = embedded_files();
@@ -27,4 +27,4 @@ std::span<const std::string_view> drawing_libraries() {
   return names;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

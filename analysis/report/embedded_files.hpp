@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace zerocount {
+namespace zerocount::report {
 
 /// A file embedded in the program at build time.
 struct EmbeddedFile {
@@ -23,4 +23,4 @@ std::string_view embedded_file(std::string_view name);
 /// The libraries for drawing, in loading order.
 std::span<const std::string_view> drawing_libraries();
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -4,7 +4,7 @@
 
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 std::string replaced(std::string text, std::string_view what, std::string_view by) {
@@ -19,17 +19,17 @@ std::string cleaned(std::string_view text) {
   std::size_t begin = 0;
   for (std::size_t at = text.find_first_of("\n\t"); at != std::string_view::npos;
        at = text.find_first_of("\n\t", begin)) {
-    clean += printable(text.substr(begin, at - begin));
+    clean += text::printable(text.substr(begin, at - begin));
     clean += text[at];
     begin = at + 1;
   }
-  return clean + printable(text.substr(begin));
+  return clean + text::printable(text.substr(begin));
 }
 
 }  // namespace
 
 std::string html_text(std::string_view text) {
-  return escaped_markup(cleaned(text));
+  return text::escaped_markup(cleaned(text));
 }
 
 std::string html_prose(std::string_view text) {
@@ -45,4 +45,4 @@ std::string script_source(std::string_view source) {
   return replaced(replaced(std::string(source), "</script", "<\\/script"), "<!--", "<\\!--");
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 /// Escapes texts from a manifest for the different parts of the page.
-namespace zerocount {
+namespace zerocount::report {
 
 /// For the text of an element or a quoted attribute: escapes & < > " '; replaces control characters other
 /// than tab and line feed, and bytes that are not UTF-8, by U+FFFD.
@@ -22,4 +22,4 @@ std::string script_json(const nlohmann::ordered_json& json);
 /// JavaScript for the content of <script>: escapes "</script" and "<!--" in its literals.
 std::string script_source(std::string_view source);
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -10,7 +10,7 @@
 
 #include "analysis/report/embedded_files.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 /// Adds "too narrow" to the title of a bound; returns whether it was one.
@@ -34,12 +34,12 @@ void change_titles(nlohmann::ordered_json& part, const Change& change) {
 }
 
 /// Converts a title to an axis: "position (µm)" for "rotor angle (µrad)".
-void reword_title(std::string& title, AxisKind axis) {
+void reword_title(std::string& title, parameters::AxisKind axis) {
   const std::size_t unit = title.ends_with(')') ? title.rfind('(') : std::string::npos;
   if (unit == std::string::npos) {
-    title = text_on(axis, title);
+    title = parameters::text_on(axis, title);
   } else {
-    title = text_on(axis, title.substr(0, unit)) + unit_on(axis, title.substr(unit));
+    title = parameters::text_on(axis, title.substr(0, unit)) + parameters::unit_on(axis, title.substr(unit));
   }
 }
 
@@ -63,15 +63,15 @@ void call_bounds_too_narrow(Figure& figure, const std::string& why) {
   figure.caption += why;
 }
 
-void put_on_axis(Figure& figure, AxisKind axis) {
+void put_on_axis(Figure& figure, parameters::AxisKind axis) {
   const auto reword = [axis](std::string& title) { reword_title(title, axis); };
-  figure.title = text_on(axis, figure.title);
-  figure.caption = text_on(axis, figure.caption);
+  figure.title = parameters::text_on(axis, figure.title);
+  figure.caption = parameters::text_on(axis, figure.caption);
   change_titles(figure.specification, reword);
   for (FigureData& data : figure.data) {
     for (FigureColumn& column : data.columns) {
       reword(column.title);
-      column.unit = unit_on(axis, column.unit);
+      column.unit = parameters::unit_on(axis, column.unit);
     }
   }
 }
@@ -128,4 +128,4 @@ bool spaced_by_ratio(const std::vector<double>& sorted) {
   return by_ratio < by_difference;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

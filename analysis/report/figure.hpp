@@ -9,7 +9,7 @@
 
 #include "experiments/parameters/study_units.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 
 /// A column of the data of a figure.
 struct FigureColumn {
@@ -42,7 +42,7 @@ Figure figure_of(std::string_view specification, std::string name, std::string t
 void call_bounds_too_narrow(Figure& figure, const std::string& why);
 
 /// Converts the figure's titles, units and caption from a rotary axis to an axis of this kind.
-void put_on_axis(Figure& figure, AxisKind axis);
+void put_on_axis(Figure& figure, parameters::AxisKind axis);
 
 /// Sets the height to `rows` rows of `row` pixels each.
 void set_rows(Figure& figure, std::size_t rows, int row);
@@ -61,4 +61,4 @@ void set_number_format(nlohmann::ordered_json& axis, double largest);
 /// Whether sorted positive numbers are closer to equal ratios than to equal differences.
 bool spaced_by_ratio(const std::vector<double>& sorted);
 
-}  // namespace zerocount
+}  // namespace zerocount::report

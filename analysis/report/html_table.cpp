@@ -6,7 +6,7 @@
 
 #include "analysis/report/escaping.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 
 std::string html_table(const std::vector<HtmlColumn>& columns) {
   std::string text = "<div class=\"scroll\"><table><thead><tr>";
@@ -42,4 +42,4 @@ std::string html_folded(const std::string& head, const std::string& text) {
                      html_text(text));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

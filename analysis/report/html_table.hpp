@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::report {
 
 /// A column of an HTML table. All texts are plain text.
 struct HtmlColumn {
@@ -27,4 +27,4 @@ std::string html_facts(const std::vector<HtmlFact>& facts);
 /// Preformatted text, hidden until the line `head` is opened.
 std::string html_folded(const std::string& head, const std::string& text);
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -6,7 +6,7 @@
 #include "analysis/jerks/jerk_statistics.hpp"
 #include "analysis/report/report_figures.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -18,7 +18,7 @@ constexpr std::int64_t max_jerks_of_a_row = 120;
 struct JerkingMove {
   std::int64_t row{0};
   std::int64_t move{0};
-  MoveOutcome outcome;
+  trial::MoveOutcome outcome;
 };
 
 /// The shown moves with jerks of a point.
@@ -27,10 +27,11 @@ struct ShownMoves {
   std::vector<JerkingMove> shown;
 };
 
-std::int64_t point_with_most_jerks(const std::vector<PointSummary>& points) {
+std::int64_t point_with_most_jerks(const std::vector<measures::PointSummary>& points) {
   std::size_t most = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
-    if (points[i].of(&MoveOutcome::jerk_count).total > points[most].of(&MoveOutcome::jerk_count).total)
+    if (points[i].of(&trial::MoveOutcome::jerk_count).total >
+        points[most].of(&trial::MoveOutcome::jerk_count).total)
       most = i;
   }
   return static_cast<std::int64_t>(most);
@@ -38,10 +39,10 @@ std::int64_t point_with_most_jerks(const std::vector<PointSummary>& points) {
 
 ShownMoves shown_moves(const ReportedStudy& reported, std::int64_t point) {
   ShownMoves moves;
-  const RowRange rows = rows_of(reported, point);
+  const layout::RowRange rows = rows_of(reported, point);
   const auto visit_jerking = [&](const auto& act) {
     std::int64_t index = 0;
-    visit_trials(reported.file, rows, [&](std::int64_t row, std::span<const MoveOutcome> outcomes) {
+    visit_trials(reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> outcomes) {
       for (std::size_t move = 0; move < outcomes.size(); ++move) {
         if (outcomes[move].jerk_count > 0)
           act(index++, JerkingMove{row, static_cast<std::int64_t>(move), outcomes[move]});
@@ -60,11 +61,11 @@ int sign(double value) {
   return (value > 0.0) - (value < 0.0);
 }
 
-std::int64_t add_jerks(FigureData& data, const StudyFile& file, const JerkingMove& move,
+std::int64_t add_jerks(FigureData& data, const reading::StudyFile& file, const JerkingMove& move,
                        std::int64_t number) {
   std::int64_t left_out = 0;
   std::int64_t added = 0;
-  for (const JerkRecord& jerk : file.jerks({move.row, 1})) {
+  for (const layout::JerkRecord& jerk : file.jerks({move.row, 1})) {
     if (jerk.move != move.move) continue;
     if (added == max_jerks_of_a_row) {
       ++left_out;
@@ -113,7 +114,7 @@ Figure raster(const ReportedStudy& reported, std::int64_t point) {
 }
 
 std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point) {
-  const JerkStatistics jerks = jerk_statistics(reported.file, reported.study, point);
+  const jerks::JerkStatistics jerks = jerks::jerk_statistics(reported.file, reported.study, point);
   if (jerks.rates.size() < 2) return std::nullopt;
   FigureData data{"rates",
                   {{"from", "time since arrival from", "s"},
@@ -124,7 +125,7 @@ std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point) {
                    {"jerks", "jerks", "1"},
                    {"moves", "moves", "1"},
                    {"exposure", "exposure", "s"}}};
-  for (const JerkRate& part : jerks.rates) {
+  for (const jerks::JerkRate& part : jerks.rates) {
     data.rows.push_back(
         ordered_json::array({datum(part.from), datum(part.to), datum(part.rate), datum(part.bounds.low),
                              datum(part.bounds.high), part.jerks, part.moves, datum(part.exposure)}));
@@ -150,12 +151,12 @@ std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point) {
 }  // namespace
 
 std::vector<Figure> jerk_figures(const ReportedStudy& reported) {
-  const std::vector<PointSummary>& points = reported.summary.points;
+  const std::vector<measures::PointSummary>& points = reported.summary.points;
   const std::int64_t point = point_with_most_jerks(points);
-  if (points[static_cast<std::size_t>(point)].of(&MoveOutcome::jerk_count).total == 0) return {};
+  if (points[static_cast<std::size_t>(point)].of(&trial::MoveOutcome::jerk_count).total == 0) return {};
   std::vector<Figure> figures{raster(reported, point)};
   if (std::optional<Figure> rates = rate(reported, point)) figures.push_back(std::move(*rates));
   return figures;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

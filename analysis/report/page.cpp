@@ -8,7 +8,7 @@
 #include "analysis/report/embedded_files.hpp"
 #include "analysis/report/escaping.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -120,4 +120,4 @@ std::string html_page(const ReportPage& page) {
                                              {"program", script_source(embedded_file("page.js"))}});
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

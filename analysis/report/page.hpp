@@ -5,7 +5,7 @@
 
 #include "analysis/report/figure.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 
 /// A section of the page.
 struct PageSection {
@@ -34,4 +34,4 @@ nlohmann::ordered_json figure_theme();
 /// The colours of light mode, {"--ink": "#…"}.
 nlohmann::ordered_json light_colours();
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -7,7 +7,7 @@
 #include "analysis/report/report_figures.hpp"
 #include "analysis/report/sweep_numbers.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -16,16 +16,16 @@ constexpr const char* targets_axis = "command.targets.0";
 
 /// Fig. 7: needs points with one move each that differ only in the target.
 bool shows_targets(const ReportedStudy& reported) {
-  const std::vector<SweepAxis>& axes = reported.summary.axes;
+  const std::vector<study::SweepAxis>& axes = reported.summary.axes;
   return axes.size() == 1 && axes[0].name == targets_axis && reported.file.moves() == 1 &&
          !numeric_axes(reported, 3).empty() && axes[0].numbers.size() <= 30;
 }
 
 /// Fig. 8: needs one point with one move, and jerks in most trials.
 bool shows_jerks(const ReportedStudy& reported) {
-  const PointSummary& point = reported.summary.points.front();
+  const measures::PointSummary& point = reported.summary.points.front();
   return reported.summary.points.size() == 1 && reported.file.moves() == 1 &&
-         point.of(&MoveOutcome::jerk_count).median.value >= 1.0;
+         point.of(&trial::MoveOutcome::jerk_count).median.value >= 1.0;
 }
 
 SampleTrial first_trial(std::int64_t point) {
@@ -37,9 +37,10 @@ SampleTrial typical_trial(const ReportedStudy& reported) {
   SampleTrial typical = first_trial(0);
   bool found = false;
   visit_trials(
-      reported.file, rows_of(reported, 0), [&](std::int64_t row, std::span<const MoveOutcome> moves) {
+      reported.file, rows_of(reported, 0), [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
         const auto jerks = static_cast<double>(moves.front().jerk_count);
-        if (found || jerks != reported.summary.points.front().of(&MoveOutcome::jerk_count).median.value)
+        if (found ||
+            jerks != reported.summary.points.front().of(&trial::MoveOutcome::jerk_count).median.value)
           return;
         found = true;
         typical.index = row;
@@ -55,7 +56,7 @@ Figure step_responses(const std::vector<ReplayedTrial>& replayed) {
   FigureData data{"samples",
                   {{"target", "target", "count"}, {"time", "time", "s"}, {"count", "position", "count"}}};
   for (const ReplayedTrial& trial : replayed) {
-    for (const SampleRecord& sample : trial.samples)
+    for (const trial::SampleRecord& sample : trial.samples)
       data.rows.push_back(ordered_json::array({sample.target, datum(sample.t), sample.count}));
   }
   figure.data.push_back(std::move(data));
@@ -72,7 +73,7 @@ Figure jerks_in_time(const ReplayedTrial& trial) {
           trial.result.row));
   FigureData data{"samples",
                   {{"time", "time", "s"}, {"count", "position", "count"}, {"torque", "torque", "N m"}}};
-  for (const SampleRecord& sample : trial.samples)
+  for (const trial::SampleRecord& sample : trial.samples)
     data.rows.push_back(ordered_json::array({datum(sample.t), sample.count, datum(sample.torque)}));
   figure.data.push_back(std::move(data));
   return figure;
@@ -86,10 +87,10 @@ std::string level_name(std::size_t level) {
 FigureData level_ends(const ReplayedTrial& trial, const char* field, const char* title, bool creep) {
   FigureData data{"levels", {{"levels", "levels", ""}, {field, title, "µrad"}, {"torque", "torque", "N m"}}};
   double reach = 0.0;
-  for (const MoveOutcome& move : trial.result.outcome.moves)
+  for (const trial::MoveOutcome& move : trial.result.outcome.moves)
     reach = std::max(reach, std::abs(1e6 * (creep ? move.creep : move.final_position)));
   for (std::size_t i = 0; i < trial.result.outcome.moves.size(); ++i) {
-    const MoveOutcome& move = trial.result.outcome.moves[i];
+    const trial::MoveOutcome& move = trial.result.outcome.moves[i];
     const double place = 1e6 * (creep ? move.creep : move.final_position);
     bool shared = false;
     for (ordered_json& row : data.rows) {
@@ -118,7 +119,7 @@ Figure hysteresis(const ReplayedTrial& trial) {
                                         trial.result.row));
   FigureData data{"samples",
                   {{"time", "time", "s"}, {"angle", "rotor angle", "µrad"}, {"torque", "torque", "N m"}}};
-  for (const SampleRecord& sample : trial.samples)
+  for (const trial::SampleRecord& sample : trial.samples)
     data.rows.push_back(
         ordered_json::array({datum(sample.t), datum(1e6 * sample.theta), datum(sample.drive_torque)}));
   figure.data = {std::move(data), level_ends(trial, "angle", "rotor angle", false)};
@@ -135,7 +136,7 @@ Figure plastic_extension(const ReplayedTrial& trial) {
   FigureData data{
       "samples",
       {{"time", "time", "s"}, {"extension", "plastic extension", "µrad"}, {"torque", "torque", "N m"}}};
-  for (const SampleRecord& sample : trial.samples)
+  for (const trial::SampleRecord& sample : trial.samples)
     data.rows.push_back(
         ordered_json::array({datum(sample.t), datum(1e6 * sample.xp), datum(sample.drive_torque)}));
   figure.data = {std::move(data), level_ends(trial, "extension", "plastic extension", true)};
@@ -144,9 +145,9 @@ Figure plastic_extension(const ReplayedTrial& trial) {
 
 /// Whether the contact of the first trial creeps.
 bool creeps(const ReportedStudy& reported) {
-  const TrialParameters parameters = study_trial(reported.study, 0, 0).parameters;
-  return has_creep(parameters.friction.model) &&
-         friction_at(parameters.friction, parameters.initial.position).alpha > 0.0;
+  const trial::TrialParameters parameters = study::study_trial(reported.study, 0, 0).parameters;
+  return friction::has_creep(parameters.friction.model) &&
+         friction::friction_at(parameters.friction, parameters.initial.position).alpha > 0.0;
 }
 
 }  // namespace
@@ -173,4 +174,4 @@ Figure paper_figure(const PaperFigure& wanted, const std::vector<ReplayedTrial>&
   return wanted.name == "paper-fig4" ? hysteresis(replayed.front()) : plastic_extension(replayed.front());
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -13,21 +13,21 @@
 #include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 constexpr std::size_t max_points = 400;
 
 /// Empty if too few moves arrived for any bound.
-std::string settling_bounds(const PointSummary& point, const Quantile& quantile) {
+std::string settling_bounds(const measures::PointSummary& point, const statistics::Quantile& quantile) {
   if (std::isnan(quantile.low) && std::isnan(quantile.high)) return "–";
-  const std::string low = std::isnan(quantile.low) ? "0" : short_number(quantile.low);
-  return fmt::format("{} … {}", low, settling_text(point, quantile.high));
+  const std::string low = std::isnan(quantile.low) ? "0" : text::short_number(quantile.low);
+  return fmt::format("{} … {}", low, summary::settling_text(point, quantile.high));
 }
 
-using Point = const PointSummary&;
-using Theory = const TheoryPrediction&;
-using Bounds = const ConfidenceInterval&;
+using Point = const measures::PointSummary&;
+using Theory = const measures::TheoryPrediction&;
+using Bounds = const statistics::ConfidenceInterval&;
 
 /// A column of the table of points, with the function that makes its cells.
 struct PointCell {
@@ -46,10 +46,11 @@ std::string counted(std::int64_t number) {
 constexpr PointCell point_cells[] = {
     {"trials", "", [](Point point, Theory) { return counted(point.trials); }},
     {"zero-count", "95 % bounds",
-     [](Point point, Theory) { return percentage(point.outcomes.zero_count, point.trials); },
+     [](Point point, Theory) { return text::percentage(point.outcomes.zero_count, point.trials); },
      [](Point, Bounds rate) { return fmt::format("{:.1f} … {:.1f}", 100.0 * rate.low, 100.0 * rate.high); }},
     {"failures at most", "at 95 %",
-     [](Point point, Theory) { return percent_at_most(point.claim.failure_at_most); }, nullptr, true},
+     [](Point point, Theory) { return statistics::percent_at_most(point.claim.failure_at_most); }, nullptr,
+     true},
     {"rigs without failure", "95 % bounds",
      [](Point point, Theory) {
        return fmt::format("{:.0f} of {}", point.rigs.without_failure * static_cast<double>(point.rigs.n),
@@ -60,8 +61,8 @@ constexpr PointCell point_cells[] = {
                           100.0 * point.rigs.without_failure_bounds.high);
      },
      false, true},
-    {"sd between rigs", "", [](Point point, Theory) { return short_number(point.rigs.success_sd); }, nullptr,
-     false, true},
+    {"sd between rigs", "", [](Point point, Theory) { return text::short_number(point.rigs.success_sd); },
+     nullptr, false, true},
     {"worst 5 % of rigs", "",
      [](Point point, Theory) { return fmt::format("{:.1f} %", 100.0 * point.rigs.worst_5_percent); }, nullptr,
      false, true},
@@ -70,34 +71,42 @@ constexpr PointCell point_cells[] = {
     {"oscil\u00adlating", "", [](Point point, Theory) { return counted(point.outcomes.oscillating); }},
     {"lost", "", [](Point point, Theory) { return counted(point.outcomes.nonfinite); }},
     {"stable", "",
-     [](Point point, Theory) { return percentage(point.of(&MoveOutcome::stable).trials, point.trials); }},
+     [](Point point, Theory) {
+       return text::percentage(point.of(&trial::MoveOutcome::stable).trials, point.trials);
+     }},
     {"settling, median", "s",
      [](Point point, Theory) {
-       return settling_text(point, point.of(&MoveOutcome::settling_time).median.value);
+       return summary::settling_text(point, point.of(&trial::MoveOutcome::settling_time).median.value);
      },
      [](Point point, Bounds) {
-       return settling_bounds(point, point.of(&MoveOutcome::settling_time).median);
+       return settling_bounds(point, point.of(&trial::MoveOutcome::settling_time).median);
      }},
     {"settling, 95 %", "s",
      [](Point point, Theory) {
-       return settling_text(point, point.of(&MoveOutcome::settling_time).p95.value);
+       return summary::settling_text(point, point.of(&trial::MoveOutcome::settling_time).p95.value);
      },
-     [](Point point, Bounds) { return settling_bounds(point, point.of(&MoveOutcome::settling_time).p95); }},
+     [](Point point, Bounds) {
+       return settling_bounds(point, point.of(&trial::MoveOutcome::settling_time).p95);
+     }},
     {"jerks per trial", "",
-     [](Point point, Theory) { return short_number(point.of(&MoveOutcome::jerk_count).mean); }},
+     [](Point point, Theory) { return text::short_number(point.of(&trial::MoveOutcome::jerk_count).mean); }},
     {"(6) holds", "",
-     [](Point, Theory prediction) { return percentage(prediction.stable, predicted_trials(prediction)); }},
+     [](Point, Theory prediction) {
+       return text::percentage(prediction.stable, measures::predicted_trials(prediction));
+     }},
     {"(7) ex\u00adceeded", "",
-     [](Point, Theory prediction) { return percentage(prediction.unstable, predicted_trials(prediction)); }},
+     [](Point, Theory prediction) {
+       return text::percentage(prediction.unstable, measures::predicted_trials(prediction));
+     }},
 };
 
 std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
-  const StudySummary& summary = reported.summary;
+  const summary::StudySummary& summary = reported.summary;
   HtmlColumn label{"point", "", true, {}};
   HtmlColumn observed{"observed on the rig", "", true, {}};
   for (std::size_t i = 0; i < rows; ++i) {
     label.cells.push_back(summary.labels[i]);
-    observed.cells.push_back(observed_at(summary, static_cast<std::int64_t>(i)));
+    observed.cells.push_back(summary::observed_at(summary, static_cast<std::int64_t>(i)));
   }
   const bool dependent = summary.features.dependent_trials;
   std::vector<HtmlColumn> columns{label};
@@ -108,8 +117,8 @@ std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
     if (dependent && cell.below != nullptr)
       column.unit += (column.unit.empty() ? "" : "; ") + std::string("bounds too narrow");
     for (std::size_t i = 0; i < rows; ++i) {
-      const TheoryPrediction prediction =
-          summary.predictions.empty() ? TheoryPrediction{} : summary.predictions[i];
+      const measures::TheoryPrediction prediction =
+          summary.predictions.empty() ? measures::TheoryPrediction{} : summary.predictions[i];
       column.cells.push_back(cell.text(summary.points[i], prediction));
       if (cell.below != nullptr)
         column.below.push_back(cell.below(summary.points[i], reported.success_bounds[i]));
@@ -131,7 +140,7 @@ std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
                    "observed success rate of the rigs with the lowest rates. "
                  : "",
              dependent ? html_text(fmt::format("{} {}", dependence_sentence, too_narrow_sentence))
-                       : html_text(design_line(summary)));
+                       : html_text(summary::design_line(summary)));
 }
 
 /// "Repeatability" for "repeatability".
@@ -142,13 +151,15 @@ std::string title_of(std::string key) {
   return key;
 }
 
-std::string level_table_html(const StudySummary& summary, std::size_t rows) {
+std::string level_table_html(const summary::StudySummary& summary, std::size_t rows) {
   std::vector<HtmlColumn> columns{{"point", "", true, {}}, {"level", "", false, {}}};
-  const AxisKind axis = summary.features.axis;
-  const std::vector<LevelField> fields = level_fields(summary.table());
-  for (const LevelField& field : fields)
-    columns.push_back(
-        {text_on(axis, field.long_name), field.unit == "1" ? "" : unit_on(axis, field.unit), false, {}});
+  const parameters::AxisKind axis = summary.features.axis;
+  const std::vector<measures::LevelField> fields = measures::level_fields(summary.table());
+  for (const measures::LevelField& field : fields)
+    columns.push_back({parameters::text_on(axis, field.long_name),
+                       field.unit == "1" ? "" : parameters::unit_on(axis, field.unit),
+                       false,
+                       {}});
   std::size_t written = 0;
   for (std::size_t point = 0; point < summary.points.size(); ++point) {
     for (std::size_t level = 0; level < summary.points[point].levels.size() && written < rows;
@@ -156,8 +167,9 @@ std::string level_table_html(const StudySummary& summary, std::size_t rows) {
       columns[0].cells.push_back(summary.labels[point]);
       columns[1].cells.push_back(fmt::format("{}", level + 1));
       std::size_t column = 2;
-      for (const LevelField& field : fields)
-        columns[column++].cells.push_back(short_number(field.value(summary.points[point].levels[level])));
+      for (const measures::LevelField& field : fields)
+        columns[column++].cells.push_back(
+            text::short_number(field.value(summary.points[point].levels[level])));
     }
   }
   return html_table(columns);
@@ -166,7 +178,7 @@ std::string level_table_html(const StudySummary& summary, std::size_t rows) {
 }  // namespace
 
 std::string points_html(const ReportedStudy& reported) {
-  const StudySummary& summary = reported.summary;
+  const summary::StudySummary& summary = reported.summary;
   std::size_t all = summary.points.size();
   if (reported.study.open_loop) all *= static_cast<std::size_t>(reported.file.moves());
   const std::size_t rows = std::min(all, max_points);
@@ -176,11 +188,11 @@ std::string points_html(const ReportedStudy& reported) {
         "<p class=\"note\">The first {} of {} rows; all are printed by <code>zerocount summary</code>.</p>\n",
         rows, all);
   }
-  for (const SummarySection& section : summary.sections) {
+  for (const measures::SummarySection& section : summary.sections) {
     if (section.text.empty()) continue;
     html += html_folded(title_of(section.key), section.text);
   }
   return html;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

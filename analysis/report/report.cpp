@@ -13,7 +13,7 @@
 #include "analysis/report/sensitivity_section.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 /// Simulates trials again, and collects their differences from the file.
@@ -81,9 +81,9 @@ PageSection success_section(const ReportedStudy& reported) {
 }
 
 /// Converts all figures from a rotary axis, for which they are written.
-void put_on_axis(AxisKind axis, ReportPage& page) {
+void put_on_axis(parameters::AxisKind axis, ReportPage& page) {
   for (PageSection& section : page.sections) {
-    section.title = text_on(axis, section.title);
+    section.title = parameters::text_on(axis, section.title);
     for (Figure& figure : section.figures) put_on_axis(figure, axis);
   }
 }
@@ -100,7 +100,7 @@ void qualify_bounds(const ReportedStudy& reported, ReportPage& page) {
 
 }  // namespace
 
-StudyReport study_report(const StudyFile& file, const ReportOptions& options) {
+StudyReport study_report(const reading::StudyFile& file, const ReportOptions& options) {
   ReportedStudy reported = reported_study(file);
   if (options.focus) {
     if (*options.focus < 0 || *options.focus >= file.header().points) {
@@ -115,7 +115,7 @@ StudyReport study_report(const StudyFile& file, const ReportOptions& options) {
   ReportPage& page = report.page;
   page.title = reported.summary.name;
   page.subtitle = reported.study.description;
-  const Provenance& made = file.header().provenance;
+  const layout::Provenance& made = file.header().provenance;
   page.footer = fmt::format(
       "zerocount {} ({}), study of {}. This page is self-contained and requests nothing from anywhere.",
       made.zerocount_version, made.git_commit, made.created);
@@ -181,4 +181,4 @@ std::string drawing_program(const Figure& figure) {
       embedded_file("render.js"));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

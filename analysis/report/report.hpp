@@ -12,11 +12,11 @@
 #include "results/reading/study_file.hpp"
 
 /// The report on a results file, and its single figures.
-namespace zerocount {
+namespace zerocount::report {
 
 /// Options of a report.
 struct ReportOptions {
-  std::optional<StudyComparison> comparison{};  ///< with a baseline
+  std::optional<comparison::StudyComparison> comparison{};  ///< with a baseline
   std::optional<std::int64_t> focus{};  ///< design point of the single trials; default: the best point
   /// Compares a repeated trial with its record; returns the differences, one line each.
   std::function<std::vector<std::string>(const ReplayedTrial&)> check{};
@@ -31,7 +31,7 @@ struct StudyReport {
 /// The report of a complete results file. Reads the file several times and simulates some of its trials
 /// again.
 /// @throws Failure as StudyFile; bad_input if the focus is not a design point.
-StudyReport study_report(const StudyFile& file, const ReportOptions& options = {});
+StudyReport study_report(const reading::StudyFile& file, const ReportOptions& options = {});
 
 /// The names of all figures of a report.
 std::vector<std::string> figure_names(const ReportPage& page);
@@ -42,4 +42,4 @@ const Figure& find_figure(const ReportPage& page, const std::string& name);
 /// A self-contained program for node that draws a figure as SVG.
 std::string drawing_program(const Figure& figure);
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -8,7 +8,7 @@
 #include "analysis/report/thinned_trace.hpp"
 
 /// The figures of a report. A figure is omitted if the study lacks its data.
-namespace zerocount {
+namespace zerocount::report {
 
 /// Success per point with bounds: over a swept number if there is one, otherwise one line per point.
 std::optional<Figure> success_figure(const ReportedStudy& reported);
@@ -53,4 +53,4 @@ struct PaperFigure {
 std::vector<PaperFigure> paper_figures(const ReportedStudy& reported);
 Figure paper_figure(const PaperFigure& wanted, const std::vector<ReplayedTrial>& replayed);
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -5,7 +5,7 @@
 #include "analysis/report/reported_study.hpp"
 
 /// Texts and tables of a report, as HTML.
-namespace zerocount {
+namespace zerocount::report {
 
 /// The conclusions in words: success of the best and the worst point with tolerance statements, settling
 /// times, jerks, and the prediction of the criteria. For 100 % success it states the upper bound of the
@@ -19,4 +19,4 @@ std::string run_html(const ReportedStudy& reported);
 /// are more.
 std::string points_html(const ReportedStudy& reported);
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -11,42 +11,43 @@
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
-bool better(const PointSummary& one, const PointSummary& other) {
+bool better(const measures::PointSummary& one, const measures::PointSummary& other) {
   if (one.outcomes.zero_count != other.outcomes.zero_count)
     return static_cast<double>(one.outcomes.zero_count) * static_cast<double>(other.trials) >
            static_cast<double>(other.outcomes.zero_count) * static_cast<double>(one.trials);
-  return one.of(&MoveOutcome::settling_time).median.value <
-         other.of(&MoveOutcome::settling_time).median.value;
+  return one.of(&trial::MoveOutcome::settling_time).median.value <
+         other.of(&trial::MoveOutcome::settling_time).median.value;
 }
 
 /// With sequential stopping the bounds are those of a confidence sequence. With rigs they are the outer
 /// bounds of these and of the bounds over rigs.
-ConfidenceInterval success_bounds_of(const PointSummary& point, bool stopped_by_outcomes) {
-  const ConfidenceInterval& fixed = point.success_rate().clopper_pearson;
+statistics::ConfidenceInterval success_bounds_of(const measures::PointSummary& point,
+                                                 bool stopped_by_outcomes) {
+  const statistics::ConfidenceInterval& fixed = point.success_rate().clopper_pearson;
   if (!stopped_by_outcomes) return fixed;
-  const ConfidenceInterval stopped =
-      confidence_sequence_bounds(point.outcomes.zero_count, point.judged, summary_confidence);
+  const statistics::ConfidenceInterval stopped = statistics::confidence_sequence_bounds(
+      point.outcomes.zero_count, point.judged, statistics::summary_confidence);
   if (point.rigs.n == 0) return stopped;
   return {std::min(stopped.low, fixed.low), std::max(stopped.high, fixed.high)};
 }
 
 }  // namespace
 
-ReportedStudy reported_study(const StudyFile& file) {
-  ReportedStudy reported{file, recorded_study(file.header(), file.path()), summarise(file)};
+ReportedStudy reported_study(const reading::StudyFile& file) {
+  ReportedStudy reported{file, layout::recorded_study(file.header(), file.path()), summary::summarise(file)};
   reported.bounds_name = reported.study.stop   ? "bounds that hold at whatever trial one stops"
                          : reported.study.rigs ? "Korn-Graubard bounds"
                                                : "Clopper-Pearson bounds";
-  for (const PointSummary& point : reported.summary.points)
+  for (const measures::PointSummary& point : reported.summary.points)
     reported.success_bounds.push_back(success_bounds_of(point, reported.study.stop.has_value()));
   reported.focus = best_point(reported.summary.points);
   return reported;
 }
 
-std::int64_t best_point(const std::vector<PointSummary>& points) {
+std::int64_t best_point(const std::vector<measures::PointSummary>& points) {
   std::size_t best = 0;
   for (std::size_t point = 1; point < points.size(); ++point) {
     if (better(points[point], points[best])) best = point;
@@ -54,24 +55,26 @@ std::int64_t best_point(const std::vector<PointSummary>& points) {
   return static_cast<std::int64_t>(best);
 }
 
-std::int64_t most_telling_point(const std::vector<PointSummary>& points) {
-  const auto distance = [](const PointSummary& point) { return std::abs(point.success_rate().value - 0.5); };
+std::int64_t most_telling_point(const std::vector<measures::PointSummary>& points) {
+  const auto distance = [](const measures::PointSummary& point) {
+    return std::abs(point.success_rate().value - 0.5);
+  };
   return std::min_element(points.begin(), points.end(),
                           [&](const auto& a, const auto& b) { return distance(a) < distance(b); }) -
          points.begin();
 }
 
-RowRange rows_of(const ReportedStudy& reported, std::int64_t point) {
+layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point) {
   const std::int64_t trials = reported.file.header().trials;
   return {point * trials, trials};
 }
 
-void visit_trials(const StudyFile& file, RowRange rows, const TrialVisitor& visit) {
+void visit_trials(const reading::StudyFile& file, layout::RowRange rows, const TrialVisitor& visit) {
   const std::int64_t moves = file.moves();
-  const std::int64_t at_once = chunk_rows(moves);
+  const std::int64_t at_once = layout::chunk_rows(moves);
   for (std::int64_t first = rows.first; first < rows.end(); first += at_once) {
-    const RowRange block{first, std::min(at_once, rows.end() - first)};
-    const std::vector<MoveOutcome> outcomes = file.outcomes(block);
+    const layout::RowRange block{first, std::min(at_once, rows.end() - first)};
+    const std::vector<trial::MoveOutcome> outcomes = file.outcomes(block);
     for (std::int64_t row = block.first; row < block.end(); ++row) {
       visit(row, std::span(outcomes).subspan(static_cast<std::size_t>((row - block.first) * moves),
                                              static_cast<std::size_t>(moves)));
@@ -86,7 +89,7 @@ std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t max_count)
   return indices;
 }
 
-std::string axis_title(const SweepAxis& axis) {
+std::string axis_title(const study::SweepAxis& axis) {
   if (axis.unit.empty() || axis.unit == "1") return axis.name;
   return fmt::format("{} ({})", axis.name, axis.unit);
 }
@@ -99,4 +102,4 @@ std::string proportion_text(double proportion) {
   return fmt::format("{:.{}f} %", 100.0 * proportion, digits);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

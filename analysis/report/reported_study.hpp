@@ -13,16 +13,16 @@
 #include "experiments/study/study.hpp"
 #include "results/reading/study_file.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 
 /// A results file with the data that several parts of the report need.
 struct ReportedStudy {
-  const StudyFile& file;
-  Study study;
-  StudySummary summary;
-  std::vector<ConfidenceInterval> success_bounds{};  ///< 95 %, [point]
-  std::string bounds_name{};                         ///< kind of these bounds, for captions
-  std::int64_t focus{0};                             ///< design point of the single trials
+  const reading::StudyFile& file;
+  study::Study study;
+  summary::StudySummary summary;
+  std::vector<statistics::ConfidenceInterval> success_bounds{};  ///< 95 %, [point]
+  std::string bounds_name{};                                     ///< kind of these bounds, for captions
+  std::int64_t focus{0};                                         ///< design point of the single trials
 };
 
 /// Note for results of a study with dependent trials (StudyFeatures::dependent_trials).
@@ -33,32 +33,32 @@ inline constexpr std::string_view too_narrow_sentence =
 
 /// Reads the whole file once. The focus is the best point.
 /// @param file a complete study.
-ReportedStudy reported_study(const StudyFile& file);
+ReportedStudy reported_study(const reading::StudyFile& file);
 
 /// The point with the highest success rate; among equals the one with the lowest median settling time, then
 /// the first. For an open-loop study the first point.
-std::int64_t best_point(const std::vector<PointSummary>& points);
+std::int64_t best_point(const std::vector<measures::PointSummary>& points);
 
 /// The point whose success rate is nearest to one half. It has the most information about the causes of
 /// failures.
-std::int64_t most_telling_point(const std::vector<PointSummary>& points);
+std::int64_t most_telling_point(const std::vector<measures::PointSummary>& points);
 
 /// The global rows of the trials of a point.
-RowRange rows_of(const ReportedStudy& reported, std::int64_t point);
+layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point);
 
 /// Called with the row and the moves of a trial.
-using TrialVisitor = std::function<void(std::int64_t row, std::span<const MoveOutcome> moves)>;
+using TrialVisitor = std::function<void(std::int64_t row, std::span<const trial::MoveOutcome> moves)>;
 
 /// Visits the trials of these rows in order, reading the file in blocks.
-void visit_trials(const StudyFile& file, RowRange rows, const TrialVisitor& visit);
+void visit_trials(const reading::StudyFile& file, layout::RowRange rows, const TrialVisitor& visit);
 
 /// At most `max_count` evenly spaced indices of 0 … `size` − 1, increasing.
 std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t max_count);
 
 /// "controller.ki (N m/count)".
-std::string axis_title(const SweepAxis& axis);
+std::string axis_title(const study::SweepAxis& axis);
 
 /// A proportion as a percentage with enough digits to differ from 100 %; only 1 is "100 %".
 std::string proportion_text(double proportion);
 
-}  // namespace zerocount
+}  // namespace zerocount::report

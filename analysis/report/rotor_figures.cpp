@@ -6,7 +6,7 @@
 
 #include "analysis/report/report_figures.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -15,19 +15,19 @@ constexpr std::int64_t max_profiles = 4;
 constexpr std::int64_t profile_points = 512;
 constexpr std::int64_t max_failures = 250;
 
-const char* word_of(Outcome outcome) {
+const char* word_of(trial::Outcome outcome) {
   switch (outcome) {
-    case Outcome::zero_count:
+    case trial::Outcome::zero_count:
       return "zero_count";
-    case Outcome::one_count:
+    case trial::Outcome::one_count:
       return "one_count";
-    case Outcome::off_target:
+    case trial::Outcome::off_target:
       return "off_target";
-    case Outcome::oscillating:
+    case trial::Outcome::oscillating:
       return "oscillating";
-    case Outcome::nonfinite:
+    case trial::Outcome::nonfinite:
       return "nonfinite";
-    case Outcome::open_loop:
+    case trial::Outcome::open_loop:
       break;
   }
   return "open_loop";
@@ -37,7 +37,7 @@ const char* word_of(Outcome outcome) {
 struct EndOnRotor {
   std::int64_t trial{0};  ///< index within the point
   double angle{0.0};      ///< rad or m, in [0, period)
-  Outcome outcome{Outcome::zero_count};
+  trial::Outcome outcome{trial::Outcome::zero_count};
 };
 
 double on_rotor(double angle, double period) {
@@ -46,8 +46,8 @@ double on_rotor(double angle, double period) {
 }
 
 /// The input column with the start position of each trial.
-std::optional<std::size_t> position_column(const StudyFile& file) {
-  const std::vector<InputColumn>& inputs = file.input_columns();
+std::optional<std::size_t> position_column(const reading::StudyFile& file) {
+  const std::vector<study::InputColumn>& inputs = file.input_columns();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (inputs[i].name == "initial.position") return i;
   }
@@ -64,14 +64,14 @@ struct ShownTrials {
 template <class Visit>
 void visit_ends(const ReportedStudy& reported, const ShownTrials& shown, std::size_t column,
                 const Visit& visit) {
-  const RowRange rows = rows_of(reported, shown.point);
+  const layout::RowRange rows = rows_of(reported, shown.point);
   const std::vector<double> starts = reported.file.input(column, rows);
-  visit_trials(reported.file, rows, [&](std::int64_t row, std::span<const MoveOutcome> moves) {
-    if (shown.rig && rig_of(reported.study, row - rows.first) != *shown.rig) return;
+  visit_trials(reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+    if (shown.rig && study::rig_of(reported.study, row - rows.first) != *shown.rig) return;
     const double end = starts[static_cast<std::size_t>(row - rows.first)] + moves.back().final_position;
     const double start = starts[static_cast<std::size_t>(row - rows.first)];
     visit(EndOnRotor{row - rows.first, on_rotor(std::isfinite(end) ? end : start, reported.study.period),
-                     worst_outcome(moves)});
+                     trial::worst_outcome(moves)});
   });
 }
 
@@ -82,7 +82,7 @@ std::int64_t point_of(const ReportedStudy& reported, const std::string& profile)
                                  : std::stoll(profile.substr(at + 1));
 }
 
-double value_at(const StoredProfile& profile, double angle, double period) {
+double value_at(const reading::StoredProfile& profile, double angle, double period) {
   const double size = static_cast<double>(profile.value.size());
   const double place = angle / period * size;
   const auto before = static_cast<std::size_t>(place) % profile.value.size();
@@ -91,7 +91,7 @@ double value_at(const StoredProfile& profile, double angle, double period) {
          fraction * profile.value[(before + 1) % profile.value.size()];
 }
 
-FigureData profile_data(const StoredProfile& profile) {
+FigureData profile_data(const reading::StoredProfile& profile) {
   FigureData data{"profile", {{"theta", "rotor angle", "rad"}, {"value", profile.name, profile.unit}}};
   for (const std::int64_t i : spread_over(std::ssize(profile.theta), profile_points)) {
     const auto at = static_cast<std::size_t>(i);
@@ -109,7 +109,7 @@ struct Sectors {
   void add(const EndOnRotor& end) {
     const auto sector = static_cast<std::size_t>(end.angle / period * static_cast<double>(trials.size()));
     ++trials[std::min(sector, trials.size() - 1)];
-    successes[std::min(sector, trials.size() - 1)] += is_success(end.outcome);
+    successes[std::min(sector, trials.size() - 1)] += trial::is_success(end.outcome);
   }
 };
 
@@ -125,24 +125,25 @@ FigureData sector_data(const Sectors& sectors) {
   const double width = sectors.period / static_cast<double>(sectors.trials.size());
   for (std::size_t i = 0; i < sectors.trials.size(); ++i) {
     if (sectors.trials[i] == 0) continue;
-    const ConfidenceInterval bounds = clopper_pearson(sectors.successes[i], sectors.trials[i]);
-    data.rows.push_back(
-        ordered_json::array({datum(width * static_cast<double>(i)), datum(width * static_cast<double>(i + 1)),
-                             datum(rate(sectors.successes[i], sectors.trials[i])), datum(bounds.low),
-                             datum(bounds.high), sectors.successes[i], sectors.trials[i]}));
+    const statistics::ConfidenceInterval bounds =
+        statistics::clopper_pearson(sectors.successes[i], sectors.trials[i]);
+    data.rows.push_back(ordered_json::array(
+        {datum(width * static_cast<double>(i)), datum(width * static_cast<double>(i + 1)),
+         datum(statistics::rate(sectors.successes[i], sectors.trials[i])), datum(bounds.low),
+         datum(bounds.high), sectors.successes[i], sectors.trials[i]}));
   }
   return data;
 }
 
 /// The rig that succeeds least often at the point.
 std::int64_t worst_rig(const ReportedStudy& reported, std::int64_t point) {
-  const StoredRigs rigs = reported.file.rigs().value();
+  const reading::StoredRigs rigs = reported.file.rigs().value();
   const auto of_point = rigs.success.begin() + point * rigs.rigs;
   return std::min_element(of_point, of_point + rigs.rigs) - of_point;
 }
 
-StoredProfile rotor_of_rig(const StoredProfile& profile, std::int64_t rig) {
-  StoredProfile rotor{profile.name, profile.unit, profile.theta, {}};
+reading::StoredProfile rotor_of_rig(const reading::StoredProfile& profile, std::int64_t rig) {
+  reading::StoredProfile rotor{profile.name, profile.unit, profile.theta, {}};
   const auto first = profile.value.begin() + rig * std::ssize(profile.theta);
   rotor.value.assign(first, first + std::ssize(profile.theta));
   return rotor;
@@ -168,17 +169,17 @@ std::string caption_of(const ReportedStudy& reported, const std::string& paramet
          "the paper states for k1 (practical issue 1).";
 }
 
-Figure rotor_figure(const ReportedStudy& reported, const StoredProfile& stored, std::size_t column) {
+Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile& stored, std::size_t column) {
   ShownTrials shown{point_of(reported, stored.name)};
   if (stored.rigs > 0) shown.rig = worst_rig(reported, shown.point);
-  const StoredProfile profile = shown.rig ? rotor_of_rig(stored, *shown.rig) : stored;
+  const reading::StoredProfile profile = shown.rig ? rotor_of_rig(stored, *shown.rig) : stored;
   const std::int64_t trials_shown = reported.file.header().trials / std::max<std::int64_t>(stored.rigs, 1);
   const double period = reported.study.period;
   Sectors sectors(trials_shown >= 480 ? 24 : 12, period);
   std::vector<EndOnRotor> failures;
   visit_ends(reported, shown, column, [&](const EndOnRotor& end) {
     sectors.add(end);
-    if (!is_success(end.outcome)) failures.push_back(end);
+    if (!trial::is_success(end.outcome)) failures.push_back(end);
   });
   FigureData trials{"trials",
                     {{"trial", "trial of the point", "1"},
@@ -215,10 +216,10 @@ std::vector<Figure> rotor_figures(const ReportedStudy& reported) {
   std::vector<Figure> figures;
   const std::optional<std::size_t> column = position_column(reported.file);
   if (reported.study.open_loop || !column || !reported.file.has_profiles()) return figures;
-  const std::vector<StoredProfile> profiles = reported.file.profiles();
+  const std::vector<reading::StoredProfile> profiles = reported.file.profiles();
   for (const std::int64_t i : spread_over(std::ssize(profiles), max_profiles))
     figures.push_back(rotor_figure(reported, profiles[static_cast<std::size_t>(i)], *column));
   return figures;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

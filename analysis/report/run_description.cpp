@@ -11,22 +11,22 @@
 #include "analysis/text/text.hpp"
 #include "results/layout/table_io.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
-std::string design_text(const Study& study) {
+std::string design_text(const study::Study& study) {
   std::string text;
   switch (study.design) {
-    case Design::monte_carlo:
+    case study::Design::monte_carlo:
       text = "Monte Carlo";
       break;
-    case Design::latin_hypercube:
+    case study::Design::latin_hypercube:
       text = "Latin hypercube";
       break;
-    case Design::sobol:
+    case study::Design::sobol:
       text = "Sobol' sequence";
       break;
-    case Design::saltelli:
+    case study::Design::saltelli:
       text = "Saltelli's, for Sobol' indices";
       break;
   }
@@ -35,9 +35,9 @@ std::string design_text(const Study& study) {
 }
 
 /// Moments and extremes of an input column in the file.
-Moments moments_of(const StudyFile& file, std::size_t column) {
-  Moments moments;
-  const std::int64_t at_once = chunk_rows(1);
+statistics::Moments moments_of(const reading::StudyFile& file, std::size_t column) {
+  statistics::Moments moments;
+  const std::int64_t at_once = layout::chunk_rows(1);
   for (std::int64_t first = 0; first < file.rows().end(); first += at_once) {
     for (const double value : file.input(column, {first, std::min(at_once, file.rows().end() - first)}))
       moments.add(value);
@@ -45,7 +45,7 @@ Moments moments_of(const StudyFile& file, std::size_t column) {
   return moments;
 }
 
-std::string inputs_table(const StudyFile& file) {
+std::string inputs_table(const reading::StudyFile& file) {
   HtmlColumn name{"parameter", "", true, {}};
   HtmlColumn meaning{"meaning", "", true, {}};
   HtmlColumn unit{"unit", "", true, {}};
@@ -53,14 +53,14 @@ std::string inputs_table(const StudyFile& file) {
   HtmlColumn mean{"mean", "", false, {}};
   HtmlColumn high{"largest", "", false, {}};
   for (std::size_t i = 0; i < file.input_columns().size(); ++i) {
-    const InputColumn& input = file.input_columns()[i];
-    const Moments values = moments_of(file, i);
+    const study::InputColumn& input = file.input_columns()[i];
+    const statistics::Moments values = moments_of(file, i);
     name.cells.push_back(input.name);
     meaning.cells.push_back(input.meaning);
     unit.cells.push_back(input.unit);
-    low.cells.push_back(short_number(values.min));
-    mean.cells.push_back(short_number(values.mean));
-    high.cells.push_back(short_number(values.max));
+    low.cells.push_back(text::short_number(values.min));
+    mean.cells.push_back(text::short_number(values.mean));
+    high.cells.push_back(text::short_number(values.max));
   }
   if (name.cells.empty()) return "<p>All trials have the same parameters.</p>\n";
   return "<h3>Parameters that differ between trials</h3>\n" +
@@ -77,13 +77,14 @@ std::string joined(const std::vector<std::string>& texts) {
 std::vector<HtmlFact> sweep_facts(const ReportedStudy& reported) {
   std::vector<HtmlFact> facts;
   for (const std::size_t i : numeric_axes(reported, 2)) {
-    const SweepAxis& axis = reported.summary.axes[i];
+    const study::SweepAxis& axis = reported.summary.axes[i];
     const std::vector<double> values = values_of(axis);
-    facts.push_back({"Swept", fmt::format("{}, {} values from {} to {}{}", axis.name, values.size(),
-                                          short_number(values.front()), short_number(values.back()),
-                                          axis.unit == "1" ? "" : " " + axis.unit)});
+    facts.push_back(
+        {"Swept", fmt::format("{}, {} values from {} to {}{}", axis.name, values.size(),
+                              text::short_number(values.front()), text::short_number(values.back()),
+                              axis.unit == "1" ? "" : " " + axis.unit)});
   }
-  for (const SweepAxis& axis : reported.summary.axes) {
+  for (const study::SweepAxis& axis : reported.summary.axes) {
     if (axis.name != "case") continue;
     std::vector<std::string> names;
     for (const std::string& name : axis.texts) {
@@ -95,8 +96,8 @@ std::vector<HtmlFact> sweep_facts(const ReportedStudy& reported) {
 }
 
 std::vector<HtmlFact> facts_of(const ReportedStudy& reported) {
-  const FileHeader& header = reported.file.header();
-  const Provenance& made = header.provenance;
+  const layout::FileHeader& header = reported.file.header();
+  const layout::Provenance& made = header.provenance;
   std::vector<HtmlFact> facts{
       {"Trials", fmt::format("{} at each of {} design point{}, {} move{} each: {} trials", header.trials,
                              header.points, header.points == 1 ? "" : "s", reported.file.moves(),
@@ -104,7 +105,7 @@ std::vector<HtmlFact> facts_of(const ReportedStudy& reported) {
       {"Design", design_text(reported.study)},
       {"Seed", fmt::format("{}", header.seed)},
       {"Made", fmt::format("{}, by zerocount {} ({}), {} engine", made.created, made.zerocount_version,
-                           made.git_commit, name_of(header.engine))},
+                           made.git_commit, layout::name_of(header.engine))},
       {"Compiler, processor", fmt::format("{}; {}", made.compiler, made.cpu)},
       {"SHA-256 of the manifest", header.manifest_sha256},
       {"File", reported.file.path().filename().string()}};
@@ -121,7 +122,7 @@ std::string run_html(const ReportedStudy& reported) {
   std::string html;
   if (!reported.study.description.empty())
     html += fmt::format("<p>{}</p>\n", html_text(reported.study.description));
-  if (is_dirty(reported.file.header().provenance)) {
+  if (layout::is_dirty(reported.file.header().provenance)) {
     html +=
         "<p class=\"warning\">The program that ran this study had uncommitted changes: it cannot be built "
         "again from its history.</p>\n";
@@ -131,4 +132,4 @@ std::string run_html(const ReportedStudy& reported) {
   return html + html_folded("The manifest", reported.file.header().manifest);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

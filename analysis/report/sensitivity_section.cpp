@@ -8,15 +8,15 @@
 #include "analysis/report/escaping.hpp"
 #include "analysis/sensitivity/sensitivity.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
 
 constexpr std::size_t max_factors = 12;
 
-void add_index(FigureData& data, const FactorSensitivity& factor, const char* index,
-               const BoundedNumber& number) {
+void add_index(FigureData& data, const sensitivity::FactorSensitivity& factor, const char* index,
+               const sensitivity::BoundedNumber& number) {
   if (!std::isfinite(number.value)) return;
   data.rows.push_back(
       ordered_json::array({factor.name, index, datum(number.value), datum(number.low), datum(number.high)}));
@@ -28,7 +28,7 @@ std::string label_text(std::string name) {
   return name;
 }
 
-Figure figure_for(const OutputSensitivity& output, const std::string& label, bool total) {
+Figure figure_for(const sensitivity::OutputSensitivity& output, const std::string& label, bool total) {
   FigureData data{"factors",
                   {{"factor", "parameter", ""},
                    {"index", "index", ""},
@@ -37,7 +37,7 @@ Figure figure_for(const OutputSensitivity& output, const std::string& label, boo
                    {"high", "upper 95 % bound", "1"}}};
   const std::size_t shown = std::min(max_factors, output.factors.size());
   for (std::size_t i = 0; i < shown; ++i) {
-    const FactorSensitivity& factor = output.factors[i];
+    const sensitivity::FactorSensitivity& factor = output.factors[i];
     add_index(data, factor, "first order: alone", factor.first_order);
     add_index(data, factor, "total: with all others", factor.total);
   }
@@ -64,13 +64,13 @@ Figure figure_for(const OutputSensitivity& output, const std::string& label, boo
 
 std::optional<PageSection> sensitivity_section(const ReportedStudy& reported) {
   if (reported.study.open_loop) return std::nullopt;
-  SensitivityQuestion question;
+  sensitivity::SensitivityQuestion question;
   question.points = {most_telling_point(reported.summary.points)};
-  const StudySensitivity answer = study_sensitivity(reported.file, question);
-  if (!any_estimated(answer)) return std::nullopt;
-  const PointSensitivity& point = answer.points.front();
+  const sensitivity::StudySensitivity answer = sensitivity::study_sensitivity(reported.file, question);
+  if (!sensitivity::any_estimated(answer)) return std::nullopt;
+  const sensitivity::PointSensitivity& point = answer.points.front();
   PageSection section{sensitivity_section_name, "Which parameters matter", "", {}};
-  for (const OutputSensitivity& output : point.outputs) {
+  for (const sensitivity::OutputSensitivity& output : point.outputs) {
     if (!output.estimated) continue;
     section.html += fmt::format("<p>{}</p>\n", html_prose(output.conclusion));
     section.figures.push_back(figure_for(output, point.label, answer.from_saltelli));
@@ -78,4 +78,4 @@ std::optional<PageSection> sensitivity_section(const ReportedStudy& reported) {
   return section;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

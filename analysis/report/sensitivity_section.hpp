@@ -5,7 +5,7 @@
 #include "analysis/report/page.hpp"
 #include "analysis/report/reported_study.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 
 /// The section's anchor in the page.
 inline constexpr const char* sensitivity_section_name = "sensitivity";
@@ -14,4 +14,4 @@ inline constexpr const char* sensitivity_section_name = "sensitivity";
 /// the study has no random parameters or no index could be estimated.
 std::optional<PageSection> sensitivity_section(const ReportedStudy& reported);
 
-}  // namespace zerocount
+}  // namespace zerocount::report

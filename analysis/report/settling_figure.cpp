@@ -7,7 +7,7 @@
 #include "analysis/report/report_figures.hpp"
 #include "analysis/statistics/histogram.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -20,21 +20,21 @@ constexpr std::int64_t max_steps = 160;  ///< of a curve
 /// with the constant of Massart 1990, for each of the M moves at the level α/M; the mean of M functions that
 /// are each within the band is so too.)
 double band(std::int64_t clusters, std::int64_t moves) {
-  const double alpha = 1.0 - summary_confidence;
+  const double alpha = 1.0 - statistics::summary_confidence;
   return std::sqrt(std::log(2.0 * static_cast<double>(moves) / alpha) /
                    (2.0 * static_cast<double>(clusters)));
 }
 
-double band_of(const ReportedStudy& reported, const PointSummary& point) {
+double band_of(const ReportedStudy& reported, const measures::PointSummary& point) {
   const std::int64_t clusters = reported.study.rigs > 0 ? reported.study.rigs : point.trials;
   return band(clusters, point.moves / clusters);
 }
 
-Histogram<double> settling_times(const ReportedStudy& reported, std::int64_t point) {
-  Histogram<double> times;
+statistics::Histogram<double> settling_times(const ReportedStudy& reported, std::int64_t point) {
+  statistics::Histogram<double> times;
   visit_trials(reported.file, rows_of(reported, point),
-               [&](std::int64_t, std::span<const MoveOutcome> moves) {
-                 for (const MoveOutcome& move : moves) {
+               [&](std::int64_t, std::span<const trial::MoveOutcome> moves) {
+                 for (const trial::MoveOutcome& move : moves) {
                    if (move.arrived) times.add(move.settling_time);
                  }
                });
@@ -46,13 +46,13 @@ std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   std::vector<std::int64_t> with_arrivals;
   const auto& points = reported.summary.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].of(&MoveOutcome::settling_time).n > 0)
+    if (points[i].of(&trial::MoveOutcome::settling_time).n > 0)
       with_arrivals.push_back(static_cast<std::int64_t>(i));
   }
   if (std::ssize(with_arrivals) <= max_curves) return with_arrivals;
   std::stable_sort(with_arrivals.begin(), with_arrivals.end(), [&](std::int64_t a, std::int64_t b) {
-    return points[static_cast<std::size_t>(a)].of(&MoveOutcome::settling_time).n >
-           points[static_cast<std::size_t>(b)].of(&MoveOutcome::settling_time).n;
+    return points[static_cast<std::size_t>(a)].of(&trial::MoveOutcome::settling_time).n >
+           points[static_cast<std::size_t>(b)].of(&trial::MoveOutcome::settling_time).n;
   });
   std::vector<std::int64_t> shown;
   for (const std::int64_t i : spread_over(std::ssize(with_arrivals), max_curves))
@@ -61,8 +61,8 @@ std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   return shown;
 }
 
-void add_curve(FigureData& data, const std::string& label, const Histogram<double>& times, std::int64_t moves,
-               double half_width, double end) {
+void add_curve(FigureData& data, const std::string& label, const statistics::Histogram<double>& times,
+               std::int64_t moves, double half_width, double end) {
   const auto row = [&](double time, std::int64_t arrived) {
     const double proportion = static_cast<double>(arrived) / static_cast<double>(moves);
     data.rows.push_back(ordered_json::array({label, datum(time), datum(proportion),
@@ -80,7 +80,7 @@ void add_curve(FigureData& data, const std::string& label, const Histogram<doubl
       shown = arrived;
     }
   }
-  if (largest(times) < end) row(end, arrived);
+  if (statistics::largest(times) < end) row(end, arrived);
 }
 
 }  // namespace
@@ -102,8 +102,8 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
                               : fmt::format("{} trials", points.front().trials),
       reported.study.rigs == 0 && moves_per_trial > 1 ? fmt::format(" of {} moves each", moves_per_trial)
                                                       : "");
-  const auto arriving = std::count_if(points.begin(), points.end(), [](const PointSummary& point) {
-    return point.of(&MoveOutcome::settling_time).n > 0;
+  const auto arriving = std::count_if(points.begin(), points.end(), [](const measures::PointSummary& point) {
+    return point.of(&trial::MoveOutcome::settling_time).n > 0;
   });
   if (std::ssize(shown) < arriving) {
     caption +=
@@ -123,9 +123,9 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   double end = 0.0;
   double start = std::numeric_limits<double>::infinity();
   for (const std::int64_t point : shown) {
-    end = std::max(end, points[static_cast<std::size_t>(point)].of(&MoveOutcome::settling_time).max);
-    start =
-        std::min(start, points[static_cast<std::size_t>(point)].of(&MoveOutcome::settling_time).median.value);
+    end = std::max(end, points[static_cast<std::size_t>(point)].of(&trial::MoveOutcome::settling_time).max);
+    start = std::min(
+        start, points[static_cast<std::size_t>(point)].of(&trial::MoveOutcome::settling_time).median.value);
   }
   for (const std::int64_t point : shown) {
     const auto at = static_cast<std::size_t>(point);
@@ -145,4 +145,4 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   return figure;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -8,7 +8,7 @@
 #include "analysis/report/report_figures.hpp"
 #include "analysis/report/sweep_numbers.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -21,7 +21,8 @@ struct CellEdges {
   std::vector<double> values;
   bool by_ratio{false};
 
-  explicit CellEdges(const SweepAxis& axis) : values(values_of(axis)), by_ratio(spaced_by_ratio(values)) {}
+  explicit CellEdges(const study::SweepAxis& axis)
+      : values(values_of(axis)), by_ratio(spaced_by_ratio(values)) {}
 
   double between(double a, double b) const { return by_ratio ? std::sqrt(a * b) : 0.5 * (a + b); }
   double from(double value) const {
@@ -34,15 +35,15 @@ struct CellEdges {
   }
 };
 
-void set_axis(ordered_json& channel, const SweepAxis& axis, const CellEdges& edges) {
+void set_axis(ordered_json& channel, const study::SweepAxis& axis, const CellEdges& edges) {
   channel["title"] = axis_title(axis);
   set_number_format(channel["axis"], edges.values.back());
   channel["scale"]["domain"] = {edges.values.front(), edges.values.back()};
   if (edges.by_ratio) channel["scale"]["type"] = "log";
 }
 
-FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, const SweepAxis& x,
-                    const SweepAxis& y) {
+FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, const study::SweepAxis& x,
+                    const study::SweepAxis& y) {
   const CellEdges x_edges(x);
   const CellEdges y_edges(y);
   FigureData cells{"cells",
@@ -60,23 +61,25 @@ FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, cons
                     {"unstable", "(7) exceeded in", "1"}}};
   for (const std::int64_t point : group.points) {
     const auto at = static_cast<std::size_t>(point);
-    const RateWithBounds& rate = reported.summary.points[at].success_rate();
-    const ConfidenceInterval& bounds = reported.success_bounds[at];
+    const measures::RateWithBounds& rate = reported.summary.points[at].success_rate();
+    const statistics::ConfidenceInterval& bounds = reported.success_bounds[at];
     const bool predicted = !reported.summary.predictions.empty();
-    const TheoryPrediction prediction = predicted ? reported.summary.predictions[at] : TheoryPrediction{};
-    const std::int64_t of = predicted_trials(prediction);
+    const measures::TheoryPrediction prediction =
+        predicted ? reported.summary.predictions[at] : measures::TheoryPrediction{};
+    const std::int64_t of = measures::predicted_trials(prediction);
     const double x_value = x.numbers[at];
     const double y_value = y.numbers[at];
     cells.rows.push_back(ordered_json::array(
         {reported.summary.labels[at], x_edges.from(x_value), x_edges.to(x_value), y_edges.from(y_value),
          y_edges.to(y_value), x_value, y_value, datum(rate.value), datum(bounds.low), datum(bounds.high),
-         datum(zerocount::rate(prediction.stable, of)), datum(zerocount::rate(prediction.unstable, of))}));
+         datum(zerocount::statistics::rate(prediction.stable, of)),
+         datum(zerocount::statistics::rate(prediction.unstable, of))}));
   }
   return cells;
 }
 
-FigureData curves_of(const ReportedStudy& reported, const PointGroup& group, const SweepAxis& x,
-                     const SweepAxis& y) {
+FigureData curves_of(const ReportedStudy& reported, const PointGroup& group, const study::SweepAxis& x,
+                     const study::SweepAxis& y) {
   const CellEdges x_edges(x);
   const CellEdges y_edges(y);
   const CriterionPlane plane{x.name,
@@ -114,8 +117,8 @@ FigureData curves_of(const ReportedStudy& reported, const PointGroup& group, con
   return data;
 }
 
-Figure map_of(const ReportedStudy& reported, const PointGroup& group, std::size_t number, const SweepAxis& x,
-              const SweepAxis& y) {
+Figure map_of(const ReportedStudy& reported, const PointGroup& group, std::size_t number,
+              const study::SweepAxis& x, const study::SweepAxis& y) {
   FigureData curves = curves_of(reported, group, x, y);
   std::string caption =
       "Each cell is a design point. Its colour is the proportion of trials that end at zero counts. ";
@@ -146,7 +149,7 @@ std::vector<Figure> stability_maps(const ReportedStudy& reported) {
   std::vector<Figure> maps;
   if (reported.study.open_loop) return maps;
   std::vector<std::size_t> axes = numeric_axes(reported, 2);
-  const std::vector<SweepAxis>& all = reported.summary.axes;
+  const std::vector<study::SweepAxis>& all = reported.summary.axes;
   if (axes.size() < 2 || values_of(all[axes[0]]).size() < 3) return maps;
   const auto gain =
       std::find_if(axes.begin(), axes.end(), [&](std::size_t i) { return all[i].name == "controller.ki"; });
@@ -159,4 +162,4 @@ std::vector<Figure> stability_maps(const ReportedStudy& reported) {
   return maps;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

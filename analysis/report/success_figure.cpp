@@ -7,7 +7,7 @@
 #include "analysis/report/report_figures.hpp"
 #include "analysis/report/sweep_numbers.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -28,9 +28,9 @@ std::vector<FigureColumn> common_columns() {
 }
 
 ordered_json row_of(const ReportedStudy& reported, std::int64_t point) {
-  const PointSummary& summary = reported.summary.points[static_cast<std::size_t>(point)];
-  const RateWithBounds& rate = summary.success_rate();
-  const ConfidenceInterval& bounds = reported.success_bounds[static_cast<std::size_t>(point)];
+  const measures::PointSummary& summary = reported.summary.points[static_cast<std::size_t>(point)];
+  const measures::RateWithBounds& rate = summary.success_rate();
+  const statistics::ConfidenceInterval& bounds = reported.success_bounds[static_cast<std::size_t>(point)];
   return ordered_json::array({reported.summary.labels[static_cast<std::size_t>(point)], datum(rate.value),
                               datum(bounds.low), datum(bounds.high), summary.outcomes.zero_count,
                               summary.trials});
@@ -80,7 +80,7 @@ Figure line_per_point(const ReportedStudy& reported) {
 }
 
 Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
-  const SweepAxis& swept = reported.summary.axes[axis];
+  const study::SweepAxis& swept = reported.summary.axes[axis];
   const std::vector<PointGroup> groups = groups_along(reported, {axis});
   std::string caption = fmt::format(
       "Proportion of all trials of each point that end at zero counts (line), over {}. ", axis_title(swept));
@@ -118,4 +118,4 @@ std::optional<Figure> success_figure(const ReportedStudy& reported) {
   return numeric.empty() ? line_per_point(reported) : along_axis(reported, numeric.front());
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -7,18 +7,18 @@
 
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
-std::string value_text(const SweepAxis& axis, std::size_t point) {
-  if (axis.kind == SweepAxis::Kind::text)
+std::string value_text(const study::SweepAxis& axis, std::size_t point) {
+  if (axis.kind == study::SweepAxis::Kind::text)
     return axis.name == "case" ? axis.texts[point] : fmt::format("{} {}", axis.name, axis.texts[point]);
-  return fmt::format("{} {}", axis.name, short_number(axis.numbers[point]));
+  return fmt::format("{} {}", axis.name, text::short_number(axis.numbers[point]));
 }
 
 }  // namespace
 
-std::vector<double> values_of(const SweepAxis& axis) {
+std::vector<double> values_of(const study::SweepAxis& axis) {
   std::vector<double> values = axis.numbers;
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -27,7 +27,7 @@ std::vector<double> values_of(const SweepAxis& axis) {
 
 std::vector<PointGroup> groups_along(const ReportedStudy& reported, const std::vector<std::size_t>& along) {
   std::vector<PointGroup> groups;
-  const std::vector<SweepAxis>& axes = reported.summary.axes;
+  const std::vector<study::SweepAxis>& axes = reported.summary.axes;
   for (std::size_t point = 0; point < reported.summary.points.size(); ++point) {
     std::string label;
     for (std::size_t axis = 0; axis < axes.size(); ++axis) {
@@ -44,10 +44,10 @@ std::vector<PointGroup> groups_along(const ReportedStudy& reported, const std::v
 
 std::vector<std::size_t> numeric_axes(const ReportedStudy& reported, std::size_t min_values) {
   std::vector<std::size_t> found;
-  const std::vector<SweepAxis>& axes = reported.summary.axes;
+  const std::vector<study::SweepAxis>& axes = reported.summary.axes;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const std::vector<double>& numbers = axes[i].numbers;
-    if (axes[i].kind != SweepAxis::Kind::number ||
+    if (axes[i].kind != study::SweepAxis::Kind::number ||
         !std::all_of(numbers.begin(), numbers.end(), [](double value) { return std::isfinite(value); })) {
       continue;
     }
@@ -63,4 +63,4 @@ std::vector<std::size_t> numeric_axes(const ReportedStudy& reported, std::size_t
   return found;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -7,10 +7,10 @@
 
 #include "analysis/report/reported_study.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 
 /// The distinct values of an axis, sorted.
-std::vector<double> values_of(const SweepAxis& axis);
+std::vector<double> values_of(const study::SweepAxis& axis);
 
 /// Points that differ only in the axes `along`.
 struct PointGroup {
@@ -26,4 +26,4 @@ std::vector<PointGroup> groups_along(const ReportedStudy& reported, const std::v
 /// first.
 std::vector<std::size_t> numeric_axes(const ReportedStudy& reported, std::size_t min_values);
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -4,10 +4,10 @@
 #include <array>
 #include <cstddef>
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
-bool alike(const SampleRecord& a, const SampleRecord& b) {
+bool alike(const trial::SampleRecord& a, const trial::SampleRecord& b) {
   return a.count == b.count && a.torque == b.torque && a.target == b.target;
 }
 
@@ -16,7 +16,7 @@ bool alike(const SampleRecord& a, const SampleRecord& b) {
 TraceThinner::TraceThinner(std::int64_t samples, std::int64_t buckets)
     : bucket_length_(std::max<std::int64_t>(1, (samples + buckets - 1) / buckets)) {}
 
-void TraceThinner::add(const SampleRecord& sample) {
+void TraceThinner::add(const trial::SampleRecord& sample) {
   if (sample.k / bucket_length_ != bucket_) {
     close_bucket();
     bucket_ = sample.k / bucket_length_;
@@ -26,8 +26,12 @@ void TraceThinner::add(const SampleRecord& sample) {
 
 void TraceThinner::close_bucket() {
   if (at_hand_.empty()) return;
-  const auto by_error = [](const SampleRecord& a, const SampleRecord& b) { return a.error < b.error; };
-  const auto by_torque = [](const SampleRecord& a, const SampleRecord& b) { return a.torque < b.torque; };
+  const auto by_error = [](const trial::SampleRecord& a, const trial::SampleRecord& b) {
+    return a.error < b.error;
+  };
+  const auto by_torque = [](const trial::SampleRecord& a, const trial::SampleRecord& b) {
+    return a.torque < b.torque;
+  };
   const auto errors = std::minmax_element(at_hand_.begin(), at_hand_.end(), by_error);
   const auto torques = std::minmax_element(at_hand_.begin(), at_hand_.end(), by_torque);
   std::array<std::ptrdiff_t, 6> places{0,
@@ -39,7 +43,7 @@ void TraceThinner::close_bucket() {
   std::sort(places.begin(), places.end());
   const auto end = std::unique(places.begin(), places.end());
   for (auto place = places.begin(); place != end; ++place) {
-    const SampleRecord& sample = at_hand_[static_cast<std::size_t>(*place)];
+    const trial::SampleRecord& sample = at_hand_[static_cast<std::size_t>(*place)];
     const std::size_t size = kept_.size();
     if (size >= 2 && alike(kept_[size - 1], sample) && alike(kept_[size - 2], sample)) kept_.pop_back();
     kept_.push_back(sample);
@@ -47,23 +51,24 @@ void TraceThinner::close_bucket() {
   at_hand_.clear();
 }
 
-std::vector<SampleRecord> TraceThinner::finish() {
+std::vector<trial::SampleRecord> TraceThinner::finish() {
   close_bucket();
   return std::move(kept_);
 }
 
-ReplayedTrial replay_trial(const Study& study, std::int64_t point, std::int64_t index, std::int64_t buckets) {
-  const StudyTrial trial = study_trial(study, point, index);
-  TraceThinner thinner(samples_of_trial(trial.parameters), buckets);
+ReplayedTrial replay_trial(const study::Study& study, std::int64_t point, std::int64_t index,
+                           std::int64_t buckets) {
+  const study::StudyTrial trial = study::study_trial(study, point, index);
+  TraceThinner thinner(trial::samples_of_trial(trial.parameters), buckets);
   ReplayedTrial replayed;
   replayed.point = point;
-  TrialObservers observers;
-  observers.sample = [&](const SampleRecord& sample) { thinner.add(sample); };
-  observers.jerk = [&](const Jerk& jerk) { replayed.result.jerks.push_back(jerk); };
+  trial::TrialObservers observers;
+  observers.sample = [&](const trial::SampleRecord& sample) { thinner.add(sample); };
+  observers.jerk = [&](const trial::Jerk& jerk) { replayed.result.jerks.push_back(jerk); };
   replayed.result.inputs = trial.inputs;
-  replayed.result.outcome = run_trial(trial.parameters, observers);
+  replayed.result.outcome = trial::run_trial(trial.parameters, observers);
   replayed.samples = thinner.finish();
   return replayed;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -6,13 +6,13 @@
 #include "core/trial/trial.hpp"
 #include "results/shards/shard.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 
 /// A trial that was simulated again, with the samples for a figure.
 struct ReplayedTrial {
   std::int64_t point{0};
-  TrialResult result;                 ///< to compare with the record
-  std::vector<SampleRecord> samples;  ///< thinned
+  shards::TrialResult result;                ///< to compare with the record
+  std::vector<trial::SampleRecord> samples;  ///< thinned
 };
 
 /// Reduces the samples of a trial while it runs, so that a line through the kept samples looks the same.
@@ -23,20 +23,21 @@ struct ReplayedTrial {
 class TraceThinner {
  public:
   TraceThinner(std::int64_t samples, std::int64_t buckets);
-  void add(const SampleRecord& sample);
+  void add(const trial::SampleRecord& sample);
   /// The kept samples, in order.
-  std::vector<SampleRecord> finish();
+  std::vector<trial::SampleRecord> finish();
 
  private:
   void close_bucket();
 
   std::int64_t bucket_length_;
   std::int64_t bucket_{0};
-  std::vector<SampleRecord> at_hand_;
-  std::vector<SampleRecord> kept_;
+  std::vector<trial::SampleRecord> at_hand_;
+  std::vector<trial::SampleRecord> kept_;
 };
 
 /// Simulates a trial of the study again with the reference engine. The caller sets the row of the result.
-ReplayedTrial replay_trial(const Study& study, std::int64_t point, std::int64_t index, std::int64_t buckets);
+ReplayedTrial replay_trial(const study::Study& study, std::int64_t point, std::int64_t index,
+                           std::int64_t buckets);
 
-}  // namespace zerocount
+}  // namespace zerocount::report

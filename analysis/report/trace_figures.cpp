@@ -7,27 +7,27 @@
 
 #include "analysis/report/report_figures.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
 
 /// Rank of a trial: the greater, the worse.
 struct TrialRank {
-  Outcome outcome{Outcome::zero_count};
+  trial::Outcome outcome{trial::Outcome::zero_count};
   std::int64_t final_error{0};  ///< maximum |final error| of its moves, counts
   double settling_time{0.0};    ///< maximum of its moves, s; infinite if one never arrived
 
   bool operator<(const TrialRank& other) const {
-    if (outcome != other.outcome) return severity(outcome) < severity(other.outcome);
+    if (outcome != other.outcome) return trial::severity(outcome) < trial::severity(other.outcome);
     if (final_error != other.final_error) return final_error < other.final_error;
     return settling_time < other.settling_time;
   }
 };
 
-TrialRank rank_of(std::span<const MoveOutcome> moves) {
-  TrialRank rank{worst_outcome(moves), 0, 0.0};
-  for (const MoveOutcome& move : moves) {
+TrialRank rank_of(std::span<const trial::MoveOutcome> moves) {
+  TrialRank rank{trial::worst_outcome(moves), 0, 0.0};
+  for (const trial::MoveOutcome& move : moves) {
     rank.final_error = std::max(rank.final_error, std::abs(move.final_error));
     rank.settling_time = std::max(
         rank.settling_time, move.arrived ? move.settling_time : std::numeric_limits<double>::infinity());
@@ -46,38 +46,39 @@ RowsOfPoint rows_to_show(const ReportedStudy& reported) {
   RowsOfPoint rows;
   TrialRank worst;
   const double median = reported.summary.points[static_cast<std::size_t>(reported.focus)]
-                            .of(&MoveOutcome::settling_time)
+                            .of(&trial::MoveOutcome::settling_time)
                             .median.value;
   visit_trials(reported.file, rows_of(reported, reported.focus),
-               [&](std::int64_t row, std::span<const MoveOutcome> moves) {
+               [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
                  const TrialRank rank = rank_of(moves);
                  if (rows.worst < 0 || worst < rank) {
                    worst = rank;
                    rows.worst = row;
                  }
-                 const bool failed = !is_success(rank.outcome);
+                 const bool failed = !trial::is_success(rank.outcome);
                  if (failed && rows.first_failure < 0) rows.first_failure = row;
-                 const bool typical = std::any_of(moves.begin(), moves.end(), [&](const MoveOutcome& move) {
-                   return move.arrived && move.settling_time == median;
-                 });
+                 const bool typical =
+                     std::any_of(moves.begin(), moves.end(), [&](const trial::MoveOutcome& move) {
+                       return move.arrived && move.settling_time == median;
+                     });
                  if (!failed && typical && rows.median < 0) rows.median = row;
                });
   return rows;
 }
 
-const char* ending_of(Outcome outcome) {
+const char* ending_of(trial::Outcome outcome) {
   switch (outcome) {
-    case Outcome::zero_count:
+    case trial::Outcome::zero_count:
       return "it ends at zero counts";
-    case Outcome::one_count:
+    case trial::Outcome::one_count:
       return "it ends within one count of the target";
-    case Outcome::off_target:
+    case trial::Outcome::off_target:
       return "it ends more than one count away: stalled, or still moving to the target";
-    case Outcome::oscillating:
+    case trial::Outcome::oscillating:
       return "it ends oscillating by more than one count";
-    case Outcome::nonfinite:
+    case trial::Outcome::nonfinite:
       return "it failed numerically";
-    case Outcome::open_loop:
+    case trial::Outcome::open_loop:
       break;
   }
   return "it has no target";
@@ -86,11 +87,11 @@ const char* ending_of(Outcome outcome) {
 std::int64_t first_failure_of_study(const ReportedStudy& reported) {
   std::int64_t first = -1;
   for (std::size_t point = 0; point < reported.summary.points.size() && first < 0; ++point) {
-    const PointSummary& summary = reported.summary.points[point];
+    const measures::PointSummary& summary = reported.summary.points[point];
     if (summary.outcomes.zero_count == summary.trials) continue;
     visit_trials(reported.file, rows_of(reported, static_cast<std::int64_t>(point)),
-                 [&](std::int64_t row, std::span<const MoveOutcome> moves) {
-                   if (first < 0 && !succeeded(moves)) first = row;
+                 [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+                   if (first < 0 && !trial::succeeded(moves)) first = row;
                  });
   }
   return first;
@@ -124,8 +125,8 @@ std::vector<SampleTrial> sample_trials(const ReportedStudy& reported) {
 }
 
 Figure trace_figure(const ReportedStudy& reported, const SampleTrial& trial, const ReplayedTrial& replayed) {
-  const Outcome outcome = worst_outcome(replayed.result.outcome.moves);
-  const MoveOutcome& first = replayed.result.outcome.moves.front();
+  const trial::Outcome outcome = trial::worst_outcome(replayed.result.outcome.moves);
+  const trial::MoveOutcome& first = replayed.result.outcome.moves.front();
   const std::string settled =
       first.arrived ? fmt::format("arrives after {:.4g} s", first.settling_time) : "never arrives";
   std::string caption = fmt::format(
@@ -140,7 +141,7 @@ Figure trace_figure(const ReportedStudy& reported, const SampleTrial& trial, con
                    {"error", "error", "count"},
                    {"torque", "torque", "N m"},
                    {"target", "target", "count"}}};
-  for (const SampleRecord& sample : replayed.samples) {
+  for (const trial::SampleRecord& sample : replayed.samples) {
     data.rows.push_back(
         ordered_json::array({datum(sample.t, 9), sample.error, datum(sample.torque), sample.target}));
   }
@@ -148,4 +149,4 @@ Figure trace_figure(const ReportedStudy& reported, const SampleTrial& trial, con
   return figure;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

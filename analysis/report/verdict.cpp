@@ -12,13 +12,13 @@
 #include "analysis/summary/undecided.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 /// " (95 % bounds a to b)"; empty if the trials are not independent.
 std::string bounds_text(const ReportedStudy& reported, std::int64_t point) {
   if (reported.summary.features.dependent_trials) return "";
-  const ConfidenceInterval& bounds = reported.success_bounds[static_cast<std::size_t>(point)];
+  const statistics::ConfidenceInterval& bounds = reported.success_bounds[static_cast<std::size_t>(point)];
   return fmt::format(" (95 % bounds {} to {})", proportion_text(bounds.low), proportion_text(bounds.high));
 }
 
@@ -27,7 +27,7 @@ std::string of_all(std::int64_t successes, std::int64_t trials) {
 }
 
 /// Conclusion from trials without a failure.
-std::string flawless_text(const ReportedStudy& reported, const SuccessClaim& claim) {
+std::string flawless_text(const ReportedStudy& reported, const statistics::SuccessClaim& claim) {
   if (reported.summary.features.dependent_trials) {
     return fmt::format(
         "No failure in {} trials does not prove 100 % repeatability. As these trials are not independent, "
@@ -37,30 +37,31 @@ std::string flawless_text(const ReportedStudy& reported, const SuccessClaim& cla
   return fmt::format(
       "No failure in {} trials does not prove 100 % repeatability: with 95 % confidence the probability of a "
       "failure is at most {}. To show that it is below 0.1 % takes {} {} without a failure.",
-      claim.trials, percent_at_most(claim.failure_at_most), trials_for_claim(0.999, claim.confidence, 0),
-      claim.rigs > 0 ? "rigs" : "trials");
+      claim.trials, statistics::percent_at_most(claim.failure_at_most),
+      statistics::trials_for_claim(0.999, claim.confidence, 0), claim.rigs > 0 ? "rigs" : "trials");
 }
 
 std::string label_of(const ReportedStudy& reported, std::int64_t point) {
   return reported.summary.labels[static_cast<std::size_t>(point)];
 }
 
-const PointSummary& point_of(const ReportedStudy& reported, std::int64_t point) {
+const measures::PointSummary& point_of(const ReportedStudy& reported, std::int64_t point) {
   return reported.summary.points[static_cast<std::size_t>(point)];
 }
 
 /// The claim of the best point, with bounds that account for its selection among all points (Bonferroni).
-SuccessClaim claim_of_best(const ReportedStudy& reported, std::int64_t best) {
-  const PointSummary& point = point_of(reported, best);
+statistics::SuccessClaim claim_of_best(const ReportedStudy& reported, std::int64_t best) {
+  const measures::PointSummary& point = point_of(reported, best);
   const std::int64_t successes = point.claim.trials - point.claim.failures;
   const auto points = static_cast<double>(reported.summary.points.size());
   const double confidence = 1.0 - (1.0 - point.claim.confidence) / points;
-  SuccessClaim claim = reported.study.stop
-                           ? success_claim_at_any_time(successes, point.claim.trials, confidence)
-                           : success_claim(successes, point.claim.trials, confidence);
+  statistics::SuccessClaim claim =
+      reported.study.stop ? statistics::success_claim_at_any_time(successes, point.claim.trials, confidence)
+                          : statistics::success_claim(successes, point.claim.trials, confidence);
   if (point.rigs.n > 0) {
-    const SuccessClaim over_rigs = success_claim_on_rigs(point.rigs.successes, confidence);
-    claim = reported.study.stop ? weaker_claim(over_rigs, claim) : over_rigs;
+    const statistics::SuccessClaim over_rigs =
+        statistics::success_claim_on_rigs(point.rigs.successes, confidence);
+    claim = reported.study.stop ? statistics::weaker_claim(over_rigs, claim) : over_rigs;
   }
   claim.confidence = point.claim.confidence;
   return claim;
@@ -68,10 +69,11 @@ SuccessClaim claim_of_best(const ReportedStudy& reported, std::int64_t best) {
 
 /// Statement about all axes; for dependent trials only the observed rate.
 std::string claim_text(const ReportedStudy& reported, std::int64_t best) {
-  if (!reported.summary.features.dependent_trials) return claim_sentence(claim_of_best(reported, best));
-  const PointSummary& point = point_of(reported, best);
+  if (!reported.summary.features.dependent_trials)
+    return statistics::claim_sentence(claim_of_best(reported, best));
+  const measures::PointSummary& point = point_of(reported, best);
   return fmt::format("{} of the trials succeeded ({}), which is no statement about all axes",
-                     percentage(point.outcomes.zero_count, point.trials),
+                     text::percentage(point.outcomes.zero_count, point.trials),
                      of_all(point.outcomes.zero_count, point.trials));
 }
 
@@ -86,12 +88,12 @@ std::string headline(const ReportedStudy& reported, std::int64_t best) {
 }
 
 void add_success(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
-  const PointSummary& point = point_of(reported, best);
+  const measures::PointSummary& point = point_of(reported, best);
   lines.push_back(fmt::format("{} ended at zero counts{}.", of_all(point.outcomes.zero_count, point.trials),
                               bounds_text(reported, best)));
   if (point.outcomes.zero_count == point.trials)
     lines.push_back(flawless_text(reported, claim_of_best(reported, best)));
-  const OutcomeCounts& outcomes = point.outcomes;
+  const measures::OutcomeCounts& outcomes = point.outcomes;
   if (outcomes.zero_count < point.trials) {
     lines.push_back(
         fmt::format("Of the others, {} ended within one count, {} off target (stalled or still moving to the "
@@ -107,13 +109,13 @@ std::string at_point(const ReportedStudy& reported, std::int64_t point) {
 
 /// Adds the numbers of undecided moves at the best point and at the point with most of them.
 void add_undecided(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
-  const std::vector<PointSummary>& points = reported.summary.points;
-  const auto most =
-      std::max_element(points.begin(), points.end(), [](const PointSummary& a, const PointSummary& b) {
-        return a.undecided.off_target < b.undecided.off_target;
-      });
+  const std::vector<measures::PointSummary>& points = reported.summary.points;
+  const auto most = std::max_element(points.begin(), points.end(),
+                                     [](const measures::PointSummary& a, const measures::PointSummary& b) {
+                                       return a.undecided.off_target < b.undecided.off_target;
+                                     });
   const auto add = [&](std::int64_t point) {
-    const std::string sentence = undecided_sentence(point_of(reported, point).undecided);
+    const std::string sentence = measures::undecided_sentence(point_of(reported, point).undecided);
     if (sentence.empty()) return;
     lines.push_back(fmt::format("Undecided{}: {}. These moves are neither stable nor shown unstable.",
                                 at_point(reported, point), sentence));
@@ -129,14 +131,14 @@ std::string undecided_text(std::int64_t undecided) {
 
 /// Adds the differences between rigs at the best point.
 void add_rigs(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
-  const RigStatistics& rigs = point_of(reported, best).rigs;
+  const statistics::RigStatistics& rigs = point_of(reported, best).rigs;
   if (rigs.n == 0) return;
   std::string line =
       fmt::format("{} of {} rigs had no failure; the worst 5 % of them succeeded in {} of their trials.",
                   std::llround(rigs.without_failure * static_cast<double>(rigs.n)), rigs.n,
                   proportion_text(rigs.worst_5_percent));
   if (rigs.tolerance.min_rigs > 0) {
-    std::string sentence = tolerance_sentence(rigs.tolerance);
+    std::string sentence = statistics::tolerance_sentence(rigs.tolerance);
     sentence.front() = 'W';
     line += " " + sentence + ".";
   }
@@ -144,14 +146,15 @@ void add_rigs(std::vector<std::string>& lines, const ReportedStudy& reported, st
 }
 
 void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported) {
-  const std::vector<PointSummary>& points = reported.summary.points;
+  const std::vector<measures::PointSummary>& points = reported.summary.points;
   if (points.size() == 1) return;
-  const auto flawless = std::count_if(
-      points.begin(), points.end(), [](const PointSummary& p) { return p.outcomes.zero_count == p.trials; });
-  const auto worst =
-      std::min_element(points.begin(), points.end(), [](const PointSummary& a, const PointSummary& b) {
-        return a.success_rate().value < b.success_rate().value;
-      });
+  const auto flawless = std::count_if(points.begin(), points.end(), [](const measures::PointSummary& p) {
+    return p.outcomes.zero_count == p.trials;
+  });
+  const auto worst = std::min_element(points.begin(), points.end(),
+                                      [](const measures::PointSummary& a, const measures::PointSummary& b) {
+                                        return a.success_rate().value < b.success_rate().value;
+                                      });
   const std::string proportion = flawless == 0 ? fmt::format("None of the {} points is", points.size())
                                                : fmt::format("{} of the {} points {}", flawless,
                                                              points.size(), flawless == 1 ? "is" : "are");
@@ -162,25 +165,26 @@ void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported) 
 }
 
 /// Examples: "half of all moves within 0.05 s", "95 % of them not within the hold".
-std::string within_text(const PointSummary& point, const char* moves, double time) {
-  if (!std::isnan(time)) return fmt::format("{} within {} s", moves, short_number(time));
+std::string within_text(const measures::PointSummary& point, const char* moves, double time) {
+  if (!std::isnan(time)) return fmt::format("{} within {} s", moves, text::short_number(time));
   return fmt::format("{} not within {}", moves,
-                     std::isnan(point.hold) ? "the hold" : short_number(point.hold) + " s");
+                     std::isnan(point.hold) ? "the hold" : text::short_number(point.hold) + " s");
 }
 
 /// " (95 % bounds a to b s)"; empty if the trials are not independent or a bound is missing.
-std::string median_bounds_text(const ReportedStudy& reported, const Quantile& median) {
+std::string median_bounds_text(const ReportedStudy& reported, const statistics::Quantile& median) {
   if (reported.summary.features.dependent_trials || std::isnan(median.low) || std::isnan(median.high))
     return "";
-  return fmt::format(" (95 % bounds {} to {} s)", short_number(median.low), short_number(median.high));
+  return fmt::format(" (95 % bounds {} to {} s)", text::short_number(median.low),
+                     text::short_number(median.high));
 }
 
 void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
-  const PointSummary& point = point_of(reported, best);
-  const MeasureStatistics& settling = point.of(&MoveOutcome::settling_time);
-  const MeasureStatistics& jerks = point.of(&MoveOutcome::jerk_count);
+  const measures::PointSummary& point = point_of(reported, best);
+  const measures::MeasureStatistics& settling = point.of(&trial::MoveOutcome::settling_time);
+  const measures::MeasureStatistics& jerks = point.of(&trial::MoveOutcome::jerk_count);
   if (settling.n == 0) return;
-  lines.push_back(fmt::format("{} of the moves arrived{}: {}, {}.", percentage(settling.n, point.moves),
+  lines.push_back(fmt::format("{} of the moves arrived{}: {}, {}.", text::percentage(settling.n, point.moves),
                               at_point(reported, best),
                               within_text(point, "half of all moves", settling.median.value) +
                                   median_bounds_text(reported, settling.median),
@@ -189,11 +193,11 @@ void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, s
     lines.push_back("No move was disturbed by a jerk after it arrived.");
     return;
   }
-  lines.push_back(text_on(
+  lines.push_back(parameters::text_on(
       reported.file.axis(),
       fmt::format("After arrival there were {} jerks per trial; {} of them went in the direction of the "
                   "holding torque, {} were of one count.",
-                  short_number(jerks.mean), proportion_text(point.jerk_agreement),
+                  text::short_number(jerks.mean), proportion_text(point.jerk_agreement),
                   proportion_text(point.jerk_one_count_share))));
 }
 
@@ -207,18 +211,18 @@ void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) 
   std::int64_t beyond_of = 0;
   std::int64_t beyond_undecided = 0;
   for (std::size_t i = 0; i < reported.summary.predictions.size(); ++i) {
-    const TheoryPrediction& prediction = reported.summary.predictions[i];
-    const PointSummary& point = reported.summary.points[i];
-    if (predicted_trials(prediction) == 0) continue;
+    const measures::TheoryPrediction& prediction = reported.summary.predictions[i];
+    const measures::PointSummary& point = reported.summary.points[i];
+    if (measures::predicted_trials(prediction) == 0) continue;
     if (prediction.stable == prediction.trials) {
       ++stable_points;
-      stable_trials += point.of(&MoveOutcome::stable).trials;
+      stable_trials += point.of(&trial::MoveOutcome::stable).trials;
       stable_of += point.trials;
       stable_undecided += point.outcomes.off_target;
     }
     if (prediction.unstable == prediction.trials) {
       ++beyond_points;
-      beyond_stable += point.of(&MoveOutcome::stable).trials;
+      beyond_stable += point.of(&trial::MoveOutcome::stable).trials;
       beyond_of += point.trials;
       beyond_undecided += point.outcomes.off_target;
     }
@@ -247,9 +251,9 @@ std::string open_loop_verdict(const ReportedStudy& reported) {
   std::int64_t lost = 0;
   std::int64_t broke_away = 0;
   std::int64_t trials = 0;
-  for (const PointSummary& point : reported.summary.points) {
+  for (const measures::PointSummary& point : reported.summary.points) {
     lost += point.outcomes.nonfinite;
-    broke_away += point.of(&MoveOutcome::broke_away).trials;
+    broke_away += point.of(&trial::MoveOutcome::broke_away).trials;
     trials += point.trials;
   }
   return as_html(
@@ -279,4 +283,4 @@ std::string verdict_html(const ReportedStudy& reported) {
   return as_html(headline(reported, best), lines);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::report

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 BoundedNumber held_share(BoundedNumber number) {
   if (std::isnan(number.value)) return {};
@@ -15,4 +15,4 @@ BoundedNumber held_share(BoundedNumber number) {
           std::clamp(number.high, 0.0, 1.0)};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 /// A number with its confidence bounds; NaN where there is none.
 struct BoundedNumber {
@@ -22,4 +22,4 @@ inline bool excludes_zero(const BoundedNumber& number) {
 /// given.
 BoundedNumber held_share(BoundedNumber number);
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

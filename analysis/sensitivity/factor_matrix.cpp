@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 Eigen::MatrixXd standardised(const Eigen::MatrixXd& x) {
   const Eigen::MatrixXd centred = x.rowwise() - x.colwise().mean();
@@ -36,4 +36,4 @@ Eigen::MatrixXd marked_columns(const Eigen::MatrixXd& x, const std::vector<bool>
   return marked;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

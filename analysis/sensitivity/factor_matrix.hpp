@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 /// The columns of x less their means, over their standard deviations (divisor n).
 /// @param x none of its columns is constant.
@@ -18,4 +18,4 @@ std::vector<bool> independent_columns(const Eigen::MatrixXd& x);
 /// The columns of x that are marked.
 Eigen::MatrixXd marked_columns(const Eigen::MatrixXd& x, const std::vector<bool>& marks);
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -12,7 +12,7 @@
 #include "analysis/sensitivity/rank_correlation.hpp"
 #include "analysis/statistics/normal.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
 constexpr std::size_t min_trials = 20;
@@ -89,9 +89,9 @@ BoundedNumber given_data_first_order(std::span<const double> x, std::span<const 
   }
   const double at_zero = 2.0 * (filled - 1.0) * std::pow(1.0 - index, 2);
   const double half =
-      two_sided_normal_quantile(confidence) * std::sqrt(std::max(squares - at_zero, at_zero)) / n;
+      statistics::two_sided_normal_quantile(confidence) * std::sqrt(std::max(squares - at_zero, at_zero)) / n;
   return {index, std::max(index - std::max(half, null_reach(index, filled, n, confidence)), -1.0),
           std::min(index + half, 1.0)};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

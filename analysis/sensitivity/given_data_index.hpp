@@ -4,7 +4,7 @@
 
 #include "analysis/sensitivity/bounded_number.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 /// First-order Sobol' index of a factor from any sample of independent trials, the proportion of the variance
 /// of y that the mean of y given x has. The trials are put into M classes by x: each distinct value of x is
@@ -30,4 +30,4 @@ namespace zerocount {
 /// NaN where x or y is constant, or there are fewer than 20 trials or 2M. x and y have the same length.
 BoundedNumber given_data_first_order(std::span<const double> x, std::span<const double> y, double confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

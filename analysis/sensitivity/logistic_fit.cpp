@@ -9,7 +9,7 @@
 #include "analysis/sensitivity/factor_matrix.hpp"
 #include "analysis/statistics/normal.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
 constexpr Eigen::Index min_beyond_coefficients = 10;
@@ -88,7 +88,7 @@ LogisticFit logistic_fit(const Eigen::MatrixXd& x, const Eigen::VectorXd& yes, d
   if (fit.status == LogisticFit::Status::separated) return fit;
   const Eigen::MatrixXd information = curvature_at(z, yes, b).information;
   const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(z.cols(), z.cols()));
-  const double quantile = two_sided_normal_quantile(confidence);
+  const double quantile = statistics::two_sided_normal_quantile(confidence);
   const auto bounded = [&](Eigen::Index i) {
     const double half = quantile * std::sqrt(covariance(i, i));
     return BoundedNumber{b(i), b(i) - half, b(i) + half};
@@ -101,4 +101,4 @@ LogisticFit logistic_fit(const Eigen::MatrixXd& x, const Eigen::VectorXd& yes, d
   return fit;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

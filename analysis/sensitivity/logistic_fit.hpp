@@ -6,7 +6,7 @@
 
 #include "analysis/sensitivity/bounded_number.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 /// A logistic regression of a yes or no on factors.
 struct LogisticFit {
@@ -30,4 +30,4 @@ struct LogisticFit {
 /// @param x n × k, finite, no column constant. @param yes n values, 0 or 1.
 LogisticFit logistic_fit(const Eigen::MatrixXd& x, const Eigen::VectorXd& yes, double confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

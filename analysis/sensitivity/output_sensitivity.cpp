@@ -16,7 +16,7 @@
 #include "analysis/sensitivity/used_trials.hpp"
 #include "analysis/statistics/moments.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
 constexpr std::size_t min_rows = 10;
@@ -88,7 +88,7 @@ void note_uncertain_totals(OutputSensitivity& result) {
 }
 
 void add_design_indices(const PointInputs& point, const std::vector<double>& values, const UsedTrials& used,
-                        double confidence, const RandomStream& bootstrap, OutputSensitivity& result) {
+                        double confidence, const random::RandomStream& bootstrap, OutputSensitivity& result) {
   if (used.row_starts.size() < min_rows) {
     result.notes.push_back(fmt::format("{} rows of the design: Sobol' indices need {} at least",
                                        used.row_starts.size(), min_rows));
@@ -149,7 +149,7 @@ void add_notes(const PointInputs& point, const TrialOutputs& trials, const UsedT
         fmt::format("{} of {} trials are left out{}: some trials have no value, because their "
                     "motion was lost, was stopped, or is not in the file",
                     used.left_out, all - static_cast<std::size_t>(used.of_rigs),
-                    point.design == Design::saltelli ? ", in whole rows" : ""));
+                    point.design == study::Design::saltelli ? ", in whole rows" : ""));
   }
   if (used.of_rigs > 0) {
     result.notes.push_back(fmt::format(
@@ -161,7 +161,7 @@ void add_notes(const PointInputs& point, const TrialOutputs& trials, const UsedT
                     "duration",
                     trials.never_arrived, all));
   }
-  if (point.design == Design::latin_hypercube || point.design == Design::sobol) {
+  if (point.design == study::Design::latin_hypercube || point.design == study::Design::sobol) {
     result.notes.emplace_back(
         "the bounds are those of independent trials; with this design they are, as a rule, too wide");
   }
@@ -195,7 +195,7 @@ void rank_factors(bool from_saltelli, OutputSensitivity& result) {
 }
 
 void describe_sample(const std::vector<double>& y, OutputSensitivity& result) {
-  Moments moments;
+  statistics::Moments moments;
   for (const double value : y) moments.add(value);
   result.mean = moments.mean;
   result.standard_deviation = moments.sd();
@@ -205,12 +205,12 @@ void describe_sample(const std::vector<double>& y, OutputSensitivity& result) {
 
 OutputSensitivity output_sensitivity(const PointInputs& inputs, const SensitivityOutput& output,
                                      const TrialOutputs& trials, double confidence,
-                                     const RandomStream& bootstrap) {
+                                     const random::RandomStream& bootstrap) {
   OutputSensitivity result;
   result.output = output.name;
   result.unit = output.unit;
   result.meaning = output.meaning;
-  const bool from_saltelli = inputs.design == Design::saltelli;
+  const bool from_saltelli = inputs.design == study::Design::saltelli;
   const UsedTrials used = used_trials(inputs, trials.values);
   const std::vector<double> y = picked(trials.values, used.independent);
   result.trials = static_cast<std::int64_t>(trials.values.size()) - used.left_out - used.of_rigs;
@@ -227,4 +227,4 @@ OutputSensitivity output_sensitivity(const PointInputs& inputs, const Sensitivit
   return result;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -7,7 +7,7 @@
 #include "analysis/sensitivity/trial_outputs.hpp"
 #include "core/random/random_numbers.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 /// The values that one input had in the trials of a design point.
 struct InputValues {
@@ -17,7 +17,7 @@ struct InputValues {
 
 /// What the trials of a design point were run with.
 struct PointInputs {
-  Design design{Design::monte_carlo};
+  study::Design design{study::Design::monte_carlo};
   std::vector<std::string> factors;  ///< of the design saltelli, in its order; otherwise empty
   std::vector<InputValues> inputs;   ///< all input columns
   std::int64_t rigs{0};  ///< that the trials run on, the first ones each on another; 0: no trials share a rig
@@ -29,10 +29,10 @@ struct PointInputs {
 /// @param bootstrap where the rows are drawn anew from.
 OutputSensitivity output_sensitivity(const PointInputs& inputs, const SensitivityOutput& output,
                                      const TrialOutputs& trials, double confidence,
-                                     const RandomStream& bootstrap);
+                                     const random::RandomStream& bootstrap);
 
 /// One sentence on which factors matter. @param from_saltelli they have total indices.
 std::string sensitivity_conclusion(const OutputSensitivity& sensitivity, bool from_saltelli,
                                    double confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -13,7 +13,7 @@
 /// D = Σ (x_r − y_r)²/(2N V), V the variance (divisor 2N) of all 2N numbers. The total index is D of A and
 /// C_j, and D of B and C_j is 1 less the first-order index without a control variate. Dimensionless; all
 /// bounds are NaN where V is 0.
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 /// Number of pairs, all values 0 or 1.
 struct AnswerPairs {
@@ -51,10 +51,12 @@ inline BoundedNumber yes_no_difference(const AnswerPairs& pairs, double confiden
   const std::int64_t with_no = pairs.both_no + pairs.different;
   if (with_yes == 0 || with_no == 0) return {};
   const auto part = [](double proportion) { return proportion / (2.0 - proportion); };
-  const double u = rate(pairs.different, with_yes);
-  const double v = rate(pairs.different, with_no);
-  const ConfidenceInterval of_u = clopper_pearson(pairs.different, with_yes, confidence);
-  const ConfidenceInterval of_v = clopper_pearson(pairs.different, with_no, confidence);
+  const double u = statistics::rate(pairs.different, with_yes);
+  const double v = statistics::rate(pairs.different, with_no);
+  const statistics::ConfidenceInterval of_u =
+      statistics::clopper_pearson(pairs.different, with_yes, confidence);
+  const statistics::ConfidenceInterval of_v =
+      statistics::clopper_pearson(pairs.different, with_no, confidence);
   const double correlation = std::sqrt((1.0 - u) * (1.0 - v));
   const auto together = [&](double a, double b) {
     return std::sqrt(a * a + b * b + 2.0 * correlation * a * b);
@@ -86,4 +88,4 @@ inline BoundedNumber with_unseen(const BoundedNumber& resampled, double unseen) 
   return {value, value - std::hypot(below, unseen), value + std::hypot(above, unseen)};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -9,7 +9,7 @@
 #include "analysis/sensitivity/factor_matrix.hpp"
 #include "analysis/sensitivity/rank_correlation.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
 Eigen::MatrixXd ranks_of_columns(const Eigen::MatrixXd& x) {
@@ -72,4 +72,4 @@ std::vector<BoundedNumber> partial_rank_correlations(const Eigen::MatrixXd& x, s
   return correlations;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -7,7 +7,7 @@
 
 #include "analysis/sensitivity/bounded_number.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 /// Partial rank correlations of y with each column of x, [column] (PRCC; Iman, Shortencarier & Johnson 1985):
 /// the correlation of what is left of the ranks of the column and of y when the part linear in the ranks of
@@ -23,4 +23,4 @@ namespace zerocount {
 std::vector<BoundedNumber> partial_rank_correlations(const Eigen::MatrixXd& x, std::span<const double> y,
                                                      double confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -7,7 +7,7 @@
 
 #include "analysis/statistics/normal.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
 constexpr std::size_t min_values = 10;
@@ -84,7 +84,7 @@ std::vector<double> mid_distribution(std::span<const double> values) {
 BoundedNumber fisher_bounds(double correlation, double standard_error, double confidence) {
   const double slope = 1.0 - correlation * correlation;
   if (!(slope > 0.0)) return {correlation, correlation, correlation};
-  const double half = two_sided_normal_quantile(confidence) * standard_error / slope;
+  const double half = statistics::two_sided_normal_quantile(confidence) * standard_error / slope;
   const double middle = std::atanh(correlation);
   return {correlation, std::tanh(middle - half), std::tanh(middle + half)};
 }
@@ -110,4 +110,4 @@ BoundedNumber rank_correlation(std::span<const double> x, std::span<const double
   return fisher_bounds(correlation, std::sqrt(squares / (n * (n - 3.0))), confidence);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -5,7 +5,7 @@
 
 #include "analysis/sensitivity/bounded_number.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 /// The empirical mid-distribution function at each value: (number below + ½ number equal, itself included)/n,
 /// which is (rank − ½)/n with the mean rank of values that are equal. The mean is exactly ½. The values are
@@ -30,4 +30,4 @@ BoundedNumber fisher_bounds(double correlation, double standard_error, double co
 /// Whether all `values` are equal; true of none.
 bool is_constant(std::span<const double> values);
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

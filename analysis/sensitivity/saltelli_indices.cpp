@@ -8,7 +8,7 @@
 
 #include "analysis/sensitivity/pair_difference.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
 constexpr Eigen::Index max_groups = 4096;
@@ -79,11 +79,12 @@ double control_coefficient(const SaltelliSample& sample, std::size_t factor, dou
 }
 
 // How often each group is in the sample drawn anew.
-Eigen::VectorXd draw_groups(Eigen::Index groups, std::int64_t replicate, const RandomStream& randomness) {
+Eigen::VectorXd draw_groups(Eigen::Index groups, std::int64_t replicate,
+                            const random::RandomStream& randomness) {
   Eigen::VectorXd times = Eigen::VectorXd::Zero(groups);
   for (Eigen::Index i = 0; i < groups; ++i) {
     const auto index = static_cast<std::uint64_t>(replicate * groups + i);
-    const double u = open_uniform(random_bits(randomness, index, Draw::trial));
+    const double u = random::open_uniform(random::random_bits(randomness, index, random::Draw::trial));
     times(std::min(static_cast<Eigen::Index>(u * static_cast<double>(groups)), groups - 1)) += 1.0;
   }
   return times;
@@ -199,7 +200,7 @@ std::int64_t bootstrap_replicates(double confidence) {
 }
 
 std::vector<SobolIndices> saltelli_indices(const SaltelliSample& sample, double confidence,
-                                           const RandomStream& randomness) {
+                                           const random::RandomStream& randomness) {
   const std::size_t factors = sample.c.size();
   std::vector<SobolIndices> indices(factors);
   if (sample.a.size() < 2 || !has_variance(sample)) return indices;
@@ -234,4 +235,4 @@ std::vector<SobolIndices> saltelli_indices(const SaltelliSample& sample, double 
   return indices;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -6,7 +6,7 @@
 #include "analysis/sensitivity/bounded_number.hpp"
 #include "core/random/random_numbers.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 /// The output of the trials of a saltelli design with k factors and N rows, finite (see
 /// experiments/designs/saltelli.hpp).
@@ -50,6 +50,6 @@ std::int64_t bootstrap_replicates(double confidence);
 /// B: (Σ (y − m)²)²/Σ (y − m)⁴ < 20.
 /// @param randomness the rows are drawn from: the same gives the same bounds.
 std::vector<SobolIndices> saltelli_indices(const SaltelliSample& sample, double confidence,
-                                           const RandomStream& randomness);
+                                           const random::RandomStream& randomness);
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -13,7 +13,7 @@
 
 /// Which of the random parameters of a study drive what its trials do. Methods, formulas and sources:
 /// README.md of this folder.
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 /// One factor: something that is drawn anew in every trial. All indices are dimensionless.
 struct FactorSensitivity {
@@ -73,25 +73,26 @@ struct SensitivityOutput {
   std::string_view name;
   std::string_view unit;
   std::string_view meaning;
-  const Measure* measure;  ///< that it is made of
+  const layout::Measure* measure;  ///< that it is made of
 
-  bool yes_or_no() const { return is_quality(*measure); }
+  bool yes_or_no() const { return layout::is_quality(*measure); }
 };
 
 /// All of them, in the order of the help. The first two are asked about unless told otherwise.
-std::vector<SensitivityOutput> sensitivity_outputs(const MeasureTable& measures = measure_table());
+std::vector<SensitivityOutput> sensitivity_outputs(
+    const layout::MeasureTable& measures = layout::measure_table());
 
 /// What to ask of a file.
 struct SensitivityQuestion {
-  std::vector<std::int64_t> points{};     ///< empty: all
-  std::vector<std::string> outputs{};     ///< of sensitivity_outputs(); empty: success and settling_time
-  double confidence{summary_confidence};  ///< in (0, 0.999]
+  std::vector<std::int64_t> points{};  ///< empty: all
+  std::vector<std::string> outputs{};  ///< of sensitivity_outputs(); empty: success and settling_time
+  double confidence{statistics::summary_confidence};  ///< in (0, 0.999]
 };
 
 /// Answers from a complete results file. Deterministic: the resampling is seeded by the study's seed.
 /// @throws Failure: bad_input for a point or an output that there is not, or a confidence outside (0, 0.999];
 /// bad_data where the file is damaged.
-StudySensitivity study_sensitivity(const StudyFile& file, const SensitivityQuestion& question = {});
+StudySensitivity study_sensitivity(const reading::StudyFile& file, const SensitivityQuestion& question = {});
 
 /// Whether at least one output at one point could be estimated.
 bool any_estimated(const StudySensitivity& sensitivity);
@@ -103,4 +104,4 @@ std::string sensitivity_json(const StudySensitivity& sensitivity);
 /// A line per point, output and factor. RFC 4180 with \n; NaN is `nan`.
 std::string sensitivity_csv(const StudySensitivity& sensitivity);
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -9,7 +9,7 @@
 #include "analysis/sensitivity/output_sensitivity.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
 std::string joined(const std::vector<std::string>& words) {
@@ -36,7 +36,7 @@ std::string why_nothing(const OutputSensitivity& sensitivity) {
   }
   return fmt::format(
       "{} is {} in all {} trials: it has no variance, and nothing can be said of what drives it.",
-      sensitivity.output, short_number(sensitivity.mean), sensitivity.trials);
+      sensitivity.output, text::short_number(sensitivity.mean), sensitivity.trials);
 }
 
 }  // namespace
@@ -74,4 +74,4 @@ std::string sensitivity_conclusion(const OutputSensitivity& sensitivity, bool fr
   return fmt::format("By {:g} % bounds, each by itself: {}.", 100.0 * confidence, fmt::join(parts, "; "));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -8,7 +8,7 @@
 #include "analysis/sensitivity/sensitivity.hpp"
 #include "results/reading/csv.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -70,12 +70,12 @@ std::string csv_header() {
 
 std::string csv_row(const PointSensitivity& point, const OutputSensitivity& output,
                     const FactorSensitivity& factor) {
-  std::string line = fmt::format("{},{},{},{},{}", point.point, csv_field(point.label), output.output,
-                                 csv_field(factor.name), factor.matters ? 1 : 0);
+  std::string line = fmt::format("{},{},{},{},{}", point.point, reading::csv_field(point.label),
+                                 output.output, reading::csv_field(factor.name), factor.matters ? 1 : 0);
   for (const NamedMeasure& measure : named_measures) {
     const BoundedNumber& number = factor.*measure.number;
     for (const double value : {number.value, number.low, number.high})
-      line += fmt::format(",{}", number_text(value));
+      line += fmt::format(",{}", reading::number_text(value));
   }
   return line + "\n";
 }
@@ -107,4 +107,4 @@ std::string sensitivity_csv(const StudySensitivity& sensitivity) {
   return text;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

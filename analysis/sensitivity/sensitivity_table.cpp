@@ -8,7 +8,7 @@
 #include "analysis/sensitivity/sensitivity.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
 std::string with_bounds(const BoundedNumber& number) {
@@ -39,25 +39,25 @@ std::vector<Measure> measures_of(const OutputSensitivity& output, bool from_salt
 }
 
 std::string factor_table(const OutputSensitivity& output, bool from_saltelli) {
-  std::vector<TextColumn> columns{{"factor", false, {}}, {"matters", false, {}}};
+  std::vector<text::TextColumn> columns{{"factor", false, {}}, {"matters", false, {}}};
   for (const FactorSensitivity& factor : output.factors) {
-    columns[0].cells.push_back(printable(factor.name));
+    columns[0].cells.push_back(text::printable(factor.name));
     columns[1].cells.emplace_back(factor.matters ? "yes" : "");
   }
   for (const Measure& measure : measures_of(output, from_saltelli)) {
-    TextColumn column{measure.head, false, {}};
+    text::TextColumn column{measure.head, false, {}};
     for (const FactorSensitivity& factor : output.factors) {
       column.cells.push_back(with_bounds(factor.*measure.number));
     }
     columns.push_back(std::move(column));
   }
-  return aligned_table(columns);
+  return text::aligned_table(columns);
 }
 
 std::string left_out_line(const OutputSensitivity& output) {
   std::string names;
   for (const FactorLeftOut& factor : output.left_out) {
-    names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", printable(factor.name), factor.reason);
+    names += fmt::format("{}{}: {}", names.empty() ? "" : "; ", text::printable(factor.name), factor.reason);
   }
   return names.empty() ? "" : fmt::format("  left out: {}\n", names);
 }
@@ -66,7 +66,7 @@ std::string output_text(const OutputSensitivity& output, bool from_saltelli) {
   std::string text = fmt::format("{}{}: {}\n", output.output,
                                  output.unit == "1" ? "" : fmt::format(" ({})", output.unit), output.meaning);
   text += fmt::format("  {} trials, mean {}, standard deviation {}\n", output.trials,
-                      short_number(output.mean), short_number(output.standard_deviation));
+                      text::short_number(output.mean), text::short_number(output.standard_deviation));
   text += fmt::format("  {}\n", output.conclusion);
   for (const std::string& note : output.notes) text += fmt::format("  note: {}\n", note);
   text += left_out_line(output);
@@ -98,9 +98,9 @@ std::string legend(const StudySensitivity& sensitivity) {
 }  // namespace
 
 std::string sensitivity_table(const StudySensitivity& sensitivity) {
-  std::string text = printable(sensitivity.name) + "\n\n";
+  std::string text = text::printable(sensitivity.name) + "\n\n";
   for (const PointSensitivity& point : sensitivity.points) {
-    text += fmt::format("Point {}: {}\n\n", point.point, printable(point.label));
+    text += fmt::format("Point {}: {}\n\n", point.point, text::printable(point.label));
     for (const OutputSensitivity& output : point.outputs) {
       text += output_text(output, sensitivity.from_saltelli);
     }
@@ -108,4 +108,4 @@ std::string sensitivity_table(const StudySensitivity& sensitivity) {
   return text + legend(sensitivity);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

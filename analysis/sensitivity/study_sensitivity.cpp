@@ -11,10 +11,10 @@
 #include "experiments/designs/random_key.hpp"
 #include "results/layout/header.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
-std::vector<std::int64_t> points_asked(const StudyFile& file, const SensitivityQuestion& question) {
+std::vector<std::int64_t> points_asked(const reading::StudyFile& file, const SensitivityQuestion& question) {
   const std::int64_t count = file.header().points;
   for (const std::int64_t point : question.points) {
     if (point < 0 || point >= count) {
@@ -29,7 +29,7 @@ std::vector<std::int64_t> points_asked(const StudyFile& file, const SensitivityQ
 }
 
 std::vector<SensitivityOutput> outputs_asked(const SensitivityQuestion& question,
-                                             const MeasureTable& measures) {
+                                             const layout::MeasureTable& measures) {
   std::vector<SensitivityOutput> outputs;
   for (const std::string& name : question.outputs) outputs.push_back(find_sensitivity_output(name, measures));
   if (outputs.empty()) {
@@ -47,9 +47,9 @@ void check_confidence(double confidence) {
                 fmt::format("a confidence of {}; expected one above 0 and at most {}", confidence, highest));
 }
 
-PointInputs point_inputs(const StudyFile& file, const Study& study, std::int64_t point) {
+PointInputs point_inputs(const reading::StudyFile& file, const study::Study& study, std::int64_t point) {
   PointInputs inputs{.design = study.design, .factors = study.factors, .inputs = {}, .rigs = study.rigs};
-  const RowRange rows{point * file.header().trials, file.header().trials};
+  const layout::RowRange rows{point * file.header().trials, file.header().trials};
   for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
     inputs.inputs.push_back({file.input_columns()[column].name, file.input(column, rows)});
   }
@@ -58,17 +58,17 @@ PointInputs point_inputs(const StudyFile& file, const Study& study, std::int64_t
 
 }  // namespace
 
-StudySensitivity study_sensitivity(const StudyFile& file, const SensitivityQuestion& question) {
+StudySensitivity study_sensitivity(const reading::StudyFile& file, const SensitivityQuestion& question) {
   check_confidence(question.confidence);
-  const FileHeader& header = file.header();
-  const Study study = recorded_study(header, file.path());
+  const layout::FileHeader& header = file.header();
+  const study::Study study = layout::recorded_study(header, file.path());
   const std::vector<SensitivityOutput> outputs = outputs_asked(question, file.table());
   const std::vector<std::string> labels = file.point_labels();
   // The resampling is the same for all outputs and points, as the trials are.
-  const RandomStream bootstrap{random_key(header.seed, "sensitivity/bootstrap"), 0};
+  const random::RandomStream bootstrap{designs::random_key(header.seed, "sensitivity/bootstrap"), 0};
 
   StudySensitivity sensitivity{.name = header.name,
-                               .from_saltelli = study.design == Design::saltelli,
+                               .from_saltelli = study.design == study::Design::saltelli,
                                .confidence = question.confidence,
                                .points = {}};
   for (const std::int64_t point : points_asked(file, question)) {
@@ -77,8 +77,8 @@ StudySensitivity study_sensitivity(const StudyFile& file, const SensitivityQuest
     for (const SensitivityOutput& output : outputs) {
       OutputSensitivity result = output_sensitivity(inputs, output, trial_outputs(file, study, point, output),
                                                     question.confidence, bootstrap);
-      result.unit = unit_on(study.units.axis, result.unit);
-      result.meaning = text_on(study.units.axis, result.meaning);
+      result.unit = parameters::unit_on(study.units.axis, result.unit);
+      result.meaning = parameters::text_on(study.units.axis, result.meaning);
       at_point.outputs.push_back(std::move(result));
     }
     sensitivity.points.push_back(std::move(at_point));
@@ -93,4 +93,4 @@ bool any_estimated(const StudySensitivity& sensitivity) {
   });
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -8,7 +8,7 @@
 #include "experiments/study/study.hpp"
 #include "results/reading/study_file.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 /// One output of the trials of a design point.
 struct TrialOutputs {
@@ -18,13 +18,13 @@ struct TrialOutputs {
 
 /// The output with this name.
 /// @throws Failure (bad_input) where there is none; the message lists them.
-SensitivityOutput find_sensitivity_output(std::string_view name, const MeasureTable& measures);
+SensitivityOutput find_sensitivity_output(std::string_view name, const layout::MeasureTable& measures);
 
 /// @param study of the file. @param output of sensitivity_outputs().
-TrialOutputs trial_outputs(const StudyFile& file, const Study& study, std::int64_t point,
+TrialOutputs trial_outputs(const reading::StudyFile& file, const study::Study& study, std::int64_t point,
                            const SensitivityOutput& output);
 
 /// Duration of a move of this trial, a whole number of samples, s; of a closed loop.
-double move_duration(const TrialParameters& trial);
+double move_duration(const trial::TrialParameters& trial);
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

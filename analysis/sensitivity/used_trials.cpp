@@ -5,11 +5,11 @@
 
 #include "experiments/designs/saltelli.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 UsedTrials used_trials(const PointInputs& point, const std::vector<double>& values) {
   UsedTrials used;
-  if (point.design != Design::saltelli) {
+  if (point.design != study::Design::saltelli) {
     const std::size_t looked_at = point.rigs > 0 ? static_cast<std::size_t>(point.rigs) : values.size();
     for (std::size_t i = 0; i < looked_at; ++i) {
       if (std::isfinite(values[i])) used.independent.push_back(i);
@@ -18,7 +18,7 @@ UsedTrials used_trials(const PointInputs& point, const std::vector<double>& valu
     used.left_out = static_cast<std::int64_t>(looked_at - used.independent.size());
     return used;
   }
-  const std::size_t length = saltelli_row_length(point.factors.size());
+  const std::size_t length = designs::saltelli_row_length(point.factors.size());
   for (std::size_t start = 0; start + length <= values.size(); start += length) {
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(start);
     if (!std::all_of(first, first + static_cast<std::ptrdiff_t>(length),
@@ -51,4 +51,4 @@ SaltelliSample saltelli_sample(const PointInputs& point, const std::vector<doubl
   return sample;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

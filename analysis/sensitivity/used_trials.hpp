@@ -7,7 +7,7 @@
 #include "analysis/sensitivity/output_sensitivity.hpp"
 #include "analysis/sensitivity/saltelli_indices.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 
 /// The trials of a point from which the sensitivity of an output comes: those that have a value, of a
 /// saltelli design those whose whole row has.
@@ -28,4 +28,4 @@ std::vector<double> picked(const std::vector<double>& values, const std::vector<
 SaltelliSample saltelli_sample(const PointInputs& point, const std::vector<double>& values,
                                const UsedTrials& used);
 
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

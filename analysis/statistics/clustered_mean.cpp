@@ -11,7 +11,7 @@
 #include "analysis/statistics/normal.hpp"
 #include "analysis/statistics/poisson_bounds.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -45,17 +45,17 @@ Estimate estimate_of(const ClusterTotals& totals, const std::vector<std::int32_t
 }
 
 /// (θ* − θ)/e* of every resample, sorted. Infinite for a resample without spread.
-std::vector<double> studentised_means(const ClusterTotals& totals, double mean, const RandomStream& stream,
-                                      std::int64_t resamples) {
+std::vector<double> studentised_means(const ClusterTotals& totals, double mean,
+                                      const random::RandomStream& stream, std::int64_t resamples) {
   const std::size_t clusters = totals.sums.size();
   std::vector<double> result;
   std::vector<std::int32_t> drawn(clusters);
   for (std::int64_t r = 0; r < resamples; ++r) {
     std::fill(drawn.begin(), drawn.end(), 0);
     for (std::size_t i = 0; i < clusters; ++i) {
-      const double place =
-          open_uniform(random_bits(stream, static_cast<std::uint64_t>(r), static_cast<std::uint32_t>(i))) *
-          static_cast<double>(clusters);
+      const double place = random::open_uniform(random::random_bits(stream, static_cast<std::uint64_t>(r),
+                                                                    static_cast<std::uint32_t>(i))) *
+                           static_cast<double>(clusters);
       ++drawn[static_cast<std::size_t>(place)];
     }
     const Estimate estimate = estimate_of(totals, drawn, static_cast<double>(clusters));
@@ -125,7 +125,7 @@ double mean_of_clusters(const ClusterTotals& totals) {
   return number > 0.0 ? sum_of(totals.sums) / number : unknown_bound;
 }
 
-ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const RandomStream& stream,
+ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const random::RandomStream& stream,
                                          double confidence, std::int64_t resamples) {
   require_confidence(confidence);
   constexpr ConfidenceInterval none{unknown_bound, unknown_bound};
@@ -143,7 +143,7 @@ ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const Rand
           finite_or_unknown(estimate.mean - below * estimate.error)};
 }
 
-ConfidenceInterval clustered_count_bounds(const ClusterTotals& totals, const RandomStream& stream,
+ConfidenceInterval clustered_count_bounds(const ClusterTotals& totals, const random::RandomStream& stream,
                                           double confidence, std::int64_t resamples) {
   require_confidence(confidence);
   const auto clusters = static_cast<double>(totals.sums.size());
@@ -165,4 +165,4 @@ ConfidenceInterval clustered_count_bounds(const ClusterTotals& totals, const Ran
   return {bounds.low * scale, bounds.high * scale};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -6,7 +6,7 @@
 #include "analysis/statistics/proportion.hpp"
 #include "core/random/random_numbers.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// A larger number of clusters is merged into this many groups, which again are independent clusters. More
 /// groups would slow the bootstrap without better bounds.
@@ -42,7 +42,7 @@ double mean_of_clusters(const ClusterTotals& totals);
 /// Davison and Hinkley, Bootstrap Methods and their Application (1997), sections 2.4 and 5.2; Field and
 /// Welsh, J. R. Statist. Soc. B 69 (2007) 369 (clusters).
 /// @throws Failure (bad_input) for a confidence outside (0, 1).
-ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const RandomStream& stream,
+ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const random::RandomStream& stream,
                                          double confidence = summary_confidence,
                                          std::int64_t resamples = bootstrap_resamples);
 
@@ -55,8 +55,8 @@ ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const Rand
 /// upper bound is Garwood's −ln(tail) per cluster, as if all trials of a cluster were equal: 3.7/m at 95 %
 /// for m clusters.
 inline constexpr std::int64_t min_counting_clusters = 20;
-ConfidenceInterval clustered_count_bounds(const ClusterTotals& totals, const RandomStream& stream,
+ConfidenceInterval clustered_count_bounds(const ClusterTotals& totals, const random::RandomStream& stream,
                                           double confidence = summary_confidence,
                                           std::int64_t resamples = bootstrap_resamples);
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -8,7 +8,7 @@
 
 #include "analysis/statistics/normal.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 double proportion_of(const ClusterSums& sums) {
@@ -111,4 +111,4 @@ double clustered_at_most(const ClusterSums& sums, double confidence) {
   return upper_bound(proportion_of(sums), adjusted_events(sums, 1.0 - confidence), 1.0 - confidence);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -5,7 +5,7 @@
 
 #include "analysis/statistics/proportion.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// k hits among n events that form clusters: the trials of one rig, the moves or the jerks of one trial.
 /// Clusters are independent; events of one cluster are correlated.
@@ -56,4 +56,4 @@ ClusteredProportion clustered_proportion(const ClusterSums& sums, double confide
 double clustered_at_least(const ClusterSums& sums, double confidence);
 double clustered_at_most(const ClusterSums& sums, double confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -6,7 +6,7 @@
 
 #include "analysis/statistics/tolerance.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
@@ -107,4 +107,4 @@ double clustered_upper_limit(const ClusteredSample& sample, double content, doub
   return scaled_high(sample, tolerance_rank(whole, content, confidence), whole);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

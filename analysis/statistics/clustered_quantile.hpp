@@ -8,7 +8,7 @@
 #include "analysis/statistics/histogram.hpp"
 #include "analysis/statistics/quantile.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// Values in independent clusters, such as the settling times of the moves of a trial. Values may be
 /// censored: a move that never arrived has a settling time larger than all observed ones. A quantile that
@@ -62,4 +62,4 @@ Quantile clustered_quantile(const ClusteredSample& sample, double probability,
 /// tolerance_rank().
 double clustered_upper_limit(const ClusteredSample& sample, double content, double confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

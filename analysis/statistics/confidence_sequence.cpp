@@ -6,7 +6,7 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 constexpr double prior = 0.5;  // both parameters of the mixture's Beta distribution
@@ -77,4 +77,4 @@ std::int64_t projected_trials(std::int64_t successes, std::int64_t trials, doubl
   return std::min(enough * block, max_trials);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -4,7 +4,7 @@
 
 #include "analysis/statistics/proportion.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// Confidence sequence of a proportion. With at least the stated probability the true proportion lies within
 /// the bounds for *all* n at once. The bounds may therefore be evaluated after every trial, and sampling may
@@ -27,4 +27,4 @@ ConfidenceInterval confidence_sequence_bounds(std::int64_t successes, std::int64
 std::int64_t projected_trials(std::int64_t successes, std::int64_t trials, double halfwidth,
                               double confidence, std::int64_t block, std::int64_t max_trials);
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

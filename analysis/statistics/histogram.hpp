@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// A sample as a map from values to numbers of occurrences. Memory grows with the number of distinct values,
 /// which is small for counts and for times that are multiples of a sample time.
@@ -77,4 +77,4 @@ double order_statistic(const Histogram<Value>& histogram, std::int64_t rank) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

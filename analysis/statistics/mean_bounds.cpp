@@ -8,7 +8,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 ConfidenceInterval student_t(const Moments& sample, double confidence) {
   if (!(confidence > 0.0 && confidence < 1.0)) {
@@ -26,4 +26,4 @@ ConfidenceInterval student_t(const Moments& sample, double confidence) {
   return {sample.mean - half_width, sample.mean + half_width};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

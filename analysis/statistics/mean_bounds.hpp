@@ -3,7 +3,7 @@
 #include "analysis/statistics/moments.hpp"
 #include "analysis/statistics/proportion.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// Student's t interval of a mean: with t the quantile of (1 + confidence)/2 for n − 1 degrees of freedom,
 ///
@@ -14,4 +14,4 @@ namespace zerocount {
 /// @throws Failure (bad_input) for a confidence outside (0, 1).
 ConfidenceInterval student_t(const Moments& sample, double confidence = summary_confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

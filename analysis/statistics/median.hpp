@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// The upper median: the value of rank ⌊n/2⌋ + 1 of n ≥ 1 values.
 inline double upper_median(std::vector<double> values) {
@@ -13,4 +13,4 @@ inline double upper_median(std::vector<double> values) {
   return *middle;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// Mean, spread and extremes of the finite values of a sample, in the values' unit; NaN without values.
 /// Constant memory (Welford 1962).
@@ -39,4 +39,4 @@ struct Moments {
   }
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

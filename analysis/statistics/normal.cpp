@@ -4,7 +4,7 @@
 
 #include "analysis/statistics/proportion.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 using StandardNormal = boost::math::normal_distribution<double>;
@@ -24,4 +24,4 @@ double two_sided_normal_quantile(double confidence) {
   return normal_quantile(0.5 * (1.0 + confidence));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The standard normal distribution.
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// Quantile at the probability p in (0, 1).
 double normal_quantile(double p);
@@ -13,4 +13,4 @@ double normal_upper_tail(double z);
 /// @throws Failure (bad_input) for a confidence outside (0, 1).
 double two_sided_normal_quantile(double confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -5,7 +5,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 ConfidenceInterval poisson_bounds(double events, double confidence) {
   require_confidence(confidence);
@@ -17,4 +17,4 @@ ConfidenceInterval poisson_bounds(double events, double confidence) {
           boost::math::gamma_q_inv(events + 1.0, tail)};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

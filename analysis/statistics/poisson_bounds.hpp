@@ -2,7 +2,7 @@
 
 #include "analysis/statistics/proportion.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// Bounds of the mean of a Poisson distribution after `events` events were counted: the means that neither
 /// one-sided test at tail = (1 − confidence)/2 rejects. With γ(a; p) the p-quantile of the gamma distribution
@@ -15,4 +15,4 @@ namespace zerocount {
 /// @throws Failure (bad_input) for a confidence outside (0, 1) or a negative number.
 ConfidenceInterval poisson_bounds(double events, double confidence = summary_confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -10,7 +10,7 @@
 #include "analysis/statistics/normal.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 void require_proportion(std::int64_t successes, std::int64_t trials, double confidence) {
@@ -71,4 +71,4 @@ ConfidenceInterval wilson(std::int64_t successes, std::int64_t trials, double co
           successes == trials ? 1.0 : std::min(1.0, centre + half_width)};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// A closed interval.
 struct ConfidenceInterval {
@@ -48,4 +48,4 @@ double proportion_at_most(std::int64_t successes, std::int64_t trials, double co
 ConfidenceInterval wilson(std::int64_t successes, std::int64_t trials,
                           double confidence = summary_confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -10,7 +10,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 void require_inside_unit_interval(const char* what, double value) {
@@ -63,4 +63,4 @@ RankBounds quantile_rank_bounds(std::int64_t observations, double probability, d
   return {low, high};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -5,7 +5,7 @@
 #include "analysis/statistics/histogram.hpp"
 #include "analysis/statistics/proportion.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// Rank of the sample quantile: ⌈n·p⌉, at least 1; 0 if n is 0. `probability` p in (0, 1).
 ///
@@ -46,4 +46,4 @@ Quantile quantile(const Histogram<Value>& histogram, double probability,
           order_statistic(histogram, bounds.low), order_statistic(histogram, bounds.high)};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -8,7 +8,7 @@
 #include "analysis/statistics/rig_statistics.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 constexpr std::int64_t max_rigs = 1'000'000'000;
@@ -98,4 +98,4 @@ RigPlan plan_tolerance(double content, double success, double confidence, std::i
                     1, static_cast<std::int64_t>(std::ceil(std::log(allowance) / std::log(success) - 1e-9)))};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

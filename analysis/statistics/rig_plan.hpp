@@ -3,7 +3,7 @@
 #include <cstdint>
 
 /// Planning: the number of rigs, and of trials on each, that a claim needs.
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// A study of `rigs` rigs with `trials_per_rig` trials each.
 struct RigPlan {
@@ -31,4 +31,4 @@ std::int64_t rigs_for_halfwidth(double halfwidth, double confidence, double rate
 /// @throws Failure (bad_input) for a number outside (0, 1), or fewer rigs than the minimum.
 RigPlan plan_tolerance(double content, double success, double confidence, std::int64_t rigs = 0);
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -7,7 +7,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 constexpr double min_allowance = 0.25;  // δ
@@ -151,4 +151,4 @@ SuccessClaim success_claim_on_rigs(const ClusterSums& sums, double confidence) {
           sums.clusters};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -12,7 +12,7 @@
 
 /// How much rigs differ in their success. Repeatability concerns the trials of one rig, robustness the
 /// differences between rigs.
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// The trials of one rig at a design point.
 struct RigTrials {
@@ -86,4 +86,4 @@ RigStatistics rig_statistics(std::span<const RigTrials> rigs, double confidence 
 /// @param successes of the trials; each rig is a cluster
 SuccessClaim success_claim_on_rigs(const ClusterSums& successes, double confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

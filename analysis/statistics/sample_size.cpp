@@ -9,7 +9,7 @@
 #include "analysis/statistics/proportion.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 constexpr std::int64_t max_trials = 1'000'000'000'000;
@@ -103,4 +103,4 @@ std::int64_t trials_for_halfwidth(double halfwidth, double confidence, double ra
   });
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

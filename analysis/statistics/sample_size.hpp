@@ -4,7 +4,7 @@
 #include <vector>
 
 /// Planning: the number of trials that a claim needs.
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// The minimum number n of trials so that at most `failures` failures show a success rate of at least
 /// `success` with the stated confidence: P(B ≤ failures) ≤ 1 − confidence for B binomial (n, 1 − success).
@@ -33,4 +33,4 @@ ClaimPlan plan_with_power(double success, double confidence, double true_success
 /// @throws Failure (bad_input) for a half-width outside (0, ½), or a rate or confidence outside (0, 1).
 std::int64_t trials_for_halfwidth(double halfwidth, double confidence, double rate);
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

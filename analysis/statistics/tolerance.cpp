@@ -10,7 +10,7 @@
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 constexpr double rounding = 1e-9;  // of the last digit: 99.9 % with a rounding error is shown as 99.9 %
@@ -118,9 +118,9 @@ std::string settling_sentence(std::span<const ToleranceLimit> limits) {
   for (const ToleranceLimit& limit : limits) {
     if (std::isnan(limit.within)) continue;
     sentence += fmt::format("{}{:.6g} % {}within {} s", sentence.empty() ? "" : ", ", 100.0 * limit.content,
-                            sentence.empty() ? "settle " : "", short_number(limit.within));
+                            sentence.empty() ? "settle " : "", text::short_number(limit.within));
   }
   return sentence;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -10,7 +10,7 @@
 
 /// Tolerance statements: the proportion of all axes described by the manifest that succeed, or settle in
 /// time, with a stated confidence. Distribution-free; the trials must be independent.
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// Rank of the observation that is an upper tolerance limit: with the stated confidence, at least the
 /// proportion `content` of the population is not above it. The smallest u with P(B ≤ u − 1) ≥ confidence, B
@@ -68,4 +68,4 @@ std::string percent_at_least(double proportion);
 /// A proportion as a percentage, rounded up: to two significant digits, and to one decimal above 1 %.
 std::string percent_at_most(double proportion);
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

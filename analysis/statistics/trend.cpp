@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 /// Counts of values by rank; the number below a rank takes O(log n) (binary indexed tree, Fenwick 1994).
@@ -64,4 +64,4 @@ double kendall_tau(const RankTrend& trend) {
   return static_cast<double>(trend.rising - trend.falling) / static_cast<double>(pairs);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// Numbers of rising, falling and equal pairs of a series.
 struct RankTrend {
@@ -22,4 +22,4 @@ RankTrend rank_trend(std::span<const double> series);
 /// Kendall's τ_a = (rising − falling)/pairs, in [−1, 1]; NaN where there are no pairs.
 double kendall_tau(const RankTrend& trend);
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

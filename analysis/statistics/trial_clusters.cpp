@@ -1,6 +1,6 @@
 #include "analysis/statistics/trial_clusters.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 void TrialClusters::add_trial(std::int64_t trial, std::vector<double>& observed, std::int64_t size) {
   if (rigs_in_all_ == 0) {
@@ -21,4 +21,4 @@ ClusteredSample TrialClusters::sample() const {
   return sample;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

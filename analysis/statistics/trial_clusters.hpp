@@ -5,7 +5,7 @@
 
 #include "analysis/statistics/clustered_quantile.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 
 /// Collects the values of trials into clusters. A cluster is a trial, or with rigs all trials of a rig; trial
 /// i runs on rig i mod rigs.
@@ -32,4 +32,4 @@ class TrialClusters {
   ClusteredSample trials_;  ///< without rigs
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::statistics

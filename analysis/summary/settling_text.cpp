@@ -6,11 +6,12 @@
 
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 
-std::string settling_text(const PointSummary& point, double time) {
-  if (!std::isnan(time) || point.of(&MoveOutcome::settling_time).moves == 0) return short_number(time);
-  return std::isnan(point.hold) ? "> hold" : fmt::format("> {} s", short_number(point.hold));
+std::string settling_text(const measures::PointSummary& point, double time) {
+  if (!std::isnan(time) || point.of(&trial::MoveOutcome::settling_time).moves == 0)
+    return text::short_number(time);
+  return std::isnan(point.hold) ? "> hold" : fmt::format("> {} s", text::short_number(point.hold));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

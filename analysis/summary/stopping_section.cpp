@@ -5,26 +5,29 @@
 #include "analysis/statistics/confidence_sequence.hpp"
 #include "analysis/text/text.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
-std::vector<ConfidenceInterval> bounds_of(std::span<const PointSummary> points, double confidence) {
-  std::vector<ConfidenceInterval> bounds;
+std::vector<statistics::ConfidenceInterval> bounds_of(std::span<const measures::PointSummary> points,
+                                                      double confidence) {
+  std::vector<statistics::ConfidenceInterval> bounds;
   bounds.reserve(points.size());
-  for (const PointSummary& point : points) {
-    bounds.push_back(confidence_sequence_bounds(point.outcomes.zero_count, point.judged, confidence));
+  for (const measures::PointSummary& point : points) {
+    bounds.push_back(
+        statistics::confidence_sequence_bounds(point.outcomes.zero_count, point.judged, confidence));
   }
   return bounds;
 }
 
-double halfwidth(const ConfidenceInterval& bounds) {
+double halfwidth(const statistics::ConfidenceInterval& bounds) {
   return 0.5 * (bounds.high - bounds.low);
 }
 
 /// @param bounds at the confidence of the summary. @param judged at that of the rule.
-std::string text_of(const std::vector<ConfidenceInterval>& bounds,
-                    const std::vector<ConfidenceInterval>& judged, const std::vector<std::string>& labels,
-                    const StoppingRule& rule, std::int64_t rigs, double confidence) {
+std::string text_of(const std::vector<statistics::ConfidenceInterval>& bounds,
+                    const std::vector<statistics::ConfidenceInterval>& judged,
+                    const std::vector<std::string>& labels, const study::StoppingRule& rule,
+                    std::int64_t rigs, double confidence) {
   std::vector<std::vector<std::string>> cells{
       {"point", fmt::format("{:.6g} % bounds of zero-count, however often one looks (%)", 100.0 * confidence),
        fmt::format("asked for: ± {:.4g} %, came to", 100.0 * rule.success_rate_halfwidth)}};
@@ -32,11 +35,11 @@ std::string text_of(const std::vector<ConfidenceInterval>& bounds,
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     const bool here = halfwidth(judged[i]) <= rule.success_rate_halfwidth;
     reached = reached && here;
-    cells.push_back({printable(labels[i]),
+    cells.push_back({text::printable(labels[i]),
                      fmt::format("[{:.2f}, {:.2f}]", 100.0 * bounds[i].low, 100.0 * bounds[i].high),
                      fmt::format("± {:.2f} %{}", 100.0 * halfwidth(judged[i]), here ? "" : ": not reached")});
   }
-  return aligned_table(cells, {false, false, false}) +
+  return text::aligned_table(cells, {false, false, false}) +
          fmt::format(
              "\nhow many trials there are was decided by their outcomes, after every {} at each "
              "point{};\nall other bounds are those of a number fixed beforehand\n{}",
@@ -51,23 +54,24 @@ std::string text_of(const std::vector<ConfidenceInterval>& bounds,
 
 }  // namespace
 
-SummarySection stopping_section(std::span<const PointSummary> points, const std::vector<std::string>& labels,
-                                const StoppingRule& rule, double confidence) {
-  const std::vector<ConfidenceInterval> bounds = bounds_of(points, confidence);
-  const std::vector<ConfidenceInterval> judged = bounds_of(points, rule.confidence);
-  PointColumn low{"stopped_success_rate_low",
-                  "1",
-                  "lower bound of the success rate that holds however often one looks",
-                  {}};
-  PointColumn high{"stopped_success_rate_high",
-                   "1",
-                   "upper bound of the success rate that holds however often one looks",
-                   {}};
+measures::SummarySection stopping_section(std::span<const measures::PointSummary> points,
+                                          const std::vector<std::string>& labels,
+                                          const study::StoppingRule& rule, double confidence) {
+  const std::vector<statistics::ConfidenceInterval> bounds = bounds_of(points, confidence);
+  const std::vector<statistics::ConfidenceInterval> judged = bounds_of(points, rule.confidence);
+  layout::PointColumn low{"stopped_success_rate_low",
+                          "1",
+                          "lower bound of the success rate that holds however often one looks",
+                          {}};
+  layout::PointColumn high{"stopped_success_rate_high",
+                           "1",
+                           "upper bound of the success rate that holds however often one looks",
+                           {}};
   const std::int64_t rigs = points.empty() ? 0 : points.front().rigs.n;
-  SummarySection section{.key = "stopped",
-                         .json = {},
-                         .columns = {},
-                         .text = text_of(bounds, judged, labels, rule, rigs, confidence)};
+  measures::SummarySection section{.key = "stopped",
+                                   .json = {},
+                                   .columns = {},
+                                   .text = text_of(bounds, judged, labels, rule, rigs, confidence)};
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     low.values.push_back(bounds[i].low);
     high.values.push_back(bounds[i].high);
@@ -84,4 +88,4 @@ SummarySection stopping_section(std::span<const PointSummary> points, const std:
   return section;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -8,7 +8,7 @@
 #include "analysis/summary/summary.hpp"
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 
 /// The section "stopped" of the summary of a study that decided itself how many trials it took (`stop`): the
 /// bounds of the success rate that hold although it looked after every block.
@@ -24,7 +24,8 @@ namespace zerocount {
 /// a table.
 /// @param labels [point]
 /// @param confidence of the bounds
-SummarySection stopping_section(std::span<const PointSummary> points, const std::vector<std::string>& labels,
-                                const StoppingRule& rule, double confidence);
+measures::SummarySection stopping_section(std::span<const measures::PointSummary> points,
+                                          const std::vector<std::string>& labels,
+                                          const study::StoppingRule& rule, double confidence);
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -16,12 +16,12 @@
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
 constexpr std::int64_t jerks_at_once = 65536;
 
-[[noreturn]] void fail(const StudyFile& file, const std::string& what) {
+[[noreturn]] void fail(const reading::StudyFile& file, const std::string& what) {
   throw Failure(ExitCode::bad_data, fmt::format("{}: {}", file.path().string(), what));
 }
 
@@ -29,12 +29,12 @@ constexpr std::int64_t jerks_at_once = 65536;
 /// to rest may have thousands.
 class JerkStream {
  public:
-  JerkStream(const StudyFile& file, RowRange rows)
+  JerkStream(const reading::StudyFile& file, layout::RowRange rows)
       : file_(file), end_(file.first_jerk_from(rows.end())), read_(file.first_jerk_from(rows.first)) {}
 
   /// The next `count` jerks, which must belong to the trial of the global row `row`. Valid until the next
   /// call.
-  std::span<const Jerk> take(std::int64_t row, std::int64_t count) {
+  std::span<const trial::Jerk> take(std::int64_t row, std::int64_t count) {
     taken_.clear();
     while (static_cast<std::int64_t>(taken_.size()) < count) {
       if (next_ == block_.size() && !refill()) fail(file_, fmt::format("trial {}: jerks are missing", row));
@@ -58,19 +58,19 @@ class JerkStream {
     return !block_.empty();
   }
 
-  const StudyFile& file_;
+  const reading::StudyFile& file_;
   std::int64_t end_;   ///< position in the table
   std::int64_t read_;  ///< likewise: of the first that is not in the block
-  std::vector<JerkRecord> block_;
+  std::vector<layout::JerkRecord> block_;
   std::size_t next_{0};
-  std::vector<Jerk> taken_;
+  std::vector<trial::Jerk> taken_;
 };
 
-void add_trial(PointAccumulator& point, const StudyFile& file, std::int64_t row, const TrialOutcome& trial,
-               JerkStream& jerk_stream) {
+void add_trial(measures::PointAccumulator& point, const reading::StudyFile& file, std::int64_t row,
+               const trial::TrialOutcome& trial, JerkStream& jerk_stream) {
   std::int64_t count = 0;
-  for (const MoveOutcome& move : trial.moves) count += move.jerk_count;
-  const std::span<const Jerk> jerks = jerk_stream.take(row, count);
+  for (const trial::MoveOutcome& move : trial.moves) count += move.jerk_count;
+  const std::span<const trial::Jerk> jerks = jerk_stream.take(row, count);
   try {
     point.add(trial, jerks);
   } catch (const Failure& failure) {
@@ -78,29 +78,29 @@ void add_trial(PointAccumulator& point, const StudyFile& file, std::int64_t row,
   }
 }
 
-void require_all_trials(const StudyFile& file) {
-  const FileHeader& header = file.header();
-  if (file.rows() == RowRange{0, header.points * header.trials} && header.trials > 0) return;
+void require_all_trials(const reading::StudyFile& file) {
+  const layout::FileHeader& header = file.header();
+  if (file.rows() == layout::RowRange{0, header.points * header.trials} && header.trials > 0) return;
   fail(file, fmt::format("trials {} to {}; expected all {} trials of the study", file.rows().first,
                          file.rows().end() - 1, header.points * header.trials));
 }
 
 }  // namespace
 
-StudyAccumulator::StudyAccumulator(const Study& study, double confidence, bool bootstrap)
+StudyAccumulator::StudyAccumulator(const study::Study& study, double confidence, bool bootstrap)
     : study_(study), confidence_(confidence), bootstrap_(bootstrap) {
-  require_confidence(confidence);
+  statistics::require_confidence(confidence);
 }
 
-void StudyAccumulator::add(const StudyFile& file, RowRange rows) {
+void StudyAccumulator::add(const reading::StudyFile& file, layout::RowRange rows) {
   const std::int64_t moves = file.moves();
-  const MoveKind kind{study_.open_loop, file.header().version, study_.rigs};
+  const measures::MoveKind kind{study_.open_loop, file.header().version, study_.rigs};
   JerkStream jerks(file, rows);
-  TrialOutcome trial;
-  const std::int64_t trials_at_once = chunk_rows(moves);
+  trial::TrialOutcome trial;
+  const std::int64_t trials_at_once = layout::chunk_rows(moves);
   for (std::int64_t first = rows.first; first < rows.end(); first += trials_at_once) {
-    const RowRange block{first, std::min(trials_at_once, rows.end() - first)};
-    const std::vector<MoveOutcome> outcomes = file.outcomes(block);
+    const layout::RowRange block{first, std::min(trials_at_once, rows.end() - first)};
+    const std::vector<trial::MoveOutcome> outcomes = file.outcomes(block);
     for (std::int64_t row = block.first; row < block.end(); ++row) {
       while (!point_ || std::ssize(points_) < row / study_.trials) begin_point(kind, file.table());
       const auto begin = outcomes.begin() + (row - block.first) * moves;
@@ -111,59 +111,61 @@ void StudyAccumulator::add(const StudyFile& file, RowRange rows) {
   if (!jerks.at_end()) fail(file, "jerks are recorded beyond those that the trials counted");
 }
 
-void StudyAccumulator::begin_point(const MoveKind& kind, const MeasureTable& table) {
+void StudyAccumulator::begin_point(const measures::MoveKind& kind, const layout::MeasureTable& table) {
   if (point_) end_point();
   point_.emplace(kind, table);
 }
 
 void StudyAccumulator::end_point() {
-  StatisticsOptions options{confidence_, {}, study_.stop.has_value()};
+  measures::StatisticsOptions options{confidence_, {}, study_.stop.has_value()};
   if (bootstrap_) options.bootstrap = {study_.seed, static_cast<std::uint32_t>(points_.size())};
   points_.push_back(point_->statistics(options));
   point_.reset();
 }
 
-std::vector<PointSummary> StudyAccumulator::statistics() {
+std::vector<measures::PointSummary> StudyAccumulator::statistics() {
   if (point_) end_point();
   return std::move(points_);
 }
 
-std::vector<PointSummary> study_statistics(const StudyFile& file, const Study& study, double confidence,
-                                           bool bootstrap) {
+std::vector<measures::PointSummary> study_statistics(const reading::StudyFile& file,
+                                                     const study::Study& study, double confidence,
+                                                     bool bootstrap) {
   StudyAccumulator accumulator(study, confidence, bootstrap);
   require_all_trials(file);
   accumulator.add(file, file.rows());
   return accumulator.statistics();
 }
 
-TheoryPrediction point_prediction(const Study& study, std::int64_t point, std::int64_t trials) {
-  TheoryPrediction prediction;
+measures::TheoryPrediction point_prediction(const study::Study& study, std::int64_t point,
+                                            std::int64_t trials) {
+  measures::TheoryPrediction prediction;
   for (std::int64_t index = 0; index < trials; ++index)
-    prediction.add(predict(study_trial(study, point, index).parameters));
+    prediction.add(measures::predict(study::study_trial(study, point, index).parameters));
   return prediction;
 }
 
-std::vector<TheoryPrediction> study_predictions(const Study& study) {
-  std::vector<TheoryPrediction> predictions;
+std::vector<measures::TheoryPrediction> study_predictions(const study::Study& study) {
+  std::vector<measures::TheoryPrediction> predictions;
   predictions.reserve(study.point_labels.size());
-  for (std::int64_t point = 0; point < point_count(study); ++point)
+  for (std::int64_t point = 0; point < study::point_count(study); ++point)
     predictions.push_back(point_prediction(study, point, study.trials));
   return predictions;
 }
 
-StoredStatistics stored_statistics(const StudyFile& file, const Study& study) {
-  const std::vector<PointSummary> points = study_statistics(file, study);
-  StoredStatistics stored;
-  stored.points = point_columns(points, study_features(study), file.table());
-  const std::vector<PointColumn> predictions = prediction_columns(study_predictions(study));
+layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study) {
+  const std::vector<measures::PointSummary> points = study_statistics(file, study);
+  layout::StoredStatistics stored;
+  stored.points = measures::point_columns(points, study::study_features(study), file.table());
+  const std::vector<layout::PointColumn> predictions = measures::prediction_columns(study_predictions(study));
   stored.points.insert(stored.points.end(), predictions.begin(), predictions.end());
   if (study.open_loop) {
-    stored.tables.push_back(level_table(points, file.table()));
+    stored.tables.push_back(measures::level_table(points, file.table()));
   }
   if (!study.sequence.empty()) {
-    stored.groups = [&study](hdf5::File& part) { write_repeatability(part, study); };
+    stored.groups = [&study](hdf5::File& part) { iso230::write_repeatability(part, study); };
   }
   return stored;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -10,7 +10,7 @@
 #include "experiments/study/study.hpp"
 #include "results/reading/study_file.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 
 /// Takes the trials of a study from one results file or several, in order of rows, and gives the statistics
 /// of its design points. Files are read once, in blocks. The memory does not grow with the number of trials
@@ -21,24 +21,24 @@ class StudyAccumulator {
   /// @param bootstrap whether to find bounds of means by resampling, which takes its time; its random numbers
   /// are those of the study's seed.
   /// @throws Failure (bad_input) for a confidence outside (0, 1).
-  StudyAccumulator(const Study& study, double confidence, bool bootstrap);
+  StudyAccumulator(const study::Study& study, double confidence, bool bootstrap);
 
   /// @param rows of the file, which follow those added before
   /// @throws Failure (bad_data) where the file contradicts itself; the message names the trial.
-  void add(const StudyFile& file, RowRange rows);
+  void add(const reading::StudyFile& file, layout::RowRange rows);
 
   /// [point], up to the last that has trials. Ends the adding.
-  std::vector<PointSummary> statistics();
+  std::vector<measures::PointSummary> statistics();
 
  private:
-  void begin_point(const MoveKind& kind, const MeasureTable& table);
+  void begin_point(const measures::MoveKind& kind, const layout::MeasureTable& table);
   void end_point();
 
-  const Study& study_;
+  const study::Study& study_;
   double confidence_;
   bool bootstrap_;
-  std::vector<PointSummary> points_;       ///< those that are complete
-  std::optional<PointAccumulator> point_;  ///< the one after them, once it has begun
+  std::vector<measures::PointSummary> points_;       ///< those that are complete
+  std::optional<measures::PointAccumulator> point_;  ///< the one after them, once it has begun
 };
 
 /// The statistics of every design point of a complete results file, [point]; see StudyAccumulator.
@@ -47,18 +47,21 @@ class StudyAccumulator {
 /// @param study the study of the file.
 /// @param confidence of all bounds. @param bootstrap whether to find bounds of means by resampling, which
 /// takes its time; its random numbers are those of the study's seed.
-std::vector<PointSummary> study_statistics(const StudyFile& file, const Study& study,
-                                           double confidence = summary_confidence, bool bootstrap = false);
+std::vector<measures::PointSummary> study_statistics(const reading::StudyFile& file,
+                                                     const study::Study& study,
+                                                     double confidence = statistics::summary_confidence,
+                                                     bool bootstrap = false);
 
 /// What the criteria (6) and (7) say of the first `trials` of a point, from the parameters of each.
-TheoryPrediction point_prediction(const Study& study, std::int64_t point, std::int64_t trials);
+measures::TheoryPrediction point_prediction(const study::Study& study, std::int64_t point,
+                                            std::int64_t trials);
 
 /// The same of all trials of every point, [point].
-std::vector<TheoryPrediction> study_predictions(const Study& study);
+std::vector<measures::TheoryPrediction> study_predictions(const study::Study& study);
 
 /// Everything that the results file stores of its statistics: point_columns, prediction_columns, and the
 /// levels of an open-loop study. All bounds have 95 %.
 /// @param file holds all trials of `study`.
-StoredStatistics stored_statistics(const StudyFile& file, const Study& study);
+layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study);
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -22,39 +22,40 @@
 #include "results/layout/header.hpp"
 #include "results/shards/shard.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
 /// The hold of the moves at a point, s; NaN where trials differ in it.
-double hold_of(const Study& study, std::int64_t point) {
+double hold_of(const study::Study& study, std::int64_t point) {
   constexpr double differs = std::numeric_limits<double>::quiet_NaN();
   if (study.open_loop) return differs;
-  const bool recorded = std::any_of(study.input_columns.begin(), study.input_columns.end(),
-                                    [](const InputColumn& column) { return column.name == "command.hold"; });
-  const double hold = study_trial(study, point, 0).parameters.command.hold;
+  const bool recorded =
+      std::any_of(study.input_columns.begin(), study.input_columns.end(),
+                  [](const study::InputColumn& column) { return column.name == "command.hold"; });
+  const double hold = study::study_trial(study, point, 0).parameters.command.hold;
   constexpr std::int64_t looked_at = 64;  // a hold that is drawn differs long before
   for (std::int64_t index = 1; recorded && index < std::min(looked_at, study.trials); ++index) {
-    if (study_trial(study, point, index).parameters.command.hold != hold) return differs;
+    if (study::study_trial(study, point, index).parameters.command.hold != hold) return differs;
   }
   return hold;
 }
 
 /// What the study says of itself.
-StudySummary summary_of(const Study& study, double confidence) {
+StudySummary summary_of(const study::Study& study, double confidence) {
   StudySummary summary;
   summary.name = study.name;
   summary.labels = study.point_labels;
   summary.axes = study.axes;
   summary.observed = study.observed;
   summary.confidence = confidence;
-  summary.features = study_features(study);
-  summary.design = design_labels()[static_cast<std::size_t>(study.design)];
+  summary.features = study::study_features(study);
+  summary.design = manifest::design_labels()[static_cast<std::size_t>(study.design)];
   return summary;
 }
 
 /// Adds to the statistics what the study says of their points, and the sections that need no more.
-void complete_points(StudySummary& summary, const Study& study,
-                     const std::vector<UndecidedMoves>& undecided) {
+void complete_points(StudySummary& summary, const study::Study& study,
+                     const std::vector<measures::UndecidedMoves>& undecided) {
   for (std::size_t point = 0; point < summary.points.size(); ++point) {
     summary.points[point].hold = hold_of(study, static_cast<std::int64_t>(point));
     summary.points[point].undecided = undecided[point];
@@ -71,23 +72,23 @@ void add_assurance(StudySummary& summary) {
 /// Leaves the first `points` points.
 void shorten(StudySummary& summary, std::size_t points) {
   summary.labels.resize(points);
-  for (SweepAxis& axis : summary.axes) {
-    if (axis.kind == SweepAxis::Kind::text) axis.texts.resize(points);
-    if (axis.kind == SweepAxis::Kind::number) axis.numbers.resize(points);
+  for (study::SweepAxis& axis : summary.axes) {
+    if (axis.kind == study::SweepAxis::Kind::text) axis.texts.resize(points);
+    if (axis.kind == study::SweepAxis::Kind::number) axis.numbers.resize(points);
   }
 }
 
 /// The finished trials of a study, shard after shard in order of rows.
 class FinishedTrials {
  public:
-  FinishedTrials(const Study& study, double confidence, bool bootstrap)
+  FinishedTrials(const study::Study& study, double confidence, bool bootstrap)
       : study_(study),
         counts_(study.point_labels.size()),
         statistics_(study, confidence, bootstrap),
         undecided_(study) {}
 
   /// Takes of the shard's trials those that follow the trials taken before.
-  void add(const StudyFile& shard) {
+  void add(const reading::StudyFile& shard) {
     for (std::int64_t row = shard.rows().first; row < shard.rows().end();) {
       const std::int64_t point = row / study_.trials;
       const std::int64_t end = std::min((point + 1) * study_.trials, shard.rows().end());
@@ -108,19 +109,19 @@ class FinishedTrials {
       summary.predictions.push_back(
           point_prediction(study_, static_cast<std::int64_t>(point), counts_[point]));
     add_assurance(summary);
-    summary.unfinished = UnfinishedStudy{count_, trial_count(study_), point_count(study_)};
+    summary.unfinished = UnfinishedStudy{count_, study::trial_count(study_), study::point_count(study_)};
     return summary;
   }
 
  private:
-  void add(const StudyFile& shard, std::int64_t point, RowRange rows) {
+  void add(const reading::StudyFile& shard, std::int64_t point, layout::RowRange rows) {
     statistics_.add(shard, rows);
     undecided_.add(shard, rows);
     counts_[static_cast<std::size_t>(point)] += rows.count;
     count_ += rows.count;
   }
 
-  const Study& study_;
+  const study::Study& study_;
   std::vector<std::int64_t> counts_;  ///< [point]
   std::int64_t count_{0};
   StudyAccumulator statistics_;
@@ -129,8 +130,8 @@ class FinishedTrials {
 
 }  // namespace
 
-StudySummary summarise(const StudyFile& file, double confidence, bool bootstrap) {
-  const Study study = recorded_study(file.header(), file.path());
+StudySummary summarise(const reading::StudyFile& file, double confidence, bool bootstrap) {
+  const study::Study study = layout::recorded_study(file.header(), file.path());
   StudySummary summary = summary_of(study, confidence);
   summary.name = file.header().name;
   summary.labels = file.point_labels();
@@ -139,10 +140,10 @@ StudySummary summarise(const StudyFile& file, double confidence, bool bootstrap)
   UndecidedAccumulator undecided(study);
   undecided.add(file, file.rows());
   complete_points(summary, study, undecided.moves());
-  summary.predictions = predictions_of(file.statistics(), file.header().trials, file.path());
+  summary.predictions = measures::predictions_of(file.statistics(), file.header().trials, file.path());
   if (!study.sequence.empty()) {
     summary.sections.push_back(
-        repeatability_section(study_repeatability(file, study, confidence), summary.labels));
+        iso230::repeatability_section(iso230::study_repeatability(file, study, confidence), summary.labels));
   }
   if (study.stop) {
     summary.sections.push_back(stopping_section(summary.points, summary.labels, *study.stop, confidence));
@@ -152,12 +153,12 @@ StudySummary summarise(const StudyFile& file, double confidence, bool bootstrap)
 }
 
 StudySummary summarise_unfinished(const std::filesystem::path& shards, double confidence, bool bootstrap) {
-  std::optional<Study> study;
+  std::optional<study::Study> study;
   std::optional<FinishedTrials> trials;
-  for (const std::filesystem::path& path : shard_files(shards)) {
-    const StudyFile shard(path, Require::any_part);
+  for (const std::filesystem::path& path : shards::shard_files(shards)) {
+    const reading::StudyFile shard(path, reading::Require::any_part);
     if (!study) {
-      study = recorded_study(shard.header(), path);
+      study = layout::recorded_study(shard.header(), path);
       trials.emplace(*study, confidence, bootstrap);
     }
     if (shard.header().study_sha256 != study->study_sha256) {
@@ -173,4 +174,4 @@ StudySummary summarise_unfinished(const std::filesystem::path& shards, double co
   return trials->summary(confidence);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -5,12 +5,13 @@
 #include "analysis/summary/summary.hpp"
 #include "results/reading/study_file.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 
 /// The summary of a complete results file. What was observed comes from its manifest, what the criteria say
 /// from the columns of its /point: the trials are not drawn again. Every bound is found anew.
 /// @throws Failure (bad_input) for a confidence outside (0, 1), (bad_data) where the file is damaged.
-StudySummary summarise(const StudyFile& file, double confidence = summary_confidence, bool bootstrap = false);
+StudySummary summarise(const reading::StudyFile& file, double confidence = statistics::summary_confidence,
+                       bool bootstrap = false);
 
 /// The summary of a run that has not ended: of the trials in its finished shards, of each point those before
 /// the first that is missing, so that every rig has as many as there can be. Points without trials at the
@@ -20,4 +21,4 @@ StudySummary summarise(const StudyFile& file, double confidence = summary_confid
 /// (bad_input) where a shard vanishes, as shards do when the run ends.
 StudySummary summarise_unfinished(const std::filesystem::path& shards, double confidence, bool bootstrap);
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

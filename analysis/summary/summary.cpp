@@ -7,25 +7,25 @@
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 
 void require_consistent(const StudySummary& summary) {
   const std::size_t points = summary.points.size();
   bool consistent = summary.labels.size() == points;
   consistent = consistent && (summary.predictions.empty() || summary.predictions.size() == points);
-  for (const SweepAxis& axis : summary.axes) {
-    const bool text = axis.kind == SweepAxis::Kind::text;
+  for (const study::SweepAxis& axis : summary.axes) {
+    const bool text = axis.kind == study::SweepAxis::Kind::text;
     consistent = consistent && (text ? axis.texts.size() : axis.numbers.size()) == points;
   }
-  for (const SummarySection& section : summary.sections) {
+  for (const measures::SummarySection& section : summary.sections) {
     consistent = consistent && section.json.size() == points;
-    for (const PointColumn& column : section.columns)
+    for (const layout::PointColumn& column : section.columns)
       consistent = consistent && column.values.size() == points;
   }
   if (!consistent) {
     throw Failure(ExitCode::bad_data,
                   fmt::format("study {}: labels, axes, statistics and sections are not of the same {} points",
-                              printable(summary.name), points));
+                              text::printable(summary.name), points));
   }
 }
 
@@ -43,4 +43,4 @@ std::string observed_at(const StudySummary& summary, std::int64_t point) {
   return entry != summary.observed.end() ? entry->second : std::string{};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

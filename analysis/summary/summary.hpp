@@ -15,7 +15,7 @@
 #include "experiments/study/study_features.hpp"
 #include "results/layout/layout.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 
 /// How far a run has come.
 struct UnfinishedStudy {
@@ -26,20 +26,22 @@ struct UnfinishedStudy {
 
 /// What a summary says of a study. Vectors by point have the length of `points`.
 struct StudySummary {
-  std::string name;                             ///< of the study
-  std::vector<std::string> labels;              ///< [point]
-  std::vector<SweepAxis> axes;                  ///< each with a value per point
-  std::map<std::string, std::string> observed;  ///< point label → what was observed on the real rig
-  std::string design{"monte_carlo"};            ///< its word in the manifest
-  double confidence{summary_confidence};        ///< of all bounds
-  std::vector<PointSummary> points;             ///< [point]
-  std::vector<TheoryPrediction> predictions{};  ///< [point], or empty where not computed
-  StudyFeatures features{};                     ///< what the table has columns for
-  std::optional<UnfinishedStudy> unfinished{};  ///< where the run has not ended
-  std::vector<SummarySection> sections{};
+  std::string name;                                   ///< of the study
+  std::vector<std::string> labels;                    ///< [point]
+  std::vector<study::SweepAxis> axes;                 ///< each with a value per point
+  std::map<std::string, std::string> observed;        ///< point label → what was observed on the real rig
+  std::string design{"monte_carlo"};                  ///< its word in the manifest
+  double confidence{statistics::summary_confidence};  ///< of all bounds
+  std::vector<measures::PointSummary> points;         ///< [point]
+  std::vector<measures::TheoryPrediction> predictions{};  ///< [point], or empty where not computed
+  study::StudyFeatures features{};                        ///< what the table has columns for
+  std::optional<UnfinishedStudy> unfinished{};            ///< where the run has not ended
+  std::vector<measures::SummarySection> sections{};
 
   /// The measures that the points have statistics of.
-  const MeasureTable& table() const { return points.empty() ? measure_table() : *points.front().table; }
+  const layout::MeasureTable& table() const {
+    return points.empty() ? layout::measure_table() : *points.front().table;
+  }
 };
 
 /// @throws Failure (bad_data) where labels, axes, statistics and predictions are not of the same points. The
@@ -73,4 +75,4 @@ std::string summary_json_text(const StudySummary& summary);
 /// 4180 with \n; NaN is `nan`; numbers read back to the same double.
 std::string summary_csv(const StudySummary& summary);
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

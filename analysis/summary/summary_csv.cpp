@@ -9,7 +9,7 @@
 #include "analysis/summary/summary.hpp"
 #include "results/reading/csv.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
 /// What a line is of: a point, or one of its levels.
@@ -28,14 +28,14 @@ std::vector<CsvSubject> csv_subjects(const StudySummary& summary) {
 }
 
 template <class Subject>
-std::string field_text(const ReportField<Subject>& field, const Subject& subject) {
+std::string field_text(const text::ReportField<Subject>& field, const Subject& subject) {
   const double value = field.value(subject);
-  return field.whole ? std::to_string(static_cast<std::int64_t>(value)) : number_text(value);
+  return field.whole ? std::to_string(static_cast<std::int64_t>(value)) : reading::number_text(value);
 }
 
 std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
-  for (const std::string& cell : cells) line += (line.empty() ? "" : ",") + csv_field(cell);
+  for (const std::string& cell : cells) line += (line.empty() ? "" : ",") + reading::csv_field(cell);
   return line + "\n";
 }
 
@@ -50,40 +50,43 @@ std::string summary_csv(const StudySummary& summary) {
     for (std::size_t i = 0; i < subjects.size(); ++i) lines[i + 1].push_back(cell(subjects[i]));
   };
   const auto prediction_at = [&](std::size_t point) {
-    return summary.predictions.empty() ? TheoryPrediction{} : summary.predictions[point];
+    return summary.predictions.empty() ? measures::TheoryPrediction{} : summary.predictions[point];
   };
   add("point", [](CsvSubject s) { return std::to_string(s.point); });
   add("label", [&](CsvSubject s) { return summary.labels[s.point]; });
-  for (const SweepAxis& axis : summary.axes) {
+  for (const study::SweepAxis& axis : summary.axes) {
     add(axis.name, [&](CsvSubject s) {
-      return axis.kind == SweepAxis::Kind::text ? axis.texts[s.point] : number_text(axis.numbers[s.point]);
+      return axis.kind == study::SweepAxis::Kind::text ? axis.texts[s.point]
+                                                       : reading::number_text(axis.numbers[s.point]);
     });
   }
   if (summary.features.open_loop) {
     add("level", [](CsvSubject s) { return std::to_string(s.level); });
-    for (const LevelField& field : level_fields(summary.table()))
-      add(flat_name(field),
+    for (const measures::LevelField& field : measures::level_fields(summary.table()))
+      add(text::flat_name(field),
           [&](CsvSubject s) { return field_text(field, summary.points[s.point].levels[s.level]); });
   } else {
-    for (const StatisticField& field : statistic_fields(summary.features, summary.table()))
-      add(flat_name(field), [&](CsvSubject s) { return field_text(field, summary.points[s.point]); });
-    for (const PredictionField& field : prediction_fields()) {
+    for (const measures::StatisticField& field :
+         measures::statistic_fields(summary.features, summary.table()))
+      add(text::flat_name(field), [&](CsvSubject s) { return field_text(field, summary.points[s.point]); });
+    for (const measures::PredictionField& field : measures::prediction_fields()) {
       add(std::string(field.name), [&](CsvSubject s) {
-        const TheoryPrediction prediction = prediction_at(s.point);
-        return number_text(rate(prediction.*field.trials, predicted_trials(prediction)));
+        const measures::TheoryPrediction prediction = prediction_at(s.point);
+        return reading::number_text(
+            statistics::rate(prediction.*field.trials, measures::predicted_trials(prediction)));
       });
     }
-    add("predicted", [&](CsvSubject s) { return verdict(prediction_at(s.point)); });
+    add("predicted", [&](CsvSubject s) { return measures::verdict(prediction_at(s.point)); });
   }
   add("observed", [&](CsvSubject s) { return observed_at(summary, static_cast<std::int64_t>(s.point)); });
-  for (const SummarySection& section : summary.sections) {
+  for (const measures::SummarySection& section : summary.sections) {
     if (summary.features.open_loop) break;
-    for (const PointColumn& column : section.columns)
-      add(column.name, [&](CsvSubject s) { return number_text(column.values[s.point]); });
+    for (const layout::PointColumn& column : section.columns)
+      add(column.name, [&](CsvSubject s) { return reading::number_text(column.values[s.point]); });
   }
   std::string text;
   for (const std::vector<std::string>& line : lines) text += csv_line(line);
   return text;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -10,13 +10,13 @@
 #include "analysis/text/report_json.hpp"
 #include "results/layout/layout.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
 nlohmann::ordered_json axes_json(const StudySummary& summary, std::size_t point) {
   nlohmann::ordered_json axes = nlohmann::ordered_json::object();
-  for (const SweepAxis& axis : summary.axes) {
-    if (axis.kind == SweepAxis::Kind::text) {
+  for (const study::SweepAxis& axis : summary.axes) {
+    if (axis.kind == study::SweepAxis::Kind::text) {
       axes[axis.name] = axis.texts[point];
     } else {
       axes[axis.name] = axis.numbers[point];
@@ -25,48 +25,52 @@ nlohmann::ordered_json axes_json(const StudySummary& summary, std::size_t point)
   return axes;
 }
 
-nlohmann::ordered_json moves_json(const PointSummary& statistics, const StudyFeatures& features) {
+nlohmann::ordered_json moves_json(const measures::PointSummary& statistics,
+                                  const study::StudyFeatures& features) {
   nlohmann::ordered_json moves = nlohmann::ordered_json::array();
-  const std::vector<const Measure*> qualities = counted_qualities(features, *statistics.table);
+  const std::vector<const layout::Measure*> qualities =
+      measures::counted_qualities(features, *statistics.table);
   for (std::size_t move = 0; move < statistics.by_move.size(); ++move) {
     nlohmann::ordered_json counts;
-    for (const FlagMeaning& outcome : outcome_labels()) {
-      counts[outcome.word] = statistics.by_move[move].*counter_of(static_cast<Outcome>(outcome.value));
+    for (const layout::FlagMeaning& outcome : layout::outcome_labels()) {
+      counts[outcome.word] =
+          statistics.by_move[move].*measures::counter_of(static_cast<trial::Outcome>(outcome.value));
     }
-    for (const Measure* measure : qualities)
+    for (const layout::Measure* measure : qualities)
       counts[measure->field.column.name] = statistics.of(*measure).by_move.at(move);
     moves.push_back(std::move(counts));
   }
   return moves;
 }
 
-nlohmann::ordered_json prediction_json(const TheoryPrediction& prediction) {
+nlohmann::ordered_json prediction_json(const measures::TheoryPrediction& prediction) {
   return {{"trials", prediction.trials},
           {"stable", prediction.stable},
           {"unstable", prediction.unstable},
-          {"stable_share", rate(prediction.stable, predicted_trials(prediction))},
-          {"unstable_share", rate(prediction.unstable, predicted_trials(prediction))},
-          {"verdict", verdict(prediction)}};
+          {"stable_share", statistics::rate(prediction.stable, measures::predicted_trials(prediction))},
+          {"unstable_share", statistics::rate(prediction.unstable, measures::predicted_trials(prediction))},
+          {"verdict", measures::verdict(prediction)}};
 }
 
 }  // namespace
 
 nlohmann::ordered_json summary_json(const StudySummary& summary) {
   require_consistent(summary);
-  const std::vector<StatisticField> fields = statistic_fields(summary.features, summary.table());
-  const std::vector<StatisticField> bounds = mean_bound_fields(summary.table());
+  const std::vector<measures::StatisticField> fields =
+      measures::statistic_fields(summary.features, summary.table());
+  const std::vector<measures::StatisticField> bounds = measures::mean_bound_fields(summary.table());
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     nlohmann::ordered_json point{{"point", i}, {"label", summary.labels[i]}, {"axes", axes_json(summary, i)}};
-    add_fields(point, fields, summary.points[i]);
-    add_fields(point, bounds, summary.points[i]);
+    text::add_fields(point, fields, summary.points[i]);
+    text::add_fields(point, bounds, summary.points[i]);
     point["moves"] = moves_json(summary.points[i], summary.features);
     if (summary.features.open_loop) point["levels"] = levels_json(summary.points[i]);
     if (!summary.predictions.empty()) point["prediction"] = prediction_json(summary.predictions[i]);
     if (const std::string seen = observed_at(summary, static_cast<std::int64_t>(i)); !seen.empty()) {
       point["observed"] = seen;
     }
-    for (const SummarySection& section : summary.sections) point[section.key] = section.json[i];
+    for (const measures::SummarySection& section : summary.sections) point[section.key] = section.json[i];
     points.push_back(std::move(point));
   }
   nlohmann::ordered_json json{{"name", summary.name},
@@ -85,4 +89,4 @@ std::string summary_json_text(const StudySummary& summary) {
          "\n";
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -8,7 +8,7 @@
 #include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/report_json.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
 constexpr double micro = 1e6;
@@ -20,16 +20,16 @@ int decimals_below(double uncertainty) {
 
 /// `value` as precisely as its bounds allow; with four digits where they say nothing.
 std::string bounded_number(double value, double uncertainty) {
-  if (!(uncertainty > 0.0)) return short_number(value);
+  if (!(uncertainty > 0.0)) return text::short_number(value);
   return fmt::format("{:.{}f}", value, decimals_below(uncertainty));
 }
 
-std::string position_text(const MeasureStatistics& position) {
-  const ConfidenceInterval& bounds = position.mean_bounds;
+std::string position_text(const measures::MeasureStatistics& position) {
+  const statistics::ConfidenceInterval& bounds = position.mean_bounds;
   return bounded_number(micro * position.mean, 0.5 * micro * (bounds.high - bounds.low));
 }
 
-std::string bounds_text(const ConfidenceInterval& bounds) {
+std::string bounds_text(const statistics::ConfidenceInterval& bounds) {
   if (std::isnan(bounds.low)) return "–";
   const double uncertainty = 0.5 * micro * (bounds.high - bounds.low);
   return fmt::format("[{}, {}]", bounded_number(micro * bounds.low, uncertainty),
@@ -38,40 +38,42 @@ std::string bounds_text(const ConfidenceInterval& bounds) {
 
 }  // namespace
 
-std::vector<TextColumn> level_columns(const StudySummary& summary) {
-  const AxisKind axis = summary.features.axis;
-  const std::string torque_head = fmt::format("{} ({})", text_on(axis, "torque"), unit_on(axis, "N m"));
-  const std::string small = unit_on(axis, "µrad");
-  std::vector<TextColumn> columns{{"point", false, {}},
-                                  {"level", true, {}},
-                                  {torque_head, true, {}},
-                                  {"trials", true, {}},
-                                  {fmt::format("position ({})", small), true, {}},
-                                  {bounds_head(summary), true, {}},
-                                  {fmt::format("sd ({})", small), true, {}},
-                                  {fmt::format("creep ({})", small), true, {}},
-                                  {"depth", true, {}},
-                                  {"broke away", true, {}}};
+std::vector<text::TextColumn> level_columns(const StudySummary& summary) {
+  const parameters::AxisKind axis = summary.features.axis;
+  const std::string torque_head =
+      fmt::format("{} ({})", parameters::text_on(axis, "torque"), parameters::unit_on(axis, "N m"));
+  const std::string small = parameters::unit_on(axis, "µrad");
+  std::vector<text::TextColumn> columns{{"point", false, {}},
+                                        {"level", true, {}},
+                                        {torque_head, true, {}},
+                                        {"trials", true, {}},
+                                        {fmt::format("position ({})", small), true, {}},
+                                        {bounds_head(summary), true, {}},
+                                        {fmt::format("sd ({})", small), true, {}},
+                                        {fmt::format("creep ({})", small), true, {}},
+                                        {"depth", true, {}},
+                                        {"broke away", true, {}}};
   const std::vector<std::string> observed = observations(summary);
   if (!observed.empty()) columns.push_back({"observed", false, {}});
   for (std::size_t point = 0; point < summary.points.size(); ++point) {
-    const std::vector<LevelStatistics>& levels = summary.points[point].levels;
+    const std::vector<measures::LevelStatistics>& levels = summary.points[point].levels;
     for (std::size_t i = 0; i < levels.size(); ++i) {
-      const LevelStatistics& level = levels[i];
-      const MeasureStatistics& torque = level.of(&MoveOutcome::holding_torque);
-      const MeasureStatistics& position = level.of(&MoveOutcome::final_position);
-      const double depth = level.of(&MoveOutcome::reversal_depth).max;
-      std::vector<std::string> cells{printable(summary.labels[point]),
-                                     std::to_string(i),
-                                     short_number(torque.mean),
-                                     std::to_string(torque.n),
-                                     position_text(position),
-                                     bounds_text(position.mean_bounds),
-                                     short_number(micro * position.sd),
-                                     short_number(micro * level.of(&MoveOutcome::creep).mean),
-                                     torque.n == 0 ? "–" : fmt::format("{:.0f}", depth),
-                                     percentage(level.of(&MoveOutcome::broke_away).trials, torque.n)};
-      if (!observed.empty()) cells.push_back(i == 0 ? printable(observed[point]) : "");
+      const measures::LevelStatistics& level = levels[i];
+      const measures::MeasureStatistics& torque = level.of(&trial::MoveOutcome::holding_torque);
+      const measures::MeasureStatistics& position = level.of(&trial::MoveOutcome::final_position);
+      const double depth = level.of(&trial::MoveOutcome::reversal_depth).max;
+      std::vector<std::string> cells{
+          text::printable(summary.labels[point]),
+          std::to_string(i),
+          text::short_number(torque.mean),
+          std::to_string(torque.n),
+          position_text(position),
+          bounds_text(position.mean_bounds),
+          text::short_number(micro * position.sd),
+          text::short_number(micro * level.of(&trial::MoveOutcome::creep).mean),
+          torque.n == 0 ? "–" : fmt::format("{:.0f}", depth),
+          text::percentage(level.of(&trial::MoveOutcome::broke_away).trials, torque.n)};
+      if (!observed.empty()) cells.push_back(i == 0 ? text::printable(observed[point]) : "");
       for (std::size_t column = 0; column < columns.size(); ++column) {
         columns[column].cells.push_back(cells[column]);
       }
@@ -87,15 +89,15 @@ std::string level_legend() {
          "trials\n";
 }
 
-nlohmann::ordered_json levels_json(const PointSummary& point) {
+nlohmann::ordered_json levels_json(const measures::PointSummary& point) {
   nlohmann::ordered_json levels = nlohmann::ordered_json::array();
-  const std::vector<LevelField> fields = level_fields(*point.table);
+  const std::vector<measures::LevelField> fields = measures::level_fields(*point.table);
   for (std::size_t i = 0; i < point.levels.size(); ++i) {
     nlohmann::ordered_json level{{"level", i}};
-    add_fields(level, fields, point.levels[i]);
+    text::add_fields(level, fields, point.levels[i]);
     levels.push_back(std::move(level));
   }
   return levels;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

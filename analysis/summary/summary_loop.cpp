@@ -7,114 +7,116 @@
 #include "analysis/summary/settling_text.hpp"
 #include "analysis/summary/summary_parts.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
-std::string interval_in_percent(const ConfidenceInterval& interval) {
+std::string interval_in_percent(const statistics::ConfidenceInterval& interval) {
   return fmt::format("[{:.1f}, {:.1f}]", 100.0 * interval.low, 100.0 * interval.high);
 }
 
-std::int64_t rigs_without_failure(const PointSummary& point) {
+std::int64_t rigs_without_failure(const measures::PointSummary& point) {
   return std::llround(point.rigs.without_failure * static_cast<double>(point.rigs.n));
 }
 
 bool any_undecided(const StudySummary& summary) {
   return std::any_of(summary.points.begin(), summary.points.end(),
-                     [](const PointSummary& point) { return point.outcomes.off_target > 0; });
+                     [](const measures::PointSummary& point) { return point.outcomes.off_target > 0; });
 }
 
 /// Trials that ended within one count and are not stable.
-std::int64_t unsettled(const PointSummary& point) {
-  return point.outcomes.zero_count + point.outcomes.one_count - point.of(&MoveOutcome::stable).trials;
+std::int64_t unsettled(const measures::PointSummary& point) {
+  return point.outcomes.zero_count + point.outcomes.one_count - point.of(&trial::MoveOutcome::stable).trials;
 }
 
 /// Whether these are many enough at some point to have a column.
 bool any_unsettled(const StudySummary& summary) {
   constexpr double min_proportion = 0.02;
-  return std::any_of(summary.points.begin(), summary.points.end(), [](const PointSummary& point) {
+  return std::any_of(summary.points.begin(), summary.points.end(), [](const measures::PointSummary& point) {
     return static_cast<double>(unsettled(point)) > min_proportion * static_cast<double>(point.judged);
   });
 }
 
 /// A column with a cell for each point.
 template <typename Cell>
-TextColumn by_point(const StudySummary& summary, std::string head, Cell cell) {
-  TextColumn column{std::move(head), true, {}};
-  for (const PointSummary& point : summary.points) column.cells.push_back(cell(point));
+text::TextColumn by_point(const StudySummary& summary, std::string head, Cell cell) {
+  text::TextColumn column{std::move(head), true, {}};
+  for (const measures::PointSummary& point : summary.points) column.cells.push_back(cell(point));
   return column;
 }
 
-void add_outcomes(std::vector<TextColumn>& columns, const StudySummary& summary) {
-  using Point = const PointSummary&;
+void add_outcomes(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
+  using Point = const measures::PointSummary&;
   columns.push_back(by_point(summary, "trials", [](Point p) { return fmt::format("{}", p.trials); }));
-  columns.push_back(by_point(
-      summary, "stable", [](Point p) { return percentage(p.of(&MoveOutcome::stable).trials, p.judged); }));
+  columns.push_back(by_point(summary, "stable", [](Point p) {
+    return text::percentage(p.of(&trial::MoveOutcome::stable).trials, p.judged);
+  }));
   if (any_undecided(summary)) {
-    columns.push_back(
-        by_point(summary, "undecided", [](Point p) { return percentage(p.outcomes.off_target, p.judged); }));
+    columns.push_back(by_point(summary, "undecided",
+                               [](Point p) { return text::percentage(p.outcomes.off_target, p.judged); }));
   }
   if (any_unsettled(summary)) {
     columns.push_back(
-        by_point(summary, "unsettled", [](Point p) { return percentage(unsettled(p), p.judged); }));
+        by_point(summary, "unsettled", [](Point p) { return text::percentage(unsettled(p), p.judged); }));
   }
-  columns.push_back(
-      by_point(summary, "zero-count", [](Point p) { return percentage(p.outcomes.zero_count, p.judged); }));
+  columns.push_back(by_point(summary, "zero-count",
+                             [](Point p) { return text::percentage(p.outcomes.zero_count, p.judged); }));
   columns.push_back(by_point(summary, bounds_head(summary),
                              [](Point p) { return interval_in_percent(p.success_rate().clopper_pearson); }));
   if (summary.features.rigs) {
     columns.push_back(by_point(summary, "rigs w/o failure",
-                               [](Point p) { return percentage(rigs_without_failure(p), p.rigs.n); }));
+                               [](Point p) { return text::percentage(rigs_without_failure(p), p.rigs.n); }));
   }
 }
 
 /// The measures of the table that have columns in this summary.
-std::vector<const Measure*> shown_measures(const StudySummary& summary) {
-  std::vector<const Measure*> shown = measures_of(
-      summary.table(), ReportOrder::summary, [](const Measure& m) { return !m.summary.columns.empty(); });
-  std::erase_if(shown, [&](const Measure* m) {
+std::vector<const layout::Measure*> shown_measures(const StudySummary& summary) {
+  std::vector<const layout::Measure*> shown =
+      layout::measures_of(summary.table(), layout::ReportOrder::summary,
+                          [](const layout::Measure& m) { return !m.summary.columns.empty(); });
+  std::erase_if(shown, [&](const layout::Measure* m) {
     return m->summary.use != nullptr && !(summary.features.*m->summary.use);
   });
   return shown;
 }
 
-std::string cell_text(CellText text, const PointSummary& point, double value) {
+std::string cell_text(layout::CellText text, const measures::PointSummary& point, double value) {
   switch (text) {
-    case CellText::number:
+    case layout::CellText::number:
       break;
-    case CellText::settling_time:
+    case layout::CellText::settling_time:
       return settling_text(point, value);
-    case CellText::proportion_of_trials:
-      return percentage(std::llround(value), point.trials);
-    case CellText::proportion_of_moves:
-      return percentage(std::llround(value), point.moves);
+    case layout::CellText::proportion_of_trials:
+      return text::percentage(std::llround(value), point.trials);
+    case layout::CellText::proportion_of_moves:
+      return text::percentage(std::llround(value), point.moves);
   }
-  return short_number(value);
+  return text::short_number(value);
 }
 
-void add_measures(std::vector<TextColumn>& columns, const StudySummary& summary) {
-  for (const Measure* measure : shown_measures(summary)) {
-    for (const SummaryColumn& column : measure->summary.columns) {
-      columns.push_back(by_point(summary, std::string(column.head), [&](const PointSummary& point) {
-        return cell_text(column.text, point, value_of(column.statistic, point.of(*measure)));
+void add_measures(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
+  for (const layout::Measure* measure : shown_measures(summary)) {
+    for (const layout::SummaryColumn& column : measure->summary.columns) {
+      columns.push_back(by_point(summary, std::string(column.head), [&](const measures::PointSummary& point) {
+        return cell_text(column.text, point, measures::value_of(column.statistic, point.of(*measure)));
       }));
     }
   }
 }
 
 /// What the columns mean of the measures that `belongs` picks.
-std::string legend_of(const StudySummary& summary, bool (*belongs)(const Measure&)) {
+std::string legend_of(const StudySummary& summary, bool (*belongs)(const layout::Measure&)) {
   std::string legend;
-  for (const Measure* measure : shown_measures(summary)) {
+  for (const layout::Measure* measure : shown_measures(summary)) {
     if (belongs(*measure)) legend += measure->summary.legend;
   }
   return legend;
 }
 
-void add_predictions(std::vector<TextColumn>& columns, const StudySummary& summary) {
-  TextColumn holds{"(6) holds", true, {}}, exceeded{"(7) exceeded", true, {}};
-  for (const TheoryPrediction& prediction : summary.predictions) {
-    holds.cells.push_back(percentage(prediction.stable, predicted_trials(prediction)));
-    exceeded.cells.push_back(percentage(prediction.unstable, predicted_trials(prediction)));
+void add_predictions(std::vector<text::TextColumn>& columns, const StudySummary& summary) {
+  text::TextColumn holds{"(6) holds", true, {}}, exceeded{"(7) exceeded", true, {}};
+  for (const measures::TheoryPrediction& prediction : summary.predictions) {
+    holds.cells.push_back(text::percentage(prediction.stable, measures::predicted_trials(prediction)));
+    exceeded.cells.push_back(text::percentage(prediction.unstable, measures::predicted_trials(prediction)));
   }
   columns.push_back(std::move(holds));
   columns.push_back(std::move(exceeded));
@@ -122,21 +124,21 @@ void add_predictions(std::vector<TextColumn>& columns, const StudySummary& summa
 
 }  // namespace
 
-std::vector<TextColumn> loop_columns(const StudySummary& summary) {
-  std::vector<TextColumn> columns = sweep_columns(summary);
+std::vector<text::TextColumn> loop_columns(const StudySummary& summary) {
+  std::vector<text::TextColumn> columns = sweep_columns(summary);
   add_outcomes(columns, summary);
   add_measures(columns, summary);
   if (!summary.predictions.empty()) add_predictions(columns, summary);
   if (const std::vector<std::string> observed = observations(summary); !observed.empty()) {
-    TextColumn column{"observed", false, {}};
-    for (const std::string& text : observed) column.cells.push_back(printable(text));
+    text::TextColumn column{"observed", false, {}};
+    for (const std::string& text : observed) column.cells.push_back(text::printable(text));
     columns.push_back(std::move(column));
   }
   return columns;
 }
 
 std::string design_line(const StudySummary& summary) {
-  const StudyFeatures& features = summary.features;
+  const study::StudyFeatures& features = summary.features;
   if (features.dependent_trials) {
     return "The trials of a saltelli design are not independent: all bounds here are too narrow. They are "
            "for\n"
@@ -159,12 +161,12 @@ std::string design_line(const StudySummary& summary) {
 }
 
 std::string loop_legend(const StudySummary& summary) {
-  const StudyFeatures& features = summary.features;
+  const study::StudyFeatures& features = summary.features;
   std::string legend =
       "stable: proportion of trials whose moves all arrived and stayed within one count\n"
       "zero-count: proportion of trials whose moves all ended at zero error; bounds of it after " +
       std::string(features.rigs ? "Korn and Graubard" : "Clopper and Pearson") + ", in %\n" +
-      legend_of(summary, [](const Measure& m) { return m.summary.use == nullptr; });
+      legend_of(summary, [](const layout::Measure& m) { return m.summary.use == nullptr; });
   if (features.rigs)
     legend += "rigs w/o failure: proportion of rigs all of whose trials ended at zero error\n";
   if (any_undecided(summary)) {
@@ -179,9 +181,10 @@ std::string loop_legend(const StudySummary& summary) {
         "arrived "
         "yet, hunts by\none count, or had left by more than one; all other trials oscillated\n";
   }
-  legend += legend_of(summary, is_quality);
+  legend += legend_of(summary, layout::is_quality);
   legend += design_line(summary) + "\n";
-  legend += legend_of(summary, [](const Measure& m) { return m.summary.use != nullptr && !is_quality(m); });
+  legend += legend_of(
+      summary, [](const layout::Measure& m) { return m.summary.use != nullptr && !layout::is_quality(m); });
   if (!summary.predictions.empty()) {
     legend +=
         "(6), (7): proportion of trials in which the paper's criterion (6) holds, which promises stability "
@@ -193,4 +196,4 @@ std::string loop_legend(const StudySummary& summary) {
   return legend;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -8,7 +8,7 @@
 #include "analysis/text/text.hpp"
 
 /// Parts of the summary of a study, which summary_table, summary_json and summary_csv put together.
-namespace zerocount {
+namespace zerocount::summary {
 
 /// "95 % bounds", with the confidence of the summary: the head of a column of them.
 std::string bounds_head(const StudySummary& summary);
@@ -16,23 +16,23 @@ std::string bounds_head(const StudySummary& summary);
 /// What tells the points apart: their labels, and a column for each swept parameter with its unit in the
 /// head, where these are few. In a grid, whose labels only repeat the swept values, the number of the point
 /// takes the place of the label.
-std::vector<TextColumn> sweep_columns(const StudySummary& summary);
+std::vector<text::TextColumn> sweep_columns(const StudySummary& summary);
 
 /// The table of a study with targets, and what its columns mean.
-std::vector<TextColumn> loop_columns(const StudySummary& summary);
+std::vector<text::TextColumn> loop_columns(const StudySummary& summary);
 std::string loop_legend(const StudySummary& summary);
 
 /// What the design of the study means for the bounds, one line or two.
 std::string design_line(const StudySummary& summary);
 
 /// The table of an open-loop study, a row per point and level, and what its columns mean.
-std::vector<TextColumn> level_columns(const StudySummary& summary);
+std::vector<text::TextColumn> level_columns(const StudySummary& summary);
 std::string level_legend();
 
 /// What was observed on the real rig, [point]; empty where nothing was at any point.
 std::vector<std::string> observations(const StudySummary& summary);
 
 /// The levels of a point: an array of objects with the names of level_fields(), by group.
-nlohmann::ordered_json levels_json(const PointSummary& point);
+nlohmann::ordered_json levels_json(const measures::PointSummary& point);
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -7,27 +7,27 @@
 
 #include "analysis/summary/summary_parts.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
 /// More swept parameters than this make the table too wide: the labels alone tell the points apart.
 constexpr std::size_t max_swept_columns = 4;
 
-bool is_case(const SweepAxis& axis) {
+bool is_case(const study::SweepAxis& axis) {
   return axis.name == "case";
 }
 
 /// Whether any two points have different values, or one of them a distribution.
-bool varies(const SweepAxis& axis) {
+bool varies(const study::SweepAxis& axis) {
   const auto differs = [](const auto& values) {
     return std::any_of(values.begin(), values.end(), [&](const auto& v) { return !(v == values.front()); });
   };
-  return axis.kind == SweepAxis::Kind::text ? differs(axis.texts) : differs(axis.numbers);
+  return axis.kind == study::SweepAxis::Kind::text ? differs(axis.texts) : differs(axis.numbers);
 }
 
-std::vector<const SweepAxis*> varying_parameters(const StudySummary& summary) {
-  std::vector<const SweepAxis*> found;
-  for (const SweepAxis& axis : summary.axes) {
+std::vector<const study::SweepAxis*> varying_parameters(const StudySummary& summary) {
+  std::vector<const study::SweepAxis*> found;
+  for (const study::SweepAxis& axis : summary.axes) {
     if (!is_case(axis) && varies(axis)) found.push_back(&axis);
   }
   return found;
@@ -40,12 +40,12 @@ std::string last_parts(const std::string& path, std::size_t parts) {
 }
 
 /// The end of the dotted path that no other swept parameter has: "ki", or "coarse.kp" beside a "kp".
-std::string short_name(const SweepAxis& axis, const std::vector<const SweepAxis*>& swept) {
+std::string short_name(const study::SweepAxis& axis, const std::vector<const study::SweepAxis*>& swept) {
   const auto sections = std::count(axis.name.begin(), axis.name.end(), '.');
   for (std::size_t parts = 1; parts <= static_cast<std::size_t>(sections); ++parts) {
     std::string name = last_parts(axis.name, parts);
     const bool is_index = name.find_first_not_of("0123456789.") == std::string::npos;
-    const bool unique = std::none_of(swept.begin(), swept.end(), [&](const SweepAxis* other) {
+    const bool unique = std::none_of(swept.begin(), swept.end(), [&](const study::SweepAxis* other) {
       return other != &axis && last_parts(other->name, parts) == name;
     });
     if (unique && !is_index) return name;
@@ -53,10 +53,11 @@ std::string short_name(const SweepAxis& axis, const std::vector<const SweepAxis*
   return axis.name;
 }
 
-TextColumn swept_column(const SweepAxis& axis, const std::vector<const SweepAxis*>& swept) {
-  const bool numeric = axis.kind == SweepAxis::Kind::number;
+text::TextColumn swept_column(const study::SweepAxis& axis,
+                              const std::vector<const study::SweepAxis*>& swept) {
+  const bool numeric = axis.kind == study::SweepAxis::Kind::number;
   const std::string unit = numeric && axis.unit != "1" ? fmt::format(" ({})", axis.unit) : "";
-  TextColumn column{short_name(axis, swept) + unit, numeric, {}};
+  text::TextColumn column{short_name(axis, swept) + unit, numeric, {}};
   if (!numeric) {
     column.cells = axis.texts;
     return column;
@@ -68,8 +69,8 @@ TextColumn swept_column(const SweepAxis& axis, const std::vector<const SweepAxis
 }
 
 /// Whether the labels are those of a grid, which name its values: "fast, controller.kp=0.0003".
-bool labels_name_values(const StudySummary& summary, const std::vector<const SweepAxis*>& swept) {
-  return std::any_of(swept.begin(), swept.end(), [&](const SweepAxis* axis) {
+bool labels_name_values(const StudySummary& summary, const std::vector<const study::SweepAxis*>& swept) {
+  return std::any_of(swept.begin(), swept.end(), [&](const study::SweepAxis* axis) {
     return std::all_of(summary.labels.begin(), summary.labels.end(), [axis](const std::string& label) {
       return label.find(axis->name + "=") != std::string::npos;
     });
@@ -77,29 +78,29 @@ bool labels_name_values(const StudySummary& summary, const std::vector<const Swe
 }
 
 /// "point": the label, unless other columns say the same; then the number of the point.
-TextColumn point_column(const StudySummary& summary, bool by_number) {
-  TextColumn column{"point", by_number, {}};
+text::TextColumn point_column(const StudySummary& summary, bool by_number) {
+  text::TextColumn column{"point", by_number, {}};
   for (std::size_t i = 0; i < summary.labels.size(); ++i) {
-    column.cells.push_back(by_number ? fmt::format("{}", i) : printable(summary.labels[i]));
+    column.cells.push_back(by_number ? fmt::format("{}", i) : text::printable(summary.labels[i]));
   }
   return column;
 }
 
 }  // namespace
 
-std::vector<TextColumn> sweep_columns(const StudySummary& summary) {
-  const std::vector<const SweepAxis*> swept = varying_parameters(summary);
+std::vector<text::TextColumn> sweep_columns(const StudySummary& summary) {
+  const std::vector<const study::SweepAxis*> swept = varying_parameters(summary);
   if (swept.empty() || swept.size() > max_swept_columns) return {point_column(summary, false)};
   const bool by_number = labels_name_values(summary, swept);
-  std::vector<TextColumn> columns{point_column(summary, by_number)};
+  std::vector<text::TextColumn> columns{point_column(summary, by_number)};
   const auto cases = std::find_if(summary.axes.begin(), summary.axes.end(), is_case);
   if (by_number && cases != summary.axes.end()) {
-    TextColumn names{"case", false, {}};
-    for (const std::string& name : cases->texts) names.cells.push_back(printable(name));
+    text::TextColumn names{"case", false, {}};
+    for (const std::string& name : cases->texts) names.cells.push_back(text::printable(name));
     columns.push_back(std::move(names));
   }
-  for (const SweepAxis* axis : swept) columns.push_back(swept_column(*axis, swept));
+  for (const study::SweepAxis* axis : swept) columns.push_back(swept_column(*axis, swept));
   return columns;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

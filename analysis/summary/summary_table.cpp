@@ -6,7 +6,7 @@
 
 #include "analysis/summary/summary_parts.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
 /// A line for every point with trials whose motion was lost: they count as failures, and the reader must
@@ -18,7 +18,7 @@ std::string nonfinite_notes(const StudySummary& summary) {
     if (lost == 0) continue;
     notes += fmt::format(
         "{}: {} of {} trials nonfinite: the motion left the finite numbers or could not be followed\n",
-        printable(summary.labels[i]), lost, summary.points[i].trials);
+        text::printable(summary.labels[i]), lost, summary.points[i].trials);
   }
   return notes;
 }
@@ -43,13 +43,13 @@ std::string summary_table(const StudySummary& summary) {
   require_consistent(summary);
   const bool levels = summary.features.open_loop;
   const std::string unfinished = unfinished_sentence(summary);
-  std::string text = printable(summary.name) + "\n" + (unfinished.empty() ? "" : unfinished + "\n") + "\n" +
-                     aligned_table(levels ? level_columns(summary) : loop_columns(summary)) +
+  std::string text = text::printable(summary.name) + "\n" + (unfinished.empty() ? "" : unfinished + "\n") +
+                     "\n" + text::aligned_table(levels ? level_columns(summary) : loop_columns(summary)) +
                      nonfinite_notes(summary) + "\n" + (levels ? level_legend() : loop_legend(summary));
-  for (const SummarySection& section : summary.sections) {
+  for (const measures::SummarySection& section : summary.sections) {
     if (!section.text.empty()) text += "\n" + section.text;
   }
   return text;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -7,7 +7,7 @@
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/summary/summary.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 
 /// The section "assurance" of a summary: what the trials of each point show of all axes that the manifest
 /// describes, as tolerance statements.
@@ -17,7 +17,7 @@ namespace zerocount {
 /// failure_at_most, settling_within_95, _99 and _99_9, and mean_bound_fields(); its text is a sentence for
 /// each point.
 /// @param labels [point]
-SummarySection tolerance_section(std::span<const PointSummary> points,
-                                 const std::vector<std::string>& labels);
+measures::SummarySection tolerance_section(std::span<const measures::PointSummary> points,
+                                           const std::vector<std::string>& labels);
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -16,7 +16,7 @@
 #include "core/trial/parameters.hpp"
 #include "results/layout/table_io.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
 /// Proportion of the moves still falling for which the advised hold is long enough.
@@ -33,7 +33,7 @@ double rounded_up(double value) {
 /// τ of the errors recorded in the middle and at the end of the hold, s; see time_to_zero.
 double decay_time_constant(std::int64_t midway_error, std::int64_t final_error, std::int64_t samples,
                            double sample_time) {
-  const double elapsed = static_cast<double>(samples - 1 - first_of_last_half(samples)) * sample_time;
+  const double elapsed = static_cast<double>(samples - 1 - trial::first_of_last_half(samples)) * sample_time;
   return elapsed /
          std::log(static_cast<double>(std::abs(midway_error)) / static_cast<double>(std::abs(final_error)));
 }
@@ -41,9 +41,10 @@ double decay_time_constant(std::int64_t midway_error, std::int64_t final_error, 
 /// What a longer hold adds to the way of a move: the move before it arrives too, so that this one has all of
 /// its step to go. ln of the step over the error it started with, at least 0. Under a profiled reference the
 /// error does not start with the step.
-double log_of_longer_way(const TrialParameters& parameters, std::size_t number, std::int64_t error_before) {
+double log_of_longer_way(const trial::TrialParameters& parameters, std::size_t number,
+                         std::int64_t error_before) {
   const std::vector<std::int64_t>& targets = parameters.command.targets;
-  if (number == 0 || parameters.command.profile.shape != ReferenceShape::step) return 0.0;
+  if (number == 0 || parameters.command.profile.shape != loop::ReferenceShape::step) return 0.0;
   const std::int64_t step = targets[number] - targets[number - 1];
   const std::int64_t start = step + error_before;
   if (step == 0 || start == 0) return 0.0;
@@ -52,29 +53,30 @@ double log_of_longer_way(const TrialParameters& parameters, std::size_t number, 
 
 /// Hold that the move is expected to need, s.
 /// @param error_before last error of the move before it.
-double needed_hold(const MoveOutcome& move, std::size_t number, std::int64_t error_before,
-                   const TrialParameters& p) {
-  const std::int64_t samples = samples_of_move(p, number);
+double needed_hold(const trial::MoveOutcome& move, std::size_t number, std::int64_t error_before,
+                   const trial::TrialParameters& p) {
+  const std::int64_t samples = trial::samples_of_move(p, number);
   const std::int64_t final_error = std::max<std::int64_t>(std::abs(move.final_error), 1);
   const double sample_time = 1.0 / p.controller.sample_rate;
   return time_to_zero(move.midway_error, final_error, samples, sample_time) +
          decay_time_constant(move.midway_error, final_error, samples, sample_time) *
              log_of_longer_way(p, number, error_before) +
-         chatter_time(p.plant, friction_at(p.friction, p.initial.position), p.controller, p.verdict.dwell) +
+         theory::chatter_time(p.plant, friction::friction_at(p.friction, p.initial.position), p.controller,
+                              p.verdict.dwell) +
          std::max(p.verdict.dwell, p.verdict.window);
 }
 
 /// @param needed holds, s
 double advised_hold(const std::vector<double>& needed) {
   if (needed.empty()) return std::numeric_limits<double>::quiet_NaN();
-  Histogram<double> holds;
+  statistics::Histogram<double> holds;
   for (const double hold : needed) holds.add(hold);
-  return rounded_up(quantile(holds, advised_proportion).value);
+  return rounded_up(statistics::quantile(holds, advised_proportion).value);
 }
 
 /// A converter that clips keeps moves from their targets, too.
-std::string clipping_remark(const PointSummary& point) {
-  const std::int64_t clipped = point.of(&MoveOutcome::saturated).trials;
+std::string clipping_remark(const measures::PointSummary& point) {
+  const std::int64_t clipped = point.of(&trial::MoveOutcome::saturated).trials;
   return clipped == 0 ? "" : fmt::format("; the converter clipped in {} of {} trials", clipped, point.trials);
 }
 
@@ -87,21 +89,22 @@ double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::in
                     std::log(2.0 * static_cast<double>(std::abs(final_error)));
 }
 
-UndecidedAccumulator::UndecidedAccumulator(const Study& study)
+UndecidedAccumulator::UndecidedAccumulator(const study::Study& study)
     : study_(study), counts_(study.point_labels.size()), needed_(study.point_labels.size()) {}
 
-void UndecidedAccumulator::add(const StudyFile& file, RowRange rows) {
+void UndecidedAccumulator::add(const reading::StudyFile& file, layout::RowRange rows) {
   const auto moves = static_cast<std::size_t>(file.moves());
-  const std::int64_t rows_at_once = chunk_rows(file.moves());
+  const std::int64_t rows_at_once = layout::chunk_rows(file.moves());
   for (std::int64_t first = rows.first; first < rows.end(); first += rows_at_once) {
-    const RowRange block{first, std::min(rows_at_once, rows.end() - first)};
-    const std::vector<MoveOutcome> outcomes = file.outcomes(block);
+    const layout::RowRange block{first, std::min(rows_at_once, rows.end() - first)};
+    const std::vector<trial::MoveOutcome> outcomes = file.outcomes(block);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       const std::int64_t row = block.first + static_cast<std::int64_t>(i / moves);
       const std::int64_t point = row / study_.trials;
-      add_move(counts_[static_cast<std::size_t>(point)], outcomes[i]);
-      if (!is_still_falling(outcomes[i])) continue;
-      const TrialParameters parameters = study_trial(study_, point, row % study_.trials).parameters;
+      measures::add_move(counts_[static_cast<std::size_t>(point)], outcomes[i]);
+      if (!measures::is_still_falling(outcomes[i])) continue;
+      const trial::TrialParameters parameters =
+          study::study_trial(study_, point, row % study_.trials).parameters;
       if (!(parameters.controller.ki > 0.0)) continue;
       needed_[static_cast<std::size_t>(point)].push_back(
           needed_hold(outcomes[i], i % moves, i % moves == 0 ? 0 : outcomes[i - 1].final_error, parameters));
@@ -109,29 +112,31 @@ void UndecidedAccumulator::add(const StudyFile& file, RowRange rows) {
   }
 }
 
-std::vector<UndecidedMoves> UndecidedAccumulator::moves() {
-  std::vector<UndecidedMoves> points = counts_;
+std::vector<measures::UndecidedMoves> UndecidedAccumulator::moves() {
+  std::vector<measures::UndecidedMoves> points = counts_;
   for (std::size_t i = 0; i < points.size(); ++i) points[i].advised_hold = advised_hold(needed_[i]);
   return points;
 }
 
-SummarySection undecided_section(std::span<const PointSummary> points,
-                                 const std::vector<std::string>& labels) {
-  SummarySection section{.key = "undecided", .json = {}, .columns = {}, .text = {}};
-  PointColumn off_target{"undecided_moves", "1", "moves that ended off target", {}};
-  PointColumn falling{"still_falling_moves", "1", "of them, with an error that was still falling", {}};
-  PointColumn ripple{"falling_with_ripple_moves",
-                     "1",
-                     "moves that count as oscillating with an error that was still falling, but for a ripple",
-                     {}};
-  PointColumn arriving{"about_to_arrive_moves",
-                       "1",
-                       "moves whose error had fallen to within one count, and that had not arrived",
-                       {}};
-  PointColumn hold{"hold_at_least", "s", "hold that most of these are expected to need", {}};
+measures::SummarySection undecided_section(std::span<const measures::PointSummary> points,
+                                           const std::vector<std::string>& labels) {
+  measures::SummarySection section{.key = "undecided", .json = {}, .columns = {}, .text = {}};
+  layout::PointColumn off_target{"undecided_moves", "1", "moves that ended off target", {}};
+  layout::PointColumn falling{
+      "still_falling_moves", "1", "of them, with an error that was still falling", {}};
+  layout::PointColumn ripple{
+      "falling_with_ripple_moves",
+      "1",
+      "moves that count as oscillating with an error that was still falling, but for a ripple",
+      {}};
+  layout::PointColumn arriving{"about_to_arrive_moves",
+                               "1",
+                               "moves whose error had fallen to within one count, and that had not arrived",
+                               {}};
+  layout::PointColumn hold{"hold_at_least", "s", "hold that most of these are expected to need", {}};
   bool any = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const UndecidedMoves& point = points[i].undecided;
+    const measures::UndecidedMoves& point = points[i].undecided;
     section.json.push_back({{"moves", point.moves},
                             {"off_target", point.off_target},
                             {"still_falling", point.still_falling},
@@ -143,17 +148,17 @@ SummarySection undecided_section(std::span<const PointSummary> points,
     ripple.values.push_back(static_cast<double>(point.falling_with_ripple));
     arriving.values.push_back(static_cast<double>(point.about_to_arrive));
     hold.values.push_back(point.advised_hold);
-    if (!any_undecided(point)) continue;
+    if (!measures::any_undecided(point)) continue;
     any = true;
-    section.text += fmt::format("{}: {}{}\n", printable(labels[i]), undecided_sentence(point),
+    section.text += fmt::format("{}: {}{}\n", text::printable(labels[i]), measures::undecided_sentence(point),
                                 clipping_remark(points[i]));
   }
   if (any) {
-    section.text += fmt::format("{}\n", undecided_meaning);
+    section.text += fmt::format("{}\n", measures::undecided_meaning);
   }
   section.columns = {std::move(off_target), std::move(falling), std::move(ripple), std::move(arriving),
                      std::move(hold)};
   return section;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -12,7 +12,7 @@
 
 /// Moves that are off target: stalled, or still on their way when their hold ended. They are undecided,
 /// neither stable nor shown unstable.
-namespace zerocount {
+namespace zerocount::summary {
 
 /// Time from the start of a move at which an error that decays exponentially reads 0, s.
 ///
@@ -31,18 +31,18 @@ double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::in
 class UndecidedAccumulator {
  public:
   /// @param study stays as long as this.
-  explicit UndecidedAccumulator(const Study& study);
+  explicit UndecidedAccumulator(const study::Study& study);
 
   /// @param rows of the file @throws Failure (bad_data) where the file is damaged.
-  void add(const StudyFile& file, RowRange rows);
+  void add(const reading::StudyFile& file, layout::RowRange rows);
 
   /// [point] of the study
-  std::vector<UndecidedMoves> moves();
+  std::vector<measures::UndecidedMoves> moves();
 
  private:
-  const Study& study_;
-  std::vector<UndecidedMoves> counts_;       ///< [point], without the advised hold
-  std::vector<std::vector<double>> needed_;  ///< [point] holds that the moves still falling need, s
+  const study::Study& study_;
+  std::vector<measures::UndecidedMoves> counts_;  ///< [point], without the advised hold
+  std::vector<std::vector<double>> needed_;       ///< [point] holds that the moves still falling need, s
 };
 
 /// The section "undecided" of a summary. Its JSON is {"moves", "off_target", "still_falling",
@@ -50,7 +50,7 @@ class UndecidedAccumulator {
 /// still_falling_moves, falling_with_ripple_moves, about_to_arrive_moves and hold_at_least; its text is a
 /// sentence for each point that has undecided moves.
 /// @param labels [point]
-SummarySection undecided_section(std::span<const PointSummary> points,
-                                 const std::vector<std::string>& labels);
+measures::SummarySection undecided_section(std::span<const measures::PointSummary> points,
+                                           const std::vector<std::string>& labels);
 
-}  // namespace zerocount
+}  // namespace zerocount::summary

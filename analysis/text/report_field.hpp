@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-namespace zerocount {
+namespace zerocount::text {
 
 /// One reported number of a summary. Lists of fields are the single source of the names in the JSON and CSV
 /// summaries and in the results file.
@@ -29,4 +29,4 @@ inline double to_double(std::int64_t count) {
   return static_cast<double>(count);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::text

@@ -8,7 +8,7 @@
 
 #include "analysis/text/report_field.hpp"
 
-namespace zerocount {
+namespace zerocount::text {
 
 /// Adds the numbers of `subject` to a JSON object under the names of their fields, by group. Whole numbers
 /// are written as integers, NaN as null.
@@ -26,4 +26,4 @@ void add_fields(nlohmann::ordered_json& json, const std::vector<ReportField<Subj
   }
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::text

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::text {
 namespace {
 
 constexpr char32_t replacement = 0xFFFD;
@@ -181,4 +181,4 @@ std::string escaped_markup(std::string_view text) {
   return escaped;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::text

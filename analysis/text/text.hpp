@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::text {
 
 /// k of n as a percentage with at most one decimal; "–" if n is 0. Values that would round to 0 % or 100 %
 /// are written "< 0.1 %" or "> 99.9 %".
@@ -40,4 +40,4 @@ std::string aligned_table(const std::vector<std::vector<std::string>>& cells,
 /// Escapes & < > " ' for text and quoted attributes of HTML or XML.
 std::string escaped_markup(std::string_view text);
 
-}  // namespace zerocount
+}  // namespace zerocount::text

@@ -6,7 +6,7 @@
 #include "core/loop/dac.hpp"
 #include "core/loop/measurement.hpp"
 
-namespace zerocount {
+namespace zerocount::batch {
 namespace {
 
 constexpr int max_delay = 64;
@@ -14,60 +14,59 @@ constexpr int max_delay = 64;
 // What lanes can run, as lists of what they know. Each enumeration has all of its words here, and each
 // structure all of its members: the compiler refuses one that is added later until it is decided here.
 
-bool lanes_know(ReferenceShape shape) {
+bool lanes_know(loop::ReferenceShape shape) {
   switch (shape) {
-    case ReferenceShape::step:
+    case loop::ReferenceShape::step:
       return true;
-    case ReferenceShape::trapezoidal:
-    case ReferenceShape::s_curve:
+    case loop::ReferenceShape::trapezoidal:
+    case loop::ReferenceShape::s_curve:
       break;
   }
   return false;
 }
 
-bool lanes_know(EncoderChoice encoder) {
+bool lanes_know(loop::EncoderChoice encoder) {
   switch (encoder) {
-    case EncoderChoice::fine:
+    case loop::EncoderChoice::fine:
       return true;
-    case EncoderChoice::coarse:
+    case loop::EncoderChoice::coarse:
       break;
   }
   return false;
 }
 
-bool lanes_know(const AmplifierParameters& amplifier) {
+bool lanes_know(const loop::AmplifierParameters& amplifier) {
   const auto& [bandwidth] = amplifier;
   return bandwidth == 0.0;
 }
 
-bool lanes_know(const ControllerParameters& controller) {
+bool lanes_know(const loop::ControllerParameters& controller) {
   const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse] = controller;
-  return delay <= max_delay && lanes_know(encoder) && !has_coarse_phase(controller);
+  return delay <= max_delay && lanes_know(encoder) && !loop::has_coarse_phase(controller);
 }
 
-bool lanes_know(const CommandParameters& command) {
+bool lanes_know(const trial::CommandParameters& command) {
   const auto& [targets, hold, profile, torque] = command;
   return !targets.empty() && lanes_know(profile.shape) && torque.levels.empty();
 }
 
 }  // namespace
 
-bool runs_in_lanes(const TrialParameters& p) {
+bool runs_in_lanes(const trial::TrialParameters& p) {
   const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial, verdict, randomness] =
       p;
   [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping] = plant;
-  return traits_of(friction.model).runs_in_lanes && !has_errors(encoder.fine_errors) &&
-         !has_errors(encoder.coarse_errors) && !has_errors(dac) && lanes_know(amplifier) &&
-         lanes_know(controller) && lanes_know(command) && samples_of_move(p, 0) > 0;
+  return friction::traits_of(friction.model).runs_in_lanes && !loop::has_errors(encoder.fine_errors) &&
+         !loop::has_errors(encoder.coarse_errors) && !loop::has_errors(dac) && lanes_know(amplifier) &&
+         lanes_know(controller) && lanes_know(command) && trial::samples_of_move(p, 0) > 0;
 }
 
-BatchEngine::BatchEngine(const BatchSettings& settings)
-    : work_(std::make_unique<batch::LaneWork>(settings)) {}
+BatchEngine::BatchEngine(const BatchSettings& settings) : work_(std::make_unique<LaneWork>(settings)) {}
 BatchEngine::~BatchEngine() = default;
 
-void BatchEngine::run(std::span<const TrialParameters* const> trials, std::span<TrialOutcome> outcomes,
-                      const BatchObservers& observers) {
+void BatchEngine::run(std::span<const trial::TrialParameters* const> trials,
+                      std::span<trial::TrialOutcome> outcomes, const BatchObservers& observers) {
   work_->run(trials, outcomes, observers);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::batch

@@ -10,11 +10,9 @@
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
 
-namespace zerocount {
+namespace zerocount::batch {
 
-namespace batch {
 class LaneWork;
-}
 
 /// One sampling instant of a trial in a batch, as SampleRecord has it.
 struct BatchSample {
@@ -30,8 +28,8 @@ struct BatchSample {
 /// Who is told of the trials of a batch while they run; an empty function is not called. The trials run side
 /// by side: what belongs to one comes in its order, what belongs to different ones in any.
 struct BatchObservers {
-  std::function<void(std::size_t trial, const Jerk&)> jerk;  ///< at the end of every jerk
-  std::function<void(const BatchSample&)> sample;            ///< at every sampling instant
+  std::function<void(std::size_t trial, const trial::Jerk&)> jerk;  ///< at the end of every jerk
+  std::function<void(const BatchSample&)> sample;                   ///< at every sampling instant
 };
 
 struct BatchSettings {
@@ -42,7 +40,7 @@ struct BatchSettings {
 /// Whether the lanes can run such a trial. The others, which have imperfect encoders or converters, an
 /// amplifier, two phases of control, a reference with a profile, torque levels, or a friction model without a
 /// spring, go to run_trial.
-bool runs_in_lanes(const TrialParameters& parameters);
+bool runs_in_lanes(const trial::TrialParameters& parameters);
 
 /// Runs trials as run_trial does, many at a time in the lanes of vectors (see core/batch/README.md).
 ///
@@ -58,11 +56,11 @@ class BatchEngine {
   BatchEngine& operator=(BatchEngine&&) = delete;
 
   /// @param trials not changed while this runs. @param outcomes [trial], overwritten.
-  void run(std::span<const TrialParameters* const> trials, std::span<TrialOutcome> outcomes,
+  void run(std::span<const trial::TrialParameters* const> trials, std::span<trial::TrialOutcome> outcomes,
            const BatchObservers& observers = {});
 
  private:
-  std::unique_ptr<batch::LaneWork> work_;
+  std::unique_ptr<LaneWork> work_;
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::batch

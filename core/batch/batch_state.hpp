@@ -98,8 +98,8 @@ struct alignas(64) LoopLanes {
 };
 
 /// The measures of the move so far, and what else is known of it.
-struct alignas(64) MeasureLanes : RunningMeasures<Lanes> {
-  MeasureLimits<Lanes> limits;
+struct alignas(64) MeasureLanes : trial::RunningMeasures<Lanes> {
+  trial::MeasureLimits<Lanes> limits;
   Lanes last_half;      ///< first sample of the last half
   Lanes in_jerk;        ///< a jerk lasts
   Lanes change;         ///< of the count with the last sample

@@ -9,9 +9,9 @@ namespace zerocount::batch {
 namespace {
 
 /// The branch that the spring is on, for the kernels.
-void show_branch(BatchState& batch, int lane, const HystereticSpring& spring) {
+void show_branch(BatchState& batch, int lane, const friction::HystereticSpring& spring) {
   MotionLanes& m = batch.motion;
-  const SpringBranch& branch = spring.branch();
+  const friction::SpringBranch& branch = spring.branch();
   m.branch_elongation[lane] = branch.elongation;
   m.branch_torque[lane] = branch.torque;
   m.branch_sign[lane] = branch.sign;
@@ -22,7 +22,7 @@ void show_branch(BatchState& batch, int lane, const HystereticSpring& spring) {
   m.branch_end[lane] = spring.branch_end().value_or(none);
 }
 
-void show_contact(BatchState& batch, int lane, const FrictionParameters& contact) {
+void show_contact(BatchState& batch, int lane, const friction::FrictionParameters& contact) {
   ContactLanes& c = batch.contact;
   c.k1[lane] = contact.k1;
   c.stiffest[lane] = contact.k1 + contact.k2;
@@ -52,7 +52,7 @@ void stop_at_next_sample(BatchState& batch, int lane) {
 
 void load_motion(const BatchState& batch, int lane, LaneTrial& trial) {
   const MotionLanes& m = batch.motion;
-  PlantMotion motion;
+  friction::PlantMotion motion;
   motion.elongation = m.elongation[lane];
   motion.omega = m.omega[lane];
   motion.creep = {m.extension[lane], m.hardening[lane]};
@@ -68,7 +68,7 @@ void load_motion(const BatchState& batch, int lane, LaneTrial& trial) {
 
 void store_motion(BatchState& batch, int lane, LaneTrial& trial) {
   MotionLanes& m = batch.motion;
-  const PlantMotion motion = trial.plant->motion();
+  const friction::PlantMotion motion = trial.plant->motion();
   m.elongation[lane] = motion.elongation;
   m.omega[lane] = motion.omega;
   m.extension[lane] = motion.creep.extension;
@@ -88,7 +88,7 @@ void store_motion(BatchState& batch, int lane, LaneTrial& trial) {
 
 void turn(BatchState& batch, int lane, LaneTrial& trial) {
   MotionLanes& m = batch.motion;
-  HystereticSpring& spring = trial.plant->spring();
+  friction::HystereticSpring& spring = trial.plant->spring();
   spring.set_direction(static_cast<int>(m.heading[lane]), m.elongation[lane], m.spring_torque[lane]);
   remember_depth(trial);
   show_branch(batch, lane, spring);
@@ -105,8 +105,8 @@ void end_creep(BatchState& batch, int lane, LaneTrial& trial) {
   MotionLanes& m = batch.motion;
   m.creeping[lane] = 0.0;
   m.creep_onset[lane] =
-      creep_onset_after_end(trial.plant->contact(), m.hardening[lane] + trial.rest_tolerance,
-                            m.spring_torque[lane], m.elongation[lane]);
+      friction::creep_onset_after_end(trial.plant->contact(), m.hardening[lane] + trial.rest_tolerance,
+                                      m.spring_torque[lane], m.elongation[lane]);
 }
 
 void start_slide(BatchState& batch, int lane, LaneTrial& trial) {
@@ -131,7 +131,7 @@ bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial) {
   load_motion(batch, lane, trial);
   const std::int64_t before = trial.plant->breakaways();
   trial.plant->forget_deepest();
-  trial.plant->advance(constant_torque(batch.motion.torque[lane]), batch.time.time_to_stop[lane]);
+  trial.plant->advance(motion::constant_torque(batch.motion.torque[lane]), batch.time.time_to_stop[lane]);
   trial.breakaways += trial.plant->breakaways() - before;
   trial.deepest = std::max(trial.deepest, trial.plant->deepest());
   store_motion(batch, lane, trial);

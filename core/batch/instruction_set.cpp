@@ -1,6 +1,6 @@
 #include "core/batch/instruction_set.hpp"
 
-namespace zerocount {
+namespace zerocount::batch {
 
 bool is_available(InstructionSet instructions) {
   switch (instructions) {
@@ -40,8 +40,6 @@ std::string_view name_of(InstructionSet instructions) {
   return "portable";
 }
 
-namespace batch {
-
 const Kernels& kernels_of([[maybe_unused]] InstructionSet instructions) {
 #ifdef ZEROCOUNT_X86_KERNELS
   if (instructions == InstructionSet::avx512) return avx512_kernels;
@@ -50,5 +48,4 @@ const Kernels& kernels_of([[maybe_unused]] InstructionSet instructions) {
   return portable_kernels;
 }
 
-}  // namespace batch
-}  // namespace zerocount
+}  // namespace zerocount::batch

@@ -4,7 +4,7 @@
 
 #include "core/batch/kernels.hpp"
 
-namespace zerocount {
+namespace zerocount::batch {
 
 /// What the kernels of the batch engine may be made of. The results are the same with each.
 enum class InstructionSet { portable, avx2, avx512 };
@@ -17,8 +17,6 @@ InstructionSet widest_instruction_set();
 
 std::string_view name_of(InstructionSet instructions);
 
-namespace batch {
 const Kernels& kernels_of(InstructionSet instructions);
-}
 
-}  // namespace zerocount
+}  // namespace zerocount::batch

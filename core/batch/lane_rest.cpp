@@ -10,31 +10,32 @@ namespace {
 
 /// The time (s) at which θ has moved by `distance` (rad, positive) in the direction of creep; infinite where
 /// it never does. By the stiffness (N m/rad) that the spring has now: good to a small part of a sample.
-double time_to_creep(const CreepAtRest& creep, double distance, double stiffness) {
+double time_to_creep(const friction::CreepAtRest& creep, double distance, double stiffness) {
   // What the spring gives way as the damper's torque falls comes to what has crept.
   const double per_creep = creep.s1 * creep.g1 / stiffness;
-  const double rate = rate_after_creep(creep, distance / (1.0 + per_creep));
+  const double rate = friction::rate_after_creep(creep, distance / (1.0 + per_creep));
   if (!(rate > 0.0)) return HUGE_VAL;
   const double stretch =
-      (spring_torque_at_rate(creep, rate) - spring_torque_at_rate(creep, creep.rate)) / stiffness;
-  const double better = rate_after_creep(creep, distance - stretch);
-  return better > 0.0 ? time_until_rate(creep, better) : HUGE_VAL;
+      (friction::spring_torque_at_rate(creep, rate) - friction::spring_torque_at_rate(creep, creep.rate)) /
+      stiffness;
+  const double better = friction::rate_after_creep(creep, distance - stretch);
+  return better > 0.0 ? friction::time_until_rate(creep, better) : HUGE_VAL;
 }
 
 double count_at(const BatchState& batch, int lane, double theta) {
-  return ideal_count(theta, batch.loop.resolution[lane], batch.loop.phase[lane]);
+  return loop::ideal_count(theta, batch.loop.resolution[lane], batch.loop.phase[lane]);
 }
 
 /// Rest as it goes on from now.
 struct RestAhead {
-  CreepAtRest creep;
-  Swing swing;
+  friction::CreepAtRest creep;
+  friction::Swing swing;
   double elapsed;  ///< of the swing, s
 };
 
 RestAhead rest_ahead(const LanePlant::Rest& rest) {
   RestAhead ahead{rest.creep, rest.swing, rest.time};
-  if (ahead.creep.rate > 0.0) ahead.creep.rate = creep_rate_after(rest.creep, rest.time);
+  if (ahead.creep.rate > 0.0) ahead.creep.rate = friction::creep_rate_after(rest.creep, rest.time);
   return ahead;
 }
 
@@ -43,18 +44,18 @@ RestAhead rest_ahead(const LanePlant::Rest& rest) {
 double time_within_count(const BatchState& batch, int lane, const RestAhead& rest, const LanePlant& plant) {
   const LoopLanes& l = batch.loop;
   const double low = (l.count[lane] - l.phase[lane]) * l.resolution[lane];
-  const Swing::State swing = swing_at(rest.swing, rest.elapsed);
+  const friction::Swing::State swing = friction::swing_at(rest.swing, rest.elapsed);
   const double slow_theta = plant.theta() - swing.elongation - swing.extension;
   const double above = low + l.resolution[lane] - slow_theta;
   const double below = slow_theta - low;
-  double swings = swing_bound(rest.swing, rest.elapsed);
+  double swings = friction::swing_bound(rest.swing, rest.elapsed);
   if (!(std::min(above, below) > swings)) return 0.0;
   if (rest.creep.rate <= 0.0) return HUGE_VAL;
   const double distance = rest.creep.sign > 0.0 ? above : below;
-  const double stiffness = stiffness_on(plant.spring().branch(), plant.spring().elongation());
+  const double stiffness = friction::stiffness_on(plant.spring().branch(), plant.spring().elongation());
   double time = time_to_creep(rest.creep, distance - swings, stiffness);
   if (swings > 0.0) {
-    swings = swing_bound(rest.swing, rest.elapsed + time);
+    swings = friction::swing_bound(rest.swing, rest.elapsed + time);
     time = time_to_creep(rest.creep, distance - swings, stiffness);
   }
   return time;
@@ -70,7 +71,7 @@ double samples_within_count(const BatchState& batch, int lane, const LanePlant& 
 /// Whether the lane's plant is where its last rest has left it, and nothing has moved the lane since.
 bool stands(const BatchState& batch, int lane, const LanePlant& plant) {
   if (!plant.rest()) return false;
-  const PlantMotion motion = plant.motion();
+  const friction::PlantMotion motion = plant.motion();
   return motion.elongation == batch.motion.elongation[lane] &&
          motion.creep.extension == batch.motion.extension[lane] && !motion.sliding;
 }
@@ -79,10 +80,10 @@ bool stands(const BatchState& batch, int lane, const LanePlant& plant) {
 
 void pass_samples(BatchState& batch, int lane, double samples) {
   MeasureLanes& q = batch.measures;
-  ArrivalMeasures<double> arrival;
-  for_each_of_arrival([lane](double& to, const Lanes& from) { to = from[lane]; }, arrival, q);
-  measure_zeros(arrival, q.limits.dwell[lane], samples);
-  for_each_of_arrival([lane](Lanes& to, double from) { to[lane] = from; }, q, arrival);
+  trial::ArrivalMeasures<double> arrival;
+  trial::for_each_of_arrival([lane](double& to, const Lanes& from) { to = from[lane]; }, arrival, q);
+  trial::measure_zeros(arrival, q.limits.dwell[lane], samples);
+  trial::for_each_of_arrival([lane](Lanes& to, double from) { to[lane] = from; }, q, arrival);
 }
 
 bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& passed) {
@@ -114,12 +115,12 @@ bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& pas
     for (double back = 1.0; ahead > 1.0 && count_at(batch, lane, theta_after(ahead)) != count; back *= 2.0) {
       ahead = std::max(1.0, ahead - back);
     }
-    plant.advance(constant_torque(torque), to_next + (ahead - 1.0) * sample_time);
+    plant.advance(motion::constant_torque(torque), to_next + (ahead - 1.0) * sample_time);
     i += ahead;
     to_next = sample_time;
   } while (i < most && count_at(batch, lane, plant.theta()) == count);
   for (double j = 1.0; passed && j < i; j += 1.0) {
-    before->advance(constant_torque(torque), j == 1.0 ? to_first : sample_time);
+    before->advance(motion::constant_torque(torque), j == 1.0 ? to_first : sample_time);
     passed(j, before->theta(), before->creep());
   }
   pass_samples(batch, lane, i - 1.0);

@@ -8,7 +8,7 @@ namespace zerocount::batch {
 
 /// A sampling instant on the way, at which nothing changed: `passed` samples after the last that was
 /// processed.
-using PassedSample = std::function<void(double passed, double theta, const CreepState& creep)>;
+using PassedSample = std::function<void(double passed, double theta, const friction::CreepState& creep)>;
 
 /// By the rest rule. A lane that is at rest goes on, by creep alone and in closed form, to the next stop, or
 /// to the first sampling instant at which its count is another.

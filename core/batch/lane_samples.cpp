@@ -75,13 +75,13 @@ void LaneWork::record_passed() {
     const double whole = std::ceil(p.time_to_stop * rate - 1e-9) - 1.0;
     for (int j = 0; j < static_cast<int>(p.samples); ++j) {
       const double x = (p.time_to_stop - (whole - j) * sample_time) / p.step;
-      const double extension =
-          batch_.motion.extension[p.lane] + (value_at(p.growth, x) - value_at(p.growth, p.end));
+      const double extension = batch_.motion.extension[p.lane] +
+                               (numerics::value_at(p.growth, x) - numerics::value_at(p.growth, p.end));
       observers_->sample({trial.number, trial.first_sample + taken + j,
                           static_cast<std::int64_t>(batch_.loop.count[p.lane]),
                           static_cast<std::int64_t>(batch_.loop.code[p.lane]),
-                          batch_.motion.hook[p.lane] + value_at(p.elongation, x) + extension, extension,
-                          std::abs(value_at(p.growth, x))});
+                          batch_.motion.hook[p.lane] + numerics::value_at(p.elongation, x) + extension,
+                          extension, std::abs(numerics::value_at(p.growth, x))});
     }
   }
 }

@@ -14,20 +14,20 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-void start_loop(LoopLanes& l, int lane, const TrialParameters& p) {
-  const Encoder encoder = fine_encoder(p.encoder, p.initial.encoder_phase);
+void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
+  const loop::Encoder encoder = loop::fine_encoder(p.encoder, p.initial.encoder_phase);
   l.resolution[lane] = encoder.resolution;
   l.phase[lane] = encoder.phase;
   l.kp[lane] = p.controller.kp;
   l.ki[lane] = p.controller.ki;
   l.kd[lane] = p.controller.kd;
-  const TorqueRange range =
-      integral_range(p.controller.anti_windup, lowest_torque(p.dac), highest_torque(p.dac));
+  const loop::TorqueRange range =
+      loop::integral_range(p.controller.anti_windup, loop::lowest_torque(p.dac), loop::highest_torque(p.dac));
   l.lowest_integral[lane] = range.lowest;
   l.highest_integral[lane] = range.highest;
   l.dac_resolution[lane] = p.dac.resolution;
-  l.lowest_code[lane] = static_cast<double>(lowest_code(p.dac));
-  l.highest_code[lane] = static_cast<double>(highest_code(p.dac));
+  l.lowest_code[lane] = static_cast<double>(loop::lowest_code(p.dac));
+  l.highest_code[lane] = static_cast<double>(loop::highest_code(p.dac));
   l.integral[lane] = p.initial.integral;
   l.error[lane] = 0.0;
   l.count[lane] = 0.0;
@@ -38,8 +38,8 @@ void start_loop(LoopLanes& l, int lane, const TrialParameters& p) {
   l.delay[lane] = p.controller.delay;
 }
 
-void start_time(TimeLanes& time, int lane, const TrialParameters& p, double resolution) {
-  const MotionTolerance tolerance = motion_tolerance(resolution);
+void start_time(TimeLanes& time, int lane, const trial::TrialParameters& p, double resolution) {
+  const motion::MotionTolerance tolerance = trial::motion_tolerance(resolution);
   time.time_to_stop[lane] = 0.0;
   time.samples_to_stop[lane] = 1.0;
   time.sample_rate[lane] = p.controller.sample_rate;
@@ -54,8 +54,8 @@ void start_time(TimeLanes& time, int lane, const TrialParameters& p, double reso
 }  // namespace
 
 void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,
-                 const TrialParameters& parameters, TrialOutcome& outcome) {
-  const TrialParameters& p = parameters;
+                 const trial::TrialParameters& parameters, trial::TrialOutcome& outcome) {
+  const trial::TrialParameters& p = parameters;
   trial.parameters = &parameters;
   trial.number = number;
   trial.outcome = &outcome;
@@ -71,7 +71,7 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
   const double resolution = batch.loop.resolution[lane];
   start_time(batch.time, lane, p, resolution);
   trial.rest_tolerance = batch.time.tolerance[lane];
-  trial.plant.emplace(p.plant, p.friction, plant_start(p), motion_tolerance(resolution));
+  trial.plant.emplace(p.plant, p.friction, trial::plant_start(p), trial::motion_tolerance(resolution));
   batch.contact.per_inertia[lane] = 1.0 / p.plant.inertia;
   batch.contact.damping[lane] = p.plant.presliding_damping;
   batch.contact.sliding_damping[lane] = p.plant.sliding_damping;
@@ -80,29 +80,29 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
 }
 
 void start_move(BatchState& batch, int lane, LaneTrial& trial) {
-  const TrialParameters& p = *trial.parameters;
-  const MoveTiming timing = move_timing(p, trial.move);
+  const trial::TrialParameters& p = *trial.parameters;
+  const trial::MoveTiming timing = trial::move_timing(p, trial.move);
   MeasureLanes& q = batch.measures;
   batch.loop.target[lane] = static_cast<double>(p.command.targets[trial.move]);
   q.limits.samples[lane] = static_cast<double>(timing.samples);
   q.limits.dwell[lane] = static_cast<double>(timing.dwell);
   q.limits.window[lane] = static_cast<double>(timing.window);
-  q.last_half[lane] = static_cast<double>(first_of_last_half(timing.samples));
-  for_each_measure([lane](Lanes& measure) { measure[lane] = 0.0; }, q);
+  q.last_half[lane] = static_cast<double>(trial::first_of_last_half(timing.samples));
+  trial::for_each_measure([lane](Lanes& measure) { measure[lane] = 0.0; }, q);
   for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension}) (*of)[lane] = 0.0;
   q.largest_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
   trial.breakaways = 0;
   trial.slid_at_start = batch.motion.slide_direction[lane] != 0.0;
   trial.deepest = static_cast<std::int64_t>(trial.plant->spring().depth());
-  trial.jerks = Jerks(static_cast<std::int64_t>(trial.move), timing.sample_time);
+  trial.jerks = trial::Jerks(static_cast<std::int64_t>(trial.move), timing.sample_time);
   trial.last_half.start(timing.samples);
 }
 
-MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& trial, bool stopped) {
-  const TrialParameters& p = *trial.parameters;
+trial::MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& trial, bool stopped) {
+  const trial::TrialParameters& p = *trial.parameters;
   const MeasureLanes& q = batch.measures;
   const LoopLanes& l = batch.loop;
-  MoveEnd end;
+  trial::MoveEnd end;
   end.last = {p.command.targets[trial.move],
               static_cast<std::int64_t>(l.count[lane]),
               l.decided[lane],
@@ -113,9 +113,9 @@ MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& trial, boo
   end.reversal_depth = trial.deepest;
   end.stopped = stopped;
   trial.last_half.finish(end.last.count);
-  MoveOutcome outcome =
-      outcome_of_move(move_timing(p, trial.move), measures_of(q, lane), trial.jerks, trial.last_half, end);
-  outcome.true_error = true_error(end.last.target, end.last.theta, l.resolution[lane], l.phase[lane]);
+  trial::MoveOutcome outcome = trial::outcome_of_move(trial::move_timing(p, trial.move), measures_of(q, lane),
+                                                      trial.jerks, trial.last_half, end);
+  outcome.true_error = trial::true_error(end.last.target, end.last.theta, l.resolution[lane], l.phase[lane]);
   return outcome;
 }
 

@@ -68,7 +68,7 @@ bool LaneWork::come_to_rest(int lane) {
   LaneTrial& trial = trial_of(lane);
   if (!observers_->sample) return rest(batch_, lane, trial, {});
   const auto taken = static_cast<std::int64_t>(batch_.measures.taken[lane]);
-  return rest(batch_, lane, trial, [&](double passed, double theta, const CreepState& creep) {
+  return rest(batch_, lane, trial, [&](double passed, double theta, const friction::CreepState& creep) {
     const std::int64_t k = trial.first_sample + taken - 1 + static_cast<std::int64_t>(passed);
     observers_->sample({trial.number, k, static_cast<std::int64_t>(batch_.loop.count[lane]),
                         static_cast<std::int64_t>(batch_.loop.code[lane]), theta, creep.extension,

@@ -15,13 +15,13 @@
 namespace zerocount::batch {
 
 /// The lanes' friction law: that of the models which run in lanes.
-using LanePlant = PlantWith<PreslidingFriction>;
+using LanePlant = plant::PlantWith<friction::PreslidingFriction>;
 
 /// What a lane has beside its numbers in the batch state: its trial, and what the kernels have no use for.
 struct LaneTrial {
-  const TrialParameters* parameters{nullptr};
+  const trial::TrialParameters* parameters{nullptr};
   std::size_t number{0};  ///< of the trial in the batch
-  TrialOutcome* outcome{nullptr};
+  trial::TrialOutcome* outcome{nullptr};
   std::size_t move{0};
   std::int64_t first_sample{0};  ///< of the move, from the start of the trial
 
@@ -35,9 +35,9 @@ struct LaneTrial {
   bool slid_at_start{false};   ///< of this move
   std::int64_t deepest{0};     ///< in this move
 
-  Jerks jerks;                 ///< of this move
+  trial::Jerks jerks;          ///< of this move
   std::int64_t told_jerks{0};  ///< of the trial
-  LastHalf last_half;          ///< of this move
+  trial::LastHalf last_half;   ///< of this move
 
   std::vector<double> waiting;  ///< decided torques on their way through the delay, N m
   std::size_t oldest_waiting{0};
@@ -59,17 +59,17 @@ void end_slide(BatchState& batch, int lane, LaneTrial& trial);
 bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial);
 
 /// The measures of one lane.
-inline RunningMeasures<double> measures_of(const MeasureLanes& lanes, int lane) {
-  RunningMeasures<double> measures;
-  for_each_measure([lane](double& to, const Lanes& from) { to = from[lane]; }, measures, lanes);
+inline trial::RunningMeasures<double> measures_of(const MeasureLanes& lanes, int lane) {
+  trial::RunningMeasures<double> measures;
+  trial::for_each_measure([lane](double& to, const Lanes& from) { to = from[lane]; }, measures, lanes);
   return measures;
 }
 
 /// Puts the lane into its trial's start.
 void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,
-                 const TrialParameters& parameters, TrialOutcome& outcome);
+                 const trial::TrialParameters& parameters, trial::TrialOutcome& outcome);
 void start_move(BatchState& batch, int lane, LaneTrial& trial);
 /// The measures of the move that ends here. @param stopped because it has diverged.
-MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& trial, bool stopped);
+trial::MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& trial, bool stopped);
 
 }  // namespace zerocount::batch

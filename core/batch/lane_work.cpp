@@ -17,16 +17,16 @@ LaneWork::LaneWork(const BatchSettings& settings)
 
 void LaneWork::fill_spare_lane() {
   // Anything finite will do: a trial of the defaults.
-  TrialParameters parameters;
+  trial::TrialParameters parameters;
   parameters.command.targets = {0};
   LaneTrial spare;
-  TrialOutcome outcome;
+  trial::TrialOutcome outcome;
   start_trial(batch_, spare_lane, spare, 0, parameters, outcome);
   batch_.time.time_to_stop[spare_lane] = batch_.time.sample_time[spare_lane];
 }
 
-void LaneWork::run(std::span<const TrialParameters* const> trials, std::span<TrialOutcome> outcomes,
-                   const BatchObservers& observers) {
+void LaneWork::run(std::span<const trial::TrialParameters* const> trials,
+                   std::span<trial::TrialOutcome> outcomes, const BatchObservers& observers) {
   trials_ = trials;
   outcomes_ = outcomes;
   observers_ = &observers;
@@ -64,19 +64,19 @@ void LaneWork::refill(int lane) {
 
 /// The whole trial by run_trial. Of its jerks and samples, the first so many have been told already.
 void LaneWork::run_scalar(const LaneTrial& trial, std::int64_t told_jerks, std::int64_t told_samples) {
-  TrialObservers single;
+  trial::TrialObservers single;
   std::int64_t jerks = 0;
   if (observers_->jerk) {
-    single.jerk = [&](const Jerk& jerk) {
+    single.jerk = [&](const trial::Jerk& jerk) {
       if (jerks++ >= told_jerks) observers_->jerk(trial.number, jerk);
     };
   }
   if (observers_->sample) {
-    single.sample = [&](const SampleRecord& r) {
+    single.sample = [&](const trial::SampleRecord& r) {
       if (r.k >= told_samples) observers_->sample({trial.number, r.k, r.count, r.code, r.theta, r.xp, r.xh});
     };
   }
-  *trial.outcome = run_trial(*trial.parameters, single);
+  *trial.outcome = trial::run_trial(*trial.parameters, single);
 }
 
 /// A motion that cannot be followed, or that has left what encoders can count: run_trial has the words for
@@ -111,7 +111,7 @@ void LaneWork::end_move(int lane, LaneTrial& trial) {
 
 void LaneWork::stop_diverged(int lane, LaneTrial& trial) {
   add_outcome(lane, trial, true);
-  trial.outcome->moves.resize(trial.parameters->command.targets.size(), move_not_run());
+  trial.outcome->moves.resize(trial.parameters->command.targets.size(), trial::move_not_run());
   end_trial(lane);
 }
 

@@ -23,7 +23,7 @@ class LaneWork {
   explicit LaneWork(const BatchSettings& settings);
 
   /// See BatchEngine::run.
-  void run(std::span<const TrialParameters* const> trials, std::span<TrialOutcome> outcomes,
+  void run(std::span<const trial::TrialParameters* const> trials, std::span<trial::TrialOutcome> outcomes,
            const BatchObservers& observers);
 
  private:
@@ -73,8 +73,8 @@ class LaneWork {
   int waiting_[max_lanes]{};  ///< lanes with an event in their step
   int waiting_count_{0};
 
-  std::span<const TrialParameters* const> trials_;
-  std::span<TrialOutcome> outcomes_;
+  std::span<const trial::TrialParameters* const> trials_;
+  std::span<trial::TrialOutcome> outcomes_;
   const BatchObservers* observers_{nullptr};
   std::size_t next_trial_{0};
   int running_{0};

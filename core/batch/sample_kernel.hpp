@@ -23,18 +23,18 @@ void sample_kernel(BatchState& batch, LaneList list) {
     const P theta = select(sliding, at.load(m.theta), at.load(m.hook) + at.load(m.elongation) + extension);
     const P resolution = at.load(l.resolution);
     const Mask unreadable = ~(abs(theta / resolution) < P(0x1p50));
-    const P count = ideal_count(theta, resolution, at.load(l.phase));
+    const P count = loop::ideal_count(theta, resolution, at.load(l.phase));
     const P last_count = select(to_mask(at.load(l.counted)), at.load(l.count), count);
     const P last_error = at.load(l.error);
     const P error = at.load(l.target) - count;
     const P change = count - last_count;
 
-    const PidConstants<P> gains{at.load(l.kp), at.load(l.ki), at.load(l.kd), at.load(l.lowest_integral),
-                                at.load(l.highest_integral)};
-    PidState<P> pid{at.load(l.integral), last_error, last_count};
+    const loop::PidConstants<P> gains{at.load(l.kp), at.load(l.ki), at.load(l.kd), at.load(l.lowest_integral),
+                                      at.load(l.highest_integral)};
+    loop::PidState<P> pid{at.load(l.integral), last_error, last_count};
     const P dac_resolution = at.load(l.dac_resolution);
-    const P wanted = wanted_code(pid_step(gains, pid, error, count), dac_resolution);
-    const P code = clipped_code(wanted, at.load(l.lowest_code), at.load(l.highest_code));
+    const P wanted = loop::wanted_code(loop::pid_step(gains, pid, error, count), dac_resolution);
+    const P code = loop::clipped_code(wanted, at.load(l.lowest_code), at.load(l.highest_code));
     const P torque = code * dac_resolution;
 
     at.store(l.integral, pid.integral);
@@ -49,18 +49,18 @@ void sample_kernel(BatchState& batch, LaneList list) {
 
     const P zero(0.0);
     const P one(1.0);
-    RunningMeasures<P> measures;
-    for_each_measure(LoadEach<P>{at}, measures, q);
-    const MeasureLimits<P> limits{at.load(q.limits.samples), at.load(q.limits.dwell),
-                                  at.load(q.limits.window)};
+    trial::RunningMeasures<P> measures;
+    trial::for_each_measure(LoadEach<P>{at}, measures, q);
+    const trial::MeasureLimits<P> limits{at.load(q.limits.samples), at.load(q.limits.dwell),
+                                         at.load(q.limits.window)};
     const P taken = measures.taken;
     const P size = abs(error);
     const P first_error = select(taken == zero, size, at.load(q.first_error));
     const Mask lost = size > at.load(q.largest_error) + first_error;
     const Mask dwelt = to_mask(measures.arrived);
-    measure_error(measures, limits, error);
-    measure_torque(measures, torque, code != wanted);
-    for_each_measure(StoreEach<P>{at}, q, measures);
+    trial::measure_error(measures, limits, error);
+    trial::measure_torque(measures, torque, code != wanted);
+    trial::for_each_measure(StoreEach<P>{at}, q, measures);
     at.store(q.first_error, first_error);
     at.store(q.theta, theta);
     at.store(q.extension, extension);

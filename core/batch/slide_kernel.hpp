@@ -67,15 +67,16 @@ void slide_kernel(BatchState& batch, LaneList list) {
     for (int k = 0; k < batch_order; ++k) {
       P force = k == 0 ? driving : zero;
       if constexpr (!Fast) {
-        exponent[k] = -per_step_squared * square_coefficient(velocity, k);
+        exponent[k] = -per_step_squared * numerics::square_coefficient(velocity, k);
         if (k > 0) {
           slope[k - 1] = P(static_cast<double>(k)) * exponent[k];
-          lightness[k] = exponential_coefficient(slope, lightness, k);
+          lightness[k] = numerics::exponential_coefficient(slope, lightness, k);
         }
         force = force - stribeck * lightness[k];
       }
-      theta[k + 1] = velocity[k] * P(reciprocal.of[k + 1]);
-      velocity[k + 1] = (force_scale * force - damping_scale * velocity[k]) * P(reciprocal.of[k + 1]);
+      theta[k + 1] = velocity[k] * P(numerics::reciprocal.of[k + 1]);
+      velocity[k + 1] =
+          (force_scale * force - damping_scale * velocity[k]) * P(numerics::reciprocal.of[k + 1]);
     }
 
     const P left_out = (abs(theta[batch_order - 1]) + abs(velocity[batch_order - 1])) +

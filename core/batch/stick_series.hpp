@@ -38,7 +38,7 @@ ZEROCOUNT_ALWAYS_INLINE void next_order(const StickLaw<P>& law, int k, const P& 
   s.rate[k] = k == 0 ? start_rate : s.velocity[k] - s.creep[k];
   slope[k] = law.exponent * s.rate[k];
   const P unbalanced = k == 0 ? law.applied - s.torque[0] : -s.torque[k];
-  const P per_order(reciprocal.of[k + 1]);
+  const P per_order(numerics::reciprocal.of[k + 1]);
   s.elongation[k + 1] = s.rate[k] * per_order;
   s.growth[k + 1] = s.creep[k] * per_order;
   s.velocity[k + 1] = (law.acceleration * unbalanced - law.damping * s.velocity[k]) * per_order;
@@ -48,7 +48,7 @@ ZEROCOUNT_ALWAYS_INLINE void next_order(const StickLaw<P>& law, int k, const P& 
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void next_torque(const StickLaw<P>& law, int k, const P& product, StickSeries<P>& s,
                                          P* softness) {
-  softness[k] = product * P(reciprocal.of[k]);
+  softness[k] = product * P(numerics::reciprocal.of[k]);
   s.torque[k] = law.k1 * s.elongation[k] - law.softening * softness[k];
 }
 

@@ -29,15 +29,15 @@ void stick_start_kernel(BatchState& batch, LaneList list) {
     const P per_inertia = at.load(c.per_inertia);
     const P stiffest = at.load(c.stiffest);
 
-    const SpringBranchOf<P> branch{at.load(m.branch_elongation),
-                                   at.load(m.branch_torque),
-                                   at.load(m.branch_sign),
-                                   at.load(c.k1),
-                                   at.load(m.branch_softening_torque),
-                                   at.load(m.branch_softening_rate)};
-    const P travel = travel_on(branch, elongation);
+    const friction::SpringBranchOf<P> branch{at.load(m.branch_elongation),
+                                             at.load(m.branch_torque),
+                                             at.load(m.branch_sign),
+                                             at.load(c.k1),
+                                             at.load(m.branch_softening_torque),
+                                             at.load(m.branch_softening_rate)};
+    const P travel = friction::travel_on(branch, elongation);
     const P softness = exp(-branch.softening_rate * travel);
-    const P spring_torque = torque_after(branch, travel, P(1.0) - softness);
+    const P spring_torque = friction::torque_after(branch, travel, P(1.0) - softness);
     const P torque_sign = select(spring_torque < zero, P(-1.0), P(1.0));
 
     Mask creeping = to_mask(at.load(m.creeping)) | (abs(spring_torque) >= at.load(m.creep_onset));

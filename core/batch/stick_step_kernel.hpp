@@ -93,10 +93,10 @@ ZEROCOUNT_ALWAYS_INLINE void store_motion_of(BatchState& batch, const LaneGroup<
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void store_measures(BatchState& batch, const LaneGroup<P>& at, const P& passed) {
   MeasureLanes& q = batch.measures;
-  ArrivalMeasures<P> arrival;
-  for_each_of_arrival(LoadEach<P>{at}, arrival, q);
-  measure_zeros(arrival, at.load(q.limits.dwell), passed);
-  for_each_of_arrival(StoreEach<P>{at}, q, arrival);
+  trial::ArrivalMeasures<P> arrival;
+  trial::for_each_of_arrival(LoadEach<P>{at}, arrival, q);
+  trial::measure_zeros(arrival, at.load(q.limits.dwell), passed);
+  trial::for_each_of_arrival(StoreEach<P>{at}, q, arrival);
 }
 
 /// For whoever records the samples that were passed.

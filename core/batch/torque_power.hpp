@@ -20,7 +20,7 @@ ZEROCOUNT_ALWAYS_INLINE P torque_power_coefficient(const P* torque, const P* pow
                                                    int k) {
   // For n = 1 without the sum, whose terms cancel.
   const P linear = power[0] * torque[k] / torque[0];
-  return select(exponent == P(1.0), linear, power_coefficient(torque, power, exponent, k));
+  return select(exponent == P(1.0), linear, numerics::power_coefficient(torque, power, exponent, k));
 }
 
 }  // namespace zerocount::batch

@@ -5,10 +5,10 @@
 
 #include "core/numerics/sign.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
-CoulombFriction::CoulombFriction(const PlantParameters& plant, FrictionAlongRotor friction,
-                                 const PlantStart& start, const MotionTolerance& tolerance)
+CoulombFriction::CoulombFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
+                                 const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
     : plant_(plant),
       friction_(std::move(friction)),
       position_(start.position),
@@ -16,13 +16,13 @@ CoulombFriction::CoulombFriction(const PlantParameters& plant, FrictionAlongRoto
       contact_(friction_at(friction_, position_)),
       omega_(start.velocity),
       sliding_(start.velocity != 0.0),
-      direction_(sign_of(start.velocity)) {}
+      direction_(numerics::sign_of(start.velocity)) {}
 
-double CoulombFriction::step(const TorqueCourse& torque, double duration) {
+double CoulombFriction::step(const motion::TorqueCourse& torque, double duration) {
   return sliding_ ? slide(torque, duration) : stand(torque, duration);
 }
 
-double CoulombFriction::slide(const TorqueCourse& torque, double duration) {
+double CoulombFriction::slide(const motion::TorqueCourse& torque, double duration) {
   Slide slide{contact_, plant_.sliding_damping, theta_, omega_, direction_};
   const SlideStep step = slide_step(slide, plant_.inertia, torque, tolerance_, duration);
   theta_ = slide.theta;
@@ -35,23 +35,23 @@ double CoulombFriction::slide(const TorqueCourse& torque, double duration) {
   return step.time;
 }
 
-bool CoulombFriction::torque_drives(double direction, const TorqueCourse& torque) const {
+bool CoulombFriction::torque_drives(double direction, const motion::TorqueCourse& torque) const {
   return leaves_rest({contact_, plant_.sliding_damping, 0.0, 0.0, direction}, plant_.inertia, torque);
 }
 
 /// |u| can pass the breakaway torque at most once, and only towards where it settles, because u is monotonic.
 /// What moves nothing in the arithmetic counts as within the level: the rotor would slide and stick without
 /// end.
-double CoulombFriction::stand(const TorqueCourse& torque, double duration) {
-  if (std::abs(torque.now) > contact_.breakaway && torque_drives(sign_of(torque.now), torque)) {
-    break_away(sign_of(torque.now));
+double CoulombFriction::stand(const motion::TorqueCourse& torque, double duration) {
+  if (std::abs(torque.now) > contact_.breakaway && torque_drives(numerics::sign_of(torque.now), torque)) {
+    break_away(numerics::sign_of(torque.now));
     return 0.0;
   }
-  if (is_constant(torque) || std::abs(torque.settled) <= contact_.breakaway) return duration;
-  const double direction = sign_of(torque.settled);
+  if (motion::is_constant(torque) || std::abs(torque.settled) <= contact_.breakaway) return duration;
+  const double direction = numerics::sign_of(torque.settled);
   // From the level itself, where rounding has no say in whether it is passed.
-  const TorqueCourse release{direction * contact_.breakaway, torque.settled, torque.rate};
-  const double waiting = time_until(torque, release.now);
+  const motion::TorqueCourse release{direction * contact_.breakaway, torque.settled, torque.rate};
+  const double waiting = motion::time_until(torque, release.now);
   if (!(waiting < duration) || !torque_drives(direction, release)) return duration;
   break_away(direction);
   return waiting + slide(release, duration - waiting);
@@ -63,4 +63,4 @@ void CoulombFriction::break_away(double direction) {
   ++breakaways_;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -5,7 +5,7 @@
 #include "core/friction/law.hpp"
 #include "core/friction/sliding.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// Amonton–Coulomb friction with a static level: the rotor stands, θ constant, while |u| ≤ Fs = breakaway. It
 /// slides towards sgn(u) from the instant at which |u| passes Fs, as Slide has it, until ω = 0; there the
@@ -20,10 +20,10 @@ class CoulombFriction : public WithoutSpring {
   static constexpr bool runs_in_lanes = false;
 
   /// It slides at the start wherever velocity ≠ 0: nothing else could give way to it.
-  CoulombFriction(const PlantParameters& plant, FrictionAlongRotor friction, const PlantStart& start,
-                  const MotionTolerance& tolerance);
+  CoulombFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
+                  const motion::PlantStart& start, const motion::MotionTolerance& tolerance);
 
-  double step(const TorqueCourse& torque, double duration);
+  double step(const motion::TorqueCourse& torque, double duration);
 
   double theta() const { return theta_; }
   double omega() const { return omega_; }
@@ -32,12 +32,12 @@ class CoulombFriction : public WithoutSpring {
   const FrictionParameters& contact() const { return contact_; }
 
  private:
-  double stand(const TorqueCourse& torque, double duration);
-  double slide(const TorqueCourse& torque, double duration);
-  bool torque_drives(double direction, const TorqueCourse& torque) const;
+  double stand(const motion::TorqueCourse& torque, double duration);
+  double slide(const motion::TorqueCourse& torque, double duration);
+  bool torque_drives(double direction, const motion::TorqueCourse& torque) const;
   void break_away(double direction);
 
-  PlantParameters plant_;
+  motion::PlantParameters plant_;
   FrictionAlongRotor friction_;
   double position_;
   double tolerance_;
@@ -50,4 +50,4 @@ class CoulombFriction : public WithoutSpring {
   std::int64_t breakaways_{0};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

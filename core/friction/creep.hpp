@@ -6,7 +6,7 @@
 
 #include "core/friction/parameters.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// The plastic module (paper, eq. 2): creep with work hardening,
 ///
@@ -58,4 +58,4 @@ inline CreepState creep_at_constant_torque(const FrictionParameters& friction, C
   return {start.extension + std::copysign(growth, torque), start.hardening + growth};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace zerocount {
+namespace zerocount::friction {
 namespace {
 
 constexpr double slow = 0.1;  // α over the rates at which the rotor's own motion dies out
@@ -27,8 +27,9 @@ double rate_at_hardening(const CreepAtRest& rest, const FrictionParameters& cont
 
 }  // namespace
 
-std::optional<CreepAtRest> creep_at_rest(const PlantParameters& plant, const FrictionParameters& contact,
-                                         double torque, double sign, double stiffness, double hardening) {
+std::optional<CreepAtRest> creep_at_rest(const motion::PlantParameters& plant,
+                                         const FrictionParameters& contact, double torque, double sign,
+                                         double stiffness, double hardening) {
   const double inertia = plant.inertia;
   const double damping = plant.presliding_damping;
   const double alpha = contact.alpha;
@@ -55,7 +56,7 @@ std::optional<CreepAtRest> creep_at_rest(const PlantParameters& plant, const Fri
   return r;
 }
 
-double error_of_creep_at_rest(const CreepAtRest& rest, const PlantParameters& plant,
+double error_of_creep_at_rest(const CreepAtRest& rest, const motion::PlantParameters& plant,
                               const FrictionParameters& contact, double stiffness, double last_stiffness) {
   const CreepAtRest& r = rest;
   const double n = contact.n;
@@ -107,4 +108,4 @@ double time_until_rate(const CreepAtRest& rest, double rate) {
   return std::log(rest.rate / (rest.g1 + rest.g2 * rest.rate) / z) / rest.g1;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -6,7 +6,7 @@
 #include "core/friction/parameters.hpp"
 #include "core/motion/parameters.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// The motion of a rotor that only creep moves, under a constant torque u.
 ///
@@ -40,13 +40,14 @@ struct CreepAtRest {
 /// below a tenth of the rates at which the rotor's own motion dies out, c/2J and k/c.
 /// @param torque u, N m. @param sign s. @param stiffness k, N m/rad. @param hardening xh at t = 0, rad, with
 /// |u|ⁿ/λ beyond it.
-std::optional<CreepAtRest> creep_at_rest(const PlantParameters& plant, const FrictionParameters& contact,
-                                         double torque, double sign, double stiffness, double hardening);
+std::optional<CreepAtRest> creep_at_rest(const motion::PlantParameters& plant,
+                                         const FrictionParameters& contact, double torque, double sign,
+                                         double stiffness, double hardening);
 
 /// Bound of what θ (rad) may differ from the exact motion: twice what the third powers of p, the first that
 /// are left out, and the change of the tangent stiffness from k to `last_stiffness` (N m/rad, not above k)
 /// while S goes to U would add.
-double error_of_creep_at_rest(const CreepAtRest& rest, const PlantParameters& plant,
+double error_of_creep_at_rest(const CreepAtRest& rest, const motion::PlantParameters& plant,
                               const FrictionParameters& contact, double stiffness, double last_stiffness);
 
 /// p (rad/s) after the time t (s).
@@ -71,4 +72,4 @@ inline double velocity_at_rate(const CreepAtRest& rest, double rate) {
   return rate * (rest.w1 + rate * rest.w2);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

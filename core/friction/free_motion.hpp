@@ -3,7 +3,7 @@
 #include "core/motion/parameters.hpp"
 #include "core/motion/torque_course.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// State of a rotor without friction.
 struct FreeMotion {
@@ -21,7 +21,7 @@ struct FreeMotion {
 ///   θ(t) = θ(0) + ω(0)·t·exp[0, −at] + U/J·t²·exp[0, 0, −at] + (u(0) − U)/J·t²·exp[0, −at, −rt].
 ///
 /// With c = 0 the rotor is free.
-FreeMotion free_motion(const PlantParameters& plant, const FreeMotion& start, const TorqueCourse& torque,
-                       double t);
+FreeMotion free_motion(const motion::PlantParameters& plant, const FreeMotion& start,
+                       const motion::TorqueCourse& torque, double t);
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

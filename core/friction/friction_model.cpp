@@ -2,7 +2,7 @@
 
 #include "core/friction/laws.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 namespace {
 
 static_assert(FrictionLaws::traits.size() == static_cast<std::size_t>(FrictionModel::none) + 1);
@@ -34,4 +34,4 @@ bool has_breakaway(FrictionModel model) {
   return uses(traits_of(model), &FrictionParameters::breakaway);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::friction {
 
 struct LawTraits;
 
@@ -32,4 +32,4 @@ bool has_creep(FrictionModel model);
 /// Whether the contact holds the rotor until a torque breaks it away.
 bool has_breakaway(FrictionModel model);
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -14,7 +14,7 @@
 #include "core/motion/taylor_step.hpp"
 #include "core/motion/tolerance.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// Which of a contact's parameters.
 using ContactField = double FrictionParameters::*;
@@ -24,10 +24,10 @@ using ContactField = double FrictionParameters::*;
 /// step(torque, duration), which goes on by a step of its own choice, at most by `duration` (s), and returns
 /// the time used: by taylor_step of the smooth motion in force, or in closed form.
 template <class Law>
-concept FrictionLaw = std::constructible_from<Law, const PlantParameters&, const FrictionAlongRotor&,
-                                              const PlantStart&, const MotionTolerance&> &&
-                      (SmoothMotion<Law> ||
-                       requires(Law law, const TorqueCourse& torque, double duration) {
+concept FrictionLaw = std::constructible_from<Law, const motion::PlantParameters&, const FrictionAlongRotor&,
+                                              const motion::PlantStart&, const motion::MotionTolerance&> &&
+                      (motion::SmoothMotion<Law> ||
+                       requires(Law law, const motion::TorqueCourse& torque, double duration) {
                          { law.step(torque, duration) } -> std::same_as<double>;
                        }) &&
                       requires(Law law, const Law now) {
@@ -72,4 +72,4 @@ constexpr LawTraits traits_of() {
   return {Law::word, Law::contact_parameters, Law::has_presliding_damping, Law::runs_in_lanes};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -6,7 +6,7 @@
 #include "core/friction/none.hpp"
 #include "core/friction/presliding.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 template <FrictionLaw... Laws>
 struct LawList {
@@ -18,4 +18,4 @@ struct LawList {
 /// All laws, in the order of FrictionModel.
 using FrictionLaws = LawList<PreslidingFriction, SpringFriction, CoulombFriction, NoFriction>;
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -5,7 +5,7 @@
 #include "core/friction/free_motion.hpp"
 #include "core/friction/law.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// An air bearing: J·dω/dt = u − c·ω and nothing else, by free_motion(). There is no contact; the rotor
 /// always slides, and no hook can break away.
@@ -16,11 +16,11 @@ class NoFriction : public WithoutSpring {
   static constexpr bool has_presliding_damping = true;
   static constexpr bool runs_in_lanes = false;
 
-  NoFriction(const PlantParameters& plant, const FrictionAlongRotor&, const PlantStart& start,
-             const MotionTolerance&)
+  NoFriction(const motion::PlantParameters& plant, const FrictionAlongRotor&, const motion::PlantStart& start,
+             const motion::MotionTolerance&)
       : plant_(plant), motion_{0.0, start.velocity} {}
 
-  double step(const TorqueCourse& torque, double duration) {
+  double step(const motion::TorqueCourse& torque, double duration) {
     motion_ = free_motion(plant_, motion_, torque, duration);
     return duration;
   }
@@ -31,8 +31,8 @@ class NoFriction : public WithoutSpring {
   static std::int64_t breakaways() { return 0; }
 
  private:
-  PlantParameters plant_;
+  motion::PlantParameters plant_;
   FreeMotion motion_;
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

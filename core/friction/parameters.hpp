@@ -9,7 +9,7 @@
 #include "core/friction/profile.hpp"
 #include "core/random/random_numbers.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// Friction of one contact: constant within one pre-sliding range (paper, QN2). The paper gives k1 and k1 +
 /// k2 (section 4); the other defaults are assumed. β is inferred from the outcomes that the paper reports:
@@ -39,7 +39,7 @@ struct ProfiledParameter {
 struct ContactParameter {
   double FrictionParameters::*parameter{nullptr};
   std::function<double(double u)> quantile;  ///< in the parameter's unit, 0 < u < 1
-  RandomStream stream;
+  random::RandomStream stream;
   std::uint64_t trial{0};  ///< counter word of the random numbers
 };
 
@@ -61,8 +61,8 @@ inline FrictionParameters friction_at(const FrictionAlongRotor& friction, double
   for (const ContactParameter& entry : friction.per_contact) {
     if (contact_number == 0) continue;
     const std::uint64_t bits =
-        random_bits_at(entry.stream, entry.trial, static_cast<std::uint64_t>(contact_number));
-    contact.*entry.parameter = entry.quantile(open_uniform(bits));
+        random::random_bits_at(entry.stream, entry.trial, static_cast<std::uint64_t>(contact_number));
+    contact.*entry.parameter = entry.quantile(random::open_uniform(bits));
   }
   for (const ProfiledParameter& entry : friction.profiled) {
     contact.*entry.parameter = value_at(*entry.profile, angle);
@@ -71,4 +71,4 @@ inline FrictionParameters friction_at(const FrictionAlongRotor& friction, double
   return contact;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

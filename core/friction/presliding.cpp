@@ -8,7 +8,7 @@
 #include "core/friction/sliding.hpp"
 #include "core/numerics/sign.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 namespace {
 
 /// Below this share of the breakaway torque the sign of σ is a matter of rounding. Which side of the virgin
@@ -17,8 +17,8 @@ constexpr double torque_without_sign = 1e-14;
 
 }  // namespace
 
-PreslidingFriction::PreslidingFriction(const PlantParameters& plant, FrictionAlongRotor friction,
-                                       const PlantStart& start, MotionTolerance tolerance)
+PreslidingFriction::PreslidingFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
+                                       const motion::PlantStart& start, motion::MotionTolerance tolerance)
     : plant_(plant),
       friction_(std::move(friction)),
       position_(start.position),
@@ -28,7 +28,7 @@ PreslidingFriction::PreslidingFriction(const PlantParameters& plant, FrictionAlo
       omega_(start.velocity) {
   sliding_ = start.sliding && start.velocity != 0.0;
   if (sliding_) {
-    slide_direction_ = sign_of(start.velocity);
+    slide_direction_ = numerics::sign_of(start.velocity);
     breakaway_spring_torque_ = slide_direction_ * contact_.breakaway;
   }
   spring_.start_virgin(0.0, 0);
@@ -73,7 +73,7 @@ void PreslidingFriction::break_away(double direction) {
   ++breakaways_;
 }
 
-double PreslidingFriction::slide(const TorqueCourse& torque, double duration) {
+double PreslidingFriction::slide(const motion::TorqueCourse& torque, double duration) {
   Slide slide{contact_, plant_.sliding_damping, slide_theta_, omega_, slide_direction_};
   const SlideStep step = slide_step(slide, plant_.inertia, torque, tolerance_.elongation, duration);
   slide_theta_ = slide.theta;
@@ -85,7 +85,8 @@ double PreslidingFriction::slide(const TorqueCourse& torque, double duration) {
 void PreslidingFriction::re_stick() {
   contact_ = friction_at(friction_, position_ + slide_theta_, ++contact_number_);
   spring_ = HystereticSpring(contact_);
-  spring_.start_virgin(virgin_elongation(contact_, breakaway_spring_torque_), sign_of(slide_direction_));
+  spring_.start_virgin(virgin_elongation(contact_, breakaway_spring_torque_),
+                       numerics::sign_of(slide_direction_));
   hook_ = slide_theta_ - spring_.elongation();
   creep_ = {};
   creeping_ = false;
@@ -94,15 +95,15 @@ void PreslidingFriction::re_stick() {
   sliding_ = false;
 }
 
-double PreslidingFriction::stick(const TorqueCourse& torque, double duration) {
-  if (rest_ && is_constant(torque) && torque.now == rest_->torque) {
+double PreslidingFriction::stick(const motion::TorqueCourse& torque, double duration) {
+  if (rest_ && motion::is_constant(torque) && torque.now == rest_->torque) {
     go_on_at_rest(duration);
     return duration;
   }
   const bool stood = leave_rest();
   const double creep_rate_now = switch_creep();
   const Elongation elongation = elongation_under(torque.now, creep_rate_now);
-  if (is_constant(torque)) {
+  if (motion::is_constant(torque)) {
     if (begin_rest(torque.now, elongation, stood)) {
       go_on_at_rest(duration);
       return duration;
@@ -117,12 +118,13 @@ double PreslidingFriction::stick(const TorqueCourse& torque, double duration) {
     break_away(direction);
     return 0.0;
   }
-  spring_.set_direction(sign_of(elongation.rate != 0.0 ? elongation.rate : elongation.acceleration));
+  spring_.set_direction(
+      numerics::sign_of(elongation.rate != 0.0 ? elongation.rate : elongation.acceleration));
   deepest_ = std::max(deepest_, depth());
 
   Sticking motion{contact_,  plant_.presliding_damping, spring_, creep_, omega_,
                   creeping_, creep_onset_torque_};
-  const auto next = taylor_step(motion, plant_.inertia, torque, tolerance_.elongation, duration);
+  const auto next = motion::taylor_step(motion, plant_.inertia, torque, tolerance_.elongation, duration);
   pass(next.event);
   return next.time;
 }
@@ -157,7 +159,7 @@ bool PreslidingFriction::at_rest(const Elongation& elongation) const {
 }
 
 /// For how long a torque that moves leaves the elongation at rest, s.
-double PreslidingFriction::time_at_rest(const Elongation& elongation, const TorqueCourse& torque,
+double PreslidingFriction::time_at_rest(const Elongation& elongation, const motion::TorqueCourse& torque,
                                         double duration) const {
   // Not less than the rounding of the torque, or the rest could end before the torque has changed.
   const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(torque.now);
@@ -165,7 +167,7 @@ double PreslidingFriction::time_at_rest(const Elongation& elongation, const Torq
       std::max(tolerance_.elongation * (contact_.k1 + contact_.k2), rounding) / plant_.inertia;
   if (!(std::abs(elongation.acceleration) < 0.5 * whole)) return 0.0;
   const double missing = std::copysign(whole, torque.settled - torque.now) - elongation.acceleration;
-  return std::min(duration, time_until(torque, torque.now + plant_.inertia * missing));
+  return std::min(duration, motion::time_until(torque, torque.now + plant_.inertia * missing));
 }
 
 /// The direction in which the hook slides from now on, or 0 where it holds.
@@ -173,7 +175,7 @@ int PreslidingFriction::slides_towards(double torque) const {
   const double hook_torque = spring_.torque() + plant_.presliding_damping * omega_;
   const double motion = omega_ != 0.0 ? omega_ : torque - spring_.torque();
   const bool slides = std::abs(hook_torque) >= contact_.breakaway && hook_torque * motion > 0.0;
-  return slides ? sign_of(motion) : 0;
+  return slides ? numerics::sign_of(motion) : 0;
 }
 
 void PreslidingFriction::pass(Sticking::Event event) {
@@ -188,7 +190,7 @@ void PreslidingFriction::pass(Sticking::Event event) {
       end_creep();
       break;
     case Sticking::Event::breakaway:
-      break_away(sign_of(omega_));
+      break_away(numerics::sign_of(omega_));
       break;
     case Sticking::Event::velocity_zero:
       omega_ = 0.0;
@@ -216,4 +218,4 @@ void PreslidingFriction::hold_at_rest(double duration) {
   omega_ = creep_rate();
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

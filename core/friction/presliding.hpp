@@ -11,7 +11,7 @@
 #include "core/friction/sticking.hpp"
 #include "core/friction/swing.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// State of the pre-sliding model and its rotor, without the reversal points of the spring.
 struct PlantMotion {
@@ -67,10 +67,10 @@ class PreslidingFriction {
   static constexpr bool has_presliding_damping = true;
   static constexpr bool runs_in_lanes = true;
 
-  PreslidingFriction(const PlantParameters& plant, FrictionAlongRotor friction, const PlantStart& start,
-                     MotionTolerance tolerance);
+  PreslidingFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
+                     const motion::PlantStart& start, motion::MotionTolerance tolerance);
 
-  double step(const TorqueCourse& torque, double duration) {
+  double step(const motion::TorqueCourse& torque, double duration) {
     return sliding_ ? slide(torque, duration) : stick(torque, duration);
   }
 
@@ -135,8 +135,8 @@ class PreslidingFriction {
   };
 
   // Each returns the time used, at most `duration`.
-  double stick(const TorqueCourse& torque, double duration);
-  double slide(const TorqueCourse& torque, double duration);
+  double stick(const motion::TorqueCourse& torque, double duration);
+  double slide(const motion::TorqueCourse& torque, double duration);
 
   Elongation elongation_under(double torque, double creep_rate_now) const;
   bool begin_rest(double torque, const Elongation& elongation, bool stood);
@@ -153,17 +153,18 @@ class PreslidingFriction {
   double switch_creep();
   void go_on_at_rest(double duration);
   bool at_rest(const Elongation& elongation) const;
-  double time_at_rest(const Elongation& elongation, const TorqueCourse& torque, double duration) const;
+  double time_at_rest(const Elongation& elongation, const motion::TorqueCourse& torque,
+                      double duration) const;
   int slides_towards(double torque) const;
   void pass(Sticking::Event event);
   void hold_at_rest(double duration);
   void end_creep();
   double creep_rate() const;
 
-  PlantParameters plant_;
+  motion::PlantParameters plant_;
   FrictionAlongRotor friction_;
   double position_;
-  MotionTolerance tolerance_;
+  motion::MotionTolerance tolerance_;
 
   FrictionParameters contact_;
   std::int64_t contact_number_{0};
@@ -198,4 +199,4 @@ class SpringFriction : public PreslidingFriction {
                                                                   &FrictionParameters::beta};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -4,7 +4,7 @@
 
 #include "core/friction/presliding.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 bool PreslidingFriction::come_to_rest(double torque, bool at_reversal) {
   const bool stood = leave_rest();
@@ -214,4 +214,4 @@ void PreslidingFriction::go_on_at_rest(double duration) {
   omega_ = creep.sign * velocity_at_rate(creep, rate) + swing_.velocity;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

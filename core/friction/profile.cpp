@@ -4,7 +4,7 @@
 #include <complex>
 #include <numbers>
 
-namespace zerocount {
+namespace zerocount::friction {
 
 double field_at(const Profile& profile, double position) {
   // exp(imθ) by repeated multiplication: one sine and one cosine whatever the number of harmonics. The
@@ -25,4 +25,4 @@ double value_at(const Profile& profile, double position) {
   return profile.marginal == Marginal::lognormal ? std::exp(value) : value;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

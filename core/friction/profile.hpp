@@ -3,7 +3,7 @@
 #include <numbers>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// How a profile's Gaussian field becomes the parameter's value.
 enum class Marginal { normal, lognormal };
@@ -29,4 +29,4 @@ double field_at(const Profile& profile, double position);
 /// The parameter's value at `position` (rad or m, in any period), in the parameter's unit.
 double value_at(const Profile& profile, double position);
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

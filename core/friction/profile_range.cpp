@@ -4,7 +4,7 @@
 
 #include <boost/math/tools/minima.hpp>
 
-namespace zerocount {
+namespace zerocount::friction {
 namespace {
 
 /// The lowest of sign·value near `angle`, times sign.
@@ -39,4 +39,4 @@ ValueRange range_over_revolution(const Profile& profile) {
           std::max(range.high, refined(profile, highest_angle, spacing, -1.0))};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -2,7 +2,7 @@
 
 #include "core/friction/profile.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// Lowest and highest value, in the parameter's unit.
 struct ValueRange {
@@ -14,4 +14,4 @@ struct ValueRange {
 /// wavelength, and the extremes then refined.
 ValueRange range_over_revolution(const Profile& profile);
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

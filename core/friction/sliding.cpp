@@ -2,7 +2,7 @@
 
 #include "core/numerics/sign.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 SlidingSeries Slide::start() const {
   SlidingSeries series;
@@ -15,38 +15,38 @@ SlidingSeries Slide::start() const {
   return series;
 }
 
-NextEvent<Slide::Event> Slide::first_event(const SlidingSeries& series, double step) {
-  NextEvent<Event> next{step};
-  next.offer(next_sign_change(series.omega, next.time), Event::velocity_zero);
+motion::NextEvent<Slide::Event> Slide::first_event(const SlidingSeries& series, double step) {
+  motion::NextEvent<Event> next{step};
+  next.offer(motion::next_sign_change(series.omega, next.time), Event::velocity_zero);
   return next;
 }
 
-void Slide::go_to(const SlidingSeries& series, const NextEvent<Event>& next) {
-  theta = value_at(series.position, next.time);
-  omega = value_at(series.omega, next.time);
+void Slide::go_to(const SlidingSeries& series, const motion::NextEvent<Event>& next) {
+  theta = numerics::value_at(series.position, next.time);
+  omega = numerics::value_at(series.omega, next.time);
 }
 
 namespace {
 
 bool leaves_rest(const SlidingSeries& series, double direction) {
   for (const double coefficient : series.omega) {
-    if (coefficient != 0.0) return sign_of(coefficient) == direction;
+    if (coefficient != 0.0) return numerics::sign_of(coefficient) == direction;
   }
   return false;
 }
 
 }  // namespace
 
-bool leaves_rest(const Slide& slide, double inertia, const TorqueCourse& torque) {
-  return leaves_rest(motion_series(slide, inertia, torque), slide.direction);
+bool leaves_rest(const Slide& slide, double inertia, const motion::TorqueCourse& torque) {
+  return leaves_rest(motion::motion_series(slide, inertia, torque), slide.direction);
 }
 
-SlideStep slide_step(Slide& slide, double inertia, const TorqueCourse& torque, double tolerance,
+SlideStep slide_step(Slide& slide, double inertia, const motion::TorqueCourse& torque, double tolerance,
                      double duration) {
-  const SlidingSeries series = motion_series(slide, inertia, torque);
+  const SlidingSeries series = motion::motion_series(slide, inertia, torque);
   if (slide.omega == 0.0 && !leaves_rest(series, slide.direction)) return {0.0, true};
-  const auto next = step_along(series, slide, tolerance, duration);
+  const auto next = motion::step_along(series, slide, tolerance, duration);
   return {next.time, next.event == Slide::Event::velocity_zero};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

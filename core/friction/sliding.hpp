@@ -6,18 +6,18 @@
 #include "core/motion/taylor_step.hpp"
 #include "core/motion/torque_course.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// Taylor series in time of the sliding motion.
 struct SlidingSeries {
-  Series position{};            ///< θ, rad
-  Series omega{};               ///< ω, rad/s
-  Series exponent{};            ///< −(ω/ωs)², dimensionless
-  Series slope{};               ///< of the exponent in time, 1/s
-  Series lightness{};           ///< exp(−(ω/ωs)²)
-  double coulomb;               ///< d·Fc, N m
-  double stribeck;              ///< d·(Fs − Fc), N m
-  double per_velocity_squared;  ///< 1/ωs², s²/rad²
+  numerics::Series position{};   ///< θ, rad
+  numerics::Series omega{};      ///< ω, rad/s
+  numerics::Series exponent{};   ///< −(ω/ωs)², dimensionless
+  numerics::Series slope{};      ///< of the exponent in time, 1/s
+  numerics::Series lightness{};  ///< exp(−(ω/ωs)²)
+  double coulomb;                ///< d·Fc, N m
+  double stribeck;               ///< d·(Fs − Fc), N m
+  double per_velocity_squared;   ///< 1/ωs², s²/rad²
 };
 
 /// The motion while the hook slides (paper, eq. 3, with Stribeck friction):
@@ -37,26 +37,26 @@ struct Slide {
 
   SlidingSeries start() const;
   double expand(SlidingSeries& s, std::size_t k, double torque) const {
-    const double exponent = -s.per_velocity_squared * square_coefficient(s.omega.data(), k);
+    const double exponent = -s.per_velocity_squared * numerics::square_coefficient(s.omega.data(), k);
     s.exponent[k] = exponent;
     double lightness = 0.0;
     if (k > 0) {
       s.slope[k - 1] = static_cast<double>(k) * exponent;
-      lightness = exponential_coefficient(s.slope.data(), s.lightness.data(), k);
+      lightness = numerics::exponential_coefficient(s.slope.data(), s.lightness.data(), k);
     } else {
       lightness = std::exp(exponent);
     }
     s.lightness[k] = lightness;
-    s.position[k + 1] = s.omega[k] * reciprocal[k + 1];
+    s.position[k + 1] = s.omega[k] * numerics::reciprocal[k + 1];
     const double driving = k == 0 ? torque - s.coulomb : torque;
     return driving - damping * s.omega[k] - s.stribeck * lightness;
   }
-  static NextEvent<Event> first_event(const SlidingSeries& series, double step);
-  void go_to(const SlidingSeries& series, const NextEvent<Event>& next);
+  static motion::NextEvent<Event> first_event(const SlidingSeries& series, double step);
+  void go_to(const SlidingSeries& series, const motion::NextEvent<Event>& next);
 };
 
 /// Whether the slide can leave ω = 0 in its direction under the torque.
-bool leaves_rest(const Slide& slide, double inertia, const TorqueCourse& torque);
+bool leaves_rest(const Slide& slide, double inertia, const motion::TorqueCourse& torque);
 
 struct SlideStep {
   double time;  ///< used, s
@@ -64,7 +64,7 @@ struct SlideStep {
 };
 
 /// Takes the slide on by a Taylor step, at most by `duration` (s).
-SlideStep slide_step(Slide& slide, double inertia, const TorqueCourse& torque, double tolerance,
+SlideStep slide_step(Slide& slide, double inertia, const motion::TorqueCourse& torque, double tolerance,
                      double duration);
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace zerocount {
+namespace zerocount::friction {
 namespace {
 
 SpringBranch branch_from(const FrictionParameters& friction, double elongation, double torque, double sign) {
@@ -177,4 +177,4 @@ void HystereticSpring::select_branch() {
   }
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

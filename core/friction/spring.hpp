@@ -7,7 +7,7 @@
 #include "core/friction/parameters.hpp"
 #include "core/friction/spring_branch.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 using SpringBranch = SpringBranchOf<double>;
 
@@ -106,4 +106,4 @@ class HystereticSpring {
   int direction_{0};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

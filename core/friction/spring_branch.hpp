@@ -2,7 +2,7 @@
 
 #include "core/numerics/number.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// One branch of the spring's hysteresis (paper, eq. 1):
 ///
@@ -34,4 +34,4 @@ ZEROCOUNT_ALWAYS_INLINE Number torque_after(const SpringBranchOf<Number>& branch
   return branch.torque + branch.sign * (branch.k1 * travel + branch.softening_torque * softened);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

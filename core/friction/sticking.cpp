@@ -4,17 +4,17 @@
 
 #include "core/numerics/first_root.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 namespace {
 
 /// The series minus a constant: its root is where the quantity takes that value.
-Series less(Series series, double constant) {
+numerics::Series less(numerics::Series series, double constant) {
   series[0] -= constant;
   return series;
 }
 
 /// constant − factor·series.
-Series scaled_difference(double constant, double factor, Series series) {
+numerics::Series scaled_difference(double constant, double factor, numerics::Series series) {
   for (double& coefficient : series) coefficient *= -factor;
   series[0] += constant;
   return series;
@@ -39,10 +39,10 @@ StickingSeries Sticking::start() const {
   return s;
 }
 
-NextEvent<Sticking::Event> Sticking::first_event(const StickingSeries& series, double step) const {
-  NextEvent<Event> next{step};
+motion::NextEvent<Sticking::Event> Sticking::first_event(const StickingSeries& series, double step) const {
+  motion::NextEvent<Event> next{step};
   // The reversal first: up to it the elongation, and with it σ, is monotonic, which the others rely on.
-  next.offer(next_sign_change(series.elongation_rate, next.time), Event::reversal);
+  next.offer(motion::next_sign_change(series.elongation_rate, next.time), Event::reversal);
   find_closure(series, next);
   find_creep_change(series, next);
   find_breakaway(series, next);
@@ -50,49 +50,51 @@ NextEvent<Sticking::Event> Sticking::first_event(const StickingSeries& series, d
 }
 
 /// The loop closure ahead. The elongation is monotonic up to `next.time`, where the next reversal would be.
-void Sticking::find_closure(const StickingSeries& series, NextEvent<Event>& next) const {
+void Sticking::find_closure(const StickingSeries& series, motion::NextEvent<Event>& next) const {
   const std::optional<double> end = spring.branch_end();
   if (!end) return;
-  const Series distance = less(series.position, *end);
-  if (spring.direction() * value_at(distance, next.time) < 0.0) return;
-  next.offer(bracketed_root(distance, 0.0, next.time), Event::closure);
+  const numerics::Series distance = less(series.position, *end);
+  if (spring.direction() * numerics::value_at(distance, next.time) < 0.0) return;
+  next.offer(numerics::bracketed_root(distance, 0.0, next.time), Event::closure);
 }
 
 /// The start or end of creep. σ is monotonic up to `next.time`, so it passes the onset at most once.
-void Sticking::find_creep_change(const StickingSeries& series, NextEvent<Event>& next) const {
+void Sticking::find_creep_change(const StickingSeries& series, motion::NextEvent<Event>& next) const {
   if (creeping) {
-    next.offer(next_sign_change(series.creep_rate, next.time), Event::creep_off);
+    next.offer(motion::next_sign_change(series.creep_rate, next.time), Event::creep_off);
     return;
   }
-  const double at_end = value_at(series.spring_torque, next.time);
+  const double at_end = numerics::value_at(series.spring_torque, next.time);
   if (std::abs(at_end) < creep_onset_torque) return;
-  const Series beyond = less(series.spring_torque, std::copysign(creep_onset_torque, at_end));
-  next.offer(bracketed_root(beyond, 0.0, next.time), Event::creep_on);
+  const numerics::Series beyond = less(series.spring_torque, std::copysign(creep_onset_torque, at_end));
+  next.offer(numerics::bracketed_root(beyond, 0.0, next.time), Event::creep_on);
 }
 
 /// The instant at which |σ + c·ω| reaches the breakaway torque in the direction of motion.
-void Sticking::find_breakaway(const StickingSeries& series, NextEvent<Event>& next) const {
-  Series hook_torque{};
-  for (std::size_t k = 0; k <= series_order; ++k) {
+void Sticking::find_breakaway(const StickingSeries& series, motion::NextEvent<Event>& next) const {
+  numerics::Series hook_torque{};
+  for (std::size_t k = 0; k <= numerics::series_order; ++k) {
     hook_torque[k] = series.spring_torque[k] + damping * series.omega[k];
   }
-  if (std::abs(hook_torque[0]) + excursion_bound(hook_torque, next.time) < contact.breakaway) return;
+  if (std::abs(hook_torque[0]) + numerics::excursion_bound(hook_torque, next.time) < contact.breakaway)
+    return;
   for (const double sign : {1.0, -1.0}) {
     if (sign * hook_torque[0] >= contact.breakaway) continue;
-    const Series margin = scaled_difference(contact.breakaway, sign, hook_torque);
-    const std::optional<double> reached = first_sign_change(margin, next.time);
-    if (reached && sign * value_at(series.omega, *reached) > 0.0) next.offer(reached, Event::breakaway);
+    const numerics::Series margin = scaled_difference(contact.breakaway, sign, hook_torque);
+    const std::optional<double> reached = numerics::first_sign_change(margin, next.time);
+    if (reached && sign * numerics::value_at(series.omega, *reached) > 0.0)
+      next.offer(reached, Event::breakaway);
   }
   // Where the level is passed against the motion, the hook holds until the motion turns.
-  next.offer(next_sign_change(series.omega, next.time), Event::velocity_zero);
+  next.offer(motion::next_sign_change(series.omega, next.time), Event::velocity_zero);
 }
 
-void Sticking::go_to(const StickingSeries& series, const NextEvent<Event>& next) {
-  omega = value_at(series.omega, next.time);
-  creep.extension = value_at(series.extension, next.time);
-  creep.hardening = value_at(series.hardening, next.time);
+void Sticking::go_to(const StickingSeries& series, const motion::NextEvent<Event>& next) {
+  omega = numerics::value_at(series.omega, next.time);
+  creep.extension = numerics::value_at(series.extension, next.time);
+  creep.hardening = numerics::value_at(series.hardening, next.time);
   spring.move_on_branch(next.event == Event::closure ? *spring.branch_end()
-                                                     : value_at(series.position, next.time));
+                                                     : numerics::value_at(series.position, next.time));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -5,24 +5,25 @@
 #include "core/friction/spring.hpp"
 #include "core/motion/taylor_step.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// Taylor series in time of the pre-sliding motion from the present state, on one branch.
 struct StickingSeries {
-  Series position{};         ///< xs, rad
-  Series elongation_rate{};  ///< dxs/dt, rad/s
-  Series omega{};            ///< ω, rad/s
-  Series extension{};        ///< xp, rad
-  Series hardening{};        ///< xh, rad
-  Series spring_torque{};    ///< σ, N m
-  Series creep_rate{};  ///< α·(|σ|ⁿ/λ − xh), the rate of xh while creep is on, rad/s; zero while it is off
-  Series exponent{};        ///< −y, the exponent of the branch law, dimensionless
-  Series slope{};           ///< −dy/dt, 1/s
-  Series softness{};        ///< exp(−y)
-  Series magnitude{};       ///< |σ|, N m
-  Series power{};           ///< |σ|ⁿ
-  double torque_sign{1.0};  ///< of σ: creep never lasts until σ = 0
-  double per_lambda{0.0};   ///< 1/λ
+  numerics::Series position{};         ///< xs, rad
+  numerics::Series elongation_rate{};  ///< dxs/dt, rad/s
+  numerics::Series omega{};            ///< ω, rad/s
+  numerics::Series extension{};        ///< xp, rad
+  numerics::Series hardening{};        ///< xh, rad
+  numerics::Series spring_torque{};    ///< σ, N m
+  numerics::Series
+      creep_rate{};  ///< α·(|σ|ⁿ/λ − xh), the rate of xh while creep is on, rad/s; zero while it is off
+  numerics::Series exponent{};   ///< −y, the exponent of the branch law, dimensionless
+  numerics::Series slope{};      ///< −dy/dt, 1/s
+  numerics::Series softness{};   ///< exp(−y)
+  numerics::Series magnitude{};  ///< |σ|, N m
+  numerics::Series power{};      ///< |σ|ⁿ
+  double torque_sign{1.0};       ///< of σ: creep never lasts until σ = 0
+  double per_lambda{0.0};        ///< 1/λ
 };
 
 /// The motion while the hook holds (paper, eqs. 1, 2 and 4, with creep kept):
@@ -57,14 +58,14 @@ struct Sticking {
     const double extension_rate = s.torque_sign * s.creep_rate[k];
     s.elongation_rate[k] = s.omega[k] - extension_rate;
     s.slope[k] = exponent_coefficient(s.elongation_rate[k]);
-    s.hardening[k + 1] = s.creep_rate[k] * reciprocal[k + 1];
-    s.extension[k + 1] = extension_rate * reciprocal[k + 1];
-    s.position[k + 1] = s.elongation_rate[k] * reciprocal[k + 1];
+    s.hardening[k + 1] = s.creep_rate[k] * numerics::reciprocal[k + 1];
+    s.extension[k + 1] = extension_rate * numerics::reciprocal[k + 1];
+    s.position[k + 1] = s.elongation_rate[k] * numerics::reciprocal[k + 1];
     return torque - damping * s.omega[k] - s.spring_torque[k];
   }
-  void complete(StickingSeries& series) const { expand_torque(series, series_order); }
-  NextEvent<Event> first_event(const StickingSeries& series, double step) const;
-  void go_to(const StickingSeries& series, const NextEvent<Event>& next);
+  void complete(StickingSeries& series) const { expand_torque(series, numerics::series_order); }
+  motion::NextEvent<Event> first_event(const StickingSeries& series, double step) const;
+  void go_to(const StickingSeries& series, const motion::NextEvent<Event>& next);
 
  private:
   /// The coefficient of −y, the exponent of the branch, that follows that of xs.
@@ -73,18 +74,18 @@ struct Sticking {
   }
 
   /// Coefficient k ≥ 1 of |σ|ⁿ. The whole exponents 1 and 2 need no division by σ, which may be tiny.
-  static double torque_power_coefficient(const Series& magnitude, const Series& power, double n,
-                                         std::size_t k) {
+  static double torque_power_coefficient(const numerics::Series& magnitude, const numerics::Series& power,
+                                         double n, std::size_t k) {
     if (n == 1.0) return magnitude[k];
-    if (n == 2.0) return square_coefficient(magnitude.data(), k);
-    return power_coefficient(magnitude.data(), power.data(), n, k);
+    if (n == 2.0) return numerics::square_coefficient(magnitude.data(), k);
+    return numerics::power_coefficient(magnitude.data(), power.data(), n, k);
   }
 
   void expand_torque(StickingSeries& s, std::size_t k) const {
     const SpringBranch& branch = spring.branch();
     if (k > 0) {
       s.exponent[k] = exponent_coefficient(s.position[k]);
-      s.softness[k] = exponential_coefficient(s.slope.data(), s.softness.data(), k);
+      s.softness[k] = numerics::exponential_coefficient(s.slope.data(), s.softness.data(), k);
       s.spring_torque[k] = branch.k1 * s.position[k] - branch.sign * branch.softening_torque * s.softness[k];
     }
     if (!creeping) return;
@@ -95,9 +96,9 @@ struct Sticking {
     s.creep_rate[k] = contact.alpha * (limit - s.hardening[k]);
   }
 
-  void find_closure(const StickingSeries& series, NextEvent<Event>& next) const;
-  void find_creep_change(const StickingSeries& series, NextEvent<Event>& next) const;
-  void find_breakaway(const StickingSeries& series, NextEvent<Event>& next) const;
+  void find_closure(const StickingSeries& series, motion::NextEvent<Event>& next) const;
+  void find_creep_change(const StickingSeries& series, motion::NextEvent<Event>& next) const;
+  void find_breakaway(const StickingSeries& series, motion::NextEvent<Event>& next) const;
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

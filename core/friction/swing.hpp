@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace zerocount {
+namespace zerocount::friction {
 
 /// Swings that die out, so small that a loop of the spring is a parabola on either side, and the rate of
 /// creep a straight line in σ:
@@ -83,4 +83,4 @@ inline Swing::State swing_at(const Swing& swing, double t) {
   return {q, extension, rate + swing.creep * q};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -5,7 +5,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::hash {
 namespace {
 
 void require(bool success) {
@@ -46,4 +46,4 @@ std::string sha256_hex(std::string_view text) {
   return hexadecimal(sha256(text));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::hash

@@ -10,7 +10,7 @@
 
 struct evp_md_ctx_st;
 
-namespace zerocount {
+namespace zerocount::hash {
 
 using Sha256 = std::array<std::uint8_t, 32>;
 
@@ -37,4 +37,4 @@ std::string hexadecimal(const Sha256& digest);
 /// hexadecimal(sha256(text)).
 std::string sha256_hex(std::string_view text);
 
-}  // namespace zerocount
+}  // namespace zerocount::hash

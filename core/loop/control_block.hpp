@@ -5,7 +5,7 @@
 #include "core/loop/parameters.hpp"
 #include "core/loop/transfer_function.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 
 /// Bounds of a torque, N m.
 struct TorqueRange {
@@ -37,4 +37,4 @@ concept ControlBlock = std::constructible_from<Block, const ControllerParameters
   { now.linear() } -> std::same_as<LinearBlock>;  // away from its limits
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

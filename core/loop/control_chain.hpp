@@ -5,7 +5,7 @@
 #include "core/loop/control_block.hpp"
 #include "core/loop/pid.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 
 /// Blocks one after the other, from the feedback to the wanted torque.
 template <ControlBlock... Blocks>
@@ -52,4 +52,4 @@ class BlockChain {
 /// The blocks of the controller, in order.
 using ControlChain = BlockChain<Pid>;
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-namespace zerocount {
+namespace zerocount::loop {
 ControllerParameters controller_in_phase(ControllerParameters controller, ControlPhase phase) {
   if (!has_coarse_phase(controller)) return controller;
   const CoarsePhaseParameters coarse = std::exchange(controller.coarse, {});
@@ -77,4 +77,4 @@ Feedback Controller::feedback(EncoderChoice encoder, std::int64_t reference, con
   return {static_cast<double>(reference) - count, count, torque_in_force};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

@@ -7,7 +7,7 @@
 #include "core/loop/parameters.hpp"
 #include "core/loop/phase_switch.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 
 /// Whether the control has two phases: whether any error is beyond coarse_beyond.
 bool has_coarse_phase(const ControllerParameters& parameters);
@@ -62,4 +62,4 @@ class Controller {
   PhaseSwitch switch_;
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

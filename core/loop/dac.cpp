@@ -2,7 +2,7 @@
 
 #include "core/loop/formulas.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 
 std::int64_t lowest_code(const DacParameters& dac) {
   return -(std::int64_t{1} << (dac.bits - 1));
@@ -38,4 +38,4 @@ double torque_with_errors(const DacParameters& dac, std::int64_t code) {
   return dac.resolution * (1.0 + dac.gain_error) * (static_cast<double>(code) + bow) + dac.offset;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

@@ -4,7 +4,7 @@
 
 #include "core/loop/parameters.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 
 std::int64_t lowest_code(const DacParameters& dac);   ///< −2^(bits−1)
 std::int64_t highest_code(const DacParameters& dac);  ///< 2^(bits−1) − 1
@@ -34,4 +34,4 @@ bool has_errors(const DacParameters& dac);
 /// a parabola that is 0 at both ends of the range and `nonlinearity` in the middle, at code −½.
 double torque_with_errors(const DacParameters& dac, std::int64_t code);
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

@@ -7,7 +7,7 @@
 
 #include "core/random/variates.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 namespace {
 
 /// Hz. A torque that is there in less than a picosecond is there at once, but the series of its rise would
@@ -17,7 +17,7 @@ constexpr double highest_bandwidth = 1e12;
 }  // namespace
 
 Drive::Drive(const DacParameters& dac, const AmplifierParameters& amplifier, int delay, double sample_time,
-             const TrialRandomness& randomness)
+             const random::TrialRandomness& randomness)
     : dac_(dac),
       converter_errors_(has_errors(dac)),
       noise_{randomness.dac_noise, randomness.stream},
@@ -29,7 +29,8 @@ Drive::Drive(const DacParameters& dac, const AmplifierParameters& amplifier, int
 double Drive::converted(std::int64_t k, std::int64_t code) const {
   const double torque = torque_with_errors(dac_, code);
   if (dac_.noise == 0.0) return torque;
-  return torque + dac_.noise * standard_normal(random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
+  return torque + dac_.noise * random::standard_normal(
+                                   random::random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
 }
 
 void Drive::follow(double input) {
@@ -39,4 +40,4 @@ void Drive::follow(double input) {
   course_ = {course_.settled + lag, input, rate_};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

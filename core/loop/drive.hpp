@@ -11,7 +11,7 @@
 #include "core/random/random_numbers.hpp"
 #include "core/random/trial_randomness.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 
 /// Torques on their way from decision to motor: zero until the first has come through.
 class TorqueDelay {
@@ -47,24 +47,24 @@ class Drive {
   /// @param delay samples between deciding a torque and applying it.
   /// @param sample_time T, s.
   Drive(const DacParameters& dac, const AmplifierParameters& amplifier, int delay, double sample_time,
-        const TrialRandomness& randomness);
+        const random::TrialRandomness& randomness);
 
   /// Sends what the converter was given at sample k.
   /// @returns the motor's torque over [t_k, t_{k+1}].
-  const TorqueCourse& send(std::int64_t k, const DacOutput& decided) {
+  const motion::TorqueCourse& send(std::int64_t k, const DacOutput& decided) {
     return apply(converter_errors_ ? converted(k, decided.code) : decided.torque);
   }
 
   /// Sends a torque (N m) past the converter, so without its rounding and errors, through delay and
   /// amplifier.
   /// @returns the motor's torque over [t_k, t_{k+1}].
-  const TorqueCourse& send_exact(double torque) { return apply(torque); }
+  const motion::TorqueCourse& send_exact(double torque) { return apply(torque); }
 
   /// The motor's torque at the last t_k, just after sending, N m: 0 before the first.
   double torque() const { return course_.now; }
 
  private:
-  const TorqueCourse& apply(double torque) {
+  const motion::TorqueCourse& apply(double torque) {
     const double input = delay_.pass(torque);
     if (rate_ == 0.0) {
       course_ = {input, input, 0.0};
@@ -79,12 +79,12 @@ class Drive {
 
   DacParameters dac_;
   bool converter_errors_;
-  RandomStream noise_;
+  random::RandomStream noise_;
   std::uint64_t trial_;
   TorqueDelay delay_;
-  double rate_;            // 2πf
-  double left_of_step_;    // exp(−2πf·T)
-  TorqueCourse course_{};  // since the last t_k
+  double rate_;                    // 2πf
+  double left_of_step_;            // exp(−2πf·T)
+  motion::TorqueCourse course_{};  // since the last t_k
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

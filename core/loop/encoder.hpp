@@ -5,7 +5,7 @@
 #include "core/loop/formulas.hpp"
 #include "core/loop/parameters.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 
 /// Δx of the encoder that closes the loop, rad per count (m on a linear axis).
 inline double fine_resolution(const EncoderParameters& encoders) {
@@ -47,4 +47,4 @@ inline std::int64_t read_count(const Encoder& encoder, double theta) {
   return static_cast<std::int64_t>(ideal_count(theta, encoder.resolution, encoder.phase));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

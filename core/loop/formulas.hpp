@@ -3,7 +3,7 @@
 #include "core/numerics/number.hpp"
 
 /// The formulas of the sampled loop, for double and for the vectors of the batch engine.
-namespace zerocount {
+namespace zerocount::loop {
 
 /// The ideal encoder: floor(θ/Δx + phase), counts.
 template <class Number>
@@ -53,4 +53,4 @@ ZEROCOUNT_ALWAYS_INLINE Number clipped_code(const Number& wanted, const Number& 
   return min(max(wanted, lowest), highest);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

@@ -7,7 +7,7 @@
 
 #include "core/random/variates.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 namespace {
 
 /// Whole numbers of a double end here. Only absurd errors of an encoder come so far.
@@ -29,7 +29,8 @@ bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReadi
 }
 
 ImperfectEncoder::ImperfectEncoder(const Encoder& encoder, const EncoderErrors& errors, double position,
-                                   std::uint64_t trial, const RandomStream& noise, const RandomStream& missed)
+                                   std::uint64_t trial, const random::RandomStream& noise,
+                                   const random::RandomStream& missed)
     : encoder_(encoder),
       errors_(errors),
       position_(position),
@@ -56,7 +57,8 @@ std::int64_t ImperfectEncoder::read(std::int64_t k, double theta) {
   double x = theta / encoder_.resolution + encoder_.phase;
   if (errors_.interpolation != 0.0) x += interpolation_error(x) - start_interpolation_;
   if (errors_.noise != 0.0)
-    x += errors_.noise * standard_normal(random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
+    x += errors_.noise *
+         random::standard_normal(random::random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
   // fmin and fmax pass over what is not a number.
   const auto raw =
       static_cast<std::int64_t>(std::floor(std::fmin(std::fmax(x, -farthest_count), farthest_count)));
@@ -69,16 +71,17 @@ void ImperfectEncoder::miss_counts(std::int64_t k, std::int64_t raw) {
   first_ = false;
   last_raw_ = raw;
   if (passed == 0) return;
-  const std::int64_t missed = binomial_number(std::abs(passed), errors_.missed,
-                                              random_bits_at(missed_, trial_, static_cast<std::uint64_t>(k)));
+  const std::int64_t missed =
+      random::binomial_number(std::abs(passed), errors_.missed,
+                              random::random_bits_at(missed_, trial_, static_cast<std::uint64_t>(k)));
   lost_ += passed > 0 ? missed : -missed;
 }
 
 Measurement::Measurement(const EncoderParameters& encoders, double phase, double position,
-                         const TrialRandomness& randomness)
+                         const random::TrialRandomness& randomness)
     : fine_(fine_encoder(encoders, phase)),
       coarse_(coarse_encoder(encoders, phase)),
-      fine_per_coarse_(zerocount::fine_per_coarse(encoders)),
+      fine_per_coarse_(loop::fine_per_coarse(encoders)),
       ideal_(!has_errors(encoders.fine_errors) && !has_errors(encoders.coarse_errors)),
       imperfect_fine_(fine_, encoders.fine_errors, position, randomness.trial,
                       {randomness.fine_noise, randomness.stream},
@@ -96,4 +99,4 @@ EncoderReading Measurement::read_with_errors(std::int64_t k, double theta) {
   return reading;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

@@ -7,7 +7,7 @@
 #include "core/random/random_numbers.hpp"
 #include "core/random/trial_randomness.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 
 /// Whether the encoder reads anything else than an ideal one.
 bool has_errors(const EncoderErrors& errors);
@@ -35,7 +35,7 @@ bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReadi
 class ImperfectEncoder {
  public:
   ImperfectEncoder(const Encoder& encoder, const EncoderErrors& errors, double position, std::uint64_t trial,
-                   const RandomStream& noise, const RandomStream& missed);
+                   const random::RandomStream& noise, const random::RandomStream& missed);
 
   /// The count at sample k, the rotor being at θ (rad). Samples come in order.
   std::int64_t read(std::int64_t k, double theta);
@@ -48,8 +48,8 @@ class ImperfectEncoder {
   EncoderErrors errors_;
   double position_;
   std::uint64_t trial_;
-  RandomStream noise_;
-  RandomStream missed_;
+  random::RandomStream noise_;
+  random::RandomStream missed_;
   double start_eccentricity_;  // sin(p − γ)
   double start_count_;         // m
   double start_interpolation_{0.0};
@@ -64,7 +64,7 @@ class Measurement {
   /// @param phase where in a count, of either encoder, θ = 0 lies, in [0, 1).
   /// @param position rotor angle (rad) of θ = 0.
   Measurement(const EncoderParameters& encoders, double phase, double position,
-              const TrialRandomness& randomness);
+              const random::TrialRandomness& randomness);
 
   /// What the encoders show at sample k, the rotor being at θ (rad). Samples come in order.
   EncoderReading read(std::int64_t k, double theta) {
@@ -93,4 +93,4 @@ class Measurement {
   std::int64_t disagreements_{0};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

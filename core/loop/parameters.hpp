@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-namespace zerocount {
+namespace zerocount::loop {
 
 /// What is wrong with an encoder. All zero: an ideal one.
 struct EncoderErrors {
@@ -92,4 +92,4 @@ struct ReferenceProfile {
   double jerk_limit{1.0e4};          ///< of an s_curve: limit of the rate of the acceleration, rad/s³
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

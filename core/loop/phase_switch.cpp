@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace zerocount {
+namespace zerocount::loop {
 
 PhaseSwitch::PhaseSwitch(const CoarsePhaseParameters& rule, double sample_rate)
     : rule_(rule), dwell_(std::max(1.0, std::round(rule.fine_dwell * sample_rate))) {}
@@ -31,4 +31,4 @@ ControlPhase PhaseSwitch::next_phase(const Feedback& fine) const {
   return static_cast<double>(settled_) >= dwell_ ? ControlPhase::fine : ControlPhase::coarse;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

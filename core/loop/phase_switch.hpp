@@ -6,7 +6,7 @@
 #include "core/loop/control_block.hpp"
 #include "core/loop/parameters.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 
 /// The rule by which a two-phase control changes its phase, from what the encoder of the phase in force says:
 ///
@@ -41,4 +41,4 @@ class PhaseSwitch {
   std::optional<double> last_coarse_count_{};  ///< none before the first sample
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

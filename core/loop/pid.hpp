@@ -3,7 +3,7 @@
 #include "core/loop/control_block.hpp"
 #include "core/loop/formulas.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 
 struct PidGains {
   double kp{0.0};  ///< N m/count
@@ -60,4 +60,4 @@ class Pid {
   bool started_{false};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

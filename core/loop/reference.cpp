@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace zerocount {
+namespace zerocount::loop {
 
 Reference::Reference(const ReferenceProfile& profile, std::int64_t from, std::int64_t to, double resolution)
     : from_(from),
@@ -70,4 +70,4 @@ double Reference::distance(double t) const {
   return cruised + jerk_ * until_cruise * until_cruise * until_cruise / 6.0;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

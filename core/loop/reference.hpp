@@ -4,7 +4,7 @@
 
 #include "core/loop/parameters.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 
 /// What the count is to be at each time of a move from rest to rest between two targets, in the least time
 /// that the limits of the profile allow:
@@ -53,4 +53,4 @@ class Reference {
   double duration_{0.0};           ///< s
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

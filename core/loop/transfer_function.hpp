@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::loop {
 
 /// H(z) = (b₀ + b₁·z⁻¹ + …)/(1 + a₁·z⁻¹ + …).
 struct TransferFunction {
@@ -30,4 +30,4 @@ using LinearBlock = std::vector<SignalPath>;
 /// The blocks of a controller, in order.
 using LinearChain = std::vector<LinearBlock>;
 
-}  // namespace zerocount
+}  // namespace zerocount::loop

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace zerocount {
+namespace zerocount::motion {
 
 /// The rotor. J and c by default: the paper's (section 4); the sliding damping is assumed.
 struct PlantParameters {
@@ -9,4 +9,4 @@ struct PlantParameters {
   double sliding_damping{1.0e-3};  ///< cs, while the hook slides, N m s/rad
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::motion

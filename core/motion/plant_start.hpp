@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::motion {
 
 /// The plant at t = 0, where θ = 0.
 struct PlantStart {
@@ -19,4 +19,4 @@ struct PlantStart {
   bool sliding{false};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::motion

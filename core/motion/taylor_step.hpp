@@ -8,7 +8,7 @@
 #include "core/motion/torque_course.hpp"
 #include "core/numerics/power_series.hpp"
 
-namespace zerocount {
+namespace zerocount::motion {
 
 /// The first event within a step: a kink of the motion, which ends the step. `Event` is an enumeration of a
 /// law's events that has `none`.
@@ -41,9 +41,9 @@ struct NextEvent {
 template <class Motion>
 concept SmoothMotion = requires(Motion motion, const Motion now, typename Motion::Expansion series,
                                 std::size_t k, double value, const NextEvent<typename Motion::Event> next) {
-  { series.position } -> std::same_as<Series&>;
-  { series.omega } -> std::same_as<Series&>;
-  { series.exponent } -> std::same_as<Series&>;
+  { series.position } -> std::same_as<numerics::Series&>;
+  { series.omega } -> std::same_as<numerics::Series&>;
+  { series.exponent } -> std::same_as<numerics::Series&>;
   { now.start() } -> std::same_as<typename Motion::Expansion>;
   { now.expand(series, k, value) } -> std::same_as<double>;
   { now.first_event(series, value) } -> std::same_as<NextEvent<typename Motion::Event>>;
@@ -54,12 +54,12 @@ concept SmoothMotion = requires(Motion motion, const Motion now, typename Motion
 /// @param inertia J, kg m². @param torque u(t), N m.
 template <SmoothMotion Motion>
 typename Motion::Expansion motion_series(const Motion& motion, double inertia, const TorqueCourse& torque) {
-  const Series applied = torque_series(torque);
+  const numerics::Series applied = torque_series(torque);
   const double per_inertia = 1.0 / inertia;
   typename Motion::Expansion series = motion.start();
-  for (std::size_t k = 0; k < series_order; ++k) {
+  for (std::size_t k = 0; k < numerics::series_order; ++k) {
     const double acceleration = motion.expand(series, k, applied[k]) * per_inertia;
-    series.omega[k + 1] = acceleration * reciprocal[k + 1];
+    series.omega[k + 1] = acceleration * numerics::reciprocal[k + 1];
   }
   if constexpr (requires { motion.complete(series); }) motion.complete(series);
   return series;
@@ -75,8 +75,8 @@ typename Motion::Expansion motion_series(const Motion& motion, double inertia, c
 ///   k = z: beyond that growth the last terms kept may be small before the largest have come.
 /// The exp(−rt) of a torque that moves needs no such bound: where rt exceeds the order of the series, the
 /// last terms are the largest of all, and a step over which they are small is one over which all of it is.
-double step_within(const Series& position, const Series& velocity, const Series& exponent, double tolerance,
-                   double longest);
+double step_within(const numerics::Series& position, const numerics::Series& velocity,
+                   const numerics::Series& exponent, double tolerance, double longest);
 
 /// Takes the motion on along its series to the end of a Taylor step or to its first event, whichever comes
 /// first.
@@ -101,4 +101,4 @@ NextEvent<typename Motion::Event> taylor_step(Motion& motion, double inertia, co
 /// First time in (0, end] at which `series` changes sign, where a start at exactly zero does not count.
 std::optional<double> next_sign_change(std::span<const double> series, double end);
 
-}  // namespace zerocount
+}  // namespace zerocount::motion

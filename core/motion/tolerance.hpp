@@ -1,6 +1,6 @@
 #pragma once
 
-namespace zerocount {
+namespace zerocount::motion {
 
 /// Tolerances of the motion.
 struct MotionTolerance {
@@ -13,4 +13,4 @@ struct MotionTolerance {
   double rest{4e-14};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::motion

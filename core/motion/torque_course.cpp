@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace zerocount {
+namespace zerocount::motion {
 
 TorqueCourse course_after(const TorqueCourse& course, double t) {
   if (is_constant(course)) return course;
@@ -21,4 +21,4 @@ double time_until(const TorqueCourse& course, double torque) {
   return -std::log1p(change) / course.rate;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::motion

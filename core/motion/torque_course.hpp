@@ -4,7 +4,7 @@
 
 #include "core/numerics/power_series.hpp"
 
-namespace zerocount {
+namespace zerocount::motion {
 
 /// The motor's torque from now on: u(t) = settled + (now − settled)·exp(−rate·t). Constant where now equals
 /// settled; otherwise that of a first-order amplifier. It is monotonic.
@@ -32,15 +32,15 @@ double time_until(const TorqueCourse& course, double torque);
 
 /// Taylor coefficients of u(t), N m/sᵏ: c[0] = now, c[1] = −rate·(now − settled), c[k+1] = −rate·c[k]/(k +
 /// 1).
-inline Series torque_series(const TorqueCourse& course) {
-  Series torque{};
+inline numerics::Series torque_series(const TorqueCourse& course) {
+  numerics::Series torque{};
   torque[0] = course.now;
   if (is_constant(course)) return torque;
   torque[1] = -course.rate * (course.now - course.settled);
-  for (std::size_t k = 1; k < series_order; ++k) {
-    torque[k + 1] = -course.rate * torque[k] * reciprocal[k + 1];
+  for (std::size_t k = 1; k < numerics::series_order; ++k) {
+    torque[k + 1] = -course.rate * torque[k] * numerics::reciprocal[k + 1];
   }
   return torque;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::motion

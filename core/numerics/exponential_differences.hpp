@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace zerocount {
+namespace zerocount::numerics {
 
 // Divided differences of the exponential function at points that are not positive. They are what the response
 // of a linear first-order system to exponential inputs is made of, and stay accurate where the points are
@@ -41,4 +41,4 @@ inline double second_exponential_difference(double x, double y) {
   return sum;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::numerics

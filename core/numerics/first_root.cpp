@@ -6,7 +6,7 @@
 
 #include "core/numerics/power_series.hpp"
 
-namespace zerocount {
+namespace zerocount::numerics {
 namespace {
 
 constexpr std::size_t most_coefficients = 16;
@@ -108,4 +108,4 @@ std::optional<double> first_sign_change(std::span<const double> coefficients, do
   return first_in(bernstein_over(coefficients, end), coefficients, coefficients[0], 0);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::numerics

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-namespace zerocount {
+namespace zerocount::numerics {
 
 /// The first t in (0, end] at which the polynomial Σ_k c[k]·tᵏ leaves the sign it has at t = 0 (c[0] ≠ 0), or
 /// nothing.
@@ -18,4 +18,4 @@ std::optional<double> first_sign_change(std::span<const double> coefficients, do
 /// so.
 double bracketed_root(std::span<const double> coefficients, double low, double high);
 
-}  // namespace zerocount
+}  // namespace zerocount::numerics

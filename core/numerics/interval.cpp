@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::numerics {
 
 Interval all_numbers() {
   return {};
@@ -57,4 +57,4 @@ std::string in_words(const Interval& interval) {
   return words.empty() ? "any finite number" : words;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::numerics

@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-namespace zerocount {
+namespace zerocount::numerics {
 
 /// A set of real numbers between two ends: the range that a parameter allows, or the support of a
 /// distribution. An infinite end is never included.
@@ -31,4 +31,4 @@ std::string notation(const Interval& interval);
 /// In words, for messages: "greater than 0 and at most 1"; "any finite number" where there is no limit.
 std::string in_words(const Interval& interval);
 
-}  // namespace zerocount
+}  // namespace zerocount::numerics

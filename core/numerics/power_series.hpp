@@ -8,7 +8,7 @@
 
 #include "core/numerics/series_recurrences.hpp"
 
-namespace zerocount {
+namespace zerocount::numerics {
 
 /// Order of the Taylor expansions of the motion. Twelve takes a whole sample of the paper's rig (0.62 rad of
 /// its fastest oscillation) in one or two steps at 1e-10 count.
@@ -38,4 +38,4 @@ inline double growth_bound(std::span<const double> coefficients, double t) {
   return bound;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::numerics

@@ -6,7 +6,7 @@
 
 /// Coefficients of functions of power series, one after the other, for double and for the vectors of the
 /// batch engine.
-namespace zerocount {
+namespace zerocount::numerics {
 
 /// 1/k for the orders of a series, k ≥ 1: dividing by them would take a good part of the time of a step.
 inline constexpr struct Reciprocals {
@@ -48,4 +48,4 @@ ZEROCOUNT_ALWAYS_INLINE Number power_coefficient(const Number* a, const Number* 
   return sum * Number(reciprocal.of[k]) / a[0];
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::numerics

@@ -2,7 +2,7 @@
 
 #include <concepts>
 
-namespace zerocount {
+namespace zerocount::numerics {
 
 /// −1, 0 or 1.
 template <class Number>
@@ -11,4 +11,4 @@ constexpr int sign_of(Number value) {
   return (value > Number{0}) - (value < Number{0});
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::numerics

@@ -7,20 +7,20 @@
 
 #include "core/friction/laws.hpp"
 
-namespace zerocount {
+namespace zerocount::plant {
 
 /// A rotor under a motor's torque with a friction law, which the plant takes on from step to step.
-template <FrictionLaw Law>
+template <friction::FrictionLaw Law>
 class PlantWith : public Law {
  public:
-  PlantWith(const PlantParameters& plant, const FrictionAlongRotor& friction, const PlantStart& start,
-            const MotionTolerance& tolerance)
+  PlantWith(const motion::PlantParameters& plant, const friction::FrictionAlongRotor& friction,
+            const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
       : Law(plant, friction, start, tolerance), inertia_(plant.inertia), tolerance_(tolerance.elongation) {}
 
   /// Applies the torque for `duration` (s).
-  void advance(const TorqueCourse& torque, double duration) {
-    TorqueCourse ahead = torque;
-    bool moves = !is_constant(ahead);
+  void advance(const motion::TorqueCourse& torque, double duration) {
+    motion::TorqueCourse ahead = torque;
+    bool moves = !motion::is_constant(ahead);
     double remaining = duration;
     for (int step = 0; remaining > 0.0 && finite_; ++step) {
       if (step == max_steps) finite_ = false;
@@ -28,7 +28,7 @@ class PlantWith : public Law {
       remaining = used < remaining ? remaining - used : 0.0;
       if (moves) {
         moves = duration - remaining < time_constants_to_settle / ahead.rate;
-        ahead = moves ? course_after(ahead, used) : constant_torque(ahead.settled);
+        ahead = moves ? motion::course_after(ahead, used) : motion::constant_torque(ahead.settled);
       }
       finite_ = finite_ && std::isfinite(this->theta()) && std::isfinite(this->omega());
     }
@@ -46,9 +46,9 @@ class PlantWith : public Law {
   static constexpr double time_constants_to_settle = 37.0;
 
   /// @returns the time used, at most `duration`.
-  double step_on(const TorqueCourse& torque, double duration) {
-    if constexpr (SmoothMotion<Law>) {
-      return taylor_step<Law>(*this, inertia_, torque, tolerance_, duration).time;
+  double step_on(const motion::TorqueCourse& torque, double duration) {
+    if constexpr (motion::SmoothMotion<Law>) {
+      return motion::taylor_step<Law>(*this, inertia_, torque, tolerance_, duration).time;
     } else {
       return this->step(torque, duration);
     }
@@ -61,10 +61,10 @@ class PlantWith : public Law {
 
 /// What a plant shows at an instant.
 struct PlantReading {
-  double theta{0.0};      ///< θ, rad
-  double omega{0.0};      ///< ω, rad/s
-  CreepState creep{};     ///< of the present contact, or of the last one while sliding
-  std::int64_t depth{0};  ///< of the stack of reversal points
+  double theta{0.0};             ///< θ, rad
+  double omega{0.0};             ///< ω, rad/s
+  friction::CreepState creep{};  ///< of the present contact, or of the last one while sliding
+  std::int64_t depth{0};         ///< of the stack of reversal points
   bool sliding{false};
 };
 
@@ -72,14 +72,14 @@ struct PlantReading {
 template <class Laws>
 class PlantOf {
  public:
-  PlantOf(const PlantParameters& plant, const FrictionAlongRotor& friction, const PlantStart& start,
-          const MotionTolerance& tolerance)
+  PlantOf(const motion::PlantParameters& plant, const friction::FrictionAlongRotor& friction,
+          const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
       : plant_(makers.at(static_cast<std::size_t>(friction.model))(plant, friction, start, tolerance)),
-        has_hook_(uses(Laws::traits.at(static_cast<std::size_t>(friction.model)),
-                       &FrictionParameters::breakaway)) {}
+        has_hook_(friction::uses(Laws::traits.at(static_cast<std::size_t>(friction.model)),
+                                 &friction::FrictionParameters::breakaway)) {}
 
   /// Applies the torque for `duration` (s).
-  void advance(const TorqueCourse& torque, double duration) {
+  void advance(const motion::TorqueCourse& torque, double duration) {
     std::visit([&](auto& plant) { plant.advance(torque, duration); }, plant_);
   }
 
@@ -121,8 +121,9 @@ class PlantOf {
   using AnyPlant = typename Laws::template Variant<PlantWith>;
 
   template <std::size_t law>
-  static AnyPlant plant_with(const PlantParameters& plant, const FrictionAlongRotor& friction,
-                             const PlantStart& start, const MotionTolerance& tolerance) {
+  static AnyPlant plant_with(const motion::PlantParameters& plant,
+                             const friction::FrictionAlongRotor& friction, const motion::PlantStart& start,
+                             const motion::MotionTolerance& tolerance) {
     return AnyPlant(std::in_place_index<law>, plant, friction, start, tolerance);
   }
 
@@ -135,6 +136,6 @@ class PlantOf {
   bool has_hook_;
 };
 
-using Plant = PlantOf<FrictionLaws>;
+using Plant = PlantOf<friction::FrictionLaws>;
 
-}  // namespace zerocount
+}  // namespace zerocount::plant

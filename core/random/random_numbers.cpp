@@ -2,7 +2,7 @@
 
 #include <Random123/philox.h>
 
-namespace zerocount {
+namespace zerocount::random {
 
 std::uint64_t random_bits(const RandomStream& stream, std::uint64_t index, std::uint32_t draw) {
   const r123::Philox4x32::key_type key{{stream.key[0], stream.key[1]}};
@@ -24,4 +24,4 @@ double open_uniform(std::uint64_t bits) {
   return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::random

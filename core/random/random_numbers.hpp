@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace zerocount {
+namespace zerocount::random {
 
 /// Counter-based random numbers: Philox4x32-10 (Salmon, Moraes, Dror & Shaw, "Parallel random numbers: as
 /// easy as 1, 2, 3", SC11), so that every number of a study is a function of its own coordinates and of
@@ -47,4 +47,4 @@ std::uint64_t random_bits_at(const RandomStream& stream, std::uint64_t trial, st
 /// symmetric about ½.
 double open_uniform(std::uint64_t bits);
 
-}  // namespace zerocount
+}  // namespace zerocount::random

@@ -4,7 +4,7 @@
 
 #include "core/random/random_numbers.hpp"
 
-namespace zerocount {
+namespace zerocount::random {
 
 /// Where a trial's own random numbers come from, those that are drawn while it runs. The trial index and the
 /// stream are the counter words of the same name (random_numbers.hpp).
@@ -19,4 +19,4 @@ struct TrialRandomness {
   RandomKey dac_noise{};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::random

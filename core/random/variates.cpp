@@ -7,7 +7,7 @@
 
 #include "core/random/random_numbers.hpp"
 
-namespace zerocount {
+namespace zerocount::random {
 namespace {
 
 // In double alone: the same steps on every machine, and faster.
@@ -40,4 +40,4 @@ std::int64_t binomial_number(std::int64_t n, double probability, std::uint64_t b
   return reached;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::random

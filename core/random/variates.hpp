@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace zerocount {
+namespace zerocount::random {
 
 /// A standard normal number: Φ⁻¹(u) with u = open_uniform(bits). Of magnitude below 8.21, and exactly
 /// antisymmetric: complementary bits give the negative.
@@ -13,4 +13,4 @@ double standard_normal(std::uint64_t bits);
 /// @param n not negative. @param probability p, in [0, 1].
 std::int64_t binomial_number(std::int64_t n, double probability, std::uint64_t bits);
 
-}  // namespace zerocount
+}  // namespace zerocount::random

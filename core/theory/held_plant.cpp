@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <unsupported/Eigen/MatrixFunctions>
 
-namespace zerocount {
+namespace zerocount::theory {
 
 /// exp([F g; 0 0]) holds A in its upper left block and b above its last entry, with time in samples.
 HeldPlant hold_plant(double stiffness, double damping, double inertia, double count_angle, double sample_time,
@@ -28,4 +28,4 @@ HeldPlant hold_plant(double stiffness, double damping, double inertia, double co
   return {flow.topLeftCorner(states, states), drive.gain * flow.topRightCorner(states, 1)};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::theory

@@ -5,7 +5,7 @@
 #include "core/motion/parameters.hpp"
 #include "core/theory/sampled_stability.hpp"
 
-namespace zerocount {
+namespace zerocount::theory {
 
 /// The driven rotor over one sample: x ← A·x + b·v with x = (count, change of the count per sample at the
 /// current velocity, and where the amplifier lags, its torque), v the torque decided (N m).
@@ -20,4 +20,4 @@ struct HeldPlant {
 HeldPlant hold_plant(double stiffness, double damping, double inertia, double count_angle, double sample_time,
                      const LinearDrive& drive);
 
-}  // namespace zerocount
+}  // namespace zerocount::theory

@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-namespace zerocount {
+namespace zerocount::theory {
 namespace {
 
 using Complex = std::complex<double>;
@@ -13,30 +13,31 @@ using Row = Eigen::RowVectorXd;  ///< a signal as a linear form of the loop's st
 /// The wanted torque where the signals are `count` and `in_force`, the torque in force.
 /// @param pass gives what comes of a signal through a transfer function.
 template <class Signal, class Pass>
-Signal wanted_torque(const LinearChain& controller, const Signal& count, const Signal& in_force, Pass pass) {
+Signal wanted_torque(const loop::LinearChain& controller, const Signal& count, const Signal& in_force,
+                     Pass pass) {
   Signal torque = 0.0 * count;
-  const auto input = [&](LoopSignal from) -> Signal {
+  const auto input = [&](loop::LoopSignal from) -> Signal {
     switch (from) {
-      case LoopSignal::torque:
+      case loop::LoopSignal::torque:
         return torque;
-      case LoopSignal::error:
+      case loop::LoopSignal::error:
         return -count;
-      case LoopSignal::count:
+      case loop::LoopSignal::count:
         return count;
-      case LoopSignal::torque_in_force:
+      case loop::LoopSignal::torque_in_force:
         break;
     }
     return in_force;
   };
-  for (const LinearBlock& block : controller) {
+  for (const loop::LinearBlock& block : controller) {
     Signal sum = 0.0 * count;
-    for (const SignalPath& path : block) sum += pass(path.transfer, input(path.from));
+    for (const loop::SignalPath& path : block) sum += pass(path.transfer, input(path.from));
     torque = sum;
   }
   return torque;
 }
 
-Eigen::Index order_of(const TransferFunction& transfer) {
+Eigen::Index order_of(const loop::TransferFunction& transfer) {
   return static_cast<Eigen::Index>(std::max(transfer.a.size(), transfer.b.size())) - 1;
 }
 
@@ -46,7 +47,8 @@ double coefficient(const std::vector<double>& of, Eigen::Index k) {
 
 /// What comes of the signal through H, whose states begin at `state` of the map:
 /// y = b₀·x + s₁, sᵢ ← bᵢ·x − aᵢ·y + sᵢ₊₁.
-Row realise(const TransferFunction& transfer, const Row& input, Eigen::Index state, Eigen::MatrixXd& map) {
+Row realise(const loop::TransferFunction& transfer, const Row& input, Eigen::Index state,
+            Eigen::MatrixXd& map) {
   const Eigen::Index order = order_of(transfer);
   Row output = coefficient(transfer.b, 0) * input;
   if (order > 0) output(state) += 1.0;
@@ -66,14 +68,14 @@ Complex value_at(const std::vector<double>& c, Complex z) {
 
 }  // namespace
 
-Eigen::MatrixXd loop_map(const HeldPlant& plant, const LinearChain& controller, int delay) {
+Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& controller, int delay) {
   const Eigen::Index driven = plant.A.rows();
   Eigen::Index of_blocks = 0;
   bool knows_torque_in_force = false;
-  for (const LinearBlock& block : controller) {
-    for (const SignalPath& path : block) {
+  for (const loop::LinearBlock& block : controller) {
+    for (const loop::SignalPath& path : block) {
       of_blocks += order_of(path.transfer);
-      knows_torque_in_force = knows_torque_in_force || path.from == LoopSignal::torque_in_force;
+      knows_torque_in_force = knows_torque_in_force || path.from == loop::LoopSignal::torque_in_force;
     }
   }
   // The torques decided at the last samples, newest first.
@@ -84,12 +86,12 @@ Eigen::MatrixXd loop_map(const HeldPlant& plant, const LinearChain& controller, 
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(states, states);
   Eigen::Index next = driven;
   const Row in_force = pending < states ? state(pending) : Row::Zero(states);
-  const Row decided =
-      wanted_torque<Row>(controller, state(0), in_force, [&](const TransferFunction& transfer, const Row& x) {
-        Row output = realise(transfer, x, next, map);
-        next += order_of(transfer);
-        return output;
-      });
+  const Row decided = wanted_torque<Row>(controller, state(0), in_force,
+                                         [&](const loop::TransferFunction& transfer, const Row& x) {
+                                           Row output = realise(transfer, x, next, map);
+                                           next += order_of(transfer);
+                                           return output;
+                                         });
   map.topLeftCorner(driven, driven) = plant.A;
   map.topRows(driven) += plant.b * (delay == 0 ? decided : state(pending + delay - 1));
   if (pending < states) map.row(pending) = decided;
@@ -97,15 +99,15 @@ Eigen::MatrixXd loop_map(const HeldPlant& plant, const LinearChain& controller, 
   return map;
 }
 
-double spectral_radius(const HeldPlant& plant, const LinearChain& controller, int delay) {
+double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controller, int delay) {
   return loop_map(plant, controller, delay).eigenvalues().cwiseAbs().maxCoeff();
 }
 
-Complex open_loop(Complex z, const HeldPlant& plant, const LinearChain& controller, int delay) {
+Complex open_loop(Complex z, const HeldPlant& plant, const loop::LinearChain& controller, int delay) {
   const Eigen::Index states = plant.A.rows();
   const Eigen::MatrixXcd resolvent = z * Eigen::MatrixXcd::Identity(states, states) - plant.A;
   const Eigen::VectorXcd response = resolvent.fullPivLu().solve(plant.b.cast<Complex>());
-  const auto pass = [z](const TransferFunction& transfer, Complex x) {
+  const auto pass = [z](const loop::TransferFunction& transfer, Complex x) {
     return x * value_at(transfer.b, z) / value_at(transfer.a, z);
   };
   // The torque in force is z⁻¹·U, so U = from_count·count + from_itself·z⁻¹·U.
@@ -114,4 +116,4 @@ Complex open_loop(Complex z, const HeldPlant& plant, const LinearChain& controll
   return -from_count / (1.0 - from_itself / z) * std::pow(z, -delay) * response(0);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::theory

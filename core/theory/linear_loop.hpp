@@ -9,17 +9,17 @@
 
 /// The sampled loop made linear, assembled from the transfer functions of the controller's blocks: target 0,
 /// the count a continuous quantity, and `delay` samples between deciding a torque and applying it.
-namespace zerocount {
+namespace zerocount::theory {
 
 /// The one-sample map x ← M·x of the loop. Its states are those of the driven rotor, of the blocks' transfer
 /// functions (direct form II transposed), and the torques decided and not yet applied.
-Eigen::MatrixXd loop_map(const HeldPlant& plant, const LinearChain& controller, int delay);
+Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& controller, int delay);
 
 /// max |eigenvalue| of the loop's map; below 1 the loop is stable.
-double spectral_radius(const HeldPlant& plant, const LinearChain& controller, int delay);
+double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controller, int delay);
 
 /// L(z) = C(z)·z^(−delay)·G(z): the open loop from error to count.
-std::complex<double> open_loop(std::complex<double> z, const HeldPlant& plant, const LinearChain& controller,
-                               int delay);
+std::complex<double> open_loop(std::complex<double> z, const HeldPlant& plant,
+                               const loop::LinearChain& controller, int delay);
 
-}  // namespace zerocount
+}  // namespace zerocount::theory

@@ -10,29 +10,31 @@
 #include "core/theory/gains.hpp"
 #include "core/theory/linear_loop.hpp"
 
-namespace zerocount {
+namespace zerocount::theory {
 namespace {
 
-HeldPlant presliding_plant(double stiffness, const PlantParameters& plant, const EncoderParameters& encoder,
-                           const ControllerParameters& controller, const LinearDrive& drive) {
-  return hold_plant(stiffness, plant.presliding_damping, plant.inertia, fine_resolution(encoder),
+HeldPlant presliding_plant(double stiffness, const motion::PlantParameters& plant,
+                           const loop::EncoderParameters& encoder,
+                           const loop::ControllerParameters& controller, const LinearDrive& drive) {
+  return hold_plant(stiffness, plant.presliding_damping, plant.inertia, loop::fine_resolution(encoder),
                     sample_time(controller), drive);
 }
 
 }  // namespace
 
-double sampled_spectral_radius(double stiffness, const PlantParameters& plant,
-                               const EncoderParameters& encoder, const ControllerParameters& controller,
-                               const LinearDrive& drive) {
+double sampled_spectral_radius(double stiffness, const motion::PlantParameters& plant,
+                               const loop::EncoderParameters& encoder,
+                               const loop::ControllerParameters& controller, const LinearDrive& drive) {
   return spectral_radius(presliding_plant(stiffness, plant, encoder, controller, drive),
-                         linear_chain(controller), controller.delay);
+                         loop::linear_chain(controller), controller.delay);
 }
 
-double slowest_time_constant(double stiffness, const PlantParameters& plant, const EncoderParameters& encoder,
-                             const ControllerParameters& controller, const LinearDrive& drive) {
+double slowest_time_constant(double stiffness, const motion::PlantParameters& plant,
+                             const loop::EncoderParameters& encoder,
+                             const loop::ControllerParameters& controller, const LinearDrive& drive) {
   const HeldPlant held = presliding_plant(stiffness, plant, encoder, controller, drive);
   const Eigen::VectorXcd eigenvalues =
-      loop_map(held, linear_chain(controller), controller.delay).eigenvalues();
+      loop_map(held, loop::linear_chain(controller), controller.delay).eigenvalues();
   if (!(eigenvalues.cwiseAbs().maxCoeff() < 1.0)) return std::numeric_limits<double>::infinity();
   double slowest = 0.0;
   for (const auto& z : eigenvalues) {
@@ -42,15 +44,15 @@ double slowest_time_constant(double stiffness, const PlantParameters& plant, con
   return slowest > gone_at_once ? -sample_time(controller) / std::log(slowest) : 0.0;
 }
 
-double sampled_critical_integral_gain(double stiffness, const PlantParameters& plant,
-                                      const EncoderParameters& encoder, ControllerParameters controller,
-                                      const LinearDrive& drive) {
+double sampled_critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
+                                      const loop::EncoderParameters& encoder,
+                                      loop::ControllerParameters controller, const LinearDrive& drive) {
   const HeldPlant held = presliding_plant(stiffness, plant, encoder, controller, drive);
   const auto stable = [&](double ki) {
     controller.ki = ki;
-    return spectral_radius(held, linear_chain(controller), controller.delay) < 1.0;
+    return spectral_radius(held, loop::linear_chain(controller), controller.delay) < 1.0;
   };
-  double low = 1e-6 * (stiffness * fine_resolution(encoder) + controller.kp);  // N m/count
+  double low = 1e-6 * (stiffness * loop::fine_resolution(encoder) + controller.kp);  // N m/count
   // Without stiffness and kp no integral gain is stable; the eigenvalue 1 of the free rotor may round to
   // less.
   if (low == 0.0 || !stable(low)) return 0.0;
@@ -65,4 +67,4 @@ double sampled_critical_integral_gain(double stiffness, const PlantParameters& p
   return low;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::theory

@@ -6,7 +6,7 @@
 /// Stability of the sampled loop about a spring of constant stiffness, the count taken as a continuous
 /// quantity: what remains of the loop when friction, encoder and DAC are made linear, but sampling, hold and
 /// delay are kept exactly.
-namespace zerocount {
+namespace zerocount::theory {
 
 /// What drives the rotor, made linear.
 struct LinearDrive {
@@ -21,9 +21,9 @@ struct LinearDrive {
 /// u˙ = 2πf·(v − u), f the amplifier's bandwidth. Both are discretised exactly by the matrix exponential. The
 /// controller is linear_chain(controller), with `controller.delay` samples between deciding a torque and
 /// applying it (loop_map).
-double sampled_spectral_radius(double stiffness, const PlantParameters& plant,
-                               const EncoderParameters& encoder, const ControllerParameters& controller,
-                               const LinearDrive& drive = {});
+double sampled_spectral_radius(double stiffness, const motion::PlantParameters& plant,
+                               const loop::EncoderParameters& encoder,
+                               const loop::ControllerParameters& controller, const LinearDrive& drive = {});
 
 /// The slowest time constant with which the sampled loop about a spring of `stiffness` (N m/rad) approaches
 /// its target, s: −T/ln z of the largest real eigenvalue z in (1e-6, 1), which decays as exp(−t/τ); 0 where
@@ -31,8 +31,9 @@ double sampled_spectral_radius(double stiffness, const PlantParameters& plant,
 /// stability.
 ///
 /// An integral control that is slow has τ ≈ T·(k·Δx + kp)/(2·ki).
-double slowest_time_constant(double stiffness, const PlantParameters& plant, const EncoderParameters& encoder,
-                             const ControllerParameters& controller, const LinearDrive& drive = {});
+double slowest_time_constant(double stiffness, const motion::PlantParameters& plant,
+                             const loop::EncoderParameters& encoder,
+                             const loop::ControllerParameters& controller, const LinearDrive& drive = {});
 
 /// Digital integral gain (N m/count) below which the sampled loop about a spring of `stiffness` (N m/rad) is
 /// stable: the end of the interval of stable gains that begins at 0, to 1e-9 relative. 0 where the loop
@@ -41,8 +42,8 @@ double slowest_time_constant(double stiffness, const PlantParameters& plant, con
 /// The end is searched upwards from 1e-6 of the static stiffness per count in steps of 2 %, then bisected. It
 /// exists: the held plant has more poles than zeros, so a large enough gain drives an eigenvalue out of the
 /// unit circle.
-double sampled_critical_integral_gain(double stiffness, const PlantParameters& plant,
-                                      const EncoderParameters& encoder, ControllerParameters controller,
-                                      const LinearDrive& drive = {});
+double sampled_critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
+                                      const loop::EncoderParameters& encoder,
+                                      loop::ControllerParameters controller, const LinearDrive& drive = {});
 
-}  // namespace zerocount
+}  // namespace zerocount::theory

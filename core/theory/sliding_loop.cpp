@@ -9,14 +9,14 @@
 #include "core/theory/gains.hpp"
 #include "core/theory/linear_loop.hpp"
 
-namespace zerocount {
-GainCrossover sliding_crossover(const PlantParameters& plant, const EncoderParameters& encoder,
-                                const ControllerParameters& controller, const LinearDrive& drive) {
+namespace zerocount::theory {
+GainCrossover sliding_crossover(const motion::PlantParameters& plant, const loop::EncoderParameters& encoder,
+                                const loop::ControllerParameters& controller, const LinearDrive& drive) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const double T = sample_time(controller);
   const HeldPlant held =
-      hold_plant(0.0, plant.sliding_damping, plant.inertia, fine_resolution(encoder), T, drive);
-  const LinearChain chain = linear_chain(controller);
+      hold_plant(0.0, plant.sliding_damping, plant.inertia, loop::fine_resolution(encoder), T, drive);
+  const loop::LinearChain chain = loop::linear_chain(controller);
   const auto open_loop_at = [&](double angle) {
     return open_loop(std::polar(1.0, angle), held, chain, controller.delay);
   };
@@ -39,12 +39,12 @@ GainCrossover sliding_crossover(const PlantParameters& plant, const EncoderParam
   return {low / (2.0 * std::numbers::pi * T), std::arg(-at) * 180.0 / std::numbers::pi};
 }
 
-bool stable_while_sliding(const PlantParameters& plant, const EncoderParameters& encoder,
-                          const ControllerParameters& controller, const LinearDrive& drive) {
-  PlantParameters sliding = plant;
+bool stable_while_sliding(const motion::PlantParameters& plant, const loop::EncoderParameters& encoder,
+                          const loop::ControllerParameters& controller, const LinearDrive& drive) {
+  motion::PlantParameters sliding = plant;
   sliding.presliding_damping = plant.sliding_damping;
   return slowest_time_constant(0.0, sliding, encoder, controller, drive) <
          std::numeric_limits<double>::infinity();
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::theory

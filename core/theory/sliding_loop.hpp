@@ -6,7 +6,7 @@
 
 /// The loop while the rotor slides. There is no spring then: the plant is 1/(J·s² + cs·s), and the friction
 /// torque, constant at speeds well above the Stribeck velocity, is a disturbance that the loop has to reject.
-namespace zerocount {
+namespace zerocount::theory {
 
 /// Where the gain of the open loop falls below 1 for good.
 struct GainCrossover {
@@ -24,11 +24,11 @@ struct GainCrossover {
 ///
 /// where C is linear_chain(controller), and G the sliding plant in counts, held over each sample and driven
 /// through `drive`.
-GainCrossover sliding_crossover(const PlantParameters& plant, const EncoderParameters& encoder,
-                                const ControllerParameters& controller, const LinearDrive& drive = {});
+GainCrossover sliding_crossover(const motion::PlantParameters& plant, const loop::EncoderParameters& encoder,
+                                const loop::ControllerParameters& controller, const LinearDrive& drive = {});
 
 /// Whether the sampled loop is stable while it slides: all its eigenvalues lie inside the unit circle.
-bool stable_while_sliding(const PlantParameters& plant, const EncoderParameters& encoder,
-                          const ControllerParameters& controller, const LinearDrive& drive = {});
+bool stable_while_sliding(const motion::PlantParameters& plant, const loop::EncoderParameters& encoder,
+                          const loop::ControllerParameters& controller, const LinearDrive& drive = {});
 
-}  // namespace zerocount
+}  // namespace zerocount::theory

@@ -8,15 +8,15 @@
 
 /// How an integral control that is slow brings the error to zero: the torque follows the spring without
 /// swinging.
-namespace zerocount {
+namespace zerocount::theory {
 
 /// Time constant of the error about a spring of `stiffness` k (N m/rad), s:
 ///
 ///   τ = T·(k·Δx + kp)/(2·ki).
 ///
 /// What slowest_time_constant finds of the sampled loop where it is slow against the plant's own motion.
-double slow_time_constant(double stiffness, const EncoderParameters& encoder,
-                          const ControllerParameters& controller);
+double slow_time_constant(double stiffness, const loop::EncoderParameters& encoder,
+                          const loop::ControllerParameters& controller);
 
 /// Time from a step of `step` counts (at least 1) to the count of its target, s, where the rotor reverses as
 /// it begins: the stiffness falls with the travel on the branch, so that, e being the error in counts,
@@ -24,8 +24,9 @@ double slow_time_constant(double stiffness, const EncoderParameters& encoder,
 ///   t = ∫ τ(k1 + k2·exp(−β·Δx·(step − e)))/e de  from ½ to step.
 ///
 /// Needs ki > 0.
-double slow_arrival_time(std::int64_t step, const FrictionParameters& contact,
-                         const EncoderParameters& encoder, const ControllerParameters& controller);
+double slow_arrival_time(std::int64_t step, const friction::FrictionParameters& contact,
+                         const loop::EncoderParameters& encoder,
+                         const loop::ControllerParameters& controller);
 
 /// Time for which the count chatters on the edge of the target before it has held it for `dwell` (s), s. With
 /// each count that the error falls, kp takes kp off the torque, and the rotor falls back over the edge: the
@@ -36,7 +37,7 @@ double slow_arrival_time(std::int64_t step, const FrictionParameters& contact,
 ///   t = T·kp/(2·ki)·ln(f·dwell), at least 0.
 ///
 /// Needs ki > 0.
-double chatter_time(const PlantParameters& plant, const FrictionParameters& contact,
-                    const ControllerParameters& controller, double dwell);
+double chatter_time(const motion::PlantParameters& plant, const friction::FrictionParameters& contact,
+                    const loop::ControllerParameters& controller, double dwell);
 
-}  // namespace zerocount
+}  // namespace zerocount::theory

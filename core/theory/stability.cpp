@@ -6,40 +6,45 @@
 #include "core/friction/profile_range.hpp"
 #include "core/theory/gains.hpp"
 
-namespace zerocount {
+namespace zerocount::theory {
 
-double critical_integral_gain(double stiffness, const PlantParameters& plant,
-                              const EncoderParameters& encoder, const ControllerParameters& controller) {
+double critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
+                              const loop::EncoderParameters& encoder,
+                              const loop::ControllerParameters& controller) {
   const AnalogueGains gains = analogue_gains(controller, encoder);
   const double analogue = (plant.presliding_damping + gains.kd) * (stiffness + gains.kp) / plant.inertia;
-  return analogue * fine_resolution(encoder) * sample_time(controller) / 2.0;
+  return analogue * loop::fine_resolution(encoder) * sample_time(controller) / 2.0;
 }
 
-IntegralGainBounds integral_gain_bounds(const PlantParameters& plant, const FrictionParameters& contact,
-                                        const EncoderParameters& encoder,
-                                        const ControllerParameters& controller) {
+IntegralGainBounds integral_gain_bounds(const motion::PlantParameters& plant,
+                                        const friction::FrictionParameters& contact,
+                                        const loop::EncoderParameters& encoder,
+                                        const loop::ControllerParameters& controller) {
   return {critical_integral_gain(contact.k1, plant, encoder, controller),
           critical_integral_gain(contact.k1 + contact.k2, plant, encoder, controller)};
 }
 
-double lowest_k1(const FrictionAlongRotor& friction) {
+double lowest_k1(const friction::FrictionAlongRotor& friction) {
   double lowest = friction.uniform.k1;
-  for (const ProfiledParameter& entry : friction.profiled) {
-    if (entry.parameter == &FrictionParameters::k1) lowest = range_over_revolution(*entry.profile).low;
+  for (const friction::ProfiledParameter& entry : friction.profiled) {
+    if (entry.parameter == &friction::FrictionParameters::k1)
+      lowest = friction::range_over_revolution(*entry.profile).low;
   }
   return lowest;
 }
 
-double dac_resolution_bound(double k1, const EncoderParameters& encoder, EncoderChoice feedback) {
-  return k1 * (feedback == EncoderChoice::fine ? fine_resolution(encoder) : coarse_resolution(encoder));
+double dac_resolution_bound(double k1, const loop::EncoderParameters& encoder, loop::EncoderChoice feedback) {
+  return k1 * (feedback == loop::EncoderChoice::fine ? loop::fine_resolution(encoder)
+                                                     : loop::coarse_resolution(encoder));
 }
 
-double natural_frequency(double stiffness, const PlantParameters& plant) {
+double natural_frequency(double stiffness, const motion::PlantParameters& plant) {
   return std::sqrt(stiffness / plant.inertia) / (2.0 * std::numbers::pi);
 }
 
-double advised_sample_rate(const PlantParameters& plant, const FrictionParameters& contact) {
+double advised_sample_rate(const motion::PlantParameters& plant,
+                           const friction::FrictionParameters& contact) {
   return 10.0 * natural_frequency(contact.k1 + contact.k2, plant);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::theory

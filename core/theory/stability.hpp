@@ -6,7 +6,7 @@
 
 /// The stability criteria and design rules of Lin, Pan and Hsieh (2002), "Precision-limit positioning of
 /// direct drive systems with the existence of friction", sections 3 and 4 ("the paper").
-namespace zerocount {
+namespace zerocount::theory {
 
 /// Digital integral gain k_ID (N m/count) at which the continuous loop about a spring of constant stiffness k
 /// (N m/rad) is on the edge of stability:
@@ -15,8 +15,9 @@ namespace zerocount {
 ///
 /// This is the Hurwitz condition of J·s³ + (c + kD)·s² + (k + kP)·s + kI = 0; with k = k1 it is the paper's
 /// (6), with k = k1 + k2 its (7). The gain `controller.ki` and the delay do not enter.
-double critical_integral_gain(double stiffness, const PlantParameters& plant,
-                              const EncoderParameters& encoder, const ControllerParameters& controller);
+double critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
+                              const loop::EncoderParameters& encoder,
+                              const loop::ControllerParameters& controller);
 
 /// The paper's two criteria for one contact, as bounds on the digital integral gain.
 struct IntegralGainBounds {
@@ -25,24 +26,25 @@ struct IntegralGainBounds {
 };
 
 /// The bounds of (6) and (7) where the contact's parameters are `contact`.
-IntegralGainBounds integral_gain_bounds(const PlantParameters& plant, const FrictionParameters& contact,
-                                        const EncoderParameters& encoder,
-                                        const ControllerParameters& controller);
+IntegralGainBounds integral_gain_bounds(const motion::PlantParameters& plant,
+                                        const friction::FrictionParameters& contact,
+                                        const loop::EncoderParameters& encoder,
+                                        const loop::ControllerParameters& controller);
 
 /// Lowest k1 (N m/rad) over a whole revolution: the one the paper says to use in (6) for a robust design
 /// (issue 1 of its section 3).
-double lowest_k1(const FrictionAlongRotor& friction);
+double lowest_k1(const friction::FrictionAlongRotor& friction);
 
 /// Torque step Δu (N m) that the DAC must stay below for a zero-count error to be possible: k1·Δx (issue 4 of
 /// the paper's section 3: one code moves the rotor by at most Δu/k1). Δx is of the encoder that is fed back.
-double dac_resolution_bound(double k1, const EncoderParameters& encoder,
-                            EncoderChoice feedback = EncoderChoice::fine);
+double dac_resolution_bound(double k1, const loop::EncoderParameters& encoder,
+                            loop::EncoderChoice feedback = loop::EncoderChoice::fine);
 
 /// √(stiffness/J)/2π, Hz. With k1 + k2 it is the highest natural frequency of the pre-sliding motion.
-double natural_frequency(double stiffness, const PlantParameters& plant);
+double natural_frequency(double stiffness, const motion::PlantParameters& plant);
 
 /// Lowest advisable sample rate (Hz): ten times the highest natural frequency, as on the paper's rig (its
 /// section 4).
-double advised_sample_rate(const PlantParameters& plant, const FrictionParameters& contact);
+double advised_sample_rate(const motion::PlantParameters& plant, const friction::FrictionParameters& contact);
 
-}  // namespace zerocount
+}  // namespace zerocount::theory

@@ -9,7 +9,7 @@
 #include "core/trial/parameters.hpp"
 
 /// Early decision: a move that is so far from its target that it does not come back is ended there.
-namespace zerocount {
+namespace zerocount::trial {
 
 /// Whether a move is ended after a sample with the error e = `error`, counts, because it has diverged. Always
 /// false without `verdict.stop`; otherwise where
@@ -44,4 +44,4 @@ inline bool was_run(const MoveOutcome& move) {
   return !move.stopped || !std::isnan(move.final_position);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

@@ -7,7 +7,7 @@
 #include "core/numerics/sign.hpp"
 #include "core/trial/outcome.hpp"
 
-namespace zerocount {
+namespace zerocount::trial {
 
 /// The jerks of one move: the maximal runs of samples with e ≠ 0 after the arrival dwell.
 class Jerks {
@@ -21,7 +21,7 @@ class Jerks {
     if (!lasts_) {
       lasts_ = true;
       start_ = k;
-      jerk_ = {move_, static_cast<double>(k) * sample_time_, 0.0, 0, -sign_of(error)};
+      jerk_ = {move_, static_cast<double>(k) * sample_time_, 0.0, 0, -numerics::sign_of(error)};
     }
     jerk_.magnitude = std::max(jerk_.magnitude, std::abs(error));
     return false;
@@ -55,4 +55,4 @@ class Jerks {
   std::int64_t samples_{0};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

@@ -6,7 +6,7 @@
 
 #include "core/numerics/sign.hpp"
 
-namespace zerocount {
+namespace zerocount::trial {
 
 void LastHalf::start(std::int64_t samples) {
   begun_ = false;
@@ -35,7 +35,8 @@ bool LastHalf::only_approaches(std::int64_t target) const {
   const std::int64_t error = target - first_;
   // The errors lie between target − max and target − min.
   const auto may_be = [&](std::int64_t count) {
-    return sign_of(target - count) == sign_of(error) && std::abs(target - count) <= std::abs(error);
+    return numerics::sign_of(target - count) == numerics::sign_of(error) &&
+           std::abs(target - count) <= std::abs(error);
   };
   return may_be(min_) && may_be(max_);
 }
@@ -60,4 +61,4 @@ double LastHalf::period(double sample_time) const {
   return static_cast<double>(last - first) / static_cast<double>(crossings - 1) * sample_time;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::trial {
 
 /// The number h = ⌈N/2⌉ of the first sample in the last half of a move of N samples.
 constexpr std::int64_t first_of_last_half(std::int64_t samples) {
@@ -74,4 +74,4 @@ class LastHalf {
   std::size_t reserve_{0};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

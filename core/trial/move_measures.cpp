@@ -1,6 +1,6 @@
 #include "core/trial/move_measures.hpp"
 
-namespace zerocount {
+namespace zerocount::trial {
 namespace {
 
 std::int64_t whole(double number) {
@@ -104,4 +104,4 @@ bool MoveMeasures::finish(bool broke_away, std::int64_t reversal_depth, bool fin
   return jerk_cut;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

@@ -8,7 +8,7 @@
 #include "core/trial/parameters.hpp"
 #include "core/trial/running_measures.hpp"
 
-namespace zerocount {
+namespace zerocount::trial {
 
 /// How a move is measured, in samples.
 struct MoveTiming {
@@ -86,4 +86,4 @@ class MoveMeasures {
   MoveOutcome outcome_;
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::trial {
 
 /// Verdict on a move with N samples by the last W of them. The numbers are those stored in results files;
 /// their order from best to worst is that of severity().
@@ -122,4 +122,4 @@ inline bool succeeded(std::span<const MoveOutcome> moves) {
                      [](const MoveOutcome& move) { return is_success(move.outcome); });
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

@@ -4,7 +4,7 @@
 
 #include "core/trial/torque_ramp.hpp"
 
-namespace zerocount {
+namespace zerocount::trial {
 
 std::int64_t samples_in(double duration, double sample_rate) {
   return std::llround(duration * sample_rate);
@@ -35,4 +35,4 @@ std::int64_t samples_of_trial(const TrialParameters& parameters) {
   return samples;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

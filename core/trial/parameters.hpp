@@ -9,7 +9,7 @@
 #include "core/motion/parameters.hpp"
 #include "core/random/trial_randomness.hpp"
 
-namespace zerocount {
+namespace zerocount::trial {
 
 enum class TorquePath {
   dac,   ///< rounded to codes, with the converter's errors
@@ -28,7 +28,7 @@ struct TorqueCommand {
 struct CommandParameters {
   std::vector<std::int64_t> targets;  ///< counts from the start of the trial, one per move
   double hold{1.0};  ///< s: of each target, from the move's start; of each torque level, once it is reached
-  ReferenceProfile profile{};
+  loop::ReferenceProfile profile{};
   TorqueCommand torque{};
 };
 
@@ -66,16 +66,16 @@ struct VerdictParameters {
 
 /// Everything that determines a trial: two equal sets give the same trial, bit for bit.
 struct TrialParameters {
-  PlantParameters plant;
-  FrictionAlongRotor friction;
-  EncoderParameters encoder;
-  DacParameters dac;
-  AmplifierParameters amplifier{};
-  ControllerParameters controller;
+  motion::PlantParameters plant;
+  friction::FrictionAlongRotor friction;
+  loop::EncoderParameters encoder;
+  loop::DacParameters dac;
+  loop::AmplifierParameters amplifier{};
+  loop::ControllerParameters controller;
   CommandParameters command;
   InitialConditions initial;
   VerdictParameters verdict;
-  TrialRandomness randomness{};
+  random::TrialRandomness randomness{};
 };
 
 /// Number of whole samples in `duration` (s) at `sample_rate` (Hz): round(duration·sample_rate).
@@ -91,4 +91,4 @@ std::int64_t samples_of_move(const TrialParameters& parameters, std::size_t move
 /// Number of samples of all moves.
 std::int64_t samples_of_trial(const TrialParameters& parameters);
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

@@ -5,12 +5,12 @@
 
 #include "core/random/random_numbers.hpp"
 
-namespace zerocount {
+namespace zerocount::trial {
 
-std::vector<double> draw_history(const RandomHistory& history, const TrialRandomness& randomness) {
-  const RandomStream stream{randomness.history, randomness.stream};
+std::vector<double> draw_history(const RandomHistory& history, const random::TrialRandomness& randomness) {
+  const random::RandomStream stream{randomness.history, randomness.stream};
   const auto uniform = [&](std::uint64_t k) {
-    return open_uniform(random_bits_at(stream, randomness.trial, k));
+    return random::open_uniform(random::random_bits_at(stream, randomness.trial, k));
   };
   std::vector<double> levels(static_cast<std::size_t>(history.reversals));
   double outermost = uniform(0) < 0.5 ? -history.torque : history.torque;
@@ -23,4 +23,4 @@ std::vector<double> draw_history(const RandomHistory& history, const TrialRandom
   return levels;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

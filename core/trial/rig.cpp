@@ -2,7 +2,7 @@
 
 #include "core/trial/random_history.hpp"
 
-namespace zerocount {
+namespace zerocount::trial {
 namespace {
 
 /// Fraction of a fine count that the motion may leave out per torque step. Far below the accuracy asked for,
@@ -14,14 +14,14 @@ constexpr double rest_in_counts = 1e-8;
 
 }  // namespace
 
-PlantStart plant_start(const TrialParameters& p) {
+motion::PlantStart plant_start(const TrialParameters& p) {
   return {p.initial.position, p.initial.hardening,
           p.initial.preload,  draw_history(p.initial.history, p.randomness),
           p.initial.velocity, p.initial.mode == InitialMode::slide};
 }
 
-MotionTolerance motion_tolerance(double resolution) {
+motion::MotionTolerance motion_tolerance(double resolution) {
   return {motion_tolerance_in_counts * resolution, rest_in_counts * resolution};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

@@ -11,16 +11,16 @@
 #include "core/trial/parameters.hpp"
 #include "core/trial/trial.hpp"
 
-namespace zerocount {
+namespace zerocount::trial {
 
 /// What the plant of a trial finds at t = 0.
-PlantStart plant_start(const TrialParameters& parameters);
+motion::PlantStart plant_start(const TrialParameters& parameters);
 
 /// Farther than this, counts are no longer whole numbers of a double.
 inline constexpr double max_counts = 0x1p52;
 
 /// How exactly a trial follows its motion, by the resolution (rad) of its fine encoder.
-MotionTolerance motion_tolerance(double resolution);
+motion::MotionTolerance motion_tolerance(double resolution);
 
 /// The rig of a trial: the plant between its drive and its encoders. What closes the loop stands outside. One
 /// sample is: read, drive, hold.
@@ -40,10 +40,10 @@ class Rig {
     SampleRecord record;
     record.k = k;
     record.t = static_cast<double>(k) * sample_time_;
-    const PlantReading plant = plant_.read();
+    const plant::PlantReading plant = plant_.read();
     record.theta = plant.theta;
     record.omega = plant.omega;
-    const EncoderReading reading = measurement_.read(k, record.theta);
+    const loop::EncoderReading reading = measurement_.read(k, record.theta);
     record.count = reading.fine;
     record.coarse_count = reading.coarse;
     record.xp = plant.creep.extension;
@@ -55,7 +55,7 @@ class Rig {
 
   /// Takes the wanted torque (N m) at t_k through the converter; completes `record`.
   void drive(double torque, SampleRecord& record) {
-    const DacOutput output = convert(dac_, torque);
+    const loop::DacOutput output = loop::convert(dac_, torque);
     course_ = drive_.send(record.k, output);
     clipped_ = output.clipped;
     record.code = output.code;
@@ -80,17 +80,17 @@ class Rig {
   }
 
   bool clipped() const { return clipped_; }  ///< the converter was out of range at this sample
-  const Measurement& measurement() const { return measurement_; }
+  const loop::Measurement& measurement() const { return measurement_; }
   AnyPlant& plant() { return plant_; }
 
  private:
   double sample_time_;
-  Measurement measurement_;
-  DacParameters dac_;
-  Drive drive_;
+  loop::Measurement measurement_;
+  loop::DacParameters dac_;
+  loop::Drive drive_;
   AnyPlant plant_;
-  TorqueCourse course_;
+  motion::TorqueCourse course_;
   bool clipped_{false};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

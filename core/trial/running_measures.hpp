@@ -3,7 +3,7 @@
 #include "core/numerics/number.hpp"
 
 /// The measures of a move that change with every sample, for double and for the vectors of the batch engine.
-namespace zerocount {
+namespace zerocount::trial {
 
 /// Whether a move has arrived, as far as it is known. Truths are 0 or 1, and whole numbers exact.
 /// @tparam Number double, a vector, or an array with the numbers of many lanes.
@@ -93,4 +93,4 @@ ZEROCOUNT_ALWAYS_INLINE void measure_zeros(ArrivalMeasures<Number>& m, const Num
   m.taken = m.taken + samples;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

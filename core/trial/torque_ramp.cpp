@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace zerocount {
+namespace zerocount::trial {
 
 TorqueRamp make_torque_ramp(double from, double to, double rate, double sample_rate) {
   // A ramp of a whole number of samples must not gain one by rounding.
@@ -16,4 +16,4 @@ double torque_at(const TorqueRamp& ramp, std::int64_t i) {
   return i < ramp.samples ? ramp.from + static_cast<double>(i) * ramp.per_sample : ramp.to;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

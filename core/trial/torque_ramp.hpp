@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace zerocount {
+namespace zerocount::trial {
 
 /// A torque that goes from one level to the next at a constant rate, sampled: each value is held until the
 /// next instant.
@@ -21,4 +21,4 @@ TorqueRamp make_torque_ramp(double from, double to, double rate, double sample_r
 /// The torque (N m) at sample i = 0, 1, … of the ramp: from + i·per_sample, then `to`.
 double torque_at(const TorqueRamp& ramp, std::int64_t i);
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

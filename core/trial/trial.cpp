@@ -2,10 +2,10 @@
 
 #include "core/trial/trial_of.hpp"
 
-namespace zerocount {
+namespace zerocount::trial {
 
 TrialOutcome run_trial(const TrialParameters& parameters, const TrialObservers& observers) {
-  return run_trial_of<Plant>(parameters, observers);
+  return run_trial_of<plant::Plant>(parameters, observers);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

@@ -6,7 +6,7 @@
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
 
-namespace zerocount {
+namespace zerocount::trial {
 
 enum class HookMode { stick, slide };
 
@@ -27,7 +27,7 @@ struct SampleRecord {
   std::int64_t depth{0};         ///< reversal points on the stack
   HookMode mode{HookMode::stick};
   std::int64_t reference{0};  ///< that the controller follows, counts: the target once arrived there
-  ControlPhase phase{ControlPhase::fine};  ///< that decided the torque
+  loop::ControlPhase phase{loop::ControlPhase::fine};  ///< that decided the torque
   double drive_torque{0.0};  ///< of the motor at this instant, after converter and amplifier, N m
 };
 
@@ -45,4 +45,4 @@ struct TrialObservers {
 /// runs beside it. The memory it uses does not grow with the number of samples.
 TrialOutcome run_trial(const TrialParameters& parameters, const TrialObservers& observers = {});
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

@@ -9,7 +9,7 @@
 #include "core/trial/trial.hpp"
 
 /// A trial as a template over its plant, PlantOf a list of laws.
-namespace zerocount {
+namespace zerocount::trial {
 
 /// Runs the samples of one move, from number `first` on. `decide(i, record)` completes the record of its
 /// sample i: what is commanded, and the torque. A move that diverges is ended.
@@ -50,8 +50,8 @@ template <class AnyPlant>
 TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& observers) {
   Rig<AnyPlant> rig(p);
   const double resolution = rig.measurement().fine_resolution();
-  Controller controller(p.controller, rig.measurement().fine_per_coarse(), p.initial.integral,
-                        lowest_torque(p.dac), highest_torque(p.dac));
+  loop::Controller controller(p.controller, rig.measurement().fine_per_coarse(), p.initial.integral,
+                              loop::lowest_torque(p.dac), loop::highest_torque(p.dac));
   TrialOutcome outcome;
   std::int64_t first = 0;
   std::int64_t from = 0;
@@ -59,14 +59,14 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
   bool stopped = false;
   for (std::size_t m = 0; m < p.command.targets.size() && !stopped; ++m) {
     const std::int64_t target = p.command.targets[m];
-    const Reference reference(p.command.profile, from, target, resolution);
+    const loop::Reference reference(p.command.profile, from, target, resolution);
     const MoveTiming timing = move_timing(p, m);
     const std::int64_t changes_before = controller.phase_changes();
     const auto decide = [&](std::int64_t i, SampleRecord& record) {
       record.target = target;
       record.error = target - record.count;
       record.reference = reference.at(static_cast<double>(i) * timing.sample_time);
-      const EncoderReading reading{record.count, record.coarse_count};
+      const loop::EncoderReading reading{record.count, record.coarse_count};
       rig.drive(controller.update(record.reference, reading, torque_in_force), record);
       record.phase = controller.phase();
       torque_in_force = record.torque;
@@ -124,4 +124,4 @@ TrialOutcome run_trial_of(const TrialParameters& parameters, const TrialObserver
                                                   : apply_torques<AnyPlant>(parameters, observers);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::trial

@@ -4,11 +4,11 @@
 
 #include "core/hash/sha256.hpp"
 
-namespace zerocount {
+namespace zerocount::designs {
 
-RandomKey random_key(std::uint64_t seed, std::string_view name) {
-  const Sha256 digest = sha256(fmt::format("{}:{}", seed, name));
-  RandomKey key{};
+random::RandomKey random_key(std::uint64_t seed, std::string_view name) {
+  const hash::Sha256 digest = hash::sha256(fmt::format("{}:{}", seed, name));
+  random::RandomKey key{};
   for (std::size_t word = 0; word < key.size(); ++word) {
     for (std::size_t byte = 0; byte < 4; ++byte) {
       key[word] |= static_cast<std::uint32_t>(digest[4 * word + byte]) << (8 * byte);
@@ -17,4 +17,4 @@ RandomKey random_key(std::uint64_t seed, std::string_view name) {
   return key;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::designs

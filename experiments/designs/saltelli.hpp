@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace zerocount {
+namespace zerocount::designs {
 
 /// The radial design from which Sobol' indices are estimated (Saltelli, Annoni, Azzini, Campolongo, Ratto &
 /// Tarantola, "Variance based sensitivity analysis of model output", Comput. Phys. Commun. 181, 2010).
@@ -26,4 +26,4 @@ constexpr std::uint64_t saltelli_source(std::uint64_t index, std::size_t factor,
   return from_b ? second_sample + row : row;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::designs

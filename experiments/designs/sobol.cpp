@@ -5,7 +5,7 @@
 
 #include <boost/random/sobol.hpp>
 
-namespace zerocount {
+namespace zerocount::designs {
 
 std::size_t sobol_dimension_limit() {
   return boost::random::default_sobol_table::max_dimension;
@@ -35,8 +35,10 @@ std::uint64_t sobol_bits(std::uint64_t index, const SobolDirections& directions)
   return bits;
 }
 
-double sobol_uniform(std::uint64_t index, const SobolDirections& directions, const RandomStream& stream) {
-  return open_uniform(sobol_bits(index, directions) ^ random_bits(stream, 0, Draw::sobol_shift));
+double sobol_uniform(std::uint64_t index, const SobolDirections& directions,
+                     const random::RandomStream& stream) {
+  return random::open_uniform(sobol_bits(index, directions) ^
+                              random::random_bits(stream, 0, random::Draw::sobol_shift));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::designs

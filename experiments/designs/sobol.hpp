@@ -7,7 +7,7 @@
 
 #include "core/random/random_numbers.hpp"
 
-namespace zerocount {
+namespace zerocount::designs {
 
 /// Direction numbers of one Sobol dimension: 64-bit binary fractions, one for each binary digit of a trial's
 /// index.
@@ -26,6 +26,7 @@ std::uint64_t sobol_bits(std::uint64_t index, const SobolDirections& directions)
 
 /// As sobol_bits, with the random digital shift of this dimension from its own stream, in (0, 1). The shift
 /// keeps the stratification: each of 2^m equal intervals holds one of the trials j·2^m … (j + 1)·2^m − 1.
-double sobol_uniform(std::uint64_t index, const SobolDirections& directions, const RandomStream& stream);
+double sobol_uniform(std::uint64_t index, const SobolDirections& directions,
+                     const random::RandomStream& stream);
 
-}  // namespace zerocount
+}  // namespace zerocount::designs

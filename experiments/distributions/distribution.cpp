@@ -8,7 +8,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/triangular.hpp>
 
-namespace zerocount {
+namespace zerocount::distributions {
 namespace {
 
 template <class... Cases>
@@ -75,19 +75,20 @@ double quantile_of(const Choice& d, double u) {
 
 }  // namespace
 
-Interval support(const Distribution& distribution) {
-  return std::visit(Overload{[](const Uniform& d) { return half_open(d.low, d.high); },
-                             [](const LogUniform& d) { return half_open(d.low, d.high); },
-                             [](const Normal&) { return all_numbers(); },
-                             [](const TruncatedNormal& d) { return half_open(d.low, d.high); },
-                             [](const Lognormal&) { return above(0.0); },
-                             [](const Triangular& d) { return half_open(d.low, d.high); },
+numerics::Interval support(const Distribution& distribution) {
+  return std::visit(Overload{[](const Uniform& d) { return numerics::half_open(d.low, d.high); },
+                             [](const LogUniform& d) { return numerics::half_open(d.low, d.high); },
+                             [](const Normal&) { return numerics::all_numbers(); },
+                             [](const TruncatedNormal& d) { return numerics::half_open(d.low, d.high); },
+                             [](const Lognormal&) { return numerics::above(0.0); },
+                             [](const Triangular& d) { return numerics::half_open(d.low, d.high); },
                              [](const Integers& d) {
-                               return closed(static_cast<double>(d.low), static_cast<double>(d.high));
+                               return numerics::closed(static_cast<double>(d.low),
+                                                       static_cast<double>(d.high));
                              },
                              [](const Choice& d) {
                                const auto [low, high] = std::minmax_element(d.values.begin(), d.values.end());
-                               return closed(*low, *high);
+                               return numerics::closed(*low, *high);
                              }},
                     distribution);
 }
@@ -96,10 +97,10 @@ double quantile(const Distribution& distribution, double u) {
   return std::visit([u](const auto& d) { return quantile_of(d, u); }, distribution);
 }
 
-bool extremes_are_inside(const Distribution& distribution, const Interval& range) {
+bool extremes_are_inside(const Distribution& distribution, const numerics::Interval& range) {
   try {
-    return contains(range, quantile(distribution, 0x1p-53)) &&
-           contains(range, quantile(distribution, 1.0 - 0x1p-53));
+    return numerics::contains(range, quantile(distribution, 0x1p-53)) &&
+           numerics::contains(range, quantile(distribution, 1.0 - 0x1p-53));
   } catch (const std::exception&) {
     return false;
   }
@@ -112,4 +113,4 @@ bool whole_numbers_only(const Distribution& distribution) {
                                           [](double v) { return v == std::trunc(v); });
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::distributions

@@ -7,7 +7,7 @@
 
 #include "core/numerics/interval.hpp"
 
-namespace zerocount {
+namespace zerocount::distributions {
 
 // The distributions of a manifest. Parameters have the unit of the quantity. All distributions are sampled by
 // // their quantile function, so that all designs map uniform numbers in the same way.
@@ -67,15 +67,15 @@ using Distribution =
     std::variant<Uniform, LogUniform, Normal, TruncatedNormal, Lognormal, Triangular, Integers, Choice>;
 
 /// Interval of the possible values.
-Interval support(const Distribution& distribution);
+numerics::Interval support(const Distribution& distribution);
 
 /// The smallest x with P(X ≤ x) ≥ u, 0 < u < 1, in the quantity's unit.
 double quantile(const Distribution& distribution, double u);
 
 /// Whether the extreme quantiles are in `range`. They may overflow for very large parameters.
-bool extremes_are_inside(const Distribution& distribution, const Interval& range);
+bool extremes_are_inside(const Distribution& distribution, const numerics::Interval& range);
 
 /// Whether only whole numbers can be drawn.
 bool whole_numbers_only(const Distribution& distribution);
 
-}  // namespace zerocount
+}  // namespace zerocount::distributions

@@ -3,7 +3,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::distributions {
 namespace {
 
 using Fault = DistributionFault;
@@ -78,4 +78,4 @@ std::optional<DistributionFault> find_fault(const Distribution& distribution) {
   return std::visit([](const auto& d) { return fault_of(d); }, distribution);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::distributions

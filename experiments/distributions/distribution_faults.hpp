@@ -5,7 +5,7 @@
 
 #include "experiments/distributions/distribution.hpp"
 
-namespace zerocount {
+namespace zerocount::distributions {
 
 /// Why the parameters of a distribution are invalid: the two phrases of a message.
 struct DistributionFault {
@@ -17,4 +17,4 @@ struct DistributionFault {
 /// …
 std::optional<DistributionFault> find_fault(const Distribution& distribution);
 
-}  // namespace zerocount
+}  // namespace zerocount::distributions

@@ -12,7 +12,7 @@
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
-namespace zerocount {
+namespace zerocount::distributions {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -20,16 +20,18 @@ using Numbers = std::vector<double>;
 // Up to this limit a double represents whole numbers exactly.
 constexpr std::int64_t max_whole_number = std::int64_t{1} << 53;
 
-std::optional<double> read_one(const DistributionForm& form, const Field& field, Problems& problems) {
-  if (!form.whole_numbers) return read_real(field, all_numbers(), problems);
-  const auto whole = read_whole(field, -max_whole_number, max_whole_number, problems);
+std::optional<double> read_one(const DistributionForm& form, const yaml::Field& field,
+                               yaml::Problems& problems) {
+  if (!form.whole_numbers) return yaml::read_real(field, numerics::all_numbers(), problems);
+  const auto whole = yaml::read_whole(field, -max_whole_number, max_whole_number, problems);
   if (!whole) return std::nullopt;
   return static_cast<double>(*whole);
 }
 
-std::optional<Numbers> read_list(const DistributionForm& form, const Field& field, Problems& problems) {
+std::optional<Numbers> read_list(const DistributionForm& form, const yaml::Field& field,
+                                 yaml::Problems& problems) {
   const std::string expected = fmt::format("{}: {}", form.name, form.shown);
-  if (!check_list(field, expected, problems)) return std::nullopt;
+  if (!yaml::check_list(field, expected, problems)) return std::nullopt;
   const std::size_t count = field.node->items.size();
   if (!form.keys.empty() && count != form.keys.size()) {
     problems.add(field.node->place, field.path, fmt::format("a list of {} stands here", count), expected);
@@ -37,28 +39,29 @@ std::optional<Numbers> read_list(const DistributionForm& form, const Field& fiel
   }
   Numbers numbers;
   for (std::size_t i = 0; i < count; ++i) {
-    if (const auto number = read_one(form, item_of(field, i), problems)) numbers.push_back(*number);
+    if (const auto number = read_one(form, yaml::item_of(field, i), problems)) numbers.push_back(*number);
   }
   if (numbers.size() != count) return std::nullopt;
   return numbers;
 }
 
 // The values of `keys` in the map, in their order.
-std::optional<Numbers> read_keys(const DistributionForm& form, const Field& field, Problems& problems) {
+std::optional<Numbers> read_keys(const DistributionForm& form, const yaml::Field& field,
+                                 yaml::Problems& problems) {
   const std::string expected = fmt::format("{}: {}", form.name, form.shown);
-  if (!check_map(field, expected, problems)) return std::nullopt;
+  if (!yaml::check_map(field, expected, problems)) return std::nullopt;
   const std::vector<std::string> known(form.keys.begin(), form.keys.end());
-  for (const YamlEntry& entry : field.node->entries) {
+  for (const yaml::YamlEntry& entry : field.node->entries) {
     if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
-      add_unknown_key(field, entry, known, problems);
+      parameters::add_unknown_key(field, entry, known, problems);
     }
   }
   Numbers numbers;
   for (const std::string& key : known) {
-    const YamlEntry* entry = find_entry(*field.node, key);
+    const yaml::YamlEntry* entry = yaml::find_entry(*field.node, key);
     if (entry == nullptr) {
       problems.add(field.node->place, field.path, fmt::format("{} is missing", key), expected);
-    } else if (const auto number = read_one(form, entry_of(field, *entry), problems)) {
+    } else if (const auto number = read_one(form, yaml::entry_of(field, *entry), problems)) {
       numbers.push_back(*number);
     }
   }
@@ -154,8 +157,8 @@ std::string distribution_names() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::optional<Distribution> read_distribution(const DistributionForm& form, const Field& field,
-                                              Problems& problems) {
+std::optional<Distribution> read_distribution(const DistributionForm& form, const yaml::Field& field,
+                                              yaml::Problems& problems) {
   const auto numbers = form.by_key ? read_keys(form, field, problems) : read_list(form, field, problems);
   if (!numbers) return std::nullopt;
   Distribution distribution = form.make(*numbers);
@@ -167,18 +170,18 @@ std::optional<Distribution> read_distribution(const DistributionForm& form, cons
   return distribution;
 }
 
-const DistributionForm* find_form(const Field& map, const YamlEntry& entry,
+const DistributionForm* find_form(const yaml::Field& map, const yaml::YamlEntry& entry,
                                   const std::vector<std::string>& others, std::string_view expected,
-                                  Problems& problems) {
+                                  yaml::Problems& problems) {
   std::vector<std::string> names = others;
   for (const DistributionForm& form : distribution_forms()) {
     if (form.name == entry.key) return &form;
     names.emplace_back(form.name);
   }
-  problems.add(entry.place, entry_of(map, entry).path,
-               fmt::format("unknown distribution, nearest known: {}", nearest_name(entry.key, names)),
+  problems.add(entry.place, yaml::entry_of(map, entry).path,
+               fmt::format("unknown distribution, nearest known: {}", yaml::nearest_name(entry.key, names)),
                expected);
   return nullptr;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::distributions

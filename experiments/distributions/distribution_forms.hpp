@@ -9,7 +9,7 @@
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/yaml/scalars.hpp"
 
-namespace zerocount {
+namespace zerocount::distributions {
 
 /// Syntax of one distribution in a manifest: a map with the single key `name`.
 struct DistributionForm {
@@ -30,13 +30,13 @@ std::string distribution_names();
 
 /// The distribution in `field`, the value of the key `form.name`. Reports errors, such as low above high, and
 /// returns nothing then.
-std::optional<Distribution> read_distribution(const DistributionForm& form, const Field& field,
-                                              Problems& problems);
+std::optional<Distribution> read_distribution(const DistributionForm& form, const yaml::Field& field,
+                                              yaml::Problems& problems);
 
 /// The form that `entry` of the map names. Reports an unknown name, with the nearest name among the forms and
 /// `others`, and returns null.
-const DistributionForm* find_form(const Field& map, const YamlEntry& entry,
+const DistributionForm* find_form(const yaml::Field& map, const yaml::YamlEntry& entry,
                                   const std::vector<std::string>& others, std::string_view expected,
-                                  Problems& problems);
+                                  yaml::Problems& problems);
 
-}  // namespace zerocount
+}  // namespace zerocount::distributions

@@ -10,17 +10,17 @@
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 
-namespace zerocount {
+namespace zerocount::distributions {
 namespace {
 
 constexpr std::string_view profile_shown = "profile: {mean, cv, correlation_length, marginal}";
 
 // The only entry of the map, which names a distribution.
-std::optional<Distribution> read_drawn_mean(const Field& field, Problems& problems) {
+std::optional<Distribution> read_drawn_mean(const yaml::Field& field, yaml::Problems& problems) {
   const std::string expected = fmt::format("a number, or a map with one of {}", distribution_names());
   const auto& entries = field.node->entries;
   if (entries.size() != 1) {
-    const bool per = find_entry(*field.node, "per") != nullptr;
+    const bool per = yaml::find_entry(*field.node, "per") != nullptr;
     problems.add(field.node->place, field.path,
                  per ? "the mean is drawn for every rotor, as often as the profile"
                      : fmt::format("a map with {} keys stands here", entries.size()),
@@ -29,62 +29,64 @@ std::optional<Distribution> read_drawn_mean(const Field& field, Problems& proble
   }
   const DistributionForm* form = find_form(field, entries.front(), {}, expected, problems);
   if (form == nullptr) return std::nullopt;
-  auto distribution = read_distribution(*form, entry_of(field, entries.front()), problems);
+  auto distribution = read_distribution(*form, yaml::entry_of(field, entries.front()), problems);
   if (!distribution) return std::nullopt;
-  if (!contains(above(0.0), support(*distribution)) || !extremes_are_inside(*distribution, above(0.0))) {
-    problems.add(
-        field.node->place, field.path,
-        fmt::format("its values {} are not all positive and finite", notation(support(*distribution))),
-        "a distribution of numbers greater than 0");
+  if (!numerics::contains(numerics::above(0.0), support(*distribution)) ||
+      !extremes_are_inside(*distribution, numerics::above(0.0))) {
+    problems.add(field.node->place, field.path,
+                 fmt::format("its values {} are not all positive and finite",
+                             numerics::notation(support(*distribution))),
+                 "a distribution of numbers greater than 0");
     return std::nullopt;
   }
   return distribution;
 }
 
-void read_marginal(const Field& field, ProfileDescription& description, Problems& problems) {
+void read_marginal(const yaml::Field& field, ProfileDescription& description, yaml::Problems& problems) {
   const std::string& text = field.node->text;
-  description.marginal = text == "normal" ? Marginal::normal : Marginal::lognormal;
+  description.marginal = text == "normal" ? friction::Marginal::normal : friction::Marginal::lognormal;
   if (text == "normal" || text == "lognormal") return;
   problems.add(field.node->place, field.path,
-               fmt::format("{} is no marginal", in_quotes(flow_text(*field.node))), "normal or lognormal");
+               fmt::format("{} is no marginal", yaml::in_quotes(yaml::flow_text(*field.node))),
+               "normal or lognormal");
 }
 
 }  // namespace
 
-std::optional<ProfileForm> read_profile(const Field& field, double period, Problems& problems) {
+std::optional<ProfileForm> read_profile(const yaml::Field& field, double period, yaml::Problems& problems) {
   static const std::vector<std::string> known{"mean", "cv", "correlation_length", "marginal"};
-  if (!check_map(field, std::string(profile_shown), problems)) return std::nullopt;
+  if (!yaml::check_map(field, std::string(profile_shown), problems)) return std::nullopt;
   const std::size_t before = problems.size();
   ProfileForm form;
   form.description.period = period;
-  const auto number = [&](std::string_view key, const Interval& range, double& to) {
-    const YamlEntry* entry = find_entry(*field.node, key);
+  const auto number = [&](std::string_view key, const numerics::Interval& range, double& to) {
+    const yaml::YamlEntry* entry = yaml::find_entry(*field.node, key);
     if (entry == nullptr) {
       problems.add(field.node->place, field.path, fmt::format("{} is missing", key), profile_shown);
-    } else if (const auto read = read_real(entry_of(field, *entry), range, problems)) {
+    } else if (const auto read = yaml::read_real(yaml::entry_of(field, *entry), range, problems)) {
       to = *read;
     }
   };
-  const YamlEntry* mean = find_entry(*field.node, "mean");
-  if (mean != nullptr && mean->value->kind == YamlNode::Kind::map) {
-    form.mean = read_drawn_mean(entry_of(field, *mean), problems);
+  const yaml::YamlEntry* mean = yaml::find_entry(*field.node, "mean");
+  if (mean != nullptr && mean->value->kind == yaml::YamlNode::Kind::map) {
+    form.mean = read_drawn_mean(yaml::entry_of(field, *mean), problems);
   } else {
-    number("mean", above(0.0), form.description.mean);
+    number("mean", numerics::above(0.0), form.description.mean);
   }
   number("cv", {.low = 0.0, .high = 10.0, .high_included = true}, form.description.cv);
   const double scale = period / (2.0 * std::numbers::pi);
   number("correlation_length",
-         closed(scale * shortest_correlation_length, scale * longest_correlation_length),
+         numerics::closed(scale * shortest_correlation_length, scale * longest_correlation_length),
          form.description.correlation_length);
-  for (const YamlEntry& entry : field.node->entries) {
+  for (const yaml::YamlEntry& entry : field.node->entries) {
     if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
-      add_unknown_key(field, entry, known, problems);
+      parameters::add_unknown_key(field, entry, known, problems);
     } else if (entry.key == "marginal") {
-      read_marginal(entry_of(field, entry), form.description, problems);
+      read_marginal(yaml::entry_of(field, entry), form.description, problems);
     }
   }
   if (problems.size() != before) return std::nullopt;
   return form;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::distributions

@@ -6,7 +6,7 @@
 #include "experiments/distributions/random_field.hpp"
 #include "experiments/yaml/scalars.hpp"
 
-namespace zerocount {
+namespace zerocount::distributions {
 
 /// A profile in a manifest: {mean, cv, correlation_length, marginal}; the default marginal is lognormal. The
 /// mean is a number, or a distribution that is drawn for every rotor.
@@ -17,6 +17,6 @@ struct ProfileForm {
 
 /// The value of the key `profile`. Reports errors and returns nothing then.
 /// @param period of the field, rad or m.
-std::optional<ProfileForm> read_profile(const Field& field, double period, Problems& problems);
+std::optional<ProfileForm> read_profile(const yaml::Field& field, double period, yaml::Problems& problems);
 
-}  // namespace zerocount
+}  // namespace zerocount::distributions

@@ -7,14 +7,16 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/special_functions/erf.hpp>
 
-namespace zerocount {
+namespace zerocount::distributions {
 namespace {
 
 constexpr double neglected_variance = 1e-12;
 
-double standard_normal(const RandomKey& key, std::size_t harmonic, std::uint32_t rotor, Draw draw) {
+double standard_normal(const random::RandomKey& key, std::size_t harmonic, std::uint32_t rotor,
+                       random::Draw draw) {
   const std::uint64_t index = harmonic + (std::uint64_t{rotor} << 32);
-  return boost::math::quantile(boost::math::normal{}, open_uniform(random_bits({.key = key}, index, draw)));
+  return boost::math::quantile(boost::math::normal{},
+                               random::open_uniform(random::random_bits({.key = key}, index, draw)));
 }
 
 }  // namespace
@@ -41,12 +43,12 @@ std::vector<double> field_amplitudes(const ProfileDescription& description) {
   return amplitudes;
 }
 
-Profile realise_profile(const ProfileDescription& description, std::span<const double> amplitudes,
-                        const RandomKey& key, std::uint32_t rotor) {
-  Profile profile;
+friction::Profile realise_profile(const ProfileDescription& description, std::span<const double> amplitudes,
+                                  const random::RandomKey& key, std::uint32_t rotor) {
+  friction::Profile profile;
   profile.marginal = description.marginal;
   profile.period = description.period;
-  if (description.marginal == Marginal::lognormal) {
+  if (description.marginal == friction::Marginal::lognormal) {
     const double variance = std::log1p(description.cv * description.cv);
     profile.location = std::log(description.mean) - 0.5 * variance;
     profile.scale = std::sqrt(variance);
@@ -57,20 +59,22 @@ Profile realise_profile(const ProfileDescription& description, std::span<const d
   profile.cosine.reserve(amplitudes.size());
   profile.sine.reserve(amplitudes.size());
   for (std::size_t m = 0; m < amplitudes.size(); ++m) {
-    profile.cosine.push_back(amplitudes[m] * standard_normal(key, m, rotor, Draw::profile_cosine));
-    profile.sine.push_back(m == 0 ? 0.0 : amplitudes[m] * standard_normal(key, m, rotor, Draw::profile_sine));
+    profile.cosine.push_back(amplitudes[m] * standard_normal(key, m, rotor, random::Draw::profile_cosine));
+    profile.sine.push_back(
+        m == 0 ? 0.0 : amplitudes[m] * standard_normal(key, m, rotor, random::Draw::profile_sine));
   }
   return profile;
 }
 
-Interval limits(const Profile& profile) {
+numerics::Interval limits(const friction::Profile& profile) {
   double largest = 0.0;
   for (std::size_t m = 0; m < profile.cosine.size(); ++m) {
     largest += std::hypot(profile.cosine[m], profile.sine[m]);
   }
   const double low = profile.location - profile.scale * largest;
   const double high = profile.location + profile.scale * largest;
-  return profile.marginal == Marginal::lognormal ? closed(std::exp(low), std::exp(high)) : closed(low, high);
+  return profile.marginal == friction::Marginal::lognormal ? numerics::closed(std::exp(low), std::exp(high))
+                                                           : numerics::closed(low, high);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::distributions

@@ -9,14 +9,14 @@
 #include "core/numerics/interval.hpp"
 #include "core/random/random_numbers.hpp"
 
-namespace zerocount {
+namespace zerocount::distributions {
 
 /// Parameters of a stationary random field along the axis.
 struct ProfileDescription {
   double mean{1.0};                ///< of the parameter itself, in its unit
   double cv{0.1};                  ///< standard deviation over mean, of the parameter itself
   double correlation_length{0.2};  ///< ℓ, rad or m
-  Marginal marginal{Marginal::lognormal};
+  friction::Marginal marginal{friction::Marginal::lognormal};
   double period{2.0 * std::numbers::pi};  ///< of the field: a revolution, rad, or the travel, m
 };
 
@@ -44,10 +44,10 @@ std::vector<double> field_amplitudes(const ProfileDescription& description);
 /// cv²), μ = ln(mean) − s²/2.
 /// @param amplitudes field_amplitudes of the description.
 /// @param rotor the number of the rig; 0 if there is one rotor
-Profile realise_profile(const ProfileDescription& description, std::span<const double> amplitudes,
-                        const RandomKey& key, std::uint32_t rotor = 0);
+friction::Profile realise_profile(const ProfileDescription& description, std::span<const double> amplitudes,
+                                  const random::RandomKey& key, std::uint32_t rotor = 0);
 
 /// Bounds of the realised profile: |g| ≤ Σ √(a_m² + b_m²).
-Interval limits(const Profile& profile);
+numerics::Interval limits(const friction::Profile& profile);
 
-}  // namespace zerocount
+}  // namespace zerocount::distributions

@@ -12,7 +12,7 @@
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/slots.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 constexpr std::size_t max_reported = 20;
@@ -21,24 +21,24 @@ struct Checking {
   const PlanPlaces& places;
   Reading& reading;
 
-  const StudyPlan& plan() const { return reading.plan; }
+  const study::StudyPlan& plan() const { return reading.plan; }
 };
 
-void tell(Checking& c, const Place& place, std::size_t slot, const std::string& what,
+void tell(Checking& c, const yaml::Place& place, std::size_t slot, const std::string& what,
           std::string_view expected, bool warn_only) {
-  const std::string path = slot_name(slot, c.plan().list);
+  const std::string path = study::slot_name(slot, c.plan().list);
   if (warn_only) {
-    c.reading.warnings.push_back(at_place(place, path, what));
+    c.reading.warnings.push_back(yaml::at_place(place, path, what));
   } else {
     c.reading.problems.add(place, path, what, expected);
   }
 }
 
 // Place in the sweep that assigns the slot's value at this point, if any.
-std::optional<Place> swept_place(const Checking& c, std::size_t slot, std::size_t point) {
+std::optional<yaml::Place> swept_place(const Checking& c, std::size_t slot, std::size_t point) {
   for (std::size_t a = c.plan().axes.size(); a-- > 0;) {
-    const PlanAxis& axis = c.plan().axes[a];
-    const std::size_t option = option_at(c.plan(), a, point);
+    const study::PlanAxis& axis = c.plan().axes[a];
+    const std::size_t option = study::option_at(c.plan(), a, point);
     for (std::size_t i = axis.first[option]; i < axis.first[option + 1]; ++i) {
       if (axis.assignments[i].slot == slot) return c.places.axes[a][i];
     }
@@ -48,7 +48,7 @@ std::optional<Place> swept_place(const Checking& c, std::size_t slot, std::size_
 
 // Place in the manifest of one of the involved values: a swept one, otherwise one written in the manifest, //
 // otherwise the first.
-Place place_of_fault(const Checking& c, const std::vector<std::size_t>& slots, std::size_t point) {
+yaml::Place place_of_fault(const Checking& c, const std::vector<std::size_t>& slots, std::size_t point) {
   for (const std::size_t slot : slots) {
     if (const auto place = swept_place(c, slot, point)) return *place;
   }
@@ -60,9 +60,9 @@ Place place_of_fault(const Checking& c, const std::vector<std::size_t>& slots, s
 
 // The values that a fault involves: its values of the list, the parameters of the rule, and other values of
 // // the list that may cause it.
-std::vector<std::size_t> slots_of(const ValueFault& fault, const std::vector<std::size_t>& involved) {
+std::vector<std::size_t> slots_of(const rules::ValueFault& fault, const std::vector<std::size_t>& involved) {
   std::vector<std::size_t> slots;
-  for (const std::size_t i : fault.listed) slots.push_back(listed_slot(i));
+  for (const std::size_t i : fault.listed) slots.push_back(study::listed_slot(i));
   slots.insert(slots.end(), involved.begin(), involved.end());
   return slots;
 }
@@ -72,18 +72,19 @@ void check_values(Checking& c) {
       std::set<std::pair<std::size_t, std::string>>;  // the same fault at several points is reported once
   Reports problems;
   Reports warnings;
-  for (const ValueRule& rule : value_rules(c.plan())) {
+  for (const rules::ValueRule& rule : rules::value_rules(c.plan())) {
     Reports& reported = rule.warn_only ? warnings : problems;
-    const std::vector<std::size_t> named = slots_named(rule.between);
+    const std::vector<std::size_t> named = study::slots_named(rule.between);
     const std::vector<std::size_t> listed =
-        rule.whole_list ? listed_slots(c.plan().list) : std::vector<std::size_t>{};
+        rule.whole_list ? study::listed_slots(c.plan().list) : std::vector<std::size_t>{};
     std::vector<std::size_t> involved = named;
     involved.insert(involved.end(), listed.begin(), listed.end());
-    visit_points(c.plan(), involved, [&](std::size_t point) {
-      const std::vector<ValueLimits> limits = limits_at(c.plan(), involved, point);
-      const std::span<const ValueLimits> all(limits);
-      if (!are_readable(all)) return true;  // reported already
-      for (const ValueFault& fault : rule.find_faults(all.first(named.size()), all.subspan(named.size()))) {
+    study::visit_points(c.plan(), involved, [&](std::size_t point) {
+      const std::vector<study::ValueLimits> limits = study::limits_at(c.plan(), involved, point);
+      const std::span<const study::ValueLimits> all(limits);
+      if (!study::are_readable(all)) return true;  // reported already
+      for (const rules::ValueFault& fault :
+           rule.find_faults(all.first(named.size()), all.subspan(named.size()))) {
         const std::vector<std::size_t> slots = slots_of(fault, involved);
         if (reported.size() < max_reported && reported.insert({slots.front(), fault.what}).second) {
           tell(c, place_of_fault(c, slots, point), slots.front(), fault.what, fault.expected, rule.warn_only);
@@ -95,12 +96,13 @@ void check_values(Checking& c) {
 }
 
 // Place in the manifest of the parameter's value: outside the sweep, or the first one in it.
-std::optional<Place> given_place(const Checking& c, std::size_t row) {
+std::optional<yaml::Place> given_place(const Checking& c, std::size_t row) {
   if (c.places.written[row]) return c.places.base[row];
   for (std::size_t a = 0; a < c.plan().axes.size(); ++a) {
-    const std::vector<Assignment>& assignments = c.plan().axes[a].assignments;
-    const auto found = std::find_if(assignments.begin(), assignments.end(),
-                                    [&](const Assignment& assignment) { return assignment.slot == row; });
+    const std::vector<study::Assignment>& assignments = c.plan().axes[a].assignments;
+    const auto found =
+        std::find_if(assignments.begin(), assignments.end(),
+                     [&](const study::Assignment& assignment) { return assignment.slot == row; });
     if (found != assignments.end())
       return c.places.axes[a][static_cast<std::size_t>(found - assignments.begin())];
   }
@@ -108,26 +110,27 @@ std::optional<Place> given_place(const Checking& c, std::size_t row) {
 }
 
 bool asks_for_nothing(const Checking& c, std::size_t row) {
-  const std::string_view name = parameter_table()[row].name;
-  return !holds_somewhere(c.plan(), {&name, 1}, [](std::span<const ValueLimits> limits) {
+  const std::string_view name = parameters::parameter_table()[row].name;
+  return !study::holds_somewhere(c.plan(), {&name, 1}, [](std::span<const study::ValueLimits> limits) {
     return limits[0].low != 0.0 || limits[0].high != 0.0;
   });
 }
 
 void check_effects(Checking& c) {
-  const auto table = parameter_table();
+  const auto table = parameters::parameter_table();
   std::set<std::size_t> reported_rows;
-  for (const EffectRule& rule : effect_rules(c.plan())) {
+  for (const rules::EffectRule& rule : rules::effect_rules(c.plan())) {
     std::optional<bool> has_effect;
     for (std::size_t row = 0; row < table.size(); ++row) {
       const bool covered = std::any_of(rule.keys.begin(), rule.keys.end(),
                                        [&](std::string_view key) { return is_within(table[row].name, key); });
       const auto place = covered ? given_place(c, row) : std::nullopt;
       if (!place || reported_rows.count(row) > 0 || (rule.off_at_zero && asks_for_nothing(c, row))) continue;
-      if (!has_effect) has_effect = can_have_effect(c.plan(), rule);
+      if (!has_effect) has_effect = rules::can_have_effect(c.plan(), rule);
       if (*has_effect) continue;
       reported_rows.insert(row);
-      tell(c, *place, row, text_on(c.plan().units.axis, rule.what), rule.expected, rule.warn_only);
+      tell(c, *place, row, parameters::text_on(c.plan().units.axis, rule.what), rule.expected,
+           rule.warn_only);
     }
   }
 }
@@ -141,4 +144,4 @@ void check_points(const PlanPlaces& places, Reading& reading) {
   check_effects(checking);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -6,13 +6,13 @@
 #include "experiments/study/plan.hpp"
 #include "experiments/yaml/problems.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 
 /// Places of a plan's values in the manifest.
 struct PlanPlaces {
-  std::vector<Place> base;               ///< [slot]; for a default the manifest's first line
-  std::vector<bool> written;             ///< [slot] whether the base value is written in the manifest
-  std::vector<std::vector<Place>> axes;  ///< [axis][assignment]
+  std::vector<yaml::Place> base;               ///< [slot]; for a default the manifest's first line
+  std::vector<bool> written;                   ///< [slot] whether the base value is written in the manifest
+  std::vector<std::vector<yaml::Place>> axes;  ///< [axis][assignment]
 };
 
 /// Checks that involve several parameters, at every design point and for all values that can be drawn: values
@@ -21,4 +21,4 @@ struct PlanPlaces {
 /// place of a swept value, if one is involved.
 void check_points(const PlanPlaces& places, Reading& reading);
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 struct Misfit {
@@ -11,18 +11,19 @@ struct Misfit {
 };
 
 // The reason if the parameter cannot be drawn this often.
-std::optional<Misfit> misfit_of(Per per, const Parameter& parameter, Drawn drawn, bool has_rigs) {
+std::optional<Misfit> misfit_of(study::Per per, const parameters::Parameter& parameter, Drawn drawn,
+                                bool has_rigs) {
   switch (per) {
-    case Per::study:
+    case study::Per::study:
       return std::nullopt;
-    case Per::rig:
+    case study::Per::rig:
       if (has_rigs) return std::nullopt;
       return Misfit{"the study has no rigs", "the key rigs, or study, trial or contact here"};
-    case Per::trial:
+    case study::Per::trial:
       if (drawn == Drawn::value) return std::nullopt;
       return Misfit{"a profile is that of a rotor, which no trial has for itself",
                     "study or rig (a rotor for every trial: rigs, as many as trials)"};
-    case Per::contact:
+    case study::Per::contact:
       if (drawn == Drawn::profile) {
         return Misfit{"a profile is that of a rotor, and a contact takes its value where it forms",
                       "study or rig"};
@@ -40,20 +41,20 @@ std::span<const std::string_view> per_labels() {
   return labels;
 }
 
-Per usual_per(const Parameter& parameter, Drawn drawn, bool has_rigs) {
-  if (!has_rigs) return drawn == Drawn::profile ? Per::study : Per::trial;
-  return parameter.of_machine ? Per::rig : Per::trial;
+study::Per usual_per(const parameters::Parameter& parameter, Drawn drawn, bool has_rigs) {
+  if (!has_rigs) return drawn == Drawn::profile ? study::Per::study : study::Per::trial;
+  return parameter.of_machine ? study::Per::rig : study::Per::trial;
 }
 
-std::optional<Per> read_per(const Field& field, const Parameter& parameter, Drawn drawn, bool has_rigs,
-                            Problems& problems) {
-  const auto label = read_label(field, per_labels(), problems);
+std::optional<study::Per> read_per(const yaml::Field& field, const parameters::Parameter& parameter,
+                                   Drawn drawn, bool has_rigs, yaml::Problems& problems) {
+  const auto label = yaml::read_label(field, per_labels(), problems);
   if (!label) return std::nullopt;
-  const auto per = static_cast<Per>(*label);
+  const auto per = static_cast<study::Per>(*label);
   const auto misfit = misfit_of(per, parameter, drawn, has_rigs);
   if (!misfit) return per;
   problems.add(field.node->place, field.path, std::string(misfit->what), misfit->expected);
   return std::nullopt;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

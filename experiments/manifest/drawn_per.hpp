@@ -8,7 +8,7 @@
 #include "experiments/study/study.hpp"
 #include "experiments/yaml/scalars.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 
 /// The key beside a distribution or profile that specifies how often it is drawn.
 constexpr std::string_view per_key = "per";
@@ -21,11 +21,11 @@ enum class Drawn { value, profile };
 
 /// Default of `per`. With rigs, parameters of the machine are drawn for every rig and others for every trial.
 /// Without rigs, values are drawn for every trial and profiles once for the study.
-Per usual_per(const Parameter& parameter, Drawn drawn, bool has_rigs);
+study::Per usual_per(const parameters::Parameter& parameter, Drawn drawn, bool has_rigs);
 
 /// The value of the key `per` in `field`. Reports an unknown value or one that the parameter does not allow,
 /// and returns nothing then.
-std::optional<Per> read_per(const Field& field, const Parameter& parameter, Drawn drawn, bool has_rigs,
-                            Problems& problems);
+std::optional<study::Per> read_per(const yaml::Field& field, const parameters::Parameter& parameter,
+                                   Drawn drawn, bool has_rigs, yaml::Problems& problems);
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -14,7 +14,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/sequence.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -35,7 +35,7 @@ Json list_of_exactly(Json item, std::size_t count) {
   return schema;
 }
 
-void limit(Json& schema, const Interval& range, bool whole) {
+void limit(Json& schema, const numerics::Interval& range, bool whole) {
   const auto number = [&](double value) -> Json {
     return whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
   };
@@ -45,13 +45,13 @@ void limit(Json& schema, const Interval& range, bool whole) {
     schema[range.high_included ? "maximum" : "exclusiveMaximum"] = number(range.high);
 }
 
-Json number_in(const Interval& range) {
+Json number_in(const numerics::Interval& range) {
   Json schema{{"type", "number"}};
   limit(schema, range, false);
   return schema;
 }
 
-Json distribution_schema(const DistributionForm& form) {
+Json distribution_schema(const distributions::DistributionForm& form) {
   const Json number{{"type", form.whole_numbers ? "integer" : "number"}};
   if (!form.by_key) {
     return form.keys.empty() ? list_of(number, 1) : list_of_exactly(number, form.keys.size());
@@ -61,17 +61,18 @@ Json distribution_schema(const DistributionForm& form) {
   return object_of(std::move(properties), Json(form.keys));
 }
 
-Json form_schema(const DistributionForm& form) {
+Json form_schema(const distributions::DistributionForm& form) {
   const std::string name(form.name);
   return object_of({{name, distribution_schema(form)}}, {name});
 }
 
 Json profile_schema() {
-  Json means = Json::array({number_in(above(0))});
-  for (const DistributionForm& form : distribution_forms()) means.push_back(form_schema(form));
+  Json means = Json::array({number_in(numerics::above(0))});
+  for (const distributions::DistributionForm& form : distributions::distribution_forms())
+    means.push_back(form_schema(form));
   return object_of({{"mean", {{"anyOf", std::move(means)}}},
                     {"cv", number_in({.low = 0, .high = 10, .high_included = true})},
-                    {"correlation_length", number_in(above(0))},
+                    {"correlation_length", number_in(numerics::above(0))},
                     {"marginal", {{"enum", {"normal", "lognormal"}}}}},
                    {"mean", "cv", "correlation_length"});
 }
@@ -85,7 +86,7 @@ Json per_schema(std::span<const std::string_view> labels) {
 Json definitions() {
   const std::string per(per_key);
   Json all = Json::object();
-  for (const DistributionForm& form : distribution_forms()) {
+  for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
     const std::string name(form.name);
     all[name] = form_schema(form);
     all[name]["properties"][per] = per_schema(per_labels());
@@ -102,15 +103,15 @@ Json reference(std::string_view name) {
 }
 
 // Schema of one value of the parameter.
-Json value_schema(const Parameter& parameter) {
-  if (parameter.kind == ParameterKind::truth) return {{"type", "boolean"}};
-  if (parameter.kind == ParameterKind::enumeration) return {{"enum", parameter.labels}};
-  const bool whole = parameter.kind == ParameterKind::whole_number;
+Json value_schema(const parameters::Parameter& parameter) {
+  if (parameter.kind == parameters::ParameterKind::truth) return {{"type", "boolean"}};
+  if (parameter.kind == parameters::ParameterKind::enumeration) return {{"enum", parameter.labels}};
+  const bool whole = parameter.kind == parameters::ParameterKind::whole_number;
   Json number{{"type", whole ? "integer" : "number"}};
   // The schema does not know controller.units, so a gain may be as large as in SI units.
-  limit(number, range_of(parameter, {.gains = GainUnits::si}), whole);
+  limit(number, parameters::range_of(parameter, {.gains = parameters::GainUnits::si}), whole);
   Json forms = Json::array({std::move(number)});
-  for (const DistributionForm& form : distribution_forms()) {
+  for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
     if (!whole || form.whole_numbers || form.keys.empty()) forms.push_back(reference(form.name));
   }
   if (parameter.profiled != nullptr) forms.push_back(reference("profile"));
@@ -118,26 +119,26 @@ Json value_schema(const Parameter& parameter) {
 }
 
 // Meaning and unit on a rotary axis, and the unit on a linear axis if it differs.
-std::string description_of(const Parameter& parameter) {
+std::string description_of(const parameters::Parameter& parameter) {
   std::string description(parameter.meaning);
   if (parameter.unit == "1") return description;
   description += fmt::format(", {}", parameter.unit);
   if (!parameter.si_unit.empty()) description += fmt::format(" ({} with units: si)", parameter.si_unit);
-  const std::string linear = unit_on(AxisKind::linear, parameter.unit);
+  const std::string linear = parameters::unit_on(parameters::AxisKind::linear, parameter.unit);
   if (parameter.only_on || linear == parameter.unit) return description;
   return description + fmt::format("; {} on a linear axis", linear);
 }
 
-Json key_schema(const Parameter& parameter) {
+Json key_schema(const parameters::Parameter& parameter) {
   Json schema = parameter.listed ? list_of(value_schema(parameter), 1) : value_schema(parameter);
-  if (parameter.listed) schema["maxItems"] = max_listed_values;
+  if (parameter.listed) schema["maxItems"] = parameters::max_listed_values;
   schema["description"] = description_of(parameter);
-  if (parameter.kind == ParameterKind::truth) {
-    schema["default"] = default_value(parameter) != 0.0;
-  } else if (parameter.kind == ParameterKind::enumeration) {
-    schema["default"] = default_text(parameter);
-  } else if (has_default(parameter)) {
-    schema["default"] = default_value(parameter);
+  if (parameter.kind == parameters::ParameterKind::truth) {
+    schema["default"] = parameters::default_value(parameter) != 0.0;
+  } else if (parameter.kind == parameters::ParameterKind::enumeration) {
+    schema["default"] = parameters::default_text(parameter);
+  } else if (parameters::has_default(parameter)) {
+    schema["default"] = parameters::default_value(parameter);
   }
   return schema;
 }
@@ -148,12 +149,12 @@ Json spacing_schema() {
     return Json{{"type", "array"}, {"prefixItems", {end, end, count}}, {"minItems", 3}, {"maxItems", 3}};
   };
   return {{"anyOf",
-           {object_of({{"linspace", spacing(number_in(all_numbers()))}}, {"linspace"}),
-            object_of({{"logspace", spacing(number_in(above(0)))}}, {"logspace"})}}};
+           {object_of({{"linspace", spacing(number_in(numerics::all_numbers()))}}, {"linspace"}),
+            object_of({{"logspace", spacing(number_in(numerics::above(0)))}}, {"logspace"})}}};
 }
 
 // A dotted path as a regular expression; that of a list's element ends in an index.
-std::string pattern_of(const Parameter& parameter, bool element) {
+std::string pattern_of(const parameters::Parameter& parameter, bool element) {
   std::string pattern = "^";
   for (const char c : parameter.name) pattern += c == '.' ? std::string("\\.") : std::string(1, c);
   return pattern + (element ? "\\.(0|[1-9][0-9]*)$" : "$");
@@ -162,10 +163,10 @@ std::string pattern_of(const Parameter& parameter, bool element) {
 Json sweep_schema() {
   Json grid = Json::object();
   Json assignments = Json::object();
-  for (const Parameter& parameter : parameter_table()) {
+  for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     const Json value = value_schema(parameter);
     const Json spaced = {{"anyOf", {list_of(value, 1), spacing_schema()}}};
-    const bool numeric = !has_labels(parameter);
+    const bool numeric = !parameters::has_labels(parameter);
     const Json whole_value = parameter.listed ? list_of(value, 1) : value;
     assignments[pattern_of(parameter, false)] = whole_value;
     grid[pattern_of(parameter, false)] = numeric && !parameter.listed ? spaced : list_of(whole_value, 1);
@@ -205,20 +206,21 @@ Json general_schemas() {
                            {{"type", "number"},
                             {"exclusiveMinimum", 0},
                             {"exclusiveMaximum", 1},
-                            {"default", StoppingRule{}.confidence}}},
+                            {"default", study::StoppingRule{}.confidence}}},
                           {"min_trials", {{"type", "integer"}, {"minimum", 1}}},
                           {"max_trials", {{"type", "integer"}, {"minimum", 1}}}},
                          {"success_rate_halfwidth", "max_trials"})},
       {"observed", {{"type", "object"}, {"additionalProperties", text}}},
       {"sweep", sweep_schema()},
-      {"axis", {{"enum", axis_labels()}, {"default", axis_labels().front()}}},
-      {"travel", number_in(above(0))},
-      {"controller.units", {{"enum", gain_unit_labels()}, {"default", gain_unit_labels().front()}}},
+      {"axis", {{"enum", parameters::axis_labels()}, {"default", parameters::axis_labels().front()}}},
+      {"travel", number_in(numerics::above(0))},
+      {"controller.units",
+       {{"enum", parameters::gain_unit_labels()}, {"default", parameters::gain_unit_labels().front()}}},
       {"command.sequence.cycles",
        {{"type", "integer"},
         {"minimum", 1},
-        {"maximum", max_sequence_moves},
-        {"default", SequenceCycle{}.cycles}}},
+        {"maximum", study::max_sequence_moves},
+        {"default", study::SequenceCycle{}.cycles}}},
       {"command.sequence.approach", {{"enum", approach_labels()}, {"default", approach_labels().front()}}}};
 }
 
@@ -242,10 +244,10 @@ Json section_schema(const std::string& path) {
   Json required = Json::array();
   for (const std::string& key : keys_below(path)) {
     const std::string name = fmt::format("{}.{}", path, key);
-    if (const auto row = find_parameter(name)) {
-      const Parameter& parameter = parameter_table()[*row];
+    if (const auto row = parameters::find_parameter(name)) {
+      const parameters::Parameter& parameter = parameters::parameter_table()[*row];
       properties[key] = key_schema(parameter);
-      const bool always = !has_default(parameter) && !parameter.only_on;
+      const bool always = !parameters::has_default(parameter) && !parameter.only_on;
       if (always && path != required_section) required.push_back(key);
     } else if (const GeneralKey* general = find_general_key(name)) {
       properties[key] = general_schema(*general);
@@ -275,4 +277,4 @@ nlohmann::ordered_json json_schema() {
   return schema;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace zerocount {
+namespace zerocount::manifest {
 
 /// The JSON Schema (draft 2020-12) of manifests, for editors. Generated from the table of parameters, it has
 /// every key, range, label and distribution. It accepts every manifest that parse_study accepts. Only
@@ -10,4 +10,4 @@ namespace zerocount {
 /// labels under `observed`).
 nlohmann::ordered_json json_schema();
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -12,13 +12,13 @@
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/yaml/text_file.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 [[noreturn]] void refuse_size(std::string_view source) {
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}:1:1: manifest: the file is too large; expected at most {} bytes", source,
-                            max_manifest_size));
+                            yaml::max_manifest_size));
 }
 
 // Text and overrides as one text; neither can contain the separator.
@@ -32,38 +32,39 @@ std::string joined(const std::string& text, const std::vector<std::string>& over
 }
 
 /// For new studies only: results files made with ineffective overrides must stay readable.
-void require_effect(const Study& study, std::string_view source) {
-  Problems problems;
+void require_effect(const study::Study& study, std::string_view source) {
+  yaml::Problems problems;
   std::deque<std::string> sources;
-  const YamlPointer written = parse_yaml(study.manifest_text, source, false, problems);
-  const YamlPointer root = apply_overrides(written, study.overrides, sources, problems);
+  const yaml::YamlPointer written = yaml::parse_yaml(study.manifest_text, source, false, problems);
+  const yaml::YamlPointer root = apply_overrides(written, study.overrides, sources, problems);
   report_swept_overrides(*root, study.overrides, sources, problems);
   problems.raise_if_any();
 }
 
 }  // namespace
 
-Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides) {
-  const std::string source = name_of_text(manifest);
-  std::string text = read_text(manifest, max_manifest_size, "a manifest");
+study::Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides) {
+  const std::string source = yaml::name_of_text(manifest);
+  std::string text = yaml::read_text(manifest, yaml::max_manifest_size, "a manifest");
   if (text.starts_with("\x89HDF")) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: a file in the HDF5 format, such as results; expected a manifest", source));
   }
-  Study study = parse_study(std::move(text), source, overrides);
+  study::Study study = parse_study(std::move(text), source, overrides);
   require_effect(study, source);
   return study;
 }
 
-Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides) {
-  return parse_study(std::move(text), source, overrides, newest_version);
+study::Study parse_study(std::string text, std::string_view source,
+                         const std::vector<std::string>& overrides) {
+  return parse_study(std::move(text), source, overrides, parameters::newest_version);
 }
 
-Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                  std::int64_t version) {
-  if (text.size() > max_manifest_size) refuse_size(source);
-  Problems problems;
-  YamlPointer root = parse_yaml(text, source, false, problems);
+study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
+                         std::int64_t version) {
+  if (text.size() > yaml::max_manifest_size) refuse_size(source);
+  yaml::Problems problems;
+  yaml::YamlPointer root = yaml::parse_yaml(text, source, false, problems);
   if (!root && problems.empty()) {
     problems.add({source, 1, 1}, "manifest", "the manifest is empty",
                  "the keys zerocount, name, seed, trials, command");
@@ -72,14 +73,14 @@ Study parse_study(std::string text, std::string_view source, const std::vector<s
 
   std::deque<std::string> override_sources;
   root = apply_overrides(root, overrides, override_sources, problems);
-  Study study = read_manifest(*root, version, problems);
+  study::Study study = read_manifest(*root, version, problems);
   problems.raise_if_any();
 
-  study.manifest_sha256 = sha256_hex(text);
-  study.study_sha256 = sha256_hex(joined(text, overrides));
+  study.manifest_sha256 = hash::sha256_hex(text);
+  study.study_sha256 = hash::sha256_hex(joined(text, overrides));
   study.manifest_text = std::move(text);
   study.overrides = overrides;
   return study;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -8,20 +8,22 @@
 
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 
 /// Reads and checks a manifest.
 /// @throws Failure (bad_input) whose message lists every error, one a line, as
 ///         `file:line:column: path: what; expected`; likewise if the file does not exist, is a directory or
 ///         is too large; Failure (machine_failed) if an existing file cannot be read.
-Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides = {});
+study::Study load_study(const std::filesystem::path& manifest,
+                        const std::vector<std::string>& overrides = {});
 
 /// As load_study, from text; `source` stands for the file's name in messages.
-Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides = {});
+study::Study parse_study(std::string text, std::string_view source,
+                         const std::vector<std::string>& overrides = {});
 
 /// As above, with the defaults of the programs that wrote results files of `version`
 /// (parameters/earlier_defaults.hpp).
-Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                  std::int64_t version);
+study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
+                         std::int64_t version);
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

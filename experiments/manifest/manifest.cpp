@@ -21,30 +21,31 @@
 #include "experiments/study/factors.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 constexpr std::int64_t max_study_trials = std::int64_t{1} << 53;
 
 // State of the reading of a manifest.
 struct Manifest {
-  Field root;
+  yaml::Field root;
   Reading reading;
   PlanPlaces places{};
   std::vector<SweptAxis> axes{};
-  Study study{};
+  study::Study study{};
 
-  Problems& problems() { return reading.problems; }
-  StudyPlan& plan() { return reading.plan; }
+  yaml::Problems& problems() { return reading.problems; }
+  study::StudyPlan& plan() { return reading.plan; }
 };
 
 // The value of a top-level key, if present. Reports a missing required key.
-std::optional<Field> find_field(Manifest& m, std::string_view key) {
-  if (const YamlEntry* entry = find_entry(*m.root.node, key)) return entry_of(m.root, *entry);
+std::optional<yaml::Field> find_field(Manifest& m, std::string_view key) {
+  if (const yaml::YamlEntry* entry = yaml::find_entry(*m.root.node, key))
+    return yaml::entry_of(m.root, *entry);
   return std::nullopt;
 }
 
-std::optional<Field> find_required(Manifest& m, std::string_view key, std::string_view expected) {
+std::optional<yaml::Field> find_required(Manifest& m, std::string_view key, std::string_view expected) {
   auto field = find_field(m, key);
   if (!field) m.problems().add(m.root.node->place, key, "the key is missing", expected);
   return field;
@@ -53,8 +54,8 @@ std::optional<Field> find_required(Manifest& m, std::string_view key, std::strin
 void read_version(Manifest& m) {
   const auto field = find_required(m, "zerocount", fmt::format("zerocount: {}", manifest_version));
   if (!field) return;
-  const auto version = read_whole(*field, std::numeric_limits<std::int64_t>::min(),
-                                  std::numeric_limits<std::int64_t>::max(), m.problems());
+  const auto version = yaml::read_whole(*field, std::numeric_limits<std::int64_t>::min(),
+                                        std::numeric_limits<std::int64_t>::max(), m.problems());
   if (!version || *version == manifest_version) return;
   const bool newer = *version > manifest_version;
   m.problems().add(field->node->place, field->path,
@@ -65,38 +66,38 @@ void read_version(Manifest& m) {
 
 void read_texts(Manifest& m) {
   if (const auto field = find_required(m, "name", "a name for the study")) {
-    m.study.name = read_text(*field, m.problems()).value_or("");
-    if (field->node->kind == YamlNode::Kind::scalar &&
+    m.study.name = yaml::read_text(*field, m.problems()).value_or("");
+    if (field->node->kind == yaml::YamlNode::Kind::scalar &&
         field->node->text.find_first_not_of(" \t\r\n") == std::string::npos) {
       m.problems().add(field->node->place, field->path, "the name is empty", "a name for the study");
     }
   }
   if (const auto field = find_field(m, "description")) {
-    m.study.description = read_text(*field, m.problems()).value_or("");
+    m.study.description = yaml::read_text(*field, m.problems()).value_or("");
   }
 }
 
 void read_design(Manifest& m) {
   const auto field = find_field(m, "design");
   if (!field) return;
-  if (const auto design = read_label(*field, design_labels(), m.problems())) {
-    m.study.design = static_cast<Design>(*design);
+  if (const auto design = yaml::read_label(*field, design_labels(), m.problems())) {
+    m.study.design = static_cast<study::Design>(*design);
   }
 }
 
 void read_numbers(Manifest& m) {
   if (const auto field = find_required(m, "seed", "a whole number")) {
-    m.study.seed = read_seed(*field, m.problems()).value_or(0);
+    m.study.seed = yaml::read_seed(*field, m.problems()).value_or(0);
   }
   if (const auto field = find_required(m, "trials", "the number of trials at each design point")) {
-    m.study.trials = read_whole(*field, 1, max_study_trials, m.problems()).value_or(0);
+    m.study.trials = yaml::read_whole(*field, 1, max_study_trials, m.problems()).value_or(0);
   }
   if (const auto field = find_field(m, "rigs")) {
     m.reading.has_rigs = true;
-    m.study.rigs = read_whole(*field, min_rigs, max_rigs, m.problems()).value_or(0);
+    m.study.rigs = yaml::read_whole(*field, min_rigs, max_rigs, m.problems()).value_or(0);
   }
   if (const auto field = find_field(m, "independent_points")) {
-    m.study.independent_points = read_truth(*field, m.problems()).value_or(false);
+    m.study.independent_points = yaml::read_truth(*field, m.problems()).value_or(false);
   }
 }
 
@@ -111,7 +112,8 @@ void read_axes(Manifest& m) {
 
 void check_trial_count(Manifest& m) {
   std::int64_t points = 1;
-  for (const PlanAxis& axis : m.plan().axes) points *= static_cast<std::int64_t>(option_count(axis));
+  for (const study::PlanAxis& axis : m.plan().axes)
+    points *= static_cast<std::int64_t>(study::option_count(axis));
   const auto field = find_field(m, "trials");
   if (field && m.study.trials > max_study_trials / points) {
     m.problems().add(field->node->place, field->path,
@@ -128,15 +130,15 @@ std::string nearest_multiples(std::int64_t number, std::int64_t of) {
 // The design saltelli needs whole rows; a row has as many trials as there are factors, plus two.
 void check_rows(Manifest& m) {
   const auto field = find_field(m, "trials");
-  if (m.study.design != Design::saltelli || !field || m.study.trials == 0) return;
-  const std::vector<std::string> names = factor_names(m.plan());
+  if (m.study.design != study::Design::saltelli || !field || m.study.trials == 0) return;
+  const std::vector<std::string> names = study::factor_names(m.plan());
   if (names.empty()) {
-    const Field design = find_field(m, "design").value();
+    const yaml::Field design = find_field(m, "design").value();
     m.problems().add(design.node->place, design.path, "nothing is drawn in this study",
                      "a distribution for one parameter at least");
     return;
   }
-  const auto row = static_cast<std::int64_t>(saltelli_row_length(names.size()));
+  const auto row = static_cast<std::int64_t>(designs::saltelli_row_length(names.size()));
   if (m.study.trials % row == 0) return;
   m.problems().add(
       field->node->place, field->path,
@@ -146,7 +148,7 @@ void check_rows(Manifest& m) {
       fmt::format("a multiple of {}, such as {}", row, nearest_multiples(m.study.trials, row)));
 }
 
-void require_multiple_of_rigs(Manifest& m, const Field& field, std::int64_t trials) {
+void require_multiple_of_rigs(Manifest& m, const yaml::Field& field, std::int64_t trials) {
   if (trials % m.study.rigs == 0) return;
   m.problems().add(
       field.node->place, field.path,
@@ -161,14 +163,14 @@ void check_rigs(Manifest& m) {
   const std::int64_t block = m.study.stop ? m.study.stop->block : m.study.trials;
   if (trials && block > 0) require_multiple_of_rigs(m, *trials, block);
   if (m.study.stop) {
-    const Field stop = find_field(m, "stop").value();
-    const YamlEntry* limit = find_entry(*stop.node, "max_trials");
+    const yaml::Field stop = find_field(m, "stop").value();
+    const yaml::YamlEntry* limit = yaml::find_entry(*stop.node, "max_trials");
     if (limit != nullptr) {
-      require_multiple_of_rigs(m, entry_of(stop, *limit), m.study.stop->max_trials);
+      require_multiple_of_rigs(m, yaml::entry_of(stop, *limit), m.study.stop->max_trials);
     }
   }
-  if (m.study.design == Design::saltelli) {
-    const Field design = find_field(m, "design").value();
+  if (m.study.design == study::Design::saltelli) {
+    const yaml::Field design = find_field(m, "design").value();
     m.problems().add(design.node->place, design.path,
                      "the rows of this design change one factor at a time, and a rig shares its factors with "
                      "the trials of other rows",
@@ -178,16 +180,17 @@ void check_rigs(Manifest& m) {
 
 void read_retained(Manifest& m) {
   const auto field = find_field(m, "retain");
-  if (!field || !check_map(*field, "retain: {trials: [..]}", m.problems())) return;
+  if (!field || !yaml::check_map(*field, "retain: {trials: [..]}", m.problems())) return;
   const std::vector<std::string> known{"trials"};
-  for (const YamlEntry& entry : field->node->entries) {
-    const Field list = entry_of(*field, entry);
+  for (const yaml::YamlEntry& entry : field->node->entries) {
+    const yaml::Field list = yaml::entry_of(*field, entry);
     if (entry.key != known.front()) {
-      add_unknown_key(*field, entry, known, m.problems());
-    } else if (check_list(list, "a list of trial indices", m.problems())) {
+      parameters::add_unknown_key(*field, entry, known, m.problems());
+    } else if (yaml::check_list(list, "a list of trial indices", m.problems())) {
       for (std::size_t i = 0; i < list.node->items.size(); ++i) {
-        const Field item = item_of(list, i);
-        const auto index = read_whole(item, 0, std::max<std::int64_t>(m.study.trials - 1, 0), m.problems());
+        const yaml::Field item = yaml::item_of(list, i);
+        const auto index =
+            yaml::read_whole(item, 0, std::max<std::int64_t>(m.study.trials - 1, 0), m.problems());
         if (index) m.study.retained_trials.push_back(*index);
       }
       std::vector<std::int64_t>& kept = m.study.retained_trials;
@@ -202,7 +205,7 @@ void read_retained(Manifest& m) {
 // The observation of a case applies to all its points, except those with an observation of their own.
 void read_observed(Manifest& m) {
   const auto field = find_field(m, "observed");
-  if (!field || !check_map(*field, "a map from cases or point labels to texts", m.problems())) return;
+  if (!field || !yaml::check_map(*field, "a map from cases or point labels to texts", m.problems())) return;
   const bool complete =
       std::none_of(m.axes.begin(), m.axes.end(), [](const auto& axis) { return axis.labels.empty(); });
   if (!complete) return;  // reported already
@@ -213,17 +216,17 @@ void read_observed(Manifest& m) {
   known.insert(known.end(), labels.begin(), labels.end());
   const std::set<std::string> known_labels(labels.begin(), labels.end());
   std::map<std::string, std::string> of_case;
-  for (const YamlEntry& entry : field->node->entries) {
-    const auto text = read_text(entry_of(*field, entry), m.problems());
+  for (const yaml::YamlEntry& entry : field->node->entries) {
+    const auto text = yaml::read_text(yaml::entry_of(*field, entry), m.problems());
     if (known_labels.count(entry.key) > 0) {
       m.study.observed[entry.key] = text.value_or("");
     } else if (std::find(cases.begin(), cases.end(), entry.key) != cases.end()) {
       of_case[entry.key] = text.value_or("");
     } else {
-      m.problems().add(
-          entry.place, entry_of(*field, entry).path,
-          fmt::format("no case or point has this label, nearest known: {}", nearest_name(entry.key, known)),
-          "the name of a case or the label of a point");
+      m.problems().add(entry.place, yaml::entry_of(*field, entry).path,
+                       fmt::format("no case or point has this label, nearest known: {}",
+                                   yaml::nearest_name(entry.key, known)),
+                       "the name of a case or the label of a point");
     }
   }
   for (std::size_t point = 0; !of_case.empty() && point < labels.size(); ++point) {
@@ -234,21 +237,21 @@ void read_observed(Manifest& m) {
 
 void report_unknown_keys(Manifest& m) {
   const std::vector<std::string> known = keys_below("");
-  for (const YamlEntry& entry : m.root.node->entries) {
+  for (const yaml::YamlEntry& entry : m.root.node->entries) {
     if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
-      add_unknown_key(m.root, entry, known, m.problems());
+      parameters::add_unknown_key(m.root, entry, known, m.problems());
     }
   }
 }
 
 }  // namespace
 
-Study read_manifest(const YamlNode& root, std::int64_t version, Problems& problems) {
-  auto plan = std::make_shared<StudyPlan>();
+study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, yaml::Problems& problems) {
+  auto plan = std::make_shared<study::StudyPlan>();
   Manifest m{.root = {&root, ""}, .reading = {problems, *plan, version}};
-  if (root.kind != YamlNode::Kind::map) {
-    add_wrong_type({&root, "manifest"}, "a map with the keys zerocount, name, seed, trials, command",
-                   problems);
+  if (root.kind != yaml::YamlNode::Kind::map) {
+    yaml::add_wrong_type({&root, "manifest"}, "a map with the keys zerocount, name, seed, trials, command",
+                         problems);
     return {};
   }
   report_unknown_keys(m);
@@ -275,4 +278,4 @@ Study read_manifest(const YamlNode& root, std::int64_t version, Problems& proble
   return std::move(m.study);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

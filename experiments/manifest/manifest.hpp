@@ -3,7 +3,7 @@
 #include "experiments/study/study.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 
 /// Newest manifest version that this program supports: the value of the key `zerocount`.
 constexpr std::int64_t manifest_version = 1;
@@ -16,6 +16,6 @@ constexpr std::int64_t max_rigs = std::int64_t{1} << 32;
 /// Converts the manifest `root` to a Study, without its text, overrides and hashes. Errors are added to
 /// `problems`; with errors the study must not be used.
 /// @param version of the results files whose defaults apply
-Study read_manifest(const YamlNode& root, std::int64_t version, Problems& problems);
+study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, yaml::Problems& problems);
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -5,7 +5,7 @@
 
 #include "experiments/parameters/parameter_table.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 bool is_below(std::string_view name, std::string_view path) {
@@ -23,7 +23,8 @@ std::vector<std::string_view> value_paths() {
   for (const GeneralKey& key : general_keys()) {
     if (key.name.find('.') == std::string_view::npos) paths.push_back(key.name);
   }
-  for (const Parameter& parameter : parameter_table()) paths.push_back(parameter.name);
+  for (const parameters::Parameter& parameter : parameters::parameter_table())
+    paths.push_back(parameter.name);
   for (const GeneralKey& key : general_keys()) {
     if (key.name.find('.') != std::string_view::npos) paths.push_back(key.name);
   }
@@ -117,4 +118,4 @@ std::span<const std::string_view> approach_labels() {
   return labels;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::manifest {
 
 /// A key that is not a parameter: it cannot be drawn or swept.
 struct GeneralKey {
@@ -42,4 +42,4 @@ std::span<const std::string_view> design_labels();
 /// The values of the key `command.sequence.approach`, in the order of the enumeration SequenceApproach.
 std::span<const std::string_view> approach_labels();
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

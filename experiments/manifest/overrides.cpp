@@ -7,20 +7,20 @@
 
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 struct Override {
   std::string_view path;  // of the whole key
-  YamlPointer value;
-  Place place;
+  yaml::YamlPointer value;
+  yaml::Place place;
 };
 
 // Length of the next key in `rest`, for the map at the path `walked`. Keys may contain dots: those of the //
 // sweep, the names of its cases, and the labels under `observed`.
-std::size_t next_key_length(const YamlNode& map, std::string_view walked, std::string_view rest) {
+std::size_t next_key_length(const yaml::YamlNode& map, std::string_view walked, std::string_view rest) {
   std::size_t longest = 0;
-  for (const YamlEntry& entry : map.entries) {
+  for (const yaml::YamlEntry& entry : map.entries) {
     const std::size_t size = entry.key.size();
     const bool fits = rest.substr(0, size) == entry.key && (rest.size() == size || rest[size] == '.');
     if (fits) longest = std::max(longest, size);
@@ -40,28 +40,28 @@ std::optional<std::size_t> list_index(std::string_view text, std::size_t size) {
 
 // A copy of `node` in which the value at the path `rest` is replaced by the override's. Null, after a report,
 // // if there is no such path.
-YamlPointer replaced(const YamlPointer& node, const Override& change, std::string_view rest,
-                     Problems& problems) {
+yaml::YamlPointer replaced(const yaml::YamlPointer& node, const Override& change, std::string_view rest,
+                           yaml::Problems& problems) {
   if (rest.empty()) return change.value;
   const std::string_view walked =
       change.path.substr(0, change.path.size() - rest.size() - (rest == change.path ? 0 : 1));
-  auto copy = node ? std::make_shared<YamlNode>(*node) : std::make_shared<YamlNode>();
+  auto copy = node ? std::make_shared<yaml::YamlNode>(*node) : std::make_shared<yaml::YamlNode>();
   if (!node) {
-    copy->kind = YamlNode::Kind::map;
+    copy->kind = yaml::YamlNode::Kind::map;
     copy->place = change.place;
   }
   std::size_t length = std::min(rest.find('.'), rest.size());
-  YamlPointer* child = nullptr;
-  if (copy->kind == YamlNode::Kind::list) {
+  yaml::YamlPointer* child = nullptr;
+  if (copy->kind == yaml::YamlNode::Kind::list) {
     const auto index = list_index(rest.substr(0, length), copy->items.size());
     if (!index) {
       problems.add(change.place, change.path,
-                   fmt::format("{} has no item {}", walked, in_quotes(rest.substr(0, length))),
+                   fmt::format("{} has no item {}", walked, yaml::in_quotes(rest.substr(0, length))),
                    fmt::format("an index below {}", copy->items.size()));
       return nullptr;
     }
     child = &copy->items[*index];
-  } else if (copy->kind == YamlNode::Kind::map) {
+  } else if (copy->kind == yaml::YamlNode::Kind::map) {
     length = next_key_length(*copy, walked, rest);
     const std::string_view key = rest.substr(0, length);
     auto entry =
@@ -87,31 +87,32 @@ bool is_given_with(std::string_view path, std::string_view swept) {
 }
 
 /// The map at a path of keys; null if there is none.
-const YamlNode* map_at(const YamlNode& root, std::initializer_list<std::string_view> keys) {
-  const YamlNode* node = &root;
+const yaml::YamlNode* map_at(const yaml::YamlNode& root, std::initializer_list<std::string_view> keys) {
+  const yaml::YamlNode* node = &root;
   for (const std::string_view key : keys) {
-    if (node->kind != YamlNode::Kind::map) return nullptr;
-    const YamlEntry* const entry = find_entry(*node, key);
+    if (node->kind != yaml::YamlNode::Kind::map) return nullptr;
+    const yaml::YamlEntry* const entry = yaml::find_entry(*node, key);
     if (!entry || !entry->value) return nullptr;
     node = entry->value.get();
   }
-  return node->kind == YamlNode::Kind::map ? node : nullptr;
+  return node->kind == yaml::YamlNode::Kind::map ? node : nullptr;
 }
 
-bool gives(const YamlNode* map, std::string_view path) {
+bool gives(const yaml::YamlNode* map, std::string_view path) {
   return map && std::any_of(map->entries.begin(), map->entries.end(),
-                            [&](const YamlEntry& entry) { return is_given_with(path, entry.key); });
+                            [&](const yaml::YamlEntry& entry) { return is_given_with(path, entry.key); });
 }
 
 /// The part of the sweep that gives the key at every point: "sweep.grid", "sweep.cases", or empty.
-std::string_view sweep_that_gives(const YamlNode& root, std::string_view key) {
+std::string_view sweep_that_gives(const yaml::YamlNode& root, std::string_view key) {
   if (gives(map_at(root, {"sweep", "grid"}), key)) return "sweep.grid";
-  const YamlNode* const cases = map_at(root, {"sweep", "cases"});
+  const yaml::YamlNode* const cases = map_at(root, {"sweep", "cases"});
   if (!cases || cases->entries.empty()) return {};
-  const bool all = std::all_of(cases->entries.begin(), cases->entries.end(), [&](const YamlEntry& entry) {
-    const bool map = entry.value && entry.value->kind == YamlNode::Kind::map;
-    return map && gives(entry.value.get(), key);
-  });
+  const bool all =
+      std::all_of(cases->entries.begin(), cases->entries.end(), [&](const yaml::YamlEntry& entry) {
+        const bool map = entry.value && entry.value->kind == yaml::YamlNode::Kind::map;
+        return map && gives(entry.value.get(), key);
+      });
   return all ? "sweep.cases" : "";
 }
 
@@ -121,13 +122,13 @@ bool is_well_formed(std::string_view key) {
 
 }  // namespace
 
-YamlPointer apply_overrides(YamlPointer root, const std::vector<std::string>& overrides,
-                            std::deque<std::string>& sources, Problems& problems) {
+yaml::YamlPointer apply_overrides(yaml::YamlPointer root, const std::vector<std::string>& overrides,
+                                  std::deque<std::string>& sources, yaml::Problems& problems) {
   for (const std::string& text : overrides) {
     const std::string& source = sources.emplace_back("--set " + text.substr(0, 200));
     const std::size_t equals = text.find('=');
     const std::string key = text.substr(0, equals);
-    if (equals == std::string::npos || !is_well_formed(key) || text.size() > max_manifest_size) {
+    if (equals == std::string::npos || !is_well_formed(key) || text.size() > yaml::max_manifest_size) {
       problems.add({source}, "manifest", "this is no override", "--set key=value with the key's dotted path");
       continue;
     }
@@ -136,20 +137,21 @@ YamlPointer apply_overrides(YamlPointer root, const std::vector<std::string>& ov
       continue;
     }
     const std::size_t before = problems.size();
-    YamlPointer value = parse_yaml(text.substr(equals + 1), source, true, problems);
+    yaml::YamlPointer value = yaml::parse_yaml(text.substr(equals + 1), source, true, problems);
     if (!value && problems.size() == before) {
-      auto null = std::make_shared<YamlNode>();
+      auto null = std::make_shared<yaml::YamlNode>();
       null->place = {source};
       value = null;
     }
     if (!value) continue;
-    if (const YamlPointer changed = replaced(root, {key, value, {source}}, key, problems)) root = changed;
+    if (const yaml::YamlPointer changed = replaced(root, {key, value, {source}}, key, problems))
+      root = changed;
   }
   return root;
 }
 
-void report_swept_overrides(const YamlNode& root, const std::vector<std::string>& overrides,
-                            std::deque<std::string>& sources, Problems& problems) {
+void report_swept_overrides(const yaml::YamlNode& root, const std::vector<std::string>& overrides,
+                            std::deque<std::string>& sources, yaml::Problems& problems) {
   for (const std::string& text : overrides) {
     const std::string key = text.substr(0, text.find('='));
     const std::string_view sweep = sweep_that_gives(root, key);
@@ -162,4 +164,4 @@ void report_swept_overrides(const YamlNode& root, const std::vector<std::string>
   }
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

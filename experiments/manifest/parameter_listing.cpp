@@ -13,7 +13,7 @@
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 using Row = std::vector<std::string>;
@@ -24,37 +24,39 @@ struct Listing {
   std::vector<Row> rows;
 };
 
-std::string allowed(const Parameter& parameter, const StudyUnits& units) {
-  if (has_labels(parameter)) return fmt::format("{}", fmt::join(parameter.labels, " | "));
-  return (parameter.kind == ParameterKind::whole_number ? "whole, " : "") +
-         notation(range_of(parameter, units));
+std::string allowed(const parameters::Parameter& parameter, const parameters::StudyUnits& units) {
+  if (parameters::has_labels(parameter)) return fmt::format("{}", fmt::join(parameter.labels, " | "));
+  return (parameter.kind == parameters::ParameterKind::whole_number ? "whole, " : "") +
+         numerics::notation(parameters::range_of(parameter, units));
 }
 
-Listing parameter_listing(const StudyUnits& units) {
+Listing parameter_listing(const parameters::StudyUnits& units) {
   Listing listing{"Parameters (left out of a manifest, they take their defaults)",
                   {"name", "unit", "default", "allowed", "source of the default", "meaning"},
                   {}};
-  for (const Parameter& p : parameter_table()) {
-    if (!exists_on(p, units.axis)) continue;
-    const std::string meaning = meaning_of(p, units) + (p.profiled != nullptr ? " [profile allowed]" : "");
-    listing.rows.push_back({std::string(p.name), unit_of(p, units), default_text(p, units), allowed(p, units),
-                            default_holds(p, units) ? std::string(p.source) : "-", meaning});
+  for (const parameters::Parameter& p : parameters::parameter_table()) {
+    if (!parameters::exists_on(p, units.axis)) continue;
+    const std::string meaning =
+        parameters::meaning_of(p, units) + (p.profiled != nullptr ? " [profile allowed]" : "");
+    listing.rows.push_back({std::string(p.name), parameters::unit_of(p, units),
+                            parameters::default_text(p, units), allowed(p, units),
+                            parameters::default_holds(p, units) ? std::string(p.source) : "-", meaning});
   }
   return listing;
 }
 
-Listing distribution_listing(const StudyUnits& units) {
+Listing distribution_listing(const parameters::StudyUnits& units) {
   Listing listing{"Distributions (in the place of any number)", {"name", "written", "meaning"}, {}};
-  for (const DistributionForm& form : distribution_forms()) {
+  for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
     listing.rows.push_back({std::string(form.name), fmt::format("{{{}: {}}}", form.name, form.shown),
                             std::string(form.meaning)});
   }
   listing.rows.push_back(
       {"profile", "{profile: {mean, cv, correlation_length, marginal}}",
-       text_on(units.axis, "friction along the rotor") +
+       parameters::text_on(units.axis, "friction along the rotor") +
            fmt::format(": a periodic random field; correlation_length in {}, marginal normal or lognormal "
                        "(default); the mean may be a distribution, drawn for each {}",
-                       unit_on(units.axis, "rad"), text_on(units.axis, "rotor"))});
+                       parameters::unit_on(units.axis, "rad"), parameters::text_on(units.axis, "rotor"))});
   listing.rows.push_back({std::string(per_key), fmt::format("{{…, per: {}}}", fmt::join(per_labels(), " | ")),
                           "beside any of these: how often it is drawn; contact for friction alone, study or "
                           "rig for a profile"});
@@ -69,7 +71,7 @@ Listing key_listing() {
   return listing;
 }
 
-std::array<Listing, 3> listings(const StudyUnits& units) {
+std::array<Listing, 3> listings(const parameters::StudyUnits& units) {
   return {parameter_listing(units), distribution_listing(units), key_listing()};
 }
 
@@ -107,16 +109,16 @@ std::string as_markdown(const Listing& listing) {
 
 }  // namespace
 
-std::string parameters_as_text(const StudyUnits& units) {
+std::string parameters_as_text(const parameters::StudyUnits& units) {
   std::string text;
   for (const Listing& listing : listings(units)) text += as_text(listing);
   return text;
 }
 
-std::string parameters_as_markdown(const StudyUnits& units) {
+std::string parameters_as_markdown(const parameters::StudyUnits& units) {
   std::string text;
   for (const Listing& listing : listings(units)) text += as_markdown(listing);
   return text;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

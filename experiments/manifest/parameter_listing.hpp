@@ -4,13 +4,13 @@
 
 #include "experiments/parameters/study_units.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 
 /// The table of parameters for a terminal: name, unit, default, range, source and meaning of every parameter
 /// in these units; then the distributions and the other keys of a manifest.
-std::string parameters_as_text(const StudyUnits& units = {});
+std::string parameters_as_text(const parameters::StudyUnits& units = {});
 
 /// The same as Markdown tables.
-std::string parameters_as_markdown(const StudyUnits& units = {});
+std::string parameters_as_markdown(const parameters::StudyUnits& units = {});
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -10,81 +10,83 @@
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/study/slots.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 struct SectionReading {
-  const Field& root;
+  const yaml::Field& root;
   Reading& reading;
   PlanPlaces& places;
 
-  Problems& problems() { return reading.problems; }
-  StudyPlan& plan() { return reading.plan; }
+  yaml::Problems& problems() { return reading.problems; }
+  study::StudyPlan& plan() { return reading.plan; }
 };
 
-void read_list(SectionReading& s, const Field& field) {
-  ListedValues& list = s.plan().list;
-  const std::string expected = fmt::format("a list of 1 to {} {}", max_listed_values, listed_noun(list));
-  if (!check_list(field, expected, s.problems())) return;
+void read_list(SectionReading& s, const yaml::Field& field) {
+  study::ListedValues& list = s.plan().list;
+  const std::string expected =
+      fmt::format("a list of 1 to {} {}", parameters::max_listed_values, study::listed_noun(list));
+  if (!yaml::check_list(field, expected, s.problems())) return;
   const std::size_t count = field.node->items.size();
-  if (count < 1 || count > max_listed_values) {
+  if (count < 1 || count > parameters::max_listed_values) {
     s.problems().add(field.node->place, field.path, fmt::format("a list of {} stands here", count), expected);
     return;
   }
   list.count = count;
-  s.plan().base.resize(slot_count(list));
-  s.places.base.resize(slot_count(list));
-  s.places.written.resize(slot_count(list));
+  s.plan().base.resize(study::slot_count(list));
+  s.places.base.resize(study::slot_count(list));
+  s.places.written.resize(study::slot_count(list));
   for (std::size_t i = 0; i < count; ++i) {
-    const Field item = item_of(field, i);
-    s.plan().base[listed_slot(i)] = read_value(item, list.row, s.reading);
-    s.places.base[listed_slot(i)] = item.node->place;
-    s.places.written[listed_slot(i)] = true;
+    const yaml::Field item = yaml::item_of(field, i);
+    s.plan().base[study::listed_slot(i)] = read_value(item, list.row, s.reading);
+    s.places.base[study::listed_slot(i)] = item.node->place;
+    s.places.written[study::listed_slot(i)] = true;
   }
 }
 
-void read_parameter(SectionReading& s, const Field& field, std::size_t row) {
-  if (parameter_table()[row].listed) return read_list(s, field);
+void read_parameter(SectionReading& s, const yaml::Field& field, std::size_t row) {
+  if (parameters::parameter_table()[row].listed) return read_list(s, field);
   s.plan().base[row] = read_value(field, row, s.reading);
   s.places.base[row] = field.node->place;
   s.places.written[row] = true;
 }
 
-void read_approach(SectionReading& s, const Field& field, SequenceCycle& cycle) {
-  if (const auto approach = read_label(field, approach_labels(), s.problems())) {
-    cycle.approach = static_cast<SequenceApproach>(*approach);
+void read_approach(SectionReading& s, const yaml::Field& field, study::SequenceCycle& cycle) {
+  if (const auto approach = yaml::read_label(field, approach_labels(), s.problems())) {
+    cycle.approach = static_cast<study::SequenceApproach>(*approach);
   }
 }
 
 // Reads the keys of sections that are not parameters. controller.units is read earlier, before all values.
-void read_general_key(SectionReading& s, const Field& field) {
+void read_general_key(SectionReading& s, const yaml::Field& field) {
   if (!s.plan().sequence) return;
-  SequenceCycle& cycle = s.plan().sequence.value();
+  study::SequenceCycle& cycle = s.plan().sequence.value();
   if (field.path == "command.sequence.approach") {
     read_approach(s, field, cycle);
   } else if (field.path == "command.sequence.cycles") {
-    cycle.cycles = read_whole(field, 1, max_sequence_moves, s.problems()).value_or(cycle.cycles);
+    cycle.cycles = yaml::read_whole(field, 1, study::max_sequence_moves, s.problems()).value_or(cycle.cycles);
   }
 }
 
 // Whether the path belongs to a second form of the command. Its contents are not read: it is reported as one
 // // form too many.
-bool is_form_too_many(SectionReading& s, const Field& section, const std::string& key) {
+bool is_form_too_many(SectionReading& s, const yaml::Field& section, const std::string& key) {
   const auto forms = command_forms();
   const bool is_form =
       section.path == required_section && std::find(forms.begin(), forms.end(), key) != forms.end();
-  return is_form && !is_within(parameter_table()[s.plan().list.row].name, section.path + "." + key);
+  return is_form &&
+         !is_within(parameters::parameter_table()[s.plan().list.row].name, section.path + "." + key);
 }
 
-void read_section(SectionReading& s, const Field& section) {
-  if (!check_map(section, "a map", s.problems())) return;
+void read_section(SectionReading& s, const yaml::Field& section) {
+  if (!yaml::check_map(section, "a map", s.problems())) return;
   const std::vector<std::string> known = keys_below(section.path);
-  for (const YamlEntry& entry : section.node->entries) {
-    const Field field = entry_of(section, entry);
+  for (const yaml::YamlEntry& entry : section.node->entries) {
+    const yaml::Field field = yaml::entry_of(section, entry);
     if (is_form_too_many(s, section, entry.key)) continue;
     if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
-      add_unknown_key(section, entry, known, s.problems());
-    } else if (const auto row = find_parameter(field.path)) {
+      parameters::add_unknown_key(section, entry, known, s.problems());
+    } else if (const auto row = parameters::find_parameter(field.path)) {
       read_parameter(s, field, *row);
     } else if (find_general_key(field.path) != nullptr) {
       read_general_key(s, field);
@@ -95,26 +97,27 @@ void read_section(SectionReading& s, const Field& section) {
 }
 
 void take_defaults(SectionReading& s) {
-  const std::size_t slots = slot_count(s.plan().list);
+  const std::size_t slots = study::slot_count(s.plan().list);
   s.plan().base.resize(slots, unreadable_value());
   s.places.base.resize(slots, s.root.node->place);
   s.places.written.resize(slots, false);
-  const auto table = parameter_table();
+  const auto table = parameters::parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
-    const bool known = has_default(table[row]) && exists_on(table[row], s.plan().units.axis);
+    const bool known =
+        parameters::has_default(table[row]) && parameters::exists_on(table[row], s.plan().units.axis);
     s.plan().base[row] = unreadable_value();
-    if (known) s.plan().base[row].number = default_value_in(table[row], s.reading.version);
+    if (known) s.plan().base[row].number = parameters::default_value_in(table[row], s.reading.version);
     if (table[row].only_on && !known) s.plan().base[row].number = 0.0;
   }
 }
 
 // Chooses the first form in the manifest; reports an error unless there is exactly one.
-void choose_form(SectionReading& s, const Field& command) {
-  if (command.node->kind != YamlNode::Kind::map) return;
+void choose_form(SectionReading& s, const yaml::Field& command) {
+  if (command.node->kind != yaml::YamlNode::Kind::map) return;
   const auto forms = command_forms();
   const std::string expected = fmt::format("exactly one of {}", fmt::join(forms, ", "));
-  std::vector<const YamlEntry*> given;
-  for (const YamlEntry& entry : command.node->entries) {
+  std::vector<const yaml::YamlEntry*> given;
+  for (const yaml::YamlEntry& entry : command.node->entries) {
     if (std::find(forms.begin(), forms.end(), entry.key) != forms.end()) given.push_back(&entry);
   }
   if (given.empty()) {
@@ -122,9 +125,10 @@ void choose_form(SectionReading& s, const Field& command) {
     return;
   }
   if (given.size() > 1) {
-    s.problems().add(given[1]->place, entry_of(command, *given[1]).path,
-                     fmt::format("{} says already what the moves go to", entry_of(command, *given[0]).path),
-                     expected);
+    s.problems().add(
+        given[1]->place, yaml::entry_of(command, *given[1]).path,
+        fmt::format("{} says already what the moves go to", yaml::entry_of(command, *given[0]).path),
+        expected);
   }
   const std::string& form = given.front()->key;
   s.plan().open_loop = form == "torque";
@@ -132,57 +136,60 @@ void choose_form(SectionReading& s, const Field& command) {
   const std::string_view list = form == "torque"     ? "command.torque.levels"
                                 : form == "sequence" ? "command.sequence.targets"
                                                      : "command.targets";
-  s.plan().list.row = find_parameter(list).value();
+  s.plan().list.row = parameters::find_parameter(list).value();
 }
 
 // Reports the keys of the form chosen that are missing.
-void check_form_complete(SectionReading& s, const Field& command) {
-  const YamlEntry* form = nullptr;
-  if (s.plan().open_loop) form = find_entry(*command.node, "torque");
-  if (s.plan().sequence) form = find_entry(*command.node, "sequence");
-  if (form == nullptr || form->value->kind != YamlNode::Kind::map) return;
-  const std::string path = entry_of(command, *form).path;
+void check_form_complete(SectionReading& s, const yaml::Field& command) {
+  const yaml::YamlEntry* form = nullptr;
+  if (s.plan().open_loop) form = yaml::find_entry(*command.node, "torque");
+  if (s.plan().sequence) form = yaml::find_entry(*command.node, "sequence");
+  if (form == nullptr || form->value->kind != yaml::YamlNode::Kind::map) return;
+  const std::string path = yaml::entry_of(command, *form).path;
   for (const std::string& key : keys_below(path)) {
     const std::string name = fmt::format("{}.{}", path, key);
-    const auto row = find_parameter(name);
-    if (!row || has_default(parameter_table()[*row]) || find_entry(*form->value, key)) continue;
-    const Parameter& parameter = parameter_table()[*row];
+    const auto row = parameters::find_parameter(name);
+    if (!row || parameters::has_default(parameters::parameter_table()[*row]) ||
+        yaml::find_entry(*form->value, key))
+      continue;
+    const parameters::Parameter& parameter = parameters::parameter_table()[*row];
     s.problems().add(form->value->place, name, "the key is missing",
                      parameter.listed ? fmt::format("a list of {}", key)
                                       : fmt::format("its value: {}", parameter.meaning));
   }
 }
 
-void check_sequence_length(SectionReading& s, const Field& command) {
+void check_sequence_length(SectionReading& s, const yaml::Field& command) {
   if (!s.plan().sequence) return;
   const std::int64_t moves =
-      sequence_move_count(*s.plan().sequence, static_cast<std::int64_t>(s.plan().list.count));
-  if (moves <= max_sequence_moves) return;
-  const YamlEntry* sequence = find_entry(*command.node, "sequence");
+      study::sequence_move_count(*s.plan().sequence, static_cast<std::int64_t>(s.plan().list.count));
+  if (moves <= study::max_sequence_moves) return;
+  const yaml::YamlEntry* sequence = yaml::find_entry(*command.node, "sequence");
   s.problems().add(sequence->value->place, "command.sequence", fmt::format("it has {} moves", moves),
-                   fmt::format("at most {} moves, cycles times those of a cycle", max_sequence_moves));
+                   fmt::format("at most {} moves, cycles times those of a cycle", study::max_sequence_moves));
 }
 
 }  // namespace
 
-void read_sections(const Field& root, Reading& reading, PlanPlaces& places) {
+void read_sections(const yaml::Field& root, Reading& reading, PlanPlaces& places) {
   SectionReading s{root, reading, places};
-  const YamlEntry* entry = find_entry(*root.node, required_section);
-  reading.plan.list.row = find_parameter("command.targets").value();
+  const yaml::YamlEntry* entry = yaml::find_entry(*root.node, required_section);
+  reading.plan.list.row = parameters::find_parameter("command.targets").value();
   if (entry == nullptr) {
     reading.problems.add(root.node->place, required_section, "the key is missing",
                          "command: {targets: [..]}");
   } else {
-    choose_form(s, entry_of(root, *entry));
+    choose_form(s, yaml::entry_of(root, *entry));
   }
   take_defaults(s);
   for (const std::string& key : keys_below("")) {
     if (!is_section(key)) continue;
-    if (const YamlEntry* section = find_entry(*root.node, key)) read_section(s, entry_of(root, *section));
+    if (const yaml::YamlEntry* section = yaml::find_entry(*root.node, key))
+      read_section(s, yaml::entry_of(root, *section));
   }
   if (entry == nullptr) return;
-  check_form_complete(s, entry_of(root, *entry));
-  check_sequence_length(s, entry_of(root, *entry));
+  check_form_complete(s, yaml::entry_of(root, *entry));
+  check_sequence_length(s, yaml::entry_of(root, *entry));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

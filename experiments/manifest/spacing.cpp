@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 // Rounds to 15 digits, so that a label has 2e-05 and not 1.9999999999999998e-05.
@@ -23,20 +23,21 @@ double spaced(const Spacing& spacing, std::size_t i) {
 
 }  // namespace
 
-std::optional<Spacing> read_spacing(const Field& field, const std::string& name, std::size_t max_values,
-                                    Problems& problems) {
+std::optional<Spacing> read_spacing(const yaml::Field& field, const std::string& name, std::size_t max_values,
+                                    yaml::Problems& problems) {
   const bool logarithmic = name == "logspace";
   const std::string expected = fmt::format("{}: [first value, last value, number of values]", name);
-  if (!check_list(field, expected, problems)) return std::nullopt;
+  if (!yaml::check_list(field, expected, problems)) return std::nullopt;
   if (field.node->items.size() != 3) {
     problems.add(field.node->place, field.path,
                  fmt::format("a list of {} stands here", field.node->items.size()), expected);
     return std::nullopt;
   }
-  const Interval range = logarithmic ? above(0.0) : all_numbers();
-  const auto from = read_real(item_of(field, 0), range, problems);
-  const auto to = read_real(item_of(field, 1), range, problems);
-  const auto count = read_whole(item_of(field, 2), 2, static_cast<std::int64_t>(max_values), problems);
+  const numerics::Interval range = logarithmic ? numerics::above(0.0) : numerics::all_numbers();
+  const auto from = yaml::read_real(yaml::item_of(field, 0), range, problems);
+  const auto to = yaml::read_real(yaml::item_of(field, 1), range, problems);
+  const auto count =
+      yaml::read_whole(yaml::item_of(field, 2), 2, static_cast<std::int64_t>(max_values), problems);
   if (!from || !to || !count) return std::nullopt;
   if (*from == *to) {
     problems.add(field.node->place, field.path, "the first and the last value are the same",
@@ -62,4 +63,4 @@ std::vector<std::string> spaced_labels(const std::string& name, const std::vecto
   return labels;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -6,7 +6,7 @@
 
 #include "experiments/yaml/scalars.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 
 /// `count` numbers from `from` to `to`, both included, with equal distances or (logarithmic) equal ratios.
 struct Spacing {
@@ -18,8 +18,8 @@ struct Spacing {
 
 /// The spacing in `field`, the value of the key `name`, linspace or logspace: [first value, last value,
 /// number of values]. At max_values `max_values` values. Reports errors and returns nothing then.
-std::optional<Spacing> read_spacing(const Field& field, const std::string& name, std::size_t max_values,
-                                    Problems& problems);
+std::optional<Spacing> read_spacing(const yaml::Field& field, const std::string& name, std::size_t max_values,
+                                    yaml::Problems& problems);
 
 /// The numbers; those between the ends are rounded to 15 significant digits.
 std::vector<double> spaced_values(const Spacing& spacing);
@@ -27,4 +27,4 @@ std::vector<double> spaced_values(const Spacing& spacing);
 /// "name=value" for each of `values`, as short as possible but all different.
 std::vector<std::string> spaced_labels(const std::string& name, const std::vector<double>& values);
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -16,7 +16,7 @@
 #include "experiments/study/slots.hpp"
 #include "experiments/study/trace_extras.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 // Name of the mean of a profile: its path in the manifest.
@@ -25,48 +25,49 @@ std::string profile_mean_name(std::string_view parameter) {
 }
 
 // [slot] whether an axis assigns the slot.
-std::vector<bool> swept_slots(const StudyPlan& plan) {
+std::vector<bool> swept_slots(const study::StudyPlan& plan) {
   std::vector<bool> swept(plan.base.size(), false);
-  for (const PlanAxis& axis : plan.axes) {
-    for (const Assignment& assignment : axis.assignments) swept[assignment.slot] = true;
+  for (const study::PlanAxis& axis : plan.axes) {
+    for (const study::Assignment& assignment : axis.assignments) swept[assignment.slot] = true;
   }
   return swept;
 }
 
 // Whether the slot's value at some design point is drawn anew at each contact.
-bool differs_between_contacts(const StudyPlan& plan, std::size_t slot) {
+bool differs_between_contacts(const study::StudyPlan& plan, std::size_t slot) {
   bool found = false;
-  visit_points(plan, {&slot, 1}, [&](std::size_t point) {
-    const Value& value = *value_at_point(plan, slot, point);
-    found = value.kind == Value::Kind::distribution && value.per == Per::contact;
+  study::visit_points(plan, {&slot, 1}, [&](std::size_t point) {
+    const study::Value& value = *study::value_at_point(plan, slot, point);
+    found = value.kind == study::Value::Kind::distribution && value.per == study::Per::contact;
     return !found;
   });
   return found;
 }
 
 // Only input slots are drawn.
-void derive_randomness(const Study& study, StudyPlan& plan) {
+void derive_randomness(const study::Study& study, study::StudyPlan& plan) {
   std::vector<std::size_t> dimensions;
-  for (const std::uint32_t slot : plan.input_slots) dimensions.push_back(slot_sobol_dimension(slot));
-  const auto directions = study.design == Design::sobol ? sobol_directions(dimensions)
-                                                        : std::vector<SobolDirections>(dimensions.size());
+  for (const std::uint32_t slot : plan.input_slots) dimensions.push_back(study::slot_sobol_dimension(slot));
+  const auto directions = study.design == study::Design::sobol
+                              ? designs::sobol_directions(dimensions)
+                              : std::vector<designs::SobolDirections>(dimensions.size());
   plan.randomness.resize(plan.base.size());
   for (std::size_t i = 0; i < plan.input_slots.size(); ++i) {
     const std::uint32_t slot = plan.input_slots[i];
-    const std::string name = slot_name(slot, plan.list);
-    SlotRandomness& randomness = plan.randomness[slot];
-    randomness = {random_key(study.seed, name), directions[i]};
+    const std::string name = study::slot_name(slot, plan.list);
+    study::SlotRandomness& randomness = plan.randomness[slot];
+    randomness = {designs::random_key(study.seed, name), directions[i]};
     if (differs_between_contacts(plan, slot)) {
-      randomness.contacts = random_key(study.seed, name + "/contacts");
+      randomness.contacts = designs::random_key(study.seed, name + "/contacts");
     }
   }
-  plan.sobol_places = sobol_place_key(study.seed);
+  plan.sobol_places = study::sobol_place_key(study.seed);
 }
 
-void number_factors(StudyPlan& plan, Study& study) {
-  if (study.design != Design::saltelli) return;
-  plan.factors = find_factors(plan);
-  study.factors = factor_names(plan);
+void number_factors(study::StudyPlan& plan, study::Study& study) {
+  if (study.design != study::Design::saltelli) return;
+  plan.factors = study::find_factors(plan);
+  study.factors = study::factor_names(plan);
   plan.factor_of.resize(plan.base.size());
   for (std::size_t f = 0; f < plan.factors.slots.size(); ++f) {
     plan.factor_of[plan.factors.slots[f]] = static_cast<std::uint32_t>(f);
@@ -74,30 +75,32 @@ void number_factors(StudyPlan& plan, Study& study) {
 }
 
 // Random keys of the draws during a trial. The slash keeps their names apart from parameter names.
-TrialRandomness trial_randomness(std::uint64_t seed) {
-  return {.history = random_key(seed, "initial.history/levels"),
-          .fine_noise = random_key(seed, "encoder.fine_errors.noise/samples"),
-          .fine_missed = random_key(seed, "encoder.fine_errors.missed/samples"),
-          .coarse_noise = random_key(seed, "encoder.coarse_errors.noise/samples"),
-          .coarse_missed = random_key(seed, "encoder.coarse_errors.missed/samples"),
-          .dac_noise = random_key(seed, "dac.noise/samples")};
+random::TrialRandomness trial_randomness(std::uint64_t seed) {
+  return {.history = designs::random_key(seed, "initial.history/levels"),
+          .fine_noise = designs::random_key(seed, "encoder.fine_errors.noise/samples"),
+          .fine_missed = designs::random_key(seed, "encoder.fine_errors.missed/samples"),
+          .coarse_noise = designs::random_key(seed, "encoder.coarse_errors.noise/samples"),
+          .coarse_missed = designs::random_key(seed, "encoder.coarse_errors.missed/samples"),
+          .dac_noise = designs::random_key(seed, "dac.noise/samples")};
 }
 
 // Sets the parameters that are the same in all trials.
-void set_common_parameters(const Study& study, StudyPlan& plan) {
+void set_common_parameters(const study::Study& study, study::StudyPlan& plan) {
   plan.common.randomness = trial_randomness(study.seed);
   plan.common.command.targets.resize(plan.open_loop ? 0 : static_cast<std::size_t>(study.moves));
   plan.common.command.torque.levels.resize(plan.open_loop ? plan.list.count : 0);
-  for (const Value& value : plan.base) plan.numbers.push_back(value.number);
+  for (const study::Value& value : plan.base) plan.numbers.push_back(value.number);
   const std::set<std::size_t> inputs(plan.input_slots.begin(), plan.input_slots.end());
-  for (const std::size_t slot : slots_in_table_order(plan.list)) {
-    if (!exists_on(parameter_table()[row_of_slot(slot, plan.list)], plan.units.axis)) continue;
-    if (inputs.count(slot) == 0) set_number(plan, slot, plan.numbers[slot], plan.common);
+  for (const std::size_t slot : study::slots_in_table_order(plan.list)) {
+    if (!parameters::exists_on(parameters::parameter_table()[study::row_of_slot(slot, plan.list)],
+                               plan.units.axis))
+      continue;
+    if (inputs.count(slot) == 0) study::set_number(plan, slot, plan.numbers[slot], plan.common);
   }
 }
 
-std::string column_meaning(const Parameter& parameter, const StudyUnits& units) {
-  std::string meaning = meaning_of(parameter, units);
+std::string column_meaning(const parameters::Parameter& parameter, const parameters::StudyUnits& units) {
+  std::string meaning = parameters::meaning_of(parameter, units);
   for (std::size_t i = 0; i < parameter.labels.size(); ++i) {
     meaning += fmt::format("{}{} {}", i == 0 ? " (" : ", ", i, parameter.labels[i]);
   }
@@ -105,18 +108,18 @@ std::string column_meaning(const Parameter& parameter, const StudyUnits& units) 
 }
 
 // How often the slot's value is drawn; the most frequent of all points.
-Per most_frequent_per(const StudyPlan& plan, std::size_t slot) {
-  Per per = Per::study;
-  visit_points(plan, {&slot, 1}, [&](std::size_t point) {
-    const Value& value = *value_at_point(plan, slot, point);
+study::Per most_frequent_per(const study::StudyPlan& plan, std::size_t slot) {
+  study::Per per = study::Per::study;
+  study::visit_points(plan, {&slot, 1}, [&](std::size_t point) {
+    const study::Value& value = *study::value_at_point(plan, slot, point);
     switch (value.kind) {
-      case Value::Kind::number:
+      case study::Value::Kind::number:
         break;
-      case Value::Kind::distribution:
+      case study::Value::Kind::distribution:
         per = std::max(per, value.per);
         break;
-      case Value::Kind::profile:  // its value at the trial's start position
-        per = std::max(per, Per::trial);
+      case study::Value::Kind::profile:  // its value at the trial's start position
+        per = std::max(per, study::Per::trial);
         break;
     }
     return true;
@@ -125,11 +128,11 @@ Per most_frequent_per(const StudyPlan& plan, std::size_t slot) {
 }
 
 // How often the mean of the slot's profile is drawn, if it is drawn at some design point.
-std::optional<Per> drawn_mean(const StudyPlan& plan, std::size_t slot) {
-  std::optional<Per> per;
-  visit_points(plan, {&slot, 1}, [&](std::size_t point) {
-    const Value& value = *value_at_point(plan, slot, point);
-    if (value.kind == Value::Kind::profile && plan.profiles[value.index]->has_drawn_mean()) {
+std::optional<study::Per> drawn_mean(const study::StudyPlan& plan, std::size_t slot) {
+  std::optional<study::Per> per;
+  study::visit_points(plan, {&slot, 1}, [&](std::size_t point) {
+    const study::Value& value = *study::value_at_point(plan, slot, point);
+    if (value.kind == study::Value::Kind::profile && plan.profiles[value.index]->has_drawn_mean()) {
       per = std::max(per.value_or(value.per), value.per);
     }
     return true;
@@ -137,22 +140,23 @@ std::optional<Per> drawn_mean(const StudyPlan& plan, std::size_t slot) {
   return per;
 }
 
-void add_column(const InputColumn& column, const InputSource& source, bool swept, StudyPlan& plan,
-                Study& study) {
+void add_column(const study::InputColumn& column, const study::InputSource& source, bool swept,
+                study::StudyPlan& plan, study::Study& study) {
   study.input_columns.push_back(column);
   plan.inputs.push_back(source);
-  if (column.per != Per::rig || swept) return;
+  if (column.per != study::Per::rig || swept) return;
   study.rig_columns.push_back(column);
   plan.rig_inputs.push_back(source);
 }
 
-void list_input_columns(const std::vector<bool>& swept, StudyPlan& plan, Study& study) {
-  for (const std::size_t slot : slots_in_table_order(plan.list)) {
-    if (plan.base[slot].kind == Value::Kind::number && !swept[slot]) continue;
+void list_input_columns(const std::vector<bool>& swept, study::StudyPlan& plan, study::Study& study) {
+  for (const std::size_t slot : study::slots_in_table_order(plan.list)) {
+    if (plan.base[slot].kind == study::Value::Kind::number && !swept[slot]) continue;
     const auto number = static_cast<std::uint32_t>(slot);
-    const Parameter& parameter = parameter_table()[row_of_slot(slot, plan.list)];
-    const std::string name = slot_name(slot, plan.list);
-    const std::string unit = unit_of(parameter, plan.units);
+    const parameters::Parameter& parameter =
+        parameters::parameter_table()[study::row_of_slot(slot, plan.list)];
+    const std::string name = study::slot_name(slot, plan.list);
+    const std::string unit = parameters::unit_of(parameter, plan.units);
     plan.input_slots.push_back(number);
     add_column({name, unit, column_meaning(parameter, plan.units), most_frequent_per(plan, slot)},
                {number, false}, swept[slot], plan, study);
@@ -164,19 +168,19 @@ void list_input_columns(const std::vector<bool>& swept, StudyPlan& plan, Study& 
 }
 
 // The used profiles of one row, each with the first point that uses it.
-std::map<std::uint32_t, std::size_t> profiles_in_use(const StudyPlan& plan, std::size_t row,
+std::map<std::uint32_t, std::size_t> profiles_in_use(const study::StudyPlan& plan, std::size_t row,
                                                      std::size_t points) {
   std::map<std::uint32_t, std::size_t> first_point;
   for (std::size_t point = 0; point < points; ++point) {
-    const Value& value = *value_at_point(plan, row, point);
-    if (value.kind == Value::Kind::profile) first_point.emplace(value.index, point);
+    const study::Value& value = *study::value_at_point(plan, row, point);
+    if (value.kind == study::Value::Kind::profile) first_point.emplace(value.index, point);
   }
   return first_point;
 }
 
 void list_profiles(const std::vector<ProfileRequest>& requests, const std::vector<bool>& swept,
-                   const StudyPlan& plan, Study& study) {
-  const auto table = parameter_table();
+                   const study::StudyPlan& plan, study::Study& study) {
+  const auto table = parameters::parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
     const bool asked =
         std::any_of(requests.begin(), requests.end(), [&](const auto& r) { return r.row == row; });
@@ -184,10 +188,10 @@ void list_profiles(const std::vector<ProfileRequest>& requests, const std::vecto
     const auto used = profiles_in_use(plan, row, swept[row] ? study.point_labels.size() : 1);
     for (const auto& [index, point] : used) {
       const std::string suffix = used.size() > 1 ? fmt::format("@{}", point) : "";
-      const std::shared_ptr<const Rotors> rotors = plan.profiles[index];
-      RealisedProfile profile{std::string(table[row].name) + suffix, unit_of(table[row], plan.units),
-                              rotors->rotor(0)};
-      if (requests[index].per == Per::rig) {
+      const std::shared_ptr<const study::Rotors> rotors = plan.profiles[index];
+      study::RealisedProfile profile{std::string(table[row].name) + suffix,
+                                     parameters::unit_of(table[row], plan.units), rotors->rotor(0)};
+      if (requests[index].per == study::Per::rig) {
         profile.of_rig = [rotors](std::int64_t rig) { return rotors->rotor(rig); };
       }
       study.profiles.push_back(std::move(profile));
@@ -195,43 +199,44 @@ void list_profiles(const std::vector<ProfileRequest>& requests, const std::vecto
   }
 }
 
-DrawnMean mean_of(const ProfileRequest& request, const Study& study) {
-  const Parameter& parameter = parameter_table()[request.row];
-  DrawnMean mean{*request.form.mean, study.design, {}};
-  mean.randomness.key = random_key(study.seed, profile_mean_name(parameter.name));
-  if (study.design == Design::sobol) {
-    const std::size_t dimension = first_sobol_dimension_of_means + parameter.sobol_dimension;
-    mean.randomness.directions = sobol_directions({&dimension, 1}).front();
+study::DrawnMean mean_of(const ProfileRequest& request, const study::Study& study) {
+  const parameters::Parameter& parameter = parameters::parameter_table()[request.row];
+  study::DrawnMean mean{*request.form.mean, study.design, {}};
+  mean.randomness.key = designs::random_key(study.seed, profile_mean_name(parameter.name));
+  if (study.design == study::Design::sobol) {
+    const std::size_t dimension = parameters::first_sobol_dimension_of_means + parameter.sobol_dimension;
+    mean.randomness.directions = designs::sobol_directions({&dimension, 1}).front();
   }
   return mean;
 }
 
 }  // namespace
 
-void realise_profiles(const std::vector<ProfileRequest>& requests, const Study& study, StudyPlan& plan) {
+void realise_profiles(const std::vector<ProfileRequest>& requests, const study::Study& study,
+                      study::StudyPlan& plan) {
   for (const ProfileRequest& request : requests) {
-    const std::string_view name = parameter_table()[request.row].name;
-    std::optional<DrawnMean> mean;
+    const std::string_view name = parameters::parameter_table()[request.row].name;
+    std::optional<study::DrawnMean> mean;
     if (request.form.mean) mean = mean_of(request, study);
-    const std::int64_t count = request.per == Per::rig ? std::max<std::int64_t>(study.rigs, 1) : 1;
-    plan.profiles.push_back(
-        std::make_shared<const Rotors>(request.form.description, std::move(mean), study.seed, name, count));
+    const std::int64_t count = request.per == study::Per::rig ? std::max<std::int64_t>(study.rigs, 1) : 1;
+    plan.profiles.push_back(std::make_shared<const study::Rotors>(request.form.description, std::move(mean),
+                                                                  study.seed, name, count));
   }
 }
 
 void assemble_study(const std::vector<ProfileRequest>& requests, const std::vector<SweptAxis>& axes,
-                    StudyPlan& plan, Study& study) {
+                    study::StudyPlan& plan, study::Study& study) {
   const auto listed = static_cast<std::int64_t>(plan.list.count);
-  if (plan.sequence) study.sequence = sequence_moves(*plan.sequence, listed);
+  if (plan.sequence) study.sequence = study::sequence_moves(*plan.sequence, listed);
   study.units = plan.units;
   study.period = plan.period.value_or(study.period);
   study.moves = plan.sequence ? std::ssize(study.sequence) : listed;
   study.open_loop = plan.open_loop;
   study.point_labels = label_points(axes);
   study.axes = describe_axes(axes, plan);
-  study.trace_extras = find_trace_extras(plan);
-  study.outcome_extras = find_outcome_extras(plan);
-  study.loop_extras = find_loop_extras(plan);
+  study.trace_extras = study::find_trace_extras(plan);
+  study.outcome_extras = study::find_outcome_extras(plan);
+  study.loop_extras = study::find_loop_extras(plan);
   const std::vector<bool> swept = swept_slots(plan);
   list_input_columns(swept, plan, study);
   derive_randomness(study, plan);
@@ -240,4 +245,4 @@ void assemble_study(const std::vector<ProfileRequest>& requests, const std::vect
   list_profiles(requests, swept, plan, study);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

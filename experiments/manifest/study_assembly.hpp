@@ -6,16 +6,17 @@
 #include "experiments/manifest/values.hpp"
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 
 /// Realises the requested profiles as plan.profiles, in the order of the requests. All profiles of one
 /// parameter use the same random numbers, even with different mean, spread and correlation length.
 /// @param study must have its seed, design and rigs
-void realise_profiles(const std::vector<ProfileRequest>& requests, const Study& study, StudyPlan& plan);
+void realise_profiles(const std::vector<ProfileRequest>& requests, const study::Study& study,
+                      study::StudyPlan& plan);
 
 /// Completes a study whose manifest has no errors: the random numbers of each slot, the labels of the points,
 /// the axes, the input columns, the list of profiles.
 void assemble_study(const std::vector<ProfileRequest>& requests, const std::vector<SweptAxis>& axes,
-                    StudyPlan& plan, Study& study);
+                    study::StudyPlan& plan, study::Study& study);
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

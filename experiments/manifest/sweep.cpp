@@ -11,7 +11,7 @@
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/study/slots.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 // State of the reading of the axes: the slots in use and the number of points so far.
@@ -22,19 +22,20 @@ struct SweepReading {
   std::set<std::size_t> in_grid{};   // slots of the grid's axes so far
   std::set<std::size_t> in_cases{};  // slots of the cases
 
-  const ListedValues& list() const { return reading.plan.list; }
+  const study::ListedValues& list() const { return reading.plan.list; }
 };
 
-std::vector<std::string> swept_names(const ListedValues& list) {
+std::vector<std::string> swept_names(const study::ListedValues& list) {
   std::vector<std::string> names;
-  for (const Parameter& parameter : parameter_table()) names.emplace_back(parameter.name);
+  for (const parameters::Parameter& parameter : parameters::parameter_table())
+    names.emplace_back(parameter.name);
   for (std::size_t i = 0; i < std::min<std::size_t>(list.count, 100); ++i)
-    names.push_back(slot_name(listed_slot(i), list));
+    names.push_back(study::slot_name(study::listed_slot(i), list));
   return names;
 }
 
 // Multiplies the number of points by `options`; false, after a report, if there are too many.
-bool check_point_count(const Field& sweep, std::size_t options, SweepReading& state) {
+bool check_point_count(const yaml::Field& sweep, std::size_t options, SweepReading& state) {
   const bool fits = !state.too_many && (options == 0 || state.points <= max_points / options);
   if (fits) {
     state.points *= std::max<std::size_t>(options, 1);
@@ -50,28 +51,30 @@ std::string_view singular(std::string_view noun) {
   return noun.substr(0, noun.size() - 1);
 }
 
-std::optional<SlotRange> find_swept(const Field& map, const YamlEntry& entry, SweepReading& state) {
-  const ListedValues& list = state.list();
-  if (auto slots = find_slots(entry.key, list)) return slots;
-  Problems& problems = state.reading.problems;
-  const std::string path = entry_of(map, entry).path;
-  const std::string_view used = parameter_table()[list.row].name;
-  if (const auto row = find_listed_row(entry.key); row && *row != list.row) {
-    problems.add(entry.place, path, fmt::format("the study has no {}", parameter_table()[*row].name),
+std::optional<study::SlotRange> find_swept(const yaml::Field& map, const yaml::YamlEntry& entry,
+                                           SweepReading& state) {
+  const study::ListedValues& list = state.list();
+  if (auto slots = study::find_slots(entry.key, list)) return slots;
+  yaml::Problems& problems = state.reading.problems;
+  const std::string path = yaml::entry_of(map, entry).path;
+  const std::string_view used = parameters::parameter_table()[list.row].name;
+  if (const auto row = study::find_listed_row(entry.key); row && *row != list.row) {
+    problems.add(entry.place, path,
+                 fmt::format("the study has no {}", parameters::parameter_table()[*row].name),
                  fmt::format("{}, which it has", used));
   } else if (row) {
-    problems.add(entry.place, path, fmt::format("there is no such {}", singular(listed_noun(list))),
+    problems.add(entry.place, path, fmt::format("there is no such {}", singular(study::listed_noun(list))),
                  fmt::format("an index from 0 to {}", list.count - 1));
   } else if (find_general_key(entry.key) != nullptr) {
     problems.add(entry.place, path, "this key is the same at all points",
                  "a dotted path of the table of parameters, such as controller.ki");
   } else {
-    add_unknown_key(map, entry, swept_names(list), problems);
+    parameters::add_unknown_key(map, entry, swept_names(list), problems);
   }
   return std::nullopt;
 }
 
-void assign(SweptAxis& axis, std::size_t slot, const Value& value, const Place& place) {
+void assign(SweptAxis& axis, std::size_t slot, const study::Value& value, const yaml::Place& place) {
   axis.axis.assignments.push_back({static_cast<std::uint32_t>(slot), value});
   axis.places.push_back(place);
 }
@@ -82,15 +85,16 @@ void finish_option(SweptAxis& axis, std::string label) {
 }
 
 // Adds the assignments of `field` to `slots` to the current option.
-void read_assignments(const Field& field, const SlotRange& slots, SweptAxis& axis, SweepReading& state) {
+void read_assignments(const yaml::Field& field, const study::SlotRange& slots, SweptAxis& axis,
+                      SweepReading& state) {
   if (!slots.list) {
-    assign(axis, slots.first, read_value(field, row_of_slot(slots.first, state.list()), state.reading),
+    assign(axis, slots.first, read_value(field, study::row_of_slot(slots.first, state.list()), state.reading),
            field.node->place);
     return;
   }
-  const std::string_view noun = listed_noun(state.list());
+  const std::string_view noun = study::listed_noun(state.list());
   const std::string expected = fmt::format("a list of {} {}, as at every point", slots.count, noun);
-  if (!check_list(field, expected, state.reading.problems)) return;
+  if (!yaml::check_list(field, expected, state.reading.problems)) return;
   const std::size_t count = field.node->items.size();
   if (count != slots.count) {
     state.reading.problems.add(field.node->place, field.path,
@@ -98,67 +102,70 @@ void read_assignments(const Field& field, const SlotRange& slots, SweptAxis& axi
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const Field item = item_of(field, i);
-    assign(axis, slots.first + i, read_value(item, row_of_slot(slots.first, state.list()), state.reading),
-           item.node->place);
+    const yaml::Field item = yaml::item_of(field, i);
+    assign(axis, slots.first + i,
+           read_value(item, study::row_of_slot(slots.first, state.list()), state.reading), item.node->place);
   }
 }
 
-void note_slots(SweptAxis& axis, const SlotRange& slots) {
+void note_slots(SweptAxis& axis, const study::SlotRange& slots) {
   for (std::size_t slot = slots.first; slot < slots.first + slots.count; ++slot) {
     if (std::find(axis.slots.begin(), axis.slots.end(), slot) == axis.slots.end()) axis.slots.push_back(slot);
   }
 }
 
 // The value in an option's label: a number in its shortest form, anything else as in the manifest.
-std::string value_label(const SweptAxis& axis, const SlotRange& slots, const YamlNode& node,
-                        const ListedValues& list) {
-  const std::size_t row = row_of_slot(slots.first, list);
-  if (slots.list || has_labels(parameter_table()[row]) || axis.axis.assignments.empty() ||
-      axis.axis.assignments.back().value.kind != Value::Kind::number) {
-    return flow_text(node);
+std::string value_label(const SweptAxis& axis, const study::SlotRange& slots, const yaml::YamlNode& node,
+                        const study::ListedValues& list) {
+  const std::size_t row = study::row_of_slot(slots.first, list);
+  if (slots.list || parameters::has_labels(parameters::parameter_table()[row]) ||
+      axis.axis.assignments.empty() ||
+      axis.axis.assignments.back().value.kind != study::Value::Kind::number) {
+    return yaml::flow_text(node);
   }
   return fmt::format("{}", axis.axis.assignments.back().value.number);
 }
 
-void read_listed(const Field& field, const SlotRange& slots, SweptAxis& axis, SweepReading& state) {
+void read_listed(const yaml::Field& field, const study::SlotRange& slots, SweptAxis& axis,
+                 SweepReading& state) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < field.node->items.size(); ++i) {
-    const Field item = item_of(field, i);
+    const yaml::Field item = yaml::item_of(field, i);
     const std::size_t problems_before = state.reading.problems.size();
     read_assignments(item, slots, axis, state);
     if (state.reading.problems.size() > problems_before) continue;  // an unreadable value equals no other
     std::string label = fmt::format("{}={}", axis.name, value_label(axis, slots, *item.node, state.list()));
     if (!seen.insert(label).second) {
-      state.reading.problems.add(item.node->place, item.path,
-                                 fmt::format("{} stands twice in the list", in_quotes(flow_text(*item.node))),
-                                 "different values");
+      state.reading.problems.add(
+          item.node->place, item.path,
+          fmt::format("{} stands twice in the list", yaml::in_quotes(yaml::flow_text(*item.node))),
+          "different values");
     }
     finish_option(axis, std::move(label));
   }
 }
 
-void read_spaced(const Field& sweep, const Field& field, const SlotRange& slots, SweptAxis& axis,
-                 SweepReading& state) {
+void read_spaced(const yaml::Field& sweep, const yaml::Field& field, const study::SlotRange& slots,
+                 SweptAxis& axis, SweepReading& state) {
   const auto& entries = field.node->entries;
   const bool known = entries.size() == 1 && (entries[0].key == "linspace" || entries[0].key == "logspace");
   if (!known || slots.list) {
-    add_wrong_type(
+    yaml::add_wrong_type(
         field,
         slots.list
-            ? fmt::format("a list of lists of {}", listed_noun(state.list()))
+            ? fmt::format("a list of lists of {}", study::listed_noun(state.list()))
             : "a list of values, {linspace: [first, last, number]} or {logspace: [first, last, number]}",
         state.reading.problems);
     return;
   }
-  const Field inner = entry_of(field, entries[0]);
+  const yaml::Field inner = yaml::entry_of(field, entries[0]);
   const auto spacing = read_spacing(inner, entries[0].key, max_points, state.reading.problems);
   if (!spacing || !check_point_count(sweep, spacing->count, state)) return;
   const std::vector<double> values = spaced_values(*spacing);
   std::vector<std::string> labels = spaced_labels(axis.name, values);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const Value value =
-        checked_number(inner, row_of_slot(slots.first, state.list()), values[i], state.reading);
+    const study::Value value =
+        checked_number(inner, study::row_of_slot(slots.first, state.list()), values[i], state.reading);
     assign(axis, slots.first, value, inner.node->place);
     finish_option(axis, std::move(labels[i]));
     if (std::isnan(value.number)) return;  // one report is enough
@@ -167,37 +174,39 @@ void read_spaced(const Field& sweep, const Field& field, const SlotRange& slots,
 
 // Reports a parameter in two axes of the grid. If the cases also give it a value, the grid takes precedence,
 // with // a warning.
-bool take_for_grid(const Field& grid, const YamlEntry& entry, const SweptAxis& axis, SweepReading& state) {
-  const std::string path = entry_of(grid, entry).path;
+bool take_for_grid(const yaml::Field& grid, const yaml::YamlEntry& entry, const SweptAxis& axis,
+                   SweepReading& state) {
+  const std::string path = yaml::entry_of(grid, entry).path;
   for (const std::size_t slot : axis.slots) {
     if (!state.in_grid.insert(slot).second) {
       state.reading.problems.add(entry.place, path,
-                                 fmt::format("{} is swept twice", slot_name(slot, state.list())),
+                                 fmt::format("{} is swept twice", study::slot_name(slot, state.list())),
                                  "each parameter in one axis of the grid");
       return false;
     }
     if (state.in_cases.count(slot) > 0) {
       state.reading.warnings.push_back(
-          at_place(entry.place, path,
-                   fmt::format("the grid's values replace those that the cases give to {}",
-                               slot_name(slot, state.list()))));
+          yaml::at_place(entry.place, path,
+                         fmt::format("the grid's values replace those that the cases give to {}",
+                                     study::slot_name(slot, state.list()))));
     }
   }
   return true;
 }
 
-void read_grid(const Field& sweep, const Field& grid, std::vector<SweptAxis>& axes, SweepReading& state) {
-  if (!check_map(grid, "a map from dotted paths to lists of values", state.reading.problems)) return;
-  for (const YamlEntry& entry : grid.node->entries) {
+void read_grid(const yaml::Field& sweep, const yaml::Field& grid, std::vector<SweptAxis>& axes,
+               SweepReading& state) {
+  if (!yaml::check_map(grid, "a map from dotted paths to lists of values", state.reading.problems)) return;
+  for (const yaml::YamlEntry& entry : grid.node->entries) {
     const auto slots = find_swept(grid, entry, state);
     if (!slots) continue;
-    const Field field = entry_of(grid, entry);
+    const yaml::Field field = yaml::entry_of(grid, entry);
     SweptAxis axis{.name = entry.key};
     note_slots(axis, *slots);
     if (!take_for_grid(grid, entry, axis, state)) continue;
-    if (field.node->kind == YamlNode::Kind::map) {
+    if (field.node->kind == yaml::YamlNode::Kind::map) {
       read_spaced(sweep, field, *slots, axis, state);
-    } else if (check_list(field, "a list of values", state.reading.problems)) {
+    } else if (yaml::check_list(field, "a list of values", state.reading.problems)) {
       if (field.node->items.empty()) {
         state.reading.problems.add(field.node->place, field.path, "the list is empty", "at least one value");
       } else if (check_point_count(sweep, field.node->items.size(), state)) {
@@ -209,56 +218,57 @@ void read_grid(const Field& sweep, const Field& grid, std::vector<SweptAxis>& ax
 }
 
 // Reads one case: a map from keys to values.
-void read_case(const Field& cases, const YamlEntry& entry, SweptAxis& axis, SweepReading& state) {
-  const Field field = entry_of(cases, entry);
+void read_case(const yaml::Field& cases, const yaml::YamlEntry& entry, SweptAxis& axis, SweepReading& state) {
+  const yaml::Field field = yaml::entry_of(cases, entry);
   if (entry.key.find_first_not_of(" \t\r\n") == std::string::npos) {
     state.reading.problems.add(entry.place, field.path, "the name of the case is empty", "a name");
   }
-  if (!check_map(field, "a map from dotted paths to values", state.reading.problems)) return;
+  if (!yaml::check_map(field, "a map from dotted paths to values", state.reading.problems)) return;
   std::set<std::size_t> in_this_case;
-  for (const YamlEntry& assignment : field.node->entries) {
+  for (const yaml::YamlEntry& assignment : field.node->entries) {
     const auto slots = find_swept(field, assignment, state);
     if (!slots) continue;
     note_slots(axis, *slots);
     for (std::size_t slot = slots->first; slot < slots->first + slots->count; ++slot) {
       if (in_this_case.insert(slot).second) continue;
-      state.reading.problems.add(assignment.place, entry_of(field, assignment).path,
-                                 fmt::format("{} is given twice in this case", slot_name(slot, state.list())),
-                                 "one value");
+      state.reading.problems.add(
+          assignment.place, yaml::entry_of(field, assignment).path,
+          fmt::format("{} is given twice in this case", study::slot_name(slot, state.list())), "one value");
       break;
     }
-    read_assignments(entry_of(field, assignment), *slots, axis, state);
+    read_assignments(yaml::entry_of(field, assignment), *slots, axis, state);
   }
   finish_option(axis, entry.key);
 }
 
-void read_cases(const Field& sweep, const Field& cases, std::vector<SweptAxis>& axes, SweepReading& state) {
-  if (!check_map(cases, "a map from names to cases", state.reading.problems)) return;
+void read_cases(const yaml::Field& sweep, const yaml::Field& cases, std::vector<SweptAxis>& axes,
+                SweepReading& state) {
+  if (!yaml::check_map(cases, "a map from names to cases", state.reading.problems)) return;
   const auto& entries = cases.node->entries;
   if (entries.empty() || !check_point_count(sweep, entries.size(), state)) return;
   SweptAxis axis{.cases = true, .name = "case"};
-  for (const YamlEntry& entry : entries) read_case(cases, entry, axis, state);
+  for (const yaml::YamlEntry& entry : entries) read_case(cases, entry, axis, state);
   state.in_cases.insert(axis.slots.begin(), axis.slots.end());
   axes.push_back(std::move(axis));
 }
 
 }  // namespace
 
-std::vector<SweptAxis> read_sweep(const Field& sweep, Reading& reading) {
+std::vector<SweptAxis> read_sweep(const yaml::Field& sweep, Reading& reading) {
   std::vector<SweptAxis> axes;
-  if (!check_map(sweep, "a map with grid, cases or both", reading.problems)) return axes;
+  if (!yaml::check_map(sweep, "a map with grid, cases or both", reading.problems)) return axes;
   const std::vector<std::string> known{"grid", "cases"};
-  for (const YamlEntry& entry : sweep.node->entries) {
+  for (const yaml::YamlEntry& entry : sweep.node->entries) {
     if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
-      add_unknown_key(sweep, entry, known, reading.problems);
+      parameters::add_unknown_key(sweep, entry, known, reading.problems);
     }
   }
   SweepReading state{.reading = reading};
-  if (const YamlEntry* cases = find_entry(*sweep.node, "cases"))
-    read_cases(sweep, entry_of(sweep, *cases), axes, state);
-  if (const YamlEntry* grid = find_entry(*sweep.node, "grid"))
-    read_grid(sweep, entry_of(sweep, *grid), axes, state);
+  if (const yaml::YamlEntry* cases = yaml::find_entry(*sweep.node, "cases"))
+    read_cases(sweep, yaml::entry_of(sweep, *cases), axes, state);
+  if (const yaml::YamlEntry* grid = yaml::find_entry(*sweep.node, "grid"))
+    read_grid(sweep, yaml::entry_of(sweep, *grid), axes, state);
   return axes;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

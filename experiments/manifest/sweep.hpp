@@ -7,7 +7,7 @@
 #include "experiments/manifest/values.hpp"
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 
 constexpr std::size_t max_points = 1'000'000;
 
@@ -16,9 +16,9 @@ struct SweptAxis {
   bool cases{false};
   std::string name;                   ///< the swept key; "case" for the cases
   std::vector<std::string> labels{};  ///< [option]
-  PlanAxis axis{};
-  std::vector<Place> places{};       ///< [assignment]
-  std::vector<std::size_t> slots{};  ///< assigned by some option, in order of appearance
+  study::PlanAxis axis{};
+  std::vector<yaml::Place> places{};  ///< [assignment]
+  std::vector<std::size_t> slots{};   ///< assigned by some option, in order of appearance
 };
 
 /// Reads `sweep: {grid, cases}`. The cases are the slowest axis, followed by the keys of the grid in their
@@ -27,12 +27,12 @@ struct SweptAxis {
 /// is n numbers with equal distances from a to b, both included; `logspace: [a, b, n]` is n numbers with
 /// equal ratios from a to b (values, not exponents). The values between the ends are rounded to 15
 /// significant digits.
-std::vector<SweptAxis> read_sweep(const Field& sweep, Reading& reading);
+std::vector<SweptAxis> read_sweep(const yaml::Field& sweep, Reading& reading);
 
 /// One label per point, "a, controller.kp=0"; {"all"} without axes.
 std::vector<std::string> label_points(const std::vector<SweptAxis>& axes);
 
 /// The axes of the results file: the name of the case, and one axis for every swept slot.
-std::vector<SweepAxis> describe_axes(const std::vector<SweptAxis>& axes, const StudyPlan& plan);
+std::vector<study::SweepAxis> describe_axes(const std::vector<SweptAxis>& axes, const study::StudyPlan& plan);
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -8,21 +8,21 @@
 #include "experiments/study/plan.hpp"
 #include "experiments/yaml/scalars.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 
 /// A profile in the manifest, to be realised when the seed is known.
 struct ProfileRequest {
   std::size_t row{0};  ///< of the table of parameters
-  ProfileForm form;
-  Per per{Per::study};  ///< study or rig
-  Place place;          ///< in the manifest, for messages
+  distributions::ProfileForm form;
+  study::Per per{study::Per::study};  ///< study or rig
+  yaml::Place place;                  ///< in the manifest, for messages
   std::string path;
 };
 
 /// The data that reading a manifest produces.
 struct Reading {
-  Problems& problems;
-  StudyPlan& plan;                         ///< gets the distributions
+  yaml::Problems& problems;
+  study::StudyPlan& plan;                  ///< gets the distributions
   std::int64_t version;                    ///< of the results files whose defaults apply
   bool has_rigs{false};                    ///< the study has the key `rigs`
   std::vector<ProfileRequest> profiles{};  ///< [index of a value of kind profile]
@@ -33,13 +33,13 @@ struct Reading {
 void check_profiles(const Reading& reading);
 
 /// Represents a value that could not be read: NaN, so that later checks ignore it.
-Value unreadable_value();
+study::Value unreadable_value();
 
 /// The value of the parameter in row `row`: a number, a label, a distribution or a profile, checked against
 /// the parameter's range. Reports errors and returns unreadable_value() then.
-Value read_value(const Field& field, std::size_t row, Reading& reading);
+study::Value read_value(const yaml::Field& field, std::size_t row, Reading& reading);
 
 /// `number` as a value of the parameter, checked likewise; `field` is its source.
-Value checked_number(const Field& field, std::size_t row, double number, Reading& reading);
+study::Value checked_number(const yaml::Field& field, std::size_t row, double number, Reading& reading);
 
-}  // namespace zerocount
+}  // namespace zerocount::manifest

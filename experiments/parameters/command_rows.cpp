@@ -1,20 +1,20 @@
 #include "experiments/parameters/parameter_rows.hpp"
 
-namespace zerocount {
+namespace zerocount::parameters {
 
 std::vector<Parameter> command_rows() {
   constexpr std::string_view required = "required";
-  constexpr Interval targets{
+  constexpr numerics::Interval targets{
       .low = -max_count, .high = max_count, .low_included = true, .high_included = true};
   return {
       list_of(whole_row("command.targets", "count", "target of each move, from the start of the trial",
                         required, targets)),
 
       list_of(real_row("command.torque.levels", "N m", "open loop: torque that each move goes to and holds",
-                       required, all_numbers())),
+                       required, numerics::all_numbers())),
       stored_at(
           real_row("command.torque.rate", "N m/s", "rate at which the torque goes from level to level",
-                   assumed, above(0)),
+                   assumed, numerics::above(0)),
           [](auto& p) -> auto& { return p.command.torque.rate; }),
       stored_at(
           word_row("command.torque.through",
@@ -27,12 +27,12 @@ std::vector<Parameter> command_rows() {
                         targets)),
       whole_row("command.sequence.overrun", "count",
                 "how far beyond the first and the last target a sequence turns round", required,
-                closed(1, max_count)),
+                numerics::closed(1, max_count)),
 
       stored_at(
           real_row("command.hold", "s",
                    "time for which each target is held, or each torque level once it is reached", assumed,
-                   above(0)),
+                   numerics::above(0)),
           [](auto& p) -> auto& { return p.command.hold; }),
       stored_at(
           word_row("command.profile.shape", "how the reference goes to the next target", assumed,
@@ -40,17 +40,18 @@ std::vector<Parameter> command_rows() {
           [](auto& p) -> auto& { return p.command.profile.shape; }),
       stored_at(
           real_row("command.profile.velocity_limit", "rad/s", "limit of the reference's velocity", assumed,
-                   above(0)),
+                   numerics::above(0)),
           [](auto& p) -> auto& { return p.command.profile.velocity_limit; }),
       stored_at(
           real_row("command.profile.acceleration_limit", "rad/s^2", "limit of the reference's acceleration",
-                   assumed, above(0)),
+                   assumed, numerics::above(0)),
           [](auto& p) -> auto& { return p.command.profile.acceleration_limit; }),
       stored_at(
           real_row("command.profile.jerk_limit", "rad/s^3",
-                   "limit of the rate of the reference's acceleration, with s_curve", assumed, above(0)),
+                   "limit of the rate of the reference's acceleration, with s_curve", assumed,
+                   numerics::above(0)),
           [](auto& p) -> auto& { return p.command.profile.jerk_limit; }),
   };
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::parameters

@@ -1,29 +1,31 @@
 #include "experiments/parameters/parameter_rows.hpp"
 
-namespace zerocount {
+namespace zerocount::parameters {
 std::vector<Parameter> controller_rows() {
   constexpr std::string_view integral_alone = "paper, section 4 (integral control alone)";
   return {
       stored_at(
-          real_row("controller.sample_rate", "Hz", "sampling rate of the loop", "paper, section 4", above(0)),
+          real_row("controller.sample_rate", "Hz", "sampling rate of the loop", "paper, section 4",
+                   numerics::above(0)),
           [](auto& p) -> auto& { return p.controller.sample_rate; }),
       stored_at(
-          in_si(real_row("controller.kp", "N m/count", "proportional gain", integral_alone, closed(0, 1e6)),
+          in_si(real_row("controller.kp", "N m/count", "proportional gain", integral_alone,
+                         numerics::closed(0, 1e6)),
                 "N m/rad", "proportional gain"),
           [](auto& p) -> auto& { return p.controller.kp; }),
       stored_at(
           in_si(real_row("controller.ki", "N m/count", "integral gain k_ID of the trapezoidal rule",
-                         "paper, section 4 (a)", closed(0, 1e6)),
+                         "paper, section 4 (a)", numerics::closed(0, 1e6)),
                 "N m/(rad s)", "integral gain"),
           [](auto& p) -> auto& { return p.controller.ki; }),
       stored_at(
           in_si(real_row("controller.kd", "N m/count", "gain on the difference of successive counts",
-                         integral_alone, closed(0, 1e6)),
+                         integral_alone, numerics::closed(0, 1e6)),
                 "N m s/rad", "derivative gain"),
           [](auto& p) -> auto& { return p.controller.kd; }),
       stored_at(
           whole_row("controller.delay", "sample", "samples between deciding a torque and applying it",
-                    assumed, closed(0, 100)),
+                    assumed, numerics::closed(0, 100)),
           [](auto& p) -> auto& { return p.controller.delay; }),
       stored_at(
           word_row("controller.anti_windup", "what keeps the integral inside the converter's range", assumed,
@@ -36,18 +38,18 @@ std::vector<Parameter> controller_rows() {
 
       stored_at(
           in_si(real_row("controller.coarse.kp", "N m/count", "proportional gain of the coarse phase",
-                         assumed, closed(0, 1e6)),
+                         assumed, numerics::closed(0, 1e6)),
                 "N m/rad", "proportional gain of the coarse phase"),
           [](auto& p) -> auto& { return p.controller.coarse.kp; }),
       stored_at(
           in_si(real_row("controller.coarse.ki", "N m/count", "integral gain of the coarse phase", assumed,
-                         closed(0, 1e6)),
+                         numerics::closed(0, 1e6)),
                 "N m/(rad s)", "integral gain of the coarse phase"),
           [](auto& p) -> auto& { return p.controller.coarse.ki; }),
       stored_at(
           in_si(real_row("controller.coarse.kd", "N m/count",
                          "gain of the coarse phase on the difference of successive counts", assumed,
-                         closed(0, 1e6)),
+                         numerics::closed(0, 1e6)),
                 "N m s/rad", "derivative gain of the coarse phase"),
           [](auto& p) -> auto& { return p.controller.coarse.kd; }),
       stored_at(
@@ -56,23 +58,24 @@ std::vector<Parameter> controller_rows() {
           [](auto& p) -> auto& { return p.controller.coarse.encoder; }),
       stored_at(
           real_row("controller.coarse.fine_within", "count",
-                   "largest |error| with which the fine phase is entered", assumed, closed(0, max_count)),
+                   "largest |error| with which the fine phase is entered", assumed,
+                   numerics::closed(0, max_count)),
           [](auto& p) -> auto& { return p.controller.coarse.fine_within; }),
       stored_at(
           real_row("controller.coarse.fine_rate", "count/sample",
                    "largest change of the count per sample with which the fine phase is entered", assumed,
-                   at_least(0)),
+                   numerics::at_least(0)),
           [](auto& p) -> auto& { return p.controller.coarse.fine_rate; }),
       stored_at(
           real_row("controller.coarse.fine_dwell", "s", "time for which both must have held", assumed,
-                   at_least(0)),
+                   numerics::at_least(0)),
           [](auto& p) -> auto& { return p.controller.coarse.fine_dwell; }),
       or_never(
           real_row("controller.coarse.coarse_beyond", "count",
                    "|error| beyond which the coarse phase is entered; 1e12: there is none", assumed,
-                   closed(0, max_count)),
+                   numerics::closed(0, max_count)),
           [](auto& p) -> auto& { return p.controller.coarse.coarse_beyond; }),
   };
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::parameters

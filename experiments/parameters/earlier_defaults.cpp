@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace zerocount {
+namespace zerocount::parameters {
 namespace {
 
 constexpr std::array changed_defaults{
@@ -23,4 +23,4 @@ double default_value_in(const Parameter& parameter, std::int64_t version) {
   return default_value(parameter);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::parameters

@@ -7,7 +7,7 @@
 
 #include "experiments/parameters/parameter_table.hpp"
 
-namespace zerocount {
+namespace zerocount::parameters {
 
 /// A default that was changed. A results file has the text of its manifest, but not the defaults of the
 /// program that wrote it, so the reader must supply them.
@@ -27,4 +27,4 @@ inline constexpr std::int64_t newest_version = std::numeric_limits<std::int64_t>
 /// The parameter's default in the programs that wrote results files of `version`.
 double default_value_in(const Parameter& parameter, std::int64_t version);
 
-}  // namespace zerocount
+}  // namespace zerocount::parameters

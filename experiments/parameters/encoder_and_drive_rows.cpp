@@ -1,6 +1,6 @@
 #include "experiments/parameters/parameter_rows.hpp"
 
-namespace zerocount {
+namespace zerocount::parameters {
 namespace {
 
 constexpr std::string_view no_disc = "the key left out: eccentricity is an error of an encoder's disc";
@@ -21,69 +21,73 @@ std::vector<Parameter> encoder_rows() {
       only_on(AxisKind::rotary, "encoder.resolution, m per count",
               stored_at(
                   whole_row("encoder.fine", "count/rev", "counts per revolution of the fine encoder",
-                            "paper, section 2", closed(1, max_count)),
+                            "paper, section 2", numerics::closed(1, max_count)),
                   [](auto& p) -> auto& { return p.encoder.fine; })),
       only_on(AxisKind::rotary, "encoder.coarse_resolution, m per count",
               stored_at(
                   whole_row("encoder.coarse", "count/rev", "counts per revolution of the coarse encoder",
-                            "paper, section 2", closed(1, max_count)),
+                            "paper, section 2", numerics::closed(1, max_count)),
                   [](auto& p) -> auto& { return p.encoder.coarse; })),
       only_on(AxisKind::linear, "encoder.fine, counts per revolution",
               without_default(stored_at(
                   real_row("encoder.resolution", "m/count", "length of a count of the fine encoder",
-                           "required", above(0)),
+                           "required", numerics::above(0)),
                   [](auto& p) -> auto& { return p.encoder.fine_length; }))),
       only_on(AxisKind::linear, "encoder.coarse, counts per revolution",
               without_default(stored_at(
                   real_row("encoder.coarse_resolution", "m/count",
                            "length of a count of the coarse encoder; left out, that of the fine one",
-                           "required", above(0)),
+                           "required", numerics::above(0)),
                   [](auto& p) -> auto& { return p.encoder.coarse_length; }))),
 
       only_on(AxisKind::rotary, no_disc,
               stored_at(
-                  real_row("encoder.fine_errors.eccentricity", "rad", eccentricity, assumed, at_least(0)),
+                  real_row("encoder.fine_errors.eccentricity", "rad", eccentricity, assumed,
+                           numerics::at_least(0)),
                   [](auto& p) -> auto& { return p.encoder.fine_errors.eccentricity; })),
       only_on(AxisKind::rotary, no_disc,
               stored_at(
                   real_row("encoder.fine_errors.eccentricity_angle", "rad", eccentricity_angle, assumed,
-                           all_numbers()),
+                           numerics::all_numbers()),
                   [](auto& p) -> auto& { return p.encoder.fine_errors.eccentricity_angle; })),
       stored_at(
-          real_row("encoder.fine_errors.interpolation", "count", interpolation, assumed, at_least(0)),
+          real_row("encoder.fine_errors.interpolation", "count", interpolation, assumed,
+                   numerics::at_least(0)),
           [](auto& p) -> auto& { return p.encoder.fine_errors.interpolation; }),
       stored_at(
           real_row("encoder.fine_errors.interpolation_period", "count", interpolation_period, assumed,
-                   above(0)),
+                   numerics::above(0)),
           [](auto& p) -> auto& { return p.encoder.fine_errors.interpolation_period; }),
       stored_at(
-          real_row("encoder.fine_errors.noise", "count", noise, assumed, at_least(0)),
+          real_row("encoder.fine_errors.noise", "count", noise, assumed, numerics::at_least(0)),
           [](auto& p) -> auto& { return p.encoder.fine_errors.noise; }),
       stored_at(
-          real_row("encoder.fine_errors.missed", "1", missed, assumed, closed(0, 1)),
+          real_row("encoder.fine_errors.missed", "1", missed, assumed, numerics::closed(0, 1)),
           [](auto& p) -> auto& { return p.encoder.fine_errors.missed; }),
 
       only_on(AxisKind::rotary, no_disc,
               stored_at(
-                  real_row("encoder.coarse_errors.eccentricity", "rad", eccentricity, assumed, at_least(0)),
+                  real_row("encoder.coarse_errors.eccentricity", "rad", eccentricity, assumed,
+                           numerics::at_least(0)),
                   [](auto& p) -> auto& { return p.encoder.coarse_errors.eccentricity; })),
       only_on(AxisKind::rotary, no_disc,
               stored_at(
                   real_row("encoder.coarse_errors.eccentricity_angle", "rad", eccentricity_angle, assumed,
-                           all_numbers()),
+                           numerics::all_numbers()),
                   [](auto& p) -> auto& { return p.encoder.coarse_errors.eccentricity_angle; })),
       stored_at(
-          real_row("encoder.coarse_errors.interpolation", "count", interpolation, assumed, at_least(0)),
+          real_row("encoder.coarse_errors.interpolation", "count", interpolation, assumed,
+                   numerics::at_least(0)),
           [](auto& p) -> auto& { return p.encoder.coarse_errors.interpolation; }),
       stored_at(
           real_row("encoder.coarse_errors.interpolation_period", "count", interpolation_period, assumed,
-                   above(0)),
+                   numerics::above(0)),
           [](auto& p) -> auto& { return p.encoder.coarse_errors.interpolation_period; }),
       stored_at(
-          real_row("encoder.coarse_errors.noise", "count", noise, assumed, at_least(0)),
+          real_row("encoder.coarse_errors.noise", "count", noise, assumed, numerics::at_least(0)),
           [](auto& p) -> auto& { return p.encoder.coarse_errors.noise; }),
       stored_at(
-          real_row("encoder.coarse_errors.missed", "1", missed, assumed, closed(0, 1)),
+          real_row("encoder.coarse_errors.missed", "1", missed, assumed, numerics::closed(0, 1)),
           [](auto& p) -> auto& { return p.encoder.coarse_errors.missed; }),
   };
 }
@@ -92,34 +96,35 @@ std::vector<Parameter> drive_rows() {
   return {
       stored_at(
           whole_row("dac.bits", "bit", "word length of the digital-to-analogue converter", "paper, section 2",
-                    closed(1, 32)),
+                    numerics::closed(1, 32)),
           [](auto& p) -> auto& { return p.dac.bits; }),
       stored_at(
           real_row("dac.resolution", "N m", "torque of one code of the digital-to-analogue converter",
-                   "paper, section 4", above(0)),
+                   "paper, section 4", numerics::above(0)),
           [](auto& p) -> auto& { return p.dac.resolution; }),
       stored_at(
-          real_row("dac.offset", "N m", "added to the torque of every code", assumed, all_numbers()),
+          real_row("dac.offset", "N m", "added to the torque of every code", assumed,
+                   numerics::all_numbers()),
           [](auto& p) -> auto& { return p.dac.offset; }),
       stored_at(
-          real_row("dac.gain_error", "1", "relative error of the resolution", assumed, above(-1)),
+          real_row("dac.gain_error", "1", "relative error of the resolution", assumed, numerics::above(-1)),
           [](auto& p) -> auto& { return p.dac.gain_error; }),
       stored_at(
           real_row("dac.nonlinearity", "code",
                    "integral non-linearity: largest deviation from the straight line between the ends",
-                   assumed, all_numbers()),
+                   assumed, numerics::all_numbers()),
           [](auto& p) -> auto& { return p.dac.nonlinearity; }),
       stored_at(
           real_row("dac.noise", "N m", "standard deviation of the torque, drawn anew at each sample", assumed,
-                   at_least(0)),
+                   numerics::at_least(0)),
           [](auto& p) -> auto& { return p.dac.noise; }),
 
       stored_at(
           real_row("amplifier.bandwidth", "Hz",
                    "bandwidth (-3 dB) of the amplifier's first-order response; 0: it follows at once",
-                   assumed, at_least(0)),
+                   assumed, numerics::at_least(0)),
           [](auto& p) -> auto& { return p.amplifier.bandwidth; }),
   };
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::parameters

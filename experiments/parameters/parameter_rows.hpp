@@ -9,7 +9,7 @@
 
 #include "experiments/parameters/parameter_table.hpp"
 
-namespace zerocount {
+namespace zerocount::parameters {
 
 // The rows of the table of parameters, by section. The name of a new row must also be added at the end of //
 // sobol_order.cpp.
@@ -31,33 +31,33 @@ constexpr double max_count = 1e12;
 
 /// A row of real numbers.
 inline Parameter real_row(std::string_view name, std::string_view unit, std::string_view meaning,
-                          std::string_view source, const Interval& range) {
+                          std::string_view source, const numerics::Interval& range) {
   return {name, unit, meaning, source, ParameterKind::real, range, {}};
 }
 
 /// A row of whole numbers.
 inline Parameter whole_row(std::string_view name, std::string_view unit, std::string_view meaning,
-                           std::string_view source, const Interval& range) {
+                           std::string_view source, const numerics::Interval& range) {
   return {name, unit, meaning, source, ParameterKind::whole_number, range, {}};
 }
 
 /// A row with labels, in the order of the enumeration's values.
 inline Parameter word_row(std::string_view name, std::string_view meaning, std::string_view source,
                           std::vector<std::string_view> labels) {
-  const Interval range = closed(0, static_cast<double>(labels.size() - 1));
+  const numerics::Interval range = numerics::closed(0, static_cast<double>(labels.size() - 1));
   return {name, "1", meaning, source, ParameterKind::enumeration, range, std::move(labels)};
 }
 
 /// A row of `true` or `false`.
 inline Parameter truth_row(std::string_view name, std::string_view meaning, std::string_view source) {
-  return {name, "1", meaning, source, ParameterKind::truth, closed(0, 1), {"false", "true"}};
+  return {name, "1", meaning, source, ParameterKind::truth, numerics::closed(0, 1), {"false", "true"}};
 }
 
 /// Adds the access to the field of TrialParameters: `At` returns a reference to it.
 template <class At>
 Parameter stored_at(Parameter row, At) {
-  row.get = [](const TrialParameters& parameters) { return static_cast<double>(At{}(parameters)); };
-  row.set = [](TrialParameters& parameters, double value) {
+  row.get = [](const trial::TrialParameters& parameters) { return static_cast<double>(At{}(parameters)); };
+  row.set = [](trial::TrialParameters& parameters, double value) {
     auto& field = At{}(parameters);
     field = static_cast<std::remove_reference_t<decltype(field)>>(value);
   };
@@ -68,8 +68,8 @@ Parameter stored_at(Parameter row, At) {
 /// parameters.
 template <class At>
 Parameter or_never(Parameter row, At) {
-  row.get = [](const TrialParameters& parameters) { return std::min(At{}(parameters), max_count); };
-  row.set = [](TrialParameters& parameters, double value) {
+  row.get = [](const trial::TrialParameters& parameters) { return std::min(At{}(parameters), max_count); };
+  row.set = [](trial::TrialParameters& parameters, double value) {
     At{}(parameters) = value < max_count ? value : std::numeric_limits<double>::infinity();
   };
   return row;
@@ -101,4 +101,4 @@ inline Parameter list_of(Parameter row) {
   return row;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::parameters

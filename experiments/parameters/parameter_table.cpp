@@ -9,7 +9,7 @@
 #include "experiments/parameters/parameter_rows.hpp"
 #include "experiments/parameters/sobol_order.hpp"
 
-namespace zerocount {
+namespace zerocount::parameters {
 namespace {
 
 /// Far above the gains of real machines, and far below the maximum of a double.
@@ -51,7 +51,7 @@ std::optional<std::size_t> find_parameter(std::string_view name) {
 }
 
 double default_value(const Parameter& parameter) {
-  return parameter.get(TrialParameters{});
+  return parameter.get(trial::TrialParameters{});
 }
 
 std::string unit_of(const Parameter& parameter, const StudyUnits& units) {
@@ -59,9 +59,9 @@ std::string unit_of(const Parameter& parameter, const StudyUnits& units) {
   return unit_on(units.axis, si ? parameter.si_unit : parameter.unit);
 }
 
-Interval range_of(const Parameter& parameter, const StudyUnits& units) {
+numerics::Interval range_of(const Parameter& parameter, const StudyUnits& units) {
   const bool si = units.gains == GainUnits::si && !parameter.si_unit.empty();
-  return si ? closed(0.0, max_si_gain) : parameter.range;
+  return si ? numerics::closed(0.0, max_si_gain) : parameter.range;
 }
 
 std::string meaning_of(const Parameter& parameter, const StudyUnits& units) {
@@ -83,4 +83,4 @@ std::string default_text(const Parameter& parameter, const StudyUnits& units) {
   return fmt::format("{}", value);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::parameters

@@ -11,7 +11,7 @@
 #include "core/trial/parameters.hpp"
 #include "experiments/parameters/study_units.hpp"
 
-namespace zerocount {
+namespace zerocount::parameters {
 
 enum class ParameterKind { real, whole_number, enumeration, truth };
 
@@ -22,18 +22,19 @@ struct Parameter {
   std::string_view meaning;
   std::string_view source;  ///< of the default: a place in the paper, or "assumed"
   ParameterKind kind{ParameterKind::real};
-  Interval range;                        ///< of the allowed values
+  numerics::Interval range;              ///< of the allowed values
   std::vector<std::string_view> labels;  ///< of an enumeration or a boolean, in the order of its numbers
   std::size_t sobol_dimension{0};        ///< from sobol_order.hpp; for a list that of its first value
-  double FrictionParameters::*profiled{nullptr};  ///< field for a profile; null if profiles are not allowed
+  double friction::FrictionParameters::*profiled{
+      nullptr};                   ///< field for a profile; null if profiles are not allowed
   std::string_view si_unit{};     ///< unit of a gain with controller.units: si; empty for other parameters
   std::string_view si_meaning{};  ///< likewise
   std::optional<AxisKind> only_on{};  ///< the only kind of axis with this parameter; empty: both kinds
   std::string_view instead{};         ///< the corresponding key on the other kind of axis, for messages
   bool of_machine{false};             ///< a property of the machine, not of the trial
   bool listed{false};                 ///< a list of values that defines the moves; a study uses one such list
-  double (*get)(const TrialParameters&){nullptr};        ///< null if TrialParameters has no field for it
-  void (*set)(TrialParameters&, double value){nullptr};  ///< likewise
+  double (*get)(const trial::TrialParameters&){nullptr};  ///< null if TrialParameters has no field for it
+  void (*set)(trial::TrialParameters&, double value){nullptr};  ///< likewise
 };
 
 /// The table of parameters, in the order of columns and listings. Parsing, validation, the JSON Schema, the
@@ -74,7 +75,7 @@ std::string unit_of(const Parameter& parameter, const StudyUnits& units);
 
 /// The values allowed in a study. The range of a gain in SI units is wide enough for the finest encoder and
 /// the shortest sample time.
-Interval range_of(const Parameter& parameter, const StudyUnits& units);
+numerics::Interval range_of(const Parameter& parameter, const StudyUnits& units);
 
 /// Its meaning, in the terms of the study's kind of axis and units.
 std::string meaning_of(const Parameter& parameter, const StudyUnits& units);
@@ -89,4 +90,4 @@ double default_value(const Parameter& parameter);
 /// The default as text for a manifest; "none" without a default.
 std::string default_text(const Parameter& parameter, const StudyUnits& units = {});
 
-}  // namespace zerocount
+}  // namespace zerocount::parameters

@@ -7,7 +7,7 @@
 
 #include "experiments/parameters/parameter_table.hpp"
 
-namespace zerocount {
+namespace zerocount::parameters {
 namespace {
 
 constexpr std::array<std::string_view, 63> before_moves{
@@ -96,4 +96,4 @@ std::size_t sobol_dimension(std::string_view parameter) {
   throw std::logic_error(std::string(parameter) + " has no place in the order of Sobol dimensions");
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::parameters

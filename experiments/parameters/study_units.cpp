@@ -5,7 +5,7 @@
 
 #include <boost/algorithm/string/replace.hpp>
 
-namespace zerocount {
+namespace zerocount::parameters {
 namespace {
 
 struct Rewording {
@@ -76,4 +76,4 @@ std::string text_on(AxisKind axis, std::string_view rotary) {
   return text;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::parameters

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace zerocount {
+namespace zerocount::parameters {
 
 /// Kind of positioning axis. The equations are the same, with position (m) for angle (rad), force (N) for
 /// torque (N m) and mass (kg) for moment of inertia (kg m²).
@@ -35,4 +35,4 @@ std::string unit_on(AxisKind axis, std::string_view rotary);
 /// keys and columns stay unchanged.
 std::string text_on(AxisKind axis, std::string_view rotary);
 
-}  // namespace zerocount
+}  // namespace zerocount::parameters

@@ -6,7 +6,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
-namespace zerocount {
+namespace zerocount::parameters {
 namespace {
 
 // The last name of a dotted path.
@@ -28,16 +28,16 @@ std::string_view same_name_elsewhere(std::string_view key) {
 
 // A typing error in this map is more likely than a key of another map.
 std::string_view nearest_key(std::string_view key, std::span<const std::string> known) {
-  const std::string_view here = nearest_name(key, known);
+  const std::string_view here = yaml::nearest_name(key, known);
   const std::string_view elsewhere = same_name_elsewhere(key);
-  return elsewhere.empty() || is_near(key, here) ? here : elsewhere;
+  return elsewhere.empty() || yaml::is_near(key, here) ? here : elsewhere;
 }
 
 }  // namespace
 
-void add_unknown_key(const Field& map, const YamlEntry& entry, std::span<const std::string> known,
-                     Problems& problems) {
-  const std::string path = entry_of(map, entry).path;
+void add_unknown_key(const yaml::Field& map, const yaml::YamlEntry& entry, std::span<const std::string> known,
+                     yaml::Problems& problems) {
+  const std::string path = yaml::entry_of(map, entry).path;
   if (entry.key.find('.') != std::string::npos && find_parameter(path)) {
     problems.add(
         entry.place, path, "a dotted path stands in place of a key",
@@ -56,4 +56,4 @@ void add_unknown_key(const Field& map, const YamlEntry& entry, std::span<const s
   problems.add(entry.place, path, what, expected);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::parameters

@@ -5,11 +5,11 @@
 
 #include "experiments/yaml/scalars.hpp"
 
-namespace zerocount {
+namespace zerocount::parameters {
 
 /// Reports that `entry` of `map` is not one of the keys `known`, and suggests the nearest of them or, if none
 /// is near, the parameter with the same name in another section.
-void add_unknown_key(const Field& map, const YamlEntry& entry, std::span<const std::string> known,
-                     Problems& problems);
+void add_unknown_key(const yaml::Field& map, const yaml::YamlEntry& entry, std::span<const std::string> known,
+                     yaml::Problems& problems);
 
-}  // namespace zerocount
+}  // namespace zerocount::parameters

@@ -12,10 +12,10 @@
 #include "experiments/parameters/parameter_rows.hpp"
 #include "experiments/study/slots.hpp"
 
-namespace zerocount {
+namespace zerocount::rules {
 namespace {
 
-using Limits = std::span<const ValueLimits>;
+using Limits = std::span<const study::ValueLimits>;
 using Faults = std::vector<ValueFault>;
 
 constexpr double max_samples = 1e12;  // would take a year of computing: certainly a typing error
@@ -48,15 +48,15 @@ ValueRule samples_of_targets(double moves) {
           }};
 }
 
-double farthest_apart(const ValueLimits& a, const ValueLimits& b) {
+double farthest_apart(const study::ValueLimits& a, const study::ValueLimits& b) {
   return std::max(a.high - b.low, b.high - a.low);
 }
 
 // Longest total travel: from the start to the first value, then from each to the next.
 double longest_travel(Limits list) {
   double way = 0.0;
-  ValueLimits last{};
-  for (const ValueLimits& next : list) {
+  study::ValueLimits last{};
+  for (const study::ValueLimits& next : list) {
     way += farthest_apart(next, last);
     last = next;
   }
@@ -77,7 +77,7 @@ ValueRule limits_of_torque_levels() {
 }
 
 // Total time of all ramps, s. If the torque stays at 0, every rate is allowed.
-double time_of_ramps(Limits levels, const ValueLimits& rate) {
+double time_of_ramps(Limits levels, const study::ValueLimits& rate) {
   const double way = longest_travel(levels);
   return way == 0.0 ? 0.0 : way / rate.low;
 }
@@ -112,10 +112,10 @@ ValueRule range_of_the_converter(const std::string& unit) {
       {"command.torque.through", "dac.bits", "dac.resolution"},
       true,
       [unit](Limits l, Limits levels) -> Faults {
-        if (l[0].low != static_cast<double>(TorquePath::dac)) return {};
-        const DacParameters dac{.bits = static_cast<int>(l[1].low), .resolution = l[2].low};
-        const double lowest = static_cast<double>(lowest_code(dac)) * dac.resolution;
-        const double highest = static_cast<double>(highest_code(dac)) * dac.resolution;
+        if (l[0].low != static_cast<double>(trial::TorquePath::dac)) return {};
+        const loop::DacParameters dac{.bits = static_cast<int>(l[1].low), .resolution = l[2].low};
+        const double lowest = static_cast<double>(loop::lowest_code(dac)) * dac.resolution;
+        const double highest = static_cast<double>(loop::highest_code(dac)) * dac.resolution;
         Faults faults;
         for (std::size_t i = 0; i < levels.size(); ++i) {
           if (levels[i].low >= lowest && levels[i].high <= highest) continue;
@@ -150,17 +150,17 @@ ValueRule reach_of_the_overrun() {
   return {{"command.sequence.overrun"}, true, [](Limits l, Limits targets) -> Faults {
             const double farthest =
                 l[0].high + std::max(std::abs(targets.front().low), std::abs(targets.back().high));
-            if (farthest <= max_count) return {};
+            if (farthest <= parameters::max_count) return {};
             return {{fmt::format("the sequence can go as far as {} counts", farthest),
-                     fmt::format("at most {} counts from the start", max_count)}};
+                     fmt::format("at most {} counts from the start", parameters::max_count)}};
           }};
 }
 
 // The longest travel between consecutive targets, including the start, counts.
 double longest_step(Limits targets) {
   double longest = 0.0;
-  ValueLimits last{};
-  for (const ValueLimits& next : targets) {
+  study::ValueLimits last{};
+  for (const study::ValueLimits& next : targets) {
     longest = std::max(longest, farthest_apart(next, last));
     last = next;
   }
@@ -168,47 +168,48 @@ double longest_step(Limits targets) {
 }
 
 // Likewise for a sequence, which moves beyond its targets before it reverses.
-double longest_step_of_sequence(Limits targets, const ValueLimits& overrun, const SequenceCycle& cycle) {
-  const ValueLimits below{targets.front().low - overrun.high, targets.front().high - overrun.low};
-  const ValueLimits above{targets.back().low + overrun.low, targets.back().high + overrun.high};
-  const bool starts_below = cycle.approach != SequenceApproach::negative;
+double longest_step_of_sequence(Limits targets, const study::ValueLimits& overrun,
+                                const study::SequenceCycle& cycle) {
+  const study::ValueLimits below{targets.front().low - overrun.high, targets.front().high - overrun.low};
+  const study::ValueLimits above{targets.back().low + overrun.low, targets.back().high + overrun.high};
+  const bool starts_below = cycle.approach != study::SequenceApproach::negative;
   double longest = std::max(overrun.high, farthest_apart(starts_below ? below : above, {}));
   for (std::size_t i = 1; i < targets.size(); ++i)
     longest = std::max(longest, farthest_apart(targets[i], targets[i - 1]));
-  if (cycle.approach == SequenceApproach::bidirectional || cycle.cycles == 1) return longest;
+  if (cycle.approach == study::SequenceApproach::bidirectional || cycle.cycles == 1) return longest;
   return std::max(
       longest, starts_below ? farthest_apart(targets.back(), below) : farthest_apart(targets.front(), above));
 }
 
 // The maximum length of a count of the fine encoder, rad or m.
-double longest_count(AxisKind axis, const ValueLimits& encoder) {
+double longest_count(parameters::AxisKind axis, const study::ValueLimits& encoder) {
   switch (axis) {
-    case AxisKind::rotary:
+    case parameters::AxisKind::rotary:
       break;
-    case AxisKind::linear:
+    case parameters::AxisKind::linear:
       return encoder.high;
   }
   return 2.0 * std::numbers::pi / encoder.low;
 }
 
-ValueRule time_of_travel(AxisKind axis, const std::optional<SequenceCycle>& sequence) {
+ValueRule time_of_travel(parameters::AxisKind axis, const std::optional<study::SequenceCycle>& sequence) {
   enum : std::size_t { hold, window, shape, velocity, acceleration, jerk, fine, overrun };
   ValueRule rule{{"command.hold", "verdict.window", "command.profile.shape", "command.profile.velocity_limit",
                   "command.profile.acceleration_limit", "command.profile.jerk_limit",
-                  axis == AxisKind::linear ? "encoder.resolution" : "encoder.fine"},
+                  axis == parameters::AxisKind::linear ? "encoder.resolution" : "encoder.fine"},
                  true,
                  {}};
   if (sequence) rule.between.emplace_back("command.sequence.overrun");
   rule.find_faults = [axis, sequence](Limits l, Limits targets) -> Faults {
-    ReferenceProfile slowest;
-    slowest.shape = static_cast<ReferenceShape>(static_cast<int>(l[shape].low));
-    if (slowest.shape == ReferenceShape::step) return {};
+    loop::ReferenceProfile slowest;
+    slowest.shape = static_cast<loop::ReferenceShape>(static_cast<int>(l[shape].low));
+    if (slowest.shape == loop::ReferenceShape::step) return {};
     slowest.velocity_limit = l[velocity].low;
     slowest.acceleration_limit = l[acceleration].low;
     slowest.jerk_limit = l[jerk].low;
     const double counts =
         sequence ? longest_step_of_sequence(targets, l[overrun], *sequence) : longest_step(targets);
-    const Reference travel(slowest, 0, static_cast<std::int64_t>(counts), longest_count(axis, l[fine]));
+    const loop::Reference travel(slowest, 0, static_cast<std::int64_t>(counts), longest_count(axis, l[fine]));
     const double needed = travel.duration() + l[window].high;
     if (needed <= l[hold].low) return {};
     if (!std::isfinite(needed)) {
@@ -226,7 +227,7 @@ ValueRule time_of_travel(AxisKind axis, const std::optional<SequenceCycle>& sequ
 
 }  // namespace
 
-std::vector<ValueRule> command_rules(const StudyPlan& plan) {
+std::vector<ValueRule> command_rules(const study::StudyPlan& plan) {
   std::vector<ValueRule> rules = rules_of_samples();
   const auto add = [&rules](const std::vector<ValueRule>& more) {
     rules.insert(rules.end(), more.begin(), more.end());
@@ -234,14 +235,14 @@ std::vector<ValueRule> command_rules(const StudyPlan& plan) {
   const auto listed = static_cast<std::int64_t>(plan.list.count);
   if (plan.open_loop) {
     add({limits_of_torque_levels(), lowest_rate_of_torque(), samples_of_torque_levels(),
-         range_of_the_converter(unit_on(plan.units.axis, "N m"))});
+         range_of_the_converter(parameters::unit_on(plan.units.axis, "N m"))});
   } else if (!plan.sequence) {
     add({samples_of_targets(static_cast<double>(listed)), time_of_travel(plan.units.axis, {})});
   } else {
-    add({samples_of_targets(static_cast<double>(sequence_move_count(*plan.sequence, listed))),
+    add({samples_of_targets(static_cast<double>(study::sequence_move_count(*plan.sequence, listed))),
          order_of_targets(), reach_of_the_overrun(), time_of_travel(plan.units.axis, plan.sequence)});
   }
   return rules;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::rules

@@ -4,10 +4,10 @@
 
 #include "core/friction/law.hpp"
 
-namespace zerocount {
+namespace zerocount::rules {
 namespace {
 
-using Limits = std::span<const ValueLimits>;
+using Limits = std::span<const study::ValueLimits>;
 
 bool always(Limits) {
   return true;
@@ -17,22 +17,22 @@ bool never(Limits) {
 }
 
 template <auto word>
-bool is_word(const ValueLimits& limits) {
+bool is_word(const study::ValueLimits& limits) {
   return limits.low == static_cast<double>(word);
 }
 
-FrictionModel friction_model(const ValueLimits& limits) {
-  return static_cast<FrictionModel>(static_cast<int>(limits.low));
+friction::FrictionModel friction_model(const study::ValueLimits& limits) {
+  return static_cast<friction::FrictionModel>(static_cast<int>(limits.low));
 }
 
-bool can_be_positive(const ValueLimits& limits) {
+bool can_be_positive(const study::ValueLimits& limits) {
   return limits.high > 0.0;
 }
 
 constexpr std::string_view the_loop_is_open = "it has no effect: the loop is open with command.torque";
 constexpr std::string_view a_closed_loop = "command.targets or command.sequence, or the key left out";
 
-std::vector<EffectRule> rules_of_the_command(const StudyPlan& plan) {
+std::vector<EffectRule> rules_of_the_command(const study::StudyPlan& plan) {
   const bool open_loop = plan.open_loop;
   return {
       {.keys = {"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
@@ -55,17 +55,17 @@ std::vector<EffectRule> rules_of_the_command(const StudyPlan& plan) {
        .expected = "command.sequence with its targets, or the key left out"},
       {.keys = {"dac"},
        .depends_on = {"command.torque.through"},
-       .has_effect = [open_loop](Limits l) { return !open_loop || is_word<TorquePath::dac>(l[0]); },
+       .has_effect = [open_loop](Limits l) { return !open_loop || is_word<trial::TorquePath::dac>(l[0]); },
        .what = "it has no effect: the torque does not go through the converter at any point",
        .expected = "command.torque.through: dac, or the key left out"},
       {.keys = {"command.profile.velocity_limit", "command.profile.acceleration_limit"},
        .depends_on = {"command.profile.shape"},
-       .has_effect = [](Limits l) { return !is_word<ReferenceShape::step>(l[0]); },
+       .has_effect = [](Limits l) { return !is_word<loop::ReferenceShape::step>(l[0]); },
        .what = "it has no effect: the reference is a step at every point",
        .expected = "command.profile.shape: trapezoidal or s_curve, or the key left out"},
       {.keys = {"command.profile.jerk_limit"},
        .depends_on = {"command.profile.shape"},
-       .has_effect = [](Limits l) { return is_word<ReferenceShape::s_curve>(l[0]); },
+       .has_effect = [](Limits l) { return is_word<loop::ReferenceShape::s_curve>(l[0]); },
        .what = "it has no effect: the reference is an s_curve at no point",
        .expected = "command.profile.shape: s_curve, or the key left out"},
   };
@@ -86,7 +86,7 @@ std::vector<EffectRule> rules_of_the_loop() {
                 "controller.coarse.encoder", "controller.coarse.fine_within", "controller.coarse.fine_rate",
                 "controller.coarse.fine_dwell"},
        .depends_on = {"controller.coarse.coarse_beyond"},
-       .has_effect = [](Limits l) { return can_have_coarse_phase(l[0]); },
+       .has_effect = [](Limits l) { return study::can_have_coarse_phase(l[0]); },
        .what = "it has no effect: there is no coarse phase at any point",
        .expected = "controller.coarse.coarse_beyond below 1e12, or the key left out"},
       rule_of_an_error("encoder.fine_errors.eccentricity_angle", "encoder.fine_errors.eccentricity",
@@ -114,7 +114,7 @@ std::vector<EffectRule> rules_of_the_contact() {
   return {
       {.keys = {"initial.hardening", "initial.preload", "initial.history"},
        .depends_on = {"initial.mode"},
-       .has_effect = [](Limits l) { return is_word<InitialMode::stick>(l[0]); },
+       .has_effect = [](Limits l) { return is_word<trial::InitialMode::stick>(l[0]); },
        .what = "it has no effect: the hook slides at the start, at every point",
        .expected = "initial.mode: stick, or the key left out",
        .off_at_zero = true},
@@ -139,32 +139,33 @@ std::vector<EffectRule> rules_of_the_model() {
       {.keys = {"plant.sliding_damping", "friction.breakaway", "friction.coulomb_ratio",
                 "friction.stribeck_velocity"},
        .depends_on = {"friction.model"},
-       .has_effect = [](Limits l) { return has_breakaway(friction_model(l[0])); },
+       .has_effect = [](Limits l) { return friction::has_breakaway(friction_model(l[0])); },
        .what = "it has no effect: friction.model is none at every point",
        .off_at_zero = true,
        .warn_only = true},
       {.keys = {"plant.presliding_damping"},
        .depends_on = {"friction.model"},
-       .has_effect = [](Limits l) { return traits_of(friction_model(l[0])).has_presliding_damping; },
+       .has_effect =
+           [](Limits l) { return friction::traits_of(friction_model(l[0])).has_presliding_damping; },
        .what = "it has no effect: friction.model is coulomb at every point",
        .off_at_zero = true,
        .warn_only = true},
       {.keys = {"friction.k1", "friction.k2", "friction.beta", "friction.alpha", "friction.lambda",
                 "friction.n", "initial.hardening", "initial.preload", "initial.history"},
        .depends_on = {"friction.model"},
-       .has_effect = [](Limits l) { return has_spring(friction_model(l[0])); },
+       .has_effect = [](Limits l) { return friction::has_spring(friction_model(l[0])); },
        .what = "it has no effect: friction.model has no spring at any point",
        .off_at_zero = true,
        .warn_only = true},
       {.keys = {"friction.alpha", "friction.lambda", "friction.n", "initial.hardening"},
        .depends_on = {"friction.model"},
-       .has_effect = [](Limits l) { return has_creep(friction_model(l[0])); },
+       .has_effect = [](Limits l) { return friction::has_creep(friction_model(l[0])); },
        .what = "it has no effect: friction.model is presliding at no point",
        .off_at_zero = true,
        .warn_only = true},
       {.keys = {"initial.mode"},
        .depends_on = {"friction.model"},
-       .has_effect = [](Limits l) { return has_spring(friction_model(l[0])); },
+       .has_effect = [](Limits l) { return friction::has_spring(friction_model(l[0])); },
        .what = "it has no effect: friction.model has no spring at any point, and the rotor slides wherever "
                "there is a velocity",
        .off_at_zero = true,
@@ -177,13 +178,15 @@ std::vector<EffectRule> rules_of_vanished_terms() {
   return {
       {.keys = {"friction.lambda", "friction.n", "initial.hardening"},
        .depends_on = {"friction.model", "friction.alpha"},
-       .has_effect = [](Limits l) { return has_creep(friction_model(l[0])) && can_be_positive(l[1]); },
+       .has_effect =
+           [](Limits l) { return friction::has_creep(friction_model(l[0])) && can_be_positive(l[1]); },
        .what = "it has no effect: friction.alpha is 0 wherever friction.model is presliding",
        .off_at_zero = true,
        .warn_only = true},
       {.keys = {"friction.beta"},
        .depends_on = {"friction.model", "friction.k2"},
-       .has_effect = [](Limits l) { return has_spring(friction_model(l[0])) && can_be_positive(l[1]); },
+       .has_effect =
+           [](Limits l) { return friction::has_spring(friction_model(l[0])) && can_be_positive(l[1]); },
        .what = "it has no effect: friction.k2 is 0 wherever friction.model has a spring",
        .warn_only = true},
       {.keys = {"friction.stribeck_velocity"},
@@ -195,7 +198,7 @@ std::vector<EffectRule> rules_of_vanished_terms() {
 }
 
 // The position on the rotor selects from friction profiles and from encoder errors fixed to the rotor.
-EffectRule rule_of_the_position(const StudyPlan& plan) {
+EffectRule rule_of_the_position(const study::StudyPlan& plan) {
   const bool along_the_rotor = !plan.profiles.empty();
   return {.keys = {"initial.position"},
           .depends_on = {"encoder.fine_errors.eccentricity", "encoder.fine_errors.interpolation",
@@ -213,7 +216,7 @@ EffectRule rule_of_the_position(const StudyPlan& plan) {
 
 }  // namespace
 
-std::vector<EffectRule> effect_rules(const StudyPlan& plan) {
+std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   std::vector<EffectRule> rules = rules_of_the_command(plan);
   rules.push_back(rule_of_the_position(plan));
   rules.push_back(rule_of_the_limit());
@@ -224,10 +227,10 @@ std::vector<EffectRule> effect_rules(const StudyPlan& plan) {
   return rules;
 }
 
-bool can_have_effect(const StudyPlan& plan, const EffectRule& rule) {
-  return holds_somewhere(plan, rule.depends_on, [&](std::span<const ValueLimits> limits) {
-    return !are_readable(limits) || rule.has_effect(limits);
+bool can_have_effect(const study::StudyPlan& plan, const EffectRule& rule) {
+  return study::holds_somewhere(plan, rule.depends_on, [&](std::span<const study::ValueLimits> limits) {
+    return !study::are_readable(limits) || rule.has_effect(limits);
   });
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::rules

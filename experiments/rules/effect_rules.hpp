@@ -7,14 +7,14 @@
 
 #include "experiments/study/point_limits.hpp"
 
-namespace zerocount {
+namespace zerocount::rules {
 
 /// Keys that have an effect only under a condition. A given key is reported if the condition holds at no
 /// design point.
 struct EffectRule {
   std::vector<std::string_view> keys{};        ///< dotted paths of parameters, or of sections for all in them
   std::vector<std::string_view> depends_on{};  ///< parameters that decide whether the keys have an effect
-  std::function<bool(std::span<const ValueLimits>)>
+  std::function<bool(std::span<const study::ValueLimits>)>
       has_effect{};             ///< the condition, from the limits of those parameters in their order
   std::string_view what{};      ///< first phrase of the message
   std::string_view expected{};  ///< second phrase of the message; empty for a warning
@@ -23,9 +23,9 @@ struct EffectRule {
 };
 
 /// The rules for a plan of this kind. If several rules match a key, the first violated one is reported.
-std::vector<EffectRule> effect_rules(const StudyPlan& plan);
+std::vector<EffectRule> effect_rules(const study::StudyPlan& plan);
 
 /// Whether the keys of the rule have an effect at some design point. True if a value could not be read.
-bool can_have_effect(const StudyPlan& plan, const EffectRule& rule);
+bool can_have_effect(const study::StudyPlan& plan, const EffectRule& rule);
 
-}  // namespace zerocount
+}  // namespace zerocount::rules

@@ -8,10 +8,10 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/rules/command_rules.hpp"
 
-namespace zerocount {
+namespace zerocount::rules {
 namespace {
 
-using Limits = std::span<const ValueLimits>;
+using Limits = std::span<const study::ValueLimits>;
 using Faults = std::vector<ValueFault>;
 
 // Adapts a rule that does not use the list.
@@ -20,13 +20,13 @@ auto without_list(Find find) {
   return [find](Limits parameters, Limits) { return find(parameters); };
 }
 
-Faults shorter_than_a_sample(const ValueLimits& duration, const ValueLimits& sample_rate) {
+Faults shorter_than_a_sample(const study::ValueLimits& duration, const study::ValueLimits& sample_rate) {
   if (std::round(duration.low * sample_rate.low) >= 1.0) return {};
   return {{fmt::format("{} s can be less than one sample at {} Hz", duration.low, sample_rate.low),
            "at least one sample"}};
 }
 
-Faults longer_than_the_hold(const ValueLimits& duration, const ValueLimits& hold) {
+Faults longer_than_the_hold(const study::ValueLimits& duration, const study::ValueLimits& hold) {
   if (duration.high <= hold.low) return {};
   return {{fmt::format("{} s can be longer than the hold of {} s", duration.high, hold.low),
            "at most command.hold"}};
@@ -44,7 +44,7 @@ std::vector<ValueRule> rules_of_durations(bool open_loop) {
   };
 }
 
-double largest_magnitude(const ValueLimits& limits) {
+double largest_magnitude(const study::ValueLimits& limits) {
   return std::max(std::abs(limits.low), std::abs(limits.high));
 }
 
@@ -66,8 +66,9 @@ std::vector<ValueRule> rules_of_the_start(const std::string& torque_unit) {
                   "initial.history.torque below friction.breakaway"}};
        })},
       {{"initial.velocity", "initial.mode", "friction.model"}, false, without_list([](Limits l) -> Faults {
-         const auto model = static_cast<FrictionModel>(static_cast<int>(l[2].low));
-         const bool slides = l[1].low == static_cast<double>(InitialMode::slide) && has_breakaway(model);
+         const auto model = static_cast<friction::FrictionModel>(static_cast<int>(l[2].low));
+         const bool slides =
+             l[1].low == static_cast<double>(trial::InitialMode::slide) && friction::has_breakaway(model);
          if (!slides || !l[0].can_be_zero) return {};
          return {{"the velocity can be 0 where the hook slides at the start",
                   "a velocity that is never 0 with initial.mode: slide"}};
@@ -90,7 +91,7 @@ ValueRule stop_with_two_phases() {
   return {{"verdict.stop", "controller.coarse.coarse_beyond"},
           false,
           without_list([](Limits l) -> Faults {
-            if (l[0].high == 0.0 || !can_have_coarse_phase(l[1])) return {};
+            if (l[0].high == 0.0 || !study::can_have_coarse_phase(l[1])) return {};
             return {
                 {"the coarse phase may bring a rotor back from beyond verdict.limit, and so change an "
                  "outcome that was taken as decided",
@@ -105,7 +106,7 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
       {{"controller.kd", "controller.coarse.coarse_beyond"},
        false,
        without_list([derivative_unit](Limits l) -> Faults {
-         if (!can_have_coarse_phase(l[1]) || l[0].high == 0.0) return {};
+         if (!study::can_have_coarse_phase(l[1]) || l[0].high == 0.0) return {};
          return {{fmt::format("{} {} can act in the fine phase of a control with two", l[0].high,
                               derivative_unit),
                   "0 where there is a coarse phase: the derivative belongs to it alone "
@@ -114,7 +115,7 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
       {{"controller.coarse.fine_within", "controller.coarse.coarse_beyond"},
        false,
        without_list([](Limits l) -> Faults {
-         if (!can_have_coarse_phase(l[1]) || l[0].high <= l[1].low) return {};
+         if (!study::can_have_coarse_phase(l[1]) || l[0].high <= l[1].low) return {};
          return {{fmt::format("the fine phase can be entered at {} counts and left beyond {}", l[0].high,
                               l[1].low),
                   "at most controller.coarse.coarse_beyond"}};
@@ -124,17 +125,18 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
 
 }  // namespace
 
-std::vector<ValueRule> value_rules(const StudyPlan& plan) {
+std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
   std::vector<ValueRule> rules = rules_of_durations(plan.open_loop);
   const auto add = [&](const std::vector<ValueRule>& more) {
     rules.insert(rules.end(), more.begin(), more.end());
   };
   add(command_rules(plan));
-  add(rules_of_the_start(unit_on(plan.units.axis, "N m")));
-  static const Parameter& kd = parameter_table()[find_parameter("controller.kd").value()];
-  if (!plan.open_loop) add(rules_of_two_phases(unit_of(kd, plan.units)));
+  add(rules_of_the_start(parameters::unit_on(plan.units.axis, "N m")));
+  static const parameters::Parameter& kd =
+      parameters::parameter_table()[parameters::find_parameter("controller.kd").value()];
+  if (!plan.open_loop) add(rules_of_two_phases(parameters::unit_of(kd, plan.units)));
   if (plan.sequence) add({no_stop_in_a_sequence()});
   return rules;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::rules

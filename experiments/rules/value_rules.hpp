@@ -8,7 +8,7 @@
 
 #include "experiments/study/point_limits.hpp"
 
-namespace zerocount {
+namespace zerocount::rules {
 
 /// An inconsistency between values at a design point.
 struct ValueFault {
@@ -22,13 +22,13 @@ struct ValueFault {
 struct ValueRule {
   std::vector<std::string_view> between;  ///< the parameters; the first one gives the path of the message
   bool whole_list{false};                 ///< the rule also involves all values of the list
-  std::function<std::vector<ValueFault>(std::span<const ValueLimits> parameters,
-                                        std::span<const ValueLimits> list)>
+  std::function<std::vector<ValueFault>(std::span<const study::ValueLimits> parameters,
+                                        std::span<const study::ValueLimits> list)>
       find_faults;  ///< from the limits of the parameters in their order, and of the list if whole_list
   bool warn_only{false};
 };
 
 /// The rules for a plan of this kind.
-std::vector<ValueRule> value_rules(const StudyPlan& plan);
+std::vector<ValueRule> value_rules(const study::StudyPlan& plan);
 
-}  // namespace zerocount
+}  // namespace zerocount::rules

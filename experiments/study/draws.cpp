@@ -3,21 +3,21 @@
 #include "experiments/designs/latin_hypercube.hpp"
 #include "experiments/designs/random_key.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
 double design_uniform(Design design, const SlotRandomness& randomness, std::uint32_t stream,
                       std::uint64_t index, std::uint64_t count) {
-  const RandomStream numbers{.key = randomness.key, .stream = stream};
+  const random::RandomStream numbers{.key = randomness.key, .stream = stream};
   switch (design) {
     case Design::latin_hypercube:
-      return latin_uniform(index, count, numbers);
+      return designs::latin_uniform(index, count, numbers);
     case Design::sobol:
-      return sobol_uniform(index, randomness.directions, numbers);
+      return designs::sobol_uniform(index, randomness.directions, numbers);
     case Design::monte_carlo:
     case Design::saltelli:
       break;
   }
-  return open_uniform(random_bits(numbers, index, Draw::trial));
+  return random::open_uniform(random::random_bits(numbers, index, random::Draw::trial));
 }
 
 bool trials_stay_when_extended(Design design) {
@@ -32,14 +32,14 @@ bool trials_stay_when_extended(Design design) {
   return true;
 }
 
-RandomKey sobol_place_key(std::uint64_t seed) {
-  return random_key(seed, "rigs/places");
+random::RandomKey sobol_place_key(std::uint64_t seed) {
+  return designs::random_key(seed, "rigs/places");
 }
 
-std::uint64_t sobol_place(const RandomKey& key, std::uint64_t index, std::uint64_t rigs) {
+std::uint64_t sobol_place(const random::RandomKey& key, std::uint64_t index, std::uint64_t rigs) {
   const std::uint64_t round = index / rigs;
-  const RandomStream order{.key = key, .stream = static_cast<std::uint32_t>(round)};
-  return round * rigs + latin_stratum(index % rigs, rigs, order);
+  const random::RandomStream order{.key = key, .stream = static_cast<std::uint32_t>(round)};
+  return round * rigs + designs::latin_stratum(index % rigs, rigs, order);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

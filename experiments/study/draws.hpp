@@ -6,13 +6,13 @@
 #include "experiments/designs/sobol.hpp"
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
 /// The random numbers of one slot, or of the mean of one profile.
 struct SlotRandomness {
-  RandomKey key{};
-  SobolDirections directions{};  ///< used by the design `sobol`
-  RandomKey contacts{};          ///< for contacts after the first, if values are drawn per contact
+  random::RandomKey key{};
+  designs::SobolDirections directions{};  ///< used by the design `sobol`
+  random::RandomKey contacts{};           ///< for contacts after the first, if values are drawn per contact
 };
 
 /// Number `index` of the `count` uniform numbers in (0, 1) of a design. The designs monte_carlo and saltelli
@@ -21,11 +21,11 @@ double design_uniform(Design design, const SlotRandomness& randomness, std::uint
                       std::uint64_t index, std::uint64_t count);
 
 /// Key of sobol_place in a study with this seed. The slash in its name keeps it apart from parameter names.
-RandomKey sobol_place_key(std::uint64_t seed);
+random::RandomKey sobol_place_key(std::uint64_t seed);
 
 /// Index of the Sobol point of trial `index` in a study with `rigs` rigs. The trials k·rigs … (k + 1)·rigs −
 /// 1 use the points with the same indices, in a random order for every k. Without this permutation a rig
 /// would get every rigs-th point, and for rigs = 2^m all of these lie in one of 2^m equal intervals.
-std::uint64_t sobol_place(const RandomKey& key, std::uint64_t index, std::uint64_t rigs);
+std::uint64_t sobol_place(const random::RandomKey& key, std::uint64_t index, std::uint64_t rigs);
 
-}  // namespace zerocount
+}  // namespace zerocount::study

@@ -7,7 +7,7 @@
 #include "experiments/study/slots.hpp"
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 using Limits = std::span<const ValueLimits>;
@@ -57,4 +57,4 @@ std::vector<std::string> factor_names(const StudyPlan& plan) {
   return names;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

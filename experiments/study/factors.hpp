@@ -5,7 +5,7 @@
 
 #include "experiments/study/plan.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
 /// The factors: quantities drawn anew in each trial at some design point. These are all values with a
 /// distribution, except those drawn once for the study, in the order of the table of parameters; and as the
@@ -16,4 +16,4 @@ TrialFactors find_factors(const StudyPlan& plan);
 /// The names of the factors: the dotted paths of the parameters, and within_trial_factor.
 std::vector<std::string> factor_names(const StudyPlan& plan);
 
-}  // namespace zerocount
+}  // namespace zerocount::study

@@ -6,7 +6,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/point_limits.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 using Limits = std::span<const ValueLimits>;
@@ -27,13 +27,13 @@ bool has_encoder_errors(const StudyPlan& plan) {
 }
 
 // Whether the friction causes hunting with integral control.
-bool causes_hunting(FrictionModel model) {
+bool causes_hunting(friction::FrictionModel model) {
   switch (model) {
-    case FrictionModel::coulomb:
+    case friction::FrictionModel::coulomb:
       return true;
-    case FrictionModel::presliding:
-    case FrictionModel::spring:
-    case FrictionModel::none:
+    case friction::FrictionModel::presliding:
+    case friction::FrictionModel::spring:
+    case friction::FrictionModel::none:
       break;
   }
   return false;
@@ -42,7 +42,7 @@ bool causes_hunting(FrictionModel model) {
 bool has_lasting_errors(const StudyPlan& plan) {
   return holds_for_one(plan, "controller.ki", [](const ValueLimits& l) { return l.can_be_zero; }) ||
          holds_for_one(plan, "friction.model", [](const ValueLimits& l) {
-           return causes_hunting(static_cast<FrictionModel>(static_cast<int>(l.low)));
+           return causes_hunting(static_cast<friction::FrictionModel>(static_cast<int>(l.low)));
          });
 }
 
@@ -52,4 +52,4 @@ LoopExtras find_loop_extras(const StudyPlan& plan) {
   return {has_encoder_errors(plan), has_lasting_errors(plan)};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

@@ -6,27 +6,27 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 constexpr double tail_probability = 0.001;
 
 /// Whether the distribution has a low tail with small probability (the normal distributions).
 struct HasLowTail {
-  bool operator()(const Uniform&) const { return false; }
-  bool operator()(const LogUniform&) const { return false; }
-  bool operator()(const Normal&) const { return true; }
-  bool operator()(const TruncatedNormal&) const { return true; }
-  bool operator()(const Lognormal&) const { return true; }
-  bool operator()(const Triangular&) const { return false; }
-  bool operator()(const Integers&) const { return false; }
-  bool operator()(const Choice&) const { return false; }
+  bool operator()(const distributions::Uniform&) const { return false; }
+  bool operator()(const distributions::LogUniform&) const { return false; }
+  bool operator()(const distributions::Normal&) const { return true; }
+  bool operator()(const distributions::TruncatedNormal&) const { return true; }
+  bool operator()(const distributions::Lognormal&) const { return true; }
+  bool operator()(const distributions::Triangular&) const { return false; }
+  bool operator()(const distributions::Integers&) const { return false; }
+  bool operator()(const distributions::Choice&) const { return false; }
 };
 
-LowEnd low_end_of(const Distribution& distribution) {
+LowEnd low_end_of(const distributions::Distribution& distribution) {
   if (std::visit(HasLowTail{}, distribution))
-    return {LowEnd::Kind::tail, quantile(distribution, tail_probability)};
-  return {LowEnd::Kind::support, support(distribution).low};
+    return {LowEnd::Kind::tail, distributions::quantile(distribution, tail_probability)};
+  return {LowEnd::Kind::support, distributions::support(distribution).low};
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ LowEnd low_end_of(const Distribution& distribution) {
 LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter) {
   const StudyPlan& plan = *study.plan;
   const Value& value =
-      *value_at_point(plan, find_parameter(parameter).value(), static_cast<std::size_t>(point));
+      *value_at_point(plan, parameters::find_parameter(parameter).value(), static_cast<std::size_t>(point));
   switch (value.kind) {
     case Value::Kind::number:
       return {LowEnd::Kind::number, value.number};
@@ -46,4 +46,4 @@ LowEnd low_end(const Study& study, std::int64_t point, std::string_view paramete
   return {LowEnd::Kind::profile, 0.0};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

@@ -5,7 +5,7 @@
 
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
 /// The lowest value of a parameter that a design must cover at a design point.
 struct LowEnd {
@@ -23,4 +23,4 @@ struct LowEnd {
 /// @param parameter name of a positive physical value, such as friction.k1.
 LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter);
 
-}  // namespace zerocount
+}  // namespace zerocount::study

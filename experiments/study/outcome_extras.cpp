@@ -4,7 +4,7 @@
 
 #include "experiments/study/point_limits.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
 OutcomeExtras find_outcome_extras(const StudyPlan& plan) {
   const std::array<std::string_view, 1> stop{"verdict.stop"};
@@ -12,4 +12,4 @@ OutcomeExtras find_outcome_extras(const StudyPlan& plan) {
   return {!plan.open_loop && holds_somewhere(plan, stop, is_true)};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

@@ -2,10 +2,10 @@
 
 #include "experiments/parameters/parameter_table.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
-void set_number(const StudyPlan& plan, std::size_t slot, double number, TrialParameters& to) {
-  const auto table = parameter_table();
+void set_number(const StudyPlan& plan, std::size_t slot, double number, trial::TrialParameters& to) {
+  const auto table = parameters::parameter_table();
   if (slot < table.size()) {
     if (table[slot].set != nullptr) table[slot].set(to, number);
   } else if (plan.open_loop) {
@@ -46,4 +46,4 @@ std::vector<const Value*> values_at(const StudyPlan& plan, std::size_t point) {
   return values;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

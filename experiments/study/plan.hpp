@@ -13,7 +13,7 @@
 #include "experiments/study/rotors.hpp"
 #include "experiments/study/sequence.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
 // The compiled form of a manifest. A slot stores one value of a trial. Slot s below the number of rows
 // belongs // to row s of the table of parameters (unused for listed rows). Slot rows + i is value i of the
@@ -69,7 +69,7 @@ inline std::size_t factor_count(const TrialFactors& factors) {
 }
 
 struct StudyPlan {
-  StudyUnits units;
+  parameters::StudyUnits units;
   /// Period of profiles: a revolution, rad; on a linear axis the travel, m, if it is given.
   std::optional<double> period{2.0 * std::numbers::pi};
   ListedValues list;
@@ -77,22 +77,22 @@ struct StudyPlan {
   std::optional<SequenceCycle> sequence;  ///< set if the list belongs to a sequence
   std::vector<Value> base;                ///< [slot], used unless an axis assigns a value
   std::vector<PlanAxis> axes;  ///< the last axis changes fastest, and takes precedence over the others
-  std::vector<Distribution> distributions;
+  std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
   std::vector<SlotRandomness> randomness;  ///< [slot]
-  RandomKey sobol_places{};                ///< used by the design `sobol` with rigs
+  random::RandomKey sobol_places{};        ///< used by the design `sobol` with rigs
   std::vector<std::uint32_t> input_slots;  ///< slots whose values differ between trials
   std::vector<InputSource> inputs;         ///< [input column]
   std::vector<InputSource> rig_inputs;     ///< [rig column]
   TrialFactors factors;                    ///< used by the design `saltelli`
   std::vector<std::uint32_t> factor_of;    ///< [slot] its factor; used by the design `saltelli`
-  TrialParameters common;                  ///< parameters of a trial, without the input slots
+  trial::TrialParameters common;           ///< parameters of a trial, without the input slots
   std::vector<double> numbers;             ///< [slot] numbers of the base; undefined for input slots
 };
 
 /// Sets the field of a slot in the trial's parameters. The targets and the overrun of a sequence have no
 /// field: they determine the targets of the moves.
-void set_number(const StudyPlan& plan, std::size_t slot, double number, TrialParameters& to);
+void set_number(const StudyPlan& plan, std::size_t slot, double number, trial::TrialParameters& to);
 
 /// The option of `axis` at the design point.
 std::size_t option_at(const StudyPlan& plan, std::size_t axis, std::size_t point);
@@ -103,4 +103,4 @@ const Value* value_at_point(const StudyPlan& plan, std::size_t slot, std::size_t
 /// The values of all slots at a design point.
 std::vector<const Value*> values_at(const StudyPlan& plan, std::size_t point);
 
-}  // namespace zerocount
+}  // namespace zerocount::study

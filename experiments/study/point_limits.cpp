@@ -8,14 +8,14 @@
 #include "experiments/distributions/random_field.hpp"
 #include "experiments/study/slots.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
-bool can_be_zero(const Distribution& distribution) {
-  if (const auto* choice = std::get_if<Choice>(&distribution)) {
+bool can_be_zero(const distributions::Distribution& distribution) {
+  if (const auto* choice = std::get_if<distributions::Choice>(&distribution)) {
     return std::find(choice->values.begin(), choice->values.end(), 0.0) != choice->values.end();
   }
-  return contains(support(distribution), 0.0);
+  return numerics::contains(distributions::support(distribution), 0.0);
 }
 
 bool assigns_any(const PlanAxis& axis, const std::vector<bool>& wanted) {
@@ -28,23 +28,24 @@ bool assigns_any(const PlanAxis& axis, const std::vector<bool>& wanted) {
 ValueLimits limits_of(const StudyPlan& plan, const Value& value) {
   if (value.kind == Value::Kind::number) return {value.number, value.number, value.number == 0.0};
   if (value.kind == Value::Kind::distribution) {
-    const Distribution& distribution = plan.distributions[value.index];
-    const Interval values = support(distribution);
+    const distributions::Distribution& distribution = plan.distributions[value.index];
+    const numerics::Interval values = distributions::support(distribution);
     return {values.low, values.high, can_be_zero(distribution)};
   }
-  const Interval values = plan.profiles[value.index]->all_limits();
-  return {values.low, values.high, contains(values, 0.0)};
+  const numerics::Interval values = plan.profiles[value.index]->all_limits();
+  return {values.low, values.high, numerics::contains(values, 0.0)};
 }
 
 bool can_have_coarse_phase(const ValueLimits& coarse_beyond) {
-  TrialParameters trial;
-  parameter_table()[find_parameter("controller.coarse.coarse_beyond").value()].set(trial, coarse_beyond.low);
-  return has_coarse_phase(trial.controller);
+  trial::TrialParameters trial;
+  parameters::parameter_table()[parameters::find_parameter("controller.coarse.coarse_beyond").value()].set(
+      trial, coarse_beyond.low);
+  return loop::has_coarse_phase(trial.controller);
 }
 
 std::vector<std::size_t> slots_named(std::span<const std::string_view> names) {
   std::vector<std::size_t> slots;
-  for (const std::string_view name : names) slots.push_back(find_parameter(name).value());
+  for (const std::string_view name : names) slots.push_back(parameters::find_parameter(name).value());
   return slots;
 }
 
@@ -105,4 +106,4 @@ bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> na
   return found;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

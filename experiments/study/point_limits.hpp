@@ -7,7 +7,7 @@
 
 #include "experiments/study/plan.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
 /// Range of a value over all trials of a design point: the support of its distribution, the limits of its
 /// profile, or the number itself. NaN for a value that could not be read.
@@ -44,4 +44,4 @@ bool are_readable(std::span<const ValueLimits> limits);
 bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> names,
                      const std::function<bool(std::span<const ValueLimits>)>& holds);
 
-}  // namespace zerocount
+}  // namespace zerocount::study

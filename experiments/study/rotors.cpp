@@ -6,69 +6,69 @@
 
 #include "experiments/designs/random_key.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 std::size_t rotors_to_keep(std::size_t harmonics, std::int64_t count, std::size_t max_bytes) {
-  const std::size_t bytes_of_rotor = sizeof(Profile) + 2 * harmonics * sizeof(double) + 64;
+  const std::size_t bytes_of_rotor = sizeof(friction::Profile) + 2 * harmonics * sizeof(double) + 64;
   const std::size_t room = std::max<std::size_t>(1, max_bytes / bytes_of_rotor);
   return std::min(room, static_cast<std::size_t>(count));
 }
 
 }  // namespace
 
-Rotors::Rotors(ProfileDescription description, std::optional<DrawnMean> mean, std::uint64_t seed,
-               std::string_view name, std::int64_t count)
+Rotors::Rotors(distributions::ProfileDescription description, std::optional<DrawnMean> mean,
+               std::uint64_t seed, std::string_view name, std::int64_t count)
     : description_(description),
       mean_(std::move(mean)),
-      key_(random_key(seed, name)),
+      key_(designs::random_key(seed, name)),
       count_(count),
-      amplitudes_(field_amplitudes(description)),
+      amplitudes_(distributions::field_amplitudes(description)),
       kept_(rotors_to_keep(amplitudes_.size(), count, max_kept_bytes)) {}
 
 double Rotors::mean(std::int64_t rotor) const {
   if (!mean_) return description_.mean;
   const double u = design_uniform(mean_->design, mean_->randomness, 0, static_cast<std::uint64_t>(rotor),
                                   static_cast<std::uint64_t>(count_));
-  return quantile(mean_->distribution, u);
+  return distributions::quantile(mean_->distribution, u);
 }
 
-Profile Rotors::realise(std::int64_t rotor) const {
-  ProfileDescription description = description_;
+friction::Profile Rotors::realise(std::int64_t rotor) const {
+  distributions::ProfileDescription description = description_;
   description.mean = mean(rotor);
-  return realise_profile(description, amplitudes_, key_, static_cast<std::uint32_t>(rotor));
+  return distributions::realise_profile(description, amplitudes_, key_, static_cast<std::uint32_t>(rotor));
 }
 
-std::shared_ptr<const Profile> Rotors::rotor(std::int64_t rotor) const {
+std::shared_ptr<const friction::Profile> Rotors::rotor(std::int64_t rotor) const {
   const auto place = static_cast<std::size_t>(rotor);
   if (place < kept_.size()) {
     const std::scoped_lock lock(mutex_);
     if (kept_[place]) return kept_[place];
   }
-  auto made = std::make_shared<const Profile>(realise(rotor));
+  auto made = std::make_shared<const friction::Profile>(realise(rotor));
   if (place >= kept_.size()) return made;
   const std::scoped_lock lock(mutex_);
   if (!kept_[place]) kept_[place] = std::move(made);
   return kept_[place];
 }
 
-Interval Rotors::bounds() const {
+numerics::Interval Rotors::bounds() const {
   // Maximum of √(ξ² + η²): standard normal variates are below 8.22 in magnitude (core/random/variates.hpp).
   constexpr double max_radius = 11.63;
-  Profile any = realise_profile(description_, amplitudes_, key_);
+  friction::Profile any = distributions::realise_profile(description_, amplitudes_, key_);
   for (std::size_t m = 0; m < amplitudes_.size(); ++m) {
     any.cosine[m] = max_radius * amplitudes_[m];
     any.sine[m] = 0.0;
   }
-  const Interval about_its_mean = limits(any);
+  const numerics::Interval about_its_mean = distributions::limits(any);
   if (!mean_) return about_its_mean;
-  const double lowest = quantile(mean_->distribution, 0x1p-53) / description_.mean;
-  const double highest = quantile(mean_->distribution, 1.0 - 0x1p-53) / description_.mean;
-  return closed(std::min(lowest * about_its_mean.low, highest * about_its_mean.low),
-                std::max(lowest * about_its_mean.high, highest * about_its_mean.high));
+  const double lowest = distributions::quantile(mean_->distribution, 0x1p-53) / description_.mean;
+  const double highest = distributions::quantile(mean_->distribution, 1.0 - 0x1p-53) / description_.mean;
+  return numerics::closed(std::min(lowest * about_its_mean.low, highest * about_its_mean.low),
+                          std::max(lowest * about_its_mean.high, highest * about_its_mean.high));
 }
 
-Interval Rotors::all_limits() const {
+numerics::Interval Rotors::all_limits() const {
   {
     const std::scoped_lock lock(mutex_);
     if (limits_) return *limits_;
@@ -76,13 +76,13 @@ Interval Rotors::all_limits() const {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (std::int64_t i = 0; i < count_; ++i) {
-    const Interval of_rotor = limits(*rotor(i));
+    const numerics::Interval of_rotor = distributions::limits(*rotor(i));
     low = std::min(low, of_rotor.low);
     high = std::max(high, of_rotor.high);
   }
   const std::scoped_lock lock(mutex_);
-  limits_ = closed(low, high);
+  limits_ = numerics::closed(low, high);
   return *limits_;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

@@ -13,11 +13,11 @@
 #include "experiments/distributions/random_field.hpp"
 #include "experiments/study/draws.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
 /// Distribution of the mean of a profile, drawn once for every rotor.
 struct DrawnMean {
-  Distribution distribution;
+  distributions::Distribution distribution;
   Design design{Design::monte_carlo};
   SlotRandomness randomness;
 };
@@ -28,7 +28,7 @@ struct DrawnMean {
 class Rotors {
  public:
   /// @param count number of rotors @param name dotted path of the parameter
-  Rotors(ProfileDescription description, std::optional<DrawnMean> mean, std::uint64_t seed,
+  Rotors(distributions::ProfileDescription description, std::optional<DrawnMean> mean, std::uint64_t seed,
          std::string_view name, std::int64_t count);
 
   std::int64_t count() const { return count_; }
@@ -37,28 +37,29 @@ class Rotors {
 
   /// Mean of the random field of this rotor, in the parameter's unit.
   double mean(std::int64_t rotor) const;
-  std::shared_ptr<const Profile> rotor(std::int64_t rotor) const;
+  std::shared_ptr<const friction::Profile> rotor(std::int64_t rotor) const;
 
   /// Bounds for all random numbers, computed without creating a profile.
-  Interval bounds() const;
+  numerics::Interval bounds() const;
 
   /// Bounds of the actual rotors: limits(Profile) over all of them.
-  Interval all_limits() const;
+  numerics::Interval all_limits() const;
 
  private:
-  Profile realise(std::int64_t rotor) const;
+  friction::Profile realise(std::int64_t rotor) const;
 
   static constexpr std::size_t max_kept_bytes = std::size_t{1} << 26;
 
-  ProfileDescription description_;
+  distributions::ProfileDescription description_;
   std::optional<DrawnMean> mean_;
-  RandomKey key_;
+  random::RandomKey key_;
   std::int64_t count_;
   std::vector<double> amplitudes_;  // √S_m
 
   mutable std::mutex mutex_;
-  mutable std::vector<std::shared_ptr<const Profile>> kept_;  // [rotor] cache, limited by max_kept_bytes
-  mutable std::optional<Interval> limits_;
+  mutable std::vector<std::shared_ptr<const friction::Profile>>
+      kept_;  // [rotor] cache, limited by max_kept_bytes
+  mutable std::optional<numerics::Interval> limits_;
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::study

@@ -1,6 +1,6 @@
 #include "experiments/study/sequence.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
 std::int64_t sequence_move_count(const SequenceCycle& cycle, std::int64_t targets) {
   const std::int64_t runs = cycle.approach == SequenceApproach::bidirectional ? 2 : 1;
@@ -28,4 +28,4 @@ double sequence_position(const SequenceMove& move, std::span<const double> targe
   return move.direction < 0 ? targets.front() - overrun : targets.back() + overrun;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

@@ -6,7 +6,7 @@
 
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
 /// Approach direction of a sequence.
 enum class SequenceApproach {
@@ -40,4 +40,4 @@ std::vector<SequenceMove> sequence_moves(const SequenceCycle& cycle, std::int64_
 /// @param overrun d, counts.
 double sequence_position(const SequenceMove& move, std::span<const double> targets, double overrun);
 
-}  // namespace zerocount
+}  // namespace zerocount::study

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 // The number in "name.<number>", written without leading zeros.
@@ -23,37 +23,37 @@ std::optional<std::size_t> index_below(std::string_view path, std::string_view n
 }  // namespace
 
 std::string_view listed_noun(const ListedValues& list) {
-  const std::string_view name = parameter_table()[list.row].name;
+  const std::string_view name = parameters::parameter_table()[list.row].name;
   return name.substr(name.rfind('.') + 1);
 }
 
 std::size_t slot_count(const ListedValues& list) {
-  return parameter_table().size() + list.count;
+  return parameters::parameter_table().size() + list.count;
 }
 
 std::size_t listed_slot(std::size_t i) {
-  return parameter_table().size() + i;
+  return parameters::parameter_table().size() + i;
 }
 
 std::size_t row_of_slot(std::size_t slot, const ListedValues& list) {
-  return slot < parameter_table().size() ? slot : list.row;
+  return slot < parameters::parameter_table().size() ? slot : list.row;
 }
 
 std::string slot_name(std::size_t slot, const ListedValues& list) {
-  const auto table = parameter_table();
+  const auto table = parameters::parameter_table();
   if (slot < table.size()) return std::string(table[slot].name);
   return fmt::format("{}.{}", table[list.row].name, slot - table.size());
 }
 
 std::size_t slot_sobol_dimension(std::size_t slot) {
-  const auto table = parameter_table();
+  const auto table = parameters::parameter_table();
   return slot < table.size() ? table[slot].sobol_dimension
-                             : first_sobol_dimension_of_moves + slot - table.size();
+                             : parameters::first_sobol_dimension_of_moves + slot - table.size();
 }
 
 std::vector<std::size_t> slots_in_table_order(const ListedValues& list) {
   std::vector<std::size_t> slots;
-  const auto table = parameter_table();
+  const auto table = parameters::parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
     if (!table[row].listed) slots.push_back(row);
     for (std::size_t i = 0; row == list.row && i < list.count; ++i) slots.push_back(listed_slot(i));
@@ -62,8 +62,8 @@ std::vector<std::size_t> slots_in_table_order(const ListedValues& list) {
 }
 
 std::optional<SlotRange> find_slots(std::string_view path, const ListedValues& list) {
-  const auto table = parameter_table();
-  if (const auto row = find_parameter(path)) {
+  const auto table = parameters::parameter_table();
+  if (const auto row = parameters::find_parameter(path)) {
     if (*row == list.row) return SlotRange{listed_slot(0), list.count, true};
     if (table[*row].listed) return std::nullopt;
     return SlotRange{*row, 1, false};
@@ -74,7 +74,7 @@ std::optional<SlotRange> find_slots(std::string_view path, const ListedValues& l
 }
 
 std::optional<std::size_t> find_listed_row(std::string_view path) {
-  const auto table = parameter_table();
+  const auto table = parameters::parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
     if (!table[row].listed) continue;
     if (path == table[row].name || index_below(path, table[row].name)) return row;
@@ -82,4 +82,4 @@ std::optional<std::size_t> find_listed_row(std::string_view path) {
   return std::nullopt;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

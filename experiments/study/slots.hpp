@@ -9,7 +9,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
 /// Noun for the values of the list: "targets", "levels".
 std::string_view listed_noun(const ListedValues& list);
@@ -43,4 +43,4 @@ std::optional<SlotRange> find_slots(std::string_view path, const ListedValues& l
 /// The listed parameter of the dotted path or of one of its items, even if the study does not use it.
 std::optional<std::size_t> find_listed_row(std::string_view path);
 
-}  // namespace zerocount
+}  // namespace zerocount::study

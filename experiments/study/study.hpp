@@ -14,7 +14,7 @@
 #include "core/trial/parameters.hpp"
 #include "experiments/parameters/study_units.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
 enum class Design { monte_carlo, latin_hypercube, sobol, saltelli };
 
@@ -60,8 +60,8 @@ struct InputColumn {
 struct RealisedProfile {
   std::string name;  ///< dotted path of the parameter, with "@point" appended if points differ
   std::string unit;
-  std::shared_ptr<const Profile> profile;  ///< of the rotor of all trials, or of rig 0
-  std::function<std::shared_ptr<const Profile>(std::int64_t rig)>
+  std::shared_ptr<const friction::Profile> profile;  ///< of the rotor of all trials, or of rig 0
+  std::function<std::shared_ptr<const friction::Profile>(std::int64_t rig)>
       of_rig{};  ///< empty if all trials use one rotor
 };
 
@@ -108,7 +108,7 @@ struct StudyPlan;  // compiled form of the manifest, private to this folder
 struct Study {
   std::string name;
   std::string description;
-  StudyUnits units;
+  parameters::StudyUnits units;
   double period{
       2.0 * std::numbers::pi};  ///< period of profiles along the axis: a revolution, rad; or the travel, m
   std::uint64_t seed{0};
@@ -147,7 +147,7 @@ struct Study {
 
 /// The parameters of one trial, and its inputs as stored in the results file.
 struct StudyTrial {
-  TrialParameters parameters;
+  trial::TrialParameters parameters;
   std::vector<double> inputs;  ///< [input column], in that column's unit; for profiles and values drawn per
                                ///< contact the value at the start
 };
@@ -179,4 +179,4 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
 /// The inputs of rig `rig` (0 … rigs − 1): [rig column], in that column's unit.
 std::vector<double> rig_inputs(const Study& study, std::int64_t rig);
 
-}  // namespace zerocount
+}  // namespace zerocount::study

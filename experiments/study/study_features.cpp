@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 bool is_spread(Design design) {
@@ -34,4 +34,4 @@ StudyFeatures study_features(const Study& study) {
   return features;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

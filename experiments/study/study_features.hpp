@@ -2,17 +2,17 @@
 
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 
 /// What a study uses of the loop, as far as its table has columns for it that others need not. It is decided
 /// by what the parameters can be in any trial, so that studies which differ in their seed have the same
 /// columns.
 struct StudyFeatures {
-  AxisKind axis{AxisKind::rotary};  ///< whose units the tables have
-  bool open_loop{false};            ///< torque levels in place of targets
-  bool travel{false};               ///< at some point, the reference takes its time
-  bool phases{false};               ///< at some point, the control has two phases
-  bool encoder_errors{false};       ///< in some trial, an encoder may not be ideal
+  parameters::AxisKind axis{parameters::AxisKind::rotary};  ///< whose units the tables have
+  bool open_loop{false};                                    ///< torque levels in place of targets
+  bool travel{false};                                       ///< at some point, the reference takes its time
+  bool phases{false};                                       ///< at some point, the control has two phases
+  bool encoder_errors{false};                               ///< in some trial, an encoder may not be ideal
   /// In some trial moves may end beside their targets by design: no integral control, friction without
   /// pre-sliding motion, or moves that are long.
   bool final_error{false};
@@ -28,4 +28,4 @@ struct StudyFeatures {
 
 StudyFeatures study_features(const Study& study);
 
-}  // namespace zerocount
+}  // namespace zerocount::study

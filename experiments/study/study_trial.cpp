@@ -10,7 +10,7 @@
 #include "experiments/study/study.hpp"
 #include "experiments/study/trial_completion.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 // The coordinates of a trial's random numbers.
@@ -36,7 +36,8 @@ TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t index) 
 // The trial from which this trial takes the number of a slot.
 std::uint64_t source_trial(const TrialDraws& draws, std::uint32_t slot) {
   if (draws.study.design != Design::saltelli) return draws.place;
-  return saltelli_source(draws.index, draws.plan().factor_of[slot], factor_count(draws.plan().factors));
+  return designs::saltelli_source(draws.index, draws.plan().factor_of[slot],
+                                  factor_count(draws.plan().factors));
 }
 
 double drawn_uniform(const TrialDraws& draws, std::uint32_t slot, Per per) {
@@ -55,14 +56,15 @@ double drawn_uniform(const TrialDraws& draws, std::uint32_t slot, Per per) {
                         static_cast<std::uint64_t>(study.trials));
 }
 
-ContactParameter contact_parameter(const TrialDraws& draws, std::uint32_t slot, const Value& value) {
+friction::ContactParameter contact_parameter(const TrialDraws& draws, std::uint32_t slot,
+                                             const Value& value) {
   const SlotRandomness& randomness = draws.plan().randomness[slot];
   const std::uint64_t trial =
       draws.study.design == Design::saltelli ? source_trial(draws, slot) : draws.index;
   const std::shared_ptr<const StudyPlan> plan = draws.study.plan;  // the trial may outlive the study
   const std::size_t index = value.index;
-  return {parameter_table()[slot].profiled,
-          [plan, index](double u) { return quantile(plan->distributions[index], u); },
+  return {parameters::parameter_table()[slot].profiled,
+          [plan, index](double u) { return distributions::quantile(plan->distributions[index], u); },
           {.key = randomness.contacts, .stream = draws.stream},
           trial};
 }
@@ -80,12 +82,12 @@ double profile_mean(const TrialDraws& draws, const Value& value) {
 std::uint64_t numbers_within_trial(const Study& study, std::uint64_t index) {
   if (study.design != Design::saltelli) return index;
   const TrialFactors& factors = study.plan->factors;
-  return saltelli_source(index, factors.slots.size(), factor_count(factors));
+  return designs::saltelli_source(index, factors.slots.size(), factor_count(factors));
 }
 
 void set_sequence_targets(const Study& study, const std::vector<double>& numbers, StudyTrial& trial) {
-  static const std::size_t overrun = find_parameter("command.sequence.overrun").value();
-  const std::span<const double> targets = std::span(numbers).subspan(parameter_table().size());
+  static const std::size_t overrun = parameters::find_parameter("command.sequence.overrun").value();
+  const std::span<const double> targets = std::span(numbers).subspan(parameters::parameter_table().size());
   for (std::size_t move = 0; move < study.sequence.size(); ++move) {
     trial.parameters.command.targets[move] =
         static_cast<std::int64_t>(sequence_position(study.sequence[move], targets, numbers[overrun]));
@@ -124,7 +126,8 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
     if (value.kind == Value::Kind::number) {
       set(slot, value.number);
     } else if (value.kind == Value::Kind::distribution) {
-      set(slot, quantile(plan.distributions[value.index], drawn_uniform(draws, slot, value.per)));
+      set(slot,
+          distributions::quantile(plan.distributions[value.index], drawn_uniform(draws, slot, value.per)));
       if (value.per == Per::contact) {
         trial.parameters.friction.per_contact.push_back(contact_parameter(draws, slot, value));
       }
@@ -134,10 +137,10 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
   for (const std::uint32_t slot : plan.input_slots) {
     const Value& value = *values[slot];
     if (value.kind != Value::Kind::profile) continue;
-    const std::shared_ptr<const Profile> profile =
+    const std::shared_ptr<const friction::Profile> profile =
         plan.profiles[value.index]->rotor(static_cast<std::int64_t>(rotor_of(draws, value)));
-    set(slot, value_at(*profile, trial.parameters.initial.position));
-    trial.parameters.friction.profiled.push_back({parameter_table()[slot].profiled, profile});
+    set(slot, friction::value_at(*profile, trial.parameters.initial.position));
+    trial.parameters.friction.profiled.push_back({parameters::parameter_table()[slot].profiled, profile});
   }
   if (plan.sequence) set_sequence_targets(study, numbers, trial);
   trial.inputs.reserve(plan.inputs.size());
@@ -165,11 +168,12 @@ std::vector<double> rig_inputs(const Study& study, std::int64_t rig) {
   inputs.reserve(plan.rig_inputs.size());
   for (const InputSource& source : plan.rig_inputs) {
     const Value& value = plan.base[source.slot];
-    inputs.push_back(source.profile_mean ? profile_mean(draws, value)
-                                         : quantile(plan.distributions[value.index],
-                                                    drawn_uniform(draws, source.slot, value.per)));
+    inputs.push_back(source.profile_mean
+                         ? profile_mean(draws, value)
+                         : distributions::quantile(plan.distributions[value.index],
+                                                   drawn_uniform(draws, source.slot, value.per)));
   }
   return inputs;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

@@ -5,7 +5,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/point_limits.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 using Limits = std::span<const ValueLimits>;
@@ -14,7 +14,7 @@ using Names = std::initializer_list<std::string_view>;
 bool has_profile(const StudyPlan& plan) {
   const std::array<std::string_view, 1> shape{"command.profile.shape"};
   return !plan.open_loop && holds_somewhere(plan, shape, [](Limits l) {
-    return l[0].high > static_cast<double>(ReferenceShape::step);
+    return l[0].high > static_cast<double>(loop::ReferenceShape::step);
   });
 }
 
@@ -34,7 +34,7 @@ bool has_uneven_drive(const StudyPlan& plan) {
   if (!plan.open_loop) return false;
   const std::array<std::string_view, 2> command{"command.torque.through", "controller.delay"};
   return holds_somewhere(plan, command, [](Limits l) {
-    return l[0].high == static_cast<double>(TorquePath::exact) || l[1].high > 0.0;
+    return l[0].high == static_cast<double>(trial::TorquePath::exact) || l[1].high > 0.0;
   });
 }
 
@@ -44,4 +44,4 @@ TraceExtras find_trace_extras(const StudyPlan& plan) {
   return {has_profile(plan), has_two_phases(plan), has_uneven_drive(plan)};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

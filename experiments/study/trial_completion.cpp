@@ -2,13 +2,14 @@
 
 #include "core/theory/gains.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 /// Phase is ControllerParameters or CoarsePhaseParameters; both have kp, ki and kd.
 template <class Phase>
-void convert_gains(Phase& phase, const TrialParameters& trial) {
-  const PidGains gains = sampled_gains({phase.kp, phase.ki, phase.kd}, trial.controller, trial.encoder);
+void convert_gains(Phase& phase, const trial::TrialParameters& trial) {
+  const loop::PidGains gains =
+      theory::sampled_gains({phase.kp, phase.ki, phase.kd}, trial.controller, trial.encoder);
   phase.kp = gains.kp;
   phase.ki = gains.ki;
   phase.kd = gains.kd;
@@ -16,25 +17,25 @@ void convert_gains(Phase& phase, const TrialParameters& trial) {
 
 }  // namespace
 
-void complete_trial(const StudyUnits& units, TrialParameters& trial) {
+void complete_trial(const parameters::StudyUnits& units, trial::TrialParameters& trial) {
   switch (units.axis) {
-    case AxisKind::rotary:
+    case parameters::AxisKind::rotary:
       break;
-    case AxisKind::linear: {
-      EncoderParameters& encoder = trial.encoder;
+    case parameters::AxisKind::linear: {
+      loop::EncoderParameters& encoder = trial.encoder;
       encoder.fine = encoder.coarse = 1.0;
       if (encoder.coarse_length == 0.0) encoder.coarse_length = encoder.fine_length;
       break;
     }
   }
   switch (units.gains) {
-    case GainUnits::count:
+    case parameters::GainUnits::count:
       break;
-    case GainUnits::si:
+    case parameters::GainUnits::si:
       convert_gains(trial.controller, trial);
       convert_gains(trial.controller.coarse, trial);
       break;
   }
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study

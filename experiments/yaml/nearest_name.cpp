@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::yaml {
 namespace {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -39,4 +39,4 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
   return *nearest;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::yaml

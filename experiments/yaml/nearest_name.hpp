@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace zerocount {
+namespace zerocount::yaml {
 
 /// The candidate with the smallest Levenshtein distance to `name`, the first of equals; empty if there is
 /// none or the name is too long for a typing error.
@@ -14,4 +14,4 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 /// longer of the two.
 bool is_near(std::string_view name, std::string_view candidate);
 
-}  // namespace zerocount
+}  // namespace zerocount::yaml

@@ -7,7 +7,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::yaml {
 
 std::string at_place(const Place& place, std::string_view path, std::string_view text) {
   if (place.line == 0) return fmt::format("{}: {}: {}", place.source, path, text);
@@ -55,4 +55,4 @@ std::string in_quotes(std::string_view text) {
   return shown + "'";
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::yaml

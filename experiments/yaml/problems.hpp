@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::yaml {
 
 /// A place in a manifest or in an override. `source` must outlive it.
 struct Place {
@@ -41,4 +41,4 @@ std::string at_place(const Place& place, std::string_view path, std::string_view
 /// `text` in single quotes, shortened if it is long, with visible control characters.
 std::string in_quotes(std::string_view text);
 
-}  // namespace zerocount
+}  // namespace zerocount::yaml

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace zerocount {
+namespace zerocount::yaml {
 namespace {
 
 bool is_one_of(std::string_view text, std::initializer_list<std::string_view> names) {
@@ -131,9 +131,9 @@ void add_wrong_type(const Field& field, const std::string& expected, Problems& p
   problems.add(field.node->place, field.path, describe(*field.node), expected);
 }
 
-std::optional<double> read_real(const Field& field, const Interval& range, Problems& problems) {
+std::optional<double> read_real(const Field& field, const numerics::Interval& range, Problems& problems) {
   const YamlNode& node = *field.node;
-  const std::string allowed = in_words(range);
+  const std::string allowed = numerics::in_words(range);
   const std::string expected = allowed.rfind("any", 0) == 0 ? allowed : "a number " + allowed;
   double number = 0.0;
   const std::errc error =
@@ -143,7 +143,7 @@ std::optional<double> read_real(const Field& field, const Interval& range, Probl
   } else if (error != std::errc{}) {
     problems.add(node.place, field.path,
                  fmt::format("{} is too large or too small for a double", in_quotes(node.text)), expected);
-  } else if (!contains(range, number)) {
+  } else if (!numerics::contains(range, number)) {
     problems.add(node.place, field.path, fmt::format("{} is out of range", in_quotes(node.text)), expected);
   } else {
     return number;
@@ -211,4 +211,4 @@ bool check_list(const Field& field, const std::string& expected, Problems& probl
   return check_kind(field, YamlNode::Kind::list, expected, problems);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::yaml

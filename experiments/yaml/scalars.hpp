@@ -9,7 +9,7 @@
 #include "core/numerics/interval.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 
-namespace zerocount {
+namespace zerocount::yaml {
 
 /// A node and its dotted path in the manifest.
 struct Field {
@@ -25,7 +25,7 @@ Field item_of(const Field& list, std::size_t index);
 // // `no`) are refused.
 
 /// A finite decimal number inside `range`.
-std::optional<double> read_real(const Field& field, const Interval& range, Problems& problems);
+std::optional<double> read_real(const Field& field, const numerics::Interval& range, Problems& problems);
 
 /// A whole number, written without point or exponent, from `low` to `high`.
 std::optional<std::int64_t> read_whole(const Field& field, std::int64_t low, std::int64_t high,
@@ -51,4 +51,4 @@ void add_wrong_type(const Field& field, const std::string& expected, Problems& p
 bool check_map(const Field& field, const std::string& expected, Problems& problems);
 bool check_list(const Field& field, const std::string& expected, Problems& problems);
 
-}  // namespace zerocount
+}  // namespace zerocount::yaml

@@ -10,7 +10,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::yaml {
 namespace {
 
 namespace fs = std::filesystem;
@@ -65,4 +65,4 @@ std::string read_text(const fs::path& path, std::size_t max_size, std::string_vi
   return read_stream(path, file.get(), max_size);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::yaml

@@ -6,7 +6,7 @@
 #include <string_view>
 
 /// Text files named by the user.
-namespace zerocount {
+namespace zerocount::yaml {
 
 /// Whether `path` is "-", which means standard input or output.
 bool is_standard_stream(const std::filesystem::path& path);
@@ -21,4 +21,4 @@ std::string name_of_text(const std::filesystem::path& path);
 /// read.
 std::string read_text(const std::filesystem::path& path, std::size_t max_size, std::string_view expected);
 
-}  // namespace zerocount
+}  // namespace zerocount::yaml

@@ -3,7 +3,7 @@
 #include <boost/locale/utf.hpp>
 #include <yaml-cpp/exceptions.h>
 
-namespace zerocount {
+namespace zerocount::yaml {
 
 std::string syntax_fault(const std::string& message) {
   using namespace YAML::ErrorMsg;
@@ -48,4 +48,4 @@ Place first_bad_byte(const std::string& text, std::string_view source) {
   return {source};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::yaml

@@ -5,7 +5,7 @@
 
 #include "experiments/yaml/problems.hpp"
 
-namespace zerocount {
+namespace zerocount::yaml {
 
 /// Translates the message of a yaml-cpp exception for readers who do not know the YAML specification.
 std::string syntax_fault(const std::string& message);
@@ -13,4 +13,4 @@ std::string syntax_fault(const std::string& message);
 /// The first place in `text` that is not UTF-8, or is a control character; line 0 if there is none.
 Place first_bad_byte(const std::string& text, std::string_view source);
 
-}  // namespace zerocount
+}  // namespace zerocount::yaml

@@ -13,7 +13,7 @@
 
 #include "experiments/yaml/yaml_faults.hpp"
 
-namespace zerocount {
+namespace zerocount::yaml {
 namespace {
 
 // Thrown through yaml-cpp's parser to stop it.
@@ -265,4 +265,4 @@ const YamlEntry* find_entry(const YamlNode& map, std::string_view key) {
   return found == map.entries.end() ? nullptr : &*found;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::yaml

@@ -7,7 +7,7 @@
 
 #include "experiments/yaml/problems.hpp"
 
-namespace zerocount {
+namespace zerocount::yaml {
 
 struct YamlNode;
 using YamlPointer = std::shared_ptr<const YamlNode>;
@@ -47,4 +47,4 @@ std::string flow_text(const YamlNode& node);
 /// The value of `key` in a map, or null.
 const YamlEntry* find_entry(const YamlNode& map, std::string_view key);
 
-}  // namespace zerocount
+}  // namespace zerocount::yaml

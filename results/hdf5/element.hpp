@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace zerocount {
+namespace zerocount::hdf5 {
 
 /// Type of a column's elements, in memory and in the file (little-endian in the file).
 enum class Element {
@@ -34,4 +34,4 @@ constexpr std::size_t size_of(Element element) {
 /// Filters of a dataset: shuffle and deflate, or none (faster to write, larger).
 enum class Compression { deflate, none };
 
-}  // namespace zerocount
+}  // namespace zerocount::hdf5

@@ -17,13 +17,13 @@ constexpr haddr_t max_address = (haddr_t{1} << 63) - 1;
 
 /// The library's handle of an open file.
 struct DriverFile : H5FD_t {
-  std::shared_ptr<ByteFile> bytes;
+  std::shared_ptr<storage::ByteFile> bytes;
   haddr_t allocated{0};  ///< end of the address space that the library has allocated
 };
 
 /// Data that access_properties() passes to open_file().
 struct DriverInfo {
-  const std::shared_ptr<ByteFile>* bytes{nullptr};
+  const std::shared_ptr<storage::ByteFile>* bytes{nullptr};
 };
 
 DriverFile& own_file(H5FD_t* file) {
@@ -114,7 +114,7 @@ Id driver() {
 
 }  // namespace
 
-Handle access_properties(const std::shared_ptr<ByteFile>& bytes) {
+Handle access_properties(const std::shared_ptr<storage::ByteFile>& bytes) {
   Handle properties = made(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   const DriverInfo info{&bytes};
   demand(H5Pset_driver(properties.get(), driver(), &info));

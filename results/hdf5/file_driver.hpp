@@ -21,6 +21,6 @@ namespace zerocount::hdf5 {
 /// library's own file locks are off: finished files never change, and the locks fail on some cluster file
 /// systems.
 /// @param bytes must stay valid until the file is open; the library holds a shared pointer from then on
-Handle access_properties(const std::shared_ptr<ByteFile>& bytes);
+Handle access_properties(const std::shared_ptr<storage::ByteFile>& bytes);
 
 }  // namespace zerocount::hdf5

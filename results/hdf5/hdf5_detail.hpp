@@ -27,7 +27,7 @@ enum class Purpose {
 
 struct Origin {
   Purpose purpose{Purpose::read};
-  std::shared_ptr<ByteFile> bytes;
+  std::shared_ptr<storage::ByteFile> bytes;
   WrittenValues written;   ///< so far
   bool incomplete{false};  ///< a write operation or the closing of an object has failed
 

@@ -23,13 +23,13 @@ void quieten() {
   demand(H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr));  // applies to the calling thread
 }
 
-ByteFile::Mode mode_of(Purpose purpose, bool create) {
-  if (purpose != Purpose::write) return ByteFile::Mode::read;
-  return create ? ByteFile::Mode::create : ByteFile::Mode::change;
+storage::ByteFile::Mode mode_of(Purpose purpose, bool create) {
+  if (purpose != Purpose::write) return storage::ByteFile::Mode::read;
+  return create ? storage::ByteFile::Mode::create : storage::ByteFile::Mode::change;
 }
 
 std::shared_ptr<Origin> origin_of(const std::filesystem::path& path, Purpose purpose, bool create = false) {
-  auto bytes = std::make_shared<ByteFile>(path, mode_of(purpose, create));
+  auto bytes = std::make_shared<storage::ByteFile>(path, mode_of(purpose, create));
   return std::make_shared<Origin>(Origin{purpose, std::move(bytes), {}, false});
 }
 

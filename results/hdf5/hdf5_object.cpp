@@ -23,9 +23,9 @@ std::string place(const std::string& path) {
 
 void fail_on(Origin& origin, const std::string& path, std::string_view problem) {
   const std::string file = origin.bytes->path().string();
-  if (const std::optional<IoFailure>& failure = origin.bytes->failure()) {
+  if (const std::optional<storage::IoFailure>& failure = origin.bytes->failure()) {
     origin.incomplete = true;
-    fail_with(file, failure->action, failure->error);
+    storage::fail_with(file, failure->action, failure->error);
   }
   switch (origin.purpose) {
     case Purpose::read:
@@ -38,7 +38,7 @@ void fail_on(Origin& origin, const std::string& path, std::string_view problem) 
     case Purpose::read_back:
       break;
   }
-  fail_read_back(file, fmt::format("{}: {}", path, problem));
+  storage::fail_read_back(file, fmt::format("{}: {}", path, problem));
 }
 
 Handle made(Id id, Handle::Close close) {

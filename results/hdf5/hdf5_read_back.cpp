@@ -57,7 +57,7 @@ void compare_dataset(const Group& root, const Dataset& dataset, const WrittenObj
 void require_written(const std::filesystem::path& path, const WrittenValues& written) {
   auto origin = std::make_shared<Origin>();
   origin->purpose = Purpose::read_back;
-  origin->bytes = std::make_shared<ByteFile>(path, ByteFile::Mode::read);
+  origin->bytes = std::make_shared<storage::ByteFile>(path, storage::ByteFile::Mode::read);
   const File file = File::open(std::move(origin), false);
   for (const auto& [name, object] : written) {
     if (name == "/") {

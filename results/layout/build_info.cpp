@@ -8,7 +8,7 @@
 
 #include "zerocount_git_commit.hpp"
 
-namespace zerocount {
+namespace zerocount::layout {
 namespace {
 
 std::string cpu_model() {
@@ -47,4 +47,4 @@ Provenance current_provenance() {
   return {ZEROCOUNT_VERSION, ZEROCOUNT_GIT_COMMIT, ZEROCOUNT_COMPILER, cpu_model(), utc_now()};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace zerocount {
+namespace zerocount::layout {
 
 /// Who made a results file, and when.
 struct Provenance {
@@ -23,4 +23,4 @@ bool same_build(const Provenance& one, const Provenance& other);
 /// Whether the sources had changes that were not committed.
 bool is_dirty(const Provenance& provenance);
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

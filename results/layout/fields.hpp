@@ -12,7 +12,7 @@
 
 #include "results/layout/layout.hpp"
 
-namespace zerocount {
+namespace zerocount::layout {
 
 /// The type that stands in a column's buffer for a member of type Value (see Element).
 template <class Value>
@@ -24,12 +24,12 @@ template <class Record, class Member>
 using ValueOf = std::remove_cvref_t<std::invoke_result_t<Member, const Record&>>;
 
 template <class Value>
-constexpr Element element_of() {
-  if constexpr (std::is_same_v<Value, double>) return Element::float64;
-  if constexpr (std::is_same_v<Value, std::int64_t>) return Element::int64;
-  if constexpr (std::is_same_v<Value, int>) return Element::int32;
-  if constexpr (std::is_same_v<Value, bool>) return Element::flag;
-  return Element::int8;
+constexpr hdf5::Element element_of() {
+  if constexpr (std::is_same_v<Value, double>) return hdf5::Element::float64;
+  if constexpr (std::is_same_v<Value, std::int64_t>) return hdf5::Element::int64;
+  if constexpr (std::is_same_v<Value, int>) return hdf5::Element::int32;
+  if constexpr (std::is_same_v<Value, bool>) return hdf5::Element::flag;
+  return hdf5::Element::int8;
 }
 
 /// @param member of Record or of what it derives from, or a function of the record.
@@ -62,7 +62,7 @@ bool is_computed(const RecordField<Record>& field) {
 /// One column of `records` as the bytes of its elements.
 template <class Record>
 std::vector<std::byte> gather(const RecordField<Record>& field, std::span<const Record> records) {
-  std::vector<std::byte> bytes(records.size() * size_of(field.column.element));
+  std::vector<std::byte> bytes(records.size() * hdf5::size_of(field.column.element));
   std::visit(
       [&](auto member) {
         std::byte* to = bytes.data();
@@ -96,4 +96,4 @@ void scatter(const RecordField<Record>& field, std::span<const std::byte> bytes,
       field.member);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

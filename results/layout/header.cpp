@@ -14,7 +14,7 @@
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_descriptor.hpp"
 
-namespace zerocount {
+namespace zerocount::layout {
 namespace {
 
 constexpr std::string_view study_format = "zerocount-study";
@@ -30,7 +30,7 @@ void write_overrides(hdf5::File& file, const std::vector<std::string>& overrides
   const bool empty = overrides.empty();
   const hdf5::Size size = overrides.size();
   hdf5::Dataset dataset =
-      file.create_dataset("overrides", {Element::text, {size}, {empty ? 1 : size}, empty});
+      file.create_dataset("overrides", {hdf5::Element::text, {size}, {empty ? 1 : size}, empty});
   for (const std::string& override_text : overrides) storable(file, override_text);
   dataset.write_texts(overrides);
   dataset.make_scale("overrides");
@@ -39,7 +39,7 @@ void write_overrides(hdf5::File& file, const std::vector<std::string>& overrides
 }
 
 void write_manifest(hdf5::File& file, const std::string& text) {
-  hdf5::Dataset dataset = file.create_dataset("manifest", {Element::text, {}, {}, false});
+  hdf5::Dataset dataset = file.create_dataset("manifest", {hdf5::Element::text, {}, {}, false});
   dataset.write_texts(std::vector<std::string>{storable(file, text)});
   dataset.set_text("units", "1");
   dataset.set_text("long_name", "exact text of the manifest");
@@ -70,10 +70,10 @@ std::int64_t read_version(const hdf5::File& file) {
 }
 
 /// Files from before there were two have no such attribute.
-Engine read_engine(const hdf5::File& file) {
-  if (!file.has_attribute("engine")) return Engine::reference;
+study::Engine read_engine(const hdf5::File& file) {
+  if (!file.has_attribute("engine")) return study::Engine::reference;
   const std::string name = file.text("engine");
-  for (const Engine engine : {Engine::batch, Engine::reference}) {
+  for (const study::Engine engine : {study::Engine::batch, study::Engine::reference}) {
     if (name == name_of(engine)) return engine;
   }
   file.fail(fmt::format("its engine is '{}'; expected 'batch' or 'reference'", name));
@@ -97,15 +97,15 @@ void check_numbers(const hdf5::File& file, const FileHeader& header) {
 ForeignFile::ForeignFile(const std::filesystem::path& path, const std::string& what_it_is)
     : Failure(ExitCode::bad_data, fmt::format("{}: {}", path.string(), what_it_is)) {}
 
-std::string_view name_of(Engine engine) {
-  return engine == Engine::batch ? "batch" : "reference";
+std::string_view name_of(study::Engine engine) {
+  return engine == study::Engine::batch ? "batch" : "reference";
 }
 
-RowRange all_rows(const Study& study) {
-  return {0, trial_count(study)};
+RowRange all_rows(const study::Study& study) {
+  return {0, study::trial_count(study)};
 }
 
-FileHeader make_header(const Study& study, FileKind kind, RowRange rows, Provenance provenance) {
+FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, Provenance provenance) {
   return {kind,
           format_version,
           study.name,
@@ -113,7 +113,7 @@ FileHeader make_header(const Study& study, FileKind kind, RowRange rows, Provena
           study.engine,
           study.seed,
           study.trials,
-          point_count(study),
+          study::point_count(study),
           rows,
           kind == FileKind::study && rows == all_rows(study),
           false,
@@ -170,25 +170,28 @@ FileHeader read_header(const hdf5::File& file) {
   header.manifest = manifest.front();
   header.overrides = file.open_dataset("overrides").read_texts();
   check_numbers(file, header);
-  if (sha256_hex(header.manifest) != header.manifest_sha256)
+  if (hash::sha256_hex(header.manifest) != header.manifest_sha256)
     file.fail("the checksum of the manifest is wrong");
   return header;
 }
 
-Study recorded_study(const FileHeader& header, const std::filesystem::path& path) {
-  Study study = parse_study(header.manifest, path.string() + ":/manifest", header.overrides, header.version);
+study::Study recorded_study(const FileHeader& header, const std::filesystem::path& path) {
+  study::Study study =
+      manifest::parse_study(header.manifest, path.string() + ":/manifest", header.overrides, header.version);
   study.engine = header.engine;
   return study;
 }
 
-void require_same_study(const std::filesystem::path& path, const FileHeader& header, const Study& study) {
+void require_same_study(const std::filesystem::path& path, const FileHeader& header,
+                        const study::Study& study) {
   if (header.study_sha256 != study.study_sha256) {
     throw ForeignFile(path, fmt::format("of another study: '{}' with other contents or overrides, not '{}'",
                                         header.name, study.name));
   }
-  if (header.trials != study.trials || header.points != point_count(study)) {
-    throw ForeignFile(path, fmt::format("has {} design points with {} trials each; the study has {} with {}",
-                                        header.points, header.trials, point_count(study), study.trials));
+  if (header.trials != study.trials || header.points != study::point_count(study)) {
+    throw ForeignFile(
+        path, fmt::format("has {} design points with {} trials each; the study has {} with {}", header.points,
+                          header.trials, study::point_count(study), study.trials));
   }
   const Provenance here = current_provenance();
   if (!same_build(header.provenance, here)) {
@@ -237,14 +240,15 @@ hdf5::File open_results(const std::filesystem::path& path, Checksum checksum) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: a directory; a results file was expected", path.string()));
   }
-  if (!FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)).valid()) fail_with(path, "read", errno);
+  if (!storage::FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)).valid())
+    storage::fail_with(path, "read", errno);
   if (!hdf5::is_hdf5(path)) {
     throw Failure(
         ExitCode::bad_data,
         fmt::format("{}: not a results file of zerocount: it is not in the HDF5 format", path.string()));
   }
-  if (checksum == Checksum::required) require_valid_checksum(path);
+  if (checksum == Checksum::required) storage::require_valid_checksum(path);
   return hdf5::File::open_to_read(path);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

@@ -13,7 +13,7 @@
 #include "results/layout/layout.hpp"
 #include "results/layout/row_range.hpp"
 
-namespace zerocount {
+namespace zerocount::layout {
 
 enum class FileKind { study, shard };
 
@@ -23,7 +23,7 @@ struct FileHeader {
   std::int64_t version{format_version};  ///< of the layout
   std::string name;
   Provenance provenance;
-  Engine engine{Engine::reference};  ///< that ran the trials
+  study::Engine engine{study::Engine::reference};  ///< that ran the trials
   std::uint64_t seed{0};
   std::int64_t trials{0};  ///< per design point
   std::int64_t points{0};
@@ -45,12 +45,12 @@ class ForeignFile : public Failure {
 };
 
 /// "batch" or "reference".
-std::string_view name_of(Engine engine);
+std::string_view name_of(study::Engine engine);
 
 /// All rows of a study.
-RowRange all_rows(const Study& study);
+RowRange all_rows(const study::Study& study);
 
-FileHeader make_header(const Study& study, FileKind kind, RowRange rows, Provenance provenance);
+FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, Provenance provenance);
 
 /// Writes the header, all but the mark that the file is finished.
 void write_header(hdf5::File& file, const FileHeader& header);
@@ -63,11 +63,12 @@ FileHeader read_header(const hdf5::File& file);
 /// The study whose trials the file `path` holds: its manifest with its overrides, the defaults of its format
 /// version and its engine. Whoever needs the study of a results file takes it from here.
 /// @throws Failure (bad_input) as parse_study does.
-Study recorded_study(const FileHeader& header, const std::filesystem::path& path);
+study::Study recorded_study(const FileHeader& header, const std::filesystem::path& path);
 
 /// @throws ForeignFile unless `header`, of the file `path`, is of this study, by this build of the program
 /// (see same_build) and the study's engine, and of the current version of the layout.
-void require_same_study(const std::filesystem::path& path, const FileHeader& header, const Study& study);
+void require_same_study(const std::filesystem::path& path, const FileHeader& header,
+                        const study::Study& study);
 
 /// The folder of the shards of a run that makes `output`: OUTPUT.shards.
 std::filesystem::path shards_directory(const std::filesystem::path& output);
@@ -80,4 +81,4 @@ enum class Checksum { required, not_yet };
 /// bad_data where it is damaged or something else.
 hdf5::File open_results(const std::filesystem::path& path, Checksum checksum = Checksum::required);
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

@@ -5,15 +5,17 @@
 #include "results/layout/fields.hpp"
 #include "results/layout/measure_table.hpp"
 
-namespace zerocount {
+namespace zerocount::layout {
 namespace {
 
 std::vector<FlagMeaning> mode_words() {
-  return {{static_cast<int>(HookMode::stick), "stick"}, {static_cast<int>(HookMode::slide), "slide"}};
+  return {{static_cast<int>(trial::HookMode::stick), "stick"},
+          {static_cast<int>(trial::HookMode::slide), "slide"}};
 }
 
 std::vector<FlagMeaning> phase_words() {
-  return {{static_cast<int>(ControlPhase::fine), "fine"}, {static_cast<int>(ControlPhase::coarse), "coarse"}};
+  return {{static_cast<int>(loop::ControlPhase::fine), "fine"},
+          {static_cast<int>(loop::ControlPhase::coarse), "coarse"}};
 }
 
 constexpr ValidValues a_time{"a finite time, not negative"};
@@ -21,16 +23,16 @@ constexpr ValidValues a_time{"a finite time, not negative"};
 }  // namespace
 
 std::vector<FlagMeaning> outcome_labels() {
-  return {{static_cast<int>(Outcome::zero_count), "zero_count"},
-          {static_cast<int>(Outcome::one_count), "one_count"},
-          {static_cast<int>(Outcome::oscillating), "oscillating"},
-          {static_cast<int>(Outcome::nonfinite), "nonfinite"},
-          {static_cast<int>(Outcome::open_loop), "open_loop"},
-          {static_cast<int>(Outcome::off_target), "off_target"}};
+  return {{static_cast<int>(trial::Outcome::zero_count), "zero_count"},
+          {static_cast<int>(trial::Outcome::one_count), "one_count"},
+          {static_cast<int>(trial::Outcome::oscillating), "oscillating"},
+          {static_cast<int>(trial::Outcome::nonfinite), "nonfinite"},
+          {static_cast<int>(trial::Outcome::open_loop), "open_loop"},
+          {static_cast<int>(trial::Outcome::off_target), "off_target"}};
 }
 
-Outcome outcome_in_version(std::int64_t version, Outcome outcome) {
-  return version < 3 && outcome == Outcome::off_target ? Outcome::oscillating : outcome;
+trial::Outcome outcome_in_version(std::int64_t version, trial::Outcome outcome) {
+  return version < 3 && outcome == trial::Outcome::off_target ? trial::Outcome::oscillating : outcome;
 }
 
 std::string word_of(const Column& column, std::int64_t value) {
@@ -39,9 +41,10 @@ std::string word_of(const Column& column, std::int64_t value) {
   return flag == column.flags.end() ? std::to_string(value) : flag->word;
 }
 
-std::vector<RecordField<MoveOutcome>> outcome_fields(std::int64_t version, const OutcomeExtras& extras,
-                                                     const MeasureTable& measures) {
-  std::vector<RecordField<MoveOutcome>> fields;
+std::vector<RecordField<trial::MoveOutcome>> outcome_fields(std::int64_t version,
+                                                            const study::OutcomeExtras& extras,
+                                                            const MeasureTable& measures) {
+  std::vector<RecordField<trial::MoveOutcome>> fields;
   for (const Measure& measure : measures) {
     if (is_in_file(measure, version, extras)) fields.push_back(measure.field);
   }
@@ -61,7 +64,7 @@ const std::vector<RecordField<JerkRecord>>& jerk_fields() {
   return fields;
 }
 
-std::vector<RecordField<TraceRecord>> trace_fields(const TraceExtras& extras) {
+std::vector<RecordField<TraceRecord>> trace_fields(const study::TraceExtras& extras) {
   using T = TraceRecord;
   std::vector<RecordField<T>> fields{
       field<T>("trial", "1", "global row of the trial", &T::trial),
@@ -92,4 +95,4 @@ std::vector<RecordField<TraceRecord>> trace_fields(const TraceExtras& extras) {
   return fields;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

@@ -18,7 +18,7 @@
 
 /// The layout of results files: the one description from which the writer, the reader, the CSV export and the
 /// test of the format's documentation (README.md of this folder) all derive.
-namespace zerocount {
+namespace zerocount::layout {
 
 /// Version of the layout that is written. A file with a higher number was written by a later program, and is
 /// refused; what those with a lower one lack is told by Measure::file.
@@ -35,14 +35,14 @@ std::vector<FlagMeaning> outcome_labels();
 
 /// What stands for an outcome in files of this version: before version 3 `oscillating` was any move that
 /// ended beyond one count.
-Outcome outcome_in_version(std::int64_t version, Outcome outcome);
+trial::Outcome outcome_in_version(std::int64_t version, trial::Outcome outcome);
 
 /// One dataset of a table.
 struct Column {
   std::string name;       ///< path below the table's group
   std::string unit;       ///< "1" where dimensionless
   std::string long_name;  ///< one line
-  Element element{Element::float64};
+  hdf5::Element element{hdf5::Element::float64};
   std::vector<FlagMeaning> flags;  ///< of an enumeration, otherwise empty
   std::string role;                ///< in /point only: "axis" or "statistic"
 };
@@ -68,9 +68,9 @@ struct ValidValues {
 
 /// Where a column's value stands in a record, or the function that computes it.
 template <class Record>
-using Member =
-    std::variant<double Record::*, std::int64_t Record::*, int Record::*, bool Record::*, Outcome Record::*,
-                 HookMode Record::*, ControlPhase Record::*, double (*)(const Record&)>;
+using Member = std::variant<double Record::*, std::int64_t Record::*, int Record::*, bool Record::*,
+                            trial::Outcome Record::*, trial::HookMode Record::*, loop::ControlPhase Record::*,
+                            double (*)(const Record&)>;
 
 template <class Record>
 struct RecordField {
@@ -86,22 +86,22 @@ using MeasureTable = std::vector<Measure>;
 const MeasureTable& measure_table();
 
 /// A jerk, and the trial it belongs to.
-struct JerkRecord : Jerk {
+struct JerkRecord : trial::Jerk {
   std::int64_t trial{0};  ///< global row
 };
 
 /// A sampling instant of a retained trial.
-struct TraceRecord : SampleRecord {
+struct TraceRecord : trial::SampleRecord {
   std::int64_t trial{0};  ///< global row
 };
 
 /// The columns of the measures of a move that a file of `version` with these extras has.
-std::vector<RecordField<MoveOutcome>> outcome_fields(std::int64_t version = format_version,
-                                                     const OutcomeExtras& extras = {},
-                                                     const MeasureTable& measures = measure_table());
+std::vector<RecordField<trial::MoveOutcome>> outcome_fields(std::int64_t version = format_version,
+                                                            const study::OutcomeExtras& extras = {},
+                                                            const MeasureTable& measures = measure_table());
 const std::vector<RecordField<JerkRecord>>& jerk_fields();
 /// The columns of a sample record; those of `extras` come last.
-std::vector<RecordField<TraceRecord>> trace_fields(const TraceExtras& extras);
+std::vector<RecordField<TraceRecord>> trace_fields(const study::TraceExtras& extras);
 
 /// One number per design point, made when a study is complete.
 struct PointColumn {
@@ -147,18 +147,18 @@ inline constexpr std::int64_t profile_angles = 4096;
 /// @param harmonics of the profile's series.
 std::int64_t profile_angles_of_rig(std::size_t harmonics, std::int64_t rigs);
 
-Table point_table(const std::vector<SweepAxis>& axes, const std::vector<PointColumn>& statistics);
-Table trial_table(const std::vector<InputColumn>& inputs);
-Table outcome_table(std::int64_t version = format_version, const OutcomeExtras& extras = {},
+Table point_table(const std::vector<study::SweepAxis>& axes, const std::vector<PointColumn>& statistics);
+Table trial_table(const std::vector<study::InputColumn>& inputs);
+Table outcome_table(std::int64_t version = format_version, const study::OutcomeExtras& extras = {},
                     const MeasureTable& measures = measure_table());
 Table jerk_table();
-Table trace_table(const TraceExtras& extras);
+Table trace_table(const study::TraceExtras& extras);
 Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn>& columns);
 Table profile_table(const std::string& name, const std::string& unit);
 /// The rotors of all rigs: [rig, theta].
 Table rotor_table(const std::string& name, const std::string& unit);
 /// What differs between the rigs: [rig].
-Table rig_table(const std::vector<InputColumn>& inputs);
+Table rig_table(const std::vector<study::InputColumn>& inputs);
 /// Successes of the rigs at the design points: [point, rig]. In the group of rig_table, whose scale it
 /// proportions.
 Table rig_count_table();
@@ -166,11 +166,11 @@ Table rig_count_table();
 /// The table with the units and long names that its columns have on an axis of this kind. The tables above
 /// have those of a rotary axis, but for what is a study's own: its sweep, its inputs and its profiles'
 /// values.
-Table on_axis(Table table, AxisKind axis);
+Table on_axis(Table table, parameters::AxisKind axis);
 /// The same of one column.
-PointColumn on_axis(PointColumn column, AxisKind axis);
+PointColumn on_axis(PointColumn column, parameters::AxisKind axis);
 
 /// Name in /trial and /rig of the column of an input parameter.
 std::string input_column_name(const std::string& parameter);
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

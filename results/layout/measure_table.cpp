@@ -6,10 +6,10 @@
 
 #include "results/layout/fields.hpp"
 
-namespace zerocount {
+namespace zerocount::layout {
 namespace {
 
-using M = MoveOutcome;
+using M = trial::MoveOutcome;
 using enum Statistic;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -165,7 +165,7 @@ MeasureTable all_measures() {
                   {{median, p95}, "{0} of the absolute error at the last sample"},
                   {{median_low, median_high, p95_low, p95_high}, "{0} of the final error"},
                   {{max}, "largest absolute error at the last sample"}}},
-       .summary = {&StudyFeatures::final_error,
+       .summary = {&study::StudyFeatures::final_error,
                    {{"|e| median", median}, {"|e| p95", p95}},
                    "|e|: error at the last sample of the moves, in counts\n"}},
       {.field = field<M>(
@@ -180,7 +180,7 @@ MeasureTable all_measures() {
                   {{mean},
                    "mean distance from the rotor to the middle of the target's count at the last sample"},
                   {{rms, max}, "{0} distance from the rotor to the middle of the target's count"}}},
-       .summary = {&StudyFeatures::encoder_errors,
+       .summary = {&study::StudyFeatures::encoder_errors,
                    {{"|true e| mean", mean}, {"|true e| max", max}},
                    "|true e|: distance from the rotor to the middle of the target's count at the last sample "
                    "of the moves,\nwhatever the encoder says, in counts\n"},
@@ -193,7 +193,7 @@ MeasureTable all_measures() {
        .point = {"travel_time",
                  {{{mean}, "mean time until the reference or the torque is where it is held, of the moves"},
                   {{max}, "longest time until the reference or the torque is where it is held"}}},
-       .summary = {&StudyFeatures::travel,
+       .summary = {&study::StudyFeatures::travel,
                    {{"travel (s)", mean}},
                    "travel: mean time that the reference takes to its target\n"}},
       {.field = field<M>("phase_changes", "1", "changes of the control from coarse to fine or back",
@@ -204,7 +204,7 @@ MeasureTable all_measures() {
                  {{{trials}, "trials in which the control changed its phase"},
                   {{mean}, "mean number of phase changes per trial"},
                   {{whole_max}, "largest number of phase changes of a trial"}}},
-       .summary = {&StudyFeatures::phases,
+       .summary = {&study::StudyFeatures::phases,
                    {{"phase changes", mean}},
                    "phase changes: from coarse to fine control or back, mean over all trials\n"}},
       {.field = field<M>("encoder_disagreement", "1",
@@ -217,7 +217,7 @@ MeasureTable all_measures() {
                   {{mean}, "mean number of such samples per trial"},
                   {{whole_max}, "largest number of such samples of a trial"}}},
        .summary =
-           {&StudyFeatures::encoder_errors,
+           {&study::StudyFeatures::encoder_errors,
             {{"disagreeing", trials, CellText::proportion_of_trials}},
             "disagreeing: proportion of trials in which the coarse count was ever impossible given the "
             "fine one\n"}},
@@ -263,10 +263,10 @@ MeasureTable all_measures() {
       {.field = field<M>("stopped", "1",
                          "the move had diverged and was ended there, or was not run after one that was",
                          &M::stopped),
-       .file = {.only_with = &OutcomeExtras::stopped},
+       .file = {.only_with = &study::OutcomeExtras::stopped},
        .of_trial = OfTrial::any,
        .point = {"", {{{count}, "trials that were ended early, because a move had diverged"}}},
-       .summary = {&StudyFeatures::stopping,
+       .summary = {&study::StudyFeatures::stopping,
                    {{"stopped", count, CellText::proportion_of_trials}},
                    "stopped: proportion of trials that were ended where a move had diverged; they count as "
                    "oscillating, and what is\nmeasured of their moves is up to there\n"}},
@@ -300,7 +300,7 @@ const MeasureTable& measure_table() {
   return measures;
 }
 
-bool is_in_file(const Measure& measure, std::int64_t version, const OutcomeExtras& extras) {
+bool is_in_file(const Measure& measure, std::int64_t version, const study::OutcomeExtras& extras) {
   return measure.file.since <= version &&
          (measure.file.only_with == nullptr || extras.*measure.file.only_with);
 }
@@ -309,10 +309,10 @@ bool is_quality(const Measure& measure) {
   return measure.of_trial == OfTrial::all || measure.of_trial == OfTrial::any;
 }
 
-bool has_quality(const Measure& measure, const MoveOutcome& move) {
+bool has_quality(const Measure& measure, const trial::MoveOutcome& move) {
   const double value = value_of(measure.field, move);
-  if (std::holds_alternative<Outcome M::*>(measure.field.member))
-    return is_success(static_cast<Outcome>(static_cast<std::int8_t>(value)));
+  if (std::holds_alternative<trial::Outcome M::*>(measure.field.member))
+    return trial::is_success(static_cast<trial::Outcome>(static_cast<std::int8_t>(value)));
   return value != 0.0;
 }
 
@@ -332,4 +332,4 @@ std::vector<const Measure*> measures_of(const MeasureTable& measures, ReportOrde
   return found;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

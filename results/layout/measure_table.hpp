@@ -14,13 +14,13 @@
 /// values, its statistics at a point and at a torque level, its columns in the summary, its output in the
 /// sensitivity analysis, and its judgement by the gate. Everything that is written, read or reported of a
 /// measure comes from its row.
-namespace zerocount {
+namespace zerocount::layout {
 
 /// What becomes of a measure in files without its column.
 struct FileHistory {
-  std::int64_t since{1};                    ///< first version of the layout that has it
-  double before{0.0};                       ///< value in files of earlier versions; NaN where it is not known
-  bool OutcomeExtras::*only_with{nullptr};  ///< the extra without which no file has it
+  std::int64_t since{1};  ///< first version of the layout that has it
+  double before{0.0};     ///< value in files of earlier versions; NaN where it is not known
+  bool study::OutcomeExtras::*only_with{nullptr};  ///< the extra without which no file has it
 };
 
 /// Which values of the moves count, in statistics and in outputs of a trial.
@@ -100,7 +100,7 @@ struct SummaryColumn {
 
 /// The columns of a measure in the summary's table.
 struct SummaryColumns {
-  bool StudyFeatures::*use{nullptr};  ///< what a study must make use of to have them; null: nothing
+  bool study::StudyFeatures::*use{nullptr};  ///< what a study must make use of to have them; null: nothing
   std::vector<SummaryColumn> columns{};
   std::string_view legend{};  ///< whole lines below the table
 };
@@ -124,7 +124,7 @@ struct GatedMeasure {
 
 /// One measure of a move.
 struct Measure {
-  RecordField<MoveOutcome> field;
+  RecordField<trial::MoveOutcome> field;
   FileHistory file{};
   CountedValues values{};
   OfTrial of_trial{OfTrial::last};
@@ -136,11 +136,11 @@ struct Measure {
 };
 
 /// Whether a file of this version with these extras has the measure.
-bool is_in_file(const Measure& measure, std::int64_t version, const OutcomeExtras& extras);
+bool is_in_file(const Measure& measure, std::int64_t version, const study::OutcomeExtras& extras);
 
 /// Whether the moves have, or lack, the measure as a quality.
 bool is_quality(const Measure& measure);
-bool has_quality(const Measure& measure, const MoveOutcome& move);
+bool has_quality(const Measure& measure, const trial::MoveOutcome& move);
 
 /// Orders that reports of earlier versions have: the measures named here come first, the others follow in the
 /// order of the table.
@@ -150,4 +150,4 @@ enum class ReportOrder { statistics, levels, summary, outputs };
 std::vector<const Measure*> measures_of(const MeasureTable& measures, ReportOrder order,
                                         bool (*belongs)(const Measure&));
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

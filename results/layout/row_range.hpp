@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-namespace zerocount {
+namespace zerocount::layout {
 
 /// A contiguous block of trials by global row: row = point·trials + index, so that the trials of a point are
 /// neighbours.
@@ -22,4 +22,4 @@ inline std::int64_t total_rows(std::span<const RowRange> ranges) {
   return rows;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

@@ -7,7 +7,7 @@
 
 #include "results/layout/table_io.hpp"
 
-namespace zerocount {
+namespace zerocount::layout {
 namespace {
 
 /// The columns of the group as they are described in the file, without values.
@@ -55,4 +55,4 @@ std::vector<StatisticTable> read_statistic_tables(const hdf5::File& file) {
   return tables;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

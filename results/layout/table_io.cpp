@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::layout {
 namespace {
 
 void describe(hdf5::Dataset& dataset, const Column& column) {
@@ -67,7 +67,7 @@ std::int64_t chunk_rows(std::int64_t width) {
 }
 
 TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t width,
-                        Compression compression) {
+                        hdf5::Compression compression) {
   hdf5::Group group = make_group(root, table.group);
   hdf5::Dataset scale = make_scale(group, table.rows, rows);
   TableIo io(std::move(group), std::move(scale));
@@ -76,7 +76,7 @@ TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows
   io.compression_ = compression;
   if (table.second) {
     io.second_scale_ = make_scale(io.group_, *table.second, width);
-    if (table.second->element == Element::int64) write_numbers(*io.second_scale_, width, 0);
+    if (table.second->element == hdf5::Element::int64) write_numbers(*io.second_scale_, width, 0);
   }
   for (const Column& column : table.columns) io.add(column);
   return io;
@@ -133,4 +133,4 @@ void TableIo::number_rows(std::int64_t first_value) {
   write_numbers(row_scale_, rows_, first_value);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

@@ -12,7 +12,7 @@
 #include "results/layout/fields.hpp"
 #include "results/layout/layout.hpp"
 
-namespace zerocount {
+namespace zerocount::layout {
 
 /// Elements in a chunk of a column that is long enough to fill one. A constant of the format: chunks depend
 /// on the study alone and not on how it was run.
@@ -29,7 +29,7 @@ class TableIo {
   /// used as it is. A table without rows is made extendible, because
   /// the netCDF library knows a length of zero only of an unlimited dimension.
   static TableIo create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t width,
-                        Compression compression = Compression::deflate);
+                        hdf5::Compression compression = hdf5::Compression::deflate);
   /// Opens the columns of `table`, and checks that they have its element types and equal sizes.
   static TableIo open(const hdf5::Group& root, const Table& table);
 
@@ -54,7 +54,7 @@ class TableIo {
 
   std::int64_t rows_{0};
   std::int64_t width_{1};
-  Compression compression_{Compression::deflate};
+  hdf5::Compression compression_{hdf5::Compression::deflate};
   hdf5::Group group_;
   hdf5::Dataset row_scale_;
   std::optional<hdf5::Dataset> second_scale_;
@@ -76,11 +76,11 @@ std::vector<Record> read_records(const TableIo& io, const std::vector<RecordFiel
                                  std::int64_t first, std::int64_t rows) {
   std::vector<Record> records(static_cast<std::size_t>(rows * io.width()));
   for (std::size_t index = 0; index < fields.size(); ++index) {
-    std::vector<std::byte> bytes(records.size() * size_of(fields[index].column.element));
+    std::vector<std::byte> bytes(records.size() * hdf5::size_of(fields[index].column.element));
     io.column(index).read(first, rows, bytes.data());
     scatter(fields[index], bytes, std::span(records));
   }
   return records;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

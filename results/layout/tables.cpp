@@ -4,11 +4,11 @@
 
 #include "results/layout/layout.hpp"
 
-namespace zerocount {
+namespace zerocount::layout {
 namespace {
 
 Column whole_numbers(std::string_view name, std::string_view long_name) {
-  return {std::string(name), "1", std::string(long_name), Element::int64, {}, {}};
+  return {std::string(name), "1", std::string(long_name), hdf5::Element::int64, {}, {}};
 }
 
 Column rig_scale() {
@@ -16,24 +16,25 @@ Column rig_scale() {
 }
 
 Column theta_scale() {
-  return {"theta", "rad", "rotor angle from the origin of the profile", Element::float64, {}, {}};
+  return {"theta", "rad", "rotor angle from the origin of the profile", hdf5::Element::float64, {}, {}};
 }
 
 Column value_of_profile(const std::string& name, const std::string& unit) {
-  return {"value", unit, "realised value of " + name, Element::float64, {}, {}};
+  return {"value", unit, "realised value of " + name, hdf5::Element::float64, {}, {}};
 }
 
-std::vector<Column> input_columns(const std::vector<InputColumn>& inputs) {
+std::vector<Column> input_columns(const std::vector<study::InputColumn>& inputs) {
   std::vector<Column> columns;
   columns.reserve(inputs.size());
-  for (const InputColumn& input : inputs) {
-    columns.push_back({input_column_name(input.name), input.unit, input.meaning, Element::float64, {}, {}});
+  for (const study::InputColumn& input : inputs) {
+    columns.push_back(
+        {input_column_name(input.name), input.unit, input.meaning, hdf5::Element::float64, {}, {}});
   }
   return columns;
 }
 
 Column statistic_column(const PointColumn& statistic) {
-  return {statistic.name, statistic.unit, statistic.long_name, Element::float64, {}, "statistic"};
+  return {statistic.name, statistic.unit, statistic.long_name, hdf5::Element::float64, {}, "statistic"};
 }
 
 template <class Record>
@@ -46,15 +47,15 @@ std::vector<Column> columns_of(const std::vector<RecordField<Record>>& fields) {
 
 }  // namespace
 
-Table point_table(const std::vector<SweepAxis>& axes, const std::vector<PointColumn>& statistics) {
+Table point_table(const std::vector<study::SweepAxis>& axes, const std::vector<PointColumn>& statistics) {
   Table table{"point", whole_numbers("point", "index of the design point"), {}, {}};
-  table.columns.push_back({"label", "1", "name of the design point", Element::text, {}, {}});
-  for (const SweepAxis& axis : axes) {
-    const bool text = axis.kind == SweepAxis::Kind::text;
+  table.columns.push_back({"label", "1", "name of the design point", hdf5::Element::text, {}, {}});
+  for (const study::SweepAxis& axis : axes) {
+    const bool text = axis.kind == study::SweepAxis::Kind::text;
     table.columns.push_back({axis.name,
                              text || axis.unit.empty() ? "1" : axis.unit,
                              axis.meaning,
-                             text ? Element::text : Element::float64,
+                             text ? hdf5::Element::text : hdf5::Element::float64,
                              {},
                              "axis"});
   }
@@ -66,7 +67,7 @@ std::string input_column_name(const std::string& parameter) {
   return "input/" + parameter;
 }
 
-Table trial_table(const std::vector<InputColumn>& inputs) {
+Table trial_table(const std::vector<study::InputColumn>& inputs) {
   Table table{
       "trial", whole_numbers("trial", "global row of the trial, point times trials plus index"), {}, {}};
   table.columns.push_back(whole_numbers("point", "index of the design point"));
@@ -76,7 +77,7 @@ Table trial_table(const std::vector<InputColumn>& inputs) {
   return table;
 }
 
-Table outcome_table(std::int64_t version, const OutcomeExtras& extras, const MeasureTable& measures) {
+Table outcome_table(std::int64_t version, const study::OutcomeExtras& extras, const MeasureTable& measures) {
   return {"outcome", whole_numbers("trial", "global row of the trial"),
           whole_numbers("move", "index of the move"), columns_of(outcome_fields(version, extras, measures))};
 }
@@ -88,7 +89,7 @@ Table jerk_table() {
           columns_of(jerk_fields())};
 }
 
-Table trace_table(const TraceExtras& extras) {
+Table trace_table(const study::TraceExtras& extras) {
   return {"trace",
           whole_numbers("record", "index of the record, by trial and sample"),
           {},
@@ -114,10 +115,10 @@ Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn
   return table;
 }
 
-Table on_axis(Table table, AxisKind axis) {
+Table on_axis(Table table, parameters::AxisKind axis) {
   const auto reword = [axis](Column& column) {
-    column.unit = unit_on(axis, column.unit);
-    column.long_name = text_on(axis, column.long_name);
+    column.unit = parameters::unit_on(axis, column.unit);
+    column.long_name = parameters::text_on(axis, column.long_name);
   };
   reword(table.rows);
   if (table.second) reword(*table.second);
@@ -125,9 +126,9 @@ Table on_axis(Table table, AxisKind axis) {
   return table;
 }
 
-PointColumn on_axis(PointColumn column, AxisKind axis) {
-  column.unit = unit_on(axis, column.unit);
-  column.long_name = text_on(axis, column.long_name);
+PointColumn on_axis(PointColumn column, parameters::AxisKind axis) {
+  column.unit = parameters::unit_on(axis, column.unit);
+  column.long_name = parameters::text_on(axis, column.long_name);
   return column;
 }
 
@@ -150,7 +151,7 @@ Table rotor_table(const std::string& name, const std::string& unit) {
   return {"profile/" + name, rig_scale(), theta_scale(), {value_of_profile(name, unit)}};
 }
 
-Table rig_table(const std::vector<InputColumn>& inputs) {
+Table rig_table(const std::vector<study::InputColumn>& inputs) {
   return {"rig", rig_scale(), {}, input_columns(inputs)};
 }
 
@@ -162,4 +163,4 @@ Table rig_count_table() {
            whole_numbers("trials", "trials of the rig at the point that were judged, 0 in an open loop")}};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::layout

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::reading {
 
 std::string number_text(double value) {
   return std::isnan(value) ? "nan" : fmt::format("{}", value);  // a NaN's sign means nothing
@@ -51,4 +51,4 @@ void CsvFile::end_row() {
   row_started_ = false;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::reading

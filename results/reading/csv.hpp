@@ -8,18 +8,19 @@
 #include "results/layout/fields.hpp"
 #include "results/storage/output_file.hpp"
 
-namespace zerocount {
+namespace zerocount::reading {
 
 /// The shortest decimal text that reads back to the same double; "nan", "inf" and "-inf" for the others.
 std::string number_text(double value);
 
 /// The value of a field: a number, or the word of an enumeration.
 template <class Record>
-std::string value_text(const RecordField<Record>& field, const Record& record) {
-  const double value = value_of(field, record);
-  if (field.column.element == Element::float64) return number_text(value);
+std::string value_text(const layout::RecordField<Record>& field, const Record& record) {
+  const double value = layout::value_of(field, record);
+  if (field.column.element == hdf5::Element::float64) return number_text(value);
   const auto whole = static_cast<std::int64_t>(value);
-  return field.column.element == Element::int8 ? word_of(field.column, whole) : std::to_string(whole);
+  return field.column.element == hdf5::Element::int8 ? layout::word_of(field.column, whole)
+                                                     : std::to_string(whole);
 }
 
 /// A field of CSV (RFC 4180): quoted where it holds a comma, a quote or a line break.
@@ -46,9 +47,9 @@ class CsvFile {
  private:
   void separate();
 
-  OutputFile file_;
+  storage::OutputFile file_;
   std::string row_;
   bool row_started_{false};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::reading

@@ -15,7 +15,7 @@
 #include "results/layout/table_io.hpp"
 #include "results/reading/csv.hpp"
 
-namespace zerocount {
+namespace zerocount::reading {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,45 +27,48 @@ void for_each_block(std::int64_t first, std::int64_t end, std::int64_t size,
 }
 
 template <class Record>
-void add_names(CsvFile& csv, const std::vector<RecordField<Record>>& fields, AxisKind axis) {
-  for (const RecordField<Record>& field : fields)
-    csv.add(head_with_unit(field.column.name, unit_on(axis, field.column.unit)));
+void add_names(CsvFile& csv, const std::vector<layout::RecordField<Record>>& fields,
+               parameters::AxisKind axis) {
+  for (const layout::RecordField<Record>& field : fields)
+    csv.add(head_with_unit(field.column.name, parameters::unit_on(axis, field.column.unit)));
 }
 
 template <class Record>
-void add_values(CsvFile& csv, const std::vector<RecordField<Record>>& fields, const Record& record) {
-  for (const RecordField<Record>& field : fields) csv.add(value_text(field, record));
+void add_values(CsvFile& csv, const std::vector<layout::RecordField<Record>>& fields, const Record& record) {
+  for (const layout::RecordField<Record>& field : fields) csv.add(value_text(field, record));
 }
 
 void export_points(const StudyFile& file, CsvFile& csv) {
   const std::vector<std::string> labels = file.point_labels();
-  const std::vector<SweepAxis> axes = file.axes();
-  const std::vector<PointColumn> statistics = file.statistics();
+  const std::vector<study::SweepAxis> axes = file.axes();
+  const std::vector<layout::PointColumn> statistics = file.statistics();
   csv.add("point");
   csv.add("label");
-  for (const SweepAxis& axis : axes) csv.add(head_with_unit(axis.name, axis.unit));
-  for (const PointColumn& statistic : statistics) csv.add(head_with_unit(statistic.name, statistic.unit));
+  for (const study::SweepAxis& axis : axes) csv.add(head_with_unit(axis.name, axis.unit));
+  for (const layout::PointColumn& statistic : statistics)
+    csv.add(head_with_unit(statistic.name, statistic.unit));
   csv.end_row();
   for (std::size_t point = 0; point < labels.size(); ++point) {
     csv.add(static_cast<std::int64_t>(point));
     csv.add(labels[point]);
-    for (const SweepAxis& axis : axes) {
-      if (axis.kind == SweepAxis::Kind::text) {
+    for (const study::SweepAxis& axis : axes) {
+      if (axis.kind == study::SweepAxis::Kind::text) {
         csv.add(axis.texts.at(point));
       } else {
         csv.add(axis.numbers.at(point));
       }
     }
-    for (const PointColumn& statistic : statistics) csv.add(statistic.values.at(point));
+    for (const layout::PointColumn& statistic : statistics) csv.add(statistic.values.at(point));
     csv.end_row();
   }
 }
 
 void export_trials(const StudyFile& file, CsvFile& csv) {
   for (const char* name : {"trial", "point", "index"}) csv.add(name);
-  for (const InputColumn& input : file.input_columns()) csv.add(head_with_unit(input.name, input.unit));
+  for (const study::InputColumn& input : file.input_columns())
+    csv.add(head_with_unit(input.name, input.unit));
   csv.end_row();
-  for_each_block(file.rows().first, file.rows().end(), chunk_elements,
+  for_each_block(file.rows().first, file.rows().end(), layout::chunk_elements,
                  [&](std::int64_t first, std::int64_t count) {
                    std::vector<std::vector<double>> inputs;
                    for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
@@ -88,10 +91,10 @@ void export_outcomes(const StudyFile& file, CsvFile& csv) {
   add_names(csv, file.measures(), file.axis());
   csv.end_row();
   const std::int64_t moves = file.moves();
-  for_each_block(file.rows().first, file.rows().end(), chunk_rows(moves),
+  for_each_block(file.rows().first, file.rows().end(), layout::chunk_rows(moves),
                  [&](std::int64_t first, std::int64_t count) {
                    std::int64_t position = 0;
-                   for (const MoveOutcome& outcome : file.outcomes({first, count})) {
+                   for (const trial::MoveOutcome& outcome : file.outcomes({first, count})) {
                      csv.add(first + position / moves);
                      csv.add(position % moves);
                      add_values(csv, file.measures(), outcome);
@@ -102,11 +105,11 @@ void export_outcomes(const StudyFile& file, CsvFile& csv) {
 }
 
 void export_jerks(const StudyFile& file, CsvFile& csv) {
-  add_names(csv, jerk_fields(), file.axis());
+  add_names(csv, layout::jerk_fields(), file.axis());
   csv.end_row();
-  for_each_block(0, file.jerk_count(), chunk_elements, [&](std::int64_t first, std::int64_t count) {
-    for (const JerkRecord& jerk : file.jerks_at(first, count)) {
-      add_values(csv, jerk_fields(), jerk);
+  for_each_block(0, file.jerk_count(), layout::chunk_elements, [&](std::int64_t first, std::int64_t count) {
+    for (const layout::JerkRecord& jerk : file.jerks_at(first, count)) {
+      add_values(csv, layout::jerk_fields(), jerk);
       csv.end_row();
     }
   });
@@ -118,7 +121,7 @@ void export_profiles(const StudyFile& file, CsvFile& csv) {
       std::any_of(profiles.begin(), profiles.end(), [](const StoredProfile& p) { return p.rigs > 0; });
   csv.add("profile");
   if (of_rigs) csv.add("rig");
-  csv.add(head_with_unit("theta", unit_on(file.axis(), "rad")));
+  csv.add(head_with_unit("theta", parameters::unit_on(file.axis(), "rad")));
   csv.add("value");
   csv.add("unit of value");
   csv.end_row();
@@ -141,7 +144,7 @@ void export_profiles(const StudyFile& file, CsvFile& csv) {
 
 void export_rigs(const StoredRigs& rigs, CsvFile& csv) {
   csv.add("rig");
-  for (const InputColumn& column : rigs.columns) csv.add(head_with_unit(column.name, column.unit));
+  for (const study::InputColumn& column : rigs.columns) csv.add(head_with_unit(column.name, column.unit));
   csv.end_row();
   for (std::int64_t rig = 0; rig < rigs.rigs; ++rig) {
     csv.add(rig);
@@ -163,11 +166,12 @@ void export_rig_counts(const StoredRigs& rigs, CsvFile& csv) {
 }
 
 void export_trace(const StudyFile& file, CsvFile& csv) {
-  const std::vector<RecordField<TraceRecord>> fields = trace_fields(file.trace_extras());
+  const std::vector<layout::RecordField<layout::TraceRecord>> fields =
+      layout::trace_fields(file.trace_extras());
   add_names(csv, fields, file.axis());
   csv.end_row();
-  for_each_block(0, file.trace_count(), chunk_elements, [&](std::int64_t first, std::int64_t count) {
-    for (const TraceRecord& record : file.trace_at(first, count)) {
+  for_each_block(0, file.trace_count(), layout::chunk_elements, [&](std::int64_t first, std::int64_t count) {
+    for (const layout::TraceRecord& record : file.trace_at(first, count)) {
       add_values(csv, fields, record);
       csv.end_row();
     }
@@ -175,16 +179,16 @@ void export_trace(const StudyFile& file, CsvFile& csv) {
 }
 
 /// One row per design point and index of the second dimension.
-void export_statistics(const StatisticTable& table, CsvFile& csv) {
+void export_statistics(const layout::StatisticTable& table, CsvFile& csv) {
   csv.add("point");
   csv.add(table.group->dimension);
-  for (const PointColumn& column : table.columns) csv.add(head_with_unit(column.name, column.unit));
+  for (const layout::PointColumn& column : table.columns) csv.add(head_with_unit(column.name, column.unit));
   csv.end_row();
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();
   for (std::size_t row = 0; row < rows; ++row) {
     csv.add(static_cast<std::int64_t>(row) / table.width);
     csv.add(static_cast<std::int64_t>(row) % table.width);
-    for (const PointColumn& column : table.columns) csv.add(column.values[row]);
+    for (const layout::PointColumn& column : table.columns) csv.add(column.values[row]);
     csv.end_row();
   }
 }
@@ -203,7 +207,7 @@ std::vector<ExportedTable> tables_of(const StudyFile& file) {
     }
   }
   if (file.has_trace()) tables.push_back({"trace.csv", export_trace});
-  for (const StatisticTable& table : file.statistic_tables()) {
+  for (const layout::StatisticTable& table : file.statistic_tables()) {
     tables.push_back({std::string(table.group->csv),
                       [table](const StudyFile&, CsvFile& csv) { export_statistics(table, csv); }});
   }
@@ -224,7 +228,7 @@ std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& director
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: is no directory; name one, which is made if need be", directory.string()));
   }
-  make_directory(directory);
+  storage::make_directory(directory);
   for (const fs::path& path : paths) {
     std::error_code ignored;
     if (existing == ExistingFiles::refuse && fs::exists(fs::symlink_status(path, ignored))) {
@@ -244,4 +248,4 @@ std::vector<fs::path> export_csv(const StudyFile& file, const fs::path& director
   return paths;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::reading

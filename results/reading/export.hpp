@@ -8,7 +8,7 @@
 #include "results/reading/csv.hpp"
 #include "results/reading/study_file.hpp"
 
-namespace zerocount {
+namespace zerocount::reading {
 
 /// A table as a CSV file.
 struct ExportedTable {
@@ -33,4 +33,4 @@ std::vector<std::filesystem::path> export_csv(const StudyFile& file, const std::
                                               const std::vector<ExportedTable>& further = {},
                                               ExistingFiles existing = ExistingFiles::refuse);
 
-}  // namespace zerocount
+}  // namespace zerocount::reading

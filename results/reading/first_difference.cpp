@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace zerocount {
+namespace zerocount::reading {
 namespace {
 
 /// Elements that are read at a time.
@@ -29,7 +29,7 @@ std::optional<std::string> text_difference(const hdf5::Dataset& one, const hdf5:
 std::optional<std::string> number_difference(const hdf5::Dataset& one, const hdf5::Dataset& other) {
   const std::vector<hdf5::Size> extent = one.extent();
   if (extent.empty()) return differs(one, "has no rows");
-  std::size_t width = size_of(one.element());
+  std::size_t width = hdf5::size_of(one.element());
   for (std::size_t dimension = 1; dimension < extent.size(); ++dimension) width *= extent[dimension];
   const auto rows = static_cast<std::int64_t>(extent[0]);
   const std::int64_t at_once = std::max<std::int64_t>(1, block_elements / static_cast<std::int64_t>(width));
@@ -52,7 +52,7 @@ std::optional<std::string> number_difference(const hdf5::Dataset& one, const hdf
 std::optional<std::string> dataset_difference(const hdf5::Dataset& one, const hdf5::Dataset& other) {
   if (one.element() != other.element()) return differs(one, "has elements of another type");
   if (one.extent() != other.extent()) return differs(one, "has another size");
-  return one.element() == Element::text ? text_difference(one, other) : number_difference(one, other);
+  return one.element() == hdf5::Element::text ? text_difference(one, other) : number_difference(one, other);
 }
 
 /// Statistics of the trials: what they are made of is looked at before them.
@@ -82,4 +82,4 @@ std::optional<std::string> first_difference(const hdf5::Group& one, const hdf5::
   return std::nullopt;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::reading

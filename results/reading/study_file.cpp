@@ -12,13 +12,13 @@
 #include "results/layout/statistic_io.hpp"
 #include "results/reading/validation.hpp"
 
-namespace zerocount {
+namespace zerocount::reading {
 namespace {
 
 constexpr std::size_t columns_before_inputs = 2;  // point and index
 
-FileHeader read_required(const hdf5::File& file, const std::filesystem::path& path, Require require) {
-  FileHeader header = read_header(file);
+layout::FileHeader read_required(const hdf5::File& file, const std::filesystem::path& path, Require require) {
+  layout::FileHeader header = layout::read_header(file);
   if (!header.finished && require != Require::unfinished) file.fail("it was never finished");
   if (!header.complete && require == Require::complete) {
     throw Failure(
@@ -31,8 +31,8 @@ FileHeader read_required(const hdf5::File& file, const std::filesystem::path& pa
 }
 
 /// What is in the group `input` of /trial or /rig.
-std::vector<InputColumn> read_input_columns(const hdf5::Group& table) {
-  std::vector<InputColumn> inputs;
+std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table) {
+  std::vector<study::InputColumn> inputs;
   if (!table.contains("input")) return inputs;
   const hdf5::Group group = table.open_group("input");
   for (const std::string& name : group.children()) {
@@ -43,34 +43,35 @@ std::vector<InputColumn> read_input_columns(const hdf5::Group& table) {
 }
 
 /// By the unit of a position.
-AxisKind read_axis(const hdf5::File& file) {
+parameters::AxisKind read_axis(const hdf5::File& file) {
   const std::string unit = file.open_group("outcome").open_dataset("final_position").text("units");
-  return unit == unit_on(AxisKind::linear, "rad") ? AxisKind::linear : AxisKind::rotary;
+  return unit == parameters::unit_on(parameters::AxisKind::linear, "rad") ? parameters::AxisKind::linear
+                                                                          : parameters::AxisKind::rotary;
 }
 
-OutcomeExtras read_outcome_extras(const hdf5::File& file, const MeasureTable& table) {
+study::OutcomeExtras read_outcome_extras(const hdf5::File& file, const layout::MeasureTable& table) {
   const hdf5::Group group = file.open_group("outcome");
-  OutcomeExtras extras;
-  for (const Measure& measure : table) {
+  study::OutcomeExtras extras;
+  for (const layout::Measure& measure : table) {
     if (measure.file.only_with != nullptr)
       extras.*measure.file.only_with = group.contains(measure.field.column.name);
   }
   return extras;
 }
 
-TraceExtras read_trace_extras(const hdf5::File& file) {
+study::TraceExtras read_trace_extras(const hdf5::File& file) {
   if (!file.contains("trace")) return {};
   const hdf5::Group trace = file.open_group("trace");
   return {trace.contains("reference"), trace.contains("phase"), trace.contains("drive_torque")};
 }
 
-std::optional<TableIo> open_trace(const hdf5::File& file, const TraceExtras& extras) {
+std::optional<layout::TableIo> open_trace(const hdf5::File& file, const study::TraceExtras& extras) {
   if (!file.contains("trace")) return std::nullopt;
-  return TableIo::open(file, trace_table(extras));
+  return layout::TableIo::open(file, layout::trace_table(extras));
 }
 
 std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
-  if (dataset.element() != Element::float64 || dataset.extent().size() != 1)
+  if (dataset.element() != hdf5::Element::float64 || dataset.extent().size() != 1)
     dataset.fail("it should be numbers in one dimension");
   std::vector<double> values(dataset.extent()[0]);
   dataset.read(0, std::ssize(values), values.data());
@@ -79,18 +80,19 @@ std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
 
 }  // namespace
 
-StudyFile::StudyFile(const std::filesystem::path& path, Require require, const MeasureTable& table)
+StudyFile::StudyFile(const std::filesystem::path& path, Require require, const layout::MeasureTable& table)
     : path_(path),
-      file_(open_results(path, require == Require::unfinished ? Checksum::not_yet : Checksum::required)),
+      file_(layout::open_results(
+          path, require == Require::unfinished ? layout::Checksum::not_yet : layout::Checksum::required)),
       header_(read_required(file_, path, require)),
       axis_(read_axis(file_)),
       inputs_(read_input_columns(file_.open_group("trial"))),
-      trials_(TableIo::open(file_, trial_table(inputs_))),
+      trials_(layout::TableIo::open(file_, layout::trial_table(inputs_))),
       table_(&table),
       outcome_extras_(read_outcome_extras(file_, table)),
-      measures_(outcome_fields(header_.version, outcome_extras_, table)),
-      outcomes_(TableIo::open(file_, outcome_table(header_.version, outcome_extras_, table))),
-      jerks_(TableIo::open(file_, jerk_table())),
+      measures_(layout::outcome_fields(header_.version, outcome_extras_, table)),
+      outcomes_(layout::TableIo::open(file_, layout::outcome_table(header_.version, outcome_extras_, table))),
+      jerks_(layout::TableIo::open(file_, layout::jerk_table())),
       trace_extras_(read_trace_extras(file_)),
       trace_(open_trace(file_, trace_extras_)) {
   if (trials_.rows() != rows().count)
@@ -100,7 +102,7 @@ StudyFile::StudyFile(const std::filesystem::path& path, Require require, const M
   validate_numbering(header_, trials_, jerks_);
 }
 
-std::int64_t StudyFile::local(RowRange range) const {
+std::int64_t StudyFile::local(layout::RowRange range) const {
   if (range.first < rows().first || range.count < 0 || range.end() > rows().end()) {
     throw Failure(ExitCode::bad_data,
                   fmt::format("{}: trials {} to {} were asked for; it holds {} to {}", path_.string(),
@@ -114,16 +116,17 @@ std::vector<std::string> StudyFile::point_labels() const {
   return file_.open_group("point").open_dataset("label").read_texts();
 }
 
-std::vector<SweepAxis> StudyFile::axes() const {
-  std::vector<SweepAxis> axes;
+std::vector<study::SweepAxis> StudyFile::axes() const {
+  std::vector<study::SweepAxis> axes;
   if (!file_.contains("point")) return axes;
   const hdf5::Group group = file_.open_group("point");
   for (const std::string& name : group.children()) {
     const hdf5::Dataset dataset = group.open_dataset(name);
     if (!dataset.has_attribute("role") || dataset.text("role") != "axis") continue;
-    SweepAxis axis{name, dataset.text("units"), dataset.text("long_name"), SweepAxis::Kind::number, {}, {}};
-    if (dataset.element() == Element::text) {
-      axis.kind = SweepAxis::Kind::text;
+    study::SweepAxis axis{
+        name, dataset.text("units"), dataset.text("long_name"), study::SweepAxis::Kind::number, {}, {}};
+    if (dataset.element() == hdf5::Element::text) {
+      axis.kind = study::SweepAxis::Kind::text;
       axis.unit.clear();
       axis.texts = dataset.read_texts();
     } else {
@@ -134,8 +137,8 @@ std::vector<SweepAxis> StudyFile::axes() const {
   return axes;
 }
 
-std::vector<PointColumn> StudyFile::statistics() const {
-  std::vector<PointColumn> statistics;
+std::vector<layout::PointColumn> StudyFile::statistics() const {
+  std::vector<layout::PointColumn> statistics;
   if (!file_.contains("point")) return statistics;
   const hdf5::Group group = file_.open_group("point");
   for (const std::string& name : group.children()) {
@@ -146,7 +149,7 @@ std::vector<PointColumn> StudyFile::statistics() const {
   return statistics;
 }
 
-std::vector<double> StudyFile::input(std::size_t column, RowRange range) const {
+std::vector<double> StudyFile::input(std::size_t column, layout::RowRange range) const {
   const std::int64_t first = local(range);
   std::vector<double> values(static_cast<std::size_t>(range.count));
   trials_.column(columns_before_inputs + column).read(first, range.count, values.data());
@@ -160,42 +163,43 @@ std::vector<double> StudyFile::inputs_of(std::int64_t row) const {
   return values;
 }
 
-std::vector<MoveOutcome> StudyFile::outcomes(RowRange range) const {
-  std::vector<MoveOutcome> moves = read_records(outcomes_, measures_, local(range), range.count);
+std::vector<trial::MoveOutcome> StudyFile::outcomes(layout::RowRange range) const {
+  std::vector<trial::MoveOutcome> moves =
+      layout::read_records(outcomes_, measures_, local(range), range.count);
   validate_outcomes(outcomes_, measures_, range.first, moves);
   return moves;
 }
 
-std::vector<double> StudyFile::measure(std::string_view name, RowRange range) const {
-  const auto known = std::find_if(table_->begin(), table_->end(), [name](const Measure& measure) {
+std::vector<double> StudyFile::measure(std::string_view name, layout::RowRange range) const {
+  const auto known = std::find_if(table_->begin(), table_->end(), [name](const layout::Measure& measure) {
     return measure.field.column.name == name;
   });
   if (known == table_->end()) throw std::invalid_argument(fmt::format("'{}' is no measure of a move", name));
 
-  const RecordField<MoveOutcome>& field = known->field;
+  const layout::RecordField<trial::MoveOutcome>& field = known->field;
   const std::int64_t first = local(range);
   const auto size = static_cast<std::size_t>(range.count * outcomes_.width());
   const auto column = std::find_if(measures_.begin(), measures_.end(),
                                    [name](const auto& one) { return one.column.name == name; });
   if (column == measures_.end()) return std::vector<double>(size, known->file.before);
-  std::vector<MoveOutcome> moves(size);
-  if (is_computed(field)) {
+  std::vector<trial::MoveOutcome> moves(size);
+  if (layout::is_computed(field)) {
     moves = outcomes(range);
   } else {
-    std::vector<std::byte> bytes(size * size_of(field.column.element));
+    std::vector<std::byte> bytes(size * hdf5::size_of(field.column.element));
     outcomes_.column(static_cast<std::size_t>(column - measures_.begin()))
         .read(first, range.count, bytes.data());
-    scatter(field, bytes, std::span(moves));
+    layout::scatter(field, bytes, std::span(moves));
     validate_measure(outcomes_, measures_, name, range.first, moves);
   }
   std::vector<double> values(size);
   std::transform(moves.begin(), moves.end(), values.begin(),
-                 [&](const MoveOutcome& move) { return value_of(field, move); });
+                 [&](const trial::MoveOutcome& move) { return layout::value_of(field, move); });
   return values;
 }
 
-std::vector<JerkRecord> StudyFile::jerks_at(std::int64_t first, std::int64_t count) const {
-  std::vector<JerkRecord> jerks = read_records(jerks_, jerk_fields(), first, count);
+std::vector<layout::JerkRecord> StudyFile::jerks_at(std::int64_t first, std::int64_t count) const {
+  std::vector<layout::JerkRecord> jerks = layout::read_records(jerks_, layout::jerk_fields(), first, count);
   validate_jerks(jerks_, moves(), first, jerks);
   return jerks;
 }
@@ -217,32 +221,33 @@ std::int64_t StudyFile::first_jerk_from(std::int64_t row) const {
   return low;
 }
 
-std::vector<JerkRecord> StudyFile::jerks(RowRange range) const {
+std::vector<layout::JerkRecord> StudyFile::jerks(layout::RowRange range) const {
   local(range);
   const std::int64_t first = first_jerk_from(range.first);
   return jerks_at(first, first_jerk_from(range.end()) - first);
 }
 
 void StudyFile::require_sound_values() const {
-  const std::int64_t at_once = chunk_rows(moves());
+  const std::int64_t at_once = layout::chunk_rows(moves());
   for (std::int64_t first = rows().first; first < rows().end(); first += at_once)
     outcomes({first, std::min(at_once, rows().end() - first)});
-  for (std::int64_t first = 0; first < jerk_count(); first += chunk_elements)
-    jerks_at(first, std::min(chunk_elements, jerk_count() - first));
+  for (std::int64_t first = 0; first < jerk_count(); first += layout::chunk_elements)
+    jerks_at(first, std::min(layout::chunk_elements, jerk_count() - first));
 }
 
-std::vector<TraceRecord> StudyFile::trace_at(std::int64_t first, std::int64_t count) const {
+std::vector<layout::TraceRecord> StudyFile::trace_at(std::int64_t first, std::int64_t count) const {
   if (!trace_) return {};
-  std::vector<TraceRecord> records = read_records(*trace_, trace_fields(trace_extras_), first, count);
-  for (TraceRecord& record : records) {
+  std::vector<layout::TraceRecord> records =
+      layout::read_records(*trace_, layout::trace_fields(trace_extras_), first, count);
+  for (layout::TraceRecord& record : records) {
     if (!trace_extras_.reference) record.reference = record.target;
     if (!trace_extras_.drive_torque) record.drive_torque = record.torque;
   }
   return records;
 }
 
-std::vector<StatisticTable> StudyFile::statistic_tables() const {
-  return read_statistic_tables(file_);
+std::vector<layout::StatisticTable> StudyFile::statistic_tables() const {
+  return layout::read_statistic_tables(file_);
 }
 
 std::vector<StoredProfile> StudyFile::profiles() const {
@@ -254,7 +259,8 @@ std::vector<StoredProfile> StudyFile::profiles() const {
     const std::string unit = folder.open_dataset("value").text("units");
     StoredProfile profile{name, unit, read_doubles(folder.open_dataset("theta")), {}};
     const bool of_rigs = folder.contains("rig");
-    const TableIo io = TableIo::open(file_, of_rigs ? rotor_table(name, unit) : profile_table(name, unit));
+    const layout::TableIo io = layout::TableIo::open(
+        file_, of_rigs ? layout::rotor_table(name, unit) : layout::profile_table(name, unit));
     if (of_rigs) profile.rigs = io.rows();
     profile.value.resize(static_cast<std::size_t>(io.rows() * io.width()));
     io.column(0).read(0, io.rows(), profile.value.data());
@@ -268,14 +274,14 @@ std::optional<StoredRigs> StudyFile::rigs() const {
   StoredRigs stored;
   const hdf5::Group group = file_.open_group("rig");
   stored.columns = read_input_columns(group);
-  const TableIo io = TableIo::open(file_, rig_table(stored.columns));
+  const layout::TableIo io = layout::TableIo::open(file_, layout::rig_table(stored.columns));
   stored.rigs = io.rows();
   for (std::size_t column = 0; column < stored.columns.size(); ++column) {
     std::vector<double>& values = stored.inputs.emplace_back(static_cast<std::size_t>(stored.rigs));
     io.column(column).read(0, stored.rigs, values.data());
   }
   if (!group.contains("success")) return stored;
-  const TableIo counts = TableIo::open(file_, rig_count_table());
+  const layout::TableIo counts = layout::TableIo::open(file_, layout::rig_count_table());
   stored.success.resize(static_cast<std::size_t>(counts.rows() * counts.width()));
   stored.trials.resize(stored.success.size());
   counts.column(0).read(0, counts.rows(), stored.success.data());
@@ -284,4 +290,4 @@ std::optional<StoredRigs> StudyFile::rigs() const {
   return stored;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::reading

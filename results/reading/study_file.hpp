@@ -14,7 +14,7 @@
 #include "results/layout/row_range.hpp"
 #include "results/layout/table_io.hpp"
 
-namespace zerocount {
+namespace zerocount::reading {
 
 /// How much of its study a file must hold to be opened.
 enum class Require {
@@ -35,7 +35,7 @@ struct StoredProfile {
 /// The rigs of a study as they stand in a results file.
 struct StoredRigs {
   std::int64_t rigs{0};
-  std::vector<InputColumn> columns;         ///< what differs between them
+  std::vector<study::InputColumn> columns;  ///< what differs between them
   std::vector<std::vector<double>> inputs;  ///< [column][rig]
   std::vector<std::int64_t> success;        ///< [point][rig], flattened: trials that succeeded
   std::vector<std::int64_t> trials;         ///< likewise: trials that were judged; none of both in a part
@@ -52,35 +52,37 @@ class StudyFile {
   /// file, machine_failed where it cannot be read, otherwise bad_data.
   /// @param table the measures that its moves may have; stays as long as this.
   explicit StudyFile(const std::filesystem::path& path, Require require = Require::complete,
-                     const MeasureTable& table = measure_table());
+                     const layout::MeasureTable& table = layout::measure_table());
 
   const std::filesystem::path& path() const { return path_; }
-  const FileHeader& header() const { return header_; }
+  const layout::FileHeader& header() const { return header_; }
   const hdf5::Group& root() const { return file_; }  ///< for groups that this class does not know
-  RowRange rows() const { return header_.rows; }
-  AxisKind axis() const { return axis_; }  ///< of a shard always rotary, whose units are those of the tables
+  layout::RowRange rows() const { return header_.rows; }
+  parameters::AxisKind axis() const {
+    return axis_;
+  }  ///< of a shard always rotary, whose units are those of the tables
   std::int64_t moves() const { return outcomes_.width(); }
 
   /// Empty in a shard, like axes, statistics and their tables.
   std::vector<std::string> point_labels() const;
-  std::vector<SweepAxis> axes() const;
-  std::vector<PointColumn> statistics() const;
-  std::vector<StatisticTable> statistic_tables() const;
+  std::vector<study::SweepAxis> axes() const;
+  std::vector<layout::PointColumn> statistics() const;
+  std::vector<layout::StatisticTable> statistic_tables() const;
 
   /// How often each is drawn is not in the file.
-  const std::vector<InputColumn>& input_columns() const { return inputs_; }
-  std::vector<double> input(std::size_t column, RowRange rows) const;  ///< [row]
-  std::vector<double> inputs_of(std::int64_t row) const;               ///< [input column]
+  const std::vector<study::InputColumn>& input_columns() const { return inputs_; }
+  std::vector<double> input(std::size_t column, layout::RowRange rows) const;  ///< [row]
+  std::vector<double> inputs_of(std::int64_t row) const;                       ///< [input column]
 
   /// The measures that the file has; one of an earlier version of the layout lacks some.
-  const std::vector<RecordField<MoveOutcome>>& measures() const { return measures_; }
-  const MeasureTable& table() const { return *table_; }
+  const std::vector<layout::RecordField<trial::MoveOutcome>>& measures() const { return measures_; }
+  const layout::MeasureTable& table() const { return *table_; }
   /// All measures of the moves of these trials: [row][move], flattened. Those that the file lacks are 0, or
   /// false, which is their true value in such files but for final_error; true_error is NaN.
-  std::vector<MoveOutcome> outcomes(RowRange rows) const;
+  std::vector<trial::MoveOutcome> outcomes(layout::RowRange rows) const;
   /// One measure of a move by its name, [row][move], flattened, whatever its type in the file, as doubles.
   /// NaN where it is not known.
-  std::vector<double> measure(std::string_view name, RowRange rows) const;
+  std::vector<double> measure(std::string_view name, layout::RowRange rows) const;
 
   /// Reads all outcomes and jerks in blocks, for the checks that this makes of them: for a file that is kept
   /// without being used at once.
@@ -88,17 +90,17 @@ class StudyFile {
 
   std::int64_t jerk_count() const { return jerks_.rows(); }
   /// By position in the table.
-  std::vector<JerkRecord> jerks_at(std::int64_t first, std::int64_t count) const;
-  std::vector<JerkRecord> jerks(RowRange rows) const;  ///< of these trials
+  std::vector<layout::JerkRecord> jerks_at(std::int64_t first, std::int64_t count) const;
+  std::vector<layout::JerkRecord> jerks(layout::RowRange rows) const;  ///< of these trials
   /// Position of the first jerk of a trial not before `row`: the table is ordered by trial.
   std::int64_t first_jerk_from(std::int64_t row) const;
 
   bool has_trace() const { return trace_.has_value(); }
   std::int64_t trace_count() const { return trace_ ? trace_->rows() : 0; }
-  const TraceExtras& trace_extras() const { return trace_extras_; }  ///< the further columns it has
+  const study::TraceExtras& trace_extras() const { return trace_extras_; }  ///< the further columns it has
   /// By position in the table. Without its column, `reference` is the target, `phase` fine, and
   /// `drive_torque` the torque decided, which becomes the motor's after the control's delay.
-  std::vector<TraceRecord> trace_at(std::int64_t first, std::int64_t count) const;
+  std::vector<layout::TraceRecord> trace_at(std::int64_t first, std::int64_t count) const;
 
   bool has_profiles() const { return file_.contains("profile"); }
   std::vector<StoredProfile> profiles() const;
@@ -107,21 +109,21 @@ class StudyFile {
   std::optional<StoredRigs> rigs() const;
 
  private:
-  std::int64_t local(RowRange rows) const;
+  std::int64_t local(layout::RowRange rows) const;
 
   std::filesystem::path path_;
   hdf5::File file_;
-  FileHeader header_;
-  AxisKind axis_;
-  std::vector<InputColumn> inputs_;
-  TableIo trials_;  ///< point, index, then one column per input
-  const MeasureTable* table_;
-  OutcomeExtras outcome_extras_;
-  std::vector<RecordField<MoveOutcome>> measures_;
-  TableIo outcomes_;
-  TableIo jerks_;
-  TraceExtras trace_extras_;
-  std::optional<TableIo> trace_;
+  layout::FileHeader header_;
+  parameters::AxisKind axis_;
+  std::vector<study::InputColumn> inputs_;
+  layout::TableIo trials_;  ///< point, index, then one column per input
+  const layout::MeasureTable* table_;
+  study::OutcomeExtras outcome_extras_;
+  std::vector<layout::RecordField<trial::MoveOutcome>> measures_;
+  layout::TableIo outcomes_;
+  layout::TableIo jerks_;
+  study::TraceExtras trace_extras_;
+  std::optional<layout::TableIo> trace_;
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::reading

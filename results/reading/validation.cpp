@@ -10,20 +10,21 @@
 
 #include "results/layout/fields.hpp"
 
-namespace zerocount {
+namespace zerocount::reading {
 namespace {
 
-constexpr std::int64_t rows_at_once = chunk_elements;
+constexpr std::int64_t rows_at_once = layout::chunk_elements;
 constexpr std::int64_t numbered_blocks = 8;
 
-bool is_valid(const ValidValues& valid, double value) {
+bool is_valid(const layout::ValidValues& valid, double value) {
   if (valid.expected.empty()) return true;
   return std::isnan(value) ? valid.nan : value >= valid.low && value <= valid.high;
 }
 
 /// The field of this name; null where there is none.
 template <class Record>
-const RecordField<Record>* find_field(const std::vector<RecordField<Record>>& fields, std::string_view name) {
+const layout::RecordField<Record>* find_field(const std::vector<layout::RecordField<Record>>& fields,
+                                              std::string_view name) {
   const auto found = std::find_if(fields.begin(), fields.end(),
                                   [name](const auto& field) { return field.column.name == name; });
   return found == fields.end() ? nullptr : &*found;
@@ -36,24 +37,25 @@ const RecordField<Record>* find_field(const std::vector<RecordField<Record>>& fi
 
 /// Every record has a value of the field for which `holds`; `row_of` names the row of the i-th.
 template <class Record, class RowOf, class Holds>
-void require_all(const TableIo& table, const std::vector<RecordField<Record>>& fields,
-                 const RecordField<Record>& field, std::span<const Record> records, const RowOf& row_of,
-                 std::string_view expected, const Holds& holds) {
+void require_all(const layout::TableIo& table, const std::vector<layout::RecordField<Record>>& fields,
+                 const layout::RecordField<Record>& field, std::span<const Record> records,
+                 const RowOf& row_of, std::string_view expected, const Holds& holds) {
   const auto found = std::find_if_not(records.begin(), records.end(), holds);
   if (found == records.end()) return;
   fail(table.column(static_cast<std::size_t>(&field - fields.data())), row_of(found - records.begin()),
-       fmt::format("{}", value_of(field, *found)), expected);
+       fmt::format("{}", layout::value_of(field, *found)), expected);
 }
 
 template <class Record, class RowOf>
-void require_valid(const TableIo& table, const std::vector<RecordField<Record>>& fields,
-                   const RecordField<Record>& field, std::span<const Record> records, const RowOf& row_of) {
+void require_valid(const layout::TableIo& table, const std::vector<layout::RecordField<Record>>& fields,
+                   const layout::RecordField<Record>& field, std::span<const Record> records,
+                   const RowOf& row_of) {
   if (field.valid.expected.empty()) return;
   require_all(table, fields, field, records, row_of, field.valid.expected,
-              [&](const Record& record) { return is_valid(field.valid, value_of(field, record)); });
+              [&](const Record& record) { return is_valid(field.valid, layout::value_of(field, record)); });
 }
 
-auto rows_of_moves(const TableIo& outcomes, std::int64_t first_row) {
+auto rows_of_moves(const layout::TableIo& outcomes, std::int64_t first_row) {
   return [first_row, moves = outcomes.width()](std::int64_t at) {
     return fmt::format("trial {}, move {}", first_row + at / moves, at % moves);
   };
@@ -82,8 +84,9 @@ void require_numbers(const hdf5::Dataset& dataset, std::int64_t rows, Expected e
 
 }  // namespace
 
-void validate_numbering(const FileHeader& header, const TableIo& trials, const TableIo& jerks) {
-  const RowRange rows = header.rows;
+void validate_numbering(const layout::FileHeader& header, const layout::TableIo& trials,
+                        const layout::TableIo& jerks) {
+  const layout::RowRange rows = header.rows;
   const auto global = [&](std::int64_t row) { return rows.first + row; };
   require_numbers(trials.column(0), rows.count,
                   [&](std::int64_t row) { return global(row) / header.trials; });
@@ -104,29 +107,34 @@ void validate_numbering(const FileHeader& header, const TableIo& trials, const T
   }
 }
 
-void validate_outcomes(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
-                       std::int64_t first_row, std::span<const MoveOutcome> moves) {
+void validate_outcomes(const layout::TableIo& outcomes,
+                       const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
+                       std::int64_t first_row, std::span<const trial::MoveOutcome> moves) {
   const auto row_of = rows_of_moves(outcomes, first_row);
-  for (const RecordField<MoveOutcome>& field : fields) require_valid(outcomes, fields, field, moves, row_of);
+  for (const layout::RecordField<trial::MoveOutcome>& field : fields)
+    require_valid(outcomes, fields, field, moves, row_of);
   require_all(outcomes, fields, *find_field(fields, "arrived"), moves, row_of,
               "1 exactly where there is a settling time",
-              [](const MoveOutcome& move) { return move.arrived != std::isnan(move.settling_time); });
+              [](const trial::MoveOutcome& move) { return move.arrived != std::isnan(move.settling_time); });
 }
 
-void validate_measure(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
-                      std::string_view name, std::int64_t first_row, std::span<const MoveOutcome> moves) {
+void validate_measure(const layout::TableIo& outcomes,
+                      const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
+                      std::string_view name, std::int64_t first_row,
+                      std::span<const trial::MoveOutcome> moves) {
   require_valid(outcomes, fields, *find_field(fields, name), moves, rows_of_moves(outcomes, first_row));
 }
 
-void validate_jerks(const TableIo& table, std::int64_t moves, std::int64_t first,
-                    std::span<const JerkRecord> jerks) {
-  const std::vector<RecordField<JerkRecord>>& fields = jerk_fields();
+void validate_jerks(const layout::TableIo& table, std::int64_t moves, std::int64_t first,
+                    std::span<const layout::JerkRecord> jerks) {
+  const std::vector<layout::RecordField<layout::JerkRecord>>& fields = layout::jerk_fields();
   const auto row_of = [first](std::int64_t at) { return fmt::format("row {}", first + at); };
   require_all(table, fields, *find_field(fields, "move"), jerks, row_of, fmt::format("0 to {}", moves - 1),
-              [moves](const JerkRecord& jerk) { return jerk.move >= 0 && jerk.move < moves; });
-  for (const RecordField<JerkRecord>& field : fields) require_valid(table, fields, field, jerks, row_of);
+              [moves](const layout::JerkRecord& jerk) { return jerk.move >= 0 && jerk.move < moves; });
+  for (const layout::RecordField<layout::JerkRecord>& field : fields)
+    require_valid(table, fields, field, jerks, row_of);
   for (std::size_t i = 1; i < jerks.size(); ++i) {
-    const JerkRecord& before = jerks[i - 1];
+    const layout::JerkRecord& before = jerks[i - 1];
     if (before.trial == jerks[i].trial &&
         std::tie(jerks[i].move, jerks[i].onset) < std::tie(before.move, before.onset)) {
       table.column(static_cast<std::size_t>(find_field(fields, "onset") - fields.data()))
@@ -136,8 +144,8 @@ void validate_jerks(const TableIo& table, std::int64_t moves, std::int64_t first
   }
 }
 
-void validate_rigs(const FileHeader& header, const TableIo& counts, std::span<const std::int64_t> success,
-                   std::span<const std::int64_t> trials) {
+void validate_rigs(const layout::FileHeader& header, const layout::TableIo& counts,
+                   std::span<const std::int64_t> success, std::span<const std::int64_t> trials) {
   const std::int64_t rigs = counts.width();
   if (counts.rows() != header.points || header.trials % rigs != 0) {
     counts.column(0).fail("its size differs from the points and rigs of the study");
@@ -156,4 +164,4 @@ void validate_rigs(const FileHeader& header, const TableIo& counts, std::span<co
   }
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::reading

@@ -12,30 +12,34 @@
 /// What the values of a results file can be, whatever its study: a file whose checksum trailer and checksums
 /// are right may still have been made by something else than this program. Every function throws Failure
 /// (bad_data) with the path, the dataset, the row and what was expected.
-namespace zerocount {
+namespace zerocount::reading {
 
 /// The numbers by which rows belong together: point and index of a trial are those of its place, and
 /// the trials of the jerks rise within the rows of the file. Of more than 131072 trials, eight blocks
 /// of 16384 are looked at, spread evenly: nothing is made of these two columns, and to read them whole would
 /// take a tenth of the time of a summary.
-void validate_numbering(const FileHeader& header, const TableIo& trials, const TableIo& jerks);
+void validate_numbering(const layout::FileHeader& header, const layout::TableIo& trials,
+                        const layout::TableIo& jerks);
 
 /// Measures of the moves: `moves` are those of the global rows from `first_row` on.
 /// @param fields the columns of `outcomes`; what the file does not have is not looked at.
-void validate_outcomes(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
-                       std::int64_t first_row, std::span<const MoveOutcome> moves);
+void validate_outcomes(const layout::TableIo& outcomes,
+                       const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
+                       std::int64_t first_row, std::span<const trial::MoveOutcome> moves);
 
 /// The same for the one measure `name`, the others of `moves` being unknown.
-void validate_measure(const TableIo& outcomes, const std::vector<RecordField<MoveOutcome>>& fields,
-                      std::string_view name, std::int64_t first_row, std::span<const MoveOutcome> moves);
+void validate_measure(const layout::TableIo& outcomes,
+                      const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
+                      std::string_view name, std::int64_t first_row,
+                      std::span<const trial::MoveOutcome> moves);
 
 /// `jerks` are the rows of the table of jerks from `first` on, of a study with `moves` moves. Within a trial
 /// they must be in the order of their onsets, move by move.
-void validate_jerks(const TableIo& table, std::int64_t moves, std::int64_t first,
-                    std::span<const JerkRecord> jerks);
+void validate_jerks(const layout::TableIo& table, std::int64_t moves, std::int64_t first,
+                    std::span<const layout::JerkRecord> jerks);
 
 /// Counts of the rigs, [point][rig]: all rigs have equally many trials, or none, and not more successes.
-void validate_rigs(const FileHeader& header, const TableIo& counts, std::span<const std::int64_t> success,
-                   std::span<const std::int64_t> trials);
+void validate_rigs(const layout::FileHeader& header, const layout::TableIo& counts,
+                   std::span<const std::int64_t> success, std::span<const std::int64_t> trials);
 
-}  // namespace zerocount
+}  // namespace zerocount::reading

@@ -8,7 +8,7 @@
 #include "results/layout/layout.hpp"
 #include "results/shards/shard.hpp"
 
-namespace zerocount {
+namespace zerocount::shards {
 
 /// Maps a trial's row in the shards to its row in the file written. Empty: the rows are the same.
 using Renumbering = std::function<std::int64_t(std::int64_t row)>;
@@ -20,7 +20,7 @@ using Renumbering = std::function<std::int64_t(std::int64_t row)>;
 /// @param width        size of the second dimension, 1 if the table has none
 /// @param first_number first value of the scale of the rows
 /// @param renumber     applied to the column `trial` of a table that has one
-void concatenate(hdf5::File& file, const Table& table, std::span<const ShardInfo> shards, std::int64_t width,
-                 std::int64_t first_number, const Renumbering& renumber = {});
+void concatenate(hdf5::File& file, const layout::Table& table, std::span<const ShardInfo> shards,
+                 std::int64_t width, std::int64_t first_number, const Renumbering& renumber = {});
 
-}  // namespace zerocount
+}  // namespace zerocount::shards

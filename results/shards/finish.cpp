@@ -4,14 +4,15 @@
 #include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
 
-namespace zerocount {
+namespace zerocount::shards {
 
 void finish_results(const std::filesystem::path& path, const hdf5::WrittenValues& written) {
-  const std::filesystem::path part = part_of(path);
-  append_checksum(part);
-  if (check_checksum(part) != ChecksumState::valid) fail_read_back(part, "the checksum at its end differs");
+  const std::filesystem::path part = storage::part_of(path);
+  storage::append_checksum(part);
+  if (storage::check_checksum(part) != storage::ChecksumState::valid)
+    storage::fail_read_back(part, "the checksum at its end differs");
   hdf5::require_written(part, written);
-  publish(path);
+  storage::publish(path);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::shards

@@ -16,7 +16,7 @@
 #include "results/shards/rig_tables.hpp"
 #include "results/storage/durable_file.hpp"
 
-namespace zerocount {
+namespace zerocount::shards {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,7 +43,7 @@ std::vector<fs::path> expand(std::span<const fs::path> inputs) {
 }
 
 /// @throws Failure unless the shards, sorted by rows, cover `rows` without gaps and overlaps.
-void require_cover(std::span<const ShardInfo> shards, RowRange rows, const fs::path& output) {
+void require_cover(std::span<const ShardInfo> shards, layout::RowRange rows, const fs::path& output) {
   std::int64_t next = rows.first;
   const ShardInfo* previous = nullptr;
   for (const ShardInfo& shard : shards) {
@@ -73,23 +73,23 @@ void require_cover(std::span<const ShardInfo> shards, RowRange rows, const fs::p
 
 /// `provenance` of the merged file. If a shard was made by a build with uncommitted changes, the file has the
 /// commit of that shard.
-Provenance merged_provenance(std::span<const ShardInfo> shards, Provenance provenance) {
+layout::Provenance merged_provenance(std::span<const ShardInfo> shards, layout::Provenance provenance) {
   for (const ShardInfo& shard : shards) {
-    if (is_dirty(provenance)) break;
-    const FileHeader header = read_header(hdf5::File::open_to_read(shard.path));
-    if (is_dirty(header.provenance)) provenance.git_commit = header.provenance.git_commit;
+    if (layout::is_dirty(provenance)) break;
+    const layout::FileHeader header = layout::read_header(hdf5::File::open_to_read(shard.path));
+    if (layout::is_dirty(header.provenance)) provenance.git_commit = header.provenance.git_commit;
   }
   return provenance;
 }
 
-void write_points(hdf5::File& file, const Study& study) {
-  const std::int64_t points = point_count(study);
-  TableIo io = TableIo::create(file, point_table(study.axes, {}), points, 1);
+void write_points(hdf5::File& file, const study::Study& study) {
+  const std::int64_t points = study::point_count(study);
+  layout::TableIo io = layout::TableIo::create(file, layout::point_table(study.axes, {}), points, 1);
   io.number_rows(0);
   io.column(0).write_texts(study.point_labels);
   for (std::size_t index = 0; index < study.axes.size(); ++index) {
-    const SweepAxis& axis = study.axes[index];
-    if (axis.kind == SweepAxis::Kind::text) {
+    const study::SweepAxis& axis = study.axes[index];
+    if (axis.kind == study::SweepAxis::Kind::text) {
       io.column(1 + index).write_texts(axis.texts);
     } else {
       io.column(1 + index).write(0, points, axis.numbers.data());
@@ -98,41 +98,46 @@ void write_points(hdf5::File& file, const Study& study) {
 }
 
 /// Writes everything except the statistics and the completion mark.
-hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const Study& study,
-                                    const fs::path& part, RowRange rows, const Provenance& provenance,
-                                    const Renumbering& renumber, const MeasureTable& measures) {
+hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const study::Study& study,
+                                    const fs::path& part, layout::RowRange rows,
+                                    const layout::Provenance& provenance, const Renumbering& renumber,
+                                    const layout::MeasureTable& measures) {
   hdf5::File file = hdf5::File::create(part);
-  write_header(file, make_header(study, FileKind::study, rows, provenance));
+  layout::write_header(file, layout::make_header(study, layout::FileKind::study, rows, provenance));
   write_points(file, study);
-  concatenate(file, trial_table(study.input_columns), shards, 1, rows.first);
-  const AxisKind axis = study.units.axis;
-  concatenate(file, on_axis(outcome_table(format_version, study.outcome_extras, measures), axis), shards,
-              study.moves, rows.first);
-  concatenate(file, jerk_table(), shards, 1, 0, renumber);
+  concatenate(file, layout::trial_table(study.input_columns), shards, 1, rows.first);
+  const parameters::AxisKind axis = study.units.axis;
+  concatenate(
+      file,
+      layout::on_axis(layout::outcome_table(layout::format_version, study.outcome_extras, measures), axis),
+      shards, study.moves, rows.first);
+  concatenate(file, layout::jerk_table(), shards, 1, 0, renumber);
   write_profiles(file, study);
   if (study.rigs > 0) write_rigs(file, study);
   if (!study.retained_trials.empty()) {
-    concatenate(file, on_axis(trace_table(study.trace_extras), axis), shards, 1, 0, renumber);
+    concatenate(file, layout::on_axis(layout::trace_table(study.trace_extras), axis), shards, 1, 0, renumber);
   }
   return file.close();
 }
 
-StoredStatistics statistics_of(const fs::path& part, const hdf5::WrittenValues& written,
-                               const StatisticsOfPoints& statistics, const MeasureTable& measures) {
+layout::StoredStatistics statistics_of(const fs::path& part, const hdf5::WrittenValues& written,
+                                       const StatisticsOfPoints& statistics,
+                                       const layout::MeasureTable& measures) {
   try {
-    return statistics(StudyFile(part, Require::unfinished, measures));
+    return statistics(reading::StudyFile(part, reading::Require::unfinished, measures));
   } catch (const Failure&) {
     hdf5::require_written(part, written);  // if the write failed, report that instead
     throw;
   }
 }
 
-void write_point_statistics(hdf5::File& file, const Study& study, const StoredStatistics& statistics) {
-  TableIo io = TableIo::open(file, point_table(study.axes, {}));
-  const AxisKind axis = study.units.axis;
-  const Table described = on_axis(point_table({}, statistics.points), axis);
+void write_point_statistics(hdf5::File& file, const study::Study& study,
+                            const layout::StoredStatistics& statistics) {
+  layout::TableIo io = layout::TableIo::open(file, layout::point_table(study.axes, {}));
+  const parameters::AxisKind axis = study.units.axis;
+  const layout::Table described = layout::on_axis(layout::point_table({}, statistics.points), axis);
   for (std::size_t index = 0; index < statistics.points.size(); ++index) {
-    const PointColumn& statistic = statistics.points[index];
+    const layout::PointColumn& statistic = statistics.points[index];
     if (std::ssize(statistic.values) != io.rows()) {
       throw std::invalid_argument(
           fmt::format("the statistic '{}' needs one value per design point", statistic.name));
@@ -142,23 +147,25 @@ void write_point_statistics(hdf5::File& file, const Study& study, const StoredSt
 }
 
 /// @param written contents of the file so far; returned with the added values
-hdf5::WrittenValues write_statistics(const fs::path& part, const Study& study, RowRange rows,
-                                     hdf5::WrittenValues written, const StoredStatistics& statistics) {
+hdf5::WrittenValues write_statistics(const fs::path& part, const study::Study& study, layout::RowRange rows,
+                                     hdf5::WrittenValues written,
+                                     const layout::StoredStatistics& statistics) {
   hdf5::File file = hdf5::File::open_to_change(part, std::move(written));
   write_point_statistics(file, study, statistics);
-  for (StatisticTable table : statistics.tables) {
-    for (PointColumn& column : table.columns) column = on_axis(std::move(column), study.units.axis);
-    write_statistic_table(file, table, point_count(study));
+  for (layout::StatisticTable table : statistics.tables) {
+    for (layout::PointColumn& column : table.columns)
+      column = layout::on_axis(std::move(column), study.units.axis);
+    layout::write_statistic_table(file, table, study::point_count(study));
   }
   if (statistics.groups) statistics.groups(file);
-  if (study.rigs > 0 && rows == all_rows(study)) write_rig_counts(file, study);
-  mark_finished(file);
+  if (study.rigs > 0 && rows == layout::all_rows(study)) write_rig_counts(file, study);
+  layout::mark_finished(file);
   return file.close();
 }
 
 }  // namespace
 
-std::vector<ShardInfo> merge_inputs(std::span<const fs::path> inputs, const Study& study) {
+std::vector<ShardInfo> merge_inputs(std::span<const fs::path> inputs, const study::Study& study) {
   std::vector<ShardInfo> shards;
   for (const fs::path& path : expand(inputs)) shards.push_back(inspect_shard(path, study));
   std::sort(shards.begin(), shards.end(),
@@ -166,24 +173,25 @@ std::vector<ShardInfo> merge_inputs(std::span<const fs::path> inputs, const Stud
   return shards;
 }
 
-FileHeader first_header(std::span<const fs::path> inputs) {
-  return StudyFile(expand(inputs).front(), Require::any_part).header();
+layout::FileHeader first_header(std::span<const fs::path> inputs) {
+  return reading::StudyFile(expand(inputs).front(), reading::Require::any_part).header();
 }
 
-void merge_shards(std::span<const ShardInfo> shards, const Study& study, const fs::path& output,
-                  RowRange rows, const StatisticsOfPoints& statistics, const Provenance& provenance,
-                  const Renumbering& renumber, const MeasureTable& measures) {
+void merge_shards(std::span<const ShardInfo> shards, const study::Study& study, const fs::path& output,
+                  layout::RowRange rows, const StatisticsOfPoints& statistics,
+                  const layout::Provenance& provenance, const Renumbering& renumber,
+                  const layout::MeasureTable& measures) {
   std::vector<ShardInfo> ordered(shards.begin(), shards.end());
   std::sort(ordered.begin(), ordered.end(),
             [](const ShardInfo& left, const ShardInfo& right) { return left.rows.first < right.rows.first; });
   require_cover(ordered, rows, output);
-  const UnfinishedFile part(output);
+  const storage::UnfinishedFile part(output);
   hdf5::WrittenValues written = write_trials_of(ordered, study, part.path(), rows,
                                                 merged_provenance(ordered, provenance), renumber, measures);
-  StoredStatistics stored;
-  if (statistics && rows == all_rows(study))
+  layout::StoredStatistics stored;
+  if (statistics && rows == layout::all_rows(study))
     stored = statistics_of(part.path(), written, statistics, measures);
   finish_results(output, write_statistics(part.path(), study, rows, std::move(written), stored));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::shards

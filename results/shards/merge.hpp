@@ -13,19 +13,19 @@
 #include "results/shards/concatenate.hpp"
 #include "results/shards/shard.hpp"
 
-namespace zerocount {
+namespace zerocount::shards {
 
 /// Computes the statistics of the design points from a file that holds all trials but is not finished.
-using StatisticsOfPoints = std::function<StoredStatistics(const StudyFile&)>;
+using StatisticsOfPoints = std::function<layout::StoredStatistics(const reading::StudyFile&)>;
 
 /// The files of `inputs`, sorted by rows; a directory stands for its shard_files(). Each file must be a
 /// finished shard or part of `study` with a valid checksum trailer.
 /// @throws Failure: bad_data for the first file that is not; bad_input if an input does not exist or is a
 /// directory without shards.
-std::vector<ShardInfo> merge_inputs(std::span<const std::filesystem::path> inputs, const Study& study);
+std::vector<ShardInfo> merge_inputs(std::span<const std::filesystem::path> inputs, const study::Study& study);
 
 /// The header of the first file of `inputs`. Its manifest and overrides define the study to merge.
-FileHeader first_header(std::span<const std::filesystem::path> inputs);
+layout::FileHeader first_header(std::span<const std::filesystem::path> inputs);
 
 /// Joins shards into the results file `output` with the trials `rows` of the study: all of them, or a part.
 ///
@@ -37,9 +37,11 @@ FileHeader first_header(std::span<const std::filesystem::path> inputs);
 /// rows of the file, and `renumber` maps the rows stored in the shards to them.
 /// @throws Failure: bad_data for gaps, overlaps and damaged shards; machine_failed with the path and the
 /// reason if the file cannot be written.
-void merge_shards(std::span<const ShardInfo> shards, const Study& study, const std::filesystem::path& output,
-                  RowRange rows, const StatisticsOfPoints& statistics,
-                  const Provenance& provenance = current_provenance(), const Renumbering& renumber = {},
-                  const MeasureTable& measures = measure_table());
+void merge_shards(std::span<const ShardInfo> shards, const study::Study& study,
+                  const std::filesystem::path& output, layout::RowRange rows,
+                  const StatisticsOfPoints& statistics,
+                  const layout::Provenance& provenance = layout::current_provenance(),
+                  const Renumbering& renumber = {},
+                  const layout::MeasureTable& measures = layout::measure_table());
 
-}  // namespace zerocount
+}  // namespace zerocount::shards

@@ -9,7 +9,7 @@
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
 
-namespace zerocount {
+namespace zerocount::shards {
 namespace {
 
 std::vector<double> places_over_period(double period, std::int64_t count) {
@@ -20,33 +20,35 @@ std::vector<double> places_over_period(double period, std::int64_t count) {
   return theta;
 }
 
-void write_one_rotor(hdf5::File& file, const RealisedProfile& realised, const Study& study) {
-  const std::vector<double> theta = places_over_period(study.period, profile_angles);
+void write_one_rotor(hdf5::File& file, const study::RealisedProfile& realised, const study::Study& study) {
+  const std::vector<double> theta = places_over_period(study.period, layout::profile_angles);
   std::vector<double> value;
   value.reserve(theta.size());
-  for (const double angle : theta) value.push_back(value_at(*realised.profile, angle));
-  TableIo io = TableIo::create(file, on_axis(profile_table(realised.name, realised.unit), study.units.axis),
-                               profile_angles, 1);
-  io.row_scale().write(0, profile_angles, theta.data());
-  io.column(0).write(0, profile_angles, value.data());
+  for (const double angle : theta) value.push_back(friction::value_at(*realised.profile, angle));
+  layout::TableIo io = layout::TableIo::create(
+      file, layout::on_axis(layout::profile_table(realised.name, realised.unit), study.units.axis),
+      layout::profile_angles, 1);
+  io.row_scale().write(0, layout::profile_angles, theta.data());
+  io.column(0).write(0, layout::profile_angles, value.data());
 }
 
-void write_rotors(hdf5::File& file, const RealisedProfile& realised, const Study& study) {
+void write_rotors(hdf5::File& file, const study::RealisedProfile& realised, const study::Study& study) {
   const std::int64_t rigs = study.rigs;
-  const std::int64_t angles = profile_angles_of_rig(realised.profile->cosine.size(), rigs);
+  const std::int64_t angles = layout::profile_angles_of_rig(realised.profile->cosine.size(), rigs);
   const std::vector<double> theta = places_over_period(study.period, angles);
-  TableIo io = TableIo::create(file, on_axis(rotor_table(realised.name, realised.unit), study.units.axis),
-                               rigs, angles);
+  layout::TableIo io = layout::TableIo::create(
+      file, layout::on_axis(layout::rotor_table(realised.name, realised.unit), study.units.axis), rigs,
+      angles);
   io.number_rows(0);
   io.second_scale().write(0, angles, theta.data());
-  const std::int64_t at_once = chunk_rows(angles);
+  const std::int64_t at_once = layout::chunk_rows(angles);
   std::vector<double> values;
   for (std::int64_t first = 0; first < rigs; first += at_once) {
     values.clear();
     const std::int64_t count = std::min(at_once, rigs - first);
     for (std::int64_t rig = first; rig < first + count; ++rig) {
-      const std::shared_ptr<const Profile> rotor = realised.of_rig(rig);
-      for (const double angle : theta) values.push_back(value_at(*rotor, angle));
+      const std::shared_ptr<const friction::Profile> rotor = realised.of_rig(rig);
+      for (const double angle : theta) values.push_back(friction::value_at(*rotor, angle));
     }
     io.column(0).write(first, count, values.data());
   }
@@ -54,8 +56,8 @@ void write_rotors(hdf5::File& file, const RealisedProfile& realised, const Study
 
 }  // namespace
 
-void write_profiles(hdf5::File& file, const Study& study) {
-  for (const RealisedProfile& realised : study.profiles) {
+void write_profiles(hdf5::File& file, const study::Study& study) {
+  for (const study::RealisedProfile& realised : study.profiles) {
     if (realised.of_rig) {
       write_rotors(file, realised, study);
     } else {
@@ -64,4 +66,4 @@ void write_profiles(hdf5::File& file, const Study& study) {
   }
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::shards

@@ -8,47 +8,47 @@
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
 
-namespace zerocount {
+namespace zerocount::shards {
 namespace {
 
 using Flags = std::vector<std::int8_t>;
 
 /// The table of outcomes, reduced to the verdicts.
-Table verdict_table() {
-  Table table = outcome_table();
-  std::erase_if(table.columns, [](const Column& column) { return column.name != "outcome"; });
+layout::Table verdict_table() {
+  layout::Table table = layout::outcome_table();
+  std::erase_if(table.columns, [](const layout::Column& column) { return column.name != "outcome"; });
   return table;
 }
 
 bool succeeded(Flags::const_iterator moves, std::int64_t count) {
   return std::all_of(moves, moves + count,
-                     [](std::int8_t move) { return is_success(static_cast<Outcome>(move)); });
+                     [](std::int8_t move) { return trial::is_success(static_cast<trial::Outcome>(move)); });
 }
 
 }  // namespace
 
-void write_rigs(hdf5::File& file, const Study& study) {
+void write_rigs(hdf5::File& file, const study::Study& study) {
   std::vector<std::vector<double>> values(study.rig_columns.size());
   for (std::int64_t rig = 0; rig < study.rigs; ++rig) {
-    const std::vector<double> inputs = rig_inputs(study, rig);
+    const std::vector<double> inputs = study::rig_inputs(study, rig);
     for (std::size_t column = 0; column < values.size(); ++column) values[column].push_back(inputs[column]);
   }
-  TableIo io = TableIo::create(file, rig_table(study.rig_columns), study.rigs, 1);
+  layout::TableIo io = layout::TableIo::create(file, layout::rig_table(study.rig_columns), study.rigs, 1);
   io.number_rows(0);
   for (std::size_t column = 0; column < values.size(); ++column) {
     io.column(column).write(0, study.rigs, values[column].data());
   }
 }
 
-void write_rig_counts(hdf5::File& file, const Study& study) {
-  const TableIo verdicts = TableIo::open(file, verdict_table());
+void write_rig_counts(hdf5::File& file, const study::Study& study) {
+  const layout::TableIo verdicts = layout::TableIo::open(file, verdict_table());
   const std::int64_t moves = verdicts.width();
-  const std::int64_t points = point_count(study);
-  TableIo io = TableIo::create(file, rig_count_table(), points, study.rigs);
+  const std::int64_t points = study::point_count(study);
+  layout::TableIo io = layout::TableIo::create(file, layout::rig_count_table(), points, study.rigs);
   io.number_rows(0);
   const std::vector<std::int64_t> trials(static_cast<std::size_t>(study.rigs),
                                          study.open_loop ? 0 : study.trials / study.rigs);
-  const std::int64_t at_once = chunk_rows(moves);
+  const std::int64_t at_once = layout::chunk_rows(moves);
   Flags flags;
   for (std::int64_t point = 0; point < points; ++point) {
     std::vector<std::int64_t> successes(static_cast<std::size_t>(study.rigs), 0);
@@ -57,7 +57,7 @@ void write_rig_counts(hdf5::File& file, const Study& study) {
       flags.resize(static_cast<std::size_t>(count * moves));
       verdicts.column(0).read(point * study.trials + first, count, flags.data());
       for (std::int64_t i = 0; i < count; ++i) {
-        const auto rig = static_cast<std::size_t>(rig_of(study, first + i));
+        const auto rig = static_cast<std::size_t>(study::rig_of(study, first + i));
         successes[rig] += succeeded(flags.begin() + i * moves, moves);
       }
     }
@@ -66,4 +66,4 @@ void write_rig_counts(hdf5::File& file, const Study& study) {
   }
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::shards

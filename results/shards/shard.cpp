@@ -12,13 +12,13 @@
 #include "results/shards/finish.hpp"
 #include "results/storage/durable_file.hpp"
 
-namespace zerocount {
+namespace zerocount::shards {
 namespace {
 
 namespace fs = std::filesystem;
 
-void require_fit(const Study& study, std::int64_t first_row, std::span<const TrialResult> results) {
-  if (results.empty() || first_row < 0 || first_row + std::ssize(results) > trial_count(study)) {
+void require_fit(const study::Study& study, std::int64_t first_row, std::span<const TrialResult> results) {
+  if (results.empty() || first_row < 0 || first_row + std::ssize(results) > study::trial_count(study)) {
     throw std::invalid_argument("a shard needs trials of its study");
   }
   std::int64_t row = first_row;
@@ -30,10 +30,11 @@ void require_fit(const Study& study, std::int64_t first_row, std::span<const Tri
   }
 }
 
-void write_trials(hdf5::File& file, const Study& study, std::span<const TrialResult> results,
-                  Compression compression) {
+void write_trials(hdf5::File& file, const study::Study& study, std::span<const TrialResult> results,
+                  hdf5::Compression compression) {
   const std::int64_t rows = std::ssize(results);
-  TableIo io = TableIo::create(file, trial_table(study.input_columns), rows, 1, compression);
+  layout::TableIo io =
+      layout::TableIo::create(file, layout::trial_table(study.input_columns), rows, 1, compression);
   io.number_rows(results.front().row);
   std::vector<std::int64_t> point(results.size());
   std::vector<std::int64_t> index(results.size());
@@ -51,38 +52,41 @@ void write_trials(hdf5::File& file, const Study& study, std::span<const TrialRes
   }
 }
 
-void write_outcomes(hdf5::File& file, const Study& study, std::span<const TrialResult> results,
-                    Compression compression, const MeasureTable& measures) {
-  std::vector<MoveOutcome> moves;
+void write_outcomes(hdf5::File& file, const study::Study& study, std::span<const TrialResult> results,
+                    hdf5::Compression compression, const layout::MeasureTable& measures) {
+  std::vector<trial::MoveOutcome> moves;
   for (const TrialResult& result : results) {
     moves.insert(moves.end(), result.outcome.moves.begin(), result.outcome.moves.end());
   }
-  const OutcomeExtras& extras = study.outcome_extras;
-  TableIo io = TableIo::create(file, outcome_table(format_version, extras, measures), std::ssize(results),
-                               study.moves, compression);
+  const study::OutcomeExtras& extras = study.outcome_extras;
+  layout::TableIo io =
+      layout::TableIo::create(file, layout::outcome_table(layout::format_version, extras, measures),
+                              std::ssize(results), study.moves, compression);
   io.number_rows(results.front().row);
-  write_records(io, outcome_fields(format_version, extras, measures), 0, std::span<const MoveOutcome>(moves));
+  layout::write_records(io, layout::outcome_fields(layout::format_version, extras, measures), 0,
+                        std::span<const trial::MoveOutcome>(moves));
 }
 
-void write_jerks(hdf5::File& file, std::span<const TrialResult> results, Compression compression) {
-  std::vector<JerkRecord> jerks;
+void write_jerks(hdf5::File& file, std::span<const TrialResult> results, hdf5::Compression compression) {
+  std::vector<layout::JerkRecord> jerks;
   for (const TrialResult& result : results) {
-    for (const Jerk& jerk : result.jerks) jerks.push_back({jerk, result.row});
+    for (const trial::Jerk& jerk : result.jerks) jerks.push_back({jerk, result.row});
   }
-  TableIo io = TableIo::create(file, jerk_table(), std::ssize(jerks), 1, compression);
+  layout::TableIo io = layout::TableIo::create(file, layout::jerk_table(), std::ssize(jerks), 1, compression);
   io.number_rows(0);
-  write_records(io, jerk_fields(), 0, std::span<const JerkRecord>(jerks));
+  layout::write_records(io, layout::jerk_fields(), 0, std::span<const layout::JerkRecord>(jerks));
 }
 
-void write_trace(hdf5::File& file, const TraceExtras& extras, std::span<const TrialResult> results,
-                 Compression compression) {
-  std::vector<TraceRecord> records;
+void write_trace(hdf5::File& file, const study::TraceExtras& extras, std::span<const TrialResult> results,
+                 hdf5::Compression compression) {
+  std::vector<layout::TraceRecord> records;
   for (const TrialResult& result : results) {
-    for (const SampleRecord& record : result.trace) records.push_back({record, result.row});
+    for (const trial::SampleRecord& record : result.trace) records.push_back({record, result.row});
   }
-  TableIo io = TableIo::create(file, trace_table(extras), std::ssize(records), 1, compression);
+  layout::TableIo io =
+      layout::TableIo::create(file, layout::trace_table(extras), std::ssize(records), 1, compression);
   io.number_rows(0);
-  write_records(io, trace_fields(extras), 0, std::span<const TraceRecord>(records));
+  layout::write_records(io, layout::trace_fields(extras), 0, std::span<const layout::TraceRecord>(records));
 }
 
 /// The regular files in `directory` whose names end in `extension`, in order of names.
@@ -95,7 +99,7 @@ std::vector<fs::path> files_in(const fs::path& directory, const char* extension)
       files.push_back(entry->path());
     }
   }
-  if (error) fail_with(directory, "read the directory", error.value());
+  if (error) storage::fail_with(directory, "read the directory", error.value());
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -106,22 +110,23 @@ bool by_rows(const ShardInfo& left, const ShardInfo& right) {
 
 }  // namespace
 
-fs::path shard_path(const fs::path& directory, RowRange rows) {
+fs::path shard_path(const fs::path& directory, layout::RowRange rows) {
   return directory / fmt::format("trials-{:012}-{:012}.h5", rows.first, rows.end() - 1);
 }
 
-void write_shard(const fs::path& path, const Study& study, std::int64_t first_row,
-                 std::span<const TrialResult> results, const Provenance& provenance, Compression compression,
-                 const MeasureTable& measures) {
+void write_shard(const fs::path& path, const study::Study& study, std::int64_t first_row,
+                 std::span<const TrialResult> results, const layout::Provenance& provenance,
+                 hdf5::Compression compression, const layout::MeasureTable& measures) {
   require_fit(study, first_row, results);
-  const UnfinishedFile part(path);
+  const storage::UnfinishedFile part(path);
   hdf5::File file = hdf5::File::create(part.path());
-  write_header(file, make_header(study, FileKind::shard, {first_row, std::ssize(results)}, provenance));
+  layout::write_header(file, layout::make_header(study, layout::FileKind::shard,
+                                                 {first_row, std::ssize(results)}, provenance));
   write_trials(file, study, results, compression);
   write_outcomes(file, study, results, compression, measures);
   write_jerks(file, results, compression);
   if (!study.retained_trials.empty()) write_trace(file, study.trace_extras, results, compression);
-  mark_finished(file);
+  layout::mark_finished(file);
   finish_results(path, file.close());
 }
 
@@ -129,23 +134,23 @@ std::vector<fs::path> shard_files(const fs::path& directory) {
   return files_in(directory, ".h5");
 }
 
-ShardInfo inspect_shard(const fs::path& path, const Study& study) {
-  const StudyFile file(path, Require::any_part);
-  require_same_study(path, file.header(), study);
+ShardInfo inspect_shard(const fs::path& path, const study::Study& study) {
+  const reading::StudyFile file(path, reading::Require::any_part);
+  layout::require_same_study(path, file.header(), study);
   return {path, file.rows()};
 }
 
-ShardSurvey list_shards(const fs::path& directory, const Study& study) {
+ShardSurvey list_shards(const fs::path& directory, const study::Study& study) {
   ShardSurvey survey;
   std::error_code error;
   const bool exists = fs::exists(directory, error);
-  if (error) fail_with(directory, "read the directory", error.value());
+  if (error) storage::fail_with(directory, "read the directory", error.value());
   if (!exists) return survey;
   survey.unfinished = files_in(directory, ".part");
   for (const fs::path& path : shard_files(directory)) {
     try {
       survey.shards.push_back(inspect_shard(path, study));
-    } catch (const ForeignFile& foreign) {
+    } catch (const layout::ForeignFile& foreign) {
       survey.problems.push_back({path, foreign.what(), ShardProblem::Kind::foreign});
     } catch (const Failure& failure) {
       if (failure.code() != ExitCode::bad_data) throw;
@@ -156,10 +161,10 @@ ShardSurvey list_shards(const fs::path& directory, const Study& study) {
   return survey;
 }
 
-std::vector<RowRange> missing_ranges(std::span<const ShardInfo> shards, RowRange wanted) {
+std::vector<layout::RowRange> missing_ranges(std::span<const ShardInfo> shards, layout::RowRange wanted) {
   std::vector<ShardInfo> ordered(shards.begin(), shards.end());
   std::sort(ordered.begin(), ordered.end(), by_rows);
-  std::vector<RowRange> missing;
+  std::vector<layout::RowRange> missing;
   std::int64_t next = wanted.first;
   for (const ShardInfo& shard : ordered) {
     const std::int64_t end = std::min(shard.rows.first, wanted.end());
@@ -174,8 +179,8 @@ void remove_unfinished(const ShardSurvey& survey) {
   for (const fs::path& path : survey.unfinished) {
     std::error_code error;
     fs::remove(path, error);
-    if (error) fail_with(path, "remove", error.value());
+    if (error) storage::fail_with(path, "remove", error.value());
   }
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::shards

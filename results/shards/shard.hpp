@@ -15,35 +15,37 @@
 #include "results/layout/layout.hpp"
 #include "results/layout/row_range.hpp"
 
-namespace zerocount {
+namespace zerocount::shards {
 
 /// The stored data of one trial.
 struct TrialResult {
-  std::int64_t row{0};              ///< global row: point·trials + index
-  std::vector<double> inputs;       ///< [input column of the study], in that column's unit
-  TrialOutcome outcome;             ///< one entry per move
-  std::vector<Jerk> jerks;          ///< by move and onset
-  std::vector<SampleRecord> trace;  ///< every sample of a retained trial; otherwise empty
+  std::int64_t row{0};                     ///< global row: point·trials + index
+  std::vector<double> inputs;              ///< [input column of the study], in that column's unit
+  trial::TrialOutcome outcome;             ///< one entry per move
+  std::vector<trial::Jerk> jerks;          ///< by move and onset
+  std::vector<trial::SampleRecord> trace;  ///< every sample of a retained trial; otherwise empty
 };
 
 /// Path in `directory` of the shard with these rows.
-std::filesystem::path shard_path(const std::filesystem::path& directory, RowRange rows);
+std::filesystem::path shard_path(const std::filesystem::path& directory, layout::RowRange rows);
 
 /// Shards are read once and then removed: compressing them would take longer than it saves.
-inline constexpr Compression shard_compression = Compression::none;
+inline constexpr hdf5::Compression shard_compression = hdf5::Compression::none;
 
 /// Writes the results of the rows first_row, first_row + 1, … as one shard. `path` appears when the shard is
 /// complete on the disk.
 /// @throws Failure (machine_failed) with the path and the reason; std::invalid_argument if the results are
 /// not those rows in order, or do not fit the study.
-void write_shard(const std::filesystem::path& path, const Study& study, std::int64_t first_row,
-                 std::span<const TrialResult> results, const Provenance& provenance = current_provenance(),
-                 Compression compression = shard_compression, const MeasureTable& measures = measure_table());
+void write_shard(const std::filesystem::path& path, const study::Study& study, std::int64_t first_row,
+                 std::span<const TrialResult> results,
+                 const layout::Provenance& provenance = layout::current_provenance(),
+                 hdf5::Compression compression = shard_compression,
+                 const layout::MeasureTable& measures = layout::measure_table());
 
 /// A complete shard (or part) of the study.
 struct ShardInfo {
   std::filesystem::path path;
-  RowRange rows;
+  layout::RowRange rows;
 };
 
 /// A file that cannot be used, and why.
@@ -71,17 +73,17 @@ std::vector<std::filesystem::path> shard_files(const std::filesystem::path& dire
 
 /// Reads the whole shard and checks its checksum trailer, format, version, study, build and completion mark.
 /// @throws ForeignFile or another Failure (bad_data) if it cannot be used; see also open_results.
-ShardInfo inspect_shard(const std::filesystem::path& path, const Study& study);
+ShardInfo inspect_shard(const std::filesystem::path& path, const study::Study& study);
 
 /// Inspects shard_files(directory). A missing directory has no shards; other files are ignored.
 /// @throws Failure (machine_failed) if the directory or a file cannot be read. Such a file does not count as
 /// damaged.
-ShardSurvey list_shards(const std::filesystem::path& directory, const Study& study);
+ShardSurvey list_shards(const std::filesystem::path& directory, const study::Study& study);
 
 /// The ranges of `wanted` that no shard covers, in order. Shards may overlap.
-std::vector<RowRange> missing_ranges(std::span<const ShardInfo> shards, RowRange wanted);
+std::vector<layout::RowRange> missing_ranges(std::span<const ShardInfo> shards, layout::RowRange wanted);
 
 /// Removes the files that killed processes left behind.
 void remove_unfinished(const ShardSurvey& survey);
 
-}  // namespace zerocount
+}  // namespace zerocount::shards

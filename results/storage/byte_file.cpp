@@ -9,7 +9,7 @@
 
 #include "results/storage/durable_file.hpp"
 
-namespace zerocount {
+namespace zerocount::storage {
 namespace {
 
 int open_flags(ByteFile::Mode mode) {
@@ -98,4 +98,4 @@ void ByteFile::note(const IoFailure& failure) {
   if (!failure_) failure_ = failure;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::storage

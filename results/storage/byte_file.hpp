@@ -10,7 +10,7 @@
 
 #include "results/storage/file_descriptor.hpp"
 
-namespace zerocount {
+namespace zerocount::storage {
 
 /// A failed system call: the action and the reason.
 struct IoFailure {
@@ -63,4 +63,4 @@ class ByteFile {
   std::vector<Unwritten> unwritten_;  ///< in the order of the write calls
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::storage

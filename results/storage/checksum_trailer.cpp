@@ -14,7 +14,7 @@
 #include "results/storage/file_contents.hpp"
 #include "results/storage/file_descriptor.hpp"
 
-namespace zerocount {
+namespace zerocount::storage {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,7 +23,7 @@ constexpr std::string_view trailer_start = "zerocount-seal sha256 ";
 
 /// The checksum trailer of the next `length` bytes of the file. The file position is behind them afterwards.
 std::string trailer_of(const fs::path& path, const FileDescriptor& file, std::size_t length) {
-  return fmt::format("{}{}\n", trailer_start, hexadecimal(sha256_of(path, file, length)));
+  return fmt::format("{}{}\n", trailer_start, hash::hexadecimal(sha256_of(path, file, length)));
 }
 
 }  // namespace
@@ -70,4 +70,4 @@ void require_valid_checksum(const fs::path& path) {
   }
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::storage

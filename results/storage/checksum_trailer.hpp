@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 
-namespace zerocount {
+namespace zerocount::storage {
 
 /// Length of the checksum trailer in bytes: the text "zerocount-seal sha256 ", 64 hexadecimal digits and a
 /// line feed.
@@ -29,4 +29,4 @@ ChecksumState check_checksum(const std::filesystem::path& path);
 /// be read.
 void require_valid_checksum(const std::filesystem::path& path);
 
-}  // namespace zerocount
+}  // namespace zerocount::storage

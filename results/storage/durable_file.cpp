@@ -10,7 +10,7 @@
 #include "core/failure/failure.hpp"
 #include "results/storage/output_file.hpp"
 
-namespace zerocount {
+namespace zerocount::storage {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,4 +90,4 @@ void make_directory(const fs::path& path) {
   synchronise_name(path);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::storage

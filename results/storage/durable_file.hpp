@@ -5,7 +5,7 @@
 
 #include "results/storage/file_descriptor.hpp"
 
-namespace zerocount {
+namespace zerocount::storage {
 
 /// Name of a file while it is written: PATH.part. A file named PATH is therefore always complete, even if a
 /// process that wrote it was killed.
@@ -55,4 +55,4 @@ void make_directory(const std::filesystem::path& path);
 /// @throws Failure (machine_failed): "PATH: cannot ACTION: reason of `error`" (an errno).
 [[noreturn]] void fail_with(const std::filesystem::path& path, std::string_view action, int error);
 
-}  // namespace zerocount
+}  // namespace zerocount::storage

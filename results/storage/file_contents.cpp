@@ -9,7 +9,7 @@
 
 #include "results/storage/durable_file.hpp"
 
-namespace zerocount {
+namespace zerocount::storage {
 
 std::size_t size_of_file(const std::filesystem::path& path, const FileDescriptor& file) {
   struct stat status {};
@@ -30,8 +30,8 @@ std::size_t read_some(const std::filesystem::path& path, const FileDescriptor& f
   return total;
 }
 
-Sha256 sha256_of(const std::filesystem::path& path, const FileDescriptor& file, std::size_t length) {
-  Sha256Hash hash;
+hash::Sha256 sha256_of(const std::filesystem::path& path, const FileDescriptor& file, std::size_t length) {
+  hash::Sha256Hash hash;
   std::vector<std::byte> block(std::size_t{1} << 18);
   while (length > 0) {
     const std::size_t size = read_some(path, file, std::span(block).first(std::min(block.size(), length)));
@@ -42,4 +42,4 @@ Sha256 sha256_of(const std::filesystem::path& path, const FileDescriptor& file, 
   return hash.digest();
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::storage

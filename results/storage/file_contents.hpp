@@ -9,7 +9,7 @@
 
 /// Functions that read an open file. All throw Failure (machine_failed) with the path and the system's
 /// reason.
-namespace zerocount {
+namespace zerocount::storage {
 
 std::size_t size_of_file(const std::filesystem::path& path, const FileDescriptor& file);
 
@@ -18,6 +18,6 @@ std::size_t read_some(const std::filesystem::path& path, const FileDescriptor& f
                       std::span<std::byte> bytes);
 
 /// SHA-256 of the next `length` bytes of the file. The file position is behind them afterwards.
-Sha256 sha256_of(const std::filesystem::path& path, const FileDescriptor& file, std::size_t length);
+hash::Sha256 sha256_of(const std::filesystem::path& path, const FileDescriptor& file, std::size_t length);
 
-}  // namespace zerocount
+}  // namespace zerocount::storage

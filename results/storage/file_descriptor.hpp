@@ -4,7 +4,7 @@
 
 #include <unistd.h>
 
-namespace zerocount {
+namespace zerocount::storage {
 
 /// A POSIX file descriptor that its destructor closes.
 class FileDescriptor {
@@ -31,4 +31,4 @@ class FileDescriptor {
   int number_{-1};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::storage

@@ -10,7 +10,7 @@
 #include "core/failure/failure.hpp"
 #include "results/storage/file_contents.hpp"
 
-namespace zerocount {
+namespace zerocount::storage {
 namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 16;
@@ -47,7 +47,7 @@ void OutputFile::finish() {
 }
 
 void OutputFile::publish() {
-  zerocount::publish(path_);
+  storage::publish(path_);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::storage

@@ -9,7 +9,7 @@
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_descriptor.hpp"
 
-namespace zerocount {
+namespace zerocount::storage {
 
 /// A new file that is written sequentially. It is named PATH.part until publish(), and is removed if
 /// publish() is never called. A file named PATH is therefore always complete.
@@ -31,7 +31,7 @@ class OutputFile {
   FileDescriptor file_;
   std::string buffer_;
   std::size_t size_{0};  ///< bytes passed to the system
-  Sha256Hash written_;
+  hash::Sha256Hash written_;
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::storage

@@ -10,7 +10,7 @@
 #include "core/failure/failure.hpp"
 #include "results/storage/durable_file.hpp"
 
-namespace zerocount {
+namespace zerocount::storage {
 namespace {
 
 /// True if `path` still names the open file. Another run may have ended and removed it between our open and
@@ -44,4 +44,4 @@ OutputLock::~OutputLock() {
   ::unlink(path_.c_str());
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::storage

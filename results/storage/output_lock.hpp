@@ -4,7 +4,7 @@
 
 #include "results/storage/file_descriptor.hpp"
 
-namespace zerocount {
+namespace zerocount::storage {
 
 /// Exclusive lock on an output: flock on the empty file OUTPUT.lock, which the destructor removes. The system
 /// releases the lock if the process dies.
@@ -21,4 +21,4 @@ class OutputLock {
   FileDescriptor file_;
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::storage

@@ -9,7 +9,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::command_line {
 namespace {
 
 namespace po = boost::program_options;
@@ -141,4 +141,4 @@ std::string options_help(const CommandSpec& spec) {
   return text;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::command_line

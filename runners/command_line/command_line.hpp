@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace zerocount {
+namespace zerocount::command_line {
 
 /// One option of a command: `--name VALUE`, or a bare flag.
 struct OptionSpec {
@@ -55,4 +55,4 @@ class Arguments {
 /// The options of `spec` as lines of help.
 std::string options_help(const CommandSpec& spec);
 
-}  // namespace zerocount
+}  // namespace zerocount::command_line

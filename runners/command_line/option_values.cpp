@@ -7,7 +7,7 @@
 
 #include "experiments/yaml/nearest_name.hpp"
 
-namespace zerocount {
+namespace zerocount::command_line {
 namespace {
 
 /// Parses all of `text` as a number; nothing if that fails.
@@ -27,7 +27,7 @@ std::int64_t point_named(const Arguments& arguments, const std::string& text,
   if (found != labels.end()) return found - labels.begin();
   const std::optional<std::int64_t> number = parsed<std::int64_t>(text);
   if (number && *number >= 0 && *number < std::ssize(labels)) return *number;
-  const std::string_view near = nearest_name(text, labels);
+  const std::string_view near = yaml::nearest_name(text, labels);
   arguments.refuse(
       fmt::format("option '--point': '{}' is no design point; expected a number from 0 to {}, or a label{}",
                   text, std::ssize(labels) - 1, near.empty() ? "" : fmt::format(" such as '{}'", near)));
@@ -57,4 +57,4 @@ std::optional<std::int64_t> point_option(const Arguments& arguments, std::span<c
   return points.empty() ? std::nullopt : std::optional(points.front());
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::command_line

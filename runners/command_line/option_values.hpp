@@ -10,7 +10,7 @@
 #include "runners/command_line/command_line.hpp"
 
 /// Options with numbers or design points as values.
-namespace zerocount {
+namespace zerocount::command_line {
 
 /// A number strictly between 0 and 1, such as 0.95.
 /// @throws Failure (bad_input) for anything else.
@@ -24,4 +24,4 @@ std::vector<std::int64_t> point_options(const Arguments& arguments, std::span<co
 /// As point_options, for an option that cannot be repeated.
 std::optional<std::int64_t> point_option(const Arguments& arguments, std::span<const std::string> labels);
 
-}  // namespace zerocount
+}  // namespace zerocount::command_line

@@ -11,7 +11,7 @@
 #include "experiments/yaml/text_file.hpp"
 #include "results/storage/durable_file.hpp"
 
-namespace zerocount {
+namespace zerocount::command_line {
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,7 +69,7 @@ OptionSpec force_option() {
 }
 
 fs::path output_place(const Arguments& arguments) {
-  if (is_standard_stream(arguments.required("output"))) {
+  if (yaml::is_standard_stream(arguments.required("output"))) {
     arguments.refuse("option '--output': a results file cannot go to standard output; name a file");
   }
   return file_in_folder(arguments, "output");
@@ -78,27 +78,27 @@ fs::path output_place(const Arguments& arguments) {
 std::optional<fs::path> text_place(const Arguments& arguments, std::string_view option) {
   if (!arguments.has(option)) return std::nullopt;
   fs::path place = arguments.required(option);
-  if (is_standard_stream(place)) return place;
+  if (yaml::is_standard_stream(place)) return place;
   return file_in_folder(arguments, option);
 }
 
 void require_places(const Arguments& arguments, const std::vector<fs::path>& inputs,
                     const std::vector<fs::path>& outputs) {
-  if (std::count_if(inputs.begin(), inputs.end(), is_standard_stream) > 1) {
+  if (std::count_if(inputs.begin(), inputs.end(), yaml::is_standard_stream) > 1) {
     arguments.refuse("standard input (-) can be read only once");
   }
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     require_apart(arguments, outputs[i], inputs, std::span(outputs).first(i));
-    if (!is_standard_stream(outputs[i])) require_replaceable(arguments, outputs[i]);
+    if (!yaml::is_standard_stream(outputs[i])) require_replaceable(arguments, outputs[i]);
   }
 }
 
 void write_text(const fs::path& place, std::string_view text) {
-  if (is_standard_stream(place)) {
+  if (yaml::is_standard_stream(place)) {
     fmt::print("{}", text);
   } else {
-    replace_file(place, text);
+    storage::replace_file(place, text);
   }
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::command_line

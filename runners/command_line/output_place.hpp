@@ -8,7 +8,7 @@
 #include "runners/command_line/command_line.hpp"
 
 /// Output files of the verbs. An existing file is replaced only with --force.
-namespace zerocount {
+namespace zerocount::command_line {
 
 /// The option --force of a verb that writes.
 OptionSpec force_option();
@@ -35,4 +35,4 @@ void require_places(const Arguments& arguments, const std::vector<std::filesyste
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void write_text(const std::filesystem::path& place, std::string_view text);
 
-}  // namespace zerocount
+}  // namespace zerocount::command_line

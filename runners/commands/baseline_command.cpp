@@ -9,7 +9,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 constexpr const char* baseline_help =
@@ -21,8 +21,8 @@ constexpr const char* baseline_help =
     "Example: zerocount baseline new.h5 -o results/baselines/paper-gains.h5 --reason \"ki of case a "
     "raised\"\n";
 
-ExitCode baseline(const Arguments& arguments) {
-  const std::filesystem::path output = output_place(arguments);
+ExitCode baseline(const command_line::Arguments& arguments) {
+  const std::filesystem::path output = command_line::output_place(arguments);
   const std::string reason = arguments.required("reason");
   if (reason.find_first_not_of(" \t\n") == std::string::npos) {
     arguments.refuse("option '--reason': it is empty; say why this becomes the baseline");
@@ -33,8 +33,8 @@ ExitCode baseline(const Arguments& arguments) {
     arguments.refuse(
         fmt::format("{} is the output itself; name a results file that was just made", file.string()));
   }
-  const OutputLock lock(output);
-  const BaselineUpdate update = update_baseline(file, output, reason);
+  const storage::OutputLock lock(output);
+  const comparison::BaselineUpdate update = comparison::update_baseline(file, output, reason);
   if (!update.changed) {
     fmt::print(stderr, "{}: is this file already, nothing to do\n", output.string());
     return ExitCode::success;
@@ -42,7 +42,8 @@ ExitCode baseline(const Arguments& arguments) {
   for (const std::string& warning : update.warnings)
     fmt::print(stderr, "zerocount baseline: warning: {}\n", warning);
   if (!update.comparison.empty()) fmt::print("compared with the baseline before: {}\n", update.comparison);
-  fmt::print(stderr, "wrote {} and recorded it in {}\n", output.string(), baseline_log(output).string());
+  fmt::print(stderr, "wrote {} and recorded it in {}\n", output.string(),
+             comparison::baseline_log(output).string());
   return ExitCode::success;
 }
 
@@ -60,4 +61,4 @@ Command baseline_command() {
           baseline};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

@@ -25,7 +25,7 @@
 #include "runners/study_run/progress.hpp"
 #include "runners/study_run/study_size.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 constexpr const char* check_help =
@@ -91,9 +91,9 @@ struct PointTheory {
   bool coarse_feedback{false};   // the bound uses the resolution Δx of the coarse encoder
   bool fine_enough{true};        // the DAC satisfies the bound in every trial
   bool fast_enough{true};        // the sample rate satisfies the rule in every trial
-  TheoryPrediction prediction;
+  measures::TheoryPrediction prediction;
 
-  LowEnd low_end;                    // of k1; see lowest_k1, low_stable, low_sampled
+  study::LowEnd low_end;             // of k1; see lowest_k1, low_stable, low_sampled
   std::int64_t rigs{0};              // number of rigs with profiles; 0 without rigs
   Range lowest_k1;                   // minimum of the profiles, or the low end of the distribution
   Range low_stable, low_sampled;     // bounds at that k1, gain_unit
@@ -104,87 +104,89 @@ struct PointTheory {
 };
 
 /// A gain of the trapezoidal rule (N m/count) in the unit of the manifest.
-double as_given(const StudyUnits& units, const TrialParameters& p, double ki) {
+double as_given(const parameters::StudyUnits& units, const trial::TrialParameters& p, double ki) {
   switch (units.gains) {
-    case GainUnits::count:
+    case parameters::GainUnits::count:
       break;
-    case GainUnits::si: {
-      ControllerParameters controller = p.controller;
+    case parameters::GainUnits::si: {
+      loop::ControllerParameters controller = p.controller;
       controller.ki = ki;
-      return analogue_gains(controller, p.encoder).ki;
+      return theory::analogue_gains(controller, p.encoder).ki;
     }
   }
   return ki;
 }
 
-LinearDrive drive_of(const TrialParameters& p) {
+theory::LinearDrive drive_of(const trial::TrialParameters& p) {
   return {1.0 + p.dac.gain_error, p.amplifier.bandwidth};
 }
 
 /// ki below which the trial's sampled loop is stable about a spring of `stiffness` (N m/rad), N m/count.
-double sampled_bound(double stiffness, const TrialParameters& p) {
-  return sampled_critical_integral_gain(stiffness, p.plant, p.encoder, p.controller, drive_of(p));
+double sampled_bound(double stiffness, const trial::TrialParameters& p) {
+  return theory::sampled_critical_integral_gain(stiffness, p.plant, p.encoder, p.controller, drive_of(p));
 }
 
 /// The theory of a loop without a spring: its sampled bound and time constant.
-void examine_free(const Study& study, std::int64_t point, PointTheory& theory) {
-  const TrialParameters first = study_trial(study, point, 0).parameters;
-  theory.free = first.friction.model == FrictionModel::none && first.command.torque.levels.empty();
+void examine_free(const study::Study& study, std::int64_t point, PointTheory& theory) {
+  const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
+  theory.free = first.friction.model == friction::FrictionModel::none && first.command.torque.levels.empty();
   if (!theory.free) return;
-  theory.hold = static_cast<double>(samples_of_move(first, 0)) / first.controller.sample_rate;
+  theory.hold = static_cast<double>(trial::samples_of_move(first, 0)) / first.controller.sample_rate;
   for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {
-    const TrialParameters p = study_trial(study, point, index).parameters;
-    const ControllerParameters fine = controller_in_phase(p.controller, ControlPhase::fine);
+    const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
+    const loop::ControllerParameters fine = loop::controller_in_phase(p.controller, loop::ControlPhase::fine);
     theory.ki.add(as_given(study.units, p, p.controller.ki));
     theory.sampled_below.add(as_given(study.units, p, sampled_bound(0.0, p)));
-    const double tau = slowest_time_constant(0.0, p.plant, p.encoder, fine, drive_of(p));
+    const double tau = theory::slowest_time_constant(0.0, p.plant, p.encoder, fine, drive_of(p));
     if (std::isfinite(tau) && tau > 0.0) theory.slowest.add(tau);
   }
 }
 
 /// Form of the command and friction model are the same in all trials of a point.
-std::string_view why_outside(const TrialParameters& first) {
+std::string_view why_outside(const trial::TrialParameters& first) {
   if (!first.command.torque.levels.empty()) return "the loop is open";
   switch (first.friction.model) {
-    case FrictionModel::presliding:
-    case FrictionModel::spring:
+    case friction::FrictionModel::presliding:
+    case friction::FrictionModel::spring:
       return {};
-    case FrictionModel::coulomb:
+    case friction::FrictionModel::coulomb:
       return "friction.model coulomb has no spring before it slides";
-    case FrictionModel::none:
+    case friction::FrictionModel::none:
       break;
   }
   return "friction.model none has no spring, which criteria (6) and (7) are about";
 }
 
-void add_sliding(SlidingPhase& phase, ControlPhase which, const TrialParameters& p) {
-  const ControllerParameters controller = controller_in_phase(p.controller, which);
-  const GainCrossover crossover = sliding_crossover(p.plant, p.encoder, controller, drive_of(p));
+void add_sliding(SlidingPhase& phase, loop::ControlPhase which, const trial::TrialParameters& p) {
+  const loop::ControllerParameters controller = loop::controller_in_phase(p.controller, which);
+  const theory::GainCrossover crossover =
+      theory::sliding_crossover(p.plant, p.encoder, controller, drive_of(p));
   if (!std::isnan(crossover.frequency)) {
     phase.bandwidth.add(crossover.frequency);
     phase.phase_margin.add(crossover.phase_margin);
   }
-  const bool stable = stable_while_sliding(p.plant, p.encoder, controller, drive_of(p));
+  const bool stable = theory::stable_while_sliding(p.plant, p.encoder, controller, drive_of(p));
   phase.stable = phase.stable && stable;
   phase.unstable = phase.unstable && !stable;
 }
 
 /// Time constants of the stable loops at the lowest and highest stiffness of the trial's contact.
-Range time_constants(const TrialParameters& p, const FrictionParameters& contact) {
+Range time_constants(const trial::TrialParameters& p, const friction::FrictionParameters& contact) {
   Range slowest;
   for (const double stiffness : {contact.k1, contact.k1 + contact.k2}) {
-    const double tau = slowest_time_constant(
-        stiffness, p.plant, p.encoder, controller_in_phase(p.controller, ControlPhase::fine), drive_of(p));
+    const double tau = theory::slowest_time_constant(
+        stiffness, p.plant, p.encoder, loop::controller_in_phase(p.controller, loop::ControlPhase::fine),
+        drive_of(p));
     if (std::isfinite(tau) && tau > 0.0) slowest.add(tau);
   }
   return slowest;
 }
 
 /// The initial errors of moves in the fine phase, counts; empty unless the reference is a step.
-std::set<std::int64_t> steps_of(const TrialParameters& p) {
+std::set<std::int64_t> steps_of(const trial::TrialParameters& p) {
   std::set<std::int64_t> steps;
-  if (p.command.profile.shape != ReferenceShape::step) return steps;
-  const auto largest = has_coarse_phase(p.controller)
+  if (p.command.profile.shape != loop::ReferenceShape::step) return steps;
+  const auto largest = loop::has_coarse_phase(p.controller)
                            ? static_cast<std::int64_t>(p.controller.coarse.fine_within)
                            : std::numeric_limits<std::int64_t>::max();
   std::int64_t before = 0;
@@ -197,34 +199,36 @@ std::set<std::int64_t> steps_of(const TrialParameters& p) {
 }
 
 /// Updates the slowest move, for slow integral control.
-void add_arrivals(Arrival& longest, const TrialParameters& p, const FrictionParameters& contact) {
+void add_arrivals(Arrival& longest, const trial::TrialParameters& p,
+                  const friction::FrictionParameters& contact) {
   if (!(p.controller.ki > 0.0)) return;
-  const double judged = chatter_time(p.plant, contact, p.controller, p.verdict.dwell) +
+  const double judged = theory::chatter_time(p.plant, contact, p.controller, p.verdict.dwell) +
                         std::max(p.verdict.dwell, p.verdict.window);
   for (const std::int64_t step : steps_of(p)) {
-    const double time = slow_arrival_time(step, contact, p.encoder, p.controller) + judged;
+    const double time = theory::slow_arrival_time(step, contact, p.encoder, p.controller) + judged;
     if (time > longest.time) longest = {step, time};
   }
 }
 
 /// Adds criterion (6) for this k1.
-void add_low_end(const Study& study, const TrialParameters& p, double k1, PointTheory& theory) {
-  FrictionParameters contact = friction_at(p.friction, p.initial.position);
+void add_low_end(const study::Study& study, const trial::TrialParameters& p, double k1, PointTheory& theory) {
+  friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
   contact.k1 = k1;
   theory.lowest_k1.add(k1);
-  const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
+  const theory::IntegralGainBounds bounds =
+      theory::integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
   theory.low_stable.add(as_given(study.units, p, bounds.stable_below));
 }
 
 /// Examines the lowest k1 of the rotors of all rigs (trial i runs on rig i mod rigs). The bound of the
 /// sampled loop, which takes longer, is computed only at the lowest of them.
-void examine_rotors(const Study& study, std::int64_t point, PointTheory& theory) {
+void examine_rotors(const study::Study& study, std::int64_t point, PointTheory& theory) {
   theory.rigs = std::min(study.rigs, max_rigs_examined);
-  TrialParameters softest;
+  trial::TrialParameters softest;
   double lowest = std::numeric_limits<double>::infinity();
   for (std::int64_t rig = 0; rig < theory.rigs; ++rig) {
-    const TrialParameters p = study_trial(study, point, rig).parameters;
-    const double k1 = lowest_k1(p.friction);
+    const trial::TrialParameters p = study::study_trial(study, point, rig).parameters;
+    const double k1 = theory::lowest_k1(p.friction);
     add_low_end(study, p, k1, theory);
     if (k1 >= lowest) continue;
     lowest = k1;
@@ -235,60 +239,62 @@ void examine_rotors(const Study& study, std::int64_t point, PointTheory& theory)
 
 /// Examines properties that the paper does not treat: the sampled loop at the lowest k1, its time constants,
 /// and the loop while the rotor slides.
-void examine_beyond(const Study& study, std::int64_t point, PointTheory& theory) {
-  theory.low_end = low_end(study, point, "friction.k1");
-  const TrialParameters first = study_trial(study, point, 0).parameters;
-  theory.hold = static_cast<double>(samples_of_move(first, 0)) / first.controller.sample_rate;
-  theory.phases.push_back({has_coarse_phase(first.controller) ? "fine phase" : "loop", {}, {}});
-  if (has_coarse_phase(first.controller)) theory.phases.push_back({"coarse phase", {}, {}});
+void examine_beyond(const study::Study& study, std::int64_t point, PointTheory& theory) {
+  theory.low_end = study::low_end(study, point, "friction.k1");
+  const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
+  theory.hold = static_cast<double>(trial::samples_of_move(first, 0)) / first.controller.sample_rate;
+  theory.phases.push_back({loop::has_coarse_phase(first.controller) ? "fine phase" : "loop", {}, {}});
+  if (loop::has_coarse_phase(first.controller)) theory.phases.push_back({"coarse phase", {}, {}});
   for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {
-    const TrialParameters p = study_trial(study, point, index).parameters;
-    const FrictionParameters contact = friction_at(p.friction, p.initial.position);
+    const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
+    const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
     const Range slowest = time_constants(p, contact);
     if (slowest.low <= slowest.high) {
       theory.slowest.add(slowest.low);
       theory.slowest.add(slowest.high);
       add_arrivals(theory.longest, p, contact);
     }
-    const double k1 =
-        theory.low_end.kind == LowEnd::Kind::profile ? lowest_k1(p.friction) : theory.low_end.value;
+    const double k1 = theory.low_end.kind == study::LowEnd::Kind::profile ? theory::lowest_k1(p.friction)
+                                                                          : theory.low_end.value;
     add_low_end(study, p, k1, theory);
     theory.low_sampled.add(as_given(study.units, p, sampled_bound(k1, p)));
-    add_sliding(theory.phases[0], ControlPhase::fine, p);
-    if (theory.phases.size() > 1) add_sliding(theory.phases[1], ControlPhase::coarse, p);
+    add_sliding(theory.phases[0], loop::ControlPhase::fine, p);
+    if (theory.phases.size() > 1) add_sliding(theory.phases[1], loop::ControlPhase::coarse, p);
   }
-  if (theory.low_end.kind == LowEnd::Kind::profile) examine_rotors(study, point, theory);
+  if (theory.low_end.kind == study::LowEnd::Kind::profile) examine_rotors(study, point, theory);
 }
 
-PointTheory examine(const Study& study, std::int64_t point) {
+PointTheory examine(const study::Study& study, std::int64_t point) {
   PointTheory theory;
-  theory.outside = why_outside(study_trial(study, point, 0).parameters);
-  theory.gain_unit = unit_of(parameter_table()[find_parameter("controller.ki").value()], study.units);
+  theory.outside = why_outside(study::study_trial(study, point, 0).parameters);
+  theory.gain_unit = parameters::unit_of(
+      parameters::parameter_table()[parameters::find_parameter("controller.ki").value()], study.units);
   if (!theory.outside.empty()) {
     examine_free(study, point, theory);
     return theory;
   }
-  theory.torque_unit = unit_on(study.units.axis, "N m");
-  TrialParameters softest;
-  TrialParameters stiffest;
+  theory.torque_unit = parameters::unit_on(study.units.axis, "N m");
+  trial::TrialParameters softest;
+  trial::TrialParameters stiffest;
   Range k1;  // N m/rad
   for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined); ++index) {
-    const TrialParameters p = study_trial(study, point, index).parameters;
-    const FrictionParameters contact = friction_at(p.friction, p.initial.position);
-    const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
-    const double dac_bound = dac_resolution_bound(contact.k1, p.encoder, p.controller.encoder);
-    theory.coarse_feedback = p.controller.encoder == EncoderChoice::coarse;
+    const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
+    const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
+    const theory::IntegralGainBounds bounds =
+        theory::integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
+    const double dac_bound = theory::dac_resolution_bound(contact.k1, p.encoder, p.controller.encoder);
+    theory.coarse_feedback = p.controller.encoder == loop::EncoderChoice::coarse;
     theory.ki.add(as_given(study.units, p, p.controller.ki));
     theory.stable_below.add(as_given(study.units, p, bounds.stable_below));
     theory.unstable_above.add(as_given(study.units, p, bounds.unstable_above));
     theory.dac_resolution.add(p.dac.resolution);
     theory.dac_bound.add(dac_bound);
-    theory.frequency.add(natural_frequency(contact.k1 + contact.k2, p.plant));
+    theory.frequency.add(theory::natural_frequency(contact.k1 + contact.k2, p.plant));
     theory.sample_rate.add(p.controller.sample_rate);
     theory.fine_enough = theory.fine_enough && p.dac.resolution < dac_bound;
     theory.fast_enough =
-        theory.fast_enough && p.controller.sample_rate >= advised_sample_rate(p.plant, contact);
-    theory.prediction.add(predict(p));
+        theory.fast_enough && p.controller.sample_rate >= theory::advised_sample_rate(p.plant, contact);
+    theory.prediction.add(measures::predict(p));
     if (contact.k1 < k1.low) softest = p;
     if (contact.k1 > k1.high) stiffest = p;
     k1.add(contact.k1);
@@ -301,13 +307,13 @@ PointTheory examine(const Study& study, std::int64_t point) {
 
 std::string source_of(const PointTheory& theory) {
   switch (theory.low_end.kind) {
-    case LowEnd::Kind::number:
+    case study::LowEnd::Kind::number:
       return "the one of the manifest";
-    case LowEnd::Kind::support:
+    case study::LowEnd::Kind::support:
       return "the low end of its distribution";
-    case LowEnd::Kind::tail:
+    case study::LowEnd::Kind::tail:
       return "the 0.1 % quantile of its distribution";
-    case LowEnd::Kind::profile:
+    case study::LowEnd::Kind::profile:
       break;
   }
   if (theory.rigs == 0) return "the lowest along the profiles";
@@ -371,7 +377,7 @@ std::string describe_outside(const PointTheory& theory) {
 std::string gain_verdict(const PointTheory& theory) {
   if (theory.ki.low == 0.0 && theory.ki.high == 0.0)
     return "no integral control: the error stays wherever friction holds the rest of the torque";
-  return fmt::format("by (6) and (7) {}; sampled loop at k1 {}", verdict(theory.prediction),
+  return fmt::format("by (6) and (7) {}; sampled loop at k1 {}", measures::verdict(theory.prediction),
                      sampled_verdict(theory));
 }
 
@@ -397,28 +403,30 @@ std::string describe(const PointTheory& theory) {
 
 /// Prints the input columns with belongs(column), after `title`; prints nothing if there are none.
 template <class Belongs>
-void print_columns(const Study& study, std::string_view title, const Belongs& belongs) {
+void print_columns(const study::Study& study, std::string_view title, const Belongs& belongs) {
   std::string names;
-  for (const InputColumn& column : study.input_columns) {
+  for (const study::InputColumn& column : study.input_columns) {
     if (belongs(column.per)) names += " " + column.name;
   }
   if (!names.empty()) fmt::print("  {}:{}\n", title, names);
 }
 
-void print_what_differs(const Study& study) {
+void print_what_differs(const study::Study& study) {
   if (study.input_columns.empty()) fmt::print("  differing between trials: nothing\n");
   print_columns(study, "differing between trials",
-                [](Per per) { return per == Per::trial || per == Per::contact; });
-  print_columns(study, "of these, drawn anew at each contact", [](Per per) { return per == Per::contact; });
-  print_columns(study, "differing between rigs", [](Per per) { return per == Per::rig; });
-  print_columns(study, "the same in all trials of a point", [](Per per) { return per == Per::study; });
+                [](study::Per per) { return per == study::Per::trial || per == study::Per::contact; });
+  print_columns(study, "of these, drawn anew at each contact",
+                [](study::Per per) { return per == study::Per::contact; });
+  print_columns(study, "differing between rigs", [](study::Per per) { return per == study::Per::rig; });
+  print_columns(study, "the same in all trials of a point",
+                [](study::Per per) { return per == study::Per::study; });
 }
 
-void print_plan(const Study& study) {
-  const StudyCost cost = measure_cost(study);
+void print_plan(const study::Study& study) {
+  const study_run::StudyCost cost = study_run::measure_cost(study);
   fmt::print("{}: {}\n", study.name, study.description.empty() ? "(no description)" : study.description);
-  fmt::print("  {} design point{} × {} trials = {} trials, {} move{} each\n", point_count(study),
-             point_count(study) == 1 ? "" : "s", study.trials, trial_count(study), study.moves,
+  fmt::print("  {} design point{} × {} trials = {} trials, {} move{} each\n", study::point_count(study),
+             study::point_count(study) == 1 ? "" : "s", study.trials, study::trial_count(study), study.moves,
              study.moves == 1 ? "" : "s");
   if (study.rigs > 0) {
     fmt::print("  at each point {} rigs × {} trials of each\n", study.rigs, study.trials / study.rigs);
@@ -435,12 +443,13 @@ void print_plan(const Study& study) {
     }
   }
   fmt::print("  {:.4g} samples at {:.0f} ns: about {} on {} core{}\n", cost.samples,
-             1e9 * cost.seconds_per_sample, duration_text(cost.seconds()), cost.cores,
+             1e9 * cost.seconds_per_sample, study_run::duration_text(cost.seconds()), cost.cores,
              cost.cores == 1 ? "" : "s");
-  const StudySize size = measure_size(study);
+  const study_run::StudySize size = study_run::measure_size(study);
   fmt::print("  results file about {}; while it runs up to {} on the disk and {} of memory\n",
-             bytes_text(size.file_bytes), bytes_text(size.file_bytes + size.shard_bytes),
-             bytes_text(size.memory_bytes));
+             study_run::bytes_text(size.file_bytes),
+             study_run::bytes_text(size.file_bytes + size.shard_bytes),
+             study_run::bytes_text(size.memory_bytes));
   print_what_differs(study);
 }
 
@@ -455,22 +464,22 @@ void warn_of_slowness(std::int64_t point, const std::string& label, const PointT
   fmt::print(stderr, "warning: point {} ({}): {}: moves may end before they arrive\n", point, label, slow);
 }
 
-ExitCode check(const Arguments& arguments) {
-  const Study study = load_study(arguments.operands()[0], arguments.values("set"));
+ExitCode check(const command_line::Arguments& arguments) {
+  const study::Study study = manifest::load_study(arguments.operands()[0], arguments.values("set"));
   warn(study);
   print_plan(study);
   fmt::print("\nTheory, over the first {} trials of each point, each with the friction it starts on:\n",
              std::min(study.trials, max_trials_examined));
-  const std::int64_t shown =
-      arguments.has("all-points") ? point_count(study) : std::min(point_count(study), points_shown);
+  const std::int64_t shown = arguments.has("all-points") ? study::point_count(study)
+                                                         : std::min(study::point_count(study), points_shown);
   for (std::int64_t point = 0; point < shown; ++point) {
     const PointTheory theory = examine(study, point);
     const std::string& label = study.point_labels[static_cast<std::size_t>(point)];
     fmt::print("  point {}: {}\n{}", point, label, describe(theory));
     if (may_be_too_slow(theory)) warn_of_slowness(point, label, theory);
   }
-  if (shown < point_count(study)) {
-    fmt::print("  … and {} more points (--all-points shows them)\n", point_count(study) - shown);
+  if (shown < study::point_count(study)) {
+    fmt::print("  … and {} more points (--all-points shows them)\n", study::point_count(study) - shown);
   }
   return ExitCode::success;
 }
@@ -489,4 +498,4 @@ Command check_command() {
           check};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

@@ -14,7 +14,7 @@
 
 extern char** environ;
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 [[noreturn]] void fail(const std::string& program, int error) {
@@ -91,4 +91,4 @@ std::optional<ChildResult> run_child(const std::vector<std::string>& words, std:
   return ChildResult{code, content_of(out.get()), content_of(err.get())};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

@@ -8,7 +8,7 @@
 #include "results/layout/build_info.hpp"
 #include "runners/command_line/output_place.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 std::string exit_codes_help() {
@@ -29,19 +29,19 @@ std::string overview() {
   text +=
       "\n'zerocount COMMAND --help' explains a command; 'zerocount --version' (-V) says which program this "
       "is.\nWhere a manifest, a table or a page is read or written, - is standard input or output.\n";
-  text += fmt::format("{}\n", overwriting_rule);
+  text += fmt::format("{}\n", command_line::overwriting_rule);
   return text + exit_codes_help();
 }
 
 std::string help_of(const Command& command) {
   const auto& options = command.spec.options;
-  const bool writes = std::any_of(options.begin(), options.end(), [](const OptionSpec& option) {
-    return option.name == force_option().name;
+  const bool writes = std::any_of(options.begin(), options.end(), [](const command_line::OptionSpec& option) {
+    return option.name == command_line::force_option().name;
   });
   return fmt::format("usage: zerocount {} {} [options]\n\n{}\n\n{}{}\nOptions:\n{}\n{}", command.spec.name,
                      command.spec.operands, command.summary, command.help,
-                     writes ? fmt::format("\n{}", overwriting_rule) : "", options_help(command.spec),
-                     exit_codes_help());
+                     writes ? fmt::format("\n{}", command_line::overwriting_rule) : "",
+                     command_line::options_help(command.spec), exit_codes_help());
 }
 
 ExitCode print(const std::string& text) {
@@ -76,14 +76,14 @@ ExitCode run_command_line(std::span<const std::string> words) {
     return print(words.size() > 1 ? help_of(find_command(words[1])) : overview());
   }
   if (verb == "--version" || verb == "-V") {
-    const Provenance provenance = current_provenance();
+    const layout::Provenance provenance = layout::current_provenance();
     return print(fmt::format("zerocount {} ({}, {})\n", provenance.zerocount_version, provenance.git_commit,
                              provenance.compiler));
   }
   const Command command = find_command(verb);
-  const Arguments arguments(command.spec, {words.begin() + 1, words.end()});
+  const command_line::Arguments arguments(command.spec, {words.begin() + 1, words.end()});
   if (arguments.has("help")) return print(help_of(command));
   return command.run(arguments);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

@@ -7,14 +7,14 @@
 #include "core/failure/failure.hpp"
 #include "runners/command_line/command_line.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 
 /// One verb of the command line.
 struct Command {
-  CommandSpec spec;
+  command_line::CommandSpec spec;
   std::string summary;  ///< one line
   std::string help;     ///< complete description with examples
-  ExitCode (*run)(const Arguments&){nullptr};
+  ExitCode (*run)(const command_line::Arguments&){nullptr};
 };
 
 Command check_command();
@@ -41,4 +41,4 @@ std::vector<Command> commands();
 /// @throws Failure with the message for the user and the exit code.
 ExitCode run_command_line(std::span<const std::string> words);
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

@@ -12,7 +12,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 constexpr const char* compare_help =
@@ -35,22 +35,22 @@ constexpr const char* compare_help =
     "\n"
     "Example: zerocount compare baseline.h5 new.h5 --margins gate.yaml --junit gate.xml\n";
 
-ExitCode code_of(GateVerdict verdict) {
-  if (verdict == GateVerdict::passed) return ExitCode::success;
-  return verdict == GateVerdict::regression ? ExitCode::regression : ExitCode::inconclusive;
+ExitCode code_of(comparison::GateVerdict verdict) {
+  if (verdict == comparison::GateVerdict::passed) return ExitCode::success;
+  return verdict == comparison::GateVerdict::regression ? ExitCode::regression : ExitCode::inconclusive;
 }
 
 /// An output format of the comparison, and the option that names a file for it.
 struct ComparisonForm {
   std::string name;
-  std::string (*text)(const StudyComparison&);
+  std::string (*text)(const comparison::StudyComparison&);
 };
 
 const std::vector<ComparisonForm>& forms() {
-  static const std::vector<ComparisonForm> all{{"table", comparison_table},
-                                               {"json", comparison_json},
-                                               {"junit", comparison_junit},
-                                               {"markdown", comparison_markdown}};
+  static const std::vector<ComparisonForm> all{{"table", comparison::comparison_table},
+                                               {"json", comparison::comparison_json},
+                                               {"junit", comparison::comparison_junit},
+                                               {"markdown", comparison::comparison_markdown}};
   return all;
 }
 
@@ -61,7 +61,8 @@ struct FormPlace {
 };
 
 /// Destinations of all formats. The format of --format goes to standard output, unless another format does.
-std::vector<FormPlace> places_of(const Arguments& arguments, const std::optional<std::string>& margins) {
+std::vector<FormPlace> places_of(const command_line::Arguments& arguments,
+                                 const std::optional<std::string>& margins) {
   const std::string format = arguments.one_of("format", {"table", "json", "junit", "markdown"});
   std::vector<std::filesystem::path> inputs{arguments.operands()[0], arguments.operands()[1]};
   if (margins) inputs.emplace_back(*margins);
@@ -70,27 +71,28 @@ std::vector<FormPlace> places_of(const Arguments& arguments, const std::optional
   std::vector<FormPlace> places;
   for (const ComparisonForm& form : forms()) {
     if (form.name == "table") continue;
-    const std::optional<std::filesystem::path> place = text_place(arguments, form.name);
+    const std::optional<std::filesystem::path> place = command_line::text_place(arguments, form.name);
     if (!place) continue;
     places.push_back({form, *place});
     outputs.push_back(*place);
   }
-  require_places(arguments, inputs, outputs);
-  const bool taken = std::any_of(places.begin(), places.end(),
-                                 [](const FormPlace& place) { return is_standard_stream(place.place); });
+  command_line::require_places(arguments, inputs, outputs);
+  const bool taken = std::any_of(places.begin(), places.end(), [](const FormPlace& place) {
+    return yaml::is_standard_stream(place.place);
+  });
   const auto printed = std::find_if(forms().begin(), forms().end(),
                                     [&](const ComparisonForm& form) { return form.name == format; });
   if (!taken) places.push_back({*printed, "-"});
   return places;
 }
 
-ExitCode compare(const Arguments& arguments) {
+ExitCode compare(const command_line::Arguments& arguments) {
   const std::optional<std::string> margins = arguments.value("margins");
   const std::vector<FormPlace> places = places_of(arguments, margins);
-  const StudyComparison result =
-      compare_files(arguments.operands()[0], arguments.operands()[1],
-                    margins ? std::optional<std::filesystem::path>(*margins) : std::nullopt);
-  for (const FormPlace& place : places) write_text(place.place, place.form.text(result));
+  const comparison::StudyComparison result =
+      comparison::compare_files(arguments.operands()[0], arguments.operands()[1],
+                                margins ? std::optional<std::filesystem::path>(*margins) : std::nullopt);
+  for (const FormPlace& place : places) command_line::write_text(place.place, place.form.text(result));
   return code_of(result.verdict);
 }
 
@@ -106,10 +108,10 @@ Command compare_command() {
             {"json", "FILE", "write the JSON there too"},
             {"junit", "FILE", "write JUnit XML there too"},
             {"markdown", "FILE", "write the Markdown summary there too"},
-            force_option()}},
+            command_line::force_option()}},
           "compare a results file with a baseline: the regression gate",
           compare_help,
           compare};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

@@ -7,7 +7,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 constexpr const char* export_help =
@@ -19,15 +19,16 @@ constexpr const char* export_help =
     "\n"
     "Example: zerocount export gains.h5 -o gains-csv\n";
 
-ExitCode export_file(const Arguments& arguments) {
+ExitCode export_file(const command_line::Arguments& arguments) {
   const std::string directory = arguments.required("output");
-  if (is_standard_stream(directory)) {
+  if (yaml::is_standard_stream(directory)) {
     arguments.refuse(
         "option '--output': the tables are several files and cannot go to standard output; name a folder");
   }
-  const StudyFile file(arguments.operands()[0]);
-  export_csv(file, directory, repeatability_exports(file),
-             arguments.has("force") ? ExistingFiles::replace : ExistingFiles::refuse);
+  const reading::StudyFile file(arguments.operands()[0]);
+  reading::export_csv(
+      file, directory, iso230::repeatability_exports(file),
+      arguments.has("force") ? reading::ExistingFiles::replace : reading::ExistingFiles::refuse);
   fmt::print(stderr, "wrote the tables to {}\n", directory);
   return ExitCode::success;
 }
@@ -39,10 +40,10 @@ Command export_command() {
            "FILE -o DIR",
            1,
            1,
-           {{"output,o", "DIR", "the folder for the tables (required)"}, force_option()}},
+           {{"output,o", "DIR", "the folder for the tables (required)"}, command_line::force_option()}},
           "write a results file's tables as CSV",
           export_help,
           export_file};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

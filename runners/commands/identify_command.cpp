@@ -20,7 +20,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 constexpr const char* identify_help =
@@ -45,8 +45,8 @@ constexpr const char* identify_help =
     "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
     "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n";
 
-double number_option(const Arguments& arguments, const std::string& name, const std::string& text,
-                     double low) {
+double number_option(const command_line::Arguments& arguments, const std::string& name,
+                     const std::string& text, double low) {
   double number = 0.0;
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
@@ -57,20 +57,21 @@ double number_option(const Arguments& arguments, const std::string& name, const 
   return number;
 }
 
-std::optional<double> number_option(const Arguments& arguments, const std::string& name, double low) {
+std::optional<double> number_option(const command_line::Arguments& arguments, const std::string& name,
+                                    double low) {
   const std::optional<std::string> text = arguments.value(name);
   if (!text) return std::nullopt;
   return number_option(arguments, name, *text, low);
 }
 
-std::optional<std::string> column_option(const Arguments& arguments, const char* name,
+std::optional<std::string> column_option(const command_line::Arguments& arguments, const char* name,
                                          const std::vector<std::string>& columns) {
   if (!arguments.has(name)) return std::nullopt;
   return arguments.one_of(name, columns);
 }
 
 /// A lower bandwidth is implausible for a positioning drive, and not identifiable from the samples.
-std::optional<double> bandwidth_option(const Arguments& arguments) {
+std::optional<double> bandwidth_option(const command_line::Arguments& arguments) {
   constexpr double least = 0.01;
   const std::optional<double> bandwidth = number_option(arguments, "amplifier-bandwidth", 0.0);
   if (bandwidth && *bandwidth > 0.0 && *bandwidth < least) {
@@ -81,15 +82,16 @@ std::optional<double> bandwidth_option(const Arguments& arguments) {
   return bandwidth;
 }
 
-std::optional<int> count_option(const Arguments& arguments, const char* name, int low, int high) {
+std::optional<int> count_option(const command_line::Arguments& arguments, const char* name, int low,
+                                int high) {
   const std::optional<std::int64_t> number = arguments.whole_number(name, low, high);
   if (!number) return std::nullopt;
   return static_cast<int>(*number);
 }
 
-SeriesChoice series_choice(const Arguments& arguments) {
+identification::SeriesChoice series_choice(const command_line::Arguments& arguments) {
   constexpr double any = -std::numeric_limits<double>::infinity();
-  SeriesChoice choice;
+  identification::SeriesChoice choice;
   choice.torque = column_option(arguments, "torque", {"torque", "drive_torque"});
   choice.angle = column_option(arguments, "angle", {"count", "theta"});
   choice.counts_per_revolution = number_option(arguments, "counts-per-revolution", 1.0);
@@ -102,25 +104,28 @@ SeriesChoice series_choice(const Arguments& arguments) {
 }
 
 /// "KEY=VALUE".
-KnownParameter known_parameter(const Arguments& arguments, const std::string& text) {
+identification::KnownParameter known_parameter(const command_line::Arguments& arguments,
+                                               const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string key = text.substr(0, equals);
-  const auto found = std::find(coordinate_keys.begin(), coordinate_keys.end(), key);
-  if (equals == std::string::npos || found == coordinate_keys.end()) {
+  const auto found =
+      std::find(identification::coordinate_keys.begin(), identification::coordinate_keys.end(), key);
+  if (equals == std::string::npos || found == identification::coordinate_keys.end()) {
     arguments.refuse(fmt::format("option '--fix': '{}' is not KEY=VALUE with KEY one of {}", text,
-                                 fmt::join(coordinate_keys, ", ")));
+                                 fmt::join(identification::coordinate_keys, ", ")));
   }
-  const auto coordinate = static_cast<Coordinate>(found - coordinate_keys.begin());
+  const auto coordinate =
+      static_cast<identification::Coordinate>(found - identification::coordinate_keys.begin());
   constexpr double least = std::numeric_limits<double>::min();
   return {coordinate, number_option(arguments, "fix", text.substr(equals + 1),
-                                    coordinate == creep_exponent ? 1.0 : least)};
+                                    coordinate == identification::creep_exponent ? 1.0 : least)};
 }
 
-IdentificationOptions identification_options(const Arguments& arguments) {
-  IdentificationOptions options;
+identification::IdentificationOptions identification_options(const command_line::Arguments& arguments) {
+  identification::IdentificationOptions options;
   for (const std::string& text : arguments.values("fix")) {
     options.known.push_back(known_parameter(arguments, text));
-    const auto same = [&](const KnownParameter& known) {
+    const auto same = [&](const identification::KnownParameter& known) {
       return known.coordinate == options.known.back().coordinate;
     };
     if (std::any_of(options.known.begin(), options.known.end() - 1, same)) {
@@ -138,55 +143,59 @@ bool holds_results(const std::string& path) {
   return signature == "\x89HDF\r\n\x1a\n" || std::filesystem::path(path).extension() == ".h5";
 }
 
-std::vector<std::int64_t> points_of(const Arguments& arguments, const std::string& path) {
+std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, const std::string& path) {
   std::vector<std::int64_t> points;
-  if (arguments.has("point")) points = point_options(arguments, StudyFile(path).point_labels());
+  if (arguments.has("point"))
+    points = command_line::point_options(arguments, reading::StudyFile(path).point_labels());
   if (points.empty()) points.push_back(0);
   return points;
 }
 
-std::vector<TestRecord> read_records(const Arguments& arguments) {
-  const SeriesChoice choice = series_choice(arguments);
+std::vector<identification::TestRecord> read_records(const command_line::Arguments& arguments) {
+  const identification::SeriesChoice choice = series_choice(arguments);
   const bool any_magnitude = arguments.has("any-magnitude");
   const std::vector<std::string>& paths = arguments.operands();
   if ((arguments.has("point") || arguments.has("trial")) &&
       std::none_of(paths.begin(), paths.end(), holds_results)) {
     arguments.refuse("options '--point' and '--trial' go with a results file");
   }
-  std::vector<TestRecord> records;
+  std::vector<identification::TestRecord> records;
   for (const std::string& path : paths) {
     if (!holds_results(path)) {
-      records.push_back(checked_record(read_csv_series(path, choice), any_magnitude));
+      records.push_back(
+          identification::checked_record(identification::read_csv_series(path, choice), any_magnitude));
       continue;
     }
     constexpr std::int64_t most = std::int64_t{1} << 53;
     const std::int64_t index = arguments.whole_number("trial", 0, most).value_or(0);
     for (const std::int64_t point : points_of(arguments, path)) {
-      records.push_back(checked_record(read_study_series(path, point, index, choice), any_magnitude));
+      records.push_back(identification::checked_record(
+          identification::read_study_series(path, point, index, choice), any_magnitude));
     }
   }
   return records;
 }
 
-ExitCode identify_records(const Arguments& arguments) {
+ExitCode identify_records(const command_line::Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"text", "json", "yaml"});
-  const IdentificationOptions options = identification_options(arguments);
-  const std::optional<std::filesystem::path> output = text_place(arguments, "output");
-  require_places(arguments, {arguments.operands().begin(), arguments.operands().end()},
-                 output ? std::vector{*output} : std::vector<std::filesystem::path>{});
-  const Identification found = identify(read_records(arguments), options);
-  const std::string report = format == "json"   ? identification_json(found)
-                             : format == "yaml" ? manifest_fragment(found)
-                                                : identification_text(found);
-  write_text(output.value_or("-"), report);
+  const identification::IdentificationOptions options = identification_options(arguments);
+  const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
+  command_line::require_places(arguments, {arguments.operands().begin(), arguments.operands().end()},
+                               output ? std::vector{*output} : std::vector<std::filesystem::path>{});
+  const identification::Identification found = identification::identify(read_records(arguments), options);
+  const std::string report = format == "json"   ? identification::identification_json(found)
+                             : format == "yaml" ? identification::manifest_fragment(found)
+                                                : identification::identification_text(found);
+  command_line::write_text(output.value_or("-"), report);
   if (!found.checks.passed) {
     fmt::print(
         stderr,
         "zerocount identify: warning: lack of fit; the intervals hold only as far as the model does\n");
   }
-  const bool any =
-      std::any_of(found.parameters.begin(), found.parameters.end(),
-                  [](const ParameterEstimate& p) { return p.status == EstimateStatus::estimated; });
+  const bool any = std::any_of(found.parameters.begin(), found.parameters.end(),
+                               [](const identification::ParameterEstimate& p) {
+                                 return p.status == identification::EstimateStatus::estimated;
+                               });
   if (any) return ExitCode::success;
   fmt::print(stderr, "zerocount identify: nothing is identifiable from this\n");
   return ExitCode::inconclusive;
@@ -214,10 +223,10 @@ Command identify_command() {
             {"trial", "I", "trial of the point (default 0)"},
             {"format", "FORMAT", "text (default), json or yaml"},
             {"output,o", "FILE", "write there instead of to standard output"},
-            force_option()}},
+            command_line::force_option()}},
           "identify friction, damping and inertia from material tests",
           identify_help,
           identify_records};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

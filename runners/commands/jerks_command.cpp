@@ -9,7 +9,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 constexpr const char* jerks_help =
@@ -22,17 +22,18 @@ constexpr const char* jerks_help =
 
 constexpr std::int64_t default_creep_trials = 20;
 
-ExitCode print_jerks(const Arguments& arguments) {
+ExitCode print_jerks(const command_line::Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"table", "json"});
-  const double confidence = probability_option(arguments, "confidence").value_or(summary_confidence);
+  const double confidence =
+      command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
   const std::int64_t creep_trials =
       arguments.whole_number("creep-trials", 0, 1'000'000).value_or(default_creep_trials);
-  const StudyFile file(arguments.operands()[0]);
-  const Study study = recorded_study(file.header(), file.path());
-  const std::vector<std::int64_t> points = point_options(arguments, study.point_labels);
-  const JerkReport report = jerk_report(file, study, points, confidence, creep_trials);
-  fmt::print("{}", format == "json" ? jerk_json_text(report) : jerk_text(report));
-  if (any_arrival(report)) return ExitCode::success;
+  const reading::StudyFile file(arguments.operands()[0]);
+  const study::Study study = layout::recorded_study(file.header(), file.path());
+  const std::vector<std::int64_t> points = command_line::point_options(arguments, study.point_labels);
+  const jerks::JerkReport report = jerks::jerk_report(file, study, points, confidence, creep_trials);
+  fmt::print("{}", format == "json" ? jerks::jerk_json_text(report) : jerks::jerk_text(report));
+  if (jerks::any_arrival(report)) return ExitCode::success;
   fmt::print(stderr, "no move arrived, so there are no jerks\n");
   return ExitCode::inconclusive;
 }
@@ -53,4 +54,4 @@ Command jerks_command() {
           print_jerks};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

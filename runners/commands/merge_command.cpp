@@ -11,7 +11,7 @@
 #include "runners/commands/commands.hpp"
 #include "runners/study_run/assemble.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,8 +23,8 @@ constexpr const char* merge_help =
     "\n"
     "Example: zerocount merge a.h5 b.h5 -o all.h5\n";
 
-void require_everything(const std::vector<ShardInfo>& parts, const Study& study) {
-  const std::vector<RowRange> missing = missing_ranges(parts, all_rows(study));
+void require_everything(const std::vector<shards::ShardInfo>& parts, const study::Study& study) {
+  const std::vector<layout::RowRange> missing = shards::missing_ranges(parts, layout::all_rows(study));
   if (missing.empty()) return;
   std::string ranges;
   for (std::size_t i = 0; i < std::min<std::size_t>(missing.size(), 8); ++i) {
@@ -33,18 +33,18 @@ void require_everything(const std::vector<ShardInfo>& parts, const Study& study)
   throw Failure(ExitCode::bad_data,
                 fmt::format("the inputs do not hold the whole study: of its {} trials, {}{} are missing; run "
                             "those parts and give them too",
-                            trial_count(study), ranges, missing.size() > 8 ? " and more" : ""));
+                            study::trial_count(study), ranges, missing.size() > 8 ? " and more" : ""));
 }
 
-ExitCode merge(const Arguments& arguments) {
-  const fs::path output = output_place(arguments);
+ExitCode merge(const command_line::Arguments& arguments) {
+  const fs::path output = command_line::output_place(arguments);
   const std::vector<fs::path> inputs(arguments.operands().begin(), arguments.operands().end());
-  require_places(arguments, inputs, {output});
-  const Study study = recorded_study(first_header(inputs), inputs.front());
-  const OutputLock lock(output);
-  const std::vector<ShardInfo> parts = merge_inputs(inputs, study);
+  command_line::require_places(arguments, inputs, {output});
+  const study::Study study = layout::recorded_study(shards::first_header(inputs), inputs.front());
+  const storage::OutputLock lock(output);
+  const std::vector<shards::ShardInfo> parts = shards::merge_inputs(inputs, study);
   require_everything(parts, study);
-  assemble(parts, study, output, all_rows(study));
+  study_run::assemble(parts, study, output, layout::all_rows(study));
   fmt::print(stderr, "wrote {}\n", output.string());
   return ExitCode::success;
 }
@@ -56,10 +56,10 @@ Command merge_command() {
            "PART... -o FILE",
            1,
            100000,
-           {{"output,o", "FILE", "the results file to make (required)"}, force_option()}},
+           {{"output,o", "FILE", "the results file to make (required)"}, command_line::force_option()}},
           "join the parts of a study that was run in parts",
           merge_help,
           merge};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

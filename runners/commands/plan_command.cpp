@@ -19,7 +19,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -47,7 +47,7 @@ constexpr double worst_case_rate = 0.5;
 
 /// The parsed options.
 struct PlanRequest {
-  double confidence{summary_confidence};
+  double confidence{statistics::summary_confidence};
   std::optional<double> success, true_success, power, halfwidth;
   std::optional<double> rig_sd, rigs_share;
   std::int64_t failures{default_failures};
@@ -56,7 +56,7 @@ struct PlanRequest {
 
 /// Takes the standard deviation and the rate from the point of a pilot study whose rigs differ most.
 void measure_pilot(PlanRequest& request, const std::string& path) {
-  const StudySummary summary = summarise(StudyFile(path));
+  const summary::StudySummary summary = summary::summarise(reading::StudyFile(path));
   std::size_t worst = summary.points.size();
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     const double sd = summary.points[i].rigs.success_sd;
@@ -69,7 +69,7 @@ void measure_pilot(PlanRequest& request, const std::string& path) {
                               "`rigs` and several trials on each",
                               path));
   }
-  const PointSummary& point = summary.points[worst];
+  const measures::PointSummary& point = summary.points[worst];
   const double rate = point.success_rate().value;
   if (!(rate > 0.0 && rate < 1.0)) {
     throw Failure(ExitCode::bad_input, fmt::format("{}: no point has both successes and failures; expected "
@@ -78,19 +78,20 @@ void measure_pilot(PlanRequest& request, const std::string& path) {
   }
   request.rig_sd = point.rigs.success_sd;
   if (!request.true_success) request.true_success = rate;
-  request.pilot = fmt::format("{}, point {}", path, printable(summary.labels[worst]));
+  request.pilot = fmt::format("{}, point {}", path, text::printable(summary.labels[worst]));
 }
 
-PlanRequest request_of(const Arguments& arguments) {
+PlanRequest request_of(const command_line::Arguments& arguments) {
   PlanRequest request;
-  request.confidence = probability_option(arguments, "confidence").value_or(summary_confidence);
-  request.success = probability_option(arguments, "success");
-  request.true_success = probability_option(arguments, "true-success");
-  request.power = probability_option(arguments, "power");
-  request.halfwidth = probability_option(arguments, "halfwidth");
+  request.confidence =
+      command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
+  request.success = command_line::probability_option(arguments, "success");
+  request.true_success = command_line::probability_option(arguments, "true-success");
+  request.power = command_line::probability_option(arguments, "power");
+  request.halfwidth = command_line::probability_option(arguments, "halfwidth");
   request.failures = arguments.whole_number("failures", 0, 1000).value_or(default_failures);
-  request.rigs_share = probability_option(arguments, "rigs-share");
-  request.rig_sd = probability_option(arguments, "rig-sd");
+  request.rigs_share = command_line::probability_option(arguments, "rigs-share");
+  request.rig_sd = command_line::probability_option(arguments, "rig-sd");
   if (!arguments.operands().empty()) {
     if (request.rig_sd) arguments.refuse("expected --rig-sd or a pilot FILE, not both");
     if (!request.halfwidth) arguments.refuse("a pilot FILE needs --halfwidth");
@@ -107,50 +108,51 @@ PlanRequest request_of(const Arguments& arguments) {
   return request;
 }
 
-std::vector<ClaimPlan> plans_of(const PlanRequest& request) {
-  std::vector<ClaimPlan> plans;
+std::vector<statistics::ClaimPlan> plans_of(const PlanRequest& request) {
+  std::vector<statistics::ClaimPlan> plans;
   if (!request.success) return plans;
   for (std::int64_t failures = 0; failures <= request.failures; ++failures)
-    plans.push_back({failures, trials_for_claim(*request.success, request.confidence, failures)});
+    plans.push_back({failures, statistics::trials_for_claim(*request.success, request.confidence, failures)});
   if (!request.power) return plans;
-  const ClaimPlan strong =
-      plan_with_power(*request.success, request.confidence, *request.true_success, *request.power);
+  const statistics::ClaimPlan strong = statistics::plan_with_power(*request.success, request.confidence,
+                                                                   *request.true_success, *request.power);
   if (strong.failures > request.failures) plans.push_back(strong);
   return plans;
 }
 
 /// Whether the plan has the requested power.
-bool has_power(const PlanRequest& request, const ClaimPlan& plan) {
+bool has_power(const PlanRequest& request, const statistics::ClaimPlan& plan) {
   return request.power &&
-         chance_of_claim(plan.trials, plan.failures, *request.true_success) >= *request.power;
+         statistics::chance_of_claim(plan.trials, plan.failures, *request.true_success) >= *request.power;
 }
 
 constexpr std::array<std::int64_t, 8> listed_trials_per_rig{1, 2, 5, 10, 20, 50, 100, 1000};
 
-std::vector<RigPlan> halfwidth_plans(const PlanRequest& request) {
-  std::vector<RigPlan> plans;
+std::vector<statistics::RigPlan> halfwidth_plans(const PlanRequest& request) {
+  std::vector<statistics::RigPlan> plans;
   plans.reserve(listed_trials_per_rig.size());
   for (const std::int64_t trials : listed_trials_per_rig) {
-    plans.push_back(
-        {rigs_for_halfwidth(*request.halfwidth, request.confidence,
-                            request.true_success.value_or(worst_case_rate), *request.rig_sd, trials),
-         trials});
+    plans.push_back({statistics::rigs_for_halfwidth(*request.halfwidth, request.confidence,
+                                                    request.true_success.value_or(worst_case_rate),
+                                                    *request.rig_sd, trials),
+                     trials});
   }
   return plans;
 }
 
 /// Plans with increasing numbers of rigs: more rigs need fewer trials on each.
-std::vector<RigPlan> tolerance_plans(const PlanRequest& request) {
-  const std::int64_t fewest = min_rigs_for_tolerance(*request.rigs_share, request.confidence);
-  std::vector<RigPlan> plans;
+std::vector<statistics::RigPlan> tolerance_plans(const PlanRequest& request) {
+  const std::int64_t fewest = statistics::min_rigs_for_tolerance(*request.rigs_share, request.confidence);
+  std::vector<statistics::RigPlan> plans;
   for (const std::int64_t rigs : {fewest, fewest + (fewest + 1) / 2, 2 * fewest, 4 * fewest})
-    plans.push_back(plan_tolerance(*request.rigs_share, *request.success, request.confidence, rigs));
+    plans.push_back(
+        statistics::plan_tolerance(*request.rigs_share, *request.success, request.confidence, rigs));
   return plans;
 }
 
-Json rig_plans_json(const std::vector<RigPlan>& plans) {
+Json rig_plans_json(const std::vector<statistics::RigPlan>& plans) {
   Json json = Json::array();
-  for (const RigPlan& plan : plans) {
+  for (const statistics::RigPlan& plan : plans) {
     json.push_back({{"rigs", plan.rigs},
                     {"trials_per_rig", plan.trials_per_rig},
                     {"trials", plan.rigs * plan.trials_per_rig}});
@@ -158,14 +160,15 @@ Json rig_plans_json(const std::vector<RigPlan>& plans) {
   return json;
 }
 
-std::string rig_plans_text(const std::vector<RigPlan>& plans) {
-  std::vector<TextColumn> columns{{"rigs", true, {}}, {"trials on each", true, {}}, {"trials", true, {}}};
-  for (const RigPlan& plan : plans) {
+std::string rig_plans_text(const std::vector<statistics::RigPlan>& plans) {
+  std::vector<text::TextColumn> columns{
+      {"rigs", true, {}}, {"trials on each", true, {}}, {"trials", true, {}}};
+  for (const statistics::RigPlan& plan : plans) {
     columns[0].cells.push_back(std::to_string(plan.rigs));
     columns[1].cells.push_back(std::to_string(plan.trials_per_rig));
     columns[2].cells.push_back(std::to_string(plan.rigs * plan.trials_per_rig));
   }
-  return aligned_table(columns);
+  return text::aligned_table(columns);
 }
 
 Json plan_json(const PlanRequest& request) {
@@ -179,10 +182,10 @@ Json plan_json(const PlanRequest& request) {
     if (request.true_success) json["true_success"] = *request.true_success;
     if (request.power) json["power"] = *request.power;
     Json plans = Json::array();
-    for (const ClaimPlan& plan : plans_of(request)) {
+    for (const statistics::ClaimPlan& plan : plans_of(request)) {
       Json entry{{"failures", plan.failures}, {"trials", plan.trials}};
       if (request.true_success)
-        entry["chance"] = chance_of_claim(plan.trials, plan.failures, *request.true_success);
+        entry["chance"] = statistics::chance_of_claim(plan.trials, plan.failures, *request.true_success);
       if (request.power) entry["has_power"] = has_power(request, plan);
       plans.push_back(std::move(entry));
     }
@@ -195,27 +198,28 @@ Json plan_json(const PlanRequest& request) {
       json["halfwidth"]["rig_sd"] = *request.rig_sd;
       json["halfwidth"]["rig_plans"] = rig_plans_json(halfwidth_plans(request));
     } else {
-      json["halfwidth"]["trials"] = trials_for_halfwidth(*request.halfwidth, request.confidence, rate);
+      json["halfwidth"]["trials"] =
+          statistics::trials_for_halfwidth(*request.halfwidth, request.confidence, rate);
     }
   }
   return json;
 }
 
 std::string claim_text(const PlanRequest& request) {
-  std::vector<TextColumn> columns{{"failures at most", true, {}}, {"trials", true, {}}};
+  std::vector<text::TextColumn> columns{{"failures at most", true, {}}, {"trials", true, {}}};
   if (request.true_success) columns.push_back({"chance to show it", true, {}});
   if (request.power) columns.push_back({"power", false, {}});
-  for (const ClaimPlan& plan : plans_of(request)) {
+  for (const statistics::ClaimPlan& plan : plans_of(request)) {
     columns[0].cells.push_back(std::to_string(plan.failures));
     columns[1].cells.push_back(std::to_string(plan.trials));
     if (request.true_success)
       columns[2].cells.push_back(
-          short_number(chance_of_claim(plan.trials, plan.failures, *request.true_success)));
+          text::short_number(statistics::chance_of_claim(plan.trials, plan.failures, *request.true_success)));
     if (request.power) columns[3].cells.push_back(has_power(request, plan) ? "enough" : "too little");
   }
   std::string text =
       fmt::format("to show that at least {:.6g} % of axes succeed, with {:.6g} % confidence\n\n{}",
-                  100.0 * *request.success, 100.0 * request.confidence, aligned_table(columns));
+                  100.0 * *request.success, 100.0 * request.confidence, text::aligned_table(columns));
   if (request.true_success)
     text += fmt::format("\nchance: if {:.6g} % of axes succeed in truth\n", 100.0 * *request.true_success);
   return text;
@@ -243,7 +247,7 @@ std::string halfwidth_text(const PlanRequest& request) {
   const double rate = request.true_success.value_or(worst_case_rate);
   if (request.rig_sd) return rig_halfwidth_text(request, rate);
   return fmt::format("{} trials bring the {:.6g} % bounds of a rate of {:.6g} % within ±{:.6g} %{}\n",
-                     trials_for_halfwidth(*request.halfwidth, request.confidence, rate),
+                     statistics::trials_for_halfwidth(*request.halfwidth, request.confidence, rate),
                      100.0 * request.confidence, 100.0 * rate, 100.0 * *request.halfwidth,
                      request.true_success ? "" : ", the worst case");
 }
@@ -256,7 +260,7 @@ std::string plan_text(const PlanRequest& request) {
   return text;
 }
 
-ExitCode print_plan(const Arguments& arguments) {
+ExitCode print_plan(const command_line::Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"table", "json"});
   const PlanRequest request = request_of(arguments);
   fmt::print("{}", format == "json" ? plan_json(request).dump(2) + "\n" : plan_text(request));
@@ -285,4 +289,4 @@ Command plan_command() {
       print_plan};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

@@ -8,7 +8,7 @@
 #include "results/layout/fields.hpp"
 #include "results/layout/layout.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 bool same(double a, double b, double allowed = 0.0) {
@@ -19,24 +19,24 @@ bool same(double a, double b, double allowed = 0.0) {
 /// Absolute tolerance of a column. A position in counts is the difference of large numbers and has the
 /// accuracy of θ. θ is accurate to 1e-6 count, which is more than this for encoders of up to six million
 /// counts per revolution.
-double allowed_in(const Column& column) {
+double allowed_in(const layout::Column& column) {
   if (column.unit == "rad") return 1e-12;
   return column.unit == "count" ? 1e-3 : 0.0;
 }
 
 /// Compares two lists of records field by field; `what` names one record in messages.
 template <class Record>
-void compare(const std::vector<RecordField<Record>>& fields, const std::vector<Record>& recorded,
+void compare(const std::vector<layout::RecordField<Record>>& fields, const std::vector<Record>& recorded,
              const std::vector<Record>& replayed, std::string_view what, std::vector<std::string>& lines) {
   if (recorded.size() != replayed.size()) {
     lines.push_back(fmt::format("{}s: recorded {}, replayed {}", what, recorded.size(), replayed.size()));
     return;
   }
   for (std::size_t i = 0; i < recorded.size(); ++i) {
-    for (const RecordField<Record>& field : fields) {
-      const double before = value_of(field, recorded[i]);
-      const double now = value_of(field, replayed[i]);
-      const bool real = field.column.element == Element::float64;
+    for (const layout::RecordField<Record>& field : fields) {
+      const double before = layout::value_of(field, recorded[i]);
+      const double now = layout::value_of(field, replayed[i]);
+      const bool real = field.column.element == hdf5::Element::float64;
       if (real ? same(before, now, allowed_in(field.column)) : before == now) continue;
       lines.push_back(
           fmt::format("{} {}: {}: recorded {}, replayed {}", what, i, field.column.name, before, now));
@@ -45,22 +45,23 @@ void compare(const std::vector<RecordField<Record>>& fields, const std::vector<R
 }
 
 /// The moves with their outcomes as a file of this layout version stores them.
-std::vector<MoveOutcome> moves_in_version(std::int64_t version, std::vector<MoveOutcome> moves) {
-  for (MoveOutcome& move : moves) move.outcome = outcome_in_version(version, move.outcome);
+std::vector<trial::MoveOutcome> moves_in_version(std::int64_t version,
+                                                 std::vector<trial::MoveOutcome> moves) {
+  for (trial::MoveOutcome& move : moves) move.outcome = layout::outcome_in_version(version, move.outcome);
   return moves;
 }
 
-std::vector<JerkRecord> jerk_records(const TrialResult& result) {
-  std::vector<JerkRecord> records;
-  for (const Jerk& jerk : result.jerks) records.push_back({jerk, result.row});
+std::vector<layout::JerkRecord> jerk_records(const shards::TrialResult& result) {
+  std::vector<layout::JerkRecord> records;
+  for (const trial::Jerk& jerk : result.jerks) records.push_back({jerk, result.row});
   return records;
 }
 
 }  // namespace
 
-std::vector<std::string> differences(const std::vector<InputColumn>& inputs, const TrialResult& recorded,
-                                     const TrialResult& replayed,
-                                     const std::vector<RecordField<MoveOutcome>>& measures,
+std::vector<std::string> differences(const std::vector<study::InputColumn>& inputs,
+                                     const shards::TrialResult& recorded, const shards::TrialResult& replayed,
+                                     const std::vector<layout::RecordField<trial::MoveOutcome>>& measures,
                                      std::int64_t version) {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -69,8 +70,8 @@ std::vector<std::string> differences(const std::vector<InputColumn>& inputs, con
                                 replayed.inputs[i]));
   }
   compare(measures, recorded.outcome.moves, moves_in_version(version, replayed.outcome.moves), "move", lines);
-  compare(jerk_fields(), jerk_records(recorded), jerk_records(replayed), "jerk", lines);
+  compare(layout::jerk_fields(), jerk_records(recorded), jerk_records(replayed), "jerk", lines);
   return lines;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

@@ -7,7 +7,7 @@
 #include "results/layout/layout.hpp"
 #include "results/shards/shard.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 
 /// Differences between a replayed trial and its record, one line each: inputs, measures of all moves, jerks.
 ///
@@ -15,9 +15,10 @@ namespace zerocount {
 /// rounded differently on another machine.
 /// @param inputs the study's input columns
 /// @param measures the recorded measures of the moves @param version layout version of their file
-std::vector<std::string> differences(const std::vector<InputColumn>& inputs, const TrialResult& recorded,
-                                     const TrialResult& replayed,
-                                     const std::vector<RecordField<MoveOutcome>>& measures = outcome_fields(),
-                                     std::int64_t version = format_version);
+std::vector<std::string> differences(
+    const std::vector<study::InputColumn>& inputs, const shards::TrialResult& recorded,
+    const shards::TrialResult& replayed,
+    const std::vector<layout::RecordField<trial::MoveOutcome>>& measures = layout::outcome_fields(),
+    std::int64_t version = layout::format_version);
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

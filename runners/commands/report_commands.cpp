@@ -20,7 +20,7 @@
 #include "runners/commands/commands.hpp"
 #include "runners/commands/replay.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 constexpr const char* report_help =
@@ -43,39 +43,40 @@ constexpr const char* plot_help =
     "Example: zerocount plot gains.h5 --figure success -o success.svg\n";
 
 /// Differences between a trial that was simulated again and its record in the file.
-std::vector<std::string> check(const StudyFile& file, const ReplayedTrial& replayed) {
-  const RowRange row{replayed.result.row, 1};
-  TrialResult recorded;
+std::vector<std::string> check(const reading::StudyFile& file, const report::ReplayedTrial& replayed) {
+  const layout::RowRange row{replayed.result.row, 1};
+  shards::TrialResult recorded;
   recorded.row = row.first;
   recorded.inputs = file.inputs_of(row.first);
   recorded.outcome.moves = file.outcomes(row);
-  for (const JerkRecord& jerk : file.jerks(row)) recorded.jerks.push_back(jerk);
+  for (const layout::JerkRecord& jerk : file.jerks(row)) recorded.jerks.push_back(jerk);
   return differences(file.input_columns(), recorded, replayed.result, file.measures(), file.header().version);
 }
 
-StudyReport report_of(const Arguments& arguments, const StudyFile& file) {
-  ReportOptions options;
-  options.focus = point_option(arguments, file.point_labels());
+report::StudyReport report_of(const command_line::Arguments& arguments, const reading::StudyFile& file) {
+  report::ReportOptions options;
+  options.focus = command_line::point_option(arguments, file.point_labels());
   const auto margins = arguments.value("margins");
   if (const auto baseline = arguments.value("baseline")) {
-    const GateRules rules = margins ? read_gate_rules(*margins, file.point_labels()) : GateRules{};
-    options.comparison = compare_studies(StudyFile(*baseline), file, rules);
+    const comparison::GateRules rules =
+        margins ? comparison::read_gate_rules(*margins, file.point_labels()) : comparison::GateRules{};
+    options.comparison = comparison::compare_studies(reading::StudyFile(*baseline), file, rules);
   } else if (margins) {
     arguments.refuse("option '--margins' needs '--baseline'");
   }
-  options.check = [&file](const ReplayedTrial& replayed) { return check(file, replayed); };
-  StudyReport report = study_report(file, options);
+  options.check = [&file](const report::ReplayedTrial& replayed) { return check(file, replayed); };
+  report::StudyReport report = report::study_report(file, options);
   for (const std::string& warning : report.warnings) fmt::print(stderr, "zerocount: warning: {}\n", warning);
   return report;
 }
 
 /// The output file. Its name must end in one of `extensions`, and it must not be an input.
-std::filesystem::path picture_or_page(const Arguments& arguments,
+std::filesystem::path picture_or_page(const command_line::Arguments& arguments,
                                       const std::vector<std::string>& extensions) {
   arguments.required("output");
-  std::filesystem::path output = *text_place(arguments, "output");
+  std::filesystem::path output = *command_line::text_place(arguments, "output");
   const std::string extension = output.extension().string();
-  if (!is_standard_stream(output) &&
+  if (!yaml::is_standard_stream(output) &&
       std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
     arguments.refuse(fmt::format("option '--output': '{}' does not end in {}", output.string(),
                                  fmt::join(extensions, " or ")));
@@ -84,14 +85,14 @@ std::filesystem::path picture_or_page(const Arguments& arguments,
   for (const char* const option : {"baseline", "margins"}) {
     if (const auto path = arguments.value(option)) inputs.emplace_back(*path);
   }
-  require_places(arguments, inputs, {output});
+  command_line::require_places(arguments, inputs, {output});
   return output;
 }
 
-ExitCode write_report(const Arguments& arguments) {
+ExitCode write_report(const command_line::Arguments& arguments) {
   const std::filesystem::path output = picture_or_page(arguments, {".html", ".htm"});
-  const StudyFile file(arguments.operands()[0]);
-  write_text(output, html_page(report_of(arguments, file).page));
+  const reading::StudyFile file(arguments.operands()[0]);
+  command_line::write_text(output, report::html_page(report_of(arguments, file).page));
   return ExitCode::success;
 }
 
@@ -110,25 +111,27 @@ std::string output_of(const std::vector<std::string>& words, std::string_view in
                                                       words.front(), result->code));
 }
 
-std::string picture(const Figure& figure, bool png) {
-  const std::string svg = output_of({"node", "-"}, drawing_program(figure), "nodejs");
+std::string picture(const report::Figure& figure, bool png) {
+  const std::string svg = output_of({"node", "-"}, report::drawing_program(figure), "nodejs");
   // Three pixels per point of the figure: 300 per inch at a width of 140 mm.
   return png ? output_of({"rsvg-convert", "--format", "png", "--zoom", "3"}, svg, "librsvg2-bin") : svg;
 }
 
-ExitCode plot(const Arguments& arguments) {
+ExitCode plot(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   if (!arguments.has("figure")) {
     if (arguments.has("output")) arguments.refuse("option '--output' needs '--figure'");
-    const StudyFile file(input);
-    for (const std::string& name : figure_names(report_of(arguments, file).page)) fmt::print("{}\n", name);
+    const reading::StudyFile file(input);
+    for (const std::string& name : report::figure_names(report_of(arguments, file).page))
+      fmt::print("{}\n", name);
     return ExitCode::success;
   }
   const std::filesystem::path output = picture_or_page(arguments, {".svg", ".png"});
-  const StudyFile file(input);
-  const StudyReport report = report_of(arguments, file);
+  const reading::StudyFile file(input);
+  const report::StudyReport report = report_of(arguments, file);
   const bool png = output.extension() == ".png";
-  write_text(output, picture(find_figure(report.page, arguments.required("figure")), png));
+  command_line::write_text(output,
+                           picture(report::find_figure(report.page, arguments.required("figure")), png));
   return ExitCode::success;
 }
 
@@ -143,7 +146,7 @@ Command report_command() {
             {"baseline", "FILE", "compare with these results"},
             {"margins", "FILE", "the margins and requirements of that comparison"},
             {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
-            force_option()}},
+            command_line::force_option()}},
           "write one HTML page on a results file",
           report_help,
           write_report};
@@ -159,10 +162,10 @@ Command plot_command() {
             {"baseline", "FILE", "compare with these results"},
             {"margins", "FILE", "the margins and requirements of that comparison"},
             {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
-            force_option()}},
+            command_line::force_option()}},
           "draw one figure of the report as SVG or PNG",
           plot_help,
           plot};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

@@ -28,7 +28,7 @@
 #include "runners/study_run/study_runner.hpp"
 #include "runners/study_run/study_size.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 namespace fs = std::filesystem;
@@ -49,14 +49,15 @@ constexpr const char* run_help =
     "  zerocount run study.yaml --shard 2/2 -o b.h5     then: zerocount merge a.h5 b.h5 -o all.h5\n";
 
 /// The rows of part `text` = "I/N", I from 1 to N: parts differ by at most one trial in size.
-RowRange part_of(const Arguments& arguments, const std::string& text, const Study& study) {
+layout::RowRange part_of(const command_line::Arguments& arguments, const std::string& text,
+                         const study::Study& study) {
   std::int64_t part = 0;
   std::int64_t parts = 0;
   const char* const end = text.data() + text.size();
   const auto first = std::from_chars(text.data(), end, part);
   const bool slash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '/';
   const auto second = slash ? std::from_chars(first.ptr + 1, end, parts) : first;
-  const std::int64_t rows = trial_count(study);
+  const std::int64_t rows = study::trial_count(study);
   if (!slash || second.ec != std::errc{} || second.ptr != end || part < 1 || part > parts) {
     arguments.refuse(fmt::format("option '--shard': '{}' is not I/N with 1 ≤ I ≤ N, such as 2/8", text));
   }
@@ -70,22 +71,23 @@ RowRange part_of(const Arguments& arguments, const std::string& text, const Stud
 
 /// Request of a run.
 struct RunRequest {
-  Study study;
+  study::Study study;
   fs::path output;
-  RowRange wanted;  ///< rows of the study
+  layout::RowRange wanted;  ///< rows of the study
   int threads{0};
   bool quiet{false};
   bool force{false};
 };
 
-RunRequest run_request(const Arguments& arguments) {
+RunRequest run_request(const command_line::Arguments& arguments) {
   RunRequest request;
-  request.output = output_place(arguments);
-  request.study = load_study(arguments.operands()[0], arguments.values("set"));
-  request.study.engine =
-      arguments.one_of("engine", {"batch", "reference"}) == "batch" ? Engine::batch : Engine::reference;
+  request.output = command_line::output_place(arguments);
+  request.study = manifest::load_study(arguments.operands()[0], arguments.values("set"));
+  request.study.engine = arguments.one_of("engine", {"batch", "reference"}) == "batch"
+                             ? study::Engine::batch
+                             : study::Engine::reference;
   const std::optional<std::string> part = arguments.value("shard");
-  request.wanted = part ? part_of(arguments, *part, request.study) : all_rows(request.study);
+  request.wanted = part ? part_of(arguments, *part, request.study) : layout::all_rows(request.study);
   if (request.study.stop && part) {
     arguments.refuse(
         "option '--shard': how many trials a study with `stop` takes can only be decided in one run");
@@ -97,39 +99,44 @@ RunRequest run_request(const Arguments& arguments) {
 }
 
 /// The usable shards that exist before the first trial is run.
-EarlierShards prepare_shards(const RunRequest& request, const fs::path& directory, ExistingUse existing) {
-  const ForeignShards foreign = request.force ? ForeignShards::remove : ForeignShards::refuse;
-  EarlierShards earlier = earlier_shards(directory, request.study, request.wanted, foreign);
-  const std::int64_t missing = total_rows(missing_ranges(earlier.usable, request.wanted));
-  if (!request.force) require_room(request.output, request.study, missing);
-  if (existing != ExistingUse::extend) return earlier;
-  const StudyFile file(request.output);
+study_run::EarlierShards prepare_shards(const RunRequest& request, const fs::path& directory,
+                                        study_run::ExistingUse existing) {
+  const study_run::ForeignShards foreign =
+      request.force ? study_run::ForeignShards::remove : study_run::ForeignShards::refuse;
+  study_run::EarlierShards earlier =
+      study_run::earlier_shards(directory, request.study, request.wanted, foreign);
+  const std::int64_t missing = layout::total_rows(shards::missing_ranges(earlier.usable, request.wanted));
+  if (!request.force) study_run::require_room(request.output, request.study, missing);
+  if (existing != study_run::ExistingUse::extend) return earlier;
+  const reading::StudyFile file(request.output);
   if (!request.quiet) {
     fmt::print(stderr, "{}: its {} trials at each point are kept, and {} are added\n",
                request.output.string(), file.header().trials, request.study.trials - file.header().trials);
   }
-  const std::vector<RowRange> ranges = missing_ranges(earlier.usable, request.wanted);
-  for (ShardInfo& shard : copy_trials(file, request.study, directory, ranges)) {
+  const std::vector<layout::RowRange> ranges = shards::missing_ranges(earlier.usable, request.wanted);
+  for (shards::ShardInfo& shard : study_run::copy_trials(file, request.study, directory, ranges)) {
     earlier.all.push_back(shard.path);
     earlier.usable.push_back(std::move(shard));
   }
   return earlier;
 }
 
-void run_rows(const RunRequest& request, ExistingUse existing, const std::stop_token& stop) {
-  const fs::path directory = shards_directory(request.output);
-  make_directory(directory);
-  EarlierShards earlier = prepare_shards(request, directory, existing);
-  const RowRange wanted = request.wanted;
-  const std::vector<RowRange> missing = missing_ranges(earlier.usable, wanted);
-  const std::int64_t kept = wanted.count - total_rows(missing);
+void run_rows(const RunRequest& request, study_run::ExistingUse existing, const std::stop_token& stop) {
+  const fs::path directory = layout::shards_directory(request.output);
+  storage::make_directory(directory);
+  study_run::EarlierShards earlier = prepare_shards(request, directory, existing);
+  const layout::RowRange wanted = request.wanted;
+  const std::vector<layout::RowRange> missing = shards::missing_ranges(earlier.usable, wanted);
+  const std::int64_t kept = wanted.count - layout::total_rows(missing);
 
-  Progress progress(wanted.count, kept, samples_per_trial(request.study), request.quiet);
+  study_run::Progress progress(wanted.count, kept, study_run::samples_per_trial(request.study),
+                               request.quiet);
   std::int64_t done = kept;
-  RunSettings settings;
+  study_run::RunSettings settings;
   settings.threads = request.threads;
   settings.finished = [&](std::int64_t trials) { progress.update(done += trials); };
-  const std::vector<ShardInfo> written = run_trials(request.study, missing, directory, settings, stop);
+  const std::vector<shards::ShardInfo> written =
+      study_run::run_trials(request.study, missing, directory, settings, stop);
   progress.finish(done);
 
   if (done < wanted.count) {
@@ -138,27 +145,31 @@ void run_rows(const RunRequest& request, ExistingUse existing, const std::stop_t
         fmt::format("interrupted: {} of {} trials are kept in {}; give the same command again to go on", done,
                     wanted.count, directory.string()));
   }
-  std::vector<ShardInfo> shards = std::move(earlier.usable);
+  std::vector<shards::ShardInfo> shards = std::move(earlier.usable);
   shards.insert(shards.end(), written.begin(), written.end());
-  std::sort(shards.begin(), shards.end(),
-            [](const ShardInfo& a, const ShardInfo& b) { return a.rows.first < b.rows.first; });
-  assemble(shards, request.study, request.output, wanted);
-  for (const ShardInfo& shard : written) earlier.all.push_back(shard.path);
-  remove_shards(directory, earlier.all);
+  std::sort(shards.begin(), shards.end(), [](const shards::ShardInfo& a, const shards::ShardInfo& b) {
+    return a.rows.first < b.rows.first;
+  });
+  study_run::assemble(shards, request.study, request.output, wanted);
+  for (const shards::ShardInfo& shard : written) earlier.all.push_back(shard.path);
+  study_run::remove_shards(directory, earlier.all);
   if (!request.quiet) fmt::print(stderr, "wrote {}\n", request.output.string());
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const command_line::Arguments& arguments) {
   const RunRequest request = run_request(arguments);
   warn(request.study);
-  const InterruptionWatch interruption;
-  const OutputLock lock(request.output);
-  const ExistingUse existing =
-      request.force ? ExistingUse::none : use_of_existing(request.output, request.study, request.wanted);
-  if (existing == ExistingUse::complete) {
+  const study_run::InterruptionWatch interruption;
+  const storage::OutputLock lock(request.output);
+  const study_run::ExistingUse existing =
+      request.force ? study_run::ExistingUse::none
+                    : study_run::use_of_existing(request.output, request.study, request.wanted);
+  if (existing == study_run::ExistingUse::complete) {
     // Shards left by a run that was killed at its very end. Shards of other studies are kept.
-    const fs::path directory = shards_directory(request.output);
-    remove_shards(directory, choose_shards(list_shards(directory, request.study).shards, request.wanted).all);
+    const fs::path directory = layout::shards_directory(request.output);
+    study_run::remove_shards(
+        directory,
+        study_run::choose_shards(shards::list_shards(directory, request.study).shards, request.wanted).all);
     if (!request.quiet) fmt::print(stderr, "{}: complete already, nothing to run\n", request.output.string());
     return ExitCode::success;
   }
@@ -166,9 +177,10 @@ ExitCode run(const Arguments& arguments) {
     run_rows(request, existing, interruption.token());
     return ExitCode::success;
   }
-  const ForeignShards foreign = request.force ? ForeignShards::remove : ForeignShards::refuse;
-  return run_until_sure(request.study, request.output, {request.threads, request.quiet, foreign},
-                        interruption.token());
+  const study_run::ForeignShards foreign =
+      request.force ? study_run::ForeignShards::remove : study_run::ForeignShards::refuse;
+  return study_run::run_until_sure(request.study, request.output, {request.threads, request.quiet, foreign},
+                                   interruption.token());
 }
 
 }  // namespace
@@ -193,4 +205,4 @@ Command run_command() {
       run};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

@@ -9,7 +9,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 constexpr const char* sensitivity_help =
@@ -29,25 +29,26 @@ constexpr const char* examples =
 
 std::string full_help() {
   std::string text = sensitivity_help;
-  for (const SensitivityOutput& output : sensitivity_outputs()) {
+  for (const sensitivity::SensitivityOutput& output : sensitivity::sensitivity_outputs()) {
     text += fmt::format("  {:<15} {}{}\n", output.name, output.meaning,
                         output.unit == "1" ? "" : fmt::format(", {}", output.unit));
   }
   return text + examples;
 }
 
-ExitCode print_sensitivity(const Arguments& arguments) {
+ExitCode print_sensitivity(const command_line::Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"table", "json", "csv"});
-  SensitivityQuestion question;
-  const StudyFile file(arguments.operands()[0]);
-  question.points = point_options(arguments, file.point_labels());
+  sensitivity::SensitivityQuestion question;
+  const reading::StudyFile file(arguments.operands()[0]);
+  question.points = command_line::point_options(arguments, file.point_labels());
   question.outputs = arguments.values("output");
-  question.confidence = probability_option(arguments, "confidence").value_or(question.confidence);
-  const StudySensitivity sensitivity = study_sensitivity(file, question);
-  if (format == "table") fmt::print("{}", sensitivity_table(sensitivity));
-  if (format == "json") fmt::print("{}", sensitivity_json(sensitivity));
-  if (format == "csv") fmt::print("{}", sensitivity_csv(sensitivity));
-  return any_estimated(sensitivity) ? ExitCode::success : ExitCode::inconclusive;
+  question.confidence =
+      command_line::probability_option(arguments, "confidence").value_or(question.confidence);
+  const sensitivity::StudySensitivity sensitivity = sensitivity::study_sensitivity(file, question);
+  if (format == "table") fmt::print("{}", sensitivity::sensitivity_table(sensitivity));
+  if (format == "json") fmt::print("{}", sensitivity::sensitivity_json(sensitivity));
+  if (format == "csv") fmt::print("{}", sensitivity::sensitivity_csv(sensitivity));
+  return sensitivity::any_estimated(sensitivity) ? ExitCode::success : ExitCode::inconclusive;
 }
 
 }  // namespace
@@ -67,4 +68,4 @@ Command sensitivity_command() {
       print_sensitivity};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

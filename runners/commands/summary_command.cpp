@@ -12,7 +12,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/commands.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,16 +35,16 @@ bool is_there(const fs::path& path) {
 }
 
 /// The summary of the file, or of the unfinished run that writes it.
-StudySummary summary_of(const fs::path& path, double confidence, bool with_means) {
-  const fs::path shards = shards_directory(path);
+summary::StudySummary summary_of(const fs::path& path, double confidence, bool with_means) {
+  const fs::path shards = layout::shards_directory(path);
   if (!is_there(path) && is_there(shards)) {
     try {
-      return summarise_unfinished(shards, confidence, with_means);
+      return summary::summarise_unfinished(shards, confidence, with_means);
     } catch (const Failure&) {
       if (!is_there(path)) throw;  // otherwise the run has ended in the meantime and removed its shards
     }
   }
-  StudySummary summary = summarise(StudyFile(path), confidence, with_means);
+  summary::StudySummary summary = summary::summarise(reading::StudyFile(path), confidence, with_means);
   if (is_there(shards)) {
     fmt::print(stderr,
                "note: an unfinished run ({1}) will replace {0}; this is the summary of the present file\n",
@@ -53,15 +53,17 @@ StudySummary summary_of(const fs::path& path, double confidence, bool with_means
   return summary;
 }
 
-ExitCode summarise_file(const Arguments& arguments) {
+ExitCode summarise_file(const command_line::Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"table", "json", "csv"});
-  const double confidence = probability_option(arguments, "confidence").value_or(summary_confidence);
+  const double confidence =
+      command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
   const bool with_means = format != "table";  // the table shows no bounds of means
-  const StudySummary summary = summary_of(arguments.operands()[0], confidence, with_means);
-  if (format == "table") fmt::print("{}", summary_table(summary));
-  if (format == "json") fmt::print("{}", summary_json_text(summary));
-  if (format == "csv" && summary.unfinished) fmt::print(stderr, "{}\n", unfinished_sentence(summary));
-  if (format == "csv") fmt::print("{}", summary_csv(summary));
+  const summary::StudySummary summary = summary_of(arguments.operands()[0], confidence, with_means);
+  if (format == "table") fmt::print("{}", summary::summary_table(summary));
+  if (format == "json") fmt::print("{}", summary::summary_json_text(summary));
+  if (format == "csv" && summary.unfinished)
+    fmt::print(stderr, "{}\n", summary::unfinished_sentence(summary));
+  if (format == "csv") fmt::print("{}", summary::summary_csv(summary));
   return ExitCode::success;
 }
 
@@ -79,4 +81,4 @@ Command summary_command() {
           summarise_file};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

@@ -4,20 +4,21 @@
 #include "experiments/manifest/parameter_listing.hpp"
 #include "runners/commands/commands.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
-ExitCode print_parameters(const Arguments& arguments) {
+ExitCode print_parameters(const command_line::Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"text", "markdown"});
-  StudyUnits units;
-  if (arguments.one_of("axis", {"rotary", "linear"}) == "linear") units.axis = AxisKind::linear;
-  if (arguments.one_of("units", {"count", "si"}) == "si") units.gains = GainUnits::si;
-  fmt::print("{}", format == "text" ? parameters_as_text(units) : parameters_as_markdown(units));
+  parameters::StudyUnits units;
+  if (arguments.one_of("axis", {"rotary", "linear"}) == "linear") units.axis = parameters::AxisKind::linear;
+  if (arguments.one_of("units", {"count", "si"}) == "si") units.gains = parameters::GainUnits::si;
+  fmt::print(
+      "{}", format == "text" ? manifest::parameters_as_text(units) : manifest::parameters_as_markdown(units));
   return ExitCode::success;
 }
 
-ExitCode print_schema(const Arguments&) {
-  fmt::print("{}\n", json_schema().dump(2));
+ExitCode print_schema(const command_line::Arguments&) {
+  fmt::print("{}\n", manifest::json_schema().dump(2));
   return ExitCode::success;
 }
 
@@ -46,4 +47,4 @@ Command schema_command() {
           print_schema};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

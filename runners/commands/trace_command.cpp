@@ -18,7 +18,7 @@
 #include "runners/commands/replay.hpp"
 #include "runners/commands/trace_writer.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 constexpr const char* trace_help =
@@ -45,7 +45,7 @@ bool is_results_file(const std::string& path) {
   return signed_as_hdf5 || (file.gcount() > 0 && std::filesystem::path(path).extension() == ".h5");
 }
 
-std::int64_t trial_option(const Arguments& arguments, const Study& study) {
+std::int64_t trial_option(const command_line::Arguments& arguments, const study::Study& study) {
   const std::int64_t value = arguments.whole_number("trial", 0, std::int64_t{1} << 53).value_or(0);
   if (value >= study.trials) {
     arguments.refuse(fmt::format("option '--trial': {} is too high; '{}' has 0 to {}", value, study.name,
@@ -55,24 +55,25 @@ std::int64_t trial_option(const Arguments& arguments, const Study& study) {
 }
 
 /// Runs the trial, writes its samples, and returns the rest of its result.
-TrialResult write_trace(const TraceSubject& subject, const TraceWriter::Sink& sink, bool json) {
+shards::TrialResult write_trace(const TraceSubject& subject, const TraceWriter::Sink& sink, bool json) {
   TraceWriter writer(sink, json);
   writer.begin(subject);
-  TrialObservers observers;
-  observers.sample = [&](const SampleRecord& record) { writer.write(record); };
-  TrialResult result;
-  observers.jerk = [&](const Jerk& jerk) { result.jerks.push_back(jerk); };
+  trial::TrialObservers observers;
+  observers.sample = [&](const trial::SampleRecord& record) { writer.write(record); };
+  shards::TrialResult result;
+  observers.jerk = [&](const trial::Jerk& jerk) { result.jerks.push_back(jerk); };
   result.row = subject.point * subject.study.trials + subject.index;
   result.inputs = subject.trial.inputs;
-  result.outcome = run_trial(subject.trial.parameters, observers);
+  result.outcome = trial::run_trial(subject.trial.parameters, observers);
   writer.end(result.outcome);
   return result;
 }
 
 /// Writes the trace to a file that appears when it is complete.
-TrialResult write_trace_file(const TraceSubject& subject, const std::filesystem::path& path, bool json) {
-  OutputFile file(path);
-  TrialResult result = write_trace(
+shards::TrialResult write_trace_file(const TraceSubject& subject, const std::filesystem::path& path,
+                                     bool json) {
+  storage::OutputFile file(path);
+  shards::TrialResult result = write_trace(
       subject, [&file](std::string_view text) { file.write(text); }, json);
   file.finish();
   file.publish();
@@ -83,38 +84,38 @@ void print_text(std::string_view text) {
   fmt::print("{}", text);
 }
 
-TrialResult recorded_trial(const StudyFile& file, RowRange row) {
-  TrialResult result;
+shards::TrialResult recorded_trial(const reading::StudyFile& file, layout::RowRange row) {
+  shards::TrialResult result;
   result.row = row.first;
   result.inputs = file.inputs_of(row.first);
   result.outcome.moves = file.outcomes(row);
-  for (const JerkRecord& jerk : file.jerks(row)) result.jerks.push_back(jerk);
+  for (const layout::JerkRecord& jerk : file.jerks(row)) result.jerks.push_back(jerk);
   return result;
 }
 
-ExitCode trace(const Arguments& arguments) {
+ExitCode trace(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
-  const std::optional<std::filesystem::path> output = text_place(arguments, "output");
-  if (output) require_places(arguments, {input}, {*output});
+  const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
+  if (output) command_line::require_places(arguments, {input}, {*output});
   const bool json = arguments.one_of("format", {"csv", "json"}) == "json";
-  std::optional<StudyFile> file;
-  if (is_results_file(input)) file.emplace(input, Require::any_part);
+  std::optional<reading::StudyFile> file;
+  if (is_results_file(input)) file.emplace(input, reading::Require::any_part);
   if (file && arguments.has("set"))
     arguments.refuse("option '--set' goes with a manifest, not with a results file");
 
-  const Study study =
-      file ? recorded_study(file->header(), input) : load_study(input, arguments.values("set"));
-  const std::int64_t point = point_option(arguments, study.point_labels).value_or(0);
+  const study::Study study = file ? layout::recorded_study(file->header(), input)
+                                  : manifest::load_study(input, arguments.values("set"));
+  const std::int64_t point = command_line::point_option(arguments, study.point_labels).value_or(0);
   const std::int64_t index = trial_option(arguments, study);
-  const RowRange row{point * study.trials + index, 1};
+  const layout::RowRange row{point * study.trials + index, 1};
   if (file && (row.first < file->rows().first || row.end() > file->rows().end())) {
     arguments.refuse(fmt::format("{} is a part of the study and does not hold that trial", input));
   }
-  const StudyTrial trial = study_trial(study, point, index);
+  const study::StudyTrial trial = study::study_trial(study, point, index);
   const TraceSubject subject{study, point, index, trial};
-  const TrialResult replayed = output && !is_standard_stream(*output)
-                                   ? write_trace_file(subject, *output, json)
-                                   : write_trace(subject, print_text, json);
+  const shards::TrialResult replayed = output && !yaml::is_standard_stream(*output)
+                                           ? write_trace_file(subject, *output, json)
+                                           : write_trace(subject, print_text, json);
   if (!file) return ExitCode::success;
 
   const std::vector<std::string> different = differences(study.input_columns, recorded_trial(*file, row),
@@ -137,11 +138,11 @@ Command trace_command() {
             {"trial", "I", "trial of the point, from 0 (default 0)"},
             {"format", "FORMAT", "csv (default) or json"},
             {"output,o", "FILE", "write there instead of to standard output"},
-            force_option(),
+            command_line::force_option(),
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true}}},
           "run one trial again, sample by sample",
           trace_help,
           trace};
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

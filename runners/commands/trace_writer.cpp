@@ -10,34 +10,36 @@
 #include "results/layout/layout.hpp"
 #include "results/reading/csv.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
-std::vector<RecordField<TraceRecord>> columns_of(const TraceExtras& extras) {
-  std::vector<RecordField<TraceRecord>> columns = trace_fields(extras);
-  std::erase_if(columns, [](const RecordField<TraceRecord>& field) { return field.column.name == "trial"; });
+std::vector<layout::RecordField<layout::TraceRecord>> columns_of(const study::TraceExtras& extras) {
+  std::vector<layout::RecordField<layout::TraceRecord>> columns = layout::trace_fields(extras);
+  std::erase_if(columns, [](const layout::RecordField<layout::TraceRecord>& field) {
+    return field.column.name == "trial";
+  });
   return columns;
 }
 
 /// As a value of JSON: null where a number is not finite.
 template <class Record>
-std::string json_text(const RecordField<Record>& field, const Record& record) {
-  if (!std::isfinite(value_of(field, record))) return "null";
-  const std::string text = value_text(field, record);
-  return field.column.element == Element::int8 ? '"' + text + '"' : text;
+std::string json_text(const layout::RecordField<Record>& field, const Record& record) {
+  if (!std::isfinite(layout::value_of(field, record))) return "null";
+  const std::string text = reading::value_text(field, record);
+  return field.column.element == hdf5::Element::int8 ? '"' + text + '"' : text;
 }
 
-nlohmann::ordered_json outcome_json(const MoveOutcome& outcome,
-                                    const std::vector<RecordField<MoveOutcome>>& measures) {
+nlohmann::ordered_json outcome_json(const trial::MoveOutcome& outcome,
+                                    const std::vector<layout::RecordField<trial::MoveOutcome>>& measures) {
   nlohmann::ordered_json object;
-  for (const RecordField<MoveOutcome>& field : measures) {
-    const double value = value_of(field, outcome);
+  for (const layout::RecordField<trial::MoveOutcome>& field : measures) {
+    const double value = layout::value_of(field, outcome);
     nlohmann::ordered_json& place = object[field.column.name];  // null where a number is not finite
-    if (field.column.element == Element::flag) {
+    if (field.column.element == hdf5::Element::flag) {
       place = value != 0.0;
-    } else if (field.column.element == Element::int8) {
-      place = value_text(field, outcome);
-    } else if (field.column.element != Element::float64) {
+    } else if (field.column.element == hdf5::Element::int8) {
+      place = reading::value_text(field, outcome);
+    } else if (field.column.element != hdf5::Element::float64) {
       place = static_cast<std::int64_t>(value);
     } else if (std::isfinite(value)) {
       place = value;
@@ -50,33 +52,34 @@ nlohmann::ordered_json outcome_json(const MoveOutcome& outcome,
 
 void TraceWriter::begin(const TraceSubject& subject) {
   columns_ = columns_of(subject.study.trace_extras);
-  measures_ = outcome_fields(format_version, subject.study.outcome_extras);
+  measures_ = layout::outcome_fields(layout::format_version, subject.study.outcome_extras);
   if (json_) {
     nlohmann::ordered_json inputs = nlohmann::ordered_json::object();
     for (std::size_t i = 0; i < subject.trial.inputs.size(); ++i) {
       inputs[subject.study.input_columns[i].name] = subject.trial.inputs[i];
     }
-    const std::string rig =
-        subject.study.rigs > 0 ? fmt::format(", \"rig\": {}", rig_of(subject.study, subject.index)) : "";
+    const std::string rig = subject.study.rigs > 0
+                                ? fmt::format(", \"rig\": {}", study::rig_of(subject.study, subject.index))
+                                : "";
     sink_(fmt::format("{{\"name\": {}, \"point\": {}, \"trial\": {}{},\n \"inputs\": {},\n \"samples\": [",
                       nlohmann::json(subject.study.name).dump(), subject.point, subject.index, rig,
                       inputs.dump()));
     return;
   }
   std::string header;
-  for (const RecordField<TraceRecord>& field : columns_) {
+  for (const layout::RecordField<layout::TraceRecord>& field : columns_) {
     header += (header.empty() ? "" : ",") + field.column.name;
   }
   sink_(header + "\n");
 }
 
-void TraceWriter::write(const SampleRecord& sample) {
-  const TraceRecord record{sample, 0};
+void TraceWriter::write(const trial::SampleRecord& sample) {
+  const layout::TraceRecord record{sample, 0};
   std::string line;
-  for (const RecordField<TraceRecord>& field : columns_) {
+  for (const layout::RecordField<layout::TraceRecord>& field : columns_) {
     if (!line.empty()) line += json_ ? ", " : ",";
     if (json_) line += fmt::format("\"{}\": ", field.column.name);
-    line += json_ ? json_text(field, record) : value_text(field, record);
+    line += json_ ? json_text(field, record) : reading::value_text(field, record);
   }
   if (json_) {
     sink_(fmt::format("{}\n  {{{}}}", first_ ? "" : ",", line));
@@ -86,11 +89,11 @@ void TraceWriter::write(const SampleRecord& sample) {
   first_ = false;
 }
 
-void TraceWriter::end(const TrialOutcome& outcome) {
+void TraceWriter::end(const trial::TrialOutcome& outcome) {
   if (!json_) return;
   nlohmann::ordered_json moves = nlohmann::ordered_json::array();
-  for (const MoveOutcome& move : outcome.moves) moves.push_back(outcome_json(move, measures_));
+  for (const trial::MoveOutcome& move : outcome.moves) moves.push_back(outcome_json(move, measures_));
   sink_(fmt::format("],\n \"outcome\": {}}}\n", moves.dump()));
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

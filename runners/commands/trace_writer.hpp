@@ -10,14 +10,14 @@
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 
 /// The trial of a trace.
 struct TraceSubject {
-  const Study& study;
+  const study::Study& study;
   std::int64_t point{0};
   std::int64_t index{0};
-  const StudyTrial& trial;
+  const study::StudyTrial& trial;
 };
 
 /// Writes the trace of one trial, record by record. The columns are those of the results file's /trace
@@ -33,15 +33,15 @@ class TraceWriter {
   TraceWriter(Sink sink, bool json) : sink_(std::move(sink)), json_(json) {}
 
   void begin(const TraceSubject& subject);
-  void write(const SampleRecord& record);
-  void end(const TrialOutcome& outcome);
+  void write(const trial::SampleRecord& record);
+  void end(const trial::TrialOutcome& outcome);
 
  private:
   Sink sink_;
   bool json_;
-  std::vector<RecordField<TraceRecord>> columns_;   ///< set by begin()
-  std::vector<RecordField<MoveOutcome>> measures_;  ///< likewise
+  std::vector<layout::RecordField<layout::TraceRecord>> columns_;  ///< set by begin()
+  std::vector<layout::RecordField<trial::MoveOutcome>> measures_;  ///< likewise
   bool first_{true};
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

@@ -6,11 +6,11 @@
 
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::commands {
 
 /// Prints the warnings about the manifest to stderr.
-inline void warn(const Study& study) {
+inline void warn(const study::Study& study) {
   for (const std::string& warning : study.warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::commands

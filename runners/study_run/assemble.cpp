@@ -3,12 +3,15 @@
 #include "analysis/summary/study_statistics.hpp"
 #include "results/shards/merge.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 
-void assemble(std::span<const ShardInfo> shards, const Study& study, const std::filesystem::path& output,
-              RowRange rows, const Renumbering& renumber) {
-  const auto statistics = [&](const StudyFile& file) { return stored_statistics(file, study); };
-  merge_shards(shards, study, output, rows, statistics, current_provenance(), renumber);
+void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
+              const std::filesystem::path& output, layout::RowRange rows,
+              const shards::Renumbering& renumber) {
+  const auto statistics = [&](const reading::StudyFile& file) {
+    return summary::stored_statistics(file, study);
+  };
+  shards::merge_shards(shards, study, output, rows, statistics, layout::current_provenance(), renumber);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

@@ -8,12 +8,13 @@
 #include "results/shards/concatenate.hpp"
 #include "results/shards/shard.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 
 /// Joins shards into the results file `output`. A file with the whole study gets the statistics of all design
 /// points.
 /// @throws Failure; see merge_shards.
-void assemble(std::span<const ShardInfo> shards, const Study& study, const std::filesystem::path& output,
-              RowRange rows, const Renumbering& renumber = {});
+void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
+              const std::filesystem::path& output, layout::RowRange rows,
+              const shards::Renumbering& renumber = {});
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

@@ -2,7 +2,7 @@
 
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 
 /// Computing time of a study.
 struct StudyCost {
@@ -15,6 +15,6 @@ struct StudyCost {
 
 /// Measures the cost of the batch engine on trials spread over the study, for about a third of a second (or
 /// one block of a million samples; trials are cut at 200 000 samples).
-StudyCost measure_cost(const Study& study);
+StudyCost measure_cost(const study::Study& study);
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

@@ -9,7 +9,7 @@
 #include "results/reading/study_file.hpp"
 #include "runners/study_run/study_differences.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -18,10 +18,11 @@ namespace fs = std::filesystem;
 constexpr const char* set_aside = ".damaged";
 
 /// The differences to the shard's study if its header is readable; otherwise the problem itself.
-std::string why_foreign(const ShardProblem& bad, const Study& study) {
+std::string why_foreign(const shards::ShardProblem& bad, const study::Study& study) {
   try {
-    const FileHeader header = StudyFile(bad.path, Require::any_part).header();
-    const std::vector<ManifestDifference> differences = study_differences(bad.path, header, study);
+    const layout::FileHeader header = reading::StudyFile(bad.path, reading::Require::any_part).header();
+    const std::vector<comparison::ManifestDifference> differences =
+        study_differences(bad.path, header, study);
     return differences.empty() ? bad.problem : differences_text(differences);
   } catch (const Failure&) {
     return bad.problem;
@@ -30,10 +31,10 @@ std::string why_foreign(const ShardProblem& bad, const Study& study) {
 
 }  // namespace
 
-EarlierShards choose_shards(const std::vector<ShardInfo>& sound, RowRange wanted) {
+EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout::RowRange wanted) {
   EarlierShards shards;
   std::int64_t covered = wanted.first;
-  for (const ShardInfo& shard : sound) {
+  for (const shards::ShardInfo& shard : sound) {
     shards.all.push_back(shard.path);
     if (shard.rows.first < covered || shard.rows.end() > wanted.end()) continue;
     covered = shard.rows.end();
@@ -42,16 +43,16 @@ EarlierShards choose_shards(const std::vector<ShardInfo>& sound, RowRange wanted
   return shards;
 }
 
-EarlierShards earlier_shards(const fs::path& directory, const Study& study, RowRange wanted,
+EarlierShards earlier_shards(const fs::path& directory, const study::Study& study, layout::RowRange wanted,
                              ForeignShards foreign) {
-  ShardSurvey survey = list_shards(directory, study);
-  for (const ShardProblem& bad : survey.problems) {
-    if (bad.kind == ShardProblem::Kind::foreign && foreign == ForeignShards::remove) {
+  shards::ShardSurvey survey = shards::list_shards(directory, study);
+  for (const shards::ShardProblem& bad : survey.problems) {
+    if (bad.kind == shards::ShardProblem::Kind::foreign && foreign == ForeignShards::remove) {
       std::error_code ignored;
       fs::remove(bad.path, ignored);
       continue;
     }
-    if (bad.kind == ShardProblem::Kind::foreign) {
+    if (bad.kind == shards::ShardProblem::Kind::foreign) {
       throw Failure(
           ExitCode::bad_input,
           fmt::format("{}: holds another unfinished run, which this one must not touch ({}); finish that run "
@@ -65,7 +66,7 @@ EarlierShards earlier_shards(const fs::path& directory, const Study& study, RowR
     fmt::print(stderr, "warning: {}; its trials are run again{}\n", bad.problem,
                error ? "" : fmt::format(", and the file is kept as {}", aside.filename().string()));
   }
-  remove_unfinished(survey);
+  shards::remove_unfinished(survey);
   return choose_shards(survey.shards, wanted);
 }
 
@@ -75,4 +76,4 @@ void remove_shards(const fs::path& directory, const std::vector<fs::path>& shard
   fs::remove(directory, error);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

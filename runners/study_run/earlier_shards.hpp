@@ -7,27 +7,27 @@
 #include "results/layout/row_range.hpp"
 #include "results/shards/shard.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 
 /// The shards of earlier runs.
 struct EarlierShards {
-  std::vector<ShardInfo> usable;           ///< in order of rows, without overlaps
+  std::vector<shards::ShardInfo> usable;   ///< in order of rows, without overlaps
   std::vector<std::filesystem::path> all;  ///< all valid shards of the study
 };
 
 /// Selects shards within `wanted` that do not overlap. Shards of runs with other parts may extend beyond it
 /// or overlap; trials of unused shards are run again.
-EarlierShards choose_shards(const std::vector<ShardInfo>& sound, RowRange wanted);
+EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout::RowRange wanted);
 
 /// Treatment of shards of another study.
 enum class ForeignShards { refuse, remove };
 
 /// Finds the shards of earlier runs. Damaged shards are renamed and their trials run again.
 /// @throws Failure (bad_input) if the folder has shards of another study and `refuse` is given.
-EarlierShards earlier_shards(const std::filesystem::path& directory, const Study& study, RowRange wanted,
-                             ForeignShards foreign = ForeignShards::refuse);
+EarlierShards earlier_shards(const std::filesystem::path& directory, const study::Study& study,
+                             layout::RowRange wanted, ForeignShards foreign = ForeignShards::refuse);
 
 /// Removes the shards, and their folder if it is then empty.
 void remove_shards(const std::filesystem::path& directory, const std::vector<std::filesystem::path>& shards);
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

@@ -14,7 +14,7 @@
 #include "results/reading/study_file.hpp"
 #include "runners/study_run/study_differences.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,27 +24,28 @@ namespace fs = std::filesystem;
                                                  output.string(), what));
 }
 
-FileHeader header_of(const fs::path& output) {
+layout::FileHeader header_of(const fs::path& output) {
   try {
-    return StudyFile(output, Require::any_part).header();
+    return reading::StudyFile(output, reading::Require::any_part).header();
   } catch (const Failure& failure) {
     refuse(output, fmt::format("exists, and is no usable results file ({})", failure.what()));
   }
 }
 
 /// @throws Failure (bad_input) if the file cannot be extended to the longer study.
-void require_extensible(const fs::path& output, const FileHeader& header, const Study& study) {
+void require_extensible(const fs::path& output, const layout::FileHeader& header, const study::Study& study) {
   const auto refuse_more = [&](std::string_view why) {
     refuse(output,
            fmt::format("has {} trials at each point and the study {}; {}", header.trials, study.trials, why));
   };
   if (!header.complete) refuse_more("a part of a study cannot be extended");
   if (study.trials < header.trials) refuse_more("a results file can only be extended");
-  if (!trials_stay_when_extended(study.design)) {
+  if (!study::trials_stay_when_extended(study.design)) {
     refuse_more(fmt::format("the trials of design: {} are laid out for their number, and all change with it",
-                            design_labels()[static_cast<std::size_t>(study.design)]));
+                            manifest::design_labels()[static_cast<std::size_t>(study.design)]));
   }
-  if (!same_build(header.provenance, current_provenance()) || header.version != format_version) {
+  if (!layout::same_build(header.provenance, layout::current_provenance()) ||
+      header.version != layout::format_version) {
     refuse_more(
         fmt::format("its trials were run by another build ({}, commit {}), and trials of different "
                     "builds are not mixed",
@@ -54,17 +55,17 @@ void require_extensible(const fs::path& output, const FileHeader& header, const 
 
 }  // namespace
 
-ExistingUse use_of_existing(const fs::path& output, const Study& study, RowRange wanted) {
+ExistingUse use_of_existing(const fs::path& output, const study::Study& study, layout::RowRange wanted) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(output, error))) return ExistingUse::none;
-  const FileHeader header = header_of(output);
-  const std::vector<ManifestDifference> differences = study_differences(output, header, study);
+  const layout::FileHeader header = header_of(output);
+  const std::vector<comparison::ManifestDifference> differences = study_differences(output, header, study);
   if (header.engine != study.engine) {
     refuse(output, fmt::format("holds the results of the {} engine, and this run is for the {} engine",
-                               name_of(header.engine), name_of(study.engine)));
+                               layout::name_of(header.engine), layout::name_of(study.engine)));
   }
   const bool other_number = differences.size() == 1 && differences.front().key == "trials";
-  if (other_number && !study.stop && wanted == all_rows(study)) {
+  if (other_number && !study.stop && wanted == layout::all_rows(study)) {
     require_extensible(output, header, study);
     return ExistingUse::extend;
   }
@@ -74,11 +75,11 @@ ExistingUse use_of_existing(const fs::path& output, const Study& study, RowRange
     refuse(output, fmt::format("holds trials {} to {} of this study, and this run is for {} to {}",
                                header.rows.first, header.rows.end() - 1, wanted.first, wanted.end() - 1));
   }
-  if (header.version != format_version) {
+  if (header.version != layout::format_version) {
     refuse(output, fmt::format("holds this study as an earlier zerocount ran it (format version {}, now {})",
-                               header.version, format_version));
+                               header.version, layout::format_version));
   }
   return ExistingUse::complete;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

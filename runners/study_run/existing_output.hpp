@@ -5,7 +5,7 @@
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 
 /// Treatment of an existing output file.
 enum class ExistingUse {
@@ -16,6 +16,7 @@ enum class ExistingUse {
 
 /// @param wanted rows of the run
 /// @throws Failure (bad_input) for any other file, with the differences.
-ExistingUse use_of_existing(const std::filesystem::path& output, const Study& study, RowRange wanted);
+ExistingUse use_of_existing(const std::filesystem::path& output, const study::Study& study,
+                            layout::RowRange wanted);
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

@@ -9,13 +9,14 @@
 #include "results/reading/study_file.hpp"
 #include "results/shards/shard.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 
 /// Copies trials of a finished file to shards of a study that differs only in having more trials: those in
 /// the ranges `missing` (rows of the study). Memory is bounded.
 /// @returns the written shards, in order of rows
 /// @throws Failure as StudyFile and write_shard.
-std::vector<ShardInfo> copy_trials(const StudyFile& file, const Study& study,
-                                   const std::filesystem::path& directory, std::span<const RowRange> missing);
+std::vector<shards::ShardInfo> copy_trials(const reading::StudyFile& file, const study::Study& study,
+                                           const std::filesystem::path& directory,
+                                           std::span<const layout::RowRange> missing);
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

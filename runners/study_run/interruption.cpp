@@ -7,7 +7,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 namespace {
 
 /// SIGINT and SIGTERM, without signals that the process inherited as ignored.
@@ -44,4 +44,4 @@ InterruptionWatch::~InterruptionWatch() {
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

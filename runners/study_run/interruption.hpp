@@ -3,7 +3,7 @@
 #include <stop_token>
 #include <thread>
 
-namespace zerocount {
+namespace zerocount::study_run {
 
 /// Turns SIGINT and SIGTERM into a request to stop during its lifetime. A second signal ends the process at
 /// once, with the exit code of an interruption.
@@ -24,4 +24,4 @@ class InterruptionWatch {
   std::jthread watcher_;
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

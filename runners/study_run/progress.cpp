@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-namespace zerocount {
+namespace zerocount::study_run {
 namespace {
 
 constexpr std::chrono::milliseconds terminal_interval{200};
@@ -71,4 +71,4 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

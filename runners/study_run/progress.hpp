@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace zerocount {
+namespace zerocount::study_run {
 
 /// Prints the progress of a run to stderr: one updated line on a terminal, otherwise a new line every few
 /// seconds, and a final line.
@@ -36,4 +36,4 @@ class Progress {
 /// A duration as text: "850 ms", "12 s", "3 min 20 s", "5 h 02 min".
 std::string duration_text(double seconds);
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

@@ -13,7 +13,7 @@
 #include "runners/study_run/progress.hpp"
 #include "runners/study_run/study_runner.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -21,15 +21,15 @@ namespace fs = std::filesystem;
 /// The successes of every point by blocks.
 class Successes {
  public:
-  explicit Successes(const Study& study)
-      : study_(study), by_block_(static_cast<std::size_t>(point_count(study))) {}
+  explicit Successes(const study::Study& study)
+      : study_(study), by_block_(static_cast<std::size_t>(study::point_count(study))) {}
 
-  void add(const ShardInfo& shard) {
-    const StudyFile file(shard.path, Require::any_part);
-    const std::vector<MoveOutcome> outcomes = file.outcomes(file.rows());
+  void add(const shards::ShardInfo& shard) {
+    const reading::StudyFile file(shard.path, reading::Require::any_part);
+    const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
     for (std::int64_t i = 0; i < file.rows().count; ++i) {
       const auto first = outcomes.begin() + i * study_.moves;
-      if (succeeded(std::span(first, first + study_.moves))) count(file.rows().first + i);
+      if (trial::succeeded(std::span(first, first + study_.moves))) count(file.rows().first + i);
     }
   }
 
@@ -51,88 +51,89 @@ class Successes {
     ++blocks[block];
   }
 
-  const Study& study_;
+  const study::Study& study_;
   std::vector<std::vector<std::int64_t>> by_block_;
 };
 
-bool sure(const Study& study, const Successes& successes, std::int64_t trials) {
-  const StoppingRule& rule = *study.stop;
+bool sure(const study::Study& study, const Successes& successes, std::int64_t trials) {
+  const study::StoppingRule& rule = *study.stop;
   if (trials < rule.min_trials) return false;
-  for (std::int64_t point = 0; point < point_count(study); ++point) {
-    const ConfidenceInterval bounds =
-        confidence_sequence_bounds(successes.among(point, trials), trials, rule.confidence);
+  for (std::int64_t point = 0; point < study::point_count(study); ++point) {
+    const statistics::ConfidenceInterval bounds =
+        statistics::confidence_sequence_bounds(successes.among(point, trials), trials, rule.confidence);
     if (0.5 * (bounds.high - bounds.low) > rule.success_rate_halfwidth) return false;
   }
   return true;
 }
 
 /// Projected number of trials per point at the present rates.
-std::int64_t projection(const Study& study, const Successes& successes, std::int64_t trials) {
-  const StoppingRule& rule = *study.stop;
+std::int64_t projection(const study::Study& study, const Successes& successes, std::int64_t trials) {
+  const study::StoppingRule& rule = *study.stop;
   std::int64_t most = std::max(trials, std::min(rule.min_trials, study.trials));
-  for (std::int64_t point = 0; point < point_count(study); ++point) {
-    most =
-        std::max(most, projected_trials(successes.among(point, trials), trials, rule.success_rate_halfwidth,
-                                        rule.confidence, rule.block, study.trials));
+  for (std::int64_t point = 0; point < study::point_count(study); ++point) {
+    most = std::max(most, statistics::projected_trials(successes.among(point, trials), trials,
+                                                       rule.success_rate_halfwidth, rule.confidence,
+                                                       rule.block, study.trials));
   }
   return most;
 }
 
 /// Rows of the first `trials` trials of each point, in a study with the maximum number of trials.
-std::vector<RowRange> first_trials(const Study& study, std::int64_t trials) {
-  std::vector<RowRange> ranges;
-  for (std::int64_t point = 0; point < point_count(study); ++point) {
+std::vector<layout::RowRange> first_trials(const study::Study& study, std::int64_t trials) {
+  std::vector<layout::RowRange> ranges;
+  for (std::int64_t point = 0; point < study::point_count(study); ++point) {
     ranges.push_back({point * study.trials, trials});
   }
   return ranges;
 }
 
-std::vector<RowRange> missing(const Study& study, const std::vector<ShardInfo>& shards, std::int64_t trials) {
-  std::vector<RowRange> all;
-  for (const RowRange& range : first_trials(study, trials)) {
-    const std::vector<RowRange> here = missing_ranges(shards, range);
+std::vector<layout::RowRange> missing(const study::Study& study, const std::vector<shards::ShardInfo>& shards,
+                                      std::int64_t trials) {
+  std::vector<layout::RowRange> all;
+  for (const layout::RowRange& range : first_trials(study, trials)) {
+    const std::vector<layout::RowRange> here = shards::missing_ranges(shards, range);
     all.insert(all.end(), here.begin(), here.end());
   }
   return all;
 }
 
-Study decided_study(const Study& study, std::int64_t trials) {
+study::Study decided_study(const study::Study& study, std::int64_t trials) {
   std::vector<std::string> overrides = study.overrides;
   overrides.push_back(fmt::format("{}{}", decided_key, trials));
-  Study decided = parse_study(study.manifest_text, study.name, overrides);
+  study::Study decided = manifest::parse_study(study.manifest_text, study.name, overrides);
   decided.engine = study.engine;
   return decided;
 }
 
 /// Joins the shards (rows of `study`) into the results file of the study `decided`.
-void assemble_decided(const std::vector<ShardInfo>& shards, const Study& study, const Study& decided,
-                      const fs::path& output) {
+void assemble_decided(const std::vector<shards::ShardInfo>& shards, const study::Study& study,
+                      const study::Study& decided, const fs::path& output) {
   const auto renumber = [&](std::int64_t row) {
     return row / study.trials * decided.trials + row % study.trials;
   };
-  std::vector<ShardInfo> renumbered;
+  std::vector<shards::ShardInfo> renumbered;
   renumbered.reserve(shards.size());
-  for (const ShardInfo& shard : shards) {
+  for (const shards::ShardInfo& shard : shards) {
     renumbered.push_back({shard.path, {renumber(shard.rows.first), shard.rows.count}});
   }
-  assemble(renumbered, decided, output, all_rows(decided), renumber);
+  assemble(renumbered, decided, output, layout::all_rows(decided), renumber);
 }
 
 }  // namespace
 
-ExitCode run_until_sure(const Study& study, const fs::path& output, const StoppingRunSettings& settings,
-                        const std::stop_token& stop) {
-  const fs::path directory = shards_directory(output);
-  make_directory(directory);
-  EarlierShards earlier = earlier_shards(directory, study, all_rows(study), settings.foreign);
-  std::vector<ShardInfo> shards = std::move(earlier.usable);
+ExitCode run_until_sure(const study::Study& study, const fs::path& output,
+                        const StoppingRunSettings& settings, const std::stop_token& stop) {
+  const fs::path directory = layout::shards_directory(output);
+  storage::make_directory(directory);
+  EarlierShards earlier = earlier_shards(directory, study, layout::all_rows(study), settings.foreign);
+  std::vector<shards::ShardInfo> shards = std::move(earlier.usable);
   Successes successes(study);
   std::int64_t done = 0;
-  for (const ShardInfo& shard : shards) {
+  for (const shards::ShardInfo& shard : shards) {
     successes.add(shard);
     done += shard.rows.count;
   }
-  Progress progress(point_count(study) * study.trials, done, samples_per_trial(study), settings.quiet);
+  Progress progress(study::point_count(study) * study.trials, done, samples_per_trial(study), settings.quiet);
   RunSettings run;
   run.threads = settings.threads;
   run.finished = [&](std::int64_t trials) { progress.update(done += trials); };
@@ -140,26 +141,27 @@ ExitCode run_until_sure(const Study& study, const fs::path& output, const Stoppi
   std::int64_t trials = 0;
   do {
     trials = std::min(trials + study.stop->block, study.trials);
-    const std::vector<RowRange> ranges = missing(study, shards, trials);
+    const std::vector<layout::RowRange> ranges = missing(study, shards, trials);
     const std::int64_t before = done;
-    for (ShardInfo& shard : run_trials(study, ranges, directory, run, stop)) {
+    for (shards::ShardInfo& shard : run_trials(study, ranges, directory, run, stop)) {
       successes.add(shard);
       shards.push_back(std::move(shard));
     }
-    std::sort(shards.begin(), shards.end(),
-              [](const ShardInfo& a, const ShardInfo& b) { return a.rows.first < b.rows.first; });
-    if (done - before < total_rows(ranges)) {
+    std::sort(shards.begin(), shards.end(), [](const shards::ShardInfo& a, const shards::ShardInfo& b) {
+      return a.rows.first < b.rows.first;
+    });
+    if (done - before < layout::total_rows(ranges)) {
       throw Failure(ExitCode::interrupted,
                     fmt::format("interrupted: {} trials are kept in {}; give the same command again to go on",
                                 done, directory.string()));
     }
-    progress.project(point_count(study) * projection(study, successes, trials));
+    progress.project(study::point_count(study) * projection(study, successes, trials));
   } while (trials < study.trials && !sure(study, successes, trials));
-  progress.project(point_count(study) * trials);
+  progress.project(study::point_count(study) * trials);
   progress.finish(done);
 
   assemble_decided(shards, study, decided_study(study, trials), output);
-  for (const ShardInfo& shard : shards) earlier.all.push_back(shard.path);
+  for (const shards::ShardInfo& shard : shards) earlier.all.push_back(shard.path);
   remove_shards(directory, earlier.all);
   if (!settings.quiet) {
     const char* const why = sure(study, successes, trials)
@@ -170,4 +172,4 @@ ExitCode run_until_sure(const Study& study, const fs::path& output, const Stoppi
   return ExitCode::success;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

@@ -8,7 +8,7 @@
 #include "experiments/study/study.hpp"
 #include "runners/study_run/earlier_shards.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 
 struct StoppingRunSettings {
   int threads{0};  ///< 0: all cores
@@ -26,7 +26,7 @@ inline constexpr std::string_view decided_key = "stop.max_trials=";
 /// of the study with an additional override of `stop.max_trials` by the final number of trials. An existing
 /// file is replaced.
 /// @throws Failure (interrupted) if `stop` was requested.
-ExitCode run_until_sure(const Study& study, const std::filesystem::path& output,
+ExitCode run_until_sure(const study::Study& study, const std::filesystem::path& output,
                         const StoppingRunSettings& settings, const std::stop_token& stop);
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

@@ -8,14 +8,14 @@
 #include "analysis/comparison/manifest_differences.hpp"
 #include "runners/study_run/stopping_run.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr std::size_t max_differences_listed = 5;
 
-std::string described(const ManifestDifference& difference) {
+std::string described(const comparison::ManifestDifference& difference) {
   if (difference.baseline.empty())
     return fmt::format("{} is {} here, and not given there", difference.key, difference.current);
   if (difference.current.empty())
@@ -25,17 +25,18 @@ std::string described(const ManifestDifference& difference) {
 
 }  // namespace
 
-std::vector<ManifestDifference> study_differences(const fs::path& path, FileHeader header,
-                                                  const Study& study) {
+std::vector<comparison::ManifestDifference> study_differences(const fs::path& path, layout::FileHeader header,
+                                                              const study::Study& study) {
   if (study.stop && !header.overrides.empty() && header.overrides.back().starts_with(decided_key))
     header.overrides.pop_back();
-  ManifestValues there = manifest_values(header, path.string());
-  ManifestValues here = manifest_values(make_header(study, FileKind::study, all_rows(study), {}), study.name);
-  write_changed_defaults(there, header.version, here, format_version);
-  return manifest_differences(there, here);
+  comparison::ManifestValues there = comparison::manifest_values(header, path.string());
+  comparison::ManifestValues here = comparison::manifest_values(
+      layout::make_header(study, layout::FileKind::study, layout::all_rows(study), {}), study.name);
+  comparison::write_changed_defaults(there, header.version, here, layout::format_version);
+  return comparison::manifest_differences(there, here);
 }
 
-std::string differences_text(const std::vector<ManifestDifference>& differences) {
+std::string differences_text(const std::vector<comparison::ManifestDifference>& differences) {
   std::string text;
   for (std::size_t i = 0; i < std::min(differences.size(), max_differences_listed); ++i)
     text += (i > 0 ? ", " : "") + described(differences[i]);
@@ -44,4 +45,4 @@ std::string differences_text(const std::vector<ManifestDifference>& differences)
   return text;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

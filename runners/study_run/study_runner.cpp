@@ -15,10 +15,10 @@
 
 #include "runners/study_run/trial_runner.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 namespace {
 
-using Block = std::shared_ptr<std::vector<TrialResult>>;
+using Block = std::shared_ptr<std::vector<shards::TrialResult>>;
 
 /// Limits of a block. It takes a fraction of a second, so that interruptions are handled quickly and the
 /// threads end together. The batch engine needs many trials per block, because the last ones do not fill its
@@ -40,22 +40,23 @@ constexpr std::chrono::duration<double> longest_wait{20.0};
 /// Divides the ranges into blocks of rows. A block belongs to one range.
 class BlockSource {
  public:
-  BlockSource(std::span<const RowRange> ranges, std::int64_t block_size)
+  BlockSource(std::span<const layout::RowRange> ranges, std::int64_t block_size)
       : ranges_(ranges), block_size_(block_size) {}
 
-  std::optional<RowRange> next() {
+  std::optional<layout::RowRange> next() {
     while (at_ < ranges_.size() && used_ == ranges_[at_].count) {
       ++at_;
       used_ = 0;
     }
     if (at_ == ranges_.size()) return std::nullopt;
-    const RowRange block{ranges_[at_].first + used_, std::min(block_size_, ranges_[at_].count - used_)};
+    const layout::RowRange block{ranges_[at_].first + used_,
+                                 std::min(block_size_, ranges_[at_].count - used_)};
     used_ += block.count;
     return block;
   }
 
  private:
-  std::span<const RowRange> ranges_;
+  std::span<const layout::RowRange> ranges_;
   std::int64_t block_size_;
   std::size_t at_{0};
   std::int64_t used_{0};
@@ -66,14 +67,14 @@ class ShardWriter {
  public:
   using Clock = std::chrono::steady_clock;
 
-  ShardWriter(const Study& study, std::filesystem::path directory)
-      : study_(study), directory_(std::move(directory)), provenance_(current_provenance()) {}
+  ShardWriter(const study::Study& study, std::filesystem::path directory)
+      : study_(study), directory_(std::move(directory)), provenance_(layout::current_provenance()) {}
 
-  void take(std::vector<TrialResult>&& block) {
+  void take(std::vector<shards::TrialResult>&& block) {
     if (block.empty()) return;
     if (!waiting_.empty() && block.front().row != waiting_.back().row + 1) flush();
     if (waiting_.empty()) begun_ = Clock::now();
-    for (const TrialResult& result : block) bytes_ += bytes_of(result);
+    for (const shards::TrialResult& result : block) bytes_ += bytes_of(result);
     waiting_.insert(waiting_.end(), std::make_move_iterator(block.begin()),
                     std::make_move_iterator(block.end()));
     if (waiting_.size() >= max_trials_per_shard || bytes_ >= max_bytes_per_shard || waited_enough()) flush();
@@ -81,35 +82,35 @@ class ShardWriter {
 
   void flush() {
     if (waiting_.empty()) return;
-    const RowRange rows{waiting_.front().row, static_cast<std::int64_t>(waiting_.size())};
-    written_.push_back({shard_path(directory_, rows), rows});
-    write_shard(written_.back().path, study_, rows.first, waiting_, provenance_);
+    const layout::RowRange rows{waiting_.front().row, static_cast<std::int64_t>(waiting_.size())};
+    written_.push_back({shards::shard_path(directory_, rows), rows});
+    shards::write_shard(written_.back().path, study_, rows.first, waiting_, provenance_);
     waiting_.clear();
     bytes_ = 0;
   }
 
-  const std::vector<ShardInfo>& written() const { return written_; }
+  const std::vector<shards::ShardInfo>& written() const { return written_; }
 
  private:
-  const Study& study_;
+  const study::Study& study_;
   std::filesystem::path directory_;
-  Provenance provenance_;
+  layout::Provenance provenance_;
   bool waited_enough() const {
     const Clock::time_point now = Clock::now();
     const std::chrono::duration<double> proportion = 0.1 * (now - run_begun_);
     return now - begun_ >= std::clamp(proportion, shortest_wait, longest_wait);
   }
 
-  std::vector<TrialResult> waiting_;
-  std::vector<ShardInfo> written_;
+  std::vector<shards::TrialResult> waiting_;
+  std::vector<shards::ShardInfo> written_;
   std::size_t bytes_{0};
   Clock::time_point begun_;
   Clock::time_point run_begun_{Clock::now()};
 };
 
 /// Number of trials per block in a run of `rows` trials.
-std::int64_t block_size_of(const Study& study, std::int64_t rows, int threads) {
-  const BlockLimits limits = study.engine == Engine::batch ? batch_block : reference_block;
+std::int64_t block_size_of(const study::Study& study, std::int64_t rows, int threads) {
+  const BlockLimits limits = study.engine == study::Engine::batch ? batch_block : reference_block;
   const double size = limits.samples / std::max(samples_per_trial(study), 1.0);
   // Divides a short run among all threads.
   const std::int64_t proportion = rows / (std::int64_t{4} * threads) + 1;
@@ -123,26 +124,27 @@ int threads_to_use(int asked) {
 
 }  // namespace
 
-std::size_t bytes_of(const TrialResult& result) {
+std::size_t bytes_of(const shards::TrialResult& result) {
   return sizeof result + result.inputs.size() * sizeof(double) +
-         result.outcome.moves.size() * sizeof(MoveOutcome) + result.jerks.size() * sizeof(Jerk) +
-         result.trace.size() * sizeof(SampleRecord);
+         result.outcome.moves.size() * sizeof(trial::MoveOutcome) +
+         result.jerks.size() * sizeof(trial::Jerk) + result.trace.size() * sizeof(trial::SampleRecord);
 }
 
-double samples_per_trial(const Study& study) {
+double samples_per_trial(const study::Study& study) {
   double total = 0.0;
-  const std::int64_t asked = std::min<std::int64_t>(point_count(study), 64);
+  const std::int64_t asked = std::min<std::int64_t>(study::point_count(study), 64);
   for (std::int64_t i = 0; i < asked; ++i) {
-    const TrialParameters parameters = study_trial(study, i * point_count(study) / asked, 0).parameters;
-    total += static_cast<double>(samples_of_trial(parameters));
+    const trial::TrialParameters parameters =
+        study::study_trial(study, i * study::point_count(study) / asked, 0).parameters;
+    total += static_cast<double>(trial::samples_of_trial(parameters));
   }
   return total / static_cast<double>(asked);
 }
 
-double peak_memory(const Study& study, double bytes_of_trial, double record_bytes, int threads) {
+double peak_memory(const study::Study& study, double bytes_of_trial, double record_bytes, int threads) {
   constexpr double program = 40e6;  // program, libraries, lanes and statistics; measured
   const int workers = threads_to_use(threads);
-  const std::int64_t rows = trial_count(study);
+  const std::int64_t rows = study::trial_count(study);
   const double in_work = 4.0 * workers * static_cast<double>(block_size_of(study, rows, workers));
   const double waiting = std::min(static_cast<double>(max_trials_per_shard),
                                   static_cast<double>(max_bytes_per_shard) / bytes_of_trial);
@@ -152,19 +154,19 @@ double peak_memory(const Study& study, double bytes_of_trial, double record_byte
          bytes_of_trial * std::min(in_work + 2.0 * waiting, 3.0 * static_cast<double>(rows));
 }
 
-std::vector<ShardInfo> run_trials(const Study& study, std::span<const RowRange> ranges,
-                                  const std::filesystem::path& directory, const RunSettings& settings,
-                                  std::stop_token stop) {
+std::vector<shards::ShardInfo> run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
+                                          const std::filesystem::path& directory, const RunSettings& settings,
+                                          std::stop_token stop) {
   namespace tbb = oneapi::tbb;
   const int threads = threads_to_use(settings.threads);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
 
-  BlockSource source(ranges, block_size_of(study, total_rows(ranges), threads));
+  BlockSource source(ranges, block_size_of(study, layout::total_rows(ranges), threads));
   ShardWriter writer(study, directory);
 
-  const auto next_block = [&](tbb::flow_control& control) -> RowRange {
-    std::optional<RowRange> block = stop.stop_requested() ? std::nullopt : source.next();
+  const auto next_block = [&](tbb::flow_control& control) -> layout::RowRange {
+    std::optional<layout::RowRange> block = stop.stop_requested() ? std::nullopt : source.next();
     if (!block) {
       control.stop();
       return {};
@@ -172,8 +174,8 @@ std::vector<ShardInfo> run_trials(const Study& study, std::span<const RowRange> 
     return *block;
   };
   tbb::enumerable_thread_specific<TrialRunner> runners([&study] { return TrialRunner(study); });
-  const auto run_block = [&](RowRange rows) {
-    return std::make_shared<std::vector<TrialResult>>(runners.local().run(rows));
+  const auto run_block = [&](layout::RowRange rows) {
+    return std::make_shared<std::vector<shards::TrialResult>>(runners.local().run(rows));
   };
   const auto write_block = [&](const Block& block) {
     const auto trials = static_cast<std::int64_t>(block->size());
@@ -181,14 +183,15 @@ std::vector<ShardInfo> run_trials(const Study& study, std::span<const RowRange> 
     if (settings.finished) settings.finished(trials);
   };
   const auto pipeline = [&] {
-    tbb::parallel_pipeline(4 * static_cast<std::size_t>(threads),
-                           tbb::make_filter<void, RowRange>(tbb::filter_mode::serial_in_order, next_block) &
-                               tbb::make_filter<RowRange, Block>(tbb::filter_mode::parallel, run_block) &
-                               tbb::make_filter<Block, void>(tbb::filter_mode::serial_in_order, write_block));
+    tbb::parallel_pipeline(
+        4 * static_cast<std::size_t>(threads),
+        tbb::make_filter<void, layout::RowRange>(tbb::filter_mode::serial_in_order, next_block) &
+            tbb::make_filter<layout::RowRange, Block>(tbb::filter_mode::parallel, run_block) &
+            tbb::make_filter<Block, void>(tbb::filter_mode::serial_in_order, write_block));
   };
   tbb::task_arena(threads).execute(pipeline);
   writer.flush();
   return writer.written();
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

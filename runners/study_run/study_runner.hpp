@@ -11,22 +11,22 @@
 #include "results/layout/row_range.hpp"
 #include "results/shards/shard.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 
 /// Runs one trial of the study, given by its global row, with the reference engine. Returns the data of the
 /// results file.
-TrialResult run_study_trial(const Study& study, std::int64_t row);
+shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row);
 
 /// Number of samples of a trial: the mean over the first trials of up to 64 points.
-double samples_per_trial(const Study& study);
+double samples_per_trial(const study::Study& study);
 
 /// Memory of a result, bytes.
-std::size_t bytes_of(const TrialResult& result);
+std::size_t bytes_of(const shards::TrialResult& result);
 
 /// Estimate of the peak memory of run_trials over the whole study, bytes.
 /// @param bytes_of_trial mean of bytes_of(), without traces @param record_bytes bytes of all traces
 /// @param threads 0: all cores
-double peak_memory(const Study& study, double bytes_of_trial, double record_bytes, int threads);
+double peak_memory(const study::Study& study, double bytes_of_trial, double record_bytes, int threads);
 
 struct RunSettings {
   int threads{0};  ///< 0: all that the machine has
@@ -40,8 +40,8 @@ struct RunSettings {
 /// written when it is large enough or old enough, which bounds the memory and the loss by a crash. If `stop`
 /// is requested, no new block starts, and the finished trials are written.
 /// @returns the written shards, in order of rows
-std::vector<ShardInfo> run_trials(const Study& study, std::span<const RowRange> ranges,
-                                  const std::filesystem::path& directory, const RunSettings& settings,
-                                  std::stop_token stop);
+std::vector<shards::ShardInfo> run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
+                                          const std::filesystem::path& directory, const RunSettings& settings,
+                                          std::stop_token stop);
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

@@ -21,7 +21,7 @@
 #include "runners/study_run/study_runner.hpp"
 #include "runners/study_run/trial_runner.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,7 +38,7 @@ class TemporaryFolder {
   TemporaryFolder() {
     std::error_code error;
     std::string pattern = (fs::temp_directory_path(error) / "zerocount-XXXXXX").string();
-    if (error || ::mkdtemp(pattern.data()) == nullptr) fail_with(pattern, "make the folder", errno);
+    if (error || ::mkdtemp(pattern.data()) == nullptr) storage::fail_with(pattern, "make the folder", errno);
     path_ = pattern;
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
@@ -55,16 +55,16 @@ class TemporaryFolder {
 };
 
 /// Trials from several places of the study, numbered from 0.
-std::vector<TrialResult> sampled_trials(const Study& study) {
-  const std::int64_t rows = trial_count(study);
+std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
+  const std::int64_t rows = study::trial_count(study);
   const auto wanted = std::clamp(static_cast<std::int64_t>(max_sampled_samples / samples_per_trial(study)),
                                  std::int64_t{1}, std::min(max_sampled_trials, rows));
   const std::int64_t places = std::min(sampled_places, wanted);
   TrialRunner runner(study);
-  std::vector<TrialResult> trials;
+  std::vector<shards::TrialResult> trials;
   for (std::int64_t place = 0; place < places; ++place) {
     const std::int64_t first = rows / places * place;
-    std::vector<TrialResult> here = runner.run({first, wanted / places});
+    std::vector<shards::TrialResult> here = runner.run({first, wanted / places});
     trials.insert(trials.end(), std::make_move_iterator(here.begin()), std::make_move_iterator(here.end()));
   }
   for (std::size_t i = 0; i < trials.size(); ++i) trials[i].row = static_cast<std::int64_t>(i);
@@ -72,10 +72,10 @@ std::vector<TrialResult> sampled_trials(const Study& study) {
 }
 
 /// Bytes of a shard of these trials.
-double shard_size(const TemporaryFolder& folder, const Study& study, std::span<const TrialResult> trials,
-                  Compression compression) {
+double shard_size(const TemporaryFolder& folder, const study::Study& study,
+                  std::span<const shards::TrialResult> trials, hdf5::Compression compression) {
   const fs::path path = folder.path() / "sample.h5";
-  write_shard(path, study, 0, trials, current_provenance(), compression);
+  shards::write_shard(path, study, 0, trials, layout::current_provenance(), compression);
   return static_cast<double>(fs::file_size(path));
 }
 
@@ -85,8 +85,8 @@ struct Growth {
   double per_trial{0.0};
 };
 
-Growth growth_of(const TemporaryFolder& folder, const Study& study, std::span<const TrialResult> trials,
-                 Compression compression) {
+Growth growth_of(const TemporaryFolder& folder, const study::Study& study,
+                 std::span<const shards::TrialResult> trials, hdf5::Compression compression) {
   const double all = shard_size(folder, study, trials, compression);
   if (trials.size() < 2) return {0.0, all};
   const double one = shard_size(folder, study, trials.first(1), compression);
@@ -95,10 +95,10 @@ Growth growth_of(const TemporaryFolder& folder, const Study& study, std::span<co
 }
 
 /// Up to eight trials with their traces, numbered from 0.
-std::vector<TrialResult> sampled_records(const Study& study) {
+std::vector<shards::TrialResult> sampled_records(const study::Study& study) {
   constexpr std::int64_t max_records = 8;
   const auto retained = std::ssize(study.retained_trials);
-  std::vector<TrialResult> trials;
+  std::vector<shards::TrialResult> trials;
   for (std::int64_t i = 0; i < std::min(retained, max_records); ++i) {
     trials.push_back(run_study_trial(study, study.retained_trials[static_cast<std::size_t>(i)]));
     trials.back().row = i;
@@ -107,45 +107,46 @@ std::vector<TrialResult> sampled_records(const Study& study) {
 }
 
 /// Bytes of the traces of all retained trials, without the fixed size of a table.
-double record_bytes(const TemporaryFolder& folder, const Study& study, std::vector<TrialResult> sampled,
-                    Compression compression) {
+double record_bytes(const TemporaryFolder& folder, const study::Study& study,
+                    std::vector<shards::TrialResult> sampled, hdf5::Compression compression) {
   if (sampled.empty()) return 0.0;
   const double with = shard_size(folder, study, sampled, compression);
   const auto count = static_cast<double>(sampled.size());
   for (std::size_t i = sampled.size() > 1 ? 1 : 0; i < sampled.size(); ++i) sampled[i].trace.clear();
   const double without = shard_size(folder, study, sampled, compression);
   const double per_record = (with - without) / (count > 1.0 ? count - 1.0 : 1.0);
-  return per_record * static_cast<double>(std::ssize(study.retained_trials) * point_count(study));
+  return per_record * static_cast<double>(std::ssize(study.retained_trials) * study::point_count(study));
 }
 
 /// Bytes of the results file without its trials.
-double table_bytes(const Study& study) {
+double table_bytes(const study::Study& study) {
   constexpr double statistics = 400e3;  // some hundred columns with their descriptions, measured
   constexpr double statistics_of_point = 1600.0;
   double profiles = 0.0;
-  for (const RealisedProfile& profile : study.profiles) {
-    const std::int64_t values =
-        profile.of_rig ? study.rigs * profile_angles_of_rig(profile.profile->cosine.size(), study.rigs)
-                       : profile_angles;
+  for (const study::RealisedProfile& profile : study.profiles) {
+    const std::int64_t values = profile.of_rig ? study.rigs * layout::profile_angles_of_rig(
+                                                                  profile.profile->cosine.size(), study.rigs)
+                                               : layout::profile_angles;
     profiles += 8.0 * static_cast<double>(values);
   }
-  return statistics + statistics_of_point * static_cast<double>(point_count(study)) + profiles;
+  return statistics + statistics_of_point * static_cast<double>(study::point_count(study)) + profiles;
 }
 
 /// An upper bound of the size of a study's files, computed without writing any.
-double file_bytes_at_most(const Study& study) {
+double file_bytes_at_most(const study::Study& study) {
   double bytes_of_trial = 0.0;
-  const std::vector<TrialResult> trials = sampled_trials(study);
-  for (const TrialResult& trial : trials)
+  const std::vector<shards::TrialResult> trials = sampled_trials(study);
+  for (const shards::TrialResult& trial : trials)
     bytes_of_trial += static_cast<double>(bytes_of(trial)) / static_cast<double>(trials.size());
-  const double records = static_cast<double>(std::ssize(study.retained_trials) * point_count(study)) *
-                         samples_per_trial(study) * static_cast<double>(sizeof(SampleRecord));
-  const double once = bytes_of_trial * static_cast<double>(trial_count(study)) + records + table_bytes(study);
+  const double records = static_cast<double>(std::ssize(study.retained_trials) * study::point_count(study)) *
+                         samples_per_trial(study) * static_cast<double>(sizeof(trial::SampleRecord));
+  const double once =
+      bytes_of_trial * static_cast<double>(study::trial_count(study)) + records + table_bytes(study);
   return 2.0 * storage_factor * once;  // the shards, and the results file
 }
 
 /// Nothing if the folder for temporary files has no room.
-std::optional<StudySize> measured_size(const Study& study) {
+std::optional<StudySize> measured_size(const study::Study& study) {
   try {
     return measure_size(study);
   } catch (const Failure& failure) {
@@ -156,28 +157,28 @@ std::optional<StudySize> measured_size(const Study& study) {
 
 }  // namespace
 
-StudySize measure_size(const Study& study, int threads) {
+StudySize measure_size(const study::Study& study, int threads) {
   const TemporaryFolder folder;
-  std::vector<TrialResult> trials = sampled_trials(study);
+  std::vector<shards::TrialResult> trials = sampled_trials(study);
   double bytes_of_trial = 0.0;
-  for (TrialResult& trial : trials) {
+  for (shards::TrialResult& trial : trials) {
     trial.trace.clear();
     bytes_of_trial += static_cast<double>(bytes_of(trial)) / static_cast<double>(trials.size());
   }
-  const Growth file = growth_of(folder, study, trials, Compression::deflate);
-  const Growth shards = growth_of(folder, study, trials, Compression::none);
-  const auto rows = static_cast<double>(trial_count(study));
-  const std::vector<TrialResult> records = sampled_records(study);
-  const double raw_records = record_bytes(folder, study, records, Compression::none);
+  const Growth file = growth_of(folder, study, trials, hdf5::Compression::deflate);
+  const Growth shards = growth_of(folder, study, trials, hdf5::Compression::none);
+  const auto rows = static_cast<double>(study::trial_count(study));
+  const std::vector<shards::TrialResult> records = sampled_records(study);
+  const double raw_records = record_bytes(folder, study, records, hdf5::Compression::none);
   StudySize size;
   size.file_bytes = file.fixed + file.per_trial * rows + table_bytes(study) +
-                    record_bytes(folder, study, records, Compression::deflate);
+                    record_bytes(folder, study, records, hdf5::Compression::deflate);
   size.shard_bytes = shards.fixed + shards.per_trial * rows + raw_records;
   size.memory_bytes = peak_memory(study, bytes_of_trial, raw_records, threads);
   return size;
 }
 
-void require_room(const fs::path& output, const Study& study, std::int64_t missing) {
+void require_room(const fs::path& output, const study::Study& study, std::int64_t missing) {
   const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
   std::error_code error;
   const fs::space_info space = fs::space(folder, error);
@@ -187,7 +188,7 @@ void require_room(const fs::path& output, const Study& study, std::int64_t missi
   const std::optional<StudySize> size = measured_size(study);
   if (!size) return;
   const double shards =
-      size->shard_bytes * static_cast<double>(missing) / static_cast<double>(trial_count(study));
+      size->shard_bytes * static_cast<double>(missing) / static_cast<double>(study::trial_count(study));
   if (shards + size->file_bytes <= available) return;
   throw Failure(
       ExitCode::machine_failed,
@@ -208,4 +209,4 @@ std::string bytes_text(double bytes) {
   return fmt::format("{:.{}f} {}", bytes, bytes < 9.95 && unit > 0 ? 1 : 0, units[unit]);
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

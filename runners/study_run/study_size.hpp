@@ -4,7 +4,7 @@
 
 #include "experiments/study/study.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 
 /// Memory and disk space of a study, estimated from some of its trials.
 struct StudySize {
@@ -17,13 +17,13 @@ struct StudySize {
 /// scales their size. For a study with `stop`: the maximum number of trials.
 /// @param threads of the run; 0: all cores
 /// @throws Failure (machine_failed) if there is no room for temporary files.
-StudySize measure_size(const Study& study, int threads = 0);
+StudySize measure_size(const study::Study& study, int threads = 0);
 
 /// @throws Failure (machine_failed) if the folder of `output` has no room for the results file and the shards
 /// of the `missing` trials.
-void require_room(const std::filesystem::path& output, const Study& study, std::int64_t missing);
+void require_room(const std::filesystem::path& output, const study::Study& study, std::int64_t missing);
 
 /// "44 MB", to two significant digits.
 std::string bytes_text(double bytes);
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

@@ -6,49 +6,49 @@
 #include "core/trial/trial.hpp"
 #include "runners/study_run/study_runner.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 namespace {
 
-bool retained(const Study& study, std::int64_t index) {
+bool retained(const study::Study& study, std::int64_t index) {
   return std::binary_search(study.retained_trials.begin(), study.retained_trials.end(), index);
 }
 
-StudyTrial trial_of_row(const Study& study, std::int64_t row) {
-  return study_trial(study, row / study.trials, row % study.trials);
+study::StudyTrial trial_of_row(const study::Study& study, std::int64_t row) {
+  return study::study_trial(study, row / study.trials, row % study.trials);
 }
 
 }  // namespace
 
-TrialResult run_study_trial(const Study& study, std::int64_t row) {
-  StudyTrial trial = trial_of_row(study, row);
-  TrialResult result;
+shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row) {
+  study::StudyTrial trial = trial_of_row(study, row);
+  shards::TrialResult result;
   result.row = row;
   result.inputs = std::move(trial.inputs);
-  TrialObservers observers;
-  observers.jerk = [&](const Jerk& jerk) { result.jerks.push_back(jerk); };
+  trial::TrialObservers observers;
+  observers.jerk = [&](const trial::Jerk& jerk) { result.jerks.push_back(jerk); };
   if (retained(study, row % study.trials)) {
-    observers.sample = [&](const SampleRecord& record) { result.trace.push_back(record); };
+    observers.sample = [&](const trial::SampleRecord& record) { result.trace.push_back(record); };
   }
-  result.outcome = run_trial(trial.parameters, observers);
+  result.outcome = trial::run_trial(trial.parameters, observers);
   return result;
 }
 
-TrialRunner::TrialRunner(const Study& study) : study_(&study) {
-  if (study.engine == Engine::batch) engine_ = std::make_unique<BatchEngine>();
+TrialRunner::TrialRunner(const study::Study& study) : study_(&study) {
+  if (study.engine == study::Engine::batch) engine_ = std::make_unique<batch::BatchEngine>();
 }
 
-std::vector<TrialResult> TrialRunner::run(RowRange rows) {
+std::vector<shards::TrialResult> TrialRunner::run(layout::RowRange rows) {
   if (engine_) return run_in_lanes(rows);
-  std::vector<TrialResult> results;
+  std::vector<shards::TrialResult> results;
   results.reserve(static_cast<std::size_t>(rows.count));
   for (std::int64_t row = rows.first; row < rows.end(); ++row)
     results.push_back(run_study_trial(*study_, row));
   return results;
 }
 
-std::vector<TrialResult> TrialRunner::run_in_lanes(RowRange rows) {
-  std::vector<TrialResult> results(static_cast<std::size_t>(rows.count));
-  std::vector<StudyTrial> trials;
+std::vector<shards::TrialResult> TrialRunner::run_in_lanes(layout::RowRange rows) {
+  std::vector<shards::TrialResult> results(static_cast<std::size_t>(rows.count));
+  std::vector<study::StudyTrial> trials;
   std::vector<std::size_t> places;  // indices of the trials in the results
   trials.reserve(results.size());
   places.reserve(results.size());
@@ -63,15 +63,17 @@ std::vector<TrialResult> TrialRunner::run_in_lanes(RowRange rows) {
     results[i].inputs = std::move(trials.back().inputs);
     places.push_back(i);
   }
-  std::vector<const TrialParameters*> parameters;
+  std::vector<const trial::TrialParameters*> parameters;
   parameters.reserve(trials.size());
-  for (const StudyTrial& trial : trials) parameters.push_back(&trial.parameters);
-  std::vector<TrialOutcome> outcomes(trials.size());
-  BatchObservers observers;
-  observers.jerk = [&](std::size_t trial, const Jerk& jerk) { results[places[trial]].jerks.push_back(jerk); };
+  for (const study::StudyTrial& trial : trials) parameters.push_back(&trial.parameters);
+  std::vector<trial::TrialOutcome> outcomes(trials.size());
+  batch::BatchObservers observers;
+  observers.jerk = [&](std::size_t trial, const trial::Jerk& jerk) {
+    results[places[trial]].jerks.push_back(jerk);
+  };
   engine_->run(parameters, outcomes, observers);
   for (std::size_t i = 0; i < trials.size(); ++i) results[places[i]].outcome = std::move(outcomes[i]);
   return results;
 }
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

@@ -8,22 +8,22 @@
 #include "results/layout/row_range.hpp"
 #include "results/shards/shard.hpp"
 
-namespace zerocount {
+namespace zerocount::study_run {
 
 /// Runs trials of a study on one thread with its engine, and returns the data of the results file. Trials
 /// with retained traces always run with the reference engine.
 class TrialRunner {
  public:
-  explicit TrialRunner(const Study& study);
+  explicit TrialRunner(const study::Study& study);
 
   /// @returns one result per row, in order
-  std::vector<TrialResult> run(RowRange rows);
+  std::vector<shards::TrialResult> run(layout::RowRange rows);
 
  private:
-  std::vector<TrialResult> run_in_lanes(RowRange rows);
+  std::vector<shards::TrialResult> run_in_lanes(layout::RowRange rows);
 
-  const Study* study_;
-  std::unique_ptr<BatchEngine> engine_;
+  const study::Study* study_;
+  std::unique_ptr<batch::BatchEngine> engine_;
 };
 
-}  // namespace zerocount
+}  // namespace zerocount::study_run

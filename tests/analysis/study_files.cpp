@@ -10,16 +10,17 @@
 
 namespace zerocount::testing {
 
-Study plain_study(std::int64_t points, std::int64_t trials, std::int64_t moves) {
-  Study study;
+study::Study plain_study(std::int64_t points, std::int64_t trials, std::int64_t moves) {
+  study::Study study;
   study.name = "plain";
   study.seed = 1;
   study.trials = trials;
   study.moves = moves;
   study.manifest_text = "zerocount: 1\n";
-  study.manifest_sha256 = sha256_hex(study.manifest_text);
+  study.manifest_sha256 = hash::sha256_hex(study.manifest_text);
   study.study_sha256 = study.manifest_sha256;
-  SweepAxis axis{"controller.ki", "N m/count", "integral gain", SweepAxis::Kind::number, {}, {}};
+  study::SweepAxis axis{
+      "controller.ki", "N m/count", "integral gain", study::SweepAxis::Kind::number, {}, {}};
   for (std::int64_t point = 0; point < points; ++point) {
     study.point_labels.push_back("point " + std::to_string(point));
     axis.numbers.push_back(1e-5 * static_cast<double>(point + 1));
@@ -33,8 +34,8 @@ TrialRecord random_trial(std::int64_t row, std::int64_t moves) {
   std::normal_distribution<double> normal;
   TrialRecord trial;
   for (std::int64_t index = 0; index < moves; ++index) {
-    MoveOutcome move;
-    move.outcome = static_cast<Outcome>(random() % 4);
+    trial::MoveOutcome move;
+    move.outcome = static_cast<trial::Outcome>(random() % 4);
     move.arrived = random() % 4 != 0;
     if (move.arrived) {
       move.arrival = static_cast<std::int64_t>(random() % 300);
@@ -50,7 +51,7 @@ TrialRecord random_trial(std::int64_t row, std::int64_t moves) {
     move.creep = 1e-7 * normal(random);
     move.reversal_depth = static_cast<std::int64_t>(random() % 12);
     move.final_error = static_cast<std::int64_t>(std::lround(3.0 * std::exp(2.0 * normal(random)))) - 3;
-    if (move.outcome != Outcome::nonfinite)
+    if (move.outcome != trial::Outcome::nonfinite)
       move.true_error = static_cast<double>(move.final_error) + normal(random);
     move.travel_time = 0.01 * static_cast<double>(random() % 7);
     move.phase_changes = static_cast<std::int64_t>(random() % 3);
@@ -73,10 +74,10 @@ TrialRecord random_open_loop_trial(std::int64_t row, std::int64_t moves) {
   TrialRecord trial;
   bool lost = false;
   for (std::int64_t index = 0; index < moves; ++index) {
-    MoveOutcome move;
+    trial::MoveOutcome move;
     if (!lost) {
       lost = random() % 40 == 0;
-      move.outcome = lost ? Outcome::nonfinite : Outcome::open_loop;
+      move.outcome = lost ? trial::Outcome::nonfinite : trial::Outcome::open_loop;
       move.holding_torque = 0.01 * static_cast<double>(index % 4) + 1e-6 * normal(random);
       move.peak_torque = 0.03;
       move.travel_time = 0.1;
@@ -91,28 +92,30 @@ TrialRecord random_open_loop_trial(std::int64_t row, std::int64_t moves) {
   return trial;
 }
 
-void write_study_file(const std::filesystem::path& path, const Study& study,
-                      const std::vector<TrialRecord>& trials, const std::vector<PointColumn>& statistics) {
-  write_study_file(path, study, trials, [&](const StudyFile&) {
-    return StoredStatistics{statistics, {}, {}};
+void write_study_file(const std::filesystem::path& path, const study::Study& study,
+                      const std::vector<TrialRecord>& trials,
+                      const std::vector<layout::PointColumn>& statistics) {
+  write_study_file(path, study, trials, [&](const reading::StudyFile&) {
+    return layout::StoredStatistics{statistics, {}, {}};
   });
 }
 
-void write_study_file(const std::filesystem::path& path, const Study& study,
-                      const std::vector<TrialRecord>& trials, const StatisticsOfPoints& statistics,
-                      const MeasureTable& measures) {
-  std::vector<TrialResult> results(trials.size());
+void write_study_file(const std::filesystem::path& path, const study::Study& study,
+                      const std::vector<TrialRecord>& trials, const shards::StatisticsOfPoints& statistics,
+                      const layout::MeasureTable& measures) {
+  std::vector<shards::TrialResult> results(trials.size());
   for (std::size_t row = 0; row < trials.size(); ++row) {
     results[row].row = static_cast<std::int64_t>(row);
     results[row].inputs.assign(study.input_columns.size(), 0.0);
     results[row].outcome = trials[row].outcome;
     results[row].jerks = trials[row].jerks;
   }
-  const RowRange rows{0, static_cast<std::int64_t>(trials.size())};
+  const layout::RowRange rows{0, static_cast<std::int64_t>(trials.size())};
   const std::filesystem::path shard = path.string() + ".shard.h5";
-  write_shard(shard, study, 0, results, current_provenance(), shard_compression, measures);
-  const std::vector<ShardInfo> shards{{shard, rows}};
-  merge_shards(shards, study, path, rows, statistics, current_provenance(), {}, measures);
+  shards::write_shard(shard, study, 0, results, layout::current_provenance(), shards::shard_compression,
+                      measures);
+  const std::vector<shards::ShardInfo> shards{{shard, rows}};
+  shards::merge_shards(shards, study, path, rows, statistics, layout::current_provenance(), {}, measures);
 }
 
 }  // namespace zerocount::testing

@@ -13,12 +13,12 @@ namespace zerocount::testing {
 
 /// What a test says of one trial.
 struct TrialRecord {
-  TrialOutcome outcome;
-  std::vector<Jerk> jerks;
+  trial::TrialOutcome outcome;
+  std::vector<trial::Jerk> jerks;
 };
 
 /// A study of this size without a manifest that could be read: names, labels and one axis.
-Study plain_study(std::int64_t points, std::int64_t trials, std::int64_t moves);
+study::Study plain_study(std::int64_t points, std::int64_t trials, std::int64_t moves);
 
 /// Some trial with `moves` moves: random, a function of the row alone. Some have no jerks, some dozens.
 TrialRecord random_trial(std::int64_t row, std::int64_t moves);
@@ -28,11 +28,11 @@ TrialRecord random_trial(std::int64_t row, std::int64_t moves);
 TrialRecord random_open_loop_trial(std::int64_t row, std::int64_t moves);
 
 /// Writes the results file of `study` with these trials, [row], by way of one shard in the folder of `path`.
-void write_study_file(const std::filesystem::path& path, const Study& study,
+void write_study_file(const std::filesystem::path& path, const study::Study& study,
                       const std::vector<TrialRecord>& trials,
-                      const std::vector<PointColumn>& statistics = {});
-void write_study_file(const std::filesystem::path& path, const Study& study,
-                      const std::vector<TrialRecord>& trials, const StatisticsOfPoints& statistics,
-                      const MeasureTable& measures = measure_table());
+                      const std::vector<layout::PointColumn>& statistics = {});
+void write_study_file(const std::filesystem::path& path, const study::Study& study,
+                      const std::vector<TrialRecord>& trials, const shards::StatisticsOfPoints& statistics,
+                      const layout::MeasureTable& measures = layout::measure_table());
 
 }  // namespace zerocount::testing

@@ -23,7 +23,7 @@ const char* instruction_set() {
 
 int main(int argc, char** argv) {
   using namespace zerocount::testing;
-  const zerocount::Provenance build = zerocount::current_provenance();
+  const zerocount::layout::Provenance build = zerocount::layout::current_provenance();
   benchmark::AddCustomContext("cpu", build.cpu);
   benchmark::AddCustomContext("compiler", build.compiler);
   benchmark::AddCustomContext("instruction_set", instruction_set());

@@ -9,9 +9,9 @@ namespace {
 
 /// The sample at which the trial is first seen to have broken away, or their number. A slide may begin and
 /// end between two samples; a contact that is new has lost its hardening.
-std::size_t first_breakaway(const std::vector<SampleRecord>& records) {
+std::size_t first_breakaway(const std::vector<trial::SampleRecord>& records) {
   for (std::size_t i = 0; i < records.size(); ++i) {
-    if (records[i].mode == HookMode::slide) return i;
+    if (records[i].mode == trial::HookMode::slide) return i;
     if (i > 0 && records[i].xh < records[i - 1].xh) return i;
   }
   return records.size();
@@ -19,11 +19,11 @@ std::size_t first_breakaway(const std::vector<SampleRecord>& records) {
 
 }  // namespace
 
-std::vector<SampleRecord> reference_records(const TrialParameters& parameters) {
-  std::vector<SampleRecord> records;
-  TrialObservers observers;
-  observers.sample = [&records](const SampleRecord& record) { records.push_back(record); };
-  run_trial(parameters, observers);
+std::vector<trial::SampleRecord> reference_records(const trial::TrialParameters& parameters) {
+  std::vector<trial::SampleRecord> records;
+  trial::TrialObservers observers;
+  observers.sample = [&records](const trial::SampleRecord& record) { records.push_back(record); };
+  trial::run_trial(parameters, observers);
   return records;
 }
 
@@ -40,16 +40,17 @@ std::string EngineAgreement::text() const {
   return text;
 }
 
-EngineAgreement agreement_with_reference(const TrialRecorder& record, const Study& study, std::int64_t calm) {
+EngineAgreement agreement_with_reference(const TrialRecorder& record, const study::Study& study,
+                                         std::int64_t calm) {
   EngineAgreement agreement;
   for (std::int64_t index = 0; index < study.trials && agreement.calm_trials < calm; ++index) {
-    const TrialParameters parameters = study_trial(study, 0, index).parameters;
-    std::vector<SampleRecord> reference = reference_records(parameters);
+    const trial::TrialParameters parameters = study::study_trial(study, 0, index).parameters;
+    std::vector<trial::SampleRecord> reference = reference_records(parameters);
     const std::size_t end = first_breakaway(reference);
     const bool breaks_away = end < reference.size();
     if (breaks_away && agreement.broken_trials == calm) continue;
     ++(breaks_away ? agreement.broken_trials : agreement.calm_trials);
-    std::vector<SampleRecord> records = record(parameters);
+    std::vector<trial::SampleRecord> records = record(parameters);
     reference.resize(end);
     records.resize(std::min(end, records.size()));
     agreement.samples.add(compare(parameters, records, reference, fmt::format("trial {}", index)));

@@ -11,10 +11,10 @@
 
 namespace zerocount::testing {
 
-using TrialRecorder = std::function<std::vector<SampleRecord>(const TrialParameters&)>;
+using TrialRecorder = std::function<std::vector<trial::SampleRecord>(const trial::TrialParameters&)>;
 
 /// All samples of a trial by the scalar reference.
-std::vector<SampleRecord> reference_records(const TrialParameters& parameters);
+std::vector<trial::SampleRecord> reference_records(const trial::TrialParameters& parameters);
 
 /// How an engine agrees with the scalar reference on the trials of a study.
 struct EngineAgreement {
@@ -30,6 +30,7 @@ struct EngineAgreement {
 /// of them that never break away have been compared, and of the others no more than that: counts, codes and
 /// modes equal at every sample, θ within 1e-6 count. A trial that breaks away is compared up to there: after
 /// it, rounding decides.
-EngineAgreement agreement_with_reference(const TrialRecorder& record, const Study& study, std::int64_t calm);
+EngineAgreement agreement_with_reference(const TrialRecorder& record, const study::Study& study,
+                                         std::int64_t calm);
 
 }  // namespace zerocount::testing

@@ -36,11 +36,11 @@ TEST(BenchmarkPeers, AgreeWithTheReferenceSampleBySample) {
 TEST(BenchmarkPeers, MeasureWhatTheReferenceMeasures) {
   for (const Peer& peer : all_peers()) {
     for (const Sight& sight : sights) {
-      const Study study = workload_study(sight.manifest);
+      const study::Study study = workload_study(sight.manifest);
       for (std::int64_t index = 0; index < sight.calm_trials; ++index) {
-        const TrialParameters parameters = study_trial(study, 0, index).parameters;
-        const MoveOutcome expected = run_trial(parameters).moves.at(0);
-        const MoveOutcome found = peer.run(parameters).moves.at(0);
+        const trial::TrialParameters parameters = study::study_trial(study, 0, index).parameters;
+        const trial::MoveOutcome expected = trial::run_trial(parameters).moves.at(0);
+        const trial::MoveOutcome found = peer.run(parameters).moves.at(0);
         EXPECT_EQ(found.broke_away, expected.broke_away) << peer.name << " " << index;
         if (expected.broke_away) continue;
         EXPECT_EQ(found.outcome, expected.outcome) << peer.name << " " << index;
@@ -56,7 +56,7 @@ TEST(BenchmarkPeers, MeasureWhatTheReferenceMeasures) {
 
 // After a breakaway the trials part, but not what becomes of them.
 TEST(BenchmarkPeers, BreakAwayAsOftenAndOscillateAlike) {
-  const Study study = workload_study("bench-marginal");
+  const study::Study study = workload_study("bench-marginal");
   for (const Peer& peer : all_peers()) {
     int oscillating = 0;
     int expected = 0;
@@ -64,11 +64,11 @@ TEST(BenchmarkPeers, BreakAwayAsOftenAndOscillateAlike) {
     double expected_peak = 0.0;
     constexpr int trials = 60;
     for (int index = 0; index < trials; ++index) {
-      const TrialParameters parameters = study_trial(study, 0, index).parameters;
-      const MoveOutcome reference = run_trial(parameters).moves.at(0);
-      const MoveOutcome found = peer.run(parameters).moves.at(0);
-      oscillating += found.outcome == Outcome::oscillating;
-      expected += reference.outcome == Outcome::oscillating;
+      const trial::TrialParameters parameters = study::study_trial(study, 0, index).parameters;
+      const trial::MoveOutcome reference = trial::run_trial(parameters).moves.at(0);
+      const trial::MoveOutcome found = peer.run(parameters).moves.at(0);
+      oscillating += found.outcome == trial::Outcome::oscillating;
+      expected += reference.outcome == trial::Outcome::oscillating;
       peak += found.peak_torque / trials;
       expected_peak += reference.peak_torque / trials;
     }
@@ -80,13 +80,13 @@ TEST(BenchmarkPeers, BreakAwayAsOftenAndOscillateAlike) {
 
 // Moves one after the other, a delay and the other gains are in the loop too.
 TEST(BenchmarkPeers, KnowTheWholePlainLoop) {
-  const Study study = workload_study(
+  const study::Study study = workload_study(
       "bench-transient", {"controller.kp=3.0e-4", "controller.kd=1.0e-4", "controller.delay=1",
                           "controller.ki=2.0e-5", "initial.preload=-0.1", "initial.hardening=1.0e-6"});
   for (const Peer& peer : all_peers()) {
     Agreement total;
     for (std::int64_t index = 0; index < 20; ++index) {
-      TrialParameters parameters = study_trial(study, 0, index).parameters;
+      trial::TrialParameters parameters = study::study_trial(study, 0, index).parameters;
       parameters.command.targets.insert(parameters.command.targets.end(), {-3, 4, 0});
       total.add(compare(parameters, peer.record(parameters), reference_records(parameters), peer.name));
     }
@@ -96,17 +96,17 @@ TEST(BenchmarkPeers, KnowTheWholePlainLoop) {
 }
 
 TEST(BenchmarkPeers, RefuseWhatTheyDoNotKnow) {
-  TrialParameters parameters = study_trial(workload_study("bench-transient"), 0, 0).parameters;
+  trial::TrialParameters parameters = study::study_trial(workload_study("bench-transient"), 0, 0).parameters;
   parameters.amplifier.bandwidth = 500.0;
   for (const Peer& peer : all_peers()) EXPECT_THROW(peer.run(parameters), std::invalid_argument);
 }
 
 // A peer that is not exact enough, or that has other trials, does not get as far as being timed.
 TEST(EngineAgreement, FailsForAnEngineThatDoesNotAgree) {
-  const Study study = workload_study("bench-transient");
+  const study::Study study = workload_study("bench-transient");
   const Peer coarse = odeint_peer("coarse", {.tolerance = 1e-9});
   EXPECT_FALSE(agreement_with_reference(coarse.record, study, 20).holds());
-  const auto other_phase = [](TrialParameters parameters) {
+  const auto other_phase = [](trial::TrialParameters parameters) {
     parameters.initial.encoder_phase *= 0.5;
     return reference_records(parameters);
   };

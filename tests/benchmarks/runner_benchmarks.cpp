@@ -23,42 +23,43 @@ constexpr std::array fixed_values{"friction.k1=110",    "friction.k2=750",    "f
                                   "command.targets.0=5"};
 
 /// A run but for its last step, joining the shards: drawing, the trials with their measures, writing.
-void time_run(benchmark::State& state, const Study& study, int threads) {
-  const RowRange rows{0, trial_count(study)};
+void time_run(benchmark::State& state, const study::Study& study, int threads) {
+  const layout::RowRange rows{0, study::trial_count(study)};
   double samples = 0.0;
   for (auto _ : state) {
     state.PauseTiming();
     const TemporaryFolder folder;
     state.ResumeTiming();
-    run_trials(study, {&rows, 1}, folder.path(), {threads, {}}, {});
-    samples += samples_per_trial(study) * static_cast<double>(rows.count);
+    study_run::run_trials(study, {&rows, 1}, folder.path(), {threads, {}}, {});
+    samples += study_run::samples_per_trial(study) * static_cast<double>(rows.count);
   }
   count_samples(state, samples);
 }
 
 /// Drawing the parameters of the trials of a run.
-void time_drawing(benchmark::State& state, const Study& study) {
-  const std::int64_t trials = trial_count(study);
+void time_drawing(benchmark::State& state, const study::Study& study) {
+  const std::int64_t trials = study::trial_count(study);
   double samples = 0.0;
   for (auto _ : state) {
     for (std::int64_t index = 0; index < trials; ++index) {
-      benchmark::DoNotOptimize(study_trial(study, 0, index));
+      benchmark::DoNotOptimize(study::study_trial(study, 0, index));
     }
-    samples += samples_per_trial(study) * static_cast<double>(trials);
+    samples += study_run::samples_per_trial(study) * static_cast<double>(trials);
   }
   count_samples(state, samples);
 }
 
 template <class Time>
-benchmark::internal::Benchmark* register_timing(const std::string& name, const Study& study, Time time) {
-  const auto shared = std::make_shared<const Study>(study);
+benchmark::internal::Benchmark* register_timing(const std::string& name, const study::Study& study,
+                                                Time time) {
+  const auto shared = std::make_shared<const study::Study>(study);
   return benchmark::RegisterBenchmark(name.c_str(),
                                       [shared, time](benchmark::State& state) { time(state, *shared); })
       ->Unit(benchmark::kMillisecond)
       ->MeasureProcessCPUTime();
 }
 
-void time_run_on_one_thread(benchmark::State& state, const Study& study) {
+void time_run_on_one_thread(benchmark::State& state, const study::Study& study) {
   time_run(state, study, 1);
 }
 
@@ -68,7 +69,7 @@ std::string trials_override(std::int64_t trials) {
 
 void register_parts(const Workload& workload, const std::string& manifest) {
   const auto trials = static_cast<std::int64_t>(workload.trials.size());
-  const Study study = workload_study(manifest, {trials_override(trials)});
+  const study::Study study = workload_study(manifest, {trials_override(trials)});
   register_timing("run/" + workload.name, study, time_run_on_one_thread);
   register_timing("draw/" + workload.name, study, time_drawing);
 }
@@ -82,7 +83,7 @@ void register_runner_benchmarks(BenchmarkRun& run) {
     return workload_study("bench-transient", overrides);
   };
   for (const int threads : {1, 2}) {
-    const auto time = [threads](benchmark::State& state, const Study& study) {
+    const auto time = [threads](benchmark::State& state, const study::Study& study) {
       time_run(state, study, threads);
     };
     register_timing(fmt::format("threads/{}", threads), transient(trials_for_threads, {}), time)
@@ -98,7 +99,7 @@ void register_runner_benchmarks(BenchmarkRun& run) {
   }
   std::vector<std::string> fixed;
   for (std::size_t random = fixed_values.size() + 1; random-- > 0;) {
-    const Study study = transient(trials_per_run, fixed);
+    const study::Study study = transient(trials_per_run, fixed);
     register_timing(fmt::format("random/{}", random), study, time_run_on_one_thread);
     register_timing(fmt::format("drawing/{}", random), study, time_drawing);
     if (random > 0) fixed.emplace_back(fixed_values[random - 1]);

@@ -12,16 +12,16 @@ namespace {
 Workload load_workload(const std::string& name, const std::string& manifest, std::int64_t trials) {
   Workload workload{name, workload_study(manifest), {}, 0.0};
   for (std::int64_t index = 0; index < trials; ++index) {
-    workload.trials.push_back(study_trial(workload.study, 0, index).parameters);
-    workload.samples += static_cast<double>(samples_of_trial(workload.trials.back()));
+    workload.trials.push_back(study::study_trial(workload.study, 0, index).parameters);
+    workload.samples += static_cast<double>(trial::samples_of_trial(workload.trials.back()));
   }
   return workload;
 }
 
 }  // namespace
 
-Study workload_study(const std::string& name, const std::vector<std::string>& overrides) {
-  return load_study(std::filesystem::path(ZEROCOUNT_EXPERIMENTS) / (name + ".yaml"), overrides);
+study::Study workload_study(const std::string& name, const std::vector<std::string>& overrides) {
+  return manifest::load_study(std::filesystem::path(ZEROCOUNT_EXPERIMENTS) / (name + ".yaml"), overrides);
 }
 
 std::vector<Workload> all_workloads() {

@@ -32,11 +32,11 @@ Json distributions() {
   };
   Json all = Json::array();
   for (const auto& [name, numbers] : examples) {
-    for (const DistributionForm& form : distribution_forms()) {
+    for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
       if (form.name != name) continue;
       Json quantiles = Json::array();
       for (const double u : {1e-12, 1e-6, 0.01, 0.123, 0.5, 0.77, 0.99, 1 - 1e-6}) {
-        quantiles.push_back({u, quantile(form.make(numbers), u)});
+        quantiles.push_back({u, distributions::quantile(form.make(numbers), u)});
       }
       all.push_back({{"name", name}, {"numbers", numbers}, {"quantiles", quantiles}});
     }
@@ -44,12 +44,12 @@ Json distributions() {
   return all;
 }
 
-Json key_json(const RandomKey& key) {
+Json key_json(const random::RandomKey& key) {
   return {key[0], key[1]};
 }
 
 // Where a trial's own random numbers come from.
-Json randomness_json(const TrialRandomness& r) {
+Json randomness_json(const random::TrialRandomness& r) {
   return {{"trial", r.trial},
           {"stream", r.stream},
           {"initial.history/levels", key_json(r.history)},
@@ -66,13 +66,13 @@ Json draws() {
   Json all = Json::array();
   for (const char* design : {"monte_carlo", "latin_hypercube", "sobol", "saltelli"}) {
     for (const char* independent : {"false", "true"}) {
-      const Study study = study_of(
+      const study::Study study = study_of(
           minimal_manifest("friction: {k1: {uniform: [1, 2]}}\ninitial: {position: {uniform: [1, 2]}}\n"),
           {"seed=20020721", "trials=5000000000", std::string("design=") + design,
            std::string("independent_points=") + independent, "sweep={grid: {controller.ki: [0, 1, 2]}}"});
       for (const std::int64_t trial : {0L, 1L, 2L, 999L, 4'999'999'999L}) {
         for (const std::int64_t point : {0L, 2L}) {
-          const StudyTrial drawn = study_trial(study, point, trial);
+          const study::StudyTrial drawn = study::study_trial(study, point, trial);
           const std::vector<double>& inputs = drawn.inputs;
           all.push_back({{"design", design},
                          {"randomness", randomness_json(drawn.parameters.randomness)},
@@ -95,7 +95,7 @@ Json draws() {
 Json rig_draws() {
   Json all = Json::array();
   for (const char* independent : {"false", "true"}) {
-    const Study study = study_of(
+    const study::Study study = study_of(
         minimal_manifest("friction:\n"
                          "  k1: {profile: {mean: {uniform: [1, 2]}, cv: 0.1, correlation_length: 0.7}}\n"
                          "  k2: {uniform: [1, 2]}\n"
@@ -105,12 +105,13 @@ Json rig_draws() {
         {"seed=20020721", "rigs=1000000", "trials=5000000000",
          std::string("independent_points=") + independent, "sweep={grid: {controller.ki: [0, 1]}}"});
     for (const std::int64_t trial : {0L, 1L, 1'000'001L, 4'999'999'999L}) {
-      const StudyTrial drawn = study_trial(study, 1, trial);
+      const study::StudyTrial drawn = study::study_trial(study, 1, trial);
       const auto input = [&](const char* name) { return drawn.inputs[column_of(study, name)] - 1; };
-      const FrictionAlongRotor& friction = drawn.parameters.friction;
+      const friction::FrictionAlongRotor& friction = drawn.parameters.friction;
       Json contacts = Json::array();
-      for (const std::int64_t k : {0, 1, 2, 3}) contacts.push_back(friction_at(friction, 0.0, k).lambda - 1);
-      const Profile& rotor = *friction.profiled.at(0).profile;
+      for (const std::int64_t k : {0, 1, 2, 3})
+        contacts.push_back(friction::friction_at(friction, 0.0, k).lambda - 1);
+      const friction::Profile& rotor = *friction.profiled.at(0).profile;
       all.push_back({{"seed", study.seed},
                      {"rigs", study.rigs},
                      {"trial", trial},
@@ -132,19 +133,19 @@ Json rig_draws() {
 Json histories() {
   Json all = Json::array();
   for (const char* independent : {"false", "true"}) {
-    const Study study =
+    const study::Study study =
         study_of(minimal_manifest(
                      "initial: {history: {reversals: {integers: [1, 9]}, torque: {uniform: [0.1, 0.2]}}}\n"),
                  {"seed=20020721", "trials=5000000000", std::string("independent_points=") + independent,
                   "sweep={grid: {controller.ki: [0, 1]}}"});
     for (const std::int64_t trial : {0L, 1L, 17L, 4'999'999'999L}) {
-      const TrialParameters p = study_trial(study, 1, trial).parameters;
+      const trial::TrialParameters p = study::study_trial(study, 1, trial).parameters;
       all.push_back({{"seed", study.seed},
                      {"trial", trial},
                      {"stream", study.independent_points ? 2 : 0},
                      {"reversals", p.initial.history.reversals},
                      {"torque", p.initial.history.torque},
-                     {"levels", draw_history(p.initial.history, p.randomness)}});
+                     {"levels", trial::draw_history(p.initial.history, p.randomness)}});
     }
   }
   return all;
@@ -152,10 +153,10 @@ Json histories() {
 
 // {column: [value of trial 0, 1, …]} at the first point of the manifest on the standard input.
 Json inputs() {
-  const Study study = study_of({std::istreambuf_iterator<char>(std::cin), {}});
+  const study::Study study = study_of({std::istreambuf_iterator<char>(std::cin), {}});
   Json all = Json::object();
   for (std::int64_t trial = 0; trial < study.trials; ++trial) {
-    const std::vector<double> values = study_trial(study, 0, trial).inputs;
+    const std::vector<double> values = study::study_trial(study, 0, trial).inputs;
     for (std::size_t i = 0; i < values.size(); ++i) all[study.input_columns[i].name].push_back(values[i]);
   }
   return all;
@@ -173,7 +174,7 @@ int answer(const std::string& question) {
   } else if (question == "histories") {
     std::cout << histories().dump() << '\n';
   } else if (question == "schema") {
-    std::cout << json_schema().dump() << '\n';
+    std::cout << manifest::json_schema().dump() << '\n';
   } else if (question == "full_manifest") {
     std::cout << full_manifest();
   } else if (question == "extended_manifest") {

@@ -100,11 +100,11 @@ std::string refusal_of(const std::string& text, const std::vector<std::string>& 
   return "";
 }
 
-Study study_of(const std::string& text, const std::vector<std::string>& overrides) {
-  return parse_study(text, "m.yaml", overrides);
+study::Study study_of(const std::string& text, const std::vector<std::string>& overrides) {
+  return manifest::parse_study(text, "m.yaml", overrides);
 }
 
-std::size_t column_of(const Study& study, const std::string& name) {
+std::size_t column_of(const study::Study& study, const std::string& name) {
   for (std::size_t i = 0; i < study.input_columns.size(); ++i) {
     if (study.input_columns[i].name == name) return i;
   }

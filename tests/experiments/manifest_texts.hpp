@@ -23,9 +23,9 @@ std::string extended_manifest();
 std::string refusal_of(const std::string& text, const std::vector<std::string>& overrides = {});
 
 /// parse_study of the text under the name "m.yaml".
-Study study_of(const std::string& text, const std::vector<std::string>& overrides = {});
+study::Study study_of(const std::string& text, const std::vector<std::string>& overrides = {});
 
 /// Index of the input column with this name.
-std::size_t column_of(const Study& study, const std::string& name);
+std::size_t column_of(const study::Study& study, const std::string& name);
 
 }  // namespace zerocount

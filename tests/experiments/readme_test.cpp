@@ -67,9 +67,9 @@ std::size_t index_of_block(const std::vector<Block>& blocks, std::string_view st
 }
 
 TEST(ExperimentsReadme, HasTheTablesAsTheProgramPrintsThem) {
-  EXPECT_NE(readme().find(parameters_as_markdown()), std::string::npos)
+  EXPECT_NE(readme().find(manifest::parameters_as_markdown()), std::string::npos)
       << "expected the output of 'zerocount parameters --format markdown':\n"
-      << parameters_as_markdown();
+      << manifest::parameters_as_markdown();
 }
 
 TEST(ExperimentsReadme, ItsManifestsAreUnderstoodWithoutWarnings) {
@@ -87,8 +87,8 @@ TEST(ExperimentsReadme, ItsManifestsAreUnderstoodWithoutWarnings) {
 }
 
 TEST(ExperimentsReadme, TheFirstManifestUsesEverySection) {
-  const Study study = study_of(fenced_blocks().front().text);
-  EXPECT_EQ(point_count(study), 6);
+  const study::Study study = study_of(fenced_blocks().front().text);
+  EXPECT_EQ(study::point_count(study), 6);
   EXPECT_EQ(study.moves, 2);
   EXPECT_EQ(study.profiles.size(), 1u);
   EXPECT_EQ(study.retained_trials.size(), 2u);
@@ -111,7 +111,7 @@ TEST(ExperimentsReadme, ShowsTheErrorsOfItsBadManifest) {
   ASSERT_LT(bad + 1, blocks.size());
   std::string message;
   try {
-    parse_study(blocks[bad].text, "bad.yaml");
+    manifest::parse_study(blocks[bad].text, "bad.yaml");
   } catch (const Failure& failure) {
     message = failure.what();
   }
@@ -121,7 +121,7 @@ TEST(ExperimentsReadme, ShowsTheErrorsOfItsBadManifest) {
 /// The names of the rows with the Sobol dimensions from `first` on, in their order, as far as there are any.
 std::string names_in_order_of_dimension(std::size_t first) {
   std::map<std::size_t, std::string_view> names;
-  for (const Parameter& parameter : parameter_table()) {
+  for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     if (!parameter.listed) names[parameter.sobol_dimension] = parameter.name;
   }
   std::string listed;
@@ -133,7 +133,7 @@ std::string names_in_order_of_dimension(std::size_t first) {
 TEST(ExperimentsReadme, NamesTheSobolDimensionsInOrder) {
   std::string text = readme();
   std::replace(text.begin(), text.end(), '\n', ' ');
-  for (const std::size_t first : {std::size_t{0}, first_sobol_dimension_beyond_moves}) {
+  for (const std::size_t first : {std::size_t{0}, parameters::first_sobol_dimension_beyond_moves}) {
     const std::string listed = names_in_order_of_dimension(first);
     EXPECT_NE(text.find(listed + "."), std::string::npos) << listed;
   }

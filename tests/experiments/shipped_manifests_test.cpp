@@ -12,8 +12,8 @@
 namespace zerocount {
 namespace {
 
-Study shipped(const std::string& name) {
-  return load_study(std::filesystem::path(ZEROCOUNT_MANIFESTS) / (name + ".yaml"));
+study::Study shipped(const std::string& name) {
+  return manifest::load_study(std::filesystem::path(ZEROCOUNT_MANIFESTS) / (name + ".yaml"));
 }
 
 /// The work that benchmarks time: beside the studies that one would start from, not among them.
@@ -21,12 +21,12 @@ std::filesystem::path benchmark_folder() {
   return std::filesystem::path(ZEROCOUNT_MANIFESTS).parent_path();
 }
 
-Study benchmark_study(const std::string& name) {
-  return load_study(benchmark_folder() / (name + ".yaml"));
+study::Study benchmark_study(const std::string& name) {
+  return manifest::load_study(benchmark_folder() / (name + ".yaml"));
 }
 
 void expect_understood(const std::filesystem::path& manifest) {
-  const Study study = load_study(manifest);
+  const study::Study study = manifest::load_study(manifest);
   EXPECT_EQ(study.name, manifest.stem().string());
   EXPECT_TRUE(study.warnings.empty()) << manifest;
   EXPECT_FALSE(study.description.empty()) << manifest;
@@ -54,10 +54,10 @@ TEST(ShippedManifests, SoAreThoseOfTheBenchmarks) {
 }
 
 TEST(ShippedManifests, Figure7HasTheTenTargetsAnd300Samples) {
-  const Study study = shipped("paper-fig7");
-  ASSERT_EQ(point_count(study), 10);
+  const study::Study study = shipped("paper-fig7");
+  ASSERT_EQ(study::point_count(study), 10);
   for (std::int64_t point = 0; point < 10; ++point) {
-    const TrialParameters p = study_trial(study, point, 0).parameters;
+    const trial::TrialParameters p = study::study_trial(study, point, 0).parameters;
     EXPECT_EQ(p.command.targets, std::vector<std::int64_t>{point + 1});
     EXPECT_EQ(p.command.hold * p.controller.sample_rate, 300);
     EXPECT_EQ(p.controller.ki, 3.85e-5);
@@ -65,25 +65,26 @@ TEST(ShippedManifests, Figure7HasTheTenTargetsAnd300Samples) {
 }
 
 TEST(ShippedManifests, Figure8HasThirtyCountsAnd15000Samples) {
-  const Study study = shipped("paper-fig8");
-  const TrialParameters p = study_trial(study, 0, 0).parameters;
+  const study::Study study = shipped("paper-fig8");
+  const trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;
   EXPECT_EQ(p.command.targets, std::vector<std::int64_t>{30});
   EXPECT_EQ(p.command.hold * p.controller.sample_rate, 15000);
   EXPECT_FALSE(study.retained_trials.empty());
 }
 
 TEST(ShippedManifests, TheGainsAreThoseOfThePaperWithWhatItSaw) {
-  const Study study = shipped("paper-gains");
+  const study::Study study = shipped("paper-gains");
   EXPECT_EQ(study.trials, 10000);
   EXPECT_EQ(study.rigs, 100);
   const std::vector<std::pair<double, double>> gains{
       {3.85e-5, 0}, {9.45e-5, 0}, {9.45e-5, 6.21e-4}, {2.08e-4, 0}};
   ASSERT_EQ(study.point_labels.size(), gains.size() + 1);
   for (std::size_t point = 0; point < gains.size(); ++point) {
-    const TrialParameters p = study_trial(study, static_cast<std::int64_t>(point), 0).parameters;
+    const trial::TrialParameters p =
+        study::study_trial(study, static_cast<std::int64_t>(point), 0).parameters;
     EXPECT_EQ(std::pair(p.controller.ki, p.controller.kp), gains[point]);
   }
-  EXPECT_GT(study_trial(study, 4, 0).parameters.controller.ki, 3.01e-4);
+  EXPECT_GT(study::study_trial(study, 4, 0).parameters.controller.ki, 3.01e-4);
   for (const std::string& label : study.point_labels) EXPECT_EQ(study.observed.count(label), 1u) << label;
 }
 
@@ -101,12 +102,12 @@ TEST(ShippedManifests, TheBenchmarksHaveTheWorkThatTheyAreNamedFor) {
                                 {"bench-marginal", 1500, 9.45e-5, 1, 30},
                                 {"bench-million", 300, 3.85e-5, 1, 10}};
   for (const Work& work : works) {
-    const Study study = benchmark_study(work.name);
-    ASSERT_EQ(point_count(study), 1) << work.name;
+    const study::Study study = benchmark_study(work.name);
+    ASSERT_EQ(study::point_count(study), 1) << work.name;
     std::set<std::int64_t> targets;
     for (std::int64_t index = 0; index < 500; ++index) {
-      const TrialParameters p = study_trial(study, 0, index).parameters;
-      EXPECT_EQ(samples_of_trial(p), work.samples) << work.name;
+      const trial::TrialParameters p = study::study_trial(study, 0, index).parameters;
+      EXPECT_EQ(trial::samples_of_trial(p), work.samples) << work.name;
       EXPECT_EQ(p.controller.ki, work.ki) << work.name;
       EXPECT_EQ(p.command.targets.size(), 1u) << work.name;
       targets.insert(p.command.targets.begin(), p.command.targets.end());
@@ -122,7 +123,7 @@ TEST(ShippedManifests, TheBenchmarksHaveTheWorkThatTheyAreNamedFor) {
 TEST(ShippedManifests, TheBenchmarksLeaveAllFrictionToChance) {
   for (const std::string name : {"bench-transient", "bench-creep", "bench-marginal", "bench-million"}) {
     std::set<std::string> random;
-    for (const InputColumn& column : benchmark_study(name).input_columns) random.insert(column.name);
+    for (const study::InputColumn& column : benchmark_study(name).input_columns) random.insert(column.name);
     for (const std::string parameter : {"friction.k1", "friction.k2", "friction.beta", "friction.alpha",
                                         "friction.lambda", "initial.encoder_phase"}) {
       EXPECT_EQ(random.count(parameter), 1u) << name << ": " << parameter;
@@ -132,15 +133,15 @@ TEST(ShippedManifests, TheBenchmarksLeaveAllFrictionToChance) {
 
 // A million of the very trials that bench-transient has.
 TEST(ShippedManifests, TheMillionIsOfTheTransientBenchmark) {
-  const Study few = benchmark_study("bench-transient");
-  const Study million = benchmark_study("bench-million");
+  const study::Study few = benchmark_study("bench-transient");
+  const study::Study million = benchmark_study("bench-million");
   for (const std::int64_t index : {0, 1, 99999}) {
-    EXPECT_EQ(study_trial(few, 0, index).inputs, study_trial(million, 0, index).inputs);
+    EXPECT_EQ(study::study_trial(few, 0, index).inputs, study::study_trial(million, 0, index).inputs);
   }
 }
 
 TEST(ShippedManifests, TheStabilityMapIsAGrid) {
-  const Study study = shipped("stability-map");
+  const study::Study study = shipped("stability-map");
   ASSERT_EQ(study.axes.size(), 2u);
   EXPECT_EQ(study.axes[0].name, "controller.kp");
   EXPECT_EQ(study.axes[1].name, "controller.ki");

@@ -1,4 +1,4 @@
-"""Each folder includes only itself and those below it, and no type is defined in two headers.
+"""Each folder includes only itself and those below it and is a namespace; no type is defined in two headers.
 
 The order of the folders of a layer is that of zerocount_layer() in its CMakeLists.txt.
 """
@@ -17,6 +17,8 @@ FORBIDDEN_IN_CORE = re.compile(
     re.MULTILINE,
 )
 
+# Used unqualified in every folder: exit codes, and functions that overload resolution chooses by number type.
+WITHOUT_NAMESPACE = {"core/failure/failure.hpp", "core/numerics/number.hpp"}
 NAMESPACE = re.compile(r"^(?:inline )?namespace (\S+) \{")
 # A definition stands at the margin: what is indented is a member of something else.
 TYPE = re.compile(r"^(?:struct|class|enum(?: class| struct)?) (?:alignas\(.*?\) )?(\w+)[^;(]*(?:\{|$)|^using (\w+) =")
@@ -66,6 +68,9 @@ def problems(root):
         for included in INCLUDE.findall(text):
             if included not in folders[: folders.index(folder) + 1]:
                 yield f"{name}: includes \"{included}/…\", which is not below {folder}"
+        in_folder = len(name.parts) > 2 and str(name) not in WITHOUT_NAMESPACE
+        if in_folder and f"\nnamespace zerocount::{path.parent.name} {{" not in text:
+            yield f"{name}: defines nothing in namespace zerocount::{path.parent.name}"
         if name.parts[0] == "core":
             for header in FORBIDDEN_IN_CORE.findall(text):
                 yield f"{name}: core has no I/O and no threads, but includes <{header[0]}>"

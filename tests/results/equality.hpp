@@ -11,11 +11,12 @@ namespace zerocount::testing {
 
 /// Equal in every bit of every field, NaN included.
 template <class Record>
-void expect_equal_records(const std::vector<RecordField<Record>>& fields, const std::vector<Record>& left,
-                          const std::vector<Record>& right) {
+void expect_equal_records(const std::vector<layout::RecordField<Record>>& fields,
+                          const std::vector<Record>& left, const std::vector<Record>& right) {
   ASSERT_EQ(left.size(), right.size());
-  for (const RecordField<Record>& field : fields) {
-    EXPECT_EQ(gather(field, std::span<const Record>(left)), gather(field, std::span<const Record>(right)))
+  for (const layout::RecordField<Record>& field : fields) {
+    EXPECT_EQ(layout::gather(field, std::span<const Record>(left)),
+              layout::gather(field, std::span<const Record>(right)))
         << field.column.name;
   }
 }

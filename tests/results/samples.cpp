@@ -15,26 +15,27 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-SweepAxis sample_number_axis(std::int64_t points) {
-  SweepAxis axis{"controller.ki", "N m/count", "integral gain", SweepAxis::Kind::number, {}, {}};
+study::SweepAxis sample_number_axis(std::int64_t points) {
+  study::SweepAxis axis{
+      "controller.ki", "N m/count", "integral gain", study::SweepAxis::Kind::number, {}, {}};
   for (std::int64_t point = 0; point < points; ++point) {
     axis.numbers.push_back(point == 0 ? nan : 3.85e-5 * static_cast<double>(point));
   }
   return axis;
 }
 
-SweepAxis sample_case_axis(std::int64_t points) {
-  SweepAxis axis{"case", "", "named case of the sweep", SweepAxis::Kind::text, {}, {}};
+study::SweepAxis sample_case_axis(std::int64_t points) {
+  study::SweepAxis axis{"case", "", "named case of the sweep", study::SweepAxis::Kind::text, {}, {}};
   for (std::int64_t point = 0; point < points; ++point)
     axis.texts.push_back("Fall \u00e4, \"" + std::to_string(point) + "\"");
   return axis;
 }
 
-MoveOutcome sample_move(std::mt19937_64& random, std::int64_t move, std::vector<Jerk>& jerks) {
+trial::MoveOutcome sample_move(std::mt19937_64& random, std::int64_t move, std::vector<trial::Jerk>& jerks) {
   std::normal_distribution<double> normal;
   std::uniform_int_distribution<int> small(0, 9);
-  MoveOutcome outcome;
-  outcome.outcome = static_cast<Outcome>(small(random) % 6);
+  trial::MoveOutcome outcome;
+  outcome.outcome = static_cast<trial::Outcome>(small(random) % 6);
   outcome.arrived = small(random) < 8;
   if (outcome.arrived) {
     outcome.arrival = small(random) * 10;
@@ -52,11 +53,11 @@ MoveOutcome sample_move(std::mt19937_64& random, std::int64_t move, std::vector<
   outcome.midway_error = 2 * outcome.final_error;
   if (outcome.final_error == 0) outcome.final_settling_time = 0.001 * small(random);
   if (outcome.arrived) outcome.zero_fraction = 0.1 * small(random);
-  if (outcome.outcome == Outcome::oscillating) {
+  if (outcome.outcome == trial::Outcome::oscillating) {
     outcome.oscillation_amplitude = 0.5 * small(random);
     outcome.oscillation_period = small(random) < 2 ? nan : 0.01 * small(random);
   }
-  outcome.true_error = outcome.outcome == Outcome::open_loop ? nan : 3.0 * normal(random);
+  outcome.true_error = outcome.outcome == trial::Outcome::open_loop ? nan : 3.0 * normal(random);
   outcome.travel_time = 0.01 * small(random);
   outcome.phase_changes = small(random) / 3;
   outcome.encoder_disagreement = 7 * small(random);
@@ -72,7 +73,7 @@ MoveOutcome sample_move(std::mt19937_64& random, std::int64_t move, std::vector<
   return outcome;
 }
 
-SampleRecord sample_record(std::int64_t k) {
+trial::SampleRecord sample_record(std::int64_t k) {
   const auto time = static_cast<double>(k);
   return {k,           time / 2000.0,
           10,          k / 3,
@@ -80,30 +81,31 @@ SampleRecord sample_record(std::int64_t k) {
           k % 5,       2.4e-4 * static_cast<double>(k % 5),
           1e-6 * time, 1e-3,
           1e-9 * time, 2e-9 * time,
-          k % 4,       k % 7 == 6 ? HookMode::slide : HookMode::stick,
-          k / 2,       k % 3 == 0 ? ControlPhase::coarse : ControlPhase::fine,
+          k % 4,       k % 7 == 6 ? trial::HookMode::slide : trial::HookMode::stick,
+          k / 2,       k % 3 == 0 ? loop::ControlPhase::coarse : loop::ControlPhase::fine,
           1e-5 * time};
 }
 
 }  // namespace
 
-Study sample_study(std::int64_t points, std::int64_t trials, std::int64_t moves) {
-  Study study;
+study::Study sample_study(std::int64_t points, std::int64_t trials, std::int64_t moves) {
+  study::Study study;
   study.name = "sample";
   study.seed = 0xfedcba9876543210ULL;
   study.trials = trials;
   study.moves = moves;
   study.manifest_text =
       "zerocount: 1\n# \u03bb, a comment\nname: sample\ntrials: " + std::to_string(trials) + "\n";
-  study.manifest_sha256 = sha256_hex(study.manifest_text);
+  study.manifest_sha256 = hash::sha256_hex(study.manifest_text);
   study.overrides = {"trials=" + std::to_string(trials), "name=sample"};
-  study.study_sha256 = sha256_hex(study.manifest_text + std::to_string(points) + "," + std::to_string(moves));
+  study.study_sha256 =
+      hash::sha256_hex(study.manifest_text + std::to_string(points) + "," + std::to_string(moves));
   for (std::int64_t point = 0; point < points; ++point)
     study.point_labels.push_back("point " + std::to_string(point));
   study.axes = {sample_number_axis(points), sample_case_axis(points)};
   study.input_columns = {{"friction.k1", "N m/rad", "lowest stiffness"},
                          {"command.targets.0", "count", "target"}};
-  auto profile = std::make_shared<Profile>();
+  auto profile = std::make_shared<friction::Profile>();
   profile->location = std::log(110.0);
   profile->scale = 0.1;
   profile->cosine = {0.0, 0.5};
@@ -115,30 +117,30 @@ Study sample_study(std::int64_t points, std::int64_t trials, std::int64_t moves)
   return study;
 }
 
-Study sample_study_with_rigs(std::int64_t points, std::int64_t trials, std::int64_t moves) {
-  Study study = sample_study(points, trials, moves);
+study::Study sample_study_with_rigs(std::int64_t points, std::int64_t trials, std::int64_t moves) {
+  study::Study study = sample_study(points, trials, moves);
   study.rigs = 8;
-  auto plan = std::make_shared<StudyPlan>();
-  plan->base = {{.kind = Value::Kind::distribution, .index = 0, .per = Per::rig}};
-  plan->distributions = {Uniform{100.0, 120.0}};
+  auto plan = std::make_shared<study::StudyPlan>();
+  plan->base = {{.kind = study::Value::Kind::distribution, .index = 0, .per = study::Per::rig}};
+  plan->distributions = {distributions::Uniform{100.0, 120.0}};
   plan->randomness.resize(1);
   plan->rig_inputs = {{0, false}};
   study.plan = std::move(plan);
-  study.rig_columns = {{"friction.k1", "N m/rad", "lowest stiffness", Per::rig}};
-  RealisedProfile of_rigs{"friction.k2", "N m/rad", study.profiles[0].profile};
+  study.rig_columns = {{"friction.k1", "N m/rad", "lowest stiffness", study::Per::rig}};
+  study::RealisedProfile of_rigs{"friction.k2", "N m/rad", study.profiles[0].profile};
   of_rigs.of_rig = [one = study.profiles[0].profile](std::int64_t rig) {
-    Profile rotor = *one;
+    friction::Profile rotor = *one;
     rotor.location += 0.01 * static_cast<double>(rig);
-    return std::make_shared<const Profile>(rotor);
+    return std::make_shared<const friction::Profile>(rotor);
   };
   study.profiles.push_back(of_rigs);
   return study;
 }
 
-TrialResult sample_result(const Study& study, std::int64_t row) {
+shards::TrialResult sample_result(const study::Study& study, std::int64_t row) {
   std::mt19937_64 random(static_cast<std::uint64_t>(row) + 1);
   std::normal_distribution<double> normal;
-  TrialResult result;
+  shards::TrialResult result;
   result.row = row;
   for (std::size_t input = 0; input < study.input_columns.size(); ++input)
     result.inputs.push_back(normal(random));
@@ -152,38 +154,40 @@ TrialResult sample_result(const Study& study, std::int64_t row) {
   return result;
 }
 
-std::vector<TrialResult> sample_results(const Study& study, RowRange rows) {
-  std::vector<TrialResult> results;
+std::vector<shards::TrialResult> sample_results(const study::Study& study, layout::RowRange rows) {
+  std::vector<shards::TrialResult> results;
   for (std::int64_t row = rows.first; row < rows.end(); ++row) results.push_back(sample_result(study, row));
   return results;
 }
 
-Provenance sample_provenance() {
-  Provenance provenance = current_provenance();
+layout::Provenance sample_provenance() {
+  layout::Provenance provenance = layout::current_provenance();
   provenance.created = "2002-07-21T12:00:00Z";
   return provenance;
 }
 
-ShardInfo write_sample_shard(const std::filesystem::path& directory, const Study& study, RowRange rows) {
-  const std::filesystem::path path = shard_path(directory, rows);
-  write_shard(path, study, rows.first, sample_results(study, rows), sample_provenance());
+shards::ShardInfo write_sample_shard(const std::filesystem::path& directory, const study::Study& study,
+                                     layout::RowRange rows) {
+  const std::filesystem::path path = shards::shard_path(directory, rows);
+  shards::write_shard(path, study, rows.first, sample_results(study, rows), sample_provenance());
   return {path, rows};
 }
 
-std::vector<ShardInfo> write_sample_shards(const std::filesystem::path& directory, const Study& study,
-                                           RowRange rows, std::int64_t size) {
+std::vector<shards::ShardInfo> write_sample_shards(const std::filesystem::path& directory,
+                                                   const study::Study& study, layout::RowRange rows,
+                                                   std::int64_t size) {
   std::filesystem::create_directories(directory);
-  std::vector<ShardInfo> shards;
+  std::vector<shards::ShardInfo> shards;
   for (std::int64_t first = rows.first; first < rows.end(); first += size) {
     shards.push_back(write_sample_shard(directory, study, {first, std::min(size, rows.end() - first)}));
   }
   return shards;
 }
 
-StoredStatistics sample_statistics(const StudyFile& file) {
+layout::StoredStatistics sample_statistics(const reading::StudyFile& file) {
   const std::int64_t trials = file.header().trials;
-  PointColumn count{"trials", "1", "trials of the design point", {}};
-  PointColumn settling{"settling_time_mean", "s", "mean settling time of the first move", {}};
+  layout::PointColumn count{"trials", "1", "trials of the design point", {}};
+  layout::PointColumn settling{"settling_time_mean", "s", "mean settling time of the first move", {}};
   for (std::int64_t point = 0; point < file.header().points; ++point) {
     const std::vector<double> times = file.measure("settling_time", {point * trials, trials});
     double sum = 0.0;
@@ -200,10 +204,10 @@ StoredStatistics sample_statistics(const StudyFile& file) {
 }
 
 /// The largest holding torque of every move at every design point.
-StatisticTable sample_table(const StudyFile& file) {
+layout::StatisticTable sample_table(const reading::StudyFile& file) {
   const std::int64_t trials = file.header().trials;
   const auto moves = static_cast<std::size_t>(file.moves());
-  PointColumn largest{"torque_max", "N m", "largest holding torque", {}};
+  layout::PointColumn largest{"torque_max", "N m", "largest holding torque", {}};
   for (std::int64_t point = 0; point < file.header().points; ++point) {
     const std::vector<double> torques = file.measure("holding_torque", {point * trials, trials});
     for (std::size_t move = 0; move < moves; ++move) {
@@ -212,15 +216,15 @@ StatisticTable sample_table(const StudyFile& file) {
       largest.values.push_back(value);
     }
   }
-  return {&level_group(), file.moves(), {largest}};
+  return {&layout::level_group(), file.moves(), {largest}};
 }
 
-std::filesystem::path write_sample_file(const std::filesystem::path& directory, const Study& study,
+std::filesystem::path write_sample_file(const std::filesystem::path& directory, const study::Study& study,
                                         std::int64_t size) {
   const std::filesystem::path path = directory / "sample.h5";
-  const std::vector<ShardInfo> shards =
-      write_sample_shards(shards_directory(path), study, all_rows(study), size);
-  merge_shards(shards, study, path, all_rows(study), sample_statistics, sample_provenance());
+  const std::vector<shards::ShardInfo> shards =
+      write_sample_shards(layout::shards_directory(path), study, layout::all_rows(study), size);
+  shards::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics, sample_provenance());
   return path;
 }
 

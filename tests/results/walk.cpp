@@ -17,7 +17,7 @@ namespace zerocount::testing {
 namespace {
 
 void read_whole(const hdf5::Dataset& dataset) {
-  if (dataset.element() == Element::text) {
+  if (dataset.element() == hdf5::Element::text) {
     dataset.read_texts();
     return;
   }
@@ -25,7 +25,7 @@ void read_whole(const hdf5::Dataset& dataset) {
   if (extent.empty() || extent.size() > 2) dataset.fail("it should have one or two dimensions");
   const auto rows = static_cast<std::int64_t>(extent[0]);
   const std::int64_t width = extent.size() > 1 ? static_cast<std::int64_t>(extent[1]) : 1;
-  std::vector<std::byte> bytes(static_cast<std::size_t>(rows * width) * size_of(dataset.element()));
+  std::vector<std::byte> bytes(static_cast<std::size_t>(rows * width) * hdf5::size_of(dataset.element()));
   dataset.read(0, rows, bytes.data());
 }
 
@@ -41,19 +41,19 @@ std::vector<std::int64_t> numbers_of(const hdf5::File& file, const char* group, 
 void for_each_dataset(const std::filesystem::path& path,
                       const std::function<void(const hdf5::Dataset&)>& visit) {
   const std::map<std::string, std::string> datasets = stored_datasets(path);
-  const hdf5::File file = open_results(path);
+  const hdf5::File file = layout::open_results(path);
   for (const auto& [name, bytes] : datasets) visit(file.open_dataset(name.substr(1)));
 }
 
 void read_everything(const std::filesystem::path& path) {
-  const StudyFile checked(path, Require::any_part);
+  const reading::StudyFile checked(path, reading::Require::any_part);
   for_each_dataset(path, read_whole);
 }
 
 void expect_sound(const std::filesystem::path& path) {
   ASSERT_NO_THROW(read_everything(path));
-  const hdf5::File file = open_results(path);
-  const FileHeader header = read_header(file);
+  const hdf5::File file = layout::open_results(path);
+  const layout::FileHeader header = layout::read_header(file);
   std::vector<std::int64_t> rows, points, indices;
   for (std::int64_t row = header.rows.first; row < header.rows.end(); ++row) {
     rows.push_back(row);

@@ -45,11 +45,13 @@ TEST_F(BoundsCommands, SummaryHasTheBoundsOfTheConfidenceAskedFor) {
   for (std::size_t i = 0; i < 2; ++i) {
     const Json& point = wide["points"][i];
     const auto zero = point["zero_count"].get<std::int64_t>();
-    EXPECT_EQ(point["success_rate_low"].get<double>(), clopper_pearson(zero, 40, 0.99).low);
-    EXPECT_EQ(point["success_rate_wilson_high"].get<double>(), wilson(zero, 40, 0.99).high);
-    EXPECT_EQ(point["assurance"]["success_at_least"].get<double>(), proportion_at_least(zero, 40, 0.99));
+    EXPECT_EQ(point["success_rate_low"].get<double>(), statistics::clopper_pearson(zero, 40, 0.99).low);
+    EXPECT_EQ(point["success_rate_wilson_high"].get<double>(), statistics::wilson(zero, 40, 0.99).high);
+    EXPECT_EQ(point["assurance"]["success_at_least"].get<double>(),
+              statistics::proportion_at_least(zero, 40, 0.99));
     EXPECT_EQ(point["success_rate"], usual["points"][i]["success_rate"]);
-    EXPECT_EQ(usual["points"][i]["success_rate_low"].get<double>(), clopper_pearson(zero, 40).low);
+    EXPECT_EQ(usual["points"][i]["success_rate_low"].get<double>(),
+              statistics::clopper_pearson(zero, 40).low);
   }
   const Json& settling = wide["points"][0]["settling_time"];
   const Json& usual_settling = usual["points"][0]["settling_time"];
@@ -65,16 +67,16 @@ TEST_F(BoundsCommands, SummaryHasTheBoundsOfTheConfidenceAskedFor) {
 
 TEST_F(BoundsCommands, TheFileKeepsItsBoundsWhateverASummarySays) {
   json({"summary", "study.h5", "--confidence", "0.5"});
-  const StudyFile file(*folder / "study.h5");
+  const reading::StudyFile file(*folder / "study.h5");
   std::vector<double> zero, low;
-  for (const PointColumn& column : file.statistics()) {
+  for (const layout::PointColumn& column : file.statistics()) {
     if (column.name == "zero_count") zero = column.values;
     if (column.name == "success_rate_low") low = column.values;
     EXPECT_EQ(column.name.find("mean_low"), std::string::npos);
   }
   ASSERT_EQ(low.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i)
-    EXPECT_EQ(low[i], clopper_pearson(static_cast<std::int64_t>(zero[i]), 40).low);
+    EXPECT_EQ(low[i], statistics::clopper_pearson(static_cast<std::int64_t>(zero[i]), 40).low);
 }
 
 TEST_F(BoundsCommands, EachPointHasItsToleranceStatement) {

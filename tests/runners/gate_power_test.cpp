@@ -35,52 +35,52 @@ sweep:
 )";
 
 /// The trials of every point.
-std::vector<PointTrials> trials_of(const std::vector<std::string>& settings) {
-  const Study study = parse_study(manifest, "power.yaml", settings);
-  std::vector<PointTrials> points;
-  for (std::int64_t point = 0; point < point_count(study); ++point) {
-    std::vector<MoveOutcome> outcomes;
-    for (const TrialResult& result : TrialRunner(study).run({point * trials, trials})) {
+std::vector<comparison::PointTrials> trials_of(const std::vector<std::string>& settings) {
+  const study::Study study = manifest::parse_study(manifest, "power.yaml", settings);
+  std::vector<comparison::PointTrials> points;
+  for (std::int64_t point = 0; point < study::point_count(study); ++point) {
+    std::vector<trial::MoveOutcome> outcomes;
+    for (const shards::TrialResult& result : study_run::TrialRunner(study).run({point * trials, trials})) {
       outcomes.push_back(result.outcome.moves.front());
     }
-    points.push_back(gather_trials(outcomes, 1));
+    points.push_back(comparison::gather_trials(outcomes, 1));
   }
   return points;
 }
 
-GateRules both_ways() {
-  GateRules rules;
-  for (const GateMeasure& measure : gate_measures()) {
-    GateMargin margin = measure.margin;
+comparison::GateRules both_ways() {
+  comparison::GateRules rules;
+  for (const comparison::GateMeasure& measure : comparison::gate_measures()) {
+    comparison::GateMargin margin = measure.margin;
     margin.both_ways = true;
     rules.margins[std::string(measure.name)] = margin;
   }
   return rules;
 }
 
-GateVerdict verdict_on(const std::vector<std::string>& change, const std::string& seed,
-                       const GateRules& rules) {
+comparison::GateVerdict verdict_on(const std::vector<std::string>& change, const std::string& seed,
+                                   const comparison::GateRules& rules) {
   const std::string seeded = "seed=" + seed;
   std::vector<std::string> settings = change;
   settings.push_back(seeded);
-  const std::vector<PointTrials> before = trials_of({seeded});
-  const std::vector<PointTrials> after = trials_of(settings);
-  std::vector<PointComparison> points(before.size());
+  const std::vector<comparison::PointTrials> before = trials_of({seeded});
+  const std::vector<comparison::PointTrials> after = trials_of(settings);
+  std::vector<comparison::PointComparison> points(before.size());
   for (std::size_t point = 0; point < points.size(); ++point) {
     points[point].baseline_trials = points[point].current_trials = trials;
-    points[point].measures = compare_measures(rules, "", before[point], after[point], true);
+    points[point].measures = comparison::compare_measures(rules, "", before[point], after[point], true);
   }
-  decide(points, rules);
-  std::vector<GateVerdict> verdicts;
-  for (const PointComparison& point : points) {
-    for (const MeasureComparison& measure : point.measures) verdicts.push_back(measure.verdict);
+  comparison::decide(points, rules);
+  std::vector<comparison::GateVerdict> verdicts;
+  for (const comparison::PointComparison& point : points) {
+    for (const comparison::MeasureComparison& measure : point.measures) verdicts.push_back(measure.verdict);
   }
-  return worst_of(verdicts);
+  return comparison::worst_of(verdicts);
 }
 
-void expect_seen(const std::vector<std::string>& change, const GateRules& rules = {}) {
+void expect_seen(const std::vector<std::string>& change, const comparison::GateRules& rules = {}) {
   for (const char* seed : {"1", "2"}) {
-    EXPECT_EQ(verdict_on(change, seed, rules), GateVerdict::regression)
+    EXPECT_EQ(verdict_on(change, seed, rules), comparison::GateVerdict::regression)
         << change.front() << ", seed " << seed;
   }
 }
@@ -105,9 +105,9 @@ TEST(GatePower, SeesACoarserConverterAsAChange) {
 }
 
 /// `count` of the trials, drawn by lot from those from `first` on.
-PointTrials some_of(const PointTrials& all, const std::vector<std::size_t>& lot, std::size_t first,
-                    std::size_t count) {
-  PointTrials some;
+comparison::PointTrials some_of(const comparison::PointTrials& all, const std::vector<std::size_t>& lot,
+                                std::size_t first, std::size_t count) {
+  comparison::PointTrials some;
   some.trials = static_cast<std::int64_t>(count);
   some.moves = 1;
   for (std::size_t i = first; i < first + count; ++i) {
@@ -122,26 +122,29 @@ PointTrials some_of(const PointTrials& all, const std::vector<std::size_t>& lot,
 
 // Two lots from the trials of one study, 500 times: whatever differs is chance.
 TEST(GatePower, RaisesNoMoreFalseAlarmsThanStatedOnRealTrials) {
-  const std::vector<PointTrials> all = trials_of({"seed=9"});
+  const std::vector<comparison::PointTrials> all = trials_of({"seed=9"});
   std::vector<std::size_t> lot(trials);
   std::iota(lot.begin(), lot.end(), std::size_t{0});
   std::mt19937_64 random(19);
-  GateRules rules;
-  for (const GateMeasure& measure : gate_measures())
+  comparison::GateRules rules;
+  for (const comparison::GateMeasure& measure : comparison::gate_measures())
     rules.margins[std::string(measure.name)] = {};  // none accepted
   constexpr int comparisons = 500;
   int alarms = 0;
   for (int i = 0; i < comparisons; ++i) {
     std::shuffle(lot.begin(), lot.end(), random);
-    std::vector<PointComparison> points(all.size());
+    std::vector<comparison::PointComparison> points(all.size());
     for (std::size_t point = 0; point < points.size(); ++point) {
-      points[point].measures = compare_measures(rules, "", some_of(all[point], lot, 0, trials / 2),
-                                                some_of(all[point], lot, trials / 2, trials / 2), false);
+      points[point].measures =
+          comparison::compare_measures(rules, "", some_of(all[point], lot, 0, trials / 2),
+                                       some_of(all[point], lot, trials / 2, trials / 2), false);
     }
-    decide(points, rules);
-    alarms += std::any_of(points.begin(), points.end(), [](const PointComparison& point) {
+    comparison::decide(points, rules);
+    alarms += std::any_of(points.begin(), points.end(), [](const comparison::PointComparison& point) {
       return std::any_of(point.measures.begin(), point.measures.end(),
-                         [](const MeasureComparison& one) { return one.verdict == GateVerdict::regression; });
+                         [](const comparison::MeasureComparison& one) {
+                           return one.verdict == comparison::GateVerdict::regression;
+                         });
     });
   }
   RecordProperty("alarms", alarms);

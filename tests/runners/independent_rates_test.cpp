@@ -37,13 +37,13 @@ std::string manifest(double ki) {
 }
 
 Histogram tally_of_study(double ki) {
-  const Study study = parse_study(manifest(ki), "rates.yaml");
-  EXPECT_EQ(study_trial(study, 0, 0).parameters.controller.ki, ki);
+  const study::Study study = manifest::parse_study(manifest(ki), "rates.yaml");
+  EXPECT_EQ(study::study_trial(study, 0, 0).parameters.controller.ki, ki);
   Histogram histogram;
   for (std::int64_t row = 0; row < study.trials; ++row) {
-    const MoveOutcome move = run_study_trial(study, row).outcome.moves[0];
+    const trial::MoveOutcome move = study_run::run_study_trial(study, row).outcome.moves[0];
     ++histogram.trials;
-    histogram.zero_count += move.outcome == Outcome::zero_count;
+    histogram.zero_count += move.outcome == trial::Outcome::zero_count;
     histogram.stable += move.stable;
     histogram.broke_away += move.broke_away;
     if (move.arrived) histogram.settling_times.push_back(move.settling_time);
@@ -51,11 +51,11 @@ Histogram tally_of_study(double ki) {
   return histogram;
 }
 
-TrialParameters random_rig(std::mt19937_64& random, double ki) {
+trial::TrialParameters random_rig(std::mt19937_64& random, double ki) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
-  TrialParameters p;
+  trial::TrialParameters p;
   p.friction.uniform.k1 = uniform(80, 140);
   p.friction.uniform.k2 = uniform(600, 900);
   p.friction.uniform.alpha = std::exp(uniform(std::log(0.2), std::log(2.0)));
@@ -70,9 +70,9 @@ Histogram tally_of_judge(double ki) {
   Histogram histogram;
   for (int i = 0; i < judge_trials; ++i) {
     EventCounts events;
-    const std::vector<SampleRecord> samples = odeint_trial(random_rig(random, ki), &events);
-    const auto zero = [](const SampleRecord& s) { return s.error == 0; };
-    const auto within_one = [](const SampleRecord& s) { return std::abs(s.error) <= 1; };
+    const std::vector<trial::SampleRecord> samples = odeint_trial(random_rig(random, ki), &events);
+    const auto zero = [](const trial::SampleRecord& s) { return s.error == 0; };
+    const auto within_one = [](const trial::SampleRecord& s) { return std::abs(s.error) <= 1; };
     auto arrival = samples.end();
     for (auto at = samples.begin(); samples.end() - at >= 40 && arrival == samples.end(); ++at) {
       if (std::all_of(at, at + 40, zero)) arrival = at;

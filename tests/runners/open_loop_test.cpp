@@ -38,7 +38,7 @@ class OpenLoop : public ::testing::Test {
 TEST_F(OpenLoop, LevelsOfTheSummaryAreThoseOfTheTrials) {
   ASSERT_EQ(run({"run", "loads.yaml", "-o", "loads.h5"}).code, 0);
   const auto json = nlohmann::json::parse(run({"summary", "loads.h5", "--format", "json"}).out);
-  const Study study = load_study(folder / "loads.yaml");
+  const study::Study study = manifest::load_study(folder / "loads.yaml");
   for (std::int64_t point = 0; point < 2; ++point) {
     const auto& found = json["points"][static_cast<std::size_t>(point)];
     EXPECT_EQ(found["open_loop"], 12);
@@ -46,7 +46,8 @@ TEST_F(OpenLoop, LevelsOfTheSummaryAreThoseOfTheTrials) {
     EXPECT_TRUE(found["success_rate"].is_null());
     std::vector<double> sum(4), creep(4);
     for (std::int64_t index = 0; index < study.trials; ++index) {
-      const TrialOutcome outcome = run_trial(study_trial(study, point, index).parameters);
+      const trial::TrialOutcome outcome =
+          trial::run_trial(study::study_trial(study, point, index).parameters);
       for (std::size_t level = 0; level < 4; ++level) {
         sum[level] += outcome.moves[level].final_position / 12.0;
         creep[level] += outcome.moves[level].creep / 12.0;
@@ -80,9 +81,9 @@ TEST_F(OpenLoop, TableAndTablesHaveTheLevels) {
 
 TEST_F(OpenLoop, SampleRecordsHaveNoTarget) {
   ASSERT_EQ(run({"run", "loads.yaml", "-o", "loads.h5"}).code, 0);
-  const StudyFile file(folder / "loads.h5");
+  const reading::StudyFile file(folder / "loads.h5");
   ASSERT_GT(file.trace_count(), 0);
-  for (const TraceRecord& record : file.trace_at(0, file.trace_count())) {
+  for (const layout::TraceRecord& record : file.trace_at(0, file.trace_count())) {
     EXPECT_EQ(record.target, 0);
     EXPECT_EQ(record.error, -record.count);
   }
@@ -92,9 +93,9 @@ TEST_F(OpenLoop, SampleRecordsHaveNoTarget) {
 // results/README.md, /trace/code.
 TEST_F(OpenLoop, SampleRecordsOfAnExactTorqueHaveNoCode) {
   ASSERT_EQ(run({"run", "loads.yaml", "-o", "exact.h5", "--set", "command.torque.through=exact"}).code, 0);
-  const StudyFile file(folder / "exact.h5");
+  const reading::StudyFile file(folder / "exact.h5");
   double largest = 0.0;
-  for (const TraceRecord& record : file.trace_at(0, file.trace_count())) {
+  for (const layout::TraceRecord& record : file.trace_at(0, file.trace_count())) {
     EXPECT_EQ(record.code, 0);
     largest = std::max(largest, record.torque);
   }
@@ -119,8 +120,8 @@ TEST(SampleRecords, HaveTheColumnsThatTheStudyUsesInEveryPlace) {
     return zerocount_program(words, folder.path());
   };
   ASSERT_EQ(run({"run", "study.yaml", "-o", "out.h5"}).code, 0);
-  const StudyFile file(folder / "out.h5");
-  const std::vector<TraceRecord> kept = file.trace_at(0, file.trace_count());
+  const reading::StudyFile file(folder / "out.h5");
+  const std::vector<layout::TraceRecord> kept = file.trace_at(0, file.trace_count());
   const ProgramResult trace = run({"trace", "out.h5", "--trial", "1", "--format", "json"});
   ASSERT_EQ(trace.code, 0) << trace.err;
   const auto samples = nlohmann::json::parse(trace.out)["samples"];
@@ -128,10 +129,10 @@ TEST(SampleRecords, HaveTheColumnsThatTheStudyUsesInEveryPlace) {
   bool coarse = false, moving = false;
   for (std::size_t i = 0; i < kept.size(); ++i) {
     EXPECT_EQ(samples[i]["reference"].get<std::int64_t>(), kept[i].reference);
-    EXPECT_EQ(samples[i]["phase"], kept[i].phase == ControlPhase::coarse ? "coarse" : "fine");
+    EXPECT_EQ(samples[i]["phase"], kept[i].phase == loop::ControlPhase::coarse ? "coarse" : "fine");
     EXPECT_EQ(samples[i]["drive_torque"].get<double>(), kept[i].drive_torque);
     EXPECT_NEAR(kept[i].drive_torque, kept[i].torque + 1.0e-4, 1e-15);
-    coarse = coarse || kept[i].phase == ControlPhase::coarse;
+    coarse = coarse || kept[i].phase == loop::ControlPhase::coarse;
     moving = moving || (kept[i].reference != 0 && kept[i].reference != 3000);
   }
   EXPECT_TRUE(coarse && moving);

@@ -8,38 +8,38 @@
 namespace zerocount {
 namespace {
 
-const std::vector<InputColumn> columns{{"friction.k1", "N m/rad", "stiffness"}};
+const std::vector<study::InputColumn> columns{{"friction.k1", "N m/rad", "stiffness"}};
 
-TrialResult settled() {
-  MoveOutcome move;
-  move.outcome = Outcome::zero_count;
+shards::TrialResult settled() {
+  trial::MoveOutcome move;
+  move.outcome = trial::Outcome::zero_count;
   move.arrived = move.stable = true;
   move.settling_time = 0.1;
   move.holding_torque = 0.0123456789;
-  TrialResult result;
+  shards::TrialResult result;
   result.inputs = {110.0};
-  result.outcome.moves = {move, MoveOutcome{}};
+  result.outcome.moves = {move, trial::MoveOutcome{}};
   result.jerks = {{0, 0.2, 0.001, 1, 1}};
   return result;
 }
 
 TEST(Replay, OfTheSameTrialHasNoDifferences) {
-  EXPECT_TRUE(differences(columns, settled(), settled()).empty());
+  EXPECT_TRUE(commands::differences(columns, settled(), settled()).empty());
 }
 
 TEST(Replay, ForgivesTheLastDigitOfAnotherMachine) {
-  TrialResult other = settled();
+  shards::TrialResult other = settled();
   other.outcome.moves[0].holding_torque *= 1.0 + 1e-12;
   other.inputs[0] *= 1.0 - 1e-13;
-  EXPECT_TRUE(differences(columns, settled(), other).empty());
+  EXPECT_TRUE(commands::differences(columns, settled(), other).empty());
 }
 
 TEST(Replay, NamesEveryMeasureThatDiffers) {
-  TrialResult other = settled();
-  other.outcome.moves[1].outcome = Outcome::one_count;
+  shards::TrialResult other = settled();
+  other.outcome.moves[1].outcome = trial::Outcome::one_count;
   other.outcome.moves[1].jerk_count = 3;
   other.outcome.moves[0].holding_torque = 0.0124;
-  const std::vector<std::string> lines = differences(columns, settled(), other);
+  const std::vector<std::string> lines = commands::differences(columns, settled(), other);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[0].rfind("move 0: holding_torque: recorded 0.0123456789, replayed 0.0124", 0), 0u)
       << lines[0];
@@ -47,29 +47,29 @@ TEST(Replay, NamesEveryMeasureThatDiffers) {
 }
 
 TEST(Replay, TellsNeverFromAValue) {
-  TrialResult other = settled();
+  shards::TrialResult other = settled();
   other.outcome.moves[0].settling_time = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(differences(columns, settled(), other).size(), 1u);
+  EXPECT_EQ(commands::differences(columns, settled(), other).size(), 1u);
 }
 
 TEST(Replay, ComparesTheMeasuresThatWereRecorded) {
-  TrialResult other = settled();
+  shards::TrialResult other = settled();
   other.outcome.moves[0].final_error = 3;
   other.outcome.moves[0].travel_time = 0.5;
-  EXPECT_EQ(differences(columns, settled(), other).size(), 2u);
-  EXPECT_TRUE(differences(columns, settled(), other, outcome_fields(1)).empty());
+  EXPECT_EQ(commands::differences(columns, settled(), other).size(), 2u);
+  EXPECT_TRUE(commands::differences(columns, settled(), other, layout::outcome_fields(1)).empty());
 }
 
 TEST(Replay, LooksAtInputsAndJerksToo) {
-  TrialResult other = settled();
+  shards::TrialResult other = settled();
   other.inputs[0] = 111.0;
   other.jerks[0].onset = 0.3;
-  const std::vector<std::string> lines = differences(columns, settled(), other);
+  const std::vector<std::string> lines = commands::differences(columns, settled(), other);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0], "input friction.k1: recorded 110, replayed 111");
   EXPECT_EQ(lines[1].rfind("jerk 0: onset", 0), 0u) << lines[1];
   other.jerks.clear();
-  EXPECT_EQ(differences(columns, settled(), other)[1], "jerks: recorded 1, replayed 0");
+  EXPECT_EQ(commands::differences(columns, settled(), other)[1], "jerks: recorded 1, replayed 0");
 }
 
 }  // namespace

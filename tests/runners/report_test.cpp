@@ -125,8 +125,8 @@ TEST_F(ReportCommand, PlotWithoutNodeNamesThePackage) {
 
 TEST(ChildProcess, PassesAnyAmountBothWays) {
   const std::string input(3'000'000, 'x');
-  const std::optional<ChildResult> result =
-      run_child({"sh", "-c", "cat; cat /dev/null; echo said >&2; exit 7"}, input);
+  const std::optional<commands::ChildResult> result =
+      commands::run_child({"sh", "-c", "cat; cat /dev/null; echo said >&2; exit 7"}, input);
   ASSERT_TRUE(result.has_value());
   EXPECT_EQ(result->code, 7);
   EXPECT_EQ(result->out, input);
@@ -134,11 +134,11 @@ TEST(ChildProcess, PassesAnyAmountBothWays) {
 }
 
 TEST(ChildProcess, TellsWhereThereIsNoSuchProgram) {
-  EXPECT_FALSE(run_child({"zerocount-no-such-program"}, "").has_value());
+  EXPECT_FALSE(commands::run_child({"zerocount-no-such-program"}, "").has_value());
 }
 
 TEST(ChildProcess, TellsOfASignal) {
-  EXPECT_EQ(run_child({"sh", "-c", "kill -9 $$"}, "")->code, 137);
+  EXPECT_EQ(commands::run_child({"sh", "-c", "kill -9 $$"}, "")->code, 137);
 }
 
 }  // namespace

@@ -68,13 +68,13 @@ TEST_F(RigStudy, CheckGivesTheBoundsAtTheSoftestRotorOfAllRigs) {
   std::string text = machines;
   text.replace(text.find("trials: 40\nrigs: 8"), 18, "trials: 200\nrigs: 200");
   write_bytes(folder_ / "m.yaml", text);
-  const Study study = load_study(folder_ / "m.yaml");
+  const study::Study study = manifest::load_study(folder_ / "m.yaml");
   double lowest = 1e9;
   std::int64_t softest = 0;
   for (std::int64_t rig = 0; rig < study.rigs; ++rig) {
-    const std::shared_ptr<const Profile> rotor = study.profiles.at(0).of_rig(rig);
+    const std::shared_ptr<const friction::Profile> rotor = study.profiles.at(0).of_rig(rig);
     for (int i = 0; i < 4096; ++i) {
-      const double k1 = value_at(*rotor, i * study.period / 4096);
+      const double k1 = friction::value_at(*rotor, i * study.period / 4096);
       if (k1 >= lowest) continue;
       lowest = k1;
       softest = rig;
@@ -96,9 +96,9 @@ TEST_F(RigStudy, TheFileIsTheSameHoweverItWasRun) {
   run({"-o", "a.h5", "--shard", "1/2"});
   run({"-o", "b.h5", "--shard", "2/2"});
   ASSERT_EQ(program({"merge", "a.h5", "b.h5", "-o", "joined.h5"}).code, 0);
-  const StudyFile once(folder_ / "once.h5");
-  const StudyFile joined(folder_ / "joined.h5");
-  EXPECT_EQ(first_difference(once.root(), joined.root()).value_or("none"), "none");
+  const reading::StudyFile once(folder_ / "once.h5");
+  const reading::StudyFile joined(folder_ / "joined.h5");
+  EXPECT_EQ(reading::first_difference(once.root(), joined.root()).value_or("none"), "none");
   EXPECT_EQ(once.rigs().value().success.size(), 16U);
   EXPECT_EQ(once.profiles().at(0).rigs, 8);
 }
@@ -106,8 +106,8 @@ TEST_F(RigStudy, TheFileIsTheSameHoweverItWasRun) {
 TEST_F(RigStudy, ATrialIsRunAgainAlone) {
   run({"-o", "once.h5", "--engine", "reference"});
   std::int64_t slid = 0;
-  const StudyFile file(folder_ / "once.h5");
-  for (const MoveOutcome& move : file.outcomes(file.rows())) slid += move.broke_away;
+  const reading::StudyFile file(folder_ / "once.h5");
+  for (const trial::MoveOutcome& move : file.outcomes(file.rows())) slid += move.broke_away;
   EXPECT_GT(slid, 20) << "the contacts after the first are to matter";
   for (const char* trial : {"3", "11", "39"}) {
     const ProgramResult result =
@@ -122,8 +122,8 @@ TEST_F(RigStudy, ATrialIsRunAgainAlone) {
 TEST_F(RigStudy, BothEnginesHaveTheSameRigsAndContacts) {
   run({"-o", "batch.h5", "--engine", "batch", "--set", "command.hold=0.03"});
   run({"-o", "reference.h5", "--engine", "reference", "--set", "command.hold=0.03"});
-  const StudyFile batch(folder_ / "batch.h5");
-  const StudyFile reference(folder_ / "reference.h5");
+  const reading::StudyFile batch(folder_ / "batch.h5");
+  const reading::StudyFile reference(folder_ / "reference.h5");
   for (std::size_t column = 0; column < batch.input_columns().size(); ++column) {
     EXPECT_EQ(batch.input(column, batch.rows()), reference.input(column, reference.rows()));
   }

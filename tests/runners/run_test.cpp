@@ -119,7 +119,8 @@ TEST_F(Run, LosesLittleWhenItIsKilled) {
   program.wait();
   std::int64_t kept = 0;
   for (const auto& entry : fs::directory_iterator(at("killed.h5.shards"))) {
-    if (entry.path().extension() == ".h5") kept += StudyFile(entry.path(), Require::any_part).rows().count;
+    if (entry.path().extension() == ".h5")
+      kept += reading::StudyFile(entry.path(), reading::Require::any_part).rows().count;
   }
   EXPECT_GT(kept, 0);
 }
@@ -215,9 +216,9 @@ TEST_F(Run, AFullDiskLosesNothingThatWasFinished) {
 TEST_F(Run, RecordsOverridesAndTraceReplaysThem) {
   folder_.write("study.yaml", small_manifest(6));
   complete("study.yaml", "set.h5", {"--set", "trials=3", "--set", "plant.inertia=6e-4"});
-  EXPECT_EQ(StudyFile(at("set.h5")).header().overrides,
+  EXPECT_EQ(reading::StudyFile(at("set.h5")).header().overrides,
             (std::vector<std::string>{"trials=3", "plant.inertia=6e-4"}));
-  EXPECT_EQ(StudyFile(at("set.h5")).rows().count, 6);
+  EXPECT_EQ(reading::StudyFile(at("set.h5")).rows().count, 6);
   EXPECT_EQ(run({"trace", "set.h5", "--point", "1", "--trial", "2"}).code, 0);
 }
 

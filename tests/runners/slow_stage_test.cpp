@@ -43,10 +43,10 @@ class SlowStage : public ::testing::Test {
   }
   Recorded recorded(const std::string& file) const {
     Recorded counted;
-    const StudyFile study(folder_.path() / file);
-    for (const MoveOutcome& move : study.outcomes(study.rows())) {
+    const reading::StudyFile study(folder_.path() / file);
+    for (const trial::MoveOutcome& move : study.outcomes(study.rows())) {
       counted.arrived += move.arrived;
-      if (move.outcome != Outcome::off_target) continue;
+      if (move.outcome != trial::Outcome::off_target) continue;
       ++counted.off_target;
       counted.still_falling += std::abs(move.final_error) < std::abs(move.midway_error);
     }

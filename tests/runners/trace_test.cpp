@@ -28,12 +28,12 @@ class Trace : public ::testing::Test {
     return zerocount_program(words, folder_.path());
   }
 
-  std::vector<SampleRecord> records(std::int64_t point, std::int64_t index) const {
-    const Study study = load_study(folder_.path() / "study.yaml");
-    std::vector<SampleRecord> all;
-    TrialObservers observers;
-    observers.sample = [&](const SampleRecord& record) { all.push_back(record); };
-    run_trial(study_trial(study, point, index).parameters, observers);
+  std::vector<trial::SampleRecord> records(std::int64_t point, std::int64_t index) const {
+    const study::Study study = manifest::load_study(folder_.path() / "study.yaml");
+    std::vector<trial::SampleRecord> all;
+    trial::TrialObservers observers;
+    observers.sample = [&](const trial::SampleRecord& record) { all.push_back(record); };
+    trial::run_trial(study::study_trial(study, point, index).parameters, observers);
     return all;
   }
 
@@ -47,7 +47,7 @@ TEST_F(Trace, CsvHasTheColumnsAndReadsBackToTheSameNumbers) {
   std::string line;
   std::getline(lines, line);
   EXPECT_EQ(line, columns);
-  for (const SampleRecord& r : records(1, 3)) {
+  for (const trial::SampleRecord& r : records(1, 3)) {
     ASSERT_TRUE(std::getline(lines, line));
     std::istringstream cells(line);
     std::string cell;
@@ -69,7 +69,7 @@ TEST_F(Trace, CsvHasTheColumnsAndReadsBackToTheSameNumbers) {
     EXPECT_EQ(next(), r.xh);
     EXPECT_EQ(next(), static_cast<double>(r.depth));
     std::getline(cells, cell, ',');
-    EXPECT_EQ(cell, r.mode == HookMode::stick ? "stick" : "slide");
+    EXPECT_EQ(cell, r.mode == trial::HookMode::stick ? "stick" : "slide");
   }
   EXPECT_FALSE(std::getline(lines, line));
 }
@@ -77,7 +77,7 @@ TEST_F(Trace, CsvHasTheColumnsAndReadsBackToTheSameNumbers) {
 TEST_F(Trace, JsonHoldsTheSame) {
   const auto json =
       nlohmann::json::parse(run({"trace", "study.yaml", "--trial", "1", "--format", "json"}).out);
-  const std::vector<SampleRecord> expected = records(0, 1);
+  const std::vector<trial::SampleRecord> expected = records(0, 1);
   ASSERT_EQ(json["samples"].size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_EQ(json["samples"][i]["theta"].get<double>(), expected[i].theta);
@@ -98,8 +98,8 @@ TEST_F(Trace, ReplaysFromTheFileAloneAndEqualsTheRetainedRecord) {
   EXPECT_EQ(folder_.read("trial.csv"), from_manifest);
   EXPECT_EQ(run({"trace", "out.h5", "-o", "trial.csv"}).code, 2);  // never over an existing file
 
-  const StudyFile file(folder_.path() / "out.h5");
-  const std::vector<TraceRecord> kept = file.trace_at(0, file.trace_count());
+  const reading::StudyFile file(folder_.path() / "out.h5");
+  const std::vector<layout::TraceRecord> kept = file.trace_at(0, file.trace_count());
   ASSERT_EQ(kept.size(), 600u);  // trial 2 of both points
   EXPECT_EQ(kept[300].trial, 7);
   EXPECT_EQ(kept[300].k, 0);
@@ -114,7 +114,7 @@ TEST_F(Trace, ReplaysAFileOfFormatVersion1WithTheDefaultsOfItsTime) {
       EXPECT_EQ(replay.code, 0) << replay.err;
     }
   }
-  const std::vector<TraceRecord> kept = StudyFile(path).trace_at(0, 200);
+  const std::vector<layout::TraceRecord> kept = reading::StudyFile(path).trace_at(0, 200);
   const auto json =
       nlohmann::json::parse(run({"trace", "version-1.h5", "--trial", "1", "--format", "json"}).out);
   ASSERT_EQ(json["samples"].size(), kept.size());
@@ -125,14 +125,15 @@ TEST_F(Trace, ReplaysAFileOfFormatVersion1WithTheDefaultsOfItsTime) {
 }
 
 TEST_F(Trace, ReportsAReplayThatIsNotTheRecordedTrial) {
-  const Study study = load_study(folder_.path() / "study.yaml");
-  std::vector<TrialResult> results;
-  for (std::int64_t row = 0; row < trial_count(study); ++row) results.push_back(run_study_trial(study, row));
+  const study::Study study = manifest::load_study(folder_.path() / "study.yaml");
+  std::vector<shards::TrialResult> results;
+  for (std::int64_t row = 0; row < study::trial_count(study); ++row)
+    results.push_back(study_run::run_study_trial(study, row));
   results[3].outcome.moves[0].holding_torque += 2.4e-4;
   const std::filesystem::path shard = folder_.path() / "shard.h5";
-  write_shard(shard, study, 0, results);
-  assemble(std::vector<ShardInfo>{{shard, all_rows(study)}}, study, folder_.path() / "altered.h5",
-           all_rows(study));
+  shards::write_shard(shard, study, 0, results);
+  study_run::assemble(std::vector<shards::ShardInfo>{{shard, layout::all_rows(study)}}, study,
+                      folder_.path() / "altered.h5", layout::all_rows(study));
 
   EXPECT_EQ(run({"trace", "altered.h5", "--trial", "2"}).code, 0);
   const ProgramResult altered = run({"trace", "altered.h5", "--trial", "3"});

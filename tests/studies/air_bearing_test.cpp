@@ -10,24 +10,24 @@ namespace {
 
 constexpr std::int64_t air_trials = 150;
 
-std::int64_t moves_ending_in(const std::string& bearing, Outcome outcome) {
+std::int64_t moves_ending_in(const std::string& bearing, trial::Outcome outcome) {
   return moves_with(outcomes_of(shipped_study("air-bearing"), bearing, air_trials),
-                    [outcome](const MoveOutcome& move) { return move.outcome == outcome; });
+                    [outcome](const trial::MoveOutcome& move) { return move.outcome == outcome; });
 }
 
 TEST(AirBearing, HoldsZeroCountsOnlyWhereNothingDisturbsIt) {
-  EXPECT_TRUE(share_above(0.95, moves_ending_in("air", Outcome::zero_count), air_trials));
-  EXPECT_TRUE(share_below(0.10, moves_ending_in("air-disturbed", Outcome::zero_count), air_trials));
+  EXPECT_TRUE(share_above(0.95, moves_ending_in("air", trial::Outcome::zero_count), air_trials));
+  EXPECT_TRUE(share_below(0.10, moves_ending_in("air-disturbed", trial::Outcome::zero_count), air_trials));
 }
 
 TEST(AirBearing, HuntsByOneCountUnderATorqueThatNoCodeBalances) {
-  EXPECT_TRUE(share_above(0.90, moves_ending_in("air-disturbed", Outcome::one_count), air_trials));
-  EXPECT_TRUE(share_above(0.70, moves_ending_in("air-fine-dac", Outcome::one_count), air_trials))
+  EXPECT_TRUE(share_above(0.90, moves_ending_in("air-disturbed", trial::Outcome::one_count), air_trials));
+  EXPECT_TRUE(share_above(0.70, moves_ending_in("air-fine-dac", trial::Outcome::one_count), air_trials))
       << "nor does a fine converter help";
 }
 
 TEST(AirBearing, ABallBearingHoldsZeroCountsUnderTheSameDisturbance) {
-  EXPECT_TRUE(share_above(0.86, moves_ending_in("ball", Outcome::zero_count), air_trials));
+  EXPECT_TRUE(share_above(0.86, moves_ending_in("ball", trial::Outcome::zero_count), air_trials));
 }
 
 }  // namespace

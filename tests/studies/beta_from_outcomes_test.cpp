@@ -11,9 +11,9 @@ namespace {
 constexpr std::int64_t beta_trials = 250;
 
 std::int64_t stable_moves_at(const std::string& gain, const std::string& beta) {
-  const Study study = shipped_study("beta-from-outcomes");
+  const study::Study study = shipped_study("beta-from-outcomes");
   return moves_with(outcomes_of(study, gain + ", friction.beta=" + beta, beta_trials),
-                    [](const MoveOutcome& move) { return move.stable; });
+                    [](const trial::MoveOutcome& move) { return move.stable; });
 }
 
 TEST(BetaFromOutcomes, AtTheDefaultAllFiveGainsBehaveAsThePaperSaw) {
@@ -39,7 +39,7 @@ TEST(BetaFromOutcomes, ASpringThatSoftensSoonerIsTooUnstable) {
 }
 
 TEST(BetaFromOutcomes, TheDefaultIsTheInferredValue) {
-  const Study study = shipped_study("paper-fig7");
+  const study::Study study = shipped_study("paper-fig7");
   EXPECT_EQ(trial_of(study, "command.targets.0=1", 0).friction.uniform.beta, 1.0e5);
 }
 
@@ -47,11 +47,11 @@ TEST(BetaFromOutcomes, TheDefaultIsTheInferredValue) {
 // 20 kHz, and a contact that cannot break away does not help it.
 TEST(BetaFromOutcomes, TheGainWithKpFailsAtALargeBetaBecauseOfSampling) {
   const auto stable_with = [](const std::string& setting, const std::string& gains) {
-    const Study study = shipped_study("beta-from-outcomes",
-                                      {setting, "sweep={cases: {b-with-kp: " + gains + "}}", "observed={}",
-                                       "friction.beta=2.0e+5", "command.hold=0.5", "verdict.stop=false"});
+    const study::Study study = shipped_study(
+        "beta-from-outcomes", {setting, "sweep={cases: {b-with-kp: " + gains + "}}", "observed={}",
+                               "friction.beta=2.0e+5", "command.hold=0.5", "verdict.stop=false"});
     return moves_with(outcomes_of(study, "b-with-kp", 150),
-                      [](const MoveOutcome& move) { return move.stable; });
+                      [](const trial::MoveOutcome& move) { return move.stable; });
   };
   const std::string at_2_kHz = "{controller.ki: 9.45e-5, controller.kp: 6.21e-4}";
   const std::string at_20_kHz = "{controller.ki: 9.45e-6, controller.kp: 6.21e-4}";

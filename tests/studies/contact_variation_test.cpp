@@ -19,7 +19,7 @@ TEST_P(Contacts, EndTheirMovesInZeroCounts) {
   const std::int64_t moves = 6 * contact_trials;
   EXPECT_TRUE(share_above(0.97, moves_with(outcomes, [](const auto& move) { return move.stable; }), moves));
   EXPECT_TRUE(share_above(
-      0.93, moves_with(outcomes, [](const auto& move) { return move.outcome == Outcome::zero_count; }),
+      0.93, moves_with(outcomes, [](const auto& move) { return move.outcome == trial::Outcome::zero_count; }),
       moves));
   EXPECT_EQ(moves_with(outcomes, [](const auto& move) { return move.broke_away; }), moves)
       << "each move makes a new contact";

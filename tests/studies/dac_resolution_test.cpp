@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::int64_t dac_trials = 200;
 
-bool reaches_zero_counts(const MoveOutcome& move) {
-  return move.outcome == Outcome::zero_count;
+bool reaches_zero_counts(const trial::MoveOutcome& move) {
+  return move.outcome == trial::Outcome::zero_count;
 }
 
 std::string with_step(const char* resolution) {
@@ -18,7 +18,7 @@ std::string with_step(const char* resolution) {
 }
 
 TEST(DacResolution, UpToTheConditionAllMovesAreStableAndAllJerksAreOfCreep) {
-  const Study study = shipped_study("dac-resolution");
+  const study::Study study = shipped_study("dac-resolution");
   for (const char* resolution : {"4.27e-05", "0.000107", "0.000213"}) {
     const auto outcomes = outcomes_of(study, with_step(resolution), dac_trials);
     EXPECT_TRUE(
@@ -47,7 +47,7 @@ TEST(DacResolution, TenTimesAsCoarseFailsInHalfOfTheMoves) {
 // Without a stiff reversal, a step of the torque moves the rotor by Δu/k1, and beyond that by its overshoot.
 TEST(DacResolution, OnASpringOfOneStiffnessTheConditionIsNecessary) {
   const auto successes = [](const char* resolution) {
-    const Study study =
+    const study::Study study =
         shipped_study("dac-resolution", {"friction.k1=110", "friction.k2=0", "friction.beta=1.0e+5",
                                          "friction.alpha=0", "controller.ki=1.0e-5", "command.hold=2",
                                          "sweep={}", std::string("dac.resolution=") + resolution});

@@ -9,17 +9,18 @@ namespace {
 
 constexpr std::int64_t encoder_trials = 150;
 
-std::vector<TrialOutcome> outcomes_with(const std::string& encoder, const std::string& converter) {
+std::vector<trial::TrialOutcome> outcomes_with(const std::string& encoder, const std::string& converter) {
   return outcomes_of(shipped_study("encoder-resolution"), encoder + ", dac.resolution=" + converter,
                      encoder_trials);
 }
 
-std::int64_t zero_count_moves(const std::vector<TrialOutcome>& outcomes) {
-  return moves_with(outcomes, [](const MoveOutcome& move) { return move.outcome == Outcome::zero_count; });
+std::int64_t zero_count_moves(const std::vector<trial::TrialOutcome>& outcomes) {
+  return moves_with(
+      outcomes, [](const trial::MoveOutcome& move) { return move.outcome == trial::Outcome::zero_count; });
 }
 
-std::int64_t stable_count(const std::vector<TrialOutcome>& outcomes) {
-  return moves_with(outcomes, [](const MoveOutcome& move) { return move.stable; });
+std::int64_t stable_count(const std::vector<trial::TrialOutcome>& outcomes) {
+  return moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable; });
 }
 
 TEST(EncoderResolution, ThePapersConverterServesAnEncoderUpToFiveTimesAsFine) {
@@ -36,7 +37,7 @@ TEST(EncoderResolution, AFinerConverterKeepsTheLoopStable) {
 // A finer count is crossed by creep more often: without creep, all moves end in zero counts.
 TEST(EncoderResolution, WhatIsLeftToAFineEncoderIsCreep) {
   EXPECT_TRUE(share_below(0.80, zero_count_moves(outcomes_with("ten-times", "2.4e-05")), encoder_trials));
-  const Study study = shipped_study("encoder-resolution", {"friction.alpha=0"});
+  const study::Study study = shipped_study("encoder-resolution", {"friction.alpha=0"});
   EXPECT_TRUE(share_above(
       0.95, zero_count_moves(outcomes_of(study, "ten-times, dac.resolution=2.4e-05", encoder_trials)),
       encoder_trials));

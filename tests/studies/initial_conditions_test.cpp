@@ -19,18 +19,21 @@ TEST_P(PreslidingPast, IsStableInAllTests) {
   const std::int64_t trials = 150;
   const auto outcomes = outcomes_of(shipped_study("initial-conditions"), GetParam(), trials);
   EXPECT_TRUE(share_above(
-      0.95, moves_with(outcomes, [](const MoveOutcome& move) { return move.stable && !move.broke_away; }),
+      0.95,
+      moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable && !move.broke_away; }),
       trials));
   EXPECT_TRUE(share_above(
-      0.93, moves_with(outcomes, [](const MoveOutcome& move) { return move.outcome == Outcome::zero_count; }),
+      0.93,
+      moves_with(outcomes,
+                 [](const trial::MoveOutcome& move) { return move.outcome == trial::Outcome::zero_count; }),
       trials));
 }
 
 TEST(InitialConditions, AllTrialsSatisfyCriterionSix) {
-  const Study study = shipped_study("initial-conditions");
+  const study::Study study = shipped_study("initial-conditions");
   for (const std::string& label : study.point_labels) {
     for (std::int64_t index = 0; index < study.trials; ++index) {
-      const TrialParameters p = trial_of(study, label, index);
+      const trial::TrialParameters p = trial_of(study, label, index);
       const double resolution = 2.0 * std::numbers::pi / p.encoder.fine;
       const double k_i = p.controller.ki * 2.0 * p.controller.sample_rate / resolution;  // N m/(rad s)
       EXPECT_LT(k_i, p.plant.presliding_damping * p.friction.uniform.k1 / p.plant.inertia);
@@ -39,12 +42,12 @@ TEST(InitialConditions, AllTrialsSatisfyCriterionSix) {
 }
 
 TEST(InitialConditions, EachPastIsOfItsKind) {
-  const Study study = shipped_study("initial-conditions");
+  const study::Study study = shipped_study("initial-conditions");
   std::set<std::int64_t> depths, targets;
   int moving = 0, preset = 0, sliding = 0;
   for (std::int64_t index = 0; index < 100; ++index) {
     const auto start = [&](const char* label) {
-      TrialParameters p = trial_of(study, label, index);
+      trial::TrialParameters p = trial_of(study, label, index);
       p.command.hold = 0.1;
       return watched(p).samples.front();
     };
@@ -53,7 +56,7 @@ TEST(InitialConditions, EachPastIsOfItsKind) {
     depths.insert(start("history").depth);
     moving += std::abs(start("moving").omega) > 0.02;
     preset += std::abs(start("integrator-preset").torque) > 0.01;
-    sliding += start("from-sliding").mode == HookMode::slide;
+    sliding += start("from-sliding").mode == trial::HookMode::slide;
     targets.insert(trial_of(study, "history", index).command.targets[0]);
   }
   EXPECT_GE(*depths.rbegin(), 5) << "reversal points that survived";
@@ -66,7 +69,7 @@ TEST(InitialConditions, EachPastIsOfItsKind) {
 }
 
 TEST(InitialConditions, FromSlidingTheFineGainsBreakTheContactAgain) {
-  const Study study = shipped_study("initial-conditions");
+  const study::Study study = shipped_study("initial-conditions");
   const std::int64_t trials = 100;
   std::int64_t stable = 0, broken_again = 0;
   std::int64_t smallest_rebound = 1000000;
@@ -74,9 +77,9 @@ TEST(InitialConditions, FromSlidingTheFineGainsBreakTheContactAgain) {
     const WatchedTrial trial = watched(trial_of(study, "from-sliding", index));
     stable += trial.outcome.moves[0].stable;
     const auto stuck = std::find_if(trial.samples.begin(), trial.samples.end(),
-                                    [](const auto& sample) { return sample.mode == HookMode::stick; });
+                                    [](const auto& sample) { return sample.mode == trial::HookMode::stick; });
     const auto slid = std::find_if(stuck, trial.samples.end(),
-                                   [](const auto& sample) { return sample.mode == HookMode::slide; });
+                                   [](const auto& sample) { return sample.mode == trial::HookMode::slide; });
     broken_again += slid != trial.samples.end();
     const auto [low, high] =
         std::minmax_element(stuck, slid, [](const auto& a, const auto& b) { return a.count < b.count; });
@@ -90,13 +93,16 @@ TEST(InitialConditions, FromSlidingTheFineGainsBreakTheContactAgain) {
 TEST(InitialConditions, FromSlidingTwoPhasesAreStable) {
   const std::int64_t trials = 200;
   const auto outcomes = outcomes_of(shipped_study("initial-conditions"), "from-sliding-two-phase", trials);
-  EXPECT_TRUE(
-      share_above(0.94, moves_with(outcomes, [](const MoveOutcome& move) { return move.stable; }), trials));
   EXPECT_TRUE(share_above(
-      0.90, moves_with(outcomes, [](const MoveOutcome& move) { return move.outcome == Outcome::zero_count; }),
+      0.94, moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable; }), trials));
+  EXPECT_TRUE(share_above(
+      0.90,
+      moves_with(outcomes,
+                 [](const trial::MoveOutcome& move) { return move.outcome == trial::Outcome::zero_count; }),
       trials));
   EXPECT_TRUE(share_above(
-      0.93, moves_with(outcomes, [](const MoveOutcome& move) { return move.phase_changes > 0; }), trials));
+      0.93, moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.phase_changes > 0; }),
+      trials));
 }
 
 }  // namespace

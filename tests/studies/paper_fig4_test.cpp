@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::int64_t trials = 40;
 
-double position_tolerance(const TrialParameters& parameters) {
+double position_tolerance(const trial::TrialParameters& parameters) {
   const double rate = 2.0 * std::numbers::pi * parameters.amplifier.bandwidth;
   const double lag = parameters.command.torque.rate / rate * std::exp(-rate * parameters.command.hold);
   return 2.0 * lag / parameters.friction.uniform.k1;
@@ -32,16 +32,16 @@ double position_tolerance(const TrialParameters& parameters) {
 /// Calls `look` with the parameters and the moves of the first trials.
 template <class Look>
 void look_at_trials(const Look& look) {
-  const Study study = shipped_study("paper-fig4");
+  const study::Study study = shipped_study("paper-fig4");
   ASSERT_EQ(study.moves, 9);
   for (std::int64_t index = 0; index < trials; ++index) {
-    const TrialParameters parameters = trial_of(study, "all", index);
-    look(parameters, run_trial(parameters).moves);
+    const trial::TrialParameters parameters = trial_of(study, "all", index);
+    look(parameters, trial::run_trial(parameters).moves);
   }
 }
 
 TEST(PaperFig4, ClosedLoopsLeaveNoTrace) {
-  look_at_trials([](const TrialParameters& parameters, const std::vector<MoveOutcome>& at) {
+  look_at_trials([](const trial::TrialParameters& parameters, const std::vector<trial::MoveOutcome>& at) {
     const double tolerance = position_tolerance(parameters);
     ASSERT_LT(tolerance, 1e-10);
     for (const std::size_t again : {4, 6, 8}) {
@@ -54,14 +54,14 @@ TEST(PaperFig4, ClosedLoopsLeaveNoTrace) {
 
 // Beyond the loops that have closed, the spring goes on along the curve that it left for them.
 TEST(PaperFig4, BeyondClosedLoopsTheSpringGoesOnAsIfTheyHadNotBeen) {
-  const Study direct = shipped_study("paper-fig4", {"command.torque.levels=[0.012, 0.018, -0.018]"});
-  const Study by_loops = shipped_study(
+  const study::Study direct = shipped_study("paper-fig4", {"command.torque.levels=[0.012, 0.018, -0.018]"});
+  const study::Study by_loops = shipped_study(
       "paper-fig4",
       {"command.torque.levels=[0.012, -0.004, 0.004, -0.004, 0.012, 0.004, 0.012, 0.018, -0.018]"});
   for (std::int64_t index = 0; index < trials; ++index) {
-    const TrialParameters parameters = trial_of(direct, "all", index);
-    const std::vector<MoveOutcome> straight = run_trial(parameters).moves;
-    const std::vector<MoveOutcome> looped = run_trial(trial_of(by_loops, "all", index)).moves;
+    const trial::TrialParameters parameters = trial_of(direct, "all", index);
+    const std::vector<trial::MoveOutcome> straight = trial::run_trial(parameters).moves;
+    const std::vector<trial::MoveOutcome> looped = trial::run_trial(trial_of(by_loops, "all", index)).moves;
     const double tolerance = position_tolerance(parameters);
     EXPECT_NEAR(looped[7].final_position, straight[1].final_position, tolerance);
     EXPECT_NEAR(looped[8].final_position, straight[2].final_position, tolerance);
@@ -70,7 +70,7 @@ TEST(PaperFig4, BeyondClosedLoopsTheSpringGoesOnAsIfTheyHadNotBeen) {
 }
 
 TEST(PaperFig4, LoopsBetweenTheSameTorquesAreCongruent) {
-  look_at_trials([](const TrialParameters& parameters, const std::vector<MoveOutcome>& at) {
+  look_at_trials([](const trial::TrialParameters& parameters, const std::vector<trial::MoveOutcome>& at) {
     const std::vector<double>& levels = parameters.command.torque.levels;
     ASSERT_NEAR(levels[2] - levels[1], levels[6] - levels[5], 1e-15) << "from 2 to 3 as from 5 to 1";
     const double lower = at[2].final_position - at[1].final_position;
@@ -81,14 +81,14 @@ TEST(PaperFig4, LoopsBetweenTheSameTorquesAreCongruent) {
 }
 
 TEST(PaperFig4, OppositeTorquesOfTheVirginCurveAreAtOppositePositions) {
-  look_at_trials([](const TrialParameters& parameters, const std::vector<MoveOutcome>& at) {
+  look_at_trials([](const trial::TrialParameters& parameters, const std::vector<trial::MoveOutcome>& at) {
     ASSERT_EQ(parameters.command.torque.levels[7], -parameters.command.torque.levels[0]);
     EXPECT_NEAR(at[7].final_position, -at[0].final_position, position_tolerance(parameters));
   });
 }
 
 TEST(PaperFig4, TheSpringRemembersReversalPointsUntilTheyAreWipedOut) {
-  look_at_trials([](const TrialParameters& parameters, const std::vector<MoveOutcome>& at) {
+  look_at_trials([](const trial::TrialParameters& parameters, const std::vector<trial::MoveOutcome>& at) {
     // The same torque at 3 and 5, but another place: friction is no function of position.
     ASSERT_EQ(parameters.command.torque.levels[2], parameters.command.torque.levels[5]);
     EXPECT_GT(at[5].final_position - at[2].final_position, 0.1 * at[0].final_position);
@@ -97,8 +97,8 @@ TEST(PaperFig4, TheSpringRemembersReversalPointsUntilTheyAreWipedOut) {
     EXPECT_EQ(at[2].reversal_depth, 2);
     EXPECT_EQ(at[3].reversal_depth, 3);
     EXPECT_LE(at[8].reversal_depth, 2) << "what lay inside the largest loop is forgotten";
-    for (const MoveOutcome& move : at) {
-      EXPECT_EQ(move.outcome, Outcome::open_loop);
+    for (const trial::MoveOutcome& move : at) {
+      EXPECT_EQ(move.outcome, trial::Outcome::open_loop);
       EXPECT_EQ(move.creep, 0.0);
       EXPECT_FALSE(move.broke_away);
     }
@@ -120,10 +120,10 @@ double elongation_at(const StopElements& spring, double torque) {
 
 // A parallel of stop elements (Prandtl–Ishlinskii) knows neither reversal points nor closures.
 TEST(PaperFig4, PositionsAreThoseOfStopElements) {
-  const Study study = shipped_study("paper-fig4");
+  const study::Study study = shipped_study("paper-fig4");
   for (std::int64_t index = 0; index < 5; ++index) {
-    const TrialParameters parameters = trial_of(study, "all", index);
-    const std::vector<MoveOutcome> moves = run_trial(parameters).moves;
+    const trial::TrialParameters parameters = trial_of(study, "all", index);
+    const std::vector<trial::MoveOutcome> moves = trial::run_trial(parameters).moves;
     StopElements spring(parameters.friction.uniform, 1500);
     for (std::size_t level = 0; level < moves.size(); ++level) {
       const double x = elongation_at(spring, parameters.command.torque.levels[level]);
@@ -142,12 +142,12 @@ TEST(PaperFig4, TheRecordHasTangentsBetweenTheTwoStiffnesses) {
   const ProgramResult run =
       zerocount_program({"run", manifest, "-o", "fig4.h5", "--set", "trials=1"}, folder.path());
   ASSERT_EQ(run.code, 0) << run.err;
-  const StudyFile file(folder / "fig4.h5");
-  const std::vector<TraceRecord> record = file.trace_at(0, file.trace_count());
-  const TrialParameters parameters = trial_of(shipped_study("paper-fig4"), "all", 0);
-  ASSERT_EQ(static_cast<std::int64_t>(record.size()), samples_of_trial(parameters));
+  const reading::StudyFile file(folder / "fig4.h5");
+  const std::vector<layout::TraceRecord> record = file.trace_at(0, file.trace_count());
+  const trial::TrialParameters parameters = trial_of(shipped_study("paper-fig4"), "all", 0);
+  ASSERT_EQ(static_cast<std::int64_t>(record.size()), trial::samples_of_trial(parameters));
 
-  const FrictionParameters& spring = parameters.friction.uniform;
+  const friction::FrictionParameters& spring = parameters.friction.uniform;
   const auto sigma = [&](std::size_t k) {  // J·dω/dt = u − c·ω − σ
     const double acceleration =
         (record[k + 1].omega - record[k - 1].omega) * 0.5 * parameters.controller.sample_rate;

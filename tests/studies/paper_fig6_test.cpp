@@ -12,8 +12,8 @@ namespace zerocount::testing {
 namespace {
 
 /// Hardening that a torque asks for, rad.
-double asked(const TrialParameters& parameters, double torque) {
-  const FrictionParameters& friction = parameters.friction.uniform;
+double asked(const trial::TrialParameters& parameters, double torque) {
+  const friction::FrictionParameters& friction = parameters.friction.uniform;
   return std::pow(std::abs(torque), friction.n) / friction.lambda;
 }
 
@@ -26,13 +26,13 @@ bool goes_beyond(const std::vector<double>& levels, std::size_t level) {
 }
 
 TEST(PaperFig6, EachLevelCreepsToItsHardeningAndNoFurther) {
-  const Study study = shipped_study("paper-fig6");
+  const study::Study study = shipped_study("paper-fig6");
   for (std::int64_t index = 0; index < 25; ++index) {
-    const TrialParameters parameters = trial_of(study, "all", index);
+    const trial::TrialParameters parameters = trial_of(study, "all", index);
     const std::vector<double>& levels = parameters.command.torque.levels;
     const double left = std::exp(-parameters.friction.uniform.alpha * parameters.command.hold);
     ASSERT_LT(left, 1e-3) << "the hold is long for creep";
-    const TrialOutcome outcome = run_trial(parameters);
+    const trial::TrialOutcome outcome = trial::run_trial(parameters);
     double expected = 0.0, hardened = 0.0, remainder = 0.0;
     for (std::size_t level = 0; level < levels.size(); ++level) {
       if (goes_beyond(levels, level)) {
@@ -41,7 +41,7 @@ TEST(PaperFig6, EachLevelCreepsToItsHardeningAndNoFurther) {
         hardened += step;
         remainder += left * step;
       }
-      const MoveOutcome& move = outcome.moves[level];
+      const trial::MoveOutcome& move = outcome.moves[level];
       EXPECT_NEAR(move.creep, expected, remainder + 1e-4 * hardened) << "trial " << index << " " << level;
       EXPECT_FALSE(move.broke_away);
     }
@@ -49,13 +49,13 @@ TEST(PaperFig6, EachLevelCreepsToItsHardeningAndNoFurther) {
 }
 
 TEST(PaperFig6, ALevelThatIsRepeatedOrReversedCreepsNoMore) {
-  const Study study = shipped_study("paper-fig6");
+  const study::Study study = shipped_study("paper-fig6");
   int repeated = 0;
   for (std::int64_t index = 0; index < 25; ++index) {
-    const TrialParameters parameters = trial_of(study, "all", index);
+    const trial::TrialParameters parameters = trial_of(study, "all", index);
     const std::vector<double>& levels = parameters.command.torque.levels;
     const double left = std::exp(-parameters.friction.uniform.alpha * parameters.command.hold);
-    const TrialOutcome outcome = run_trial(parameters);
+    const trial::TrialOutcome outcome = trial::run_trial(parameters);
     double hardened = asked(parameters, levels[0]);
     for (std::size_t level = 1; level < levels.size(); ++level) {
       const double creep = outcome.moves[level].creep - outcome.moves[level - 1].creep;
@@ -74,11 +74,11 @@ TEST(PaperFig6, ALevelThatIsRepeatedOrReversedCreepsNoMore) {
 }
 
 TEST(PaperFig6, HardeningIsNeverUndoneAndIsWhatHasCreptEitherWay) {
-  const Study study = shipped_study("paper-fig6");
+  const study::Study study = shipped_study("paper-fig6");
   for (std::int64_t index = 0; index < 8; ++index) {
     const WatchedTrial trial = watched(trial_of(study, "all", index));
     double crept = 0.0, last_hardening = 0.0, last_extension = 0.0;
-    for (const SampleRecord& sample : trial.samples) {
+    for (const trial::SampleRecord& sample : trial.samples) {
       ASSERT_GE(sample.xh, last_hardening) << sample.t;
       crept += std::abs(sample.xp - last_extension);
       last_hardening = sample.xh;
@@ -93,10 +93,10 @@ TEST(PaperFig6, HardeningIsNeverUndoneAndIsWhatHasCreptEitherWay) {
 // slows creep by less than 2αcu/λ, below one per cent here, and the torque is set at the samples, half a
 // sample late on average.
 TEST(PaperFig6, CreepUnderTheFirstTorqueFollowsTheClosedForm) {
-  const Study study = shipped_study("paper-fig6");
+  const study::Study study = shipped_study("paper-fig6");
   for (std::int64_t index = 0; index < 20; ++index) {
-    TrialParameters parameters = trial_of(study, "all", index);
-    const FrictionParameters& friction = parameters.friction.uniform;
+    trial::TrialParameters parameters = trial_of(study, "all", index);
+    const friction::FrictionParameters& friction = parameters.friction.uniform;
     ASSERT_EQ(friction.n, 2.0);
     parameters.command.torque.levels.resize(1);
     const double torque = parameters.command.torque.levels[0];
@@ -111,7 +111,7 @@ TEST(PaperFig6, CreepUnderTheFirstTorqueFollowsTheClosedForm) {
     const double slowing = 2.0 * alpha * parameters.plant.presliding_damping * torque / friction.lambda;
     ASSERT_LT(slowing, 0.01);
     double largest = 0.0;
-    for (const SampleRecord& sample : watched(parameters).samples) {
+    for (const trial::SampleRecord& sample : watched(parameters).samples) {
       const double after = sample.t - end_of_ramp;
       const double closed = after < 0.0 ? along_ramp(sample.t)
                                         : goal - (goal - along_ramp(end_of_ramp)) * std::exp(-alpha * after);
@@ -124,11 +124,11 @@ TEST(PaperFig6, CreepUnderTheFirstTorqueFollowsTheClosedForm) {
 }
 
 TEST(PaperFig6, ThePositionAtARepeatedTorqueIsTheSame) {
-  const Study study = shipped_study("paper-fig6");
+  const study::Study study = shipped_study("paper-fig6");
   for (std::int64_t index = 0; index < 25; ++index) {
-    const TrialParameters parameters = trial_of(study, "all", index);
+    const trial::TrialParameters parameters = trial_of(study, "all", index);
     ASSERT_EQ(parameters.command.torque.levels[2], parameters.command.torque.levels[0]);
-    const std::vector<MoveOutcome> moves = run_trial(parameters).moves;
+    const std::vector<trial::MoveOutcome> moves = trial::run_trial(parameters).moves;
     const double crept = moves[2].creep - moves[0].creep;
     // The spring's loop has closed, but for what it rings at the steps in which the samples load it.
     const double step = parameters.command.torque.rate / parameters.controller.sample_rate;

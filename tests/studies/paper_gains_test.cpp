@@ -13,15 +13,15 @@ namespace {
 
 /// Moves that are stable among the first trials of a gain, by the batch engine, as `run` has it.
 std::int64_t stable_at_gain(const std::string& gain, std::int64_t trials) {
-  const Study study = shipped_study("paper-gains");
-  std::vector<TrialParameters> parameters;
+  const study::Study study = shipped_study("paper-gains");
+  std::vector<trial::TrialParameters> parameters;
   for (std::int64_t index = 0; index < trials; ++index) parameters.push_back(trial_of(study, gain, index));
-  std::vector<const TrialParameters*> pointers;
-  for (const TrialParameters& trial : parameters) pointers.push_back(&trial);
-  std::vector<TrialOutcome> outcomes(parameters.size());
-  BatchEngine engine;
+  std::vector<const trial::TrialParameters*> pointers;
+  for (const trial::TrialParameters& trial : parameters) pointers.push_back(&trial);
+  std::vector<trial::TrialOutcome> outcomes(parameters.size());
+  batch::BatchEngine engine;
   engine.run(pointers, outcomes);
-  return moves_with(outcomes, [](const MoveOutcome& move) { return move.stable; });
+  return moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable; });
 }
 
 TEST(PaperGains, GainAIsStableInAllTests) {
@@ -50,8 +50,8 @@ TEST(PaperGains, AboveTheUpperBoundHardlyAnyMoveIsStable) {
 
 // Early decision saves time, and changes no verdict.
 TEST(PaperGains, TheTrialsThatAreStoppedWouldNotHaveComeBack) {
-  const Study stopped = shipped_study("paper-gains");
-  const Study run_on = shipped_study("paper-gains", {"verdict.stop=false"});
+  const study::Study stopped = shipped_study("paper-gains");
+  const study::Study run_on = shipped_study("paper-gains", {"verdict.stop=false"});
   for (const char* gain : {"b", "c", "above-upper"}) {
     const auto early = outcomes_of(stopped, gain, 60);
     const auto late = outcomes_of(run_on, gain, 60);
@@ -63,13 +63,13 @@ TEST(PaperGains, TheTrialsThatAreStoppedWouldNotHaveComeBack) {
 }
 
 TEST(PaperGains, EveryAxisHasAFrictionOfItsOwnAndEveryMoveAStartOfItsOwn) {
-  const Study study = shipped_study("paper-gains");
+  const study::Study study = shipped_study("paper-gains");
   ASSERT_GE(study.rigs, 100);
   ASSERT_GE(study.trials, 10000);
   std::set<double> k1, k2, beta, exponent, preload;
   for (std::int64_t index = 0; index < 2 * study.rigs; ++index) {
-    const TrialParameters p = trial_of(study, "a", index);
-    k1.insert(friction_at(p.friction, p.initial.position).k1);
+    const trial::TrialParameters p = trial_of(study, "a", index);
+    k1.insert(friction::friction_at(p.friction, p.initial.position).k1);
     k2.insert(p.friction.uniform.k2);
     beta.insert(p.friction.uniform.beta);
     exponent.insert(p.friction.uniform.n);

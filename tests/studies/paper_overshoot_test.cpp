@@ -17,11 +17,12 @@ struct Peaks {
   std::int64_t max{0};
 };
 
-Peaks peaks(const Study& study, const std::string& label) {
+Peaks peaks(const study::Study& study, const std::string& label) {
   std::vector<std::int64_t> highest;
   for (std::int64_t index = 0; index < study.trials; ++index) {
-    const TrialParameters parameters = trial_of(study, label, index);
-    highest.push_back(parameters.command.targets.back() + run_trial(parameters).moves.back().overshoot);
+    const trial::TrialParameters parameters = trial_of(study, label, index);
+    highest.push_back(parameters.command.targets.back() +
+                      trial::run_trial(parameters).moves.back().overshoot);
   }
   std::sort(highest.begin(), highest.end());
   const std::size_t half = highest.size() / 2;

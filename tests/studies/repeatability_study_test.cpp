@@ -16,27 +16,27 @@ namespace {
 
 /// One axis of the study and its moves.
 struct MeasuredAxis {
-  TrialParameters parameters;
-  std::vector<MoveOutcome> moves;
-  TrialRepeatability repeatability;
+  trial::TrialParameters parameters;
+  std::vector<trial::MoveOutcome> moves;
+  iso230::TrialRepeatability repeatability;
 };
 
-MeasuredAxis measured_axis(const Study& study, const std::string& label, std::int64_t index) {
-  const TrialParameters parameters = trial_of(study, label, index);
-  std::vector<MoveOutcome> moves = run_trial(parameters).moves;
-  const auto repeatability = trial_repeatability(study.sequence, parameters, moves);
+MeasuredAxis measured_axis(const study::Study& study, const std::string& label, std::int64_t index) {
+  const trial::TrialParameters parameters = trial_of(study, label, index);
+  std::vector<trial::MoveOutcome> moves = trial::run_trial(parameters).moves;
+  const auto repeatability = iso230::trial_repeatability(study.sequence, parameters, moves);
   if (!repeatability) throw std::runtime_error("the motion of an axis was lost");
   return {parameters, std::move(moves), *repeatability};
 }
 
-double count_of(const TrialParameters& parameters) {
+double count_of(const trial::TrialParameters& parameters) {
   return 2.0 * std::numbers::pi / parameters.encoder.fine;  // rad
 }
 
 // "100% repeatability of precision" (paper, section 3) where the hold lets the contact harden: 12 s is six
 // times 1/α. Two cycles do, to keep it short.
 TEST(RepeatabilityStudy, TwoPhaseControlRepeatsToTheCountOnceCreepIsOver) {
-  const Study study = shipped_study("repeatability", {"command.hold=12", "command.sequence.cycles=2"});
+  const study::Study study = shipped_study("repeatability", {"command.hold=12", "command.sequence.cycles=2"});
   std::int64_t approaches = 0, exact = 0, axes = 0, repeating = 0;
   for (std::int64_t index = 0; index < 16; ++index) {
     const MeasuredAxis axis = measured_axis(study, "two-phase", index);
@@ -45,7 +45,7 @@ TEST(RepeatabilityStudy, TwoPhaseControlRepeatsToTheCountOnceCreepIsOver) {
       ++approaches;
       exact += axis.moves[move].final_error == 0;
     }
-    const AxisRepeatability& encoder = axis.repeatability.from_encoder.axis;
+    const iso230::AxisRepeatability& encoder = axis.repeatability.from_encoder.axis;
     ++axes;
     repeating += encoder.repeatability == 0.0 && encoder.accuracy == 0.0 && encoder.reversal == 0.0;
     // By the true position an axis repeats to the width of the count in which it is held.
@@ -59,14 +59,14 @@ TEST(RepeatabilityStudy, TwoPhaseControlRepeatsToTheCountOnceCreepIsOver) {
 // way that the holding torque pushes. One such move in fifty is enough for an axis not to repeat to the
 // count.
 TEST(RepeatabilityStudy, AMoveThatEndsWhileItCreepsIsAtMostAJerkAway) {
-  const Study study = shipped_study("repeatability", {"command.hold=3"});
+  const study::Study study = shipped_study("repeatability", {"command.hold=3"});
   std::int64_t approaches = 0, missed = 0, arrived = 0;
   for (std::int64_t index = 0; index < 16; ++index) {
     const MeasuredAxis axis = measured_axis(study, "two-phase", index);
     bool all_exact = true;
     for (std::size_t move = 0; move < study.sequence.size(); ++move) {
       if (study.sequence[move].target < 0) continue;
-      const MoveOutcome& outcome = axis.moves[move];
+      const trial::MoveOutcome& outcome = axis.moves[move];
       ++approaches;
       arrived += outcome.arrived && outcome.stable;
       if (outcome.final_error == 0) continue;
@@ -84,7 +84,7 @@ TEST(RepeatabilityStudy, AMoveThatEndsWhileItCreepsIsAtMostAJerkAway) {
 }
 
 TEST(RepeatabilityStudy, TheSpreadByTheEncoderIsZeroWhereEveryApproachEndsAtZeroError) {
-  const Study study = shipped_study("repeatability");
+  const study::Study study = shipped_study("repeatability");
   int exact_targets = 0;
   for (std::int64_t index = 0; index < 6; ++index) {
     const MeasuredAxis axis = measured_axis(study, "two-phase", index);
@@ -94,7 +94,7 @@ TEST(RepeatabilityStudy, TheSpreadByTheEncoderIsZeroWhereEveryApproachEndsAtZero
         if (study.sequence[move].target != static_cast<std::int64_t>(target)) continue;
         exact = exact && axis.moves[move].final_error == 0;
       }
-      const TargetRepeatability& values = axis.repeatability.from_encoder.targets[target];
+      const iso230::TargetRepeatability& values = axis.repeatability.from_encoder.targets[target];
       if (!exact) continue;
       ++exact_targets;
       EXPECT_EQ(values.repeatability, 0.0);
@@ -106,7 +106,7 @@ TEST(RepeatabilityStudy, TheSpreadByTheEncoderIsZeroWhereEveryApproachEndsAtZero
 }
 
 TEST(RepeatabilityStudy, WithoutAnIntegralTheAxisStopsShortFromEitherSide) {
-  const Study study = shipped_study("repeatability", {"command.sequence.cycles=2"});
+  const study::Study study = shipped_study("repeatability", {"command.sequence.cycles=2"});
   std::int64_t approaches = 0, short_of_target = 0, axes = 0, repeating = 0;
   for (std::int64_t index = 0; index < 12; ++index) {
     const MeasuredAxis axis = measured_axis(study, "pd-alone", index);
@@ -125,7 +125,7 @@ TEST(RepeatabilityStudy, WithoutAnIntegralTheAxisStopsShortFromEitherSide) {
 // The reversal value is what the two stall errors make together, and almost all of the bidirectional
 // repeatability.
 TEST(RepeatabilityStudy, TheReversalValueIsTheSumOfTheStallErrors) {
-  const Study study = shipped_study("repeatability", {"command.sequence.cycles=2"});
+  const study::Study study = shipped_study("repeatability", {"command.sequence.cycles=2"});
   for (std::int64_t index = 0; index < 6; ++index) {
     const MeasuredAxis axis = measured_axis(study, "pd-alone", index);
     double largest = 0.0;
@@ -140,8 +140,8 @@ TEST(RepeatabilityStudy, TheReversalValueIsTheSumOfTheStallErrors) {
         ++(from_below ? ups : downs);
       }
       const double stalls = up / ups + down / downs;
-      const TargetRepeatability& encoder = axis.repeatability.from_encoder.targets[target];
-      const TargetRepeatability& position = axis.repeatability.from_position.targets[target];
+      const iso230::TargetRepeatability& encoder = axis.repeatability.from_encoder.targets[target];
+      const iso230::TargetRepeatability& position = axis.repeatability.from_position.targets[target];
       EXPECT_NEAR(encoder.reversal, -stalls, 1e-9) << "x̄↑ − x̄↓, counts";
       EXPECT_NEAR(position.reversal / count_of(axis.parameters), encoder.reversal, 1.0) << "to the count";
       EXPECT_GE(encoder.repeatability, std::abs(encoder.reversal));

@@ -11,7 +11,7 @@ constexpr std::int64_t rate_trials = 200;
 
 std::int64_t stable_at_rate(const std::string& label) {
   return moves_with(outcomes_of(shipped_study("sample-rate"), label, rate_trials),
-                    [](const MoveOutcome& move) { return move.stable; });
+                    [](const trial::MoveOutcome& move) { return move.stable; });
 }
 
 TEST(SampleRate, TheIntegralAloneIsStableAtTwoAndAHalfTimesTheNaturalFrequency) {
@@ -28,9 +28,10 @@ TEST(SampleRate, TheProportionalGainNeedsTenTimesTheNaturalFrequency) {
 
 // ki·Δx·T/2 and kp·Δx: the loops of all rates are one controller.
 TEST(SampleRate, TheGainsAreThoseOfOneController) {
-  const Study study = shipped_study("sample-rate");
+  const study::Study study = shipped_study("sample-rate");
   for (const auto& [rate, factor] : {std::pair{"500", 4.0}, {"2000", 1.0}, {"20000", 0.1}}) {
-    const TrialParameters p = trial_of(study, std::string("with-kp, controller.sample_rate=") + rate, 0);
+    const trial::TrialParameters p =
+        trial_of(study, std::string("with-kp, controller.sample_rate=") + rate, 0);
     EXPECT_NEAR(p.controller.ki / (9.45e-5 * factor), 1.0, 2e-3);
     EXPECT_NEAR(p.controller.kp / 6.21e-4, 1.0, 2e-3);
   }

@@ -8,35 +8,36 @@
 
 namespace zerocount::testing {
 
-Study shipped_study(const std::string& name, const std::vector<std::string>& settings) {
-  return load_study(std::filesystem::path(ZEROCOUNT_MANIFESTS) / (name + ".yaml"), settings);
+study::Study shipped_study(const std::string& name, const std::vector<std::string>& settings) {
+  return manifest::load_study(std::filesystem::path(ZEROCOUNT_MANIFESTS) / (name + ".yaml"), settings);
 }
 
-std::int64_t point_named(const Study& study, const std::string& label) {
+std::int64_t point_named(const study::Study& study, const std::string& label) {
   const auto found = std::find(study.point_labels.begin(), study.point_labels.end(), label);
   if (found == study.point_labels.end()) throw std::runtime_error(study.name + " has no point " + label);
   return found - study.point_labels.begin();
 }
 
-TrialParameters trial_of(const Study& study, const std::string& label, std::int64_t index) {
-  return study_trial(study, point_named(study, label), index).parameters;
+trial::TrialParameters trial_of(const study::Study& study, const std::string& label, std::int64_t index) {
+  return study::study_trial(study, point_named(study, label), index).parameters;
 }
 
-std::vector<TrialOutcome> outcomes_of(const Study& study, const std::string& label, std::int64_t trials) {
-  std::vector<TrialOutcome> outcomes;
+std::vector<trial::TrialOutcome> outcomes_of(const study::Study& study, const std::string& label,
+                                             std::int64_t trials) {
+  std::vector<trial::TrialOutcome> outcomes;
   for (std::int64_t index = 0; index < trials; ++index) {
-    outcomes.push_back(run_trial(trial_of(study, label, index)));
+    outcomes.push_back(trial::run_trial(trial_of(study, label, index)));
   }
   return outcomes;
 }
 
-WatchedTrial watched(const TrialParameters& parameters) {
+WatchedTrial watched(const trial::TrialParameters& parameters) {
   WatchedTrial trial;
   trial.parameters = parameters;
-  TrialObservers observers;
-  observers.sample = [&trial](const SampleRecord& sample) { trial.samples.push_back(sample); };
-  observers.jerk = [&trial](const Jerk& jerk) { trial.jerks.push_back(jerk); };
-  trial.outcome = run_trial(parameters, observers);
+  trial::TrialObservers observers;
+  observers.sample = [&trial](const trial::SampleRecord& sample) { trial.samples.push_back(sample); };
+  observers.jerk = [&trial](const trial::Jerk& jerk) { trial.jerks.push_back(jerk); };
+  trial.outcome = trial::run_trial(parameters, observers);
   return trial;
 }
 

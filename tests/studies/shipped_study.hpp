@@ -10,33 +10,34 @@
 namespace zerocount::testing {
 
 /// A manifest of experiments/manifests, with settings as after --set.
-Study shipped_study(const std::string& name, const std::vector<std::string>& settings = {});
+study::Study shipped_study(const std::string& name, const std::vector<std::string>& settings = {});
 
 /// The design point with this label.
-std::int64_t point_named(const Study& study, const std::string& label);
+std::int64_t point_named(const study::Study& study, const std::string& label);
 
 /// The parameters of trial `index` at the point with this label.
-TrialParameters trial_of(const Study& study, const std::string& label, std::int64_t index);
+trial::TrialParameters trial_of(const study::Study& study, const std::string& label, std::int64_t index);
 
 /// Outcomes of trials 0 … trials − 1 at that point.
-std::vector<TrialOutcome> outcomes_of(const Study& study, const std::string& label, std::int64_t trials);
+std::vector<trial::TrialOutcome> outcomes_of(const study::Study& study, const std::string& label,
+                                             std::int64_t trials);
 
 /// A trial with all that can be seen of it.
 struct WatchedTrial {
-  TrialParameters parameters;
-  TrialOutcome outcome;
-  std::vector<SampleRecord> samples;
-  std::vector<Jerk> jerks;
+  trial::TrialParameters parameters;
+  trial::TrialOutcome outcome;
+  std::vector<trial::SampleRecord> samples;
+  std::vector<trial::Jerk> jerks;
 };
 
-WatchedTrial watched(const TrialParameters& parameters);
+WatchedTrial watched(const trial::TrialParameters& parameters);
 
 /// How many of the trials' moves have `what`.
 template <class Predicate>
-std::int64_t moves_with(const std::vector<TrialOutcome>& trials, const Predicate& what) {
+std::int64_t moves_with(const std::vector<trial::TrialOutcome>& trials, const Predicate& what) {
   std::int64_t count = 0;
-  for (const TrialOutcome& trial : trials) {
-    for (const MoveOutcome& move : trial.moves) count += what(move);
+  for (const trial::TrialOutcome& trial : trials) {
+    for (const trial::MoveOutcome& move : trial.moves) count += what(move);
   }
   return count;
 }

@@ -12,7 +12,7 @@ namespace zerocount::testing {
 namespace {
 
 /// Counts of the fine encoder from where the rotor truly is to the middle of the target's count.
-double true_miss(const TrialParameters& parameters, const MoveOutcome& move) {
+double true_miss(const trial::TrialParameters& parameters, const trial::MoveOutcome& move) {
   const double resolution = 2.0 * std::numbers::pi / parameters.encoder.fine;
   const auto target = static_cast<double>(parameters.command.targets.back());
   return move.final_position / resolution + parameters.initial.encoder_phase - (target + 0.5);
@@ -24,14 +24,14 @@ INSTANTIATE_TEST_SUITE_P(TwoEncoders, WithoutEncoderFault,
                                            "amplifier-300-Hz", "amplifier-100-Hz"));
 
 TEST_P(WithoutEncoderFault, ZeroCountsAreTrueAndTheEncodersAgree) {
-  const Study study = shipped_study("two-encoders");
+  const study::Study study = shipped_study("two-encoders");
   const std::int64_t trials = 120;
   std::int64_t stable = 0, zero_counts = 0;
   for (std::int64_t index = 0; index < trials; ++index) {
-    const TrialParameters parameters = trial_of(study, GetParam(), index);
-    const MoveOutcome move = run_trial(parameters).moves[0];
+    const trial::TrialParameters parameters = trial_of(study, GetParam(), index);
+    const trial::MoveOutcome move = trial::run_trial(parameters).moves[0];
     stable += move.stable;
-    zero_counts += move.outcome == Outcome::zero_count;
+    zero_counts += move.outcome == trial::Outcome::zero_count;
     EXPECT_EQ(move.encoder_disagreement, 0);
     EXPECT_LE(std::abs(true_miss(parameters, move) + static_cast<double>(move.final_error)), 0.5 + 1e-6);
   }
@@ -45,19 +45,19 @@ INSTANTIATE_TEST_SUITE_P(TwoEncoders, WithEncoderFault,
                                            "fine-missed-counts", "coarse-missed-counts"));
 
 TEST_P(WithEncoderFault, TheSecondEncoderNoticesInManyMoves) {
-  const Study study = shipped_study("two-encoders");
+  const study::Study study = shipped_study("two-encoders");
   const std::int64_t trials = 100;
   const auto outcomes = outcomes_of(study, GetParam(), trials);
   EXPECT_TRUE(share_above(
-      0.3, moves_with(outcomes, [](const MoveOutcome& move) { return move.encoder_disagreement > 0; }),
+      0.3, moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.encoder_disagreement > 0; }),
       trials));
-  EXPECT_TRUE(
-      share_above(0.93, moves_with(outcomes, [](const MoveOutcome& move) { return move.stable; }), trials));
+  EXPECT_TRUE(share_above(
+      0.93, moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable; }), trials));
 }
 
 /// Whether two ideal encoders with this phase read such counts at one place: the ranges in which they do,
 /// in revolutions, overlap by more than rounding.
-bool one_place_has_both(const TrialParameters& parameters, std::int64_t fine, std::int64_t coarse) {
+bool one_place_has_both(const trial::TrialParameters& parameters, std::int64_t fine, std::int64_t coarse) {
   const auto edge = [&parameters](std::int64_t count, double per_revolution) {
     return (static_cast<double>(count) - parameters.initial.encoder_phase) / per_revolution;
   };
@@ -68,12 +68,12 @@ bool one_place_has_both(const TrialParameters& parameters, std::int64_t fine, st
 }
 
 TEST(TwoEncoders, DisagreementIsTheNumberOfImpossiblePairsOfCounts) {
-  const Study study = shipped_study("two-encoders");
+  const study::Study study = shipped_study("two-encoders");
   for (const std::string& label : study.point_labels) {
     for (std::int64_t index = 0; index < 6; ++index) {
       const WatchedTrial trial = watched(trial_of(study, label, index));
       std::int64_t impossible = 0;
-      for (const SampleRecord& sample : trial.samples) {
+      for (const trial::SampleRecord& sample : trial.samples) {
         impossible += !one_place_has_both(trial.parameters, sample.count, sample.coarse_count);
       }
       EXPECT_EQ(trial.outcome.moves[0].encoder_disagreement, impossible) << label << " " << index;
@@ -84,12 +84,12 @@ TEST(TwoEncoders, DisagreementIsTheNumberOfImpossiblePairsOfCounts) {
 // The loop holds zero counts of an encoder that has lost some. How many is the rotor's way times their
 // probability.
 TEST(TwoEncoders, MissedCountsAreMissingFromTheTruePosition) {
-  const Study study = shipped_study("two-encoders");
+  const study::Study study = shipped_study("two-encoders");
   std::int64_t passed = 0, lost = 0, held = 0, astray = 0;
   const std::int64_t trials = 100;
   for (std::int64_t index = 0; index < trials; ++index) {
-    const TrialParameters parameters = trial_of(study, "fine-missed-counts", index);
-    const MoveOutcome move = run_trial(parameters).moves[0];
+    const trial::TrialParameters parameters = trial_of(study, "fine-missed-counts", index);
+    const trial::MoveOutcome move = trial::run_trial(parameters).moves[0];
     const double target = static_cast<double>(parameters.command.targets[0]);
     held += move.final_error == 0;
     if (move.final_error != 0) continue;
@@ -110,14 +110,14 @@ TEST(TwoEncoders, MissedCountsAreMissingFromTheTruePosition) {
 // A fault that is fixed on the scale moves the true position by what it reads wrong there, less what it read
 // at the start.
 TEST(TwoEncoders, AnEccentricScaleIsFollowedToItsError) {
-  const Study study = shipped_study("two-encoders");
+  const study::Study study = shipped_study("two-encoders");
   double largest = 0.0;
   std::int64_t seen = 0, unseen_small = 0;
   for (std::int64_t index = 0; index < 100; ++index) {
-    const TrialParameters parameters = trial_of(study, "fine-eccentric", index);
-    const MoveOutcome move = run_trial(parameters).moves[0];
+    const trial::TrialParameters parameters = trial_of(study, "fine-eccentric", index);
+    const trial::MoveOutcome move = trial::run_trial(parameters).moves[0];
     if (move.final_error != 0) continue;
-    const EncoderErrors& errors = parameters.encoder.fine_errors;
+    const loop::EncoderErrors& errors = parameters.encoder.fine_errors;
     const double resolution = 2.0 * std::numbers::pi / parameters.encoder.fine;
     const double start = parameters.initial.position - errors.eccentricity_angle;
     const double read_too_far =
@@ -139,10 +139,10 @@ TEST(TwoEncoders, AnEccentricScaleIsFollowedToItsError) {
 }
 
 TEST(TwoEncoders, AnInterpolationErrorStaysWithinItsAmplitude) {
-  const Study study = shipped_study("two-encoders");
+  const study::Study study = shipped_study("two-encoders");
   for (std::int64_t index = 0; index < 60; ++index) {
-    const TrialParameters parameters = trial_of(study, "fine-interpolation", index);
-    const MoveOutcome move = run_trial(parameters).moves[0];
+    const trial::TrialParameters parameters = trial_of(study, "fine-interpolation", index);
+    const trial::MoveOutcome move = trial::run_trial(parameters).moves[0];
     if (move.final_error != 0) continue;
     EXPECT_LE(std::abs(true_miss(parameters, move)),
               0.5 + 2.0 * parameters.encoder.fine_errors.interpolation + 1e-6);
@@ -152,16 +152,17 @@ TEST(TwoEncoders, AnInterpolationErrorStaysWithinItsAmplitude) {
 // A reading that trembles by a fifth of a count is at zero at every sample only by chance, even though the
 // rotor is there.
 TEST(TwoEncoders, NoiseCostsZeroCountsByItselfAndMissedCoarseCountsCostNothing) {
-  const Study study = shipped_study("two-encoders");
+  const study::Study study = shipped_study("two-encoders");
   const std::int64_t trials = 100;
   std::int64_t zero_counts = 0;
   for (std::int64_t index = 0; index < trials; ++index) {
-    const TrialParameters parameters = trial_of(study, "fine-noise", index);
-    const MoveOutcome move = run_trial(parameters).moves[0];
-    zero_counts += move.outcome == Outcome::zero_count;
+    const trial::TrialParameters parameters = trial_of(study, "fine-noise", index);
+    const trial::MoveOutcome move = trial::run_trial(parameters).moves[0];
+    zero_counts += move.outcome == trial::Outcome::zero_count;
     EXPECT_LE(std::abs(true_miss(parameters, move)), 1.5) << "true all the same";
-    const MoveOutcome ideal = run_trial(trial_of(study, "ideal", index)).moves[0];
-    const MoveOutcome coarse = run_trial(trial_of(study, "coarse-missed-counts", index)).moves[0];
+    const trial::MoveOutcome ideal = trial::run_trial(trial_of(study, "ideal", index)).moves[0];
+    const trial::MoveOutcome coarse =
+        trial::run_trial(trial_of(study, "coarse-missed-counts", index)).moves[0];
     EXPECT_EQ(coarse.final_position, ideal.final_position) << "the coarse encoder only watches";
   }
   EXPECT_TRUE(share_below(0.5, zero_counts, trials));

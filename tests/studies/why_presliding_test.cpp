@@ -20,16 +20,19 @@ TEST_P(WithPresliding, TheLoopIsStableInAllTests) {
   const std::int64_t trials = 150;
   const auto outcomes = outcomes_of(shipped_study("why-presliding"), GetParam(), trials);
   EXPECT_TRUE(share_above(
-      0.95, moves_with(outcomes, [](const MoveOutcome& move) { return move.stable && !move.broke_away; }),
+      0.95,
+      moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable && !move.broke_away; }),
       trials));
   EXPECT_TRUE(share_above(
-      0.94, moves_with(outcomes, [](const MoveOutcome& move) { return move.outcome == Outcome::zero_count; }),
+      0.94,
+      moves_with(outcomes,
+                 [](const trial::MoveOutcome& move) { return move.outcome == trial::Outcome::zero_count; }),
       trials));
 }
 
 TEST(WhyPresliding, JerksAreOfCreepAndTheSpringAloneHasNone) {
-  const Study study = shipped_study("why-presliding");
-  const auto jerks = [](const MoveOutcome& move) { return move.jerk_count > 0; };
+  const study::Study study = shipped_study("why-presliding");
+  const auto jerks = [](const trial::MoveOutcome& move) { return move.jerk_count > 0; };
   const std::int64_t trials = 100;
   EXPECT_TRUE(share_below(0.07, moves_with(outcomes_of(study, "spring", trials), jerks), trials));
   EXPECT_TRUE(share_above(0.3, moves_with(outcomes_of(study, "presliding", trials), jerks), trials));
@@ -44,13 +47,14 @@ struct CoulombLeap {
 };
 
 /// The leaps that begin after a rest of at least two samples, and end in another rest.
-std::vector<CoulombLeap> leaps_of(const std::vector<SampleRecord>& samples) {
+std::vector<CoulombLeap> leaps_of(const std::vector<trial::SampleRecord>& samples) {
   std::vector<CoulombLeap> leaps;
   for (std::size_t k = 2; k < samples.size(); ++k) {
-    const bool rested = samples[k - 2].mode == HookMode::stick && samples[k - 1].mode == HookMode::stick;
-    if (!rested || samples[k].mode != HookMode::slide) continue;
+    const bool rested =
+        samples[k - 2].mode == trial::HookMode::stick && samples[k - 1].mode == trial::HookMode::stick;
+    if (!rested || samples[k].mode != trial::HookMode::slide) continue;
     CoulombLeap leap{samples[k - 1].error, 0, samples[k - 1].torque, 0.0};
-    while (k < samples.size() && samples[k].mode == HookMode::slide) {
+    while (k < samples.size() && samples[k].mode == trial::HookMode::slide) {
       leap.peak = std::max(leap.peak, std::abs(samples[k].torque));
       ++k;
     }
@@ -66,12 +70,12 @@ INSTANTIATE_TEST_SUITE_P(WhyPresliding, WithCoulomb,
                          ::testing::Values("coulomb", "coulomb-without-static-level"));
 
 TEST_P(WithCoulomb, TheLoopNeverArrives) {
-  const Study study = shipped_study("why-presliding");
+  const study::Study study = shipped_study("why-presliding");
   const std::int64_t trials = 100;
   std::int64_t arrived = 0;
   for (std::int64_t index = 0; index < trials; ++index) {
-    const TrialParameters parameters = trial_of(study, GetParam(), index);
-    const MoveOutcome move = run_trial(parameters).moves[0];
+    const trial::TrialParameters parameters = trial_of(study, GetParam(), index);
+    const trial::MoveOutcome move = trial::run_trial(parameters).moves[0];
     arrived += move.arrived;
     EXPECT_GT(move.peak_torque, parameters.friction.uniform.breakaway);
   }
@@ -80,7 +84,7 @@ TEST_P(WithCoulomb, TheLoopNeverArrives) {
 
 TEST_P(WithCoulomb, TheLoopGoesOnHuntingHoweverLongItIsHeld) {
   // An error of one count winds the torque up from one breakaway to the other in 5 s. Then it goes faster.
-  const Study study = shipped_study("why-presliding", {"command.hold=15"});
+  const study::Study study = shipped_study("why-presliding", {"command.hold=15"});
   for (std::int64_t index = 0; index < 30; ++index) {
     const WatchedTrial trial = watched(trial_of(study, GetParam(), index));
     std::int64_t crossings = 0;
@@ -97,7 +101,7 @@ TEST_P(WithCoulomb, TheLoopGoesOnHuntingHoweverLongItIsHeld) {
 // count, only on its other side.
 TEST_P(WithCoulomb, NoLeapEndsInTheTargetsCountAtAnyGain) {
   for (const auto& [ki, hold] : {std::pair{"3.85e-5", "2"}, {"1.0e-5", "8"}, {"1.0e-6", "30"}}) {
-    const Study study = shipped_study(
+    const study::Study study = shipped_study(
         "why-presliding", {std::string("controller.ki=") + ki, std::string("command.hold=") + hold});
     std::int64_t leaps = 0;
     for (std::int64_t index = 0; index < 25; ++index) {
@@ -107,8 +111,8 @@ TEST_P(WithCoulomb, NoLeapEndsInTheTargetsCountAtAnyGain) {
         EXPECT_GT(std::abs(leap.torque), trial.parameters.friction.uniform.breakaway);
         ++leaps;
       }
-      for (const SampleRecord& sample : trial.samples) {
-        ASSERT_FALSE(sample.error == 0 && sample.mode == HookMode::stick) << "at rest at zero error";
+      for (const trial::SampleRecord& sample : trial.samples) {
+        ASSERT_FALSE(sample.error == 0 && sample.mode == trial::HookMode::stick) << "at rest at zero error";
       }
     }
     EXPECT_GE(leaps, 15) << ki;
@@ -136,7 +140,7 @@ TEST(WhyPresliding, EveryLeapGoesFurtherThanTheLast) {
   // The slower, the closer to the closed form: sampling delays the torque by what is a part of a leap.
   for (const auto& [ki, hold, excess] :
        {std::tuple{"3.85e-5", "2", 1.2}, {"1.0e-5", "8", 1.12}, {"1.0e-6", "40", 1.06}}) {
-    const Study study = shipped_study(
+    const study::Study study = shipped_study(
         "why-presliding", {std::string("controller.ki=") + ki, std::string("command.hold=") + hold});
     std::int64_t compared = 0;
     for (std::int64_t index = 0; index < 25; ++index) {

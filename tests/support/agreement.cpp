@@ -28,8 +28,8 @@ std::string Agreement::figures() const {
       depth_differences, failures.size());
 }
 
-Agreement compare(const TrialParameters& parameters, const std::vector<SampleRecord>& trial,
-                  const std::vector<SampleRecord>& judge, const std::string& name) {
+Agreement compare(const trial::TrialParameters& parameters, const std::vector<trial::SampleRecord>& trial,
+                  const std::vector<trial::SampleRecord>& judge, const std::string& name) {
   Agreement agreement;
   if (trial.size() != judge.size()) {
     agreement.failures.push_back(fmt::format("{}: {} samples against {}", name, trial.size(), judge.size()));
@@ -43,11 +43,11 @@ Agreement compare(const TrialParameters& parameters, const std::vector<SampleRec
   bool slid = false;
   double travel = 0.0;
   for (std::size_t i = 0; i < std::min(trial.size(), judge.size()); ++i) {
-    const SampleRecord& a = trial[i];
-    const SampleRecord& b = judge[i];
+    const trial::SampleRecord& a = trial[i];
+    const trial::SampleRecord& b = judge[i];
     if (i > 0) travel += std::abs(b.theta - judge[i - 1].theta);
     // A slide may begin and end between two samples; a contact that is new has lost its hardening.
-    slid = slid || b.mode == HookMode::slide || (i > 0 && b.xh < judge[i - 1].xh);
+    slid = slid || b.mode == trial::HookMode::slide || (i > 0 && b.xh < judge[i - 1].xh);
     const double allowed = slid ? 1e-3 * fine + 1e-7 * travel : 1e-6 * fine;
     const double difference = std::abs(a.theta - b.theta);
     if (!(difference <= allowed)) {
@@ -69,7 +69,7 @@ Agreement compare(const TrialParameters& parameters, const std::vector<SampleRec
           fmt::format("{}: sample {}: count {} against {}, coarse {} against {}, code {} against {}, slides "
                       "{} against {}",
                       name, i, a.count, b.count, a.coarse_count, b.coarse_count, a.code, b.code,
-                      a.mode == HookMode::slide, b.mode == HookMode::slide));
+                      a.mode == trial::HookMode::slide, b.mode == trial::HookMode::slide));
       return agreement;
     }
     if (std::abs(a.drive_torque - b.drive_torque) > 1e-13) {  // which is false where the judge does not say
@@ -85,7 +85,7 @@ Agreement compare(const TrialParameters& parameters, const std::vector<SampleRec
       return agreement;
     }
     agreement.samples += 1;
-    agreement.slide_samples += b.mode == HookMode::slide;
+    agreement.slide_samples += b.mode == trial::HookMode::slide;
     agreement.depth_differences += a.depth != b.depth;
     double& worst = slid ? agreement.after_breakaway : agreement.before_breakaway;
     worst = std::max(worst, difference / fine);

@@ -32,7 +32,7 @@ struct Agreement {
 /// Counts, codes, errors, coarse counts and modes must be equal. Where a count differs because θ stands on an
 /// edge within the promised accuracy, the two trials part for good: that is counted in edge_trials and the
 /// rest is not compared.
-Agreement compare(const TrialParameters& parameters, const std::vector<SampleRecord>& trial,
-                  const std::vector<SampleRecord>& judge, const std::string& name);
+Agreement compare(const trial::TrialParameters& parameters, const std::vector<trial::SampleRecord>& trial,
+                  const std::vector<trial::SampleRecord>& judge, const std::string& name);
 
 }  // namespace zerocount::testing

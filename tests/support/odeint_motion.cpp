@@ -16,25 +16,25 @@ constexpr Real position_tolerance = 1e-18L;  // local error of one step, rad
 constexpr Real velocity_tolerance = 1e-15L;  // local error of one step, rad/s
 constexpr Real relative_tolerance = 1e-17L;
 
-Real profile_value(const Profile& profile, Real angle) {
+Real profile_value(const friction::Profile& profile, Real angle) {
   Real field = 0;
   for (std::size_t m = 0; m < profile.cosine.size(); ++m) {
     const Real turn = static_cast<Real>(m) * angle;
     field += profile.cosine[m] * std::cos(turn) + profile.sine[m] * std::sin(turn);
   }
   const Real value = profile.location + profile.scale * field;
-  return profile.marginal == Marginal::lognormal ? std::exp(value) : value;
+  return profile.marginal == friction::Marginal::lognormal ? std::exp(value) : value;
 }
 
 }  // namespace
 
-OdeintMotion::OdeintMotion(const TrialParameters& parameters, const std::vector<double>& history)
+OdeintMotion::OdeintMotion(const trial::TrialParameters& parameters, const std::vector<double>& history)
     : plant_(parameters.plant), friction_(parameters.friction), position_(parameters.initial.position) {
   contact_ = contact_at(0);
   frequency_ = std::sqrt((contact_.k1 + contact_.k2) / plant_.inertia);
-  coulomb_ = friction_.model == FrictionModel::coulomb;
+  coulomb_ = friction_.model == friction::FrictionModel::coulomb;
   state_[1] = parameters.initial.velocity;
-  const bool slides = parameters.initial.mode == InitialMode::slide || coulomb_;
+  const bool slides = parameters.initial.mode == trial::InitialMode::slide || coulomb_;
   if (slides && state_[1] != 0) {
     sliding_ = true;
     direction_ = sign(state_[1]);
@@ -76,11 +76,11 @@ void OdeintMotion::stretch(const std::vector<double>& torques) {
 }
 
 OdeintMotion::Contact OdeintMotion::contact_at(Real theta) const {
-  FrictionParameters p = friction_.uniform;
-  for (const ProfiledParameter& entry : friction_.profiled) {
+  friction::FrictionParameters p = friction_.uniform;
+  for (const friction::ProfiledParameter& entry : friction_.profiled) {
     p.*entry.parameter = static_cast<double>(profile_value(*entry.profile, position_ + theta));
   }
-  if (friction_.model == FrictionModel::spring) p.alpha = 0.0;
+  if (friction_.model == friction::FrictionModel::spring) p.alpha = 0.0;
   return {p.k1, p.k2, p.beta, p.alpha, p.lambda, p.n, p.breakaway, p.coulomb_ratio, p.stribeck_velocity};
 }
 

@@ -44,7 +44,7 @@ class OdeintMotion {
 
   /// @param history torques (N m) that the spring went to before t = 0, after the preload; at the end it went
   /// back to 0.
-  explicit OdeintMotion(const TrialParameters& parameters, const std::vector<double>& history = {});
+  explicit OdeintMotion(const trial::TrialParameters& parameters, const std::vector<double>& history = {});
 
   /// Moves the rotor under `torque` for `duration` (s).
   void advance(const Torque& torque, Real duration);
@@ -111,8 +111,8 @@ class OdeintMotion {
   void break_away(int sign);
   void stick();
 
-  PlantParameters plant_;
-  FrictionAlongRotor friction_;
+  motion::PlantParameters plant_;
+  friction::FrictionAlongRotor friction_;
   Real position_;
   Contact contact_{};
   Real frequency_{0};  ///< ω₀, rad/s

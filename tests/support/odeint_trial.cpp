@@ -20,7 +20,7 @@ std::int64_t read_encoder(long double theta, double counts_per_revolution, doubl
 /// order.
 class SampledLoop {
  public:
-  explicit SampledLoop(const TrialParameters& p)
+  explicit SampledLoop(const trial::TrialParameters& p)
       : gains_(p.controller),
         resolution_(p.dac.resolution),
         lowest_(-std::ldexp(1.0, p.dac.bits - 1)),
@@ -31,7 +31,7 @@ class SampledLoop {
     const std::int64_t error = target - count;
     const double change = first_ ? 0.0 : static_cast<double>(count - last_count_);
     integral_ = integral_ + gains_.ki * static_cast<double>(error + last_error_);
-    if (gains_.anti_windup == AntiWindup::clamp) {
+    if (gains_.anti_windup == loop::AntiWindup::clamp) {
       integral_ = std::clamp(integral_, lowest_ * resolution_, highest_ * resolution_);
     }
     const double torque = integral_ + gains_.kp * static_cast<double>(error) - gains_.kd * change;
@@ -42,7 +42,7 @@ class SampledLoop {
   }
 
  private:
-  ControllerParameters gains_;
+  loop::ControllerParameters gains_;
   double resolution_;
   double lowest_;
   double highest_;
@@ -54,8 +54,8 @@ class SampledLoop {
 
 }  // namespace
 
-std::vector<SampleRecord> odeint_trial(const TrialParameters& parameters, EventCounts* events) {
-  OdeintMotion motion(parameters, draw_history(parameters.initial.history, parameters.randomness));
+std::vector<trial::SampleRecord> odeint_trial(const trial::TrialParameters& parameters, EventCounts* events) {
+  OdeintMotion motion(parameters, trial::draw_history(parameters.initial.history, parameters.randomness));
   SampledLoop loop(parameters);
   const double rate = parameters.controller.sample_rate;
   const long double period = 1.0L / rate;
@@ -63,10 +63,10 @@ std::vector<SampleRecord> odeint_trial(const TrialParameters& parameters, EventC
   const long double amplifier = 2 * std::numbers::pi_v<long double> * parameters.amplifier.bandwidth;
   OdeintMotion::Torque drive{0, 0, amplifier};
   std::deque<double> waiting(static_cast<std::size_t>(parameters.controller.delay), 0.0);
-  std::vector<SampleRecord> records;
+  std::vector<trial::SampleRecord> records;
   for (const std::int64_t target : parameters.command.targets) {
     for (std::int64_t i = 0; i < samples; ++i) {
-      SampleRecord record;
+      trial::SampleRecord record;
       record.k = static_cast<std::int64_t>(records.size());
       record.t = static_cast<double>(record.k) / rate;
       record.target = target;
@@ -81,7 +81,7 @@ std::vector<SampleRecord> odeint_trial(const TrialParameters& parameters, EventC
       record.xp = static_cast<double>(motion.state()[2]);
       record.xh = static_cast<double>(motion.state()[3]);
       record.depth = motion.depth();
-      record.mode = motion.sliding() ? HookMode::slide : HookMode::stick;
+      record.mode = motion.sliding() ? trial::HookMode::slide : trial::HookMode::stick;
       waiting.push_back(record.torque);
       drive.settled = waiting.front();
       if (amplifier == 0) drive.now = drive.settled;

@@ -10,6 +10,7 @@ namespace zerocount::testing {
 /// The samples of a trial by a second, deliberately different way: Boost.odeint with located events for the
 /// plant, and a controller written apart. The judge of run_trial; `events`, where given, receives what
 /// happened at the contact.
-std::vector<SampleRecord> odeint_trial(const TrialParameters& parameters, EventCounts* events = nullptr);
+std::vector<trial::SampleRecord> odeint_trial(const trial::TrialParameters& parameters,
+                                              EventCounts* events = nullptr);
 
 }  // namespace zerocount::testing

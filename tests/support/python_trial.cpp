@@ -11,7 +11,7 @@
 
 namespace zerocount::testing {
 
-std::vector<SampleRecord> python_trial(const TrialParameters& parameters) {
+std::vector<trial::SampleRecord> python_trial(const trial::TrialParameters& parameters) {
   const TemporaryFolder folder;
   const std::filesystem::path input = folder.path() / "parameters.json";
   const std::filesystem::path output = folder.path() / "trace.csv";

@@ -27,8 +27,8 @@ class Draws {
   std::mt19937_64 engine_;
 };
 
-std::shared_ptr<const Profile> random_profile(Draws& draws, double mean, double variation) {
-  auto profile = std::make_shared<Profile>();
+std::shared_ptr<const friction::Profile> random_profile(Draws& draws, double mean, double variation) {
+  auto profile = std::make_shared<friction::Profile>();
   const auto harmonics = static_cast<std::size_t>(draws.integer(1, 60));
   const double size = std::sqrt(3.0 / static_cast<double>(harmonics));
   profile->cosine.push_back(0.0);
@@ -37,15 +37,15 @@ std::shared_ptr<const Profile> random_profile(Draws& draws, double mean, double 
     profile->cosine.push_back(size * draws.uniform(-1.0, 1.0));
     profile->sine.push_back(size * draws.uniform(-1.0, 1.0));
   }
-  profile->marginal = Marginal::lognormal;
+  profile->marginal = friction::Marginal::lognormal;
   profile->location = std::log(mean);
   profile->scale = variation;
   return profile;
 }
 
-FrictionAlongRotor random_friction(Draws& draws) {
-  FrictionAlongRotor friction;
-  FrictionParameters& f = friction.uniform;
+friction::FrictionAlongRotor random_friction(Draws& draws) {
+  friction::FrictionAlongRotor friction;
+  friction::FrictionParameters& f = friction.uniform;
   f.k1 = draws.uniform(80.0, 140.0);
   f.k2 = draws.uniform(300.0, 1000.0);
   f.beta = draws.log_uniform(3e4, 6e5);
@@ -59,22 +59,23 @@ FrictionAlongRotor random_friction(Draws& draws) {
   f.coulomb_ratio = draws.chance(0.1) ? 1.0 : draws.uniform(0.5, 1.0);
   f.stribeck_velocity = draws.log_uniform(3e-3, 3e-2);
   if (draws.chance(0.25))
-    friction.profiled.push_back({&FrictionParameters::k1, random_profile(draws, f.k1, 0.1)});
+    friction.profiled.push_back({&friction::FrictionParameters::k1, random_profile(draws, f.k1, 0.1)});
   if (draws.chance(0.25))
-    friction.profiled.push_back({&FrictionParameters::k2, random_profile(draws, f.k2, 0.1)});
+    friction.profiled.push_back({&friction::FrictionParameters::k2, random_profile(draws, f.k2, 0.1)});
   if (draws.chance(0.25)) {
-    friction.profiled.push_back({&FrictionParameters::breakaway, random_profile(draws, f.breakaway, 0.1)});
+    friction.profiled.push_back(
+        {&friction::FrictionParameters::breakaway, random_profile(draws, f.breakaway, 0.1)});
   }
   return friction;
 }
 
-void choose_loop(Draws& draws, TrialKind kind, TrialParameters& p) {
-  ControllerParameters& c = p.controller;
+void choose_loop(Draws& draws, TrialKind kind, trial::TrialParameters& p) {
+  loop::ControllerParameters& c = p.controller;
   c.sample_rate = draws.chance(0.7) ? 2000.0 : draws.uniform(1000.0, 5000.0);
   c.kp = draws.chance(0.5) ? 0.0 : draws.uniform(0.0, 6e-4);
   c.kd = draws.chance(0.7) ? 0.0 : draws.uniform(0.0, 4e-4);
   c.delay = draws.chance(0.75) ? 0 : static_cast<int>(draws.integer(1, 3));
-  c.anti_windup = draws.chance(0.8) ? AntiWindup::clamp : AntiWindup::none;
+  c.anti_windup = draws.chance(0.8) ? loop::AntiWindup::clamp : loop::AntiWindup::none;
   p.dac.bits = draws.chance(0.7) ? 12 : static_cast<int>(draws.integer(10, 18));
   p.dac.resolution = draws.chance(0.7) ? 2.4e-4 : 0.4915 / std::ldexp(1.0, p.dac.bits - 1);
   const auto moves = draws.integer(1, 3);
@@ -102,11 +103,11 @@ void choose_loop(Draws& draws, TrialKind kind, TrialParameters& p) {
 
 /// A rig with nothing in common with the paper's: every number over orders of magnitude, the gains scaled to
 /// stay near the stability bounds.
-TrialParameters unlike_the_paper(Draws& draws) {
-  TrialParameters p;
+trial::TrialParameters unlike_the_paper(Draws& draws) {
+  trial::TrialParameters p;
   p.plant = {draws.log_uniform(5e-5, 5e-2), draws.log_uniform(0.01, 3.0),
              draws.chance(0.3) ? 0.0 : draws.log_uniform(1e-4, 0.1)};
-  FrictionParameters& f = p.friction.uniform;
+  friction::FrictionParameters& f = p.friction.uniform;
   f.k1 = draws.log_uniform(10.0, 2000.0);
   f.k2 = draws.chance(0.15) ? 0.0 : draws.log_uniform(10.0, 20000.0);
   f.beta = draws.log_uniform(1e3, 3e6);
@@ -121,10 +122,10 @@ TrialParameters unlike_the_paper(Draws& draws) {
   p.dac.bits = static_cast<int>(draws.integer(8, 16));
   p.dac.resolution = std::ldexp(1.0, -p.dac.bits);
 
-  ControllerParameters& c = p.controller;
+  loop::ControllerParameters& c = p.controller;
   c.sample_rate = std::floor(draws.log_uniform(100.0, 30000.0));
   c.delay = static_cast<int>(draws.integer(0, 2));
-  c.anti_windup = draws.chance(0.25) ? AntiWindup::none : AntiWindup::clamp;
+  c.anti_windup = draws.chance(0.25) ? loop::AntiWindup::none : loop::AntiWindup::clamp;
   const double count = 2.0 * std::numbers::pi / p.encoder.fine;
   const double lowest_bound =
       p.plant.presliding_damping * f.k1 / p.plant.inertia * count / c.sample_rate / 2.0;
@@ -141,8 +142,8 @@ TrialParameters unlike_the_paper(Draws& draws) {
   return p;
 }
 
-TrialParameters like_the_paper(Draws& draws, TrialKind kind) {
-  TrialParameters p;
+trial::TrialParameters like_the_paper(Draws& draws, TrialKind kind) {
+  trial::TrialParameters p;
   p.plant.inertia = draws.uniform(4e-4, 8e-4);
   p.plant.presliding_damping = draws.uniform(0.1, 0.4);
   p.plant.sliding_damping = draws.chance(0.1) ? 0.0 : draws.log_uniform(1e-4, 1e-2);
@@ -155,46 +156,46 @@ TrialParameters like_the_paper(Draws& draws, TrialKind kind) {
   return p;
 }
 
-TrialParameters any_like_the_paper(Draws& draws) {
+trial::TrialParameters any_like_the_paper(Draws& draws) {
   return like_the_paper(draws, static_cast<TrialKind>(draws.integer(0, 2)));
 }
 
-TrialParameters any_rig(Draws& draws) {
+trial::TrialParameters any_rig(Draws& draws) {
   return draws.chance(0.25) ? unlike_the_paper(draws) : any_like_the_paper(draws);
 }
 
 /// Gains with which the torque passes the breakaway within the trial, again and again.
-TrialParameters hunting(Draws& draws) {
-  TrialParameters p = any_like_the_paper(draws);
-  p.friction.model = FrictionModel::coulomb;
+trial::TrialParameters hunting(Draws& draws) {
+  trial::TrialParameters p = any_like_the_paper(draws);
+  p.friction.model = friction::FrictionModel::coulomb;
   p.controller.ki = draws.log_uniform(1e-4, 2e-3);
   p.command.hold = draws.uniform(0.1, 0.3);
   p.initial.integral = draws.chance(0.5) ? 0.0 : draws.uniform(-0.3, 0.3);
   return p;
 }
 
-TrialParameters amplified(Draws& draws) {
-  TrialParameters p = draws.chance(0.3) ? hunting(draws) : any_rig(draws);
-  if (p.friction.model == FrictionModel::presliding && draws.chance(0.2)) {
-    p.friction.model = FrictionModel::spring;
+trial::TrialParameters amplified(Draws& draws) {
+  trial::TrialParameters p = draws.chance(0.3) ? hunting(draws) : any_rig(draws);
+  if (p.friction.model == friction::FrictionModel::presliding && draws.chance(0.2)) {
+    p.friction.model = friction::FrictionModel::spring;
   }
   p.amplifier.bandwidth = p.controller.sample_rate * draws.log_uniform(0.01, 10.0);
   return p;
 }
 
-TrialParameters arriving(Draws& draws) {
-  TrialParameters p = any_rig(draws);
-  p.friction.model = static_cast<FrictionModel>(draws.chance(0.6) ? 0 : draws.integer(1, 2));
-  p.initial.mode = draws.chance(0.5) ? InitialMode::slide : InitialMode::stick;
+trial::TrialParameters arriving(Draws& draws) {
+  trial::TrialParameters p = any_rig(draws);
+  p.friction.model = static_cast<friction::FrictionModel>(draws.chance(0.6) ? 0 : draws.integer(1, 2));
+  p.initial.mode = draws.chance(0.5) ? trial::InitialMode::slide : trial::InitialMode::stick;
   const double breakaway = p.friction.uniform.breakaway;
   p.initial.velocity = draws.sign() * draws.log_uniform(0.01, 3.0) * breakaway / p.plant.presliding_damping;
   p.initial.integral = draws.chance(0.5) ? 0.0 : draws.uniform(-0.8, 0.8) * breakaway;
   return p;
 }
 
-TrialParameters remembering(Draws& draws) {
-  TrialParameters p = any_rig(draws);
-  const double breakaway = friction_at(p.friction, p.initial.position).breakaway;
+trial::TrialParameters remembering(Draws& draws) {
+  trial::TrialParameters p = any_rig(draws);
+  const double breakaway = friction::friction_at(p.friction, p.initial.position).breakaway;
   p.initial.history.reversals = static_cast<int>(draws.integer(1, draws.chance(0.8) ? 12 : 300));
   p.initial.history.torque = breakaway * draws.uniform(0.02, 0.95);
   p.randomness.trial = static_cast<std::uint64_t>(draws.integer(0, 1'000'000));
@@ -204,7 +205,7 @@ TrialParameters remembering(Draws& draws) {
 
 }  // namespace
 
-TrialParameters random_trial(TrialKind kind, std::uint64_t index) {
+trial::TrialParameters random_trial(TrialKind kind, std::uint64_t index) {
   Draws draws(20020721 + 1'000'003 * static_cast<std::uint64_t>(kind) + 7919 * index);
   switch (kind) {
     case TrialKind::calm:
@@ -214,8 +215,8 @@ TrialParameters random_trial(TrialKind kind, std::uint64_t index) {
     case TrialKind::unlike_the_paper:
       return unlike_the_paper(draws);
     case TrialKind::spring_alone: {
-      TrialParameters p = any_like_the_paper(draws);
-      p.friction.model = FrictionModel::spring;
+      trial::TrialParameters p = any_like_the_paper(draws);
+      p.friction.model = friction::FrictionModel::spring;
       return p;
     }
     case TrialKind::coulomb:

@@ -23,6 +23,6 @@ enum class TrialKind {
 /// of the model vary: creep exponents 1, 1.5, 2 and 3, creep off, preload of both signs, hardening, encoder
 /// phase (0 included), delay, kp, kd, anti-windup, word length, negative targets, one to three moves, and
 /// profiles of k1, k2 and breakaway.
-TrialParameters random_trial(TrialKind kind, std::uint64_t index);
+trial::TrialParameters random_trial(TrialKind kind, std::uint64_t index);
 
 }  // namespace zerocount::testing

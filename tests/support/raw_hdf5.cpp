@@ -88,7 +88,7 @@ void replace(const std::filesystem::path& path, const std::string& name, hid_t t
   H5Awrite(attribute, type, value);
   H5Sclose(space);
   H5Fclose(file);
-  append_checksum(path);
+  storage::append_checksum(path);
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ void remove_attribute(const std::filesystem::path& path, const std::string& name
   const hid_t file = open_file(path, H5F_ACC_RDWR);
   H5Adelete(file, name.c_str());
   H5Fclose(file);
-  append_checksum(path);
+  storage::append_checksum(path);
 }
 
 void write_empty_hdf5(const std::filesystem::path& path) {
@@ -148,7 +148,7 @@ void write_empty_hdf5(const std::filesystem::path& path) {
 }
 
 void unseal(const std::filesystem::path& path) {
-  std::filesystem::resize_file(path, std::filesystem::file_size(path) - checksum_trailer_length);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - storage::checksum_trailer_length);
 }
 
 std::uint64_t chunk_address(const std::filesystem::path& path, const std::string& name) {

@@ -6,7 +6,8 @@
 
 namespace zerocount::testing {
 
-StopElements::StopElements(const FrictionParameters& friction, std::size_t elements) : k1_(friction.k1) {
+StopElements::StopElements(const friction::FrictionParameters& friction, std::size_t elements)
+    : k1_(friction.k1) {
   const double beta = friction.beta;
   const double count = static_cast<double>(elements);
   for (std::size_t i = 0; i < elements; ++i) {

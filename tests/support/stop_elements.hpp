@@ -21,7 +21,7 @@ namespace zerocount::testing {
 /// inside, where ε = max wᵢ·(width of cell i)/4, and w_N/(2eβ) in the unbounded last cell: ε falls as N⁻².
 class StopElements {
  public:
-  StopElements(const FrictionParameters& friction, std::size_t elements);
+  StopElements(const friction::FrictionParameters& friction, std::size_t elements);
 
   /// Stretches to the elongation x (rad), monotonically from where it is.
   void move_to(double x);

@@ -23,8 +23,8 @@ class Baselines : public ::testing::Test {
 };
 
 TEST_F(Baselines, AreTheResultsFileByteByByte) {
-  const BaselineUpdate update =
-      update_baseline(results("a.h5", 0), folder_ / "base.h5", "the first: \"it works\"");
+  const comparison::BaselineUpdate update =
+      comparison::update_baseline(results("a.h5", 0), folder_ / "base.h5", "the first: \"it works\"");
   EXPECT_TRUE(update.changed);
   EXPECT_EQ(update.comparison, "");
   EXPECT_EQ(folder_.read("base.h5"), folder_.read("a.h5"));
@@ -34,9 +34,10 @@ TEST_F(Baselines, AreTheResultsFileByteByByte) {
 }
 
 TEST_F(Baselines, KeepTheRecordOfWhatTheyReplace) {
-  update_baseline(results("a.h5", 0), folder_ / "base.h5", "first");
+  comparison::update_baseline(results("a.h5", 0), folder_ / "base.h5", "first");
   const std::string before = folder_.read("base.h5.log.yaml");
-  const BaselineUpdate update = update_baseline(results("b.h5", 1000), folder_ / "base.h5", "second");
+  const comparison::BaselineUpdate update =
+      comparison::update_baseline(results("b.h5", 1000), folder_ / "base.h5", "second");
   EXPECT_NE(update.comparison, "");
   EXPECT_EQ(folder_.read("base.h5"), folder_.read("b.h5"));
   const std::string log = folder_.read("base.h5.log.yaml");
@@ -47,17 +48,18 @@ TEST_F(Baselines, KeepTheRecordOfWhatTheyReplace) {
 
 TEST_F(Baselines, AreLeftAloneByTheSameFile) {
   const auto file = results("a.h5", 0);
-  update_baseline(file, folder_ / "base.h5", "first");
+  comparison::update_baseline(file, folder_ / "base.h5", "first");
   const std::string log = folder_.read("base.h5.log.yaml");
-  EXPECT_FALSE(update_baseline(file, folder_ / "base.h5", "again").changed);
+  EXPECT_FALSE(comparison::update_baseline(file, folder_ / "base.h5", "again").changed);
   EXPECT_EQ(folder_.read("base.h5.log.yaml"), log);
 }
 
 TEST_F(Baselines, ThatWereChangedWithoutARecordAreNoticed) {
-  update_baseline(results("a.h5", 0), folder_ / "base.h5", "first");
+  comparison::update_baseline(results("a.h5", 0), folder_ / "base.h5", "first");
   std::filesystem::copy_file(results("b.h5", 1000), folder_ / "base.h5",
                              std::filesystem::copy_options::overwrite_existing);
-  const BaselineUpdate update = update_baseline(results("c.h5", 2000), folder_ / "base.h5", "third");
+  const comparison::BaselineUpdate update =
+      comparison::update_baseline(results("c.h5", 2000), folder_ / "base.h5", "third");
   ASSERT_FALSE(update.warnings.empty());
   EXPECT_NE(update.warnings[0].find("without a record"), std::string::npos);
 }
@@ -67,7 +69,7 @@ TEST_F(Baselines, AreNeverMadeOfADamagedFile) {
   std::string bytes = read_bytes(file);
   bytes[bytes.size() / 2] ^= 1;
   write_bytes(file, bytes);
-  EXPECT_THROW(update_baseline(file, folder_ / "base.h5", "first"), Failure);
+  EXPECT_THROW(comparison::update_baseline(file, folder_ / "base.h5", "first"), Failure);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "base.h5"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "base.h5.log.yaml"));
 }

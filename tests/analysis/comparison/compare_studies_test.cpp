@@ -21,11 +21,11 @@ namespace {
 constexpr std::int64_t trials = 120;
 
 /// A study of two points whose manifest says what `more` does.
-Study study_of(const std::string& more = "", std::uint64_t seed = 1, std::int64_t count = trials) {
-  Study study = plain_study(2, count, 1);
+study::Study study_of(const std::string& more = "", std::uint64_t seed = 1, std::int64_t count = trials) {
+  study::Study study = plain_study(2, count, 1);
   study.seed = seed;
   study.manifest_text = "zerocount: 1\nname: plain\nseed: " + std::to_string(seed) + "\n" + more;
-  study.manifest_sha256 = sha256_hex(study.manifest_text);
+  study.manifest_sha256 = hash::sha256_hex(study.manifest_text);
   study.study_sha256 = study.manifest_sha256;
   study.input_columns = {{"friction.k1", "N m/rad", "stiffness"}};
   return study;
@@ -33,8 +33,8 @@ Study study_of(const std::string& more = "", std::uint64_t seed = 1, std::int64_
 
 /// A trial that arrives after `samples`, and ends in zero counts where `success` says so.
 TrialRecord trial_of(bool success, int samples) {
-  MoveOutcome move;
-  move.outcome = success ? Outcome::zero_count : Outcome::one_count;
+  trial::MoveOutcome move;
+  move.outcome = success ? trial::Outcome::zero_count : trial::Outcome::one_count;
   move.arrived = move.stable = true;
   move.arrival = samples;
   move.settling_time = samples * 0.0005;
@@ -50,14 +50,15 @@ std::vector<TrialRecord> good_trials(std::int64_t count = trials) {
 
 class ComparedStudies : public ::testing::Test {
  protected:
-  StudyFile write(const std::string& name, const Study& study, const std::vector<TrialRecord>& records) {
+  reading::StudyFile write(const std::string& name, const study::Study& study,
+                           const std::vector<TrialRecord>& records) {
     write_study_file(folder_ / name, study, records);
-    return StudyFile(folder_ / name);
+    return reading::StudyFile(folder_ / name);
   }
 
-  std::string fault(const StudyFile& one, const StudyFile& other) {
+  std::string fault(const reading::StudyFile& one, const reading::StudyFile& other) {
     try {
-      compare_studies(one, other);
+      comparison::compare_studies(one, other);
     } catch (const Failure& failure) {
       EXPECT_EQ(failure.code(), ExitCode::bad_data);
       return failure.what();
@@ -69,11 +70,11 @@ class ComparedStudies : public ::testing::Test {
 };
 
 TEST_F(ComparedStudies, EqualDataPass) {
-  const StudyComparison result =
-      compare_studies(write("a.h5", study_of(), good_trials()), write("b.h5", study_of(), good_trials()));
-  EXPECT_EQ(result.layer, ComparisonLayer::bits);
+  const comparison::StudyComparison result = comparison::compare_studies(
+      write("a.h5", study_of(), good_trials()), write("b.h5", study_of(), good_trials()));
+  EXPECT_EQ(result.layer, comparison::ComparisonLayer::bits);
   EXPECT_TRUE(result.equal_to_the_bit);
-  EXPECT_EQ(result.verdict, GateVerdict::passed);
+  EXPECT_EQ(result.verdict, comparison::GateVerdict::passed);
   EXPECT_TRUE(result.manifest_differences.empty());
   ASSERT_EQ(result.points.size(), 2u);
   EXPECT_EQ(result.points[0].measures[0].test, "equal to the bit");
@@ -84,9 +85,9 @@ TEST_F(ComparedStudies, EqualDataPass) {
 std::vector<TrialRecord> trials_with_undecided_moves(std::size_t step) {
   std::vector<TrialRecord> all = good_trials();
   for (std::size_t row = 0; row < all.size(); row += step) {
-    MoveOutcome& move = all[row].outcome.moves[0];
-    move = MoveOutcome{};
-    move.outcome = Outcome::off_target;
+    trial::MoveOutcome& move = all[row].outcome.moves[0];
+    move = trial::MoveOutcome{};
+    move.outcome = trial::Outcome::off_target;
     move.midway_error = row % (2 * step) == 0 ? 9 : 5;
     move.final_error = 5;
   }
@@ -95,18 +96,18 @@ std::vector<TrialRecord> trials_with_undecided_moves(std::size_t step) {
 
 // Whether stability has changed is not known of moves that are neither stable nor shown unstable.
 TEST_F(ComparedStudies, UndecidedMovesOfBothFilesAreCounted) {
-  const StudyFile none = write("none.h5", study_of(), good_trials());
-  const StudyFile some = write("some.h5", study_of("", 2), trials_with_undecided_moves(6));
-  const StudyFile many = write("many.h5", study_of("", 3), trials_with_undecided_moves(3));
-  const StudyComparison result = compare_studies(some, many);
-  for (const PointComparison& point : result.points) {
+  const reading::StudyFile none = write("none.h5", study_of(), good_trials());
+  const reading::StudyFile some = write("some.h5", study_of("", 2), trials_with_undecided_moves(6));
+  const reading::StudyFile many = write("many.h5", study_of("", 3), trials_with_undecided_moves(3));
+  const comparison::StudyComparison result = comparison::compare_studies(some, many);
+  for (const comparison::PointComparison& point : result.points) {
     EXPECT_EQ(point.baseline_undecided.moves, trials);
     EXPECT_EQ(point.baseline_undecided.off_target, 20);
     EXPECT_EQ(point.baseline_undecided.still_falling, 10);
     EXPECT_EQ(point.current_undecided.off_target, 40);
     EXPECT_EQ(point.current_undecided.still_falling, 20);
   }
-  const auto notes_of = [](const StudyComparison& comparison) {
+  const auto notes_of = [](const comparison::StudyComparison& comparison) {
     return fmt::format("{}", fmt::join(comparison.notes, "\n"));
   };
   EXPECT_EQ(notes_of(result),
@@ -116,25 +117,27 @@ TEST_F(ComparedStudies, UndecidedMovesOfBothFilesAreCounted) {
             "oscillating; the error was still falling in 40 of 240 moves at the end of the hold\n"
             "Such moves are undecided: neither stable nor shown unstable. A longer hold decides those whose "
             "error was still falling");
-  EXPECT_NE(notes_of(compare_studies(none, some)).find("undecided in the baseline: none of 240 moves\n"),
+  EXPECT_NE(notes_of(comparison::compare_studies(none, some))
+                .find("undecided in the baseline: none of 240 moves\n"),
             std::string::npos);
-  EXPECT_NE(notes_of(compare_studies(some, none)).find("undecided in the file: none of 240 moves\n"),
-            std::string::npos);
-  EXPECT_EQ(notes_of(compare_studies(none, none)).find("undecided"), std::string::npos);
+  EXPECT_NE(
+      notes_of(comparison::compare_studies(some, none)).find("undecided in the file: none of 240 moves\n"),
+      std::string::npos);
+  EXPECT_EQ(notes_of(comparison::compare_studies(none, none)).find("undecided"), std::string::npos);
 }
 
 TEST_F(ComparedStudies, OneBitIsFoundAndNamed) {
   std::vector<TrialRecord> changed = good_trials();
   changed[17].outcome.moves[0].creep = 1e-300;
-  const StudyComparison result =
-      compare_studies(write("a.h5", study_of(), good_trials()), write("b.h5", study_of(), changed));
+  const comparison::StudyComparison result = comparison::compare_studies(
+      write("a.h5", study_of(), good_trials()), write("b.h5", study_of(), changed));
   EXPECT_EQ(result.first_difference, "/outcome/creep: differs from row 17 on");
   EXPECT_FALSE(result.equal_to_the_bit);
   // By a clean build this is a regression by itself; one with uncommitted changes may be another.
-  if (result.layer == ComparisonLayer::bits) {
-    EXPECT_EQ(result.verdict, GateVerdict::regression);
+  if (result.layer == comparison::ComparisonLayer::bits) {
+    EXPECT_EQ(result.verdict, comparison::GateVerdict::regression);
   } else {
-    EXPECT_EQ(result.layer, ComparisonLayer::paired);
+    EXPECT_EQ(result.layer, comparison::ComparisonLayer::paired);
     EXPECT_EQ(result.points[0].pairs, trials);
   }
 }
@@ -146,7 +149,7 @@ void give_commit(const std::filesystem::path& path, const std::string& commit) {
       "{}",
       ZEROCOUNT_PYTHON, path.string(), commit);
   ASSERT_EQ(std::system(command.c_str()), 0);
-  append_checksum(path);
+  storage::append_checksum(path);
 }
 
 TEST_F(ComparedStudies, OneBuildMustMakeOneResult) {
@@ -156,53 +159,55 @@ TEST_F(ComparedStudies, OneBuildMustMakeOneResult) {
   write("b.h5", study_of(), changed);
   give_commit(folder_ / "a.h5", "c0ffee");
   give_commit(folder_ / "b.h5", "c0ffee");
-  const StudyComparison result = compare_files(folder_ / "a.h5", folder_ / "b.h5");
-  EXPECT_EQ(result.layer, ComparisonLayer::bits);
-  EXPECT_EQ(result.verdict, GateVerdict::regression);
+  const comparison::StudyComparison result = comparison::compare_files(folder_ / "a.h5", folder_ / "b.h5");
+  EXPECT_EQ(result.layer, comparison::ComparisonLayer::bits);
+  EXPECT_EQ(result.verdict, comparison::GateVerdict::regression);
   EXPECT_EQ(result.first_difference, "/outcome/creep: differs from row 17 on");
 
   give_commit(folder_ / "b.h5", "decade");  // another build may
-  EXPECT_EQ(compare_files(folder_ / "a.h5", folder_ / "b.h5").layer, ComparisonLayer::paired);
+  EXPECT_EQ(comparison::compare_files(folder_ / "a.h5", folder_ / "b.h5").layer,
+            comparison::ComparisonLayer::paired);
 }
 
 TEST_F(ComparedStudies, AnotherManifestOnTheSameDrawsIsComparedTrialByTrial) {
   std::vector<TrialRecord> worse = good_trials();
   for (std::int64_t row = 0; row < trials; row += 3)
     worse[static_cast<std::size_t>(row)] = trial_of(false, 60);
-  const StudyComparison result =
-      compare_studies(write("a.h5", study_of("controller: {ki: 1.0e-5}\n"), good_trials()),
-                      write("b.h5", study_of("controller: {ki: 2.0e-5}\n"), worse));
-  EXPECT_EQ(result.layer, ComparisonLayer::paired);
+  const comparison::StudyComparison result =
+      comparison::compare_studies(write("a.h5", study_of("controller: {ki: 1.0e-5}\n"), good_trials()),
+                                  write("b.h5", study_of("controller: {ki: 2.0e-5}\n"), worse));
+  EXPECT_EQ(result.layer, comparison::ComparisonLayer::paired);
   ASSERT_EQ(result.manifest_differences.size(), 1u);
   EXPECT_EQ(result.manifest_differences[0].key, "controller.ki");
   EXPECT_EQ(result.manifest_differences[0].baseline, "1.0e-5");
   EXPECT_EQ(result.manifest_differences[0].current, "2.0e-5");
-  EXPECT_EQ(result.points[0].verdict, GateVerdict::regression);
-  EXPECT_EQ(result.points[0].measures[0].verdict, GateVerdict::regression);
-  EXPECT_NE(result.points[1].verdict, GateVerdict::regression);
-  EXPECT_EQ(result.verdict, GateVerdict::regression);
+  EXPECT_EQ(result.points[0].verdict, comparison::GateVerdict::regression);
+  EXPECT_EQ(result.points[0].measures[0].verdict, comparison::GateVerdict::regression);
+  EXPECT_NE(result.points[1].verdict, comparison::GateVerdict::regression);
+  EXPECT_EQ(result.verdict, comparison::GateVerdict::regression);
 }
 
 TEST_F(ComparedStudies, AnotherSeedIsAnotherSample) {
-  const StudyComparison result = compare_studies(write("a.h5", study_of(), good_trials()),
-                                                 write("b.h5", study_of("", 2), good_trials()));
-  EXPECT_EQ(result.layer, ComparisonLayer::two_samples);
+  const comparison::StudyComparison result = comparison::compare_studies(
+      write("a.h5", study_of(), good_trials()), write("b.h5", study_of("", 2), good_trials()));
+  EXPECT_EQ(result.layer, comparison::ComparisonLayer::two_samples);
   EXPECT_EQ(result.points[0].pairs, 0);
   EXPECT_EQ(result.points[0].measures[0].test, "Fisher, exact");
-  EXPECT_EQ(result.verdict, GateVerdict::inconclusive);  // 120 trials do not show 2 %
+  EXPECT_EQ(result.verdict, comparison::GateVerdict::inconclusive);  // 120 trials do not show 2 %
 }
 
 TEST_F(ComparedStudies, MoreTrialsOfTheSameDrawsAreComparedAsFarAsTheyGo) {
-  const StudyComparison result = compare_studies(write("a.h5", study_of("x: 1\n"), good_trials()),
-                                                 write("b.h5", study_of("x: 2\n", 1, 200), good_trials(200)));
-  EXPECT_EQ(result.layer, ComparisonLayer::paired);
+  const comparison::StudyComparison result =
+      comparison::compare_studies(write("a.h5", study_of("x: 1\n"), good_trials()),
+                                  write("b.h5", study_of("x: 2\n", 1, 200), good_trials(200)));
+  EXPECT_EQ(result.layer, comparison::ComparisonLayer::paired);
   EXPECT_EQ(result.points[0].pairs, trials);
   ASSERT_EQ(result.notes.size(), 1u);
   EXPECT_NE(result.notes[0].find("have no partner"), std::string::npos);
 }
 
 TEST_F(ComparedStudies, PointsWithoutAPartnerAreNeverIgnored) {
-  Study other = study_of("x: 1\n");
+  study::Study other = study_of("x: 1\n");
   other.point_labels[1] = "point 7";
   EXPECT_EQ(fault(write("a.h5", study_of(), good_trials()), write("b.h5", other, good_trials())),
             "the files cannot be compared: not the same design points; only " + (folder_ / "a.h5").string() +
@@ -210,7 +215,7 @@ TEST_F(ComparedStudies, PointsWithoutAPartnerAreNeverIgnored) {
 }
 
 TEST_F(ComparedStudies, EqualLabelsOfOtherAxesAreNoPartners) {
-  Study other = study_of("x: 1\n");
+  study::Study other = study_of("x: 1\n");
   other.axes[0].numbers[1] = 9.0;
   const std::string what =
       fault(write("a.h5", study_of(), good_trials()), write("b.h5", other, good_trials()));
@@ -218,14 +223,16 @@ TEST_F(ComparedStudies, EqualLabelsOfOtherAxesAreNoPartners) {
 }
 
 TEST_F(ComparedStudies, ACaseMayBeGivenAnotherGain) {
-  Study before = study_of();
-  before.axes.insert(before.axes.begin(),
-                     SweepAxis{"case", "", "name", SweepAxis::Kind::text, {}, before.point_labels});
-  Study after = before;
+  study::Study before = study_of();
+  before.axes.insert(
+      before.axes.begin(),
+      study::SweepAxis{"case", "", "name", study::SweepAxis::Kind::text, {}, before.point_labels});
+  study::Study after = before;
   after.axes[1].numbers[1] = 9.0;
   after.study_sha256 = std::string(64, '0');
   const auto a = write("a.h5", before, good_trials());
-  EXPECT_EQ(compare_studies(a, write("b.h5", after, good_trials())).layer, ComparisonLayer::paired);
+  EXPECT_EQ(comparison::compare_studies(a, write("b.h5", after, good_trials())).layer,
+            comparison::ComparisonLayer::paired);
 }
 
 TEST_F(ComparedStudies, TorqueLevelsAreNotComparedWithTargets) {
@@ -246,51 +253,51 @@ TEST_F(ComparedStudies, WhatMeasuresNothingNeverPasses) {
   std::vector<TrialRecord> open;
   for (std::int64_t row = 0; row < 2 * trials; ++row) {
     TrialRecord record = trial_of(true, 10);
-    record.outcome.moves[0].outcome = Outcome::open_loop;
+    record.outcome.moves[0].outcome = trial::Outcome::open_loop;
     open.push_back(record);
   }
-  const StudyComparison result =
-      compare_studies(write("a.h5", study_of("x: 1\n"), open), write("b.h5", study_of("x: 2\n"), open));
-  EXPECT_EQ(result.verdict, GateVerdict::inconclusive);
+  const comparison::StudyComparison result = comparison::compare_studies(
+      write("a.h5", study_of("x: 1\n"), open), write("b.h5", study_of("x: 2\n"), open));
+  EXPECT_EQ(result.verdict, comparison::GateVerdict::inconclusive);
   EXPECT_EQ(result.tests, 0);
-  EXPECT_EQ(result.points[0].verdict, GateVerdict::not_measured);
+  EXPECT_EQ(result.points[0].verdict, comparison::GateVerdict::not_measured);
 }
 
 TEST_F(ComparedStudies, ADriftingBaselineDoesNotCarryARequirementAway) {
-  GateRules rules;
-  rules.requirements = {{"success_rate ≥ 0.995", find_requirable("success_rate"), true, 0.995}};
+  comparison::GateRules rules;
+  rules.requirements = {{"success_rate ≥ 0.995", comparison::find_requirable("success_rate"), true, 0.995}};
   const auto a = write("a.h5", study_of(), good_trials());
-  const StudyComparison result = compare_studies(a, a, rules);
+  const comparison::StudyComparison result = comparison::compare_studies(a, a, rules);
   EXPECT_TRUE(result.equal_to_the_bit);
-  EXPECT_EQ(result.verdict, GateVerdict::regression);  // 90 % in both
-  EXPECT_EQ(result.points[0].requirements[0].verdict, GateVerdict::regression);
+  EXPECT_EQ(result.verdict, comparison::GateVerdict::regression);  // 90 % in both
+  EXPECT_EQ(result.points[0].requirements[0].verdict, comparison::GateVerdict::regression);
 }
 
 TEST(Draws, RiseInTheSameOrderThroughAnotherDistribution) {
   const TemporaryFolder folder;
   const auto write = [&](const std::string& name, const std::function<double(std::int64_t)>& k1) {
-    const Study study = study_of("distribution: " + name + "\n");
-    std::vector<TrialResult> results(2 * trials);
+    const study::Study study = study_of("distribution: " + name + "\n");
+    std::vector<shards::TrialResult> results(2 * trials);
     for (std::int64_t row = 0; row < 2 * trials; ++row) {
       results[static_cast<std::size_t>(row)] = {row, {k1(row)}, trial_of(true, 10).outcome, {}, {}};
     }
-    write_shard(folder / (name + ".shard"), study, 0, results);
-    const std::vector<ShardInfo> shards{{folder / (name + ".shard"), {0, 2 * trials}}};
-    merge_shards(shards, study, folder / name, {0, 2 * trials}, {});
-    return StudyFile(folder / name);
+    shards::write_shard(folder / (name + ".shard"), study, 0, results);
+    const std::vector<shards::ShardInfo> shards{{folder / (name + ".shard"), {0, 2 * trials}}};
+    shards::merge_shards(shards, study, folder / name, {0, 2 * trials}, {});
+    return reading::StudyFile(folder / name);
   };
   const auto draw = [](std::int64_t row) { return static_cast<double>((row * 37 + 11) % 101); };
-  const StudyFile before = write("a.h5", draw);
-  const StudyFile scaled = write("b.h5", [&](std::int64_t row) { return 0.95 * draw(row); });
-  const StudyFile other = write("c.h5", [&](std::int64_t row) { return draw(row + 1); });
-  const auto points = match_points(before, scaled);
-  const DrawComparison same = compare_draws(before, scaled, {}, {}, points);
+  const reading::StudyFile before = write("a.h5", draw);
+  const reading::StudyFile scaled = write("b.h5", [&](std::int64_t row) { return 0.95 * draw(row); });
+  const reading::StudyFile other = write("c.h5", [&](std::int64_t row) { return draw(row + 1); });
+  const auto points = comparison::match_points(before, scaled);
+  const comparison::DrawComparison same = comparison::compare_draws(before, scaled, {}, {}, points);
   EXPECT_TRUE(same.same);
   EXPECT_EQ(same.changed_inputs, std::vector<std::string>{"friction.k1"});
-  const DrawComparison different = compare_draws(before, other, {}, {}, points);
+  const comparison::DrawComparison different = comparison::compare_draws(before, other, {}, {}, points);
   EXPECT_FALSE(different.same);
   EXPECT_EQ(different.reason, "trial i has other values of friction.k1");
-  EXPECT_FALSE(compare_draws(before, scaled, {}, {{"design", "sobol"}}, points).same);
+  EXPECT_FALSE(comparison::compare_draws(before, scaled, {}, {{"design", "sobol"}}, points).same);
 }
 
 }  // namespace

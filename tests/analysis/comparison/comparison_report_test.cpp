@@ -12,12 +12,12 @@
 namespace zerocount::testing {
 namespace {
 
-MeasureComparison reported_measure(const std::string& name, GateVerdict verdict) {
-  MeasureComparison one;
+comparison::MeasureComparison reported_measure(const std::string& name, comparison::GateVerdict verdict) {
+  comparison::MeasureComparison one;
   one.measure = name;
   one.unit.assign(1, name == "settling_time" ? 's' : '1');
   one.verdict = verdict;
-  if (verdict == GateVerdict::not_measured) return one;
+  if (verdict == comparison::GateVerdict::not_measured) return one;
   one.baseline = 0.9;
   one.current = 0.85;
   one.effect = 0.05;
@@ -27,33 +27,33 @@ MeasureComparison reported_measure(const std::string& name, GateVerdict verdict)
   return one;
 }
 
-StudyComparison sample() {
-  StudyComparison comparison;
+comparison::StudyComparison sample() {
+  comparison::StudyComparison comparison;
   comparison.baseline.path = "old.h5";
   comparison.current.name = "gains & <more>";
-  comparison.layer = ComparisonLayer::paired;
+  comparison.layer = comparison::ComparisonLayer::paired;
   comparison.layer_reason = "they are of different builds";
   comparison.manifest_differences = {{"controller.ki", "1e-5", ""}};
-  PointComparison point;
+  comparison::PointComparison point;
   point.label = "a | \"b\"";
-  point.measures = {reported_measure("success_rate", GateVerdict::regression),
-                    reported_measure("settling_time", GateVerdict::inconclusive),
-                    reported_measure("jerk_count", GateVerdict::not_measured),
-                    reported_measure("stable_rate", GateVerdict::passed)};
+  point.measures = {reported_measure("success_rate", comparison::GateVerdict::regression),
+                    reported_measure("settling_time", comparison::GateVerdict::inconclusive),
+                    reported_measure("jerk_count", comparison::GateVerdict::not_measured),
+                    reported_measure("stable_rate", comparison::GateVerdict::passed)};
   point.measures[1].trials_to_decide = 1234.0;
-  RequirementResult requirement;
+  comparison::RequirementResult requirement;
   requirement.text = "success_rate ≥ 0.8";
   requirement.quantity = "success_rate";
   requirement.unit = "1";
-  requirement.verdict = GateVerdict::passed;
+  requirement.verdict = comparison::GateVerdict::passed;
   point.requirements = {requirement};
   comparison.points = {point};
-  comparison.verdict = GateVerdict::regression;
+  comparison.verdict = comparison::GateVerdict::regression;
   return comparison;
 }
 
 TEST(ComparisonReport, TheTableHoldsAllThatWasJudged) {
-  const std::string table = comparison_table(sample());
+  const std::string table = comparison::comparison_table(sample());
   for (const char* part : {"success_rate", "90 %", "85 %", "[1 %, 9 %]", "< 1e-4", "regression",
                            "1300 trials would decide", "not measured", "require success_rate",
                            "controller.ki: 1e-5 → (absent)", "regression: 1 of 4 judgements failed"}) {
@@ -62,29 +62,30 @@ TEST(ComparisonReport, TheTableHoldsAllThatWasJudged) {
 }
 
 TEST(ComparisonReport, OfManyRowsOnlyTheNoteworthyAreShown) {
-  StudyComparison comparison = sample();
+  comparison::StudyComparison comparison = sample();
   comparison.points.assign(30, comparison.points[0]);
-  const std::string table = comparison_table(comparison);
+  const std::string table = comparison::comparison_table(comparison);
   EXPECT_EQ(table.find("stable_rate"), std::string::npos);
   EXPECT_NE(table.find("(60 rows that simply passed are not shown)"), std::string::npos) << table;
 }
 
 TEST(ComparisonReport, EveryFormThatSpeaksOfStabilitySaysHowManyMovesAreUndecided) {
-  StudyComparison comparison = sample();
+  comparison::StudyComparison comparison = sample();
   const std::string remark = "undecided: 12 of 300 moves in the baseline, 4 of 280 in the file";
-  EXPECT_EQ(comparison_table(comparison).find("undecided"), std::string::npos);
+  EXPECT_EQ(comparison::comparison_table(comparison).find("undecided"), std::string::npos);
   comparison.points[0].baseline_undecided = {.moves = 300, .off_target = 12, .still_falling = 9};
   comparison.points[0].current_undecided = {.moves = 280, .off_target = 4, .still_falling = 0};
-  comparison.points[0].measures[3].verdict = GateVerdict::inconclusive;  // the stable rate
+  comparison.points[0].measures[3].verdict = comparison::GateVerdict::inconclusive;  // the stable rate
   comparison.notes = {"undecided in the file"};
   for (const std::string& text :
-       {comparison_table(comparison), comparison_markdown(comparison), comparison_junit(comparison)}) {
+       {comparison::comparison_table(comparison), comparison::comparison_markdown(comparison),
+        comparison::comparison_junit(comparison)}) {
     EXPECT_NE(text.find(remark), std::string::npos) << text;
     EXPECT_EQ(text.find(remark), text.rfind(remark)) << "beside the stable rate alone\n" << text;
   }
-  EXPECT_NE(comparison_table(comparison).find("undecided in the file"), std::string::npos);
-  EXPECT_NE(comparison_markdown(comparison).find("undecided in the file"), std::string::npos);
-  const auto json = nlohmann::json::parse(comparison_json(comparison));
+  EXPECT_NE(comparison::comparison_table(comparison).find("undecided in the file"), std::string::npos);
+  EXPECT_NE(comparison::comparison_markdown(comparison).find("undecided in the file"), std::string::npos);
+  const auto json = nlohmann::json::parse(comparison::comparison_json(comparison));
   EXPECT_EQ(json["points"][0]["baseline_undecided"], nlohmann::json({{"moves", 300},
                                                                      {"off_target", 12},
                                                                      {"still_falling", 9},
@@ -98,7 +99,7 @@ TEST(ComparisonReport, EveryFormThatSpeaksOfStabilitySaysHowManyMovesAreUndecide
 }
 
 TEST(ComparisonReport, TheJsonReadsBack) {
-  const auto json = nlohmann::json::parse(comparison_json(sample()));
+  const auto json = nlohmann::json::parse(comparison::comparison_json(sample()));
   EXPECT_EQ(json["verdict"], "regression");
   EXPECT_EQ(json["layer"], "paired");
   EXPECT_EQ(json["counts"]["inconclusive"], 1);
@@ -110,7 +111,7 @@ TEST(ComparisonReport, TheJsonReadsBack) {
 
 TEST(ComparisonReport, JUnitCountsFailuresErrorsAndWhatWasSkipped) {
   const TemporaryFolder folder;
-  folder.write("r.xml", comparison_junit(sample()));
+  folder.write("r.xml", comparison::comparison_junit(sample()));
   const std::string command = fmt::format(
       "cd {} && {} -c 'import xml.etree.ElementTree as t; s=t.parse(\"r.xml\").getroot()[0]; "
       "print(s.get(\"name\"), len(s), s.get(\"tests\"), s.get(\"failures\"), len(s.findall(\"*/failure\")), "
@@ -123,30 +124,30 @@ TEST(ComparisonReport, JUnitCountsFailuresErrorsAndWhatWasSkipped) {
 
 // What no single case tells must be a case of its own, or a runner of tests would see all green.
 TEST(ComparisonReport, JUnitIsNotGreenWhereNothingWasMeasured) {
-  StudyComparison nothing;
-  nothing.verdict = GateVerdict::inconclusive;
-  EXPECT_NE(comparison_junit(nothing).find("errors=\"1\""), std::string::npos);
-  StudyComparison unequal;
-  unequal.layer = ComparisonLayer::bits;
+  comparison::StudyComparison nothing;
+  nothing.verdict = comparison::GateVerdict::inconclusive;
+  EXPECT_NE(comparison::comparison_junit(nothing).find("errors=\"1\""), std::string::npos);
+  comparison::StudyComparison unequal;
+  unequal.layer = comparison::ComparisonLayer::bits;
   unequal.first_difference = "/outcome/creep: differs from row 3 on";
-  unequal.verdict = GateVerdict::regression;
-  EXPECT_NE(comparison_junit(unequal).find("failures=\"1\""), std::string::npos);
-  EXPECT_NE(verdict_sentence(unequal).find("/outcome/creep"), std::string::npos);
-  EXPECT_EQ(verdict_sentence(nothing), "inconclusive: nothing was measured");
+  unequal.verdict = comparison::GateVerdict::regression;
+  EXPECT_NE(comparison::comparison_junit(unequal).find("failures=\"1\""), std::string::npos);
+  EXPECT_NE(comparison::verdict_sentence(unequal).find("/outcome/creep"), std::string::npos);
+  EXPECT_EQ(comparison::verdict_sentence(nothing), "inconclusive: nothing was measured");
 }
 
 TEST(ComparisonReport, TheMarkdownEscapesItsCells) {
-  const std::string markdown = comparison_markdown(sample());
+  const std::string markdown = comparison::comparison_markdown(sample());
   EXPECT_NE(markdown.find("| a \\| \"b\" | success\\_rate | 90 % | 85 % |"), std::string::npos) << markdown;
   EXPECT_NE(markdown.find("**regression**"), std::string::npos);
   EXPECT_EQ(markdown.find("stable"), std::string::npos);
 }
 
 TEST(ComparisonReport, NumbersOfTrialsAreRoundedUp) {
-  EXPECT_EQ(trials_text(7.0), "7");
-  EXPECT_EQ(trials_text(1201.0), "1300");
-  EXPECT_EQ(trials_text(1200.0), "1200");
-  EXPECT_EQ(trials_text(999.0), "1000");
+  EXPECT_EQ(comparison::trials_text(7.0), "7");
+  EXPECT_EQ(comparison::trials_text(1201.0), "1300");
+  EXPECT_EQ(comparison::trials_text(1200.0), "1200");
+  EXPECT_EQ(comparison::trials_text(999.0), "1000");
 }
 
 }  // namespace

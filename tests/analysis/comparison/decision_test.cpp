@@ -9,8 +9,8 @@
 namespace zerocount::testing {
 namespace {
 
-MeasureComparison measure(double effect, ConfidenceInterval bounds, double p) {
-  MeasureComparison one;
+comparison::MeasureComparison measure(double effect, statistics::ConfidenceInterval bounds, double p) {
+  comparison::MeasureComparison one;
   one.measure = "success_rate";
   one.effect = effect;
   one.bounds = bounds;
@@ -20,73 +20,75 @@ MeasureComparison measure(double effect, ConfidenceInterval bounds, double p) {
   return one;
 }
 
-MeasureComparison decided(const MeasureComparison& one) {
-  PointComparison point;
+comparison::MeasureComparison decided(const comparison::MeasureComparison& one) {
+  comparison::PointComparison point;
   point.baseline_trials = point.current_trials = 1000;
   point.measures = {one};
-  decide({&point, 1}, {});
+  comparison::decide({&point, 1}, {});
   return point.measures.front();
 }
 
 TEST(Verdict, PassesWhereTheBoundIsWithinTheMargin) {
-  EXPECT_EQ(decided(measure(0.0, {-0.01, 0.01}, 0.5)).verdict, GateVerdict::passed);
+  EXPECT_EQ(decided(measure(0.0, {-0.01, 0.01}, 0.5)).verdict, comparison::GateVerdict::passed);
   EXPECT_EQ(decided(measure(0.015, {0.011, 0.019}, 1e-9)).verdict,
-            GateVerdict::passed);  // significant, but small
-  EXPECT_EQ(decided(measure(-0.5, {-0.6, -0.4}, 1.0)).verdict, GateVerdict::passed);
+            comparison::GateVerdict::passed);  // significant, but small
+  EXPECT_EQ(decided(measure(-0.5, {-0.6, -0.4}, 1.0)).verdict, comparison::GateVerdict::passed);
 }
 
 TEST(Verdict, FailsWhereTheChangeIsSignificantAndBeyondTheMargin) {
-  EXPECT_EQ(decided(measure(0.05, {0.03, 0.07}, 1e-6)).verdict, GateVerdict::regression);
-  EXPECT_EQ(decided(measure(0.05, {-0.01, 0.12}, 0.2)).verdict, GateVerdict::inconclusive);
-  EXPECT_EQ(decided(measure(0.018, {0.01, 0.026}, 1e-6)).verdict, GateVerdict::inconclusive);
+  EXPECT_EQ(decided(measure(0.05, {0.03, 0.07}, 1e-6)).verdict, comparison::GateVerdict::regression);
+  EXPECT_EQ(decided(measure(0.05, {-0.01, 0.12}, 0.2)).verdict, comparison::GateVerdict::inconclusive);
+  EXPECT_EQ(decided(measure(0.018, {0.01, 0.026}, 1e-6)).verdict, comparison::GateVerdict::inconclusive);
 }
 
 TEST(Verdict, BothWaysAnImprovementFailsToo) {
-  MeasureComparison better = measure(-0.05, {-0.07, -0.03}, 1e-6);
-  EXPECT_EQ(decided(better).verdict, GateVerdict::passed);
+  comparison::MeasureComparison better = measure(-0.05, {-0.07, -0.03}, 1e-6);
+  EXPECT_EQ(decided(better).verdict, comparison::GateVerdict::passed);
   better.both_ways = true;
-  EXPECT_EQ(decided(better).verdict, GateVerdict::regression);
-  MeasureComparison open = measure(-0.015, {-0.03, 0.0}, 0.2);
+  EXPECT_EQ(decided(better).verdict, comparison::GateVerdict::regression);
+  comparison::MeasureComparison open = measure(-0.015, {-0.03, 0.0}, 0.2);
   open.both_ways = true;
-  EXPECT_EQ(decided(open).verdict, GateVerdict::inconclusive);
+  EXPECT_EQ(decided(open).verdict, comparison::GateVerdict::inconclusive);
 }
 
 TEST(Verdict, OneSmallValueAmongManyTestsIsNoDiscovery) {
-  PointComparison point;
+  comparison::PointComparison point;
   point.measures.assign(50, measure(0.0, {-0.01, 0.01}, 0.5));
   point.measures[7] = measure(0.03, {0.002, 0.06}, 0.01);
-  const std::int64_t tests = decide({&point, 1}, {});
+  const std::int64_t tests = comparison::decide({&point, 1}, {});
   EXPECT_EQ(tests, 50);
-  EXPECT_EQ(point.measures[7].verdict, GateVerdict::inconclusive);
-  EXPECT_EQ(decided(measure(0.03, {0.002, 0.06}, 0.01)).verdict, GateVerdict::regression);  // by itself it is
+  EXPECT_EQ(point.measures[7].verdict, comparison::GateVerdict::inconclusive);
+  EXPECT_EQ(decided(measure(0.03, {0.002, 0.06}, 0.01)).verdict,
+            comparison::GateVerdict::regression);  // by itself it is
 }
 
 TEST(Verdict, WhatWasNotMeasuredCountsNeitherWay) {
-  MeasureComparison nothing;
-  EXPECT_EQ(decided(nothing).verdict, GateVerdict::not_measured);
-  const std::vector<GateVerdict> both{GateVerdict::not_measured, GateVerdict::passed};
-  EXPECT_EQ(worst_of(both), GateVerdict::passed);
-  EXPECT_EQ(worst_of({}), GateVerdict::not_measured);
+  comparison::MeasureComparison nothing;
+  EXPECT_EQ(decided(nothing).verdict, comparison::GateVerdict::not_measured);
+  const std::vector<comparison::GateVerdict> both{comparison::GateVerdict::not_measured,
+                                                  comparison::GateVerdict::passed};
+  EXPECT_EQ(comparison::worst_of(both), comparison::GateVerdict::passed);
+  EXPECT_EQ(comparison::worst_of({}), comparison::GateVerdict::not_measured);
 }
 
 TEST(Verdict, AtTheMarginNoNumberOfTrialsDecides) {
-  const MeasureComparison one = decided(measure(0.02, {0.01, 0.03}, 1e-3));
-  EXPECT_EQ(one.verdict, GateVerdict::inconclusive);
+  const comparison::MeasureComparison one = decided(measure(0.02, {0.01, 0.03}, 1e-3));
+  EXPECT_EQ(one.verdict, comparison::GateVerdict::inconclusive);
   EXPECT_FALSE(one.trials_to_decide.has_value());
   EXPECT_NE(one.note, "");
 }
 
 // Bounds 0 ± 0.04 of 1000 trials: for ± 0.02 with power, s·(1.645 + 0.842) must fall to 0.02.
 TEST(Verdict, TheNumberOfTrialsFollowsFromTheStandardError) {
-  const MeasureComparison one = decided(measure(0.0, {-0.04, 0.04}, 0.5));
+  const comparison::MeasureComparison one = decided(measure(0.0, {-0.04, 0.04}, 0.5));
   ASSERT_TRUE(one.trials_to_decide.has_value());
   const double error = 0.04 / 1.6448536;
   const double times = (1.6448536 + 0.8416212) * error / 0.02;
   EXPECT_NEAR(*one.trials_to_decide, 1000.0 * times * times, 3.0);
 }
 
-PointTrials agreeing(std::int64_t trials) {
-  PointTrials all;
+comparison::PointTrials agreeing(std::int64_t trials) {
+  comparison::PointTrials all;
   all.trials = trials;
   all.moves = 1;
   const auto count = static_cast<std::size_t>(trials);
@@ -98,48 +100,50 @@ PointTrials agreeing(std::int64_t trials) {
   return all;
 }
 
-GateVerdict verdict_on(const PointTrials& before, const PointTrials& after, bool paired) {
-  PointComparison point;
+comparison::GateVerdict verdict_on(const comparison::PointTrials& before,
+                                   const comparison::PointTrials& after, bool paired) {
+  comparison::PointComparison point;
   point.baseline_trials = before.trials;
   point.current_trials = after.trials;
-  point.measures = compare_measures({}, "", before, after, paired);
-  decide({&point, 1}, {});
-  std::vector<GateVerdict> verdicts;
-  for (const MeasureComparison& one : point.measures) verdicts.push_back(one.verdict);
-  return worst_of(verdicts);
+  point.measures = comparison::compare_measures({}, "", before, after, paired);
+  comparison::decide({&point, 1}, {});
+  std::vector<comparison::GateVerdict> verdicts;
+  for (const comparison::MeasureComparison& one : point.measures) verdicts.push_back(one.verdict);
+  return comparison::worst_of(verdicts);
 }
 
 TEST(Evidence, AFewTrialsThatAgreeShowNothing) {
   for (const bool paired : {false, true}) {
     for (const std::int64_t trials : {1, 5, 19, 50}) {
-      EXPECT_EQ(verdict_on(agreeing(trials), agreeing(trials), paired), GateVerdict::inconclusive) << trials;
+      EXPECT_EQ(verdict_on(agreeing(trials), agreeing(trials), paired), comparison::GateVerdict::inconclusive)
+          << trials;
     }
-    EXPECT_EQ(verdict_on(agreeing(500), agreeing(500), paired), GateVerdict::passed);
+    EXPECT_EQ(verdict_on(agreeing(500), agreeing(500), paired), comparison::GateVerdict::passed);
   }
 }
 
 TEST(Evidence, TrialsThatNoLongerArriveFailByTheirArrivalAndNotByTheirTimes) {
-  PointTrials after = agreeing(500);
+  comparison::PointTrials after = agreeing(500);
   std::fill(after.values["arrival_rate"].begin(), after.values["arrival_rate"].end(), false);
   std::fill(after.values["settling_time"].begin(), after.values["settling_time"].end(), std::nan(""));
   for (const bool paired : {false, true}) {
-    const auto measures = compare_measures({}, "", agreeing(500), after, paired);
+    const auto measures = comparison::compare_measures({}, "", agreeing(500), after, paired);
     EXPECT_TRUE(std::isnan(measures[3].p));
-    EXPECT_EQ(verdict_on(agreeing(500), after, paired), GateVerdict::regression);
+    EXPECT_EQ(verdict_on(agreeing(500), after, paired), comparison::GateVerdict::regression);
   }
 }
 
 // A trial of several moves is one trial, whose moves that arrived in both are compared.
 TEST(Evidence, MovesAreComparedWithTheirPartners) {
-  PointTrials before = agreeing(100);
+  comparison::PointTrials before = agreeing(100);
   before.moves = 2;
   before.values["settling_time"].clear();
-  PointTrials after = before;
+  comparison::PointTrials after = before;
   for (int trial = 0; trial < 100; ++trial) {
     before.values["settling_time"].insert(before.values["settling_time"].end(), {0.01, 0.5});
     after.values["settling_time"].insert(after.values["settling_time"].end(), {0.02, std::nan("")});
   }
-  const auto measures = compare_measures({}, "", before, after, true);
+  const auto measures = comparison::compare_measures({}, "", before, after, true);
   EXPECT_NEAR(measures[3].effect, 0.01, 1e-15);
   EXPECT_EQ(measures[3].baseline_n, 100);
   EXPECT_NEAR(measures[3].baseline, 0.01, 1e-15);

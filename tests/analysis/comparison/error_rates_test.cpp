@@ -17,32 +17,32 @@ constexpr std::array<SyntheticPoint, 5> points{
     {{0.95, 0.02, 0.1}, {0.7, 0.03, 0.5}, {0.5, 0.05, 1.0}, {0.15, 0.01, 0.2}, {1.0, 0.03, 0.0}}};
 
 /// Compares studies of all points; `change` makes the points of the second study of those of the first.
-std::vector<PointComparison> compare_once(std::mt19937_64& random, bool paired, const GateRules& rules,
-                                          const std::function<SyntheticPoint(SyntheticPoint)>& change,
-                                          std::int64_t count = pair_trials) {
+std::vector<comparison::PointComparison> compare_once(
+    std::mt19937_64& random, bool paired, const comparison::GateRules& rules,
+    const std::function<SyntheticPoint(SyntheticPoint)>& change, std::int64_t count = pair_trials) {
   const TrialChances before = draw_chances(random, count);
   const TrialChances after = paired ? redraw_some(random, before, 0.2) : draw_chances(random, count);
-  std::vector<PointComparison> compared;
+  std::vector<comparison::PointComparison> compared;
   for (const SyntheticPoint& point : points) {
-    PointComparison one;
+    comparison::PointComparison one;
     one.baseline_trials = one.current_trials = count;
-    one.measures = compare_measures(rules, "", synthetic_trials(point, before),
-                                    synthetic_trials(change(point), after), paired);
+    one.measures = comparison::compare_measures(rules, "", synthetic_trials(point, before),
+                                                synthetic_trials(change(point), after), paired);
     compared.push_back(std::move(one));
   }
-  decide(compared, rules);
+  comparison::decide(compared, rules);
   return compared;
 }
 
-bool any(const std::vector<PointComparison>& compared,
-         const std::function<bool(const MeasureComparison&)>& is) {
-  return std::any_of(compared.begin(), compared.end(), [&](const PointComparison& point) {
+bool any(const std::vector<comparison::PointComparison>& compared,
+         const std::function<bool(const comparison::MeasureComparison&)>& is) {
+  return std::any_of(compared.begin(), compared.end(), [&](const comparison::PointComparison& point) {
     return std::any_of(point.measures.begin(), point.measures.end(), is);
   });
 }
 
-bool failed(const MeasureComparison& measure) {
-  return measure.verdict == GateVerdict::regression;
+bool failed(const comparison::MeasureComparison& measure) {
+  return measure.verdict == comparison::GateVerdict::regression;
 }
 
 SyntheticPoint unchanged(SyntheticPoint point) {
@@ -51,10 +51,11 @@ SyntheticPoint unchanged(SyntheticPoint point) {
 
 /// Rules whose margins are all 0: what is left to protect from false alarms is the control of false
 /// discoveries alone.
-GateRules without_margins(double rate) {
-  GateRules rules;
+comparison::GateRules without_margins(double rate) {
+  comparison::GateRules rules;
   rules.false_discovery_rate = rate;
-  for (const GateMeasure& measure : gate_measures()) rules.margins[std::string(measure.name)] = {};
+  for (const comparison::GateMeasure& measure : comparison::gate_measures())
+    rules.margins[std::string(measure.name)] = {};
   return rules;
 }
 
@@ -62,14 +63,14 @@ class NullComparisons : public ::testing::TestWithParam<bool> {};
 
 TEST_P(NullComparisons, RaiseFalseAlarmsNoMoreOftenThanStated) {
   std::mt19937_64 random(41);
-  const GateRules rules = without_margins(0.2);  // so that there is something to count
+  const comparison::GateRules rules = without_margins(0.2);  // so that there is something to count
   constexpr int comparisons = 600;
   int alarms = 0;
   int improvements = 0;
   for (int i = 0; i < comparisons; ++i) {
     const auto compared = compare_once(random, GetParam(), rules, unchanged);
     alarms += any(compared, failed);
-    improvements += any(compared, [](const MeasureComparison& m) { return m.improved; });
+    improvements += any(compared, [](const comparison::MeasureComparison& m) { return m.improved; });
   }
   RecordProperty("alarms", alarms);
   EXPECT_LE(alarms, comparisons * 0.2);
@@ -91,7 +92,7 @@ TEST_P(NullComparisons, RaiseHardlyAnyAtTheDefaults) {
 TEST_P(NullComparisons, PassAChangeOfTheMarginNoMoreOftenThanStated) {
   std::mt19937_64 random(47);
   constexpr int comparisons = 400;
-  GateRules rules;
+  comparison::GateRules rules;
   rules.margins["success_rate"] = {0.05, 0.0, false};
   rules.margins["settling_time"] = {0.2 * points[1].settling, 0.0, false};
   rules.margins["jerk_count"] = {0.0, 0.0, false};
@@ -100,8 +101,8 @@ TEST_P(NullComparisons, PassAChangeOfTheMarginNoMoreOftenThanStated) {
     const auto compared = compare_once(random, GetParam(), rules, [](SyntheticPoint point) {
       return SyntheticPoint{point.success - 0.05, 1.2 * point.settling, point.jerks};
     });
-    passed[0] += compared[1].measures[0].verdict == GateVerdict::passed;
-    passed[1] += compared[1].measures[3].verdict == GateVerdict::passed;
+    passed[0] += compared[1].measures[0].verdict == comparison::GateVerdict::passed;
+    passed[1] += compared[1].measures[3].verdict == comparison::GateVerdict::passed;
   }
   const double allowed = 0.05 + 2.5 * std::sqrt(0.05 * 0.95 / comparisons);
   RecordProperty("passed_success", passed[0]);
@@ -135,22 +136,22 @@ TEST_P(NullComparisons, AnImprovementIsReportedAndNoFailure) {
       1000);
   EXPECT_FALSE(any(compared, failed));
   EXPECT_TRUE(compared[2].measures[0].improved);
-  EXPECT_EQ(compared[2].measures[0].verdict, GateVerdict::passed);
+  EXPECT_EQ(compared[2].measures[0].verdict, comparison::GateVerdict::passed);
 }
 
 // The number of trials that would decide does decide, about as often as planned.
 TEST_P(NullComparisons, TheStatedNumberOfTrialsDecides) {
   std::mt19937_64 random(61);
   const auto few = compare_once(random, GetParam(), {}, unchanged);
-  const MeasureComparison& open = few[1].measures[0];
-  ASSERT_EQ(open.verdict, GateVerdict::inconclusive);
+  const comparison::MeasureComparison& open = few[1].measures[0];
+  ASSERT_EQ(open.verdict, comparison::GateVerdict::inconclusive);
   ASSERT_TRUE(open.trials_to_decide.has_value());
   const auto needed = static_cast<std::int64_t>(*open.trials_to_decide);
   EXPECT_GT(needed, pair_trials);
   int decided = 0;
   for (int i = 0; i < 30; ++i) {
-    decided +=
-        compare_once(random, GetParam(), {}, unchanged, needed)[1].measures[0].verdict == GateVerdict::passed;
+    decided += compare_once(random, GetParam(), {}, unchanged, needed)[1].measures[0].verdict ==
+               comparison::GateVerdict::passed;
   }
   EXPECT_GE(decided, 18) << needed;
 }

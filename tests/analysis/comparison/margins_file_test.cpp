@@ -11,8 +11,8 @@ namespace {
 
 const std::vector<std::string> labels{"a", "b-with-kp"};
 
-GateRules read(const std::string& text) {
-  return parse_gate_rules(text, "gate.yaml", labels);
+comparison::GateRules read(const std::string& text) {
+  return comparison::parse_gate_rules(text, "gate.yaml", labels);
 }
 
 std::string fault(const std::string& text) {
@@ -26,7 +26,7 @@ std::string fault(const std::string& text) {
 }
 
 TEST(MarginsFile, SaysWhatTheRulesAre) {
-  const GateRules rules = read(R"(
+  const comparison::GateRules rules = read(R"(
 confidence: 0.99
 false_discovery_rate: 0.01
 measures: [success_rate, settling_time]
@@ -41,25 +41,25 @@ points:
 )");
   EXPECT_EQ(rules.confidence, 0.99);
   EXPECT_EQ(rules.false_discovery_rate, 0.01);
-  const GateMeasure success = *find_gate_measure("success_rate");
-  const GateMeasure settling = *find_gate_measure("settling_time");
-  EXPECT_EQ(margin_of(rules, "a", success).absolute, 0.005);
-  EXPECT_EQ(margin_of(rules, "b-with-kp", success).absolute, 0.05);
-  EXPECT_EQ(margin_of(rules, "b-with-kp", settling).relative, 0.1);
-  EXPECT_TRUE(margin_of(rules, "a", settling).both_ways);
-  EXPECT_TRUE(is_judged(rules, settling));
-  EXPECT_FALSE(is_judged(rules, *find_gate_measure("jerk_count")));
-  ASSERT_EQ(requirements_of(rules, "a").size(), 1u);
-  ASSERT_EQ(requirements_of(rules, "b-with-kp").size(), 3u);
-  EXPECT_EQ(requirements_of(rules, "b-with-kp")[2].limit, 0.2);
-  EXPECT_FALSE(requirements_of(rules, "b-with-kp")[2].at_least);
+  const comparison::GateMeasure success = *comparison::find_gate_measure("success_rate");
+  const comparison::GateMeasure settling = *comparison::find_gate_measure("settling_time");
+  EXPECT_EQ(comparison::margin_of(rules, "a", success).absolute, 0.005);
+  EXPECT_EQ(comparison::margin_of(rules, "b-with-kp", success).absolute, 0.05);
+  EXPECT_EQ(comparison::margin_of(rules, "b-with-kp", settling).relative, 0.1);
+  EXPECT_TRUE(comparison::margin_of(rules, "a", settling).both_ways);
+  EXPECT_TRUE(comparison::is_judged(rules, settling));
+  EXPECT_FALSE(comparison::is_judged(rules, *comparison::find_gate_measure("jerk_count")));
+  ASSERT_EQ(comparison::requirements_of(rules, "a").size(), 1u);
+  ASSERT_EQ(comparison::requirements_of(rules, "b-with-kp").size(), 3u);
+  EXPECT_EQ(comparison::requirements_of(rules, "b-with-kp")[2].limit, 0.2);
+  EXPECT_FALSE(comparison::requirements_of(rules, "b-with-kp")[2].at_least);
 }
 
 TEST(MarginsFile, LeavesTheDefaultsToWhatItDoesNotName) {
-  const GateRules rules = read("margins: {success_rate: 0.1}\n");
-  const GateMeasure stable = *find_gate_measure("stable_rate");
-  EXPECT_EQ(margin_of(rules, "a", stable).absolute, stable.margin.absolute);
-  EXPECT_EQ(rules.confidence, GateRules{}.confidence);
+  const comparison::GateRules rules = read("margins: {success_rate: 0.1}\n");
+  const comparison::GateMeasure stable = *comparison::find_gate_measure("stable_rate");
+  EXPECT_EQ(comparison::margin_of(rules, "a", stable).absolute, stable.margin.absolute);
+  EXPECT_EQ(rules.confidence, comparison::GateRules{}.confidence);
   EXPECT_TRUE(rules.requirements.empty());
 }
 
@@ -105,8 +105,8 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
 TEST(MarginsFile, MustBeThereAndHoldSomething) {
   EXPECT_NE(fault("").find("the file is empty"), std::string::npos);
   const TemporaryFolder folder;
-  EXPECT_THROW(read_gate_rules(folder / "none.yaml", labels), Failure);
-  EXPECT_EQ(read_gate_rules(folder.write("m.yaml", "confidence: 0.9\n"), labels).confidence, 0.9);
+  EXPECT_THROW(comparison::read_gate_rules(folder / "none.yaml", labels), Failure);
+  EXPECT_EQ(comparison::read_gate_rules(folder.write("m.yaml", "confidence: 0.9\n"), labels).confidence, 0.9);
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 namespace zerocount::testing {
 namespace {
 
-PointTrials with_successes(std::int64_t successes, std::int64_t trials) {
-  PointTrials all;
+comparison::PointTrials with_successes(std::int64_t successes, std::int64_t trials) {
+  comparison::PointTrials all;
   all.trials = trials;
   all.moves = 1;
   for (std::int64_t i = 0; i < trials; ++i) {
@@ -27,48 +27,56 @@ PointTrials with_successes(std::int64_t successes, std::int64_t trials) {
   return all;
 }
 
-RequirementResult judged(const std::string& text, const PointTrials& trials, double failing = 0.95) {
-  const GateRules rules = parse_gate_rules("require: '" + text + "'\n", "m.yaml", {});
-  return judge_requirement(rules.requirements.front(), trials, 0.95, failing);
+comparison::RequirementResult judged(const std::string& text, const comparison::PointTrials& trials,
+                                     double failing = 0.95) {
+  const comparison::GateRules rules = comparison::parse_gate_rules("require: '" + text + "'\n", "m.yaml", {});
+  return comparison::judge_requirement(rules.requirements.front(), trials, 0.95, failing);
 }
 
 // 598 successes of 598 show 99.5 % with 95 % confidence, 597 of 597 do not: 0.995^598 < 0.05 < 0.995^597.
 TEST(Requirement, IsShownByTheLowerBound) {
-  EXPECT_EQ(judged("success_rate ≥ 0.995", with_successes(598, 598)).verdict, GateVerdict::passed);
-  const RequirementResult open = judged("success_rate >= 0.995", with_successes(597, 597));
-  EXPECT_EQ(open.verdict, GateVerdict::inconclusive);
+  EXPECT_EQ(judged("success_rate ≥ 0.995", with_successes(598, 598)).verdict,
+            comparison::GateVerdict::passed);
+  const comparison::RequirementResult open = judged("success_rate >= 0.995", with_successes(597, 597));
+  EXPECT_EQ(open.verdict, comparison::GateVerdict::inconclusive);
   EXPECT_EQ(open.trials_to_decide, 598.0);
   EXPECT_EQ(open.value, 1.0);
 }
 
 TEST(Requirement, IsContradictedByTheUpperBound) {
-  EXPECT_EQ(judged("success_rate ≥ 0.995", with_successes(960, 1000)).verdict, GateVerdict::regression);
-  EXPECT_EQ(judged("success_rate ≥ 0.995", with_successes(993, 1000)).verdict, GateVerdict::inconclusive);
-  EXPECT_EQ(judged("success_rate ≤ 0.01", with_successes(0, 400)).verdict, GateVerdict::passed);
-  EXPECT_EQ(judged("success_rate ≤ 0.01", with_successes(30, 400)).verdict, GateVerdict::regression);
+  EXPECT_EQ(judged("success_rate ≥ 0.995", with_successes(960, 1000)).verdict,
+            comparison::GateVerdict::regression);
+  EXPECT_EQ(judged("success_rate ≥ 0.995", with_successes(993, 1000)).verdict,
+            comparison::GateVerdict::inconclusive);
+  EXPECT_EQ(judged("success_rate ≤ 0.01", with_successes(0, 400)).verdict, comparison::GateVerdict::passed);
+  EXPECT_EQ(judged("success_rate ≤ 0.01", with_successes(30, 400)).verdict,
+            comparison::GateVerdict::regression);
 }
 
 TEST(Requirement, ManyOfThemMustBeContradictedMoreStrictly) {
-  const PointTrials trials = with_successes(988, 1000);
-  EXPECT_EQ(judged("success_rate ≥ 0.995", trials, 0.95).verdict, GateVerdict::regression);
-  EXPECT_EQ(judged("success_rate ≥ 0.995", trials, failing_confidence(0.95, 100)).verdict,
-            GateVerdict::inconclusive);
-  EXPECT_NEAR(failing_confidence(0.95, 100), 0.9995, 1e-15);
+  const comparison::PointTrials trials = with_successes(988, 1000);
+  EXPECT_EQ(judged("success_rate ≥ 0.995", trials, 0.95).verdict, comparison::GateVerdict::regression);
+  EXPECT_EQ(judged("success_rate ≥ 0.995", trials, comparison::failing_confidence(0.95, 100)).verdict,
+            comparison::GateVerdict::inconclusive);
+  EXPECT_NEAR(comparison::failing_confidence(0.95, 100), 0.9995, 1e-15);
 }
 
 // A trial that does not arrive settles later than any limit.
 TEST(Requirement, AQuantileCountsTrialsThatNeverSettle) {
-  EXPECT_EQ(judged("settling_time.p95 ≤ 0.5", with_successes(500, 500)).verdict, GateVerdict::passed);
-  const RequirementResult late = judged("settling_time.p95 ≤ 0.5", with_successes(400, 500));
-  EXPECT_EQ(late.verdict, GateVerdict::regression);
+  EXPECT_EQ(judged("settling_time.p95 ≤ 0.5", with_successes(500, 500)).verdict,
+            comparison::GateVerdict::passed);
+  const comparison::RequirementResult late = judged("settling_time.p95 ≤ 0.5", with_successes(400, 500));
+  EXPECT_EQ(late.verdict, comparison::GateVerdict::regression);
   EXPECT_EQ(late.value, std::numeric_limits<double>::infinity());
   EXPECT_NEAR(judged("settling_time.median ≤ 0.3", with_successes(400, 500)).value, 0.250, 1e-12);
 }
 
 TEST(Requirement, TheMeanOfTheJerksHasBoundsOfItsOwn) {
-  EXPECT_EQ(judged("jerk_count ≤ 0.7", with_successes(500, 500)).verdict, GateVerdict::passed);
-  EXPECT_EQ(judged("jerk_count ≤ 0.4", with_successes(500, 500)).verdict, GateVerdict::regression);
-  EXPECT_EQ(judged("jerk_count ≤ 0.51", with_successes(500, 500)).verdict, GateVerdict::inconclusive);
+  EXPECT_EQ(judged("jerk_count ≤ 0.7", with_successes(500, 500)).verdict, comparison::GateVerdict::passed);
+  EXPECT_EQ(judged("jerk_count ≤ 0.4", with_successes(500, 500)).verdict,
+            comparison::GateVerdict::regression);
+  EXPECT_EQ(judged("jerk_count ≤ 0.51", with_successes(500, 500)).verdict,
+            comparison::GateVerdict::inconclusive);
 }
 
 // At the limit itself a requirement is met: it must not fail more often than stated, nor pass.
@@ -79,9 +87,10 @@ TEST(Requirement, AtItsLimitItRarelyFailsAndRarelyPasses) {
   int failed = 0;
   constexpr int rounds = 1000;
   for (int i = 0; i < rounds; ++i) {
-    const GateVerdict verdict = judged("success_rate ≥ 0.97", with_successes(law(random), 500)).verdict;
-    passed += verdict == GateVerdict::passed;
-    failed += verdict == GateVerdict::regression;
+    const comparison::GateVerdict verdict =
+        judged("success_rate ≥ 0.97", with_successes(law(random), 500)).verdict;
+    passed += verdict == comparison::GateVerdict::passed;
+    failed += verdict == comparison::GateVerdict::regression;
   }
   EXPECT_LE(passed, 0.05 * rounds);
   EXPECT_LE(failed, 0.05 * rounds);

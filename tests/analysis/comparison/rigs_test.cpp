@@ -6,7 +6,7 @@
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/requirements.hpp"
 
-namespace zerocount {
+namespace zerocount::comparison {
 namespace {
 
 /// Trials of rigs that succeed with probabilities between 0.4 and 1, uniform; what fails never arrives.
@@ -76,4 +76,4 @@ TEST(ComparisonOverRigs, RequirementsHaveBoundsOverRigs) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::comparison

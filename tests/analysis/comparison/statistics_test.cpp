@@ -16,21 +16,21 @@ namespace {
 constexpr double z95 = 1.6448536269514722;
 
 TEST(ShareTests, NothingThatDiffersIsNoEvidence) {
-  EXPECT_EQ(mcnemar({500, 0, 0}), 1.0);
-  EXPECT_EQ(fisher({0, 300, 0, 200}), 1.0);
-  EXPECT_EQ(fisher({300, 300, 200, 200}), 1.0);
-  EXPECT_EQ(mcnemar({500, 0, 7}), 1.0);
+  EXPECT_EQ(comparison::mcnemar({500, 0, 0}), 1.0);
+  EXPECT_EQ(comparison::fisher({0, 300, 0, 200}), 1.0);
+  EXPECT_EQ(comparison::fisher({300, 300, 200, 200}), 1.0);
+  EXPECT_EQ(comparison::mcnemar({500, 0, 7}), 1.0);
 }
 
 TEST(ShareTests, SevenOfSevenIsOneInTwoToTheSeventh) {
-  EXPECT_NEAR(mcnemar({500, 7, 0}), 1.0 / 128.0, 1e-15);
-  EXPECT_NEAR(fisher({0, 7, 7, 7}), 1.0 / 3432.0, 1e-15);  // 14 choose 7
+  EXPECT_NEAR(comparison::mcnemar({500, 7, 0}), 1.0 / 128.0, 1e-15);
+  EXPECT_NEAR(comparison::fisher({0, 7, 7, 7}), 1.0 / 3432.0, 1e-15);  // 14 choose 7
 }
 
 // With no pair that differs, Tango's bound solves n·λ/√(nλ(1 − λ)) = z.
 TEST(ShareTests, BoundsWithoutAnyDifferingPair) {
   for (const std::int64_t n : {1, 20, 200, 5000}) {
-    const ConfidenceInterval bounds = tango({n, 0, 0}, 0.95);
+    const statistics::ConfidenceInterval bounds = comparison::tango({n, 0, 0}, 0.95);
     const double expected = z95 * z95 / (static_cast<double>(n) + z95 * z95);
     EXPECT_NEAR(bounds.high, expected, 1e-12) << n;
     EXPECT_NEAR(bounds.low, -expected, 1e-12) << n;
@@ -43,8 +43,8 @@ TEST(ShareTests, TheBoundsOfTheOppositeAreOpposite) {
     const auto n = static_cast<std::int64_t>(1 + random() % 300);
     const auto b = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n + 1));
     const auto c = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n - b + 1));
-    const ConfidenceInterval one = tango({n, b, c}, 0.95);
-    const ConfidenceInterval other = tango({n, c, b}, 0.95);
+    const statistics::ConfidenceInterval one = comparison::tango({n, b, c}, 0.95);
+    const statistics::ConfidenceInterval other = comparison::tango({n, c, b}, 0.95);
     EXPECT_NEAR(one.high, -other.low, 1e-11);
     EXPECT_LE(one.low, static_cast<double>(b - c) / static_cast<double>(n) + 1e-12);
     EXPECT_GE(one.high, static_cast<double>(b - c) / static_cast<double>(n) - 1e-12);
@@ -67,7 +67,7 @@ TEST(ShareTests, BoundsOfPairsHoldAsOftenAsTheySay) {
               std::lgamma(static_cast<double>(n) + 1.0) - std::lgamma(worse + 1.0) -
               std::lgamma(better + 1.0) - std::lgamma(same + 1.0) + worse * std::log(p10) +
               better * std::log(proportion) + same * std::log(1.0 - p10 - proportion);
-          if (tango({n, b, c}, 0.95).high < difference) missed += std::exp(log_probability);
+          if (comparison::tango({n, b, c}, 0.95).high < difference) missed += std::exp(log_probability);
         }
       }
       EXPECT_LE(missed, 0.06) << proportion << " " << difference;
@@ -78,16 +78,16 @@ TEST(ShareTests, BoundsOfPairsHoldAsOftenAsTheySay) {
 
 TEST(RankTests, EqualSamplesAreNoEvidence) {
   const std::vector<double> values{1.0, 2.0, 2.0, 3.0};
-  EXPECT_EQ(smirnov(values, values), 1.0);
-  EXPECT_EQ(smirnov(values, {}), 1.0);
-  EXPECT_EQ(signed_rank(std::vector<double>{0.0, 0.0}), 1.0);
+  EXPECT_EQ(comparison::smirnov(values, values), 1.0);
+  EXPECT_EQ(comparison::smirnov(values, {}), 1.0);
+  EXPECT_EQ(comparison::signed_rank(std::vector<double>{0.0, 0.0}), 1.0);
 }
 
 TEST(RankTests, AllOnOneSideIsTheRarestOfAll) {
-  EXPECT_NEAR(signed_rank(std::vector<double>{1.0, 1.0, 2.0, 3.0, 3.0}), 1.0 / 32.0, 1e-16);
-  EXPECT_NEAR(smirnov(std::vector<double>{1.0, 2.0, 3.0}, std::vector<double>{4.0, 5.0, 6.0}), 1.0 / 20.0,
-              1e-16);
-  EXPECT_EQ(smirnov(std::vector<double>{4.0, 5.0, 6.0}, std::vector<double>{1.0, 2.0, 3.0}), 1.0);
+  EXPECT_NEAR(comparison::signed_rank(std::vector<double>{1.0, 1.0, 2.0, 3.0, 3.0}), 1.0 / 32.0, 1e-16);
+  EXPECT_NEAR(comparison::smirnov(std::vector<double>{1.0, 2.0, 3.0}, std::vector<double>{4.0, 5.0, 6.0}),
+              1.0 / 20.0, 1e-16);
+  EXPECT_EQ(comparison::smirnov(std::vector<double>{4.0, 5.0, 6.0}, std::vector<double>{1.0, 2.0, 3.0}), 1.0);
 }
 
 // Where a sample is too large for the exact law, its limit takes over without a step.
@@ -96,9 +96,9 @@ TEST(RankTests, TheLimitsJoinTheExactLaws) {
   std::normal_distribution<double> normal;
   std::vector<double> differences;
   while (differences.size() < 201) differences.push_back(normal(random) + 0.12);
-  const double limit = signed_rank(differences);
+  const double limit = comparison::signed_rank(differences);
   differences.pop_back();
-  EXPECT_NEAR(std::log(signed_rank(differences) / limit), 0.0, 0.25);
+  EXPECT_NEAR(std::log(comparison::signed_rank(differences) / limit), 0.0, 0.25);
 
   std::vector<double> one;
   std::vector<double> two;
@@ -106,14 +106,15 @@ TEST(RankTests, TheLimitsJoinTheExactLaws) {
     one.push_back(normal(random));
     two.push_back(normal(random) + 0.05);
   }
-  const double exact = smirnov(one, two);
+  const double exact = comparison::smirnov(one, two);
   one.push_back(0.0);
-  EXPECT_NEAR(std::log(smirnov(one, two) / exact), 0.0, 0.1);
+  EXPECT_NEAR(std::log(comparison::smirnov(one, two) / exact), 0.0, 0.1);
 }
 
 TEST(MeanTests, ManyTrialsThatAgreeBoundTheMeanAsTheRuleOfThree) {
   for (const std::size_t n : {100u, 1000u, 10000u}) {
-    const ConfidenceInterval bounds = cautious_bounds(std::vector<double>(n, 0.0), 1.0, 0.95);
+    const statistics::ConfidenceInterval bounds =
+        comparison::cautious_bounds(std::vector<double>(n, 0.0), 1.0, 0.95);
     EXPECT_NEAR(bounds.high * static_cast<double>(n), 1.0 + z95, 0.03) << n;
     EXPECT_EQ(bounds.low, -bounds.high);
   }
@@ -126,17 +127,17 @@ TEST(MeanTests, TheBoundsEncloseTheMean) {
     std::vector<double> differences;
     while (differences.size() < 20 + static_cast<std::size_t>(round))
       differences.push_back(law(random) - 0.5);
-    const MeanDifference mean = mean_difference(differences);
-    const ConfidenceInterval bounds = cautious_bounds(differences, 0.5, 0.95);
+    const comparison::MeanDifference mean = comparison::mean_difference(differences);
+    const statistics::ConfidenceInterval bounds = comparison::cautious_bounds(differences, 0.5, 0.95);
     EXPECT_LT(bounds.low, mean.value);
     EXPECT_GT(bounds.high, mean.value);
   }
 }
 
 TEST(MeanTests, WithoutSpreadTheMeanItselfDecides) {
-  EXPECT_EQ(p_of(mean_difference(std::vector<double>(30, 0.1))), 0.0);
-  EXPECT_EQ(p_of(mean_difference(std::vector<double>(30, 0.0))), 0.5);
-  EXPECT_EQ(p_of(mean_difference(std::vector<double>(30, -0.1))), 1.0);
+  EXPECT_EQ(comparison::p_of(comparison::mean_difference(std::vector<double>(30, 0.1))), 0.0);
+  EXPECT_EQ(comparison::p_of(comparison::mean_difference(std::vector<double>(30, 0.0))), 0.5);
+  EXPECT_EQ(comparison::p_of(comparison::mean_difference(std::vector<double>(30, -0.1))), 1.0);
 }
 
 /// The procedure itself: the largest i with p_(i) ≤ α·i/(m·H_m), and all below it.
@@ -161,7 +162,7 @@ TEST(FalseDiscovery, AdjustedValuesRejectWhatTheProcedureRejects) {
   for (int round = 0; round < 500; ++round) {
     std::vector<double> p(1 + random() % 40);
     for (double& one : p) one = std::pow(uniform(random), 1.0 + static_cast<double>(random() % 5));
-    const std::vector<double> adjusted = benjamini_yekutieli(p);
+    const std::vector<double> adjusted = comparison::benjamini_yekutieli(p);
     const double level = 0.01 + 0.2 * uniform(random);
     const std::vector<bool> rejected = step_up(p, level);
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -173,8 +174,8 @@ TEST(FalseDiscovery, AdjustedValuesRejectWhatTheProcedureRejects) {
 }
 
 TEST(FalseDiscovery, OneTestNeedsNoAdjustment) {
-  EXPECT_EQ(benjamini_yekutieli(std::vector<double>{0.03}), std::vector<double>{0.03});
-  EXPECT_TRUE(benjamini_yekutieli({}).empty());
+  EXPECT_EQ(comparison::benjamini_yekutieli(std::vector<double>{0.03}), std::vector<double>{0.03});
+  EXPECT_TRUE(comparison::benjamini_yekutieli({}).empty());
 }
 
 }  // namespace

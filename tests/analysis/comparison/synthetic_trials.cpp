@@ -34,8 +34,8 @@ TrialChances redraw_some(std::mt19937_64& random, const TrialChances& chances, d
   return some;
 }
 
-PointTrials synthetic_trials(const SyntheticPoint& point, const TrialChances& chances) {
-  PointTrials trials;
+comparison::PointTrials synthetic_trials(const SyntheticPoint& point, const TrialChances& chances) {
+  comparison::PointTrials trials;
   trials.trials = std::ssize(chances);
   trials.moves = 1;
   for (const std::vector<double>& trial : chances) {

@@ -24,6 +24,6 @@ TrialChances draw_chances(std::mt19937_64& random, std::int64_t trials);
 /// same trials by another build whose outcomes differ here and there.
 TrialChances redraw_some(std::mt19937_64& random, const TrialChances& chances, double change);
 
-PointTrials synthetic_trials(const SyntheticPoint& point, const TrialChances& chances);
+comparison::PointTrials synthetic_trials(const SyntheticPoint& point, const TrialChances& chances);
 
 }  // namespace zerocount::testing

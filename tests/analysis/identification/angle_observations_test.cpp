@@ -29,8 +29,8 @@ Eigen::VectorXd read(const Eigen::VectorXd& path, double noise, std::mt19937_64&
   return path.unaryExpr([&](double at) { return std::floor(at + noise * normal(random)); });
 }
 
-TestRecord counted() {
-  TestRecord record;
+identification::TestRecord counted() {
+  identification::TestRecord record;
   record.counted = true;
   return record;
 }
@@ -45,12 +45,12 @@ struct ErrorSums {
 ErrorSums errors_of(double most, double noise) {
   std::mt19937_64 random(31);
   ErrorSums sums;
-  std::vector<AngleObservation> observations;
+  std::vector<identification::AngleObservation> observations;
   for (int round = 0; round < 300; ++round) {
     const Eigen::VectorXd path = wandering_path(1000, most, random);
-    observe(counted(), path, read(path, noise, random), noise, observations);
-    for (const AngleObservation& o : observations) {
-      const double error = (o.position - mean_over(o, path).value()) / std::sqrt(o.variance);
+    identification::observe(counted(), path, read(path, noise, random), noise, observations);
+    for (const identification::AngleObservation& o : observations) {
+      const double error = (o.position - identification::mean_over(o, path).value()) / std::sqrt(o.variance);
       sums.count += 1.0;
       sums.mean += error;
       sums.variance += error * error;
@@ -73,15 +73,15 @@ TEST(AngleObservations, ErrorsHaveNoMeanAndTheVarianceClaimed) {
 
 TEST(AngleObservations, EdgesLieBetweenTheSamplesThatSawThemPassed) {
   std::mt19937_64 random(32);
-  std::vector<AngleObservation> observations;
+  std::vector<identification::AngleObservation> observations;
   for (int round = 0; round < 100; ++round) {
     const Eigen::VectorXd path = wandering_path(500, 0.7, random);
     const Eigen::VectorXd readings = read(path, 0.0, random);
-    observe(counted(), path, readings, 0.0, observations);
+    identification::observe(counted(), path, readings, 0.0, observations);
     std::size_t changes = 0;
     for (Eigen::Index k = 1; k < path.size(); ++k) changes += readings[k] != readings[k - 1] ? 1 : 0;
     EXPECT_EQ(observations.size(), changes);
-    for (const AngleObservation& o : observations) {
+    for (const identification::AngleObservation& o : observations) {
       const auto k = static_cast<Eigen::Index>(o.first);
       EXPECT_EQ(o.last, o.first + 1);
       EXPECT_EQ(o.position, std::max(readings[k], readings[k + 1]));
@@ -95,9 +95,9 @@ TEST(AngleObservations, FastReadingsAllCount) {
   std::mt19937_64 random(33);
   Eigen::VectorXd path(50);
   for (Eigen::Index k = 0; k < path.size(); ++k) path[k] = 3.7 * static_cast<double>(k) + 0.1;
-  std::vector<AngleObservation> observations;
+  std::vector<identification::AngleObservation> observations;
   const Eigen::VectorXd readings = read(path, 0.0, random);
-  observe(counted(), path, readings, 0.0, observations);
+  identification::observe(counted(), path, readings, 0.0, observations);
   ASSERT_EQ(observations.size(), 50u);
   for (std::size_t k = 0; k < observations.size(); ++k) {
     EXPECT_EQ(observations[k].first, k);
@@ -118,9 +118,9 @@ TEST(AngleObservations, WithNoiseAveragesHaveTheVarianceClaimed) {
 }
 
 TEST(AngleObservations, ReadingsThatAreNoCountsStandForThemselves) {
-  std::vector<AngleObservation> observations;
+  std::vector<identification::AngleObservation> observations;
   const Eigen::VectorXd readings = Eigen::VectorXd::LinSpaced(9, 0.3, 4.0);
-  observe(TestRecord{}, readings, readings, 0.2, observations);
+  identification::observe(identification::TestRecord{}, readings, readings, 0.2, observations);
   ASSERT_EQ(observations.size(), 9u);
   for (std::size_t k = 0; k < 9; ++k) {
     EXPECT_EQ(observations[k].position, readings[static_cast<Eigen::Index>(k)]);
@@ -132,7 +132,8 @@ TEST(CountingNoise, IsFoundFromNeighbours) {
   std::mt19937_64 random(34);
   for (const double noise : {0.03, 0.1, 0.3, 1.0, 3.0}) {
     const Eigen::VectorXd path = wandering_path(20000, 0.1, random);
-    EXPECT_NEAR(counting_noise(path, read(path, noise, random)) / noise, 1.0, noise < 0.1 ? 0.3 : 0.1)
+    EXPECT_NEAR(identification::counting_noise(path, read(path, noise, random)) / noise, 1.0,
+                noise < 0.1 ? 0.3 : 0.1)
         << noise;
   }
 }
@@ -141,7 +142,7 @@ TEST(CountingNoise, IsNoneWhereThereIsNone) {
   std::mt19937_64 random(35);
   for (int round = 0; round < 200; ++round) {
     const Eigen::VectorXd path = wandering_path(5000, 0.15, random);
-    EXPECT_EQ(counting_noise(path, read(path, 0.0, random)), 0.0);
+    EXPECT_EQ(identification::counting_noise(path, read(path, 0.0, random)), 0.0);
   }
 }
 
@@ -150,7 +151,7 @@ TEST(CountingNoise, IsNotWhatTheModelFailsToFollow) {
   const Eigen::VectorXd path = wandering_path(20000, 0.1, random);
   Eigen::VectorXd off = path;
   for (Eigen::Index k = 0; k < off.size(); ++k) off[k] += 5.0 * std::sin(1e-3 * static_cast<double>(k));
-  EXPECT_NEAR(counting_noise(off, read(path, 0.1, random)), 0.1, 0.02);
+  EXPECT_NEAR(identification::counting_noise(off, read(path, 0.1, random)), 0.1, 0.02);
 }
 
 }  // namespace

@@ -17,16 +17,16 @@ namespace {
 constexpr double counts_per_revolution = 1.62e6;
 
 /// A good series: the paper's rig, loaded and unloaded slowly, with a hold.
-RawSeries good_series() {
+identification::RawSeries good_series() {
   TorqueProgramme programme;
   programme.ramp(0.1, 0.4).ramp(-0.1, 0.4).ramp(0.15, 0.4).hold(0.2).ramp(0.0, 0.4);
   std::mt19937_64 random(1);
-  ContactParameters contact;
+  identification::ContactParameters contact;
   contact.friction.beta = 2.0e5;  // stiff enough that a clipped end of a ramp stands out
-  const TestRecord record = simulated_test(contact, programme, {}, random);
-  RawSeries series;
+  const identification::TestRecord record = simulated_test(contact, programme, {}, random);
+  identification::RawSeries series;
   series.name = "good.csv";
-  for (std::size_t k = 0; k < sample_count(record); ++k) {
+  for (std::size_t k = 0; k < identification::sample_count(record); ++k) {
     series.lines.push_back(k + 2);
     series.time.push_back(5e-4 * static_cast<double>(k));
     series.torque.push_back(record.torque[k].now);
@@ -37,10 +37,11 @@ RawSeries good_series() {
 }
 
 /// The message with which the series is refused once `spoil` has changed it.
-std::string record_refusal(const std::function<void(RawSeries&)>& spoil, RawSeries series = good_series()) {
+std::string record_refusal(const std::function<void(identification::RawSeries&)>& spoil,
+                           identification::RawSeries series = good_series()) {
   spoil(series);
   try {
-    checked_record(series, false);
+    identification::checked_record(series, false);
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::bad_data);
     return failure.what();
@@ -58,35 +59,35 @@ std::string record_refusal(const std::function<void(RawSeries&)>& spoil, RawSeri
 }
 
 /// The series in rad, as an encoder without steps would give it.
-RawSeries in_radians(RawSeries series) {
+identification::RawSeries in_radians(identification::RawSeries series) {
   for (double& angle : series.angle) angle *= 2.0 * std::numbers::pi / counts_per_revolution;
   series.counts_per_revolution = 0.0;
   return series;
 }
 
 TEST(CheckedRecord, KeepsAGoodSeries) {
-  const RawSeries series = good_series();
-  const TestRecord record = checked_record(series, false);
+  const identification::RawSeries series = good_series();
+  const identification::TestRecord record = identification::checked_record(series, false);
   EXPECT_TRUE(record.counted);
   EXPECT_EQ(record.reading, series.angle);
   EXPECT_NEAR(record.sample_time, 5e-4, 1e-15);
   EXPECT_EQ(record.unit, 2.0 * std::numbers::pi / counts_per_revolution);
-  for (std::size_t k = 0; k < sample_count(record); ++k) {
-    EXPECT_TRUE(is_constant(record.torque[k]));
+  for (std::size_t k = 0; k < identification::sample_count(record); ++k) {
+    EXPECT_TRUE(motion::is_constant(record.torque[k]));
     EXPECT_EQ(record.torque[k].now, series.torque[k]);
   }
 }
 
 TEST(CheckedRecord, TimeMustRise) {
-  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) { s.time[100] = s.time[99]; }), "good.csv:102",
-                      "does not come after"));
-  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) { s.time[100] = -1.0; }), "good.csv:102",
-                      "does not come after"));
+  EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) { s.time[100] = s.time[99]; }),
+                      "good.csv:102", "does not come after"));
+  EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) { s.time[100] = -1.0; }),
+                      "good.csv:102", "does not come after"));
 }
 
 TEST(CheckedRecord, SamplesMustBeEquallySpacedButForJitter) {
   const auto jitter = [](double proportion) {
-    return [proportion](RawSeries& s) {
+    return [proportion](identification::RawSeries& s) {
       for (std::size_t k = 1; k + 1 < s.time.size(); k += 2) s.time[k] += proportion * 5e-4;
     };
   };
@@ -96,7 +97,7 @@ TEST(CheckedRecord, SamplesMustBeEquallySpacedButForJitter) {
 
   // A sample that is missing anywhere inside.
   for (const std::size_t missing : {10, 500, 1500}) {
-    const std::string message = record_refusal([missing](RawSeries& s) {
+    const std::string message = record_refusal([missing](identification::RawSeries& s) {
       const auto at = static_cast<std::ptrdiff_t>(missing);
       s.time.erase(s.time.begin() + at);
       s.torque.erase(s.torque.begin() + at);
@@ -108,7 +109,7 @@ TEST(CheckedRecord, SamplesMustBeEquallySpacedButForJitter) {
 }
 
 TEST(CheckedRecord, MustBeLongEnough) {
-  const std::string message = record_refusal([](RawSeries& s) {
+  const std::string message = record_refusal([](identification::RawSeries& s) {
     s.time.resize(99);
     s.torque.resize(99);
     s.angle.resize(99);
@@ -117,11 +118,13 @@ TEST(CheckedRecord, MustBeLongEnough) {
 }
 
 TEST(CheckedRecord, SomethingMustMove) {
-  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) { s.torque.assign(s.torque.size(), 0.0); }), "good.csv",
-                      "the torque is 0 throughout"));
-  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) { s.angle.assign(s.angle.size(), 7.0); }), "good.csv",
-                      "the angle is constant"));
-  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) {
+  EXPECT_TRUE(
+      refused(record_refusal([](identification::RawSeries& s) { s.torque.assign(s.torque.size(), 0.0); }),
+              "good.csv", "the torque is 0 throughout"));
+  EXPECT_TRUE(
+      refused(record_refusal([](identification::RawSeries& s) { s.angle.assign(s.angle.size(), 7.0); }),
+              "good.csv", "the angle is constant"));
+  EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) {
                         for (double& angle : s.angle) angle = std::floor(angle / 400.0);
                         s.counts_per_revolution /= 400.0;
                       }),
@@ -129,7 +132,7 @@ TEST(CheckedRecord, SomethingMustMove) {
 }
 
 TEST(CheckedRecord, TorqueAndAngleMustAgreeInSign) {
-  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) {
+  EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) {
                         for (double& angle : s.angle) angle = -angle;
                       }),
                       "good.csv", "wrong sign"));
@@ -137,42 +140,46 @@ TEST(CheckedRecord, TorqueAndAngleMustAgreeInSign) {
 
 TEST(CheckedRecord, AReadingThatStandsOutAloneIsNamed) {
   for (const double off : {-500.0, -30.0, 30.0, 500.0}) {
-    EXPECT_TRUE(refused(record_refusal([off](RawSeries& s) { s.angle[1234] += off; }), "good.csv:1236",
-                        "a fault of the reading"));
+    EXPECT_TRUE(refused(record_refusal([off](identification::RawSeries& s) { s.angle[1234] += off; }),
+                        "good.csv:1236", "a fault of the reading"));
   }
 }
 
 TEST(CheckedRecord, CountsMustBeWhole) {
-  EXPECT_TRUE(
-      refused(record_refusal([](RawSeries& s) { s.angle[5] = 0.5; }), "good.csv:7", "no whole number"));
+  EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) { s.angle[5] = 0.5; }), "good.csv:7",
+                      "no whole number"));
 }
 
 // What a thousandfold error makes of each quantity is refused, in either direction, and kept where it is
 // asked for.
 TEST(CheckedRecord, UnitsAThousandfoldOffAreRefused) {
-  const auto times = [](std::vector<double> RawSeries::*values, double factor) {
-    return [values, factor](RawSeries& s) {
+  const auto times = [](std::vector<double> identification::RawSeries::*values, double factor) {
+    return [values, factor](identification::RawSeries& s) {
       for (double& value : s.*values) value *= factor;
     };
   };
-  const RawSeries radians = in_radians(good_series());
+  const identification::RawSeries radians = in_radians(good_series());
   for (const double factor : {1e3, 1e-3}) {
-    EXPECT_TRUE(refused(record_refusal(times(&RawSeries::torque, factor)), "good.csv", "plausible"))
+    EXPECT_TRUE(
+        refused(record_refusal(times(&identification::RawSeries::torque, factor)), "good.csv", "plausible"))
         << factor;
-    EXPECT_TRUE(refused(record_refusal(times(&RawSeries::angle, factor), radians), "good.csv", "plausible"))
+    EXPECT_TRUE(refused(record_refusal(times(&identification::RawSeries::angle, factor), radians), "good.csv",
+                        "plausible"))
         << factor;
-    EXPECT_TRUE(refused(record_refusal([factor](RawSeries& s) { s.counts_per_revolution *= factor; }),
-                        "good.csv", "plausible"))
+    EXPECT_TRUE(
+        refused(record_refusal([factor](identification::RawSeries& s) { s.counts_per_revolution *= factor; }),
+                "good.csv", "plausible"))
         << factor;
   }
-  EXPECT_TRUE(refused(record_refusal(times(&RawSeries::time, 1e3)), "good.csv", "is the time in ms"));
-  RawSeries millinewtons = good_series();
+  EXPECT_TRUE(
+      refused(record_refusal(times(&identification::RawSeries::time, 1e3)), "good.csv", "is the time in ms"));
+  identification::RawSeries millinewtons = good_series();
   for (double& torque : millinewtons.torque) torque *= 1e3;
-  EXPECT_NO_THROW(checked_record(millinewtons, true));
+  EXPECT_NO_THROW(identification::checked_record(millinewtons, true));
 }
 
 TEST(CheckedRecord, SlidingIsNamed) {
-  EXPECT_TRUE(refused(record_refusal([](RawSeries& s) {
+  EXPECT_TRUE(refused(record_refusal([](identification::RawSeries& s) {
                         s.sliding.assign(s.time.size(), false);
                         s.sliding[321] = true;
                       }),
@@ -182,7 +189,7 @@ TEST(CheckedRecord, SlidingIsNamed) {
 // The torque that was recorded is cut off, the one that acted was not.
 TEST(CheckedRecord, ClippedTorqueIsNamed) {
   for (const double limit : {0.05, 0.08, 0.12, 0.14}) {
-    const std::string message = record_refusal([limit](RawSeries& s) {
+    const std::string message = record_refusal([limit](identification::RawSeries& s) {
       for (double& torque : s.torque) torque = std::clamp(torque, -limit, limit);
     });
     EXPECT_NE(message.find("the torque is clipped"), std::string::npos) << limit << ": " << message;
@@ -191,7 +198,7 @@ TEST(CheckedRecord, ClippedTorqueIsNamed) {
 
 TEST(CheckedRecord, CodesAtTheEndOfTheRangeAreClipping) {
   const auto saturated = [](double code, int bits) {
-    return [code, bits](RawSeries& s) {
+    return [code, bits](identification::RawSeries& s) {
       s.dac_bits = bits;
       s.code.assign(s.time.size(), 0.0);
       for (std::size_t k = 50; k < 60; ++k) s.code[k] = code;
@@ -205,7 +212,7 @@ TEST(CheckedRecord, CodesAtTheEndOfTheRangeAreClipping) {
   EXPECT_TRUE(refused(record_refusal(saturated(2048, 12)), "good.csv:52", "beyond the DAC's 12 bits"));
 
   // The end of a shorter word's range is none where other codes lie beyond it.
-  const auto with_larger = [&](RawSeries& s) {
+  const auto with_larger = [&](identification::RawSeries& s) {
     saturated(-2048, 0)(s);
     s.code[200] = 3000;
   };
@@ -216,43 +223,43 @@ TEST(CheckedRecord, CodesAtTheEndOfTheRangeAreClipping) {
 TEST(CheckedRecord, HoldsAtTheExtremesAreNotClipping) {
   std::mt19937_64 random(5);
   for (int round = 0; round < 20; ++round) {
-    const ContactParameters contact = random_contact(random);
+    const identification::ContactParameters contact = random_contact(random);
     TorqueProgramme programme;
     programme.step(0.1).hold(0.3).step(-0.1).hold(0.3).ramp(0.12, 0.4).hold(0.5).ramp(-0.12, 2.0).hold(0.3);
-    const TestRecord record = simulated_test(contact, programme, {}, random);
-    RawSeries series;
-    for (std::size_t k = 0; k < sample_count(record); ++k) {
+    const identification::TestRecord record = simulated_test(contact, programme, {}, random);
+    identification::RawSeries series;
+    for (std::size_t k = 0; k < identification::sample_count(record); ++k) {
       series.time.push_back(5e-4 * static_cast<double>(k));
       series.torque.push_back(record.torque[k].now);
       series.angle.push_back(record.reading[k]);
     }
     series.counts_per_revolution = counts_per_revolution;
-    EXPECT_NO_THROW(checked_record(series, false)) << round;
+    EXPECT_NO_THROW(identification::checked_record(series, false)) << round;
   }
 }
 
 TEST(CheckedRecord, CountsWrittenInRadAreRecognised) {
-  RawSeries series = in_radians(good_series());
-  const TestRecord exact = checked_record(series, false);
+  identification::RawSeries series = in_radians(good_series());
+  const identification::TestRecord exact = identification::checked_record(series, false);
   EXPECT_TRUE(exact.counted);
   EXPECT_NEAR(exact.unit, 2.0 * std::numbers::pi / counts_per_revolution, 1e-12 * exact.unit);
-  const RawSeries counts = good_series();
+  const identification::RawSeries counts = good_series();
   for (std::size_t k = 0; k < counts.angle.size(); ++k) {
     EXPECT_EQ(exact.reading[k], counts.angle[k] - counts.angle[0]);
   }
   // With seven digits of an angle that is far from 0.
   for (double& angle : series.angle) angle = std::round((angle + 0.01) * 1e9) / 1e9;
-  EXPECT_TRUE(checked_record(series, false).counted);
+  EXPECT_TRUE(identification::checked_record(series, false).counted);
   // A smooth angle is none of an encoder.
   for (std::size_t k = 0; k < series.angle.size(); ++k)
     series.angle[k] += 1e-7 * std::sin(static_cast<double>(k));
-  EXPECT_FALSE(checked_record(series, false).counted);
+  EXPECT_FALSE(identification::checked_record(series, false).counted);
 }
 
 TEST(CheckedRecord, ACommandedTorqueActsAfterTheDelay) {
-  RawSeries series = good_series();
+  identification::RawSeries series = good_series();
   series.delay = 3;
-  const TestRecord record = checked_record(series, false);
+  const identification::TestRecord record = identification::checked_record(series, false);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(record.torque[k].now, 0.0);
   for (std::size_t k = 3; k < series.torque.size(); ++k) {
     EXPECT_EQ(record.torque[k].now, series.torque[k - 3]);
@@ -263,17 +270,17 @@ TEST(CheckedRecord, ACommandedTorqueActsAfterTheDelay) {
 TEST(CheckedRecord, AnAmplifierOfKnownBandwidthIsFollowed) {
   constexpr double bandwidth = 100.0;
   const double rate = 2.0 * std::numbers::pi * bandwidth;
-  RawSeries commanded = good_series();
+  identification::RawSeries commanded = good_series();
   commanded.bandwidth = bandwidth;
-  RawSeries motor = commanded;
-  motor.torque_kind = TorqueKind::motor;
+  identification::RawSeries motor = commanded;
+  motor.torque_kind = identification::TorqueKind::motor;
   double now = 0.0;
   for (std::size_t k = 0; k < commanded.torque.size(); ++k) {
     motor.torque[k] = now;
-    now = course_after({now, commanded.torque[k], rate}, 5e-4).now;
+    now = motion::course_after({now, commanded.torque[k], rate}, 5e-4).now;
   }
-  const TestRecord told = checked_record(commanded, false);
-  const TestRecord given = checked_record(motor, false);
+  const identification::TestRecord told = identification::checked_record(commanded, false);
+  const identification::TestRecord given = identification::checked_record(motor, false);
   for (std::size_t k = 0; k + 1 < told.torque.size(); ++k) {
     EXPECT_NEAR(told.torque[k].now, motor.torque[k], 1e-12);
     EXPECT_NEAR(given.torque[k].now, motor.torque[k], 1e-12);

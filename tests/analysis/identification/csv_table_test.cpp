@@ -13,7 +13,9 @@ namespace {
 
 class CsvTables : public ::testing::Test {
  protected:
-  CsvTable table(const std::string& text) { return CsvTable(folder_.write("data.csv", text)); }
+  identification::CsvTable table(const std::string& text) {
+    return identification::CsvTable(folder_.write("data.csv", text));
+  }
 
   /// The message with which the text is refused, the column `x` read as numbers.
   std::string refusal(const std::string& text, ExitCode code) {
@@ -34,14 +36,15 @@ class CsvTables : public ::testing::Test {
 };
 
 TEST_F(CsvTables, NumbersReadBackToTheSameDouble) {
-  const CsvTable read = table("x,y\n0.1,1\n-2.4e-4,+2\n 5e-324 ,3\n1.7976931348623157e308,4\n");
+  const identification::CsvTable read =
+      table("x,y\n0.1,1\n-2.4e-4,+2\n 5e-324 ,3\n1.7976931348623157e308,4\n");
   EXPECT_EQ(read.numbers("x"), (std::vector<double>{0.1, -2.4e-4, 5e-324, 1.7976931348623157e308}));
   EXPECT_EQ(read.numbers("y"), (std::vector<double>{1, 2, 3, 4}));
 }
 
 TEST_F(CsvTables, TakesWhatOtherProgramsWrite) {
   // Byte order mark, carriage returns, quotation marks, comments, empty lines, units, no last line feed.
-  const CsvTable read =
+  const identification::CsvTable read =
       table("\xEF\xBB\xBF# a rig\r\n\"t [s]\", torque [N m] \r\n\r\n\"0.5\" , 1\r\n# more\r\n1.5,2");
   EXPECT_EQ(read.unit("t"), "s");
   EXPECT_EQ(read.unit("torque"), "N m");
@@ -52,7 +55,7 @@ TEST_F(CsvTables, TakesWhatOtherProgramsWrite) {
 }
 
 TEST_F(CsvTables, WordsAreCompared) {
-  const CsvTable read = table("x,mode\n1,stick\n2,slide\n");
+  const identification::CsvTable read = table("x,mode\n1,stick\n2,slide\n");
   EXPECT_EQ(read.equals("mode", "slide"), (std::vector<bool>{false, true}));
 }
 
@@ -85,8 +88,8 @@ TEST_F(CsvTables, WhatIsNoTableIsRefused) {
   EXPECT_EQ(refusal("", ExitCode::bad_input), ": is empty; expected a table");
   EXPECT_EQ(refusal(std::string("a\0b\n", 4), ExitCode::bad_input),
             ": is no text; expected comma-separated values, or a results file");
-  EXPECT_THROW(CsvTable(folder_ / "nothing.csv"), Failure);
-  EXPECT_THROW(CsvTable(folder_.path()), Failure);
+  EXPECT_THROW(identification::CsvTable(folder_ / "nothing.csv"), Failure);
+  EXPECT_THROW(identification::CsvTable(folder_.path()), Failure);
 }
 
 }  // namespace

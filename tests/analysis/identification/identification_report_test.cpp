@@ -33,13 +33,13 @@ constexpr Named names[] = {{"k1", "friction.k1"},
                            {"n", "friction.n"}};
 
 /// Values and intervals over all magnitudes, some given, some open.
-Identification random_identification(std::mt19937_64& random) {
+identification::Identification random_identification(std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  Identification found;
+  identification::Identification found;
   found.records.push_back({});
   found.records.back().name = "ramps.csv";
   for (const Named& named : names) {
-    ParameterEstimate parameter;
+    identification::ParameterEstimate parameter;
     parameter.name = named.name;
     parameter.key = named.key;
     parameter.unit = "unit";
@@ -54,10 +54,10 @@ Identification random_identification(std::mt19937_64& random) {
       parameter.low = parameter.value * std::exp(-half_width);
       parameter.high = parameter.value * std::exp(half_width);
     }
-    parameter.status = kind < 0.6   ? EstimateStatus::estimated
-                       : kind < 0.8 ? EstimateStatus::known
-                                    : EstimateStatus::not_identifiable;
-    if (parameter.status == EstimateStatus::not_identifiable) {
+    parameter.status = kind < 0.6   ? identification::EstimateStatus::estimated
+                       : kind < 0.8 ? identification::EstimateStatus::known
+                                    : identification::EstimateStatus::not_identifiable;
+    if (parameter.status == identification::EstimateStatus::not_identifiable) {
       parameter.value = parameter.low = parameter.high = std::numeric_limits<double>::quiet_NaN();
       parameter.reason = "there is no ring-down: the torque never steps";
     }
@@ -66,18 +66,19 @@ Identification random_identification(std::mt19937_64& random) {
   return found;
 }
 
-Study study_with(const std::string& fragment) {
-  return parse_study(
+study::Study study_with(const std::string& fragment) {
+  return manifest::parse_study(
       "zerocount: 1\nname: pasted\nseed: 1\ntrials: 3000\ncommand: {targets: [3], hold: 0.1}\n" + fragment,
       "pasted.yaml");
 }
 
 /// Quantile of the parameter over the study's trials.
-double sampled(const Study& study, const std::string& key, double proportion) {
+double sampled(const study::Study& study, const std::string& key, double proportion) {
   std::size_t column = 0;
   while (study.input_columns[column].name != key) ++column;
   std::vector<double> values;
-  for (std::int64_t i = 0; i < study.trials; ++i) values.push_back(study_trial(study, 0, i).inputs[column]);
+  for (std::int64_t i = 0; i < study.trials; ++i)
+    values.push_back(study::study_trial(study, 0, i).inputs[column]);
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(proportion * static_cast<double>(values.size()))];
 }
@@ -85,8 +86,9 @@ double sampled(const Study& study, const std::string& key, double proportion) {
 TEST(ManifestFragment, IsPartOfAManifestWhateverTheNumbers) {
   std::mt19937_64 random(61);
   for (int round = 0; round < 200; ++round) {
-    const Identification found = random_identification(random);
-    EXPECT_NO_THROW(study_with(manifest_fragment(found))) << manifest_fragment(found);
+    const identification::Identification found = random_identification(random);
+    EXPECT_NO_THROW(study_with(identification::manifest_fragment(found)))
+        << identification::manifest_fragment(found);
   }
 }
 
@@ -94,10 +96,10 @@ TEST(ManifestFragment, IsPartOfAManifestWhateverTheNumbers) {
 TEST(ManifestFragment, DistributionsHaveTheIntervals) {
   std::mt19937_64 random(62);
   for (int round = 0; round < 5; ++round) {
-    const Identification found = random_identification(random);
-    const Study study = study_with(manifest_fragment(found));
-    for (const ParameterEstimate& parameter : found.parameters) {
-      if (parameter.key.empty() || parameter.status != EstimateStatus::estimated) continue;
+    const identification::Identification found = random_identification(random);
+    const study::Study study = study_with(identification::manifest_fragment(found));
+    for (const identification::ParameterEstimate& parameter : found.parameters) {
+      if (parameter.key.empty() || parameter.status != identification::EstimateStatus::estimated) continue;
       const double width = parameter.high - parameter.low;
       if (parameter.name == "n" && parameter.low < 1.0 + width) continue;  // cut at 1
       EXPECT_NEAR(sampled(study, parameter.key, 0.025), parameter.low, 0.1 * width) << parameter.name;
@@ -107,19 +109,19 @@ TEST(ManifestFragment, DistributionsHaveTheIntervals) {
 }
 
 TEST(ManifestFragment, GivenValuesStandAsTheyAreAndOpenOnesAsComments) {
-  Identification found;
+  identification::Identification found;
   found.records.push_back({});
-  ParameterEstimate given;
+  identification::ParameterEstimate given;
   given.name = "n";
   given.key = "friction.n";
-  given.status = EstimateStatus::known;
+  given.status = identification::EstimateStatus::known;
   given.value = given.low = given.high = 2.1;
-  ParameterEstimate open;
+  identification::ParameterEstimate open;
   open.name = "inertia";
   open.key = "plant.inertia";
   open.reason = "there is no ring-down";
   found.parameters = {given, open};
-  const std::string fragment = manifest_fragment(found);
+  const std::string fragment = identification::manifest_fragment(found);
   EXPECT_NE(fragment.find("\nfriction:\n  n: 2.1 "), std::string::npos) << fragment;
   EXPECT_NE(fragment.find("# inertia: not identifiable, because there is no ring-down"), std::string::npos)
       << fragment;
@@ -128,14 +130,14 @@ TEST(ManifestFragment, GivenValuesStandAsTheyAreAndOpenOnesAsComments) {
 
 TEST(IdentificationReport, JsonReadsBackToTheSameDoubles) {
   std::mt19937_64 random(63);
-  const Identification found = random_identification(random);
-  const auto json = nlohmann::json::parse(identification_json(found));
+  const identification::Identification found = random_identification(random);
+  const auto json = nlohmann::json::parse(identification::identification_json(found));
   ASSERT_EQ(json["parameters"].size(), found.parameters.size());
   for (std::size_t i = 0; i < found.parameters.size(); ++i) {
-    const ParameterEstimate& parameter = found.parameters[i];
+    const identification::ParameterEstimate& parameter = found.parameters[i];
     const auto& object = json["parameters"][i];
     EXPECT_EQ(object["name"], parameter.name);
-    if (parameter.status == EstimateStatus::not_identifiable) {
+    if (parameter.status == identification::EstimateStatus::not_identifiable) {
       EXPECT_TRUE(object["value"].is_null());
       EXPECT_EQ(object["status"], "not_identifiable");
       EXPECT_EQ(object["reason"], parameter.reason);
@@ -145,23 +147,23 @@ TEST(IdentificationReport, JsonReadsBackToTheSameDoubles) {
     EXPECT_EQ(object["low"].get<double>(), parameter.low);
     EXPECT_EQ(object["high"].get<double>(), parameter.high);
   }
-  EXPECT_EQ(json["manifest"], manifest_fragment(found));
+  EXPECT_EQ(json["manifest"], identification::manifest_fragment(found));
   EXPECT_TRUE(json["residuals"]["passed"].get<bool>());
 }
 
 TEST(IdentificationReport, TextSaysWhatIsOpenAndWhatDoesNotFit) {
   std::mt19937_64 random(64);
-  Identification found = random_identification(random);
-  found.parameters[0].status = EstimateStatus::not_identifiable;
+  identification::Identification found = random_identification(random);
+  found.parameters[0].status = identification::EstimateStatus::not_identifiable;
   found.parameters[0].reason = "nothing was seen";
   found.checks.passed = false;
   found.checks.widening = 2.5;
-  const std::string text = identification_text(found);
+  const std::string text = identification::identification_text(found);
   EXPECT_NE(text.find("k1 is not identifiable from this, because nothing was seen."), std::string::npos)
       << text;
   EXPECT_NE(text.find("LACK OF FIT"), std::string::npos) << text;
   EXPECT_NE(text.find("widened by the factor 2.5"), std::string::npos) << text;
-  EXPECT_NE(text.find(manifest_fragment(found)), std::string::npos) << text;
+  EXPECT_NE(text.find(identification::manifest_fragment(found)), std::string::npos) << text;
 }
 
 }  // namespace

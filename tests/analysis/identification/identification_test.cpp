@@ -16,18 +16,20 @@
 namespace zerocount::testing {
 namespace {
 
-const ParameterEstimate& estimate_of(const Identification& found, const std::string& name) {
-  const auto at = std::find_if(found.parameters.begin(), found.parameters.end(),
-                               [&](const ParameterEstimate& parameter) { return parameter.name == name; });
+const identification::ParameterEstimate& estimate_of(const identification::Identification& found,
+                                                     const std::string& name) {
+  const auto at = std::find_if(
+      found.parameters.begin(), found.parameters.end(),
+      [&](const identification::ParameterEstimate& parameter) { return parameter.name == name; });
   if (at == found.parameters.end()) throw std::logic_error(name);
   return *at;
 }
 
 /// The interval holds the truth, is no wider than `widest` (relative), and the value is in it.
-::testing::AssertionResult finds(const Identification& found, const std::string& name, double truth,
-                                 double widest) {
-  const ParameterEstimate& parameter = estimate_of(found, name);
-  const bool good = parameter.status == EstimateStatus::estimated && parameter.low <= truth &&
+::testing::AssertionResult finds(const identification::Identification& found, const std::string& name,
+                                 double truth, double widest) {
+  const identification::ParameterEstimate& parameter = estimate_of(found, name);
+  const bool good = parameter.status == identification::EstimateStatus::estimated && parameter.low <= truth &&
                     truth <= parameter.high && parameter.low <= parameter.value &&
                     parameter.value <= parameter.high && parameter.high - parameter.low <= widest * truth;
   if (good) return ::testing::AssertionSuccess();
@@ -36,34 +38,37 @@ const ParameterEstimate& estimate_of(const Identification& found, const std::str
 }
 
 /// The value is within the relative distance `off` of the truth.
-::testing::AssertionResult is_near(const Identification& found, const std::string& name, double truth,
-                                   double off) {
-  const ParameterEstimate& parameter = estimate_of(found, name);
+::testing::AssertionResult is_near(const identification::Identification& found, const std::string& name,
+                                   double truth, double off) {
+  const identification::ParameterEstimate& parameter = estimate_of(found, name);
   if (std::abs(parameter.value / truth - 1.0) <= off) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure()
          << name << " = " << parameter.value << ", truth " << truth << "; " << parameter.reason;
 }
 
-bool is_open(const Identification& found, const std::string& name) {
-  return estimate_of(found, name).status == EstimateStatus::not_identifiable;
+bool is_open(const identification::Identification& found, const std::string& name) {
+  return estimate_of(found, name).status == identification::EstimateStatus::not_identifiable;
 }
 
-const std::vector<KnownParameter> no_creep{{log_alpha, 1e-9}, {log_limit, 1.0}, {creep_exponent, 2.0}};
+const std::vector<identification::KnownParameter> no_creep{{identification::log_alpha, 1e-9},
+                                                           {identification::log_limit, 1.0},
+                                                           {identification::creep_exponent, 2.0}};
 
 /// Known, and so small that they do not show in a slow test.
 constexpr double light_damping = 1e-2;
-const std::vector<KnownParameter> light_rotor{{log_damping, light_damping}, {log_inertia, 1e-5}};
+const std::vector<identification::KnownParameter> light_rotor{{identification::log_damping, light_damping},
+                                                              {identification::log_inertia, 1e-5}};
 
 /// A contact that softens over a few counts of `judge_counts`.
 constexpr double judge_counts = 2e5;
-FrictionParameters wide_contact() {
-  FrictionParameters friction;
+friction::FrictionParameters wide_contact() {
+  friction::FrictionParameters friction;
   friction.beta = 2e4;
   friction.lambda = 20.0;
   return friction;
 }
 
-FrictionParameters without_creep(FrictionParameters friction) {
+friction::FrictionParameters without_creep(friction::FrictionParameters friction) {
   friction.alpha = 0.0;
   return friction;
 }
@@ -81,7 +86,7 @@ TEST(Identification, FindsALinearOscillatorFromItsClosedForm) {
   const double decay = c / (2.0 * inertia);
   const double omega = std::sqrt(k / inertia - decay * decay);
   TorqueProgramme programme;
-  TestRecord record;
+  identification::TestRecord record;
   record.name = "oscillator";
   record.unit = 2.0 * std::numbers::pi / 1.62e6;
   record.counted = true;
@@ -97,12 +102,12 @@ TEST(Identification, FindsALinearOscillatorFromItsClosedForm) {
       torque += steps[i];
     }
     record.reading.push_back(std::floor(angle / record.unit + 0.37));
-    record.torque.push_back(constant_torque(torque));
+    record.torque.push_back(motion::constant_torque(torque));
   }
-  IdentificationOptions options{no_creep, 500};
-  options.known.push_back({log_k2, 1e-9});
-  options.known.push_back({log_beta, 1e5});
-  const Identification found = identify({record}, options);
+  identification::IdentificationOptions options{no_creep, 500};
+  options.known.push_back({identification::log_k2, 1e-9});
+  options.known.push_back({identification::log_beta, 1e5});
+  const identification::Identification found = identification::identify({record}, options);
   EXPECT_TRUE(finds(found, "k1", k, 0.01));
   EXPECT_TRUE(finds(found, "presliding_damping", c, 0.02));
   EXPECT_TRUE(finds(found, "inertia", inertia, 0.01));
@@ -114,10 +119,10 @@ TEST(Identification, FindsALinearOscillatorFromItsClosedForm) {
 // which with the model's takes it some hundredths of a count farther. So the agreement has a limit, whatever
 // the intervals say.
 TEST(Identification, FindsTheSpringOfStopElements) {
-  const FrictionParameters friction = without_creep(wide_contact());
-  IdentificationOptions options{no_creep, 200};
+  const friction::FrictionParameters friction = without_creep(wide_contact());
+  identification::IdentificationOptions options{no_creep, 200};
   options.known.insert(options.known.end(), light_rotor.begin(), light_rotor.end());
-  const Identification found = identify(
+  const identification::Identification found = identification::identify(
       {quasistatic_test(friction, light_damping, loading_and_unloading(), judge_counts, 0.6)}, options);
   EXPECT_TRUE(is_near(found, "k1", friction.k1, 1e-4));
   EXPECT_TRUE(is_near(found, "k2", friction.k2, 0.015));
@@ -126,12 +131,12 @@ TEST(Identification, FindsTheSpringOfStopElements) {
 }
 
 TEST(Identification, FindsCreepAtHeldTorques) {
-  FrictionParameters friction = wide_contact();
+  friction::FrictionParameters friction = wide_contact();
   friction.n = 1.8;
   TorqueProgramme programme;
   programme.ramp(0.1, 0.4).hold(3.0).ramp(-0.1, 0.4).ramp(0.2, 0.4).hold(3.0).ramp(-0.2, 0.4).ramp(0.0, 0.4);
-  const Identification found =
-      identify({quasistatic_test(friction, light_damping, programme, judge_counts, 0.2)}, {light_rotor, 200});
+  const identification::Identification found = identification::identify(
+      {quasistatic_test(friction, light_damping, programme, judge_counts, 0.2)}, {light_rotor, 200});
   EXPECT_TRUE(is_near(found, "k1", friction.k1, 1e-4));
   EXPECT_TRUE(is_near(found, "k2", friction.k2, 0.015));
   EXPECT_TRUE(is_near(found, "beta", friction.beta, 0.015));
@@ -145,20 +150,20 @@ TEST(Identification, SaysThatTheModelDoesNotFit) {
   std::mt19937_64 random(50);
   TorqueProgramme programme;
   programme.step(0.05).hold(0.05).step(0.0).hold(0.05).ramp(0.08, 0.8).ramp(-0.08, 0.8).hold(0.1);
-  ContactParameters softer;
+  identification::ContactParameters softer;
   softer.friction.k1 *= 0.99;
-  const TestRecord one = simulated_test({}, programme, {}, random);
-  const TestRecord other = simulated_test(softer, programme, {}, random);
-  const Identification apart = identify({one}, {{}, 200});
+  const identification::TestRecord one = simulated_test({}, programme, {}, random);
+  const identification::TestRecord other = simulated_test(softer, programme, {}, random);
+  const identification::Identification apart = identification::identify({one}, {{}, 200});
   EXPECT_TRUE(apart.checks.passed);
   EXPECT_EQ(apart.checks.widening, 1.0);
-  const Identification together = identify({one, other}, {{}, 200});
+  const identification::Identification together = identification::identify({one, other}, {{}, 200});
   EXPECT_FALSE(together.checks.passed);
   EXPECT_LT(together.checks.spread_chance, 0.01);
   EXPECT_GT(together.checks.widening, 1.5);
   // What is widened is the interval.
-  const ParameterEstimate& alone = estimate_of(apart, "k1");
-  const ParameterEstimate& joint = estimate_of(together, "k1");
+  const identification::ParameterEstimate& alone = estimate_of(apart, "k1");
+  const identification::ParameterEstimate& joint = estimate_of(together, "k1");
   EXPECT_GT(joint.high - joint.low, alone.high - alone.low);
 }
 
@@ -169,7 +174,8 @@ TEST(Identification, LeavesOpenWhatARecordDoesNotShow) {
   one_level.step(0.1).hold(0.1).step(0.0).hold(0.1).step(0.1).hold(0.7).step(0.0).hold(0.1);
   TestInstrument coarse;
   coarse.counts_per_revolution = 2e5;
-  const Identification found = identify({simulated_test({}, one_level, coarse, random)});
+  const identification::Identification found =
+      identification::identify({simulated_test({}, one_level, coarse, random)});
   EXPECT_TRUE(finds(found, "inertia", 5.54e-4, 0.2));
   EXPECT_TRUE(finds(found, "k1", 110.0, 0.1));
   EXPECT_TRUE(finds(found, "alpha", 0.5, 0.1));
@@ -181,11 +187,12 @@ TEST(Identification, LeavesOpenWhatARecordDoesNotShow) {
   // Slow ramps of an exact torque, without corners that would make the rotor swing.
   TorqueProgramme slow(5e-3);
   slow.ramp(0.08, 0.02).ramp(-0.08, 0.02).ramp(0.08, 0.02);
-  ContactParameters no_creep_at_all;
+  identification::ContactParameters no_creep_at_all;
   no_creep_at_all.friction.alpha = 0.0;
   TestInstrument exact;
   exact.torque_step = 0.0;
-  const Identification quiet = identify({simulated_test(no_creep_at_all, slow, exact, random)});
+  const identification::Identification quiet =
+      identification::identify({simulated_test(no_creep_at_all, slow, exact, random)});
   EXPECT_TRUE(finds(quiet, "k1", 110.0, 0.01));
   EXPECT_TRUE(is_open(quiet, "inertia"))
       << estimate_of(quiet, "inertia").low << ", " << estimate_of(quiet, "inertia").high;
@@ -202,16 +209,16 @@ TorqueProgramme steps_and_ramps() {
 }
 
 /// That of the paper's rig, which does not break away.
-ContactParameters strong_contact() {
-  ContactParameters contact;
+identification::ContactParameters strong_contact() {
+  identification::ContactParameters contact;
   contact.friction.breakaway = 10.0;
   return contact;
 }
 
 /// The message with which the records are refused as bad data.
-std::string refusal(const std::vector<TestRecord>& records) {
+std::string refusal(const std::vector<identification::TestRecord>& records) {
   try {
-    identify(records);
+    identification::identify(records);
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::bad_data);
     return failure.what();
@@ -221,14 +228,14 @@ std::string refusal(const std::vector<TestRecord>& records) {
 
 TEST(Identification, ASingleReadingThatIsOffIsNamed) {
   std::mt19937_64 random(54);
-  TestRecord record = simulated_test(strong_contact(), loading_and_unloading(), {}, random);
+  identification::TestRecord record = simulated_test(strong_contact(), loading_and_unloading(), {}, random);
   record.reading[2000] += 3.0;
   EXPECT_NE(refusal({record}).find("the reading at sample 2000"), std::string::npos) << refusal({record});
 }
 
 TEST(Identification, ATorqueOfAnotherTimeIsNotExplained) {
   std::mt19937_64 random(55);
-  TestRecord record = simulated_test(strong_contact(), loading_and_unloading(), {}, random);
+  identification::TestRecord record = simulated_test(strong_contact(), loading_and_unloading(), {}, random);
   std::rotate(record.torque.begin(), record.torque.end() - 20, record.torque.end());
   EXPECT_NE(refusal({record}).find("does not explain"), std::string::npos) << refusal({record});
 }
@@ -236,11 +243,11 @@ TEST(Identification, ATorqueOfAnotherTimeIsNotExplained) {
 // With the time in ms the rotor would swing a thousand times as slowly: 0.07 Hz.
 TEST(Identification, ARotorThatIsImplausiblySlowIsRefused) {
   std::mt19937_64 random(56);
-  TestRecord record = simulated_test({}, steps_and_ramps(), {}, random);
+  identification::TestRecord record = simulated_test({}, steps_and_ramps(), {}, random);
   record.sample_time *= 1e3;
   EXPECT_NE(refusal({record}).find("is the time in ms or us?"), std::string::npos) << refusal({record});
   record.units_believed = true;
-  EXPECT_TRUE(finds(identify({record}), "inertia", 5.54e2, 0.1));
+  EXPECT_TRUE(finds(identification::identify({record}), "inertia", 5.54e2, 0.1));
 }
 
 // Readings without steps and noise leave rounding errors only, whose course says nothing.
@@ -248,37 +255,40 @@ TEST(Identification, ExactAnglesAreNoLackOfFit) {
   std::mt19937_64 random(57);
   TestInstrument fine;
   fine.counts_per_revolution = 1e13;
-  TestRecord record = simulated_test({}, steps_and_ramps(), fine, random);
+  identification::TestRecord record = simulated_test({}, steps_and_ramps(), fine, random);
   for (double& reading : record.reading) reading *= record.unit / 1e-6;
   record.unit = 1e-6;
   record.counted = false;
-  const Identification found = identify({record});
+  const identification::Identification found = identification::identify({record});
   EXPECT_TRUE(found.checks.passed);
   EXPECT_TRUE(is_near(found, "k1", 110.0, 1e-5));
 }
 
 TEST(Identification, ARecordGivenTwiceIsRefused) {
   std::mt19937_64 random(53);
-  TestRecord one = simulated_test({}, loading_and_unloading(), {}, random);
-  TestRecord other = simulated_test({}, loading_and_unloading(), {}, random);  // of another phase
+  identification::TestRecord one = simulated_test({}, loading_and_unloading(), {}, random);
+  identification::TestRecord other =
+      simulated_test({}, loading_and_unloading(), {}, random);  // of another phase
   one.name = "one";
   other.name = "other";
-  TestRecord again = one;
+  identification::TestRecord again = one;
   again.name = "again";
   EXPECT_EQ(refusal({one, other, again}).find("again: is one once more"), 0u);
 }
 
 TEST(Identification, TakesWhatIsKnown) {
   std::mt19937_64 random(52);
-  const ContactParameters truth = random_contact(random);
-  std::vector<TestRecord> records;
+  const identification::ContactParameters truth = random_contact(random);
+  std::vector<identification::TestRecord> records;
   for (const TorqueProgramme& programme : three_tests()) {
     records.push_back(simulated_test(truth, programme, {}, random));
   }
-  const Identification found =
-      identify(records, {{{creep_exponent, truth.friction.n}, {log_limit, truth.friction.lambda}}, 300});
+  const identification::Identification found =
+      identification::identify(records, {{{identification::creep_exponent, truth.friction.n},
+                                          {identification::log_limit, truth.friction.lambda}},
+                                         300});
   for (const std::string name : {"lambda", "n"}) {
-    EXPECT_EQ(estimate_of(found, name).status, EstimateStatus::known);
+    EXPECT_EQ(estimate_of(found, name).status, identification::EstimateStatus::known);
     EXPECT_EQ(estimate_of(found, name).value, true_value(truth, name));
   }
   EXPECT_TRUE(finds(found, "alpha", truth.friction.alpha, 0.01));
@@ -293,7 +303,7 @@ TEST(Identification, TooFewReversalsAreRefused) {
   never.ramp(0.1, 0.4).hold(0.5);
   for (const TorqueProgramme& programme : {once, never}) {
     try {
-      identify({simulated_test({}, programme, {}, random)});
+      identification::identify({simulated_test({}, programme, {}, random)});
       FAIL();
     } catch (const Failure& failure) {
       EXPECT_EQ(failure.code(), ExitCode::bad_data);
@@ -301,19 +311,19 @@ TEST(Identification, TooFewReversalsAreRefused) {
     }
   }
   // Two records with one each have two.
-  const std::vector<TestRecord> two{simulated_test({}, once, {}, random),
-                                    simulated_test({}, once, {}, random)};
-  EXPECT_NO_THROW(identify(two, {{}, 100}));
+  const std::vector<identification::TestRecord> two{simulated_test({}, once, {}, random),
+                                                    simulated_test({}, once, {}, random)};
+  EXPECT_NO_THROW(identification::identify(two, {{}, 100}));
 }
 
 TEST(Identification, ABreakawayIsRefused) {
   std::mt19937_64 random(54);
-  ContactParameters contact;
+  identification::ContactParameters contact;
   contact.friction.breakaway = 0.12;
   TorqueProgramme programme;
   programme.ramp(0.1, 0.2).ramp(-0.1, 0.2).ramp(0.13, 0.2).ramp(0.0, 2.0).ramp(0.05, 0.2);
   try {
-    identify({simulated_test(contact, programme, {}, random)});
+    identification::identify({simulated_test(contact, programme, {}, random)});
     FAIL();
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::bad_data);
@@ -325,11 +335,11 @@ TEST(Identification, DependsOnTheRecordAlone) {
   std::mt19937_64 random(55);
   TorqueProgramme programme;
   programme.step(0.05).hold(0.1).step(0.0).hold(0.1).ramp(0.1, 0.4).ramp(-0.1, 0.4).hold(0.5);
-  const TestRecord record = simulated_test({}, programme, {}, random);
-  const Identification once = identify({record}, {{}, 100});
-  const Identification again = identify({record}, {{}, 100});
+  const identification::TestRecord record = simulated_test({}, programme, {}, random);
+  const identification::Identification once = identification::identify({record}, {{}, 100});
+  const identification::Identification again = identification::identify({record}, {{}, 100});
   for (std::size_t i = 0; i < once.parameters.size(); ++i) {
-    if (once.parameters[i].status != EstimateStatus::estimated) continue;
+    if (once.parameters[i].status != identification::EstimateStatus::estimated) continue;
     EXPECT_EQ(once.parameters[i].value, again.parameters[i].value);
     EXPECT_EQ(once.parameters[i].low, again.parameters[i].low);
   }

@@ -24,10 +24,10 @@ TorqueProgramme& TorqueProgramme::hold(double duration) {
   return *this;
 }
 
-ContactParameters random_contact(std::mt19937_64& random) {
+identification::ContactParameters random_contact(std::mt19937_64& random) {
   std::uniform_real_distribution<double> half_to_double(-std::numbers::ln2, std::numbers::ln2);
   const auto factor = [&] { return std::exp(half_to_double(random)); };
-  ContactParameters contact;
+  identification::ContactParameters contact;
   contact.friction.k1 *= factor();
   contact.friction.k2 *= factor();
   contact.friction.beta *= factor();
@@ -41,23 +41,24 @@ ContactParameters random_contact(std::mt19937_64& random) {
   return contact;
 }
 
-TestRecord simulated_test(const ContactParameters& contact, const TorqueProgramme& programme,
-                          const TestInstrument& instrument, std::mt19937_64& random) {
-  TestRecord record;
+identification::TestRecord simulated_test(const identification::ContactParameters& contact,
+                                          const TorqueProgramme& programme, const TestInstrument& instrument,
+                                          std::mt19937_64& random) {
+  identification::TestRecord record;
   record.name = "simulated";
   record.sample_time = programme.sample_time();
   record.unit = 2.0 * std::numbers::pi / instrument.counts_per_revolution;
   record.counted = true;
   const double phase = std::uniform_real_distribution<double>(0.0, 1.0)(random);
   std::normal_distribution<double> noise(0.0, 1.0);
-  Plant plant(contact.plant, {contact.friction, {}}, {}, {1e-11 * record.unit});
+  plant::Plant plant(contact.plant, {contact.friction, {}}, {}, {1e-11 * record.unit});
   for (double torque : programme.torque()) {
     if (instrument.torque_step > 0.0) {
       torque = instrument.torque_step * std::nearbyint(torque / instrument.torque_step);
     }
     const double shaken = instrument.noise > 0.0 ? instrument.noise * noise(random) : 0.0;
     record.reading.push_back(std::floor(plant.theta() / record.unit + phase + shaken));
-    record.torque.push_back(constant_torque(torque));
+    record.torque.push_back(motion::constant_torque(torque));
     plant.advance(record.torque.back(), record.sample_time);
   }
   return record;
@@ -86,7 +87,7 @@ std::vector<TorqueProgramme> one_test() {
   return {test};
 }
 
-double true_value(const ContactParameters& contact, const std::string& name) {
+double true_value(const identification::ContactParameters& contact, const std::string& name) {
   const std::map<std::string, double> values{{"k1", contact.friction.k1},
                                              {"k2", contact.friction.k2},
                                              {"k1_plus_k2", contact.friction.k1 + contact.friction.k2},
@@ -101,14 +102,15 @@ double true_value(const ContactParameters& contact, const std::string& name) {
 
 namespace {
 
-void count(const Identification& found, const ContactParameters& truth, int set, CoverageStudy& study) {
+void count(const identification::Identification& found, const identification::ContactParameters& truth,
+           int set, CoverageStudy& study) {
   study.parameters.resize(found.parameters.size());
   for (std::size_t i = 0; i < found.parameters.size(); ++i) {
-    const ParameterEstimate& parameter = found.parameters[i];
+    const identification::ParameterEstimate& parameter = found.parameters[i];
     IntervalCoverage& coverage = study.parameters[i];
     coverage.name = parameter.name;
-    if (parameter.status == EstimateStatus::not_identifiable) ++coverage.open;
-    if (parameter.status != EstimateStatus::estimated) continue;
+    if (parameter.status == identification::EstimateStatus::not_identifiable) ++coverage.open;
+    if (parameter.status != identification::EstimateStatus::estimated) continue;
     const double value = true_value(truth, parameter.name);
     ++coverage.estimated;
     if (parameter.low <= value && value <= parameter.high) ++coverage.held;
@@ -128,18 +130,19 @@ void count(const Identification& found, const ContactParameters& truth, int set,
 }  // namespace
 
 CoverageStudy study_coverage(int first, int sets, const std::vector<TorqueProgramme>& programmes,
-                             const TestInstrument& instrument, const IdentificationOptions& options) {
+                             const TestInstrument& instrument,
+                             const identification::IdentificationOptions& options) {
   CoverageStudy study;
   study.sets = sets;
   for (int set = first; set < first + sets; ++set) {
     std::mt19937_64 random(static_cast<std::uint64_t>(set));
-    const ContactParameters truth = random_contact(random);
-    std::vector<TestRecord> records;
+    const identification::ContactParameters truth = random_contact(random);
+    std::vector<identification::TestRecord> records;
     for (const TorqueProgramme& programme : programmes) {
       records.push_back(simulated_test(truth, programme, instrument, random));
     }
     try {
-      count(identify(records, options), truth, set, study);
+      count(identification::identify(records, options), truth, set, study);
     } catch (const Failure&) {
       ++study.refused;
     }

@@ -36,11 +36,12 @@ struct TestInstrument {
 };
 
 /// A rig of the paper's kind: its numbers, each times a random factor of 0.5 to 2, and n between 1.5 and 2.5.
-ContactParameters random_contact(std::mt19937_64& random);
+identification::ContactParameters random_contact(std::mt19937_64& random);
 
 /// A test of the contact, simulated by core's Plant sample by sample, and read by an encoder of random phase.
-TestRecord simulated_test(const ContactParameters& contact, const TorqueProgramme& programme,
-                          const TestInstrument& instrument, std::mt19937_64& random);
+identification::TestRecord simulated_test(const identification::ContactParameters& contact,
+                                          const TorqueProgramme& programme, const TestInstrument& instrument,
+                                          std::mt19937_64& random);
 
 /// Slow loading and unloading with inner loops; four steps with their ring-downs; two holds. One record each.
 std::vector<TorqueProgramme> three_tests();
@@ -49,7 +50,7 @@ std::vector<TorqueProgramme> three_tests();
 std::vector<TorqueProgramme> one_test();
 
 /// The contact's parameter of the name that its estimate has.
-double true_value(const ContactParameters& contact, const std::string& name);
+double true_value(const identification::ContactParameters& contact, const std::string& name);
 
 /// How often the intervals of a parameter held the truth.
 struct IntervalCoverage {
@@ -74,6 +75,7 @@ struct CoverageStudy {
 
 /// Identifies `sets` random contacts, number `first` on, by simulated tests; the set number seeds each.
 CoverageStudy study_coverage(int first, int sets, const std::vector<TorqueProgramme>& programmes,
-                             const TestInstrument& instrument, const IdentificationOptions& options = {});
+                             const TestInstrument& instrument,
+                             const identification::IdentificationOptions& options = {});
 
 }  // namespace zerocount::testing

@@ -28,11 +28,12 @@ double elongation_at(const StopElements& spring, double x, double torque, double
 
 }  // namespace
 
-TestRecord quasistatic_test(const FrictionParameters& friction, double damping,
-                            const TorqueProgramme& programme, double counts_per_revolution, double phase) {
+identification::TestRecord quasistatic_test(const friction::FrictionParameters& friction, double damping,
+                                            const TorqueProgramme& programme, double counts_per_revolution,
+                                            double phase) {
   constexpr std::size_t elements = 1500;
   StopElements spring(friction, elements);
-  TestRecord record;
+  identification::TestRecord record;
   record.name = "quasistatic";
   record.sample_time = programme.sample_time();
   record.unit = 2.0 * std::numbers::pi / counts_per_revolution;
@@ -44,7 +45,7 @@ TestRecord quasistatic_test(const FrictionParameters& friction, double damping,
   for (const double torque : programme.torque()) {
     const double before = x + extension;
     record.reading.push_back(std::floor(before / record.unit + phase));
-    record.torque.push_back(constant_torque(torque));
+    record.torque.push_back(motion::constant_torque(torque));
     const double of_spring = torque - damping * velocity;
     if (of_spring != spring.torque()) {
       x = elongation_at(spring, x, of_spring, friction.k1);

@@ -11,7 +11,8 @@ namespace zerocount::testing {
 ///
 /// @param damping c, N m s/rad.
 /// @returns the readings of an encoder of that phase.
-TestRecord quasistatic_test(const FrictionParameters& friction, double damping,
-                            const TorqueProgramme& programme, double counts_per_revolution, double phase);
+identification::TestRecord quasistatic_test(const friction::FrictionParameters& friction, double damping,
+                                            const TorqueProgramme& programme, double counts_per_revolution,
+                                            double phase);
 
 }  // namespace zerocount::testing

@@ -9,10 +9,11 @@
 namespace zerocount::testing {
 namespace {
 
-Eigen::VectorXd sample_by_sample(const TestRecord& record, const ContactParameters& contact) {
-  Eigen::VectorXd path(static_cast<Eigen::Index>(sample_count(record)));
-  Plant plant(contact.plant, {contact.friction, {}}, record.start, {1e-11 * record.unit});
-  for (std::size_t k = 0; k < sample_count(record); ++k) {
+Eigen::VectorXd sample_by_sample(const identification::TestRecord& record,
+                                 const identification::ContactParameters& contact) {
+  Eigen::VectorXd path(static_cast<Eigen::Index>(identification::sample_count(record)));
+  plant::Plant plant(contact.plant, {contact.friction, {}}, record.start, {1e-11 * record.unit});
+  for (std::size_t k = 0; k < identification::sample_count(record); ++k) {
     path[static_cast<Eigen::Index>(k)] = plant.theta() / record.unit;
     plant.advance(record.torque[k], record.sample_time);
   }
@@ -22,14 +23,15 @@ Eigen::VectorXd sample_by_sample(const TestRecord& record, const ContactParamete
 TEST(RecordMotion, IsThePlantsWhateverTheHolds) {
   std::mt19937_64 random(21);
   for (int round = 0; round < 6; ++round) {
-    const ContactParameters contact = random_contact(random);
+    const identification::ContactParameters contact = random_contact(random);
     TorqueProgramme holds;
     holds.ramp(0.1, 0.2).hold(3.0).ramp(-0.1, 0.2).step(0.15).hold(2.0).ramp(0.14, 0.2).hold(1.0);
     std::vector<TorqueProgramme> programmes = three_tests();
     programmes.push_back(holds);
     for (const TorqueProgramme& programme : programmes) {
-      const TestRecord record = simulated_test(contact, programme, {}, random);
-      const Eigen::VectorXd off = angle_path(record, contact) - sample_by_sample(record, contact);
+      const identification::TestRecord record = simulated_test(contact, programme, {}, random);
+      const Eigen::VectorXd off =
+          identification::angle_path(record, contact) - sample_by_sample(record, contact);
       EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-2) << round;
     }
   }
@@ -37,11 +39,11 @@ TEST(RecordMotion, IsThePlantsWhateverTheHolds) {
 
 TEST(RecordMotion, BeginsWithTheContactAsItIsSaidToBe) {
   std::mt19937_64 random(22);
-  const ContactParameters contact = random_contact(random);
-  TestRecord record = simulated_test(contact, three_tests()[2], {}, random);
+  const identification::ContactParameters contact = random_contact(random);
+  identification::TestRecord record = simulated_test(contact, three_tests()[2], {}, random);
   record.start.preload = 0.2;
   record.start.hardening = 3e-4;
-  const Eigen::VectorXd path = angle_path(record, contact);
+  const Eigen::VectorXd path = identification::angle_path(record, contact);
   EXPECT_LT((path - sample_by_sample(record, contact)).cwiseAbs().maxCoeff(), 1e-2);
   record.start = {};
   EXPECT_GT((path - sample_by_sample(record, contact)).cwiseAbs().maxCoeff(), 10.0);
@@ -49,40 +51,44 @@ TEST(RecordMotion, BeginsWithTheContactAsItIsSaidToBe) {
 
 TEST(RecordMotion, DerivativesAreThoseOfThePath) {
   std::mt19937_64 random(23);
-  const ContactParameters contact = random_contact(random);
+  const identification::ContactParameters contact = random_contact(random);
   constexpr double creep_torque = 0.1;
-  const ContactPoint point = point_of(contact, creep_torque);
+  const identification::ContactPoint point = identification::point_of(contact, creep_torque);
   for (const TorqueProgramme& programme : three_tests()) {
-    const TestRecord record = simulated_test(contact, programme, {}, random);
-    FreeCoordinates free;
+    const identification::TestRecord record = simulated_test(contact, programme, {}, random);
+    identification::FreeCoordinates free;
     free.fill(true);
-    free[log_beta] = false;
-    const RecordMotion motion = motion_with_sensitivity(record, point, creep_torque, free);
-    for (std::size_t j = 0; j < coordinate_count; ++j) {
+    free[identification::log_beta] = false;
+    const identification::RecordMotion motion =
+        identification::motion_with_sensitivity(record, point, creep_torque, free);
+    for (std::size_t j = 0; j < identification::coordinate_count; ++j) {
       const auto column = motion.sensitivity.col(static_cast<Eigen::Index>(j));
       if (!free[j]) {
         EXPECT_EQ(column.cwiseAbs().maxCoeff(), 0.0);
         continue;
       }
       // Central differences over a hundred times the step.
-      ContactPoint up = point;
-      ContactPoint down = point;
+      identification::ContactPoint up = point;
+      identification::ContactPoint down = point;
       up[j] += 1e-4;
       down[j] -= 1e-4;
-      const Eigen::VectorXd expected = (angle_path(record, contact_at(up, creep_torque)) -
-                                        angle_path(record, contact_at(down, creep_torque))) /
-                                       2e-4;
+      const Eigen::VectorXd expected =
+          (identification::angle_path(record, identification::contact_at(up, creep_torque)) -
+           identification::angle_path(record, identification::contact_at(down, creep_torque))) /
+          2e-4;
       const double scale = std::max(1.0, expected.cwiseAbs().maxCoeff());
-      EXPECT_LT((column - expected).norm(), 1e-2 * expected.norm() + 1e-3) << coordinate_keys[j] << scale;
+      EXPECT_LT((column - expected).norm(), 1e-2 * expected.norm() + 1e-3)
+          << identification::coordinate_keys[j] << scale;
     }
   }
 }
 
 TEST(RecordMotion, CoordinatesAndParametersAreInverse) {
   std::mt19937_64 random(24);
-  const ContactParameters contact = random_contact(random);
+  const identification::ContactParameters contact = random_contact(random);
   for (const double creep_torque : {0.05, 1.0}) {
-    const ContactParameters back = contact_at(point_of(contact, creep_torque), creep_torque);
+    const identification::ContactParameters back =
+        identification::contact_at(identification::point_of(contact, creep_torque), creep_torque);
     for (const std::string name :
          {"k1", "k2", "beta", "presliding_damping", "inertia", "alpha", "lambda", "n"}) {
       EXPECT_NEAR(true_value(back, name) / true_value(contact, name), 1.0, 1e-12) << name;

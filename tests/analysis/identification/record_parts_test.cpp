@@ -8,25 +8,26 @@
 namespace zerocount::testing {
 namespace {
 
-RecordParts parts_of_programme(const TorqueProgramme& programme, double torque_step = 2.4e-4) {
+identification::RecordParts parts_of_programme(const TorqueProgramme& programme,
+                                               double torque_step = 2.4e-4) {
   std::mt19937_64 random(41);
   TestInstrument instrument;
   instrument.torque_step = torque_step;
-  return parts_of(simulated_test({}, programme, instrument, random));
+  return identification::parts_of(simulated_test({}, programme, instrument, random));
 }
 
 TEST(RecordParts, BranchesGoFromTurnToTurn) {
   TorqueProgramme programme;
   programme.ramp(0.1, 0.4).ramp(-0.05, 0.4).ramp(0.02, 0.4).hold(0.1).ramp(-0.1, 0.4);
   for (const double torque_step : {0.0, 2.4e-4}) {
-    const RecordParts parts = parts_of_programme(programme, torque_step);
+    const identification::RecordParts parts = parts_of_programme(programme, torque_step);
     ASSERT_EQ(parts.branches.size(), 4u);
     EXPECT_EQ(parts.reversals(), 3u);
     const double turns[] = {0.0, 0.1, -0.05, 0.02, -0.1};
     for (std::size_t b = 0; b < 4; ++b) {
       EXPECT_NEAR(parts.branches[b].from, turns[b], 2.4e-4);
       EXPECT_NEAR(parts.branches[b].to, turns[b + 1], 2.4e-4);
-      EXPECT_TRUE(is_slow(parts.branches[b], 0.2));
+      EXPECT_TRUE(identification::is_slow(parts.branches[b], 0.2));
       if (b > 0) {
         EXPECT_EQ(parts.branches[b].first, parts.branches[b - 1].last);
       }
@@ -43,11 +44,11 @@ TEST(RecordParts, SmallSwingsAreNoReversals) {
 TEST(RecordParts, HoldsBeginWithARingDownAfterAStepOnly) {
   TorqueProgramme programme;
   programme.step(0.1).hold(0.2).ramp(0.15, 0.1).hold(0.3).step(0.0).hold(0.1);
-  const RecordParts parts = parts_of_programme(programme);
+  const identification::RecordParts parts = parts_of_programme(programme);
   ASSERT_EQ(parts.holds.size(), 3u);
-  EXPECT_TRUE(rings_down(parts.holds[0], 0.15));
-  EXPECT_FALSE(rings_down(parts.holds[1], 0.15));
-  EXPECT_TRUE(rings_down(parts.holds[2], 0.15));
+  EXPECT_TRUE(identification::rings_down(parts.holds[0], 0.15));
+  EXPECT_FALSE(identification::rings_down(parts.holds[1], 0.15));
+  EXPECT_TRUE(identification::rings_down(parts.holds[2], 0.15));
   EXPECT_NEAR(parts.holds[1].torque, 0.15, 2.4e-4);
   EXPECT_NEAR(static_cast<double>(parts.holds[1].last - parts.holds[1].first), 600.0, 3.0);
 }
@@ -57,7 +58,7 @@ TEST(RecordParts, ATorqueThatNeverTurnsHasNoReversal) {
   programme.ramp(0.1, 0.2);
   EXPECT_EQ(parts_of_programme(programme).reversals(), 0u);
   EXPECT_EQ(parts_of_programme(programme).branches.size(), 1u);
-  EXPECT_TRUE(parts_of(TestRecord{}).branches.empty());
+  EXPECT_TRUE(identification::parts_of(identification::TestRecord{}).branches.empty());
 }
 
 }  // namespace

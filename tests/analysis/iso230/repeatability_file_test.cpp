@@ -23,7 +23,7 @@
 #include "tests/support/raw_hdf5.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace zerocount {
+namespace zerocount::iso230 {
 namespace {
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -34,11 +34,13 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 /// What the judge is told of the study: all but the results.
-nlohmann::json facts_of(const Study& study) {
-  nlohmann::json facts{{"points", point_count(study)}, {"trials", study.trials}};
-  for (const SequenceMove& move : study.sequence) facts["sequence"].push_back({move.target, move.direction});
-  for (std::int64_t row = 0; row < trial_count(study); ++row) {
-    const TrialParameters p = study_trial(study, row / study.trials, row % study.trials).parameters;
+nlohmann::json facts_of(const study::Study& study) {
+  nlohmann::json facts{{"points", study::point_count(study)}, {"trials", study.trials}};
+  for (const study::SequenceMove& move : study.sequence)
+    facts["sequence"].push_back({move.target, move.direction});
+  for (std::int64_t row = 0; row < study::trial_count(study); ++row) {
+    const trial::TrialParameters p =
+        study::study_trial(study, row / study.trials, row % study.trials).parameters;
     facts["rows"].push_back({{"targets", p.command.targets},
                              {"phase", p.initial.encoder_phase},
                              {"resolution", 2.0 * std::numbers::pi / p.encoder.fine}});
@@ -47,13 +49,13 @@ nlohmann::json facts_of(const Study& study) {
 }
 
 /// Has the group /repeatability, the summary and the documentation of a file judged by Python.
-void expect_judged_right(const Study& study, const std::vector<TrialResult>& results) {
+void expect_judged_right(const study::Study& study, const std::vector<shards::TrialResult>& results) {
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, results);
-  const StudySummary summary = summarise(StudyFile(folder / "study.h5"));
+  const summary::StudySummary summary = summary::summarise(reading::StudyFile(folder / "study.h5"));
   folder.write("facts.json", facts_of(study).dump());
-  folder.write("summary.json", summary_json_text(summary));
-  folder.write("summary.csv", summary_csv(summary));
+  folder.write("summary.json", summary::summary_json_text(summary));
+  folder.write("summary.csv", summary::summary_csv(summary));
   const std::string command =
       fmt::format("{} {} file {} {} > {} 2>&1", ZEROCOUNT_PYTHON, ZEROCOUNT_REPEATABILITY_JUDGE,
                   folder.path().string(), ZEROCOUNT_FORMAT_DOCUMENTATION, (folder / "output").string());
@@ -61,60 +63,61 @@ void expect_judged_right(const Study& study, const std::vector<TrialResult>& res
 }
 
 TEST(RepeatabilityFile, AgreesWithAPythonJudgeOfTheWholeFile) {
-  const Study study = testing::sequence_study();
-  std::vector<TrialResult> results = testing::sequence_results(study);
-  results[5].outcome.moves[9].outcome = Outcome::nonfinite;
+  const study::Study study = testing::sequence_study();
+  std::vector<shards::TrialResult> results = testing::sequence_results(study);
+  results[5].outcome.moves[9].outcome = trial::Outcome::nonfinite;
   results[5].outcome.moves[9].final_position = std::numeric_limits<double>::quiet_NaN();
-  results[8].outcome.moves[0].outcome = Outcome::nonfinite;  // a move that only goes to the other side
-  results[11].outcome.moves[4].outcome = Outcome::oscillating;
+  results[8].outcome.moves[0].outcome = trial::Outcome::nonfinite;  // a move that only goes to the other side
+  results[11].outcome.moves[4].outcome = trial::Outcome::oscillating;
   expect_judged_right(study, results);
 }
 
 TEST(RepeatabilityFile, OfOneSideAgreesWithThePythonJudge) {
   for (const char* approach : {"positive", "negative"}) {
-    const Study study = testing::sequence_study(fmt::format("cycles: 5, approach: {}", approach));
+    const study::Study study = testing::sequence_study(fmt::format("cycles: 5, approach: {}", approach));
     expect_judged_right(study, testing::sequence_results(study));
   }
 }
 
 TEST(RepeatabilityFile, OfOneCycleAndOfOneTrialAgreesWithThePythonJudge) {
-  const Study one_cycle = testing::sequence_study("cycles: 1");
+  const study::Study one_cycle = testing::sequence_study("cycles: 1");
   expect_judged_right(one_cycle, testing::sequence_results(one_cycle));
-  const Study one_trial = testing::sequence_study("cycles: 2", 1);
+  const study::Study one_trial = testing::sequence_study("cycles: 2", 1);
   expect_judged_right(one_trial, testing::sequence_results(one_trial));
 }
 
 TEST(RepeatabilityFile, CountsTheTrialsThatRepeatExactlyByTheEncoder) {
-  const Study study = testing::sequence_study("cycles: 3", 60);
-  std::vector<TrialResult> results = testing::sequence_results(study);
+  const study::Study study = testing::sequence_study("cycles: 3", 60);
+  std::vector<shards::TrialResult> results = testing::sequence_results(study);
   for (std::size_t row = 60; row < 120; ++row) {
-    for (MoveOutcome& move : results[row].outcome.moves) move.final_error = 0;
+    for (trial::MoveOutcome& move : results[row].outcome.moves) move.final_error = 0;
   }
   // Everywhere one count beside the target is as repeatable as on it; one move beside it is not.
-  for (MoveOutcome& move : results[7].outcome.moves) --move.final_error;
+  for (trial::MoveOutcome& move : results[7].outcome.moves) --move.final_error;
   results[61].outcome.moves[3].final_error = 1;
   // Beyond the ends nothing is measured.
   results[62].outcome.moves[0].final_error = 99;
   // What was lost did not repeat.
-  results[63].outcome.moves[3].outcome = Outcome::nonfinite;
+  results[63].outcome.moves[3].outcome = trial::Outcome::nonfinite;
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, results);
-  const auto points = study_repeatability(StudyFile(folder / "study.h5"), study).points;
+  const auto points = study_repeatability(reading::StudyFile(folder / "study.h5"), study).points;
   EXPECT_EQ(points[0].zero_repeatability, 9);  // trials 0, 7, … 56
   EXPECT_EQ(points[0].evaluated, 60);
   EXPECT_EQ(points[1].zero_repeatability, 58);
   EXPECT_EQ(points[1].evaluated, 59);
   EXPECT_DOUBLE_EQ(points[1].zero_rate, 58.0 / 60.0);
-  EXPECT_DOUBLE_EQ(points[1].zero_bounds.high, clopper_pearson(58, 60).high);
+  EXPECT_DOUBLE_EQ(points[1].zero_bounds.high, statistics::clopper_pearson(58, 60).high);
 }
 
 TEST(RepeatabilityFile, NoTrialLeftHasNoValuesButItsCounts) {
-  const Study study = testing::sequence_study("cycles: 2", 4);
-  std::vector<TrialResult> results = testing::sequence_results(study);
-  for (TrialResult& result : results) result.outcome.moves[1].outcome = Outcome::nonfinite;
+  const study::Study study = testing::sequence_study("cycles: 2", 4);
+  std::vector<shards::TrialResult> results = testing::sequence_results(study);
+  for (shards::TrialResult& result : results) result.outcome.moves[1].outcome = trial::Outcome::nonfinite;
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, results);
-  const PointRepeatability point = study_repeatability(StudyFile(folder / "study.h5"), study).points[0];
+  const PointRepeatability point =
+      study_repeatability(reading::StudyFile(folder / "study.h5"), study).points[0];
   EXPECT_EQ(point.trials, 4);
   EXPECT_EQ(point.evaluated, 0);
   EXPECT_EQ(point.zero_rate, 0.0);
@@ -124,15 +127,15 @@ TEST(RepeatabilityFile, NoTrialLeftHasNoValuesButItsCounts) {
 
 TEST(RepeatabilityFile, IsTheSameHoweverTheTrialsAreReadAtOnce) {
   // More rows than are read at once, and not a multiple: 16384/8 = 2048 rows of 8 moves.
-  const Study study = testing::sequence_study("cycles: 1, approach: positive", 2049);
-  const std::vector<TrialResult> results = testing::sequence_results(study);
+  const study::Study study = testing::sequence_study("cycles: 1, approach: positive", 2049);
+  const std::vector<shards::TrialResult> results = testing::sequence_results(study);
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, results);
   const hdf5::File file = hdf5::File::open_to_read(folder / "study.h5");
   const hdf5::Dataset values = file.open_dataset("repeatability/trial/true/systematic_positive");
   ASSERT_EQ(values.extent(), (std::vector<hdf5::Size>{4098}));
   for (const std::int64_t row : {0LL, 4095LL, 4096LL, 4097LL}) {
-    const TrialParameters parameters = study_trial(study, row / 2049, row % 2049).parameters;
+    const trial::TrialParameters parameters = study::study_trial(study, row / 2049, row % 2049).parameters;
     double value = 0.0;
     values.read(row, 1, &value);
     const auto expected =
@@ -142,11 +145,11 @@ TEST(RepeatabilityFile, IsTheSameHoweverTheTrialsAreReadAtOnce) {
 }
 
 TEST(RepeatabilityFile, IsExportedAsCsv) {
-  const Study study = testing::sequence_study("cycles: 2", 3);
+  const study::Study study = testing::sequence_study("cycles: 2", 3);
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, testing::sequence_results(study));
-  const StudyFile file(folder / "study.h5");
-  const auto paths = export_csv(file, folder / "csv", repeatability_exports(file));
+  const reading::StudyFile file(folder / "study.h5");
+  const auto paths = reading::export_csv(file, folder / "csv", repeatability_exports(file));
   ASSERT_EQ(paths.size(), 8U);
   const std::vector<std::string> trials = lines_of(folder.read("csv/repeatability_trials.csv"));
   ASSERT_EQ(trials.size(), 7U);
@@ -159,29 +162,30 @@ TEST(RepeatabilityFile, IsExportedAsCsv) {
   hdf5::File::open_to_read(folder / "study.h5")
       .open_dataset("repeatability/trial/true/reversal")
       .read(4, 1, &value);
-  EXPECT_EQ(trials[5].rfind("4,1," + number_text(value) + ",", 0), 0U) << trials[5];
+  EXPECT_EQ(trials[5].rfind("4,1," + reading::number_text(value) + ",", 0), 0U) << trials[5];
   EXPECT_EQ(targets[1 + 3 * 4 + 2].rfind("4,2,700,", 0), 0U);
   EXPECT_EQ(lines_of(folder.read("csv/repeatability_points.csv")).size(), 3U);
   EXPECT_EQ(lines_of(folder.read("csv/repeatability_point_targets.csv")).size(), 7U);
 }
 
 TEST(RepeatabilityFile, AStudyWithoutSequenceHasNone) {
-  const Study study = parse_study(
+  const study::Study study = manifest::parse_study(
       "zerocount: 1\nname: plain\nseed: 1\ntrials: 3\ncommand: {targets: [1, 2], hold: 0.1}\n", "test");
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, testing::sequence_results(study));
   EXPECT_FALSE(hdf5::File::open_to_read(folder / "study.h5").contains("repeatability"));
-  for (const SummarySection& section : summarise(StudyFile(folder / "study.h5")).sections)
+  for (const measures::SummarySection& section :
+       summary::summarise(reading::StudyFile(folder / "study.h5")).sections)
     EXPECT_NE(section.key, "repeatability");
-  EXPECT_TRUE(repeatability_exports(StudyFile(folder / "study.h5")).empty());
+  EXPECT_TRUE(repeatability_exports(reading::StudyFile(folder / "study.h5")).empty());
 }
 
 TEST(RepeatabilityFile, ThatIsOfAnotherSequenceIsRefused) {
-  const Study study = testing::sequence_study("cycles: 2", 4);
+  const study::Study study = testing::sequence_study("cycles: 2", 4);
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, testing::sequence_results(study));
-  const StudyFile file(folder / "study.h5");
-  const auto expect_bad = [&](const Study& other, const std::string& words) {
+  const reading::StudyFile file(folder / "study.h5");
+  const auto expect_bad = [&](const study::Study& other, const std::string& words) {
     try {
       study_repeatability(file, other);
       ADD_FAILURE() << "expected a failure: " << words;
@@ -191,10 +195,10 @@ TEST(RepeatabilityFile, ThatIsOfAnotherSequenceIsRefused) {
     }
   };
   expect_bad(testing::sequence_study("cycles: 2", 5), "it is not of all trials of the study");
-  Study fewer = study;
-  for (SequenceMove& move : fewer.sequence) move.target = std::min<std::int64_t>(move.target, 1);
+  study::Study fewer = study;
+  for (study::SequenceMove& move : fewer.sequence) move.target = std::min<std::int64_t>(move.target, 1);
   expect_bad(fewer, "it is of another number of targets");
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::iso230

@@ -10,7 +10,7 @@
 
 #include "analysis/statistics/histogram.hpp"
 
-namespace zerocount {
+namespace zerocount::iso230 {
 namespace {
 
 /// NaN for NaN.
@@ -22,17 +22,17 @@ TEST(ValueStatistics, AreThoseOfATally) {
   std::mt19937_64 random(3);
   for (const std::size_t n : {1U, 2U, 5U, 6U, 40U, 73U, 74U, 500U}) {
     std::vector<double> values(n);
-    Histogram<double> histogram;
+    statistics::Histogram<double> histogram;
     for (double& value : values) {
       value = 0.25 * static_cast<double>(random() % 64) - 3.0;
       histogram.add(value);
     }
     const ValueStatistics result = statistics_of(values);
     EXPECT_EQ(result.n, std::ssize(values));
-    EXPECT_DOUBLE_EQ(result.mean, mean(histogram));
-    EXPECT_EQ(result.max, largest(histogram));
-    for (const auto& [actual, expected] :
-         {std::pair{result.median, quantile(histogram, 0.5)}, {result.p95, quantile(histogram, 0.95)}}) {
+    EXPECT_DOUBLE_EQ(result.mean, statistics::mean(histogram));
+    EXPECT_EQ(result.max, statistics::largest(histogram));
+    for (const auto& [actual, expected] : {std::pair{result.median, statistics::quantile(histogram, 0.5)},
+                                           {result.p95, statistics::quantile(histogram, 0.95)}}) {
       EXPECT_EQ(actual.value, expected.value);
       EXPECT_TRUE(same(actual.low, expected.low));
       EXPECT_TRUE(same(actual.high, expected.high));
@@ -42,14 +42,14 @@ TEST(ValueStatistics, AreThoseOfATally) {
 
 TEST(ValueStatistics, HaveBoundsOfTheConfidenceAskedFor) {
   std::vector<double> values;
-  Histogram<double> histogram;
+  statistics::Histogram<double> histogram;
   for (int i = 0; i < 90; ++i) {
     values.push_back(i * i % 97);
     histogram.add(values.back());
   }
   const ValueStatistics result = statistics_of(values, 0.5);
-  EXPECT_EQ(result.median.low, quantile(histogram, 0.5, 0.5).low);
-  EXPECT_EQ(result.p95.high, quantile(histogram, 0.95, 0.5).high);
+  EXPECT_EQ(result.median.low, statistics::quantile(histogram, 0.5, 0.5).low);
+  EXPECT_EQ(result.p95.high, statistics::quantile(histogram, 0.95, 0.5).high);
   EXPECT_GT(result.median.low, statistics_of(values).median.low);
 }
 
@@ -79,4 +79,4 @@ TEST(ValueStatistics, DoNotDependOnTheOrderOfTheTrials) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::iso230

@@ -14,7 +14,7 @@
 #include "tests/analysis/iso230/sequence_studies.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace zerocount {
+namespace zerocount::iso230 {
 namespace {
 
 std::vector<std::string> lines_in(const std::string& text) {
@@ -38,31 +38,32 @@ std::vector<std::vector<std::string>> rows_of(const std::string& text, const std
 
 /// The summary of trials that end so many counts from the middle of their target's count.
 template <typename Offset>
-StudySummary summary_of(const Study& study, const Offset& offset) {
-  std::vector<TrialResult> results = testing::sequence_results(study);
-  for (TrialResult& result : results) {
-    const TrialParameters p =
-        study_trial(study, result.row / study.trials, result.row % study.trials).parameters;
+summary::StudySummary summary_of(const study::Study& study, const Offset& offset) {
+  std::vector<shards::TrialResult> results = testing::sequence_results(study);
+  for (shards::TrialResult& result : results) {
+    const trial::TrialParameters p =
+        study::study_trial(study, result.row / study.trials, result.row % study.trials).parameters;
     for (std::size_t i = 0; i < study.sequence.size(); ++i) {
       const double counts = offset(study.sequence[i], result.row);
       const double place = static_cast<double>(p.command.targets[i]) + 0.5 + counts;
-      MoveOutcome& move = result.outcome.moves[i];
+      trial::MoveOutcome& move = result.outcome.moves[i];
       move.final_position = (place - p.initial.encoder_phase) * 2.0 * std::numbers::pi / p.encoder.fine;
       move.final_error = -static_cast<std::int64_t>(std::floor(0.5 + counts));
     }
   }
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, results);
-  return summarise(StudyFile(folder / "study.h5"));
+  return summary::summarise(reading::StudyFile(folder / "study.h5"));
 }
 
 /// Every approach from above ends one count higher.
-double one_count_of_reversal(const SequenceMove& move, std::int64_t) {
+double one_count_of_reversal(const study::SequenceMove& move, std::int64_t) {
   return move.direction > 0 ? 0.0 : 1.0;
 }
 
 TEST(RepeatabilitySummary, TellsOfTheAxisInArcsecAndCounts) {
-  const std::string text = summary_table(summary_of(testing::sequence_study(), one_count_of_reversal));
+  const std::string text =
+      summary::summary_table(summary_of(testing::sequence_study(), one_count_of_reversal));
   EXPECT_NE(text.find("\nrepeatability after ISO 230-2: 3 targets approached from both sides in 3 cycles\n"),
             std::string::npos);
   const auto rows = rows_of(text, "fine");
@@ -79,7 +80,8 @@ TEST(RepeatabilitySummary, TellsOfTheAxisInArcsecAndCounts) {
 }
 
 TEST(RepeatabilitySummary, TellsOfEachTargetWhereItIs) {
-  const std::string text = summary_table(summary_of(testing::sequence_study(), one_count_of_reversal));
+  const std::string text =
+      summary::summary_table(summary_of(testing::sequence_study(), one_count_of_reversal));
   const auto rows = rows_of(text, "fine");
   EXPECT_EQ(rows[3][1], "-30");
   EXPECT_EQ((std::vector<std::string>(rows[5].begin() + 1, rows[5].begin() + 4)),
@@ -89,8 +91,8 @@ TEST(RepeatabilitySummary, TellsOfEachTargetWhereItIs) {
 }
 
 TEST(RepeatabilitySummary, OfASequenceFromOneSideHasItsValuesOnly) {
-  const Study study = testing::sequence_study("cycles: 2, approach: negative");
-  const std::string text = summary_table(summary_of(study, one_count_of_reversal));
+  const study::Study study = testing::sequence_study("cycles: 2, approach: negative");
+  const std::string text = summary::summary_table(summary_of(study, one_count_of_reversal));
   EXPECT_NE(text.find("3 targets approached from above in 2 cycles\n"), std::string::npos);
   const auto heads = rows_of(text, "point");
   EXPECT_EQ(heads[1], (std::vector<std::string>{"point", "from", "trials", "R↓", "E↓", "A↓", "zero", "95",
@@ -109,7 +111,7 @@ TEST(RepeatabilitySummary, OfASequenceFromOneSideHasItsValuesOnly) {
 
 TEST(RepeatabilitySummary, OfASingleCycleHasNoRepeatability) {
   const std::string text =
-      summary_table(summary_of(testing::sequence_study("cycles: 1"), one_count_of_reversal));
+      summary::summary_table(summary_of(testing::sequence_study("cycles: 1"), one_count_of_reversal));
   EXPECT_NE(text.find("in 1 cycle\n"), std::string::npos);
   const auto rows = rows_of(text, "fine");
   EXPECT_EQ(rows[2], (std::vector<std::string>{"fine", "encoder", "(count)", "80", "1", "(1)", "–", "–", "–",
@@ -119,7 +121,7 @@ TEST(RepeatabilitySummary, OfASingleCycleHasNoRepeatability) {
 // Where R is not defined, no trial has it, and none has it at 0 either: that is not 0 trials of 80.
 TEST(RepeatabilitySummary, OfASingleCycleCountsNoZeros) {
   const nlohmann::json json = nlohmann::json::parse(
-      summary_json_text(summary_of(testing::sequence_study("cycles: 1"), one_count_of_reversal)));
+      summary::summary_json_text(summary_of(testing::sequence_study("cycles: 1"), one_count_of_reversal)));
   const nlohmann::json& point = json["points"][0]["repeatability"];
   EXPECT_EQ(point["trials"], 80);
   for (const char* name : {"zero_repeatability", "zero_repeatability_rate"}) {
@@ -128,16 +130,16 @@ TEST(RepeatabilitySummary, OfASingleCycleCountsNoZeros) {
 }
 
 TEST(RepeatabilitySummary, DeviationsOfManyCountsAreShownInFull) {
-  const auto far = [](const SequenceMove& move, std::int64_t row) {
+  const auto far = [](const study::SequenceMove& move, std::int64_t row) {
     return move.target == 2 ? 12345.0 : static_cast<double>(row % 2) * 0.0;
   };
-  const std::string text = summary_table(summary_of(testing::sequence_study(), far));
+  const std::string text = summary::summary_table(summary_of(testing::sequence_study(), far));
   EXPECT_EQ(rows_of(text, "fine")[8][4], "12345");
 }
 
 TEST(RepeatabilitySummary, IsASectionOfTheJson) {
   const nlohmann::ordered_json json =
-      summary_json(summary_of(testing::sequence_study(), one_count_of_reversal));
+      summary::summary_json(summary_of(testing::sequence_study(), one_count_of_reversal));
   const auto& point = json["points"][0]["repeatability"];
   EXPECT_TRUE(point["trials"].is_number_integer());
   EXPECT_EQ(point["evaluated"], 80);
@@ -152,11 +154,11 @@ TEST(RepeatabilitySummary, IsASectionOfTheJson) {
 
 TEST(RepeatabilitySummary, EndsTheLinesOfTheCsv) {
   const std::vector<std::string> lines =
-      lines_in(summary_csv(summary_of(testing::sequence_study("cycles: 2"), one_count_of_reversal)));
+      lines_in(summary::summary_csv(summary_of(testing::sequence_study("cycles: 2"), one_count_of_reversal)));
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_NE(lines[0].find(",repeatability_trials,repeatability_evaluated,"), std::string::npos);
   EXPECT_NE(lines[0].find(",repeatability_encoder_target_2_repeatability_p95"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::iso230

@@ -16,7 +16,7 @@
 #include "analysis/iso230/repeatability_fields.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace zerocount {
+namespace zerocount::iso230 {
 namespace {
 
 using Deviations = std::vector<TargetDeviations>;
@@ -370,4 +370,4 @@ TEST(Repeatability, OfNoTargetsIsUndefined) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::iso230

@@ -9,15 +9,15 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::iso230 {
 namespace {
 
 constexpr double fine = 1620000.0;
 constexpr double count = 2.0 * std::numbers::pi / fine;  // rad
 
 /// Two targets, two cycles, from both sides.
-std::vector<SequenceMove> two_targets() {
-  std::vector<SequenceMove> moves;
+std::vector<study::SequenceMove> two_targets() {
+  std::vector<study::SequenceMove> moves;
   for (std::int64_t cycle = 0; cycle < 2; ++cycle) {
     for (const auto& [target, direction] : {std::pair{-1, -1}, {0, 1}, {1, 1}, {-1, 1}, {1, -1}, {0, -1}}) {
       moves.push_back({target, direction, cycle});
@@ -26,8 +26,8 @@ std::vector<SequenceMove> two_targets() {
   return moves;
 }
 
-TrialParameters with_targets(double phase) {
-  TrialParameters parameters;
+trial::TrialParameters with_targets(double phase) {
+  trial::TrialParameters parameters;
   parameters.encoder.fine = fine;
   parameters.initial.encoder_phase = phase;
   parameters.command.targets = {90, 100, 250, 260, 250, 100, 90, 100, 250, 260, 250, 100};
@@ -35,11 +35,12 @@ TrialParameters with_targets(double phase) {
 }
 
 /// Moves that end so many counts from the middle of the target's count.
-std::vector<MoveOutcome> ending_at(const TrialParameters& parameters, const std::vector<double>& offsets) {
-  std::vector<MoveOutcome> moves(offsets.size());
+std::vector<trial::MoveOutcome> ending_at(const trial::TrialParameters& parameters,
+                                          const std::vector<double>& offsets) {
+  std::vector<trial::MoveOutcome> moves(offsets.size());
   for (std::size_t i = 0; i < moves.size(); ++i) {
     const double middle = static_cast<double>(parameters.command.targets[i]) + 0.5;
-    moves[i].outcome = Outcome::zero_count;
+    moves[i].outcome = trial::Outcome::zero_count;
     moves[i].final_position = (middle + offsets[i] - parameters.initial.encoder_phase) * count;
     moves[i].final_error = static_cast<std::int64_t>(std::floor(middle)) -
                            static_cast<std::int64_t>(std::floor(middle + offsets[i]));
@@ -53,7 +54,7 @@ TEST(SequenceShape, IsCountedFromTheMoves) {
   EXPECT_EQ(both.cycles, 2);
   EXPECT_TRUE(both.positive && both.negative);
   const SequenceShape one_side =
-      shape_of(std::vector<SequenceMove>{{-1, 1, 0}, {2, -1, 0}, {1, -1, 0}, {0, -1, 0}});
+      shape_of(std::vector<study::SequenceMove>{{-1, 1, 0}, {2, -1, 0}, {1, -1, 0}, {0, -1, 0}});
   EXPECT_EQ(one_side.targets, 3);
   EXPECT_EQ(one_side.cycles, 1);
   EXPECT_FALSE(one_side.positive);
@@ -63,7 +64,7 @@ TEST(SequenceShape, IsCountedFromTheMoves) {
 
 TEST(TrialRepeatability, DeviatesFromTheMiddleOfTheTargetsCountAndByWholeCounts) {
   for (const double phase : {0.0, 0.3, 0.5, 0.999}) {
-    const TrialParameters parameters = with_targets(phase);
+    const trial::TrialParameters parameters = with_targets(phase);
     // Target 0: from below 0.25 and 0.25, from above −0.25 and −1.75 (which reads −2 counts).
     const std::vector<double> offsets{9, 0.25, 0, 9, 0, -0.25, 9, 0.25, 0, 9, 0, -1.75};
     const auto result = trial_repeatability(two_targets(), parameters, ending_at(parameters, offsets));
@@ -87,9 +88,9 @@ TEST(TrialRepeatability, TargetsHaveTheOrderOfTheirList) {
 }
 
 TEST(TrialRepeatability, MeasuresMovesAsTheyEndedWhateverTheirVerdict) {
-  const TrialParameters parameters = with_targets(0.5);
-  std::vector<MoveOutcome> moves = ending_at(parameters, std::vector<double>(12, 0.0));
-  for (MoveOutcome& move : moves) move.outcome = Outcome::oscillating;
+  const trial::TrialParameters parameters = with_targets(0.5);
+  std::vector<trial::MoveOutcome> moves = ending_at(parameters, std::vector<double>(12, 0.0));
+  for (trial::MoveOutcome& move : moves) move.outcome = trial::Outcome::oscillating;
   EXPECT_TRUE(trial_repeatability(two_targets(), parameters, moves));
   moves[1].final_error = 40;
   EXPECT_EQ(trial_repeatability(two_targets(), parameters, moves)->from_encoder.targets[0].mean_positive,
@@ -97,11 +98,11 @@ TEST(TrialRepeatability, MeasuresMovesAsTheyEndedWhateverTheirVerdict) {
 }
 
 TEST(TrialRepeatability, IsEmptyWhereTheMotionWasLost) {
-  const TrialParameters parameters = with_targets(0.5);
-  const std::vector<MoveOutcome> sound = ending_at(parameters, std::vector<double>(12, 0.0));
+  const trial::TrialParameters parameters = with_targets(0.5);
+  const std::vector<trial::MoveOutcome> sound = ending_at(parameters, std::vector<double>(12, 0.0));
   for (std::size_t i = 0; i < sound.size(); ++i) {
-    std::vector<MoveOutcome> moves = sound;
-    moves[i].outcome = Outcome::nonfinite;
+    std::vector<trial::MoveOutcome> moves = sound;
+    moves[i].outcome = trial::Outcome::nonfinite;
     EXPECT_FALSE(trial_repeatability(two_targets(), parameters, moves)) << i;
     moves = sound;
     moves[i].final_position = std::numeric_limits<double>::infinity();
@@ -110,12 +111,12 @@ TEST(TrialRepeatability, IsEmptyWhereTheMotionWasLost) {
 }
 
 TEST(TrialRepeatability, OfOtherMovesThanThoseOfTheSequenceIsRefused) {
-  TrialParameters parameters = with_targets(0.5);
-  const std::vector<MoveOutcome> moves = ending_at(parameters, std::vector<double>(12, 0.0));
+  trial::TrialParameters parameters = with_targets(0.5);
+  const std::vector<trial::MoveOutcome> moves = ending_at(parameters, std::vector<double>(12, 0.0));
   EXPECT_THROW(trial_repeatability(two_targets(), parameters, std::span(moves).first(11)), Failure);
   parameters.command.targets.pop_back();
   EXPECT_THROW(trial_repeatability(two_targets(), parameters, moves), Failure);
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::iso230

@@ -13,8 +13,8 @@
 
 namespace zerocount::testing {
 
-Study sequence_study(const std::string& sequence, std::int64_t trials) {
-  return parse_study(
+study::Study sequence_study(const std::string& sequence, std::int64_t trials) {
+  return manifest::parse_study(
       fmt::format("zerocount: 1\n"
                   "name: back and forth\n"
                   "seed: 230\n"
@@ -29,22 +29,22 @@ Study sequence_study(const std::string& sequence, std::int64_t trials) {
       "test");
 }
 
-std::vector<TrialResult> sequence_results(const Study& study) {
+std::vector<shards::TrialResult> sequence_results(const study::Study& study) {
   std::mt19937_64 random(14);
   std::normal_distribution<double> normal(0.0, 1.5);
-  std::vector<TrialResult> results;
-  for (std::int64_t row = 0; row < trial_count(study); ++row) {
-    const StudyTrial trial = study_trial(study, row / study.trials, row % study.trials);
-    const TrialParameters& p = trial.parameters;
+  std::vector<shards::TrialResult> results;
+  for (std::int64_t row = 0; row < study::trial_count(study); ++row) {
+    const study::StudyTrial trial = study::study_trial(study, row / study.trials, row % study.trials);
+    const trial::TrialParameters& p = trial.parameters;
     const double resolution = 2.0 * std::numbers::pi / p.encoder.fine;
     const bool exact = row % 7 == 0;
-    TrialResult& result = results.emplace_back();
+    shards::TrialResult& result = results.emplace_back();
     result.row = row;
     result.inputs = trial.inputs;
     for (const std::int64_t target : p.command.targets) {
-      MoveOutcome& move = result.outcome.moves.emplace_back();
+      trial::MoveOutcome& move = result.outcome.moves.emplace_back();
       const double counts = static_cast<double>(target) + 0.5 + (exact ? 0.0 : normal(random));
-      move.outcome = Outcome::zero_count;
+      move.outcome = trial::Outcome::zero_count;
       move.final_position = (counts - p.initial.encoder_phase) * resolution;
       move.final_error = target - static_cast<std::int64_t>(std::floor(counts));
     }
@@ -52,13 +52,14 @@ std::vector<TrialResult> sequence_results(const Study& study) {
   return results;
 }
 
-void write_sequence_file(const std::filesystem::path& path, const Study& study,
-                         const std::vector<TrialResult>& results) {
+void write_sequence_file(const std::filesystem::path& path, const study::Study& study,
+                         const std::vector<shards::TrialResult>& results) {
   const std::filesystem::path shard = path.string() + ".shard.h5";
-  write_shard(shard, study, 0, results);
-  const RowRange rows{0, static_cast<std::int64_t>(results.size())};
-  merge_shards(std::vector<ShardInfo>{{shard, rows}}, study, path, rows,
-               [&study](const StudyFile& file) { return stored_statistics(file, study); });
+  shards::write_shard(shard, study, 0, results);
+  const layout::RowRange rows{0, static_cast<std::int64_t>(results.size())};
+  shards::merge_shards(
+      std::vector<shards::ShardInfo>{{shard, rows}}, study, path, rows,
+      [&study](const reading::StudyFile& file) { return summary::stored_statistics(file, study); });
 }
 
 }  // namespace zerocount::testing

@@ -11,14 +11,14 @@ namespace zerocount::testing {
 
 /// A study with a sequence of moves: two points with different encoders, random targets and phases.
 /// @param sequence further keys of command.sequence, as "cycles: 3, approach: positive"
-Study sequence_study(const std::string& sequence = "cycles: 3", std::int64_t trials = 80);
+study::Study sequence_study(const std::string& sequence = "cycles: 3", std::int64_t trials = 80);
 
 /// Made-up results of its trials, [row]: moves end a count or two from their targets, in every seventh trial
 /// in the middle of the target's count, and their final error is what the encoder reads there.
-std::vector<TrialResult> sequence_results(const Study& study);
+std::vector<shards::TrialResult> sequence_results(const study::Study& study);
 
 /// Writes the results file with everything that a complete one has.
-void write_sequence_file(const std::filesystem::path& path, const Study& study,
-                         const std::vector<TrialResult>& results);
+void write_sequence_file(const std::filesystem::path& path, const study::Study& study,
+                         const std::vector<shards::TrialResult>& results);
 
 }  // namespace zerocount::testing

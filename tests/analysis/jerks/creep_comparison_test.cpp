@@ -9,13 +9,13 @@
 
 #include "experiments/manifest/load_study.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 namespace {
 
 constexpr double sample_time = 1.0 / 2000.0;
 
-Study fig8(const std::vector<std::string>& overrides = {}) {
-  return load_study(std::string(ZEROCOUNT_MANIFESTS) + "/paper-fig8.yaml", overrides);
+study::Study fig8(const std::vector<std::string>& overrides = {}) {
+  return manifest::load_study(std::string(ZEROCOUNT_MANIFESTS) + "/paper-fig8.yaml", overrides);
 }
 
 TEST(CreepComparison, CreepAtConstantTorqueForetellsTheJerksOfFigure8) {
@@ -81,4 +81,4 @@ TEST(CreepComparison, SaysWhyItDoesNotApply) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::jerks

@@ -10,7 +10,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 namespace {
 
 /// A move in which each sample at risk begins a jerk with the chance rate(s since arrival)·T.
@@ -157,7 +157,7 @@ TEST(JerkRates, BoundsCoverTheMeanRateOfRigsThatDiffer) {
     }
     const auto covers = [&](const JerkRates& rates) {
       const std::vector<JerkRate> all = rates.rates(0.95);
-      const ConfidenceInterval& bounds = all.at(all.size() - 2).bounds;
+      const statistics::ConfidenceInterval& bounds = all.at(all.size() - 2).bounds;
       return bounds.low <= truth && truth <= bounds.high;
     };
     over_trials += covers(trials);
@@ -209,4 +209,4 @@ TEST(JerkRates, WithoutAJerkThereIsAnUpperBound) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::jerks

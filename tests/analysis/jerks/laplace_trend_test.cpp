@@ -9,7 +9,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 namespace {
 
 TEST(LaplaceTrend, HasTheVarianceOfAllChoicesOfInstants) {
@@ -102,4 +102,4 @@ TEST(LaplaceTrend, FindsAndTellsTheDirectionOfATrend) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::jerks

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::jerks {
 namespace {
 
 std::vector<std::pair<std::int64_t, std::int64_t>> runs_of(const ObservedMove& move) {
@@ -44,4 +44,4 @@ TEST(ObservedMove, IsNoLongerAtRiskAfterAJerkThatLastsToItsEnd) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::jerks

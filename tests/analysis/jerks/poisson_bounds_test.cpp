@@ -6,7 +6,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::jerks {
 namespace {
 
 /// SciPy 1.10: chi2.ppf(tail, 2k)/2 and chi2.isf(tail, 2k + 2)/2.
@@ -26,7 +26,7 @@ TEST(PoissonBounds, EqualSciPys) {
       {1000, 0.99, 920.4240461633592, 1084.3728680643892},
   };
   for (const auto& [events, confidence, low, high] : scipy) {
-    const ConfidenceInterval bounds = poisson_bounds(events, confidence);
+    const statistics::ConfidenceInterval bounds = statistics::poisson_bounds(events, confidence);
     EXPECT_NEAR(bounds.low, low, 1e-10 * high) << events;
     EXPECT_NEAR(bounds.high, high, 1e-10 * high) << events;
   }
@@ -36,7 +36,7 @@ TEST(PoissonBounds, CoverEveryMeanWithAtLeastTheirConfidence) {
   for (double mean = 0.05; mean < 40.0; mean *= 1.13) {
     double covered = 0.0;
     for (int events = 0; events < 150; ++events) {
-      const ConfidenceInterval bounds = poisson_bounds(events);
+      const statistics::ConfidenceInterval bounds = statistics::poisson_bounds(events);
       if (mean < bounds.low || mean > bounds.high) continue;
       covered += std::exp(events * std::log(mean) - mean - std::lgamma(events + 1.0));
     }
@@ -45,15 +45,15 @@ TEST(PoissonBounds, CoverEveryMeanWithAtLeastTheirConfidence) {
 }
 
 TEST(PoissonBounds, OfFractionsLieBetweenThoseOfWholeNumbers) {
-  EXPECT_GT(poisson_bounds(2.5).low, poisson_bounds(2).low);
-  EXPECT_LT(poisson_bounds(2.5).high, poisson_bounds(3).high);
+  EXPECT_GT(statistics::poisson_bounds(2.5).low, statistics::poisson_bounds(2).low);
+  EXPECT_LT(statistics::poisson_bounds(2.5).high, statistics::poisson_bounds(3).high);
 }
 
 TEST(PoissonBounds, ImpossibleNumbersAreRefused) {
-  EXPECT_THROW(poisson_bounds(-1.0), Failure);
-  EXPECT_THROW(poisson_bounds(std::nan("")), Failure);
-  EXPECT_THROW(poisson_bounds(1.0, 1.0), Failure);
+  EXPECT_THROW(statistics::poisson_bounds(-1.0), Failure);
+  EXPECT_THROW(statistics::poisson_bounds(std::nan("")), Failure);
+  EXPECT_THROW(statistics::poisson_bounds(1.0, 1.0), Failure);
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::jerks

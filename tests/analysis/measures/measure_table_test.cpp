@@ -18,22 +18,22 @@
 #include "tests/analysis/study_files.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace zerocount {
+namespace zerocount::measures {
 namespace {
 
-constexpr ValidValues any_reserve{.expected = "a finite torque", .low = -1e9, .high = 1e9};
+constexpr layout::ValidValues any_reserve{.expected = "a finite torque", .low = -1e9, .high = 1e9};
 
-double torque_reserve(const MoveOutcome& move) {
+double torque_reserve(const trial::MoveOutcome& move) {
   return move.peak_torque - std::abs(move.holding_torque);
 }
 
 /// The table with one more measure, which is described by this row alone.
-MeasureTable with_torque_reserve(const ValidValues& valid = any_reserve) {
-  using enum Statistic;
-  MeasureTable table = measure_table();
-  table.push_back({.field = field<MoveOutcome>("torque_reserve", "N m", "peak torque less holding torque",
-                                               &torque_reserve, valid),
-                   .of_trial = OfTrial::largest,
+layout::MeasureTable with_torque_reserve(const layout::ValidValues& valid = any_reserve) {
+  using enum layout::Statistic;
+  layout::MeasureTable table = layout::measure_table();
+  table.push_back({.field = layout::field<trial::MoveOutcome>(
+                       "torque_reserve", "N m", "peak torque less holding torque", &torque_reserve, valid),
+                   .of_trial = layout::OfTrial::largest,
                    .point = {"torque_reserve",
                              {{{n}, "moves, of which the reserves are"},
                               {{mean}, "mean torque reserve"},
@@ -41,7 +41,7 @@ MeasureTable with_torque_reserve(const ValidValues& valid = any_reserve) {
                    .level = {"torque_reserve", {{{student_low}, "{0} torque reserve"}}},
                    .summary = {.columns = {{"reserve (N m)", mean}}, .legend = "reserve: of the torque\n"},
                    .output = {{"torque_reserve", "largest torque reserve"}},
-                   .gate = {{"torque_reserve", Worse::less, 0.001, 0.0}}});
+                   .gate = {{"torque_reserve", layout::Worse::less, 0.001, 0.0}}});
   return table;
 }
 
@@ -52,9 +52,9 @@ class AddedMeasure : public ::testing::Test {
     for (std::int64_t row = 0; row < study.trials; ++row) trials.push_back(testing::random_trial(row, 2));
     testing::write_study_file(
         path, study, trials,
-        [&](const StudyFile& file) {
-          const std::vector<PointSummary> points = study_statistics(file, study);
-          return StoredStatistics{point_columns(points, {}, file.table()), {}, {}};
+        [&](const reading::StudyFile& file) {
+          const std::vector<PointSummary> points = summary::study_statistics(file, study);
+          return layout::StoredStatistics{point_columns(points, {}, file.table()), {}, {}};
         },
         table);
   }
@@ -66,15 +66,15 @@ class AddedMeasure : public ::testing::Test {
     return sum / (2.0 * static_cast<double>(trials.size()));
   }
 
-  const MeasureTable table = with_torque_reserve();
+  const layout::MeasureTable table = with_torque_reserve();
   const testing::TemporaryFolder folder;
   const std::filesystem::path path = folder / "study.h5";
-  const Study study = testing::plain_study(1, 60, 2);
+  const study::Study study = testing::plain_study(1, 60, 2);
   std::vector<testing::TrialRecord> trials;
 };
 
 TEST_F(AddedMeasure, StandsInTheResultsFileWithItsStatistics) {
-  const StudyFile file(path, Require::complete, table);
+  const reading::StudyFile file(path, reading::Require::complete, table);
   const hdf5::Dataset column = file.root().open_group("outcome").open_dataset("torque_reserve");
   EXPECT_EQ(column.text("units"), "N m");
   EXPECT_EQ(column.text("long_name"), "peak torque less holding torque");
@@ -82,54 +82,57 @@ TEST_F(AddedMeasure, StandsInTheResultsFileWithItsStatistics) {
   column.read(0, 60, values.data());
   EXPECT_EQ(values[7], torque_reserve(trials[3].outcome.moves[1]));
   EXPECT_EQ(file.measure("torque_reserve", file.rows()), values);
-  const std::vector<PointColumn> statistics = file.statistics();
-  const auto median = std::find_if(statistics.begin(), statistics.end(), [](const PointColumn& statistic) {
-    return statistic.name == "torque_reserve_median_low";
-  });
+  const std::vector<layout::PointColumn> statistics = file.statistics();
+  const auto median = std::find_if(
+      statistics.begin(), statistics.end(),
+      [](const layout::PointColumn& statistic) { return statistic.name == "torque_reserve_median_low"; });
   ASSERT_NE(median, statistics.end());
   EXPECT_EQ(median->unit, "N m");
   EXPECT_EQ(median->long_name, "lower 95 % order-statistic bound of the median of the torque reserve");
 }
 
 TEST_F(AddedMeasure, IsCheckedWhenItIsRead) {
-  const MeasureTable strict = with_torque_reserve({.expected = "more than there is", .low = 1.0});
-  EXPECT_THROW(StudyFile(path, Require::complete, strict).outcomes({0, 60}), Failure);
-  EXPECT_NO_THROW(StudyFile(path, Require::complete, table).outcomes({0, 60}));
+  const layout::MeasureTable strict = with_torque_reserve({.expected = "more than there is", .low = 1.0});
+  EXPECT_THROW(reading::StudyFile(path, reading::Require::complete, strict).outcomes({0, 60}), Failure);
+  EXPECT_NO_THROW(reading::StudyFile(path, reading::Require::complete, table).outcomes({0, 60}));
 }
 
 TEST_F(AddedMeasure, IsInEveryFormOfTheSummary) {
-  StudySummary summary;
+  summary::StudySummary summary;
   summary.name = study.name;
   summary.labels = study.point_labels;
   summary.axes = study.axes;
-  summary.points = study_statistics(StudyFile(path, Require::complete, table), study);
-  const nlohmann::ordered_json json = summary_json(summary)["points"][0]["torque_reserve"];
+  summary.points =
+      summary::study_statistics(reading::StudyFile(path, reading::Require::complete, table), study);
+  const nlohmann::ordered_json json = summary::summary_json(summary)["points"][0]["torque_reserve"];
   EXPECT_EQ(json["n"], 120);
   EXPECT_NEAR(json["mean"].get<double>(), mean_reserve(), 1e-12);
   EXPECT_LE(json["median_low"].get<double>(), json["median"].get<double>());
-  EXPECT_NE(summary_csv(summary).find("torque_reserve_mean"), std::string::npos);
-  EXPECT_NE(summary_table(summary).find("reserve (N m)"), std::string::npos);
-  EXPECT_NE(summary_table(summary).find("reserve: of the torque"), std::string::npos);
+  EXPECT_NE(summary::summary_csv(summary).find("torque_reserve_mean"), std::string::npos);
+  EXPECT_NE(summary::summary_table(summary).find("reserve (N m)"), std::string::npos);
+  EXPECT_NE(summary::summary_table(summary).find("reserve: of the torque"), std::string::npos);
 }
 
 TEST_F(AddedMeasure, IsAnOutputThatSensitivityExplains) {
-  const StudyFile file(path, Require::complete, table);
-  const TrialOutputs outputs =
-      trial_outputs(file, study, 0, find_sensitivity_output("torque_reserve", file.table()));
+  const reading::StudyFile file(path, reading::Require::complete, table);
+  const sensitivity::TrialOutputs outputs = sensitivity::trial_outputs(
+      file, study, 0, sensitivity::find_sensitivity_output("torque_reserve", file.table()));
   const auto known = std::find_if(outputs.values.begin(), outputs.values.end(),
                                   [](double value) { return !std::isnan(value); });
   ASSERT_NE(known, outputs.values.end());
-  const std::vector<MoveOutcome>& moves =
+  const std::vector<trial::MoveOutcome>& moves =
       trials[static_cast<std::size_t>(known - outputs.values.begin())].outcome.moves;
   EXPECT_EQ(*known, std::max(torque_reserve(moves[0]), torque_reserve(moves[1])));
 }
 
 TEST_F(AddedMeasure, IsJudgedByTheGate) {
-  const PointTrials before = read_point_trials(StudyFile(path, Require::complete, table), 0);
-  PointTrials after = before;
+  const comparison::PointTrials before =
+      comparison::read_point_trials(reading::StudyFile(path, reading::Require::complete, table), 0);
+  comparison::PointTrials after = before;
   for (double& reserve : after.values.at("torque_reserve")) reserve -= 0.01;
   for (const bool paired : {true, false}) {
-    const std::vector<MeasureComparison> measures = compare_measures({}, "", before, after, paired);
+    const std::vector<comparison::MeasureComparison> measures =
+        comparison::compare_measures({}, "", before, after, paired);
     ASSERT_EQ(measures.back().measure, "torque_reserve");
     EXPECT_EQ(measures.back().unit, "N m");
     EXPECT_NEAR(measures.back().baseline, mean_reserve(), 1e-12);
@@ -140,19 +143,21 @@ TEST_F(AddedMeasure, IsJudgedByTheGate) {
 }
 
 TEST(AddedQuality, IsJudgedByTheTrialsThatHaveItWhereMoreIsWorse) {
-  MeasureTable table = measure_table();
-  for (Measure& measure : table) {
-    if (measure.field.column.name == "broke_away") measure.gate = {"breakaway_rate", Worse::more, 0.02, 0.0};
+  layout::MeasureTable table = layout::measure_table();
+  for (layout::Measure& measure : table) {
+    if (measure.field.column.name == "broke_away")
+      measure.gate = {"breakaway_rate", layout::Worse::more, 0.02, 0.0};
   }
-  std::vector<MoveOutcome> moves(100);
-  const PointTrials before = gather_trials(moves, 1, table);
+  std::vector<trial::MoveOutcome> moves(100);
+  const comparison::PointTrials before = comparison::gather_trials(moves, 1, table);
   for (std::size_t i = 0; i < 30; ++i) moves[i].broke_away = true;
-  const PointTrials after = gather_trials(moves, 1, table);
+  const comparison::PointTrials after = comparison::gather_trials(moves, 1, table);
   for (const bool paired : {true, false}) {
-    const std::vector<MeasureComparison> measures = compare_measures({}, "", before, after, paired);
-    const auto found = std::find_if(measures.begin(), measures.end(), [](const MeasureComparison& one) {
-      return one.measure == "breakaway_rate";
-    });
+    const std::vector<comparison::MeasureComparison> measures =
+        comparison::compare_measures({}, "", before, after, paired);
+    const auto found = std::find_if(
+        measures.begin(), measures.end(),
+        [](const comparison::MeasureComparison& one) { return one.measure == "breakaway_rate"; });
     ASSERT_NE(found, measures.end());
     EXPECT_EQ(found->baseline, 0.0);
     EXPECT_EQ(found->current, 0.3);
@@ -163,16 +168,16 @@ TEST(AddedQuality, IsJudgedByTheTrialsThatHaveItWhereMoreIsWorse) {
 
 TEST(MeasureTable, NamesEveryMeasureOnceAndInEveryOrder) {
   std::set<std::string> names;
-  for (const Measure& measure : measure_table())
+  for (const layout::Measure& measure : layout::measure_table())
     EXPECT_TRUE(names.insert(measure.field.column.name).second) << measure.field.column.name;
-  for (const ReportOrder order :
-       {ReportOrder::statistics, ReportOrder::levels, ReportOrder::summary, ReportOrder::outputs}) {
-    const std::vector<const Measure*> ordered =
-        measures_of(measure_table(), order, [](const Measure&) { return true; });
-    EXPECT_EQ(std::set<const Measure*>(ordered.begin(), ordered.end()).size(), names.size());
+  for (const layout::ReportOrder order : {layout::ReportOrder::statistics, layout::ReportOrder::levels,
+                                          layout::ReportOrder::summary, layout::ReportOrder::outputs}) {
+    const std::vector<const layout::Measure*> ordered =
+        layout::measures_of(layout::measure_table(), order, [](const layout::Measure&) { return true; });
+    EXPECT_EQ(std::set<const layout::Measure*>(ordered.begin(), ordered.end()).size(), names.size());
     EXPECT_EQ(ordered.size(), names.size());
   }
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::measures

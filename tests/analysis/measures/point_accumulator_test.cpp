@@ -11,14 +11,14 @@
 #include "core/failure/failure.hpp"
 #include "core/trial/divergence.hpp"
 
-namespace zerocount {
+namespace zerocount::measures {
 namespace {
 
-MoveOutcome move_that(Outcome outcome, double settling_time) {
-  MoveOutcome move;
+trial::MoveOutcome move_that(trial::Outcome outcome, double settling_time) {
+  trial::MoveOutcome move;
   move.outcome = outcome;
   move.arrived = std::isfinite(settling_time);
-  move.stable = move.arrived && outcome <= Outcome::one_count;
+  move.stable = move.arrived && outcome <= trial::Outcome::one_count;
   move.settling_time = settling_time;
   return move;
 }
@@ -28,10 +28,10 @@ constexpr double never = std::numeric_limits<double>::quiet_NaN();
 /// Adds a trial of one move that arrives at 0.1 s, holds `torque`, and has jerks at `onsets` in the direction
 /// +1 of one count.
 void add_jerking(PointAccumulator& point, double torque, const std::vector<double>& onsets) {
-  MoveOutcome move = move_that(Outcome::zero_count, 0.1);
+  trial::MoveOutcome move = move_that(trial::Outcome::zero_count, 0.1);
   move.holding_torque = torque;
   move.jerk_count = static_cast<std::int64_t>(onsets.size());
-  std::vector<Jerk> jerks;
+  std::vector<trial::Jerk> jerks;
   for (const double onset : onsets) jerks.push_back({0, onset, 0.001, 1, 1});
   point.add({{move}}, jerks);
 }
@@ -42,18 +42,19 @@ TEST(PointStatistics, WithoutTrialsNothingIsKnown) {
   EXPECT_TRUE(std::isnan(none.success_rate().value));
   EXPECT_TRUE(std::isnan(none.success_rate().clopper_pearson.low));
   EXPECT_TRUE(std::isnan(none.success_rate().clopper_pearson.high));
-  EXPECT_TRUE(std::isnan(none.of(&MoveOutcome::final_error).mean));
-  EXPECT_TRUE(std::isnan(none.of(&MoveOutcome::settling_time).median.value));
-  EXPECT_TRUE(std::isnan(none.of(&MoveOutcome::jerk_count).mean));
+  EXPECT_TRUE(std::isnan(none.of(&trial::MoveOutcome::final_error).mean));
+  EXPECT_TRUE(std::isnan(none.of(&trial::MoveOutcome::settling_time).median.value));
+  EXPECT_TRUE(std::isnan(none.of(&trial::MoveOutcome::jerk_count).mean));
   EXPECT_TRUE(std::isnan(none.jerk_agreement));
 }
 
 TEST(PointStatistics, EachTrialCountsOnceByTheWorstOfItsMoves) {
   PointAccumulator point;
-  point.add({{move_that(Outcome::zero_count, 0.1), move_that(Outcome::zero_count, 0.2)}}, {});
-  point.add({{move_that(Outcome::one_count, 0.1), move_that(Outcome::zero_count, 0.2)}}, {});
-  point.add({{move_that(Outcome::oscillating, never), move_that(Outcome::one_count, 0.3)}}, {});
-  point.add({{move_that(Outcome::oscillating, never), move_that(Outcome::nonfinite, never)}}, {});
+  point.add({{move_that(trial::Outcome::zero_count, 0.1), move_that(trial::Outcome::zero_count, 0.2)}}, {});
+  point.add({{move_that(trial::Outcome::one_count, 0.1), move_that(trial::Outcome::zero_count, 0.2)}}, {});
+  point.add({{move_that(trial::Outcome::oscillating, never), move_that(trial::Outcome::one_count, 0.3)}}, {});
+  point.add({{move_that(trial::Outcome::oscillating, never), move_that(trial::Outcome::nonfinite, never)}},
+            {});
   const PointSummary statistics = point.statistics();
 
   EXPECT_EQ(statistics.trials, 4);
@@ -62,38 +63,40 @@ TEST(PointStatistics, EachTrialCountsOnceByTheWorstOfItsMoves) {
   EXPECT_EQ(statistics.outcomes.one_count, 1);
   EXPECT_EQ(statistics.outcomes.oscillating, 1);
   EXPECT_EQ(statistics.outcomes.nonfinite, 1);
-  EXPECT_EQ(statistics.of(&MoveOutcome::stable).trials, 2);   // all moves stable
-  EXPECT_EQ(statistics.of(&MoveOutcome::arrived).trials, 2);  // all moves arrived
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::stable).trials, 2);   // all moves stable
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::arrived).trials, 2);  // all moves arrived
   EXPECT_EQ(statistics.success_rate().value, 0.25);
-  EXPECT_EQ(statistics.of(&MoveOutcome::stable).rate.value, 0.5);
-  EXPECT_EQ(statistics.success_rate().clopper_pearson.high, clopper_pearson(1, 4).high);
-  EXPECT_EQ(statistics.success_rate().wilson.low, wilson(1, 4).low);
-  EXPECT_EQ(statistics.of(&MoveOutcome::stable).rate.clopper_pearson.low, clopper_pearson(2, 4).low);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::stable).rate.value, 0.5);
+  EXPECT_EQ(statistics.success_rate().clopper_pearson.high, statistics::clopper_pearson(1, 4).high);
+  EXPECT_EQ(statistics.success_rate().wilson.low, statistics::wilson(1, 4).low);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::stable).rate.clopper_pearson.low,
+            statistics::clopper_pearson(2, 4).low);
 
   ASSERT_EQ(statistics.by_move.size(), 2U);
   EXPECT_EQ(statistics.by_move[0].oscillating, 2);
-  EXPECT_EQ(statistics.of(&MoveOutcome::arrived).by_move[0], 2);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::arrived).by_move[0], 2);
   EXPECT_EQ(statistics.by_move[1].zero_count, 2);
   EXPECT_EQ(statistics.by_move[1].nonfinite, 1);
-  EXPECT_EQ(statistics.of(&MoveOutcome::stable).by_move[1], 3);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::stable).by_move[1], 3);
 }
 
 TEST(PointStatistics, BreakawayAndSaturationInAnyMoveCountTheTrialOnce) {
-  MoveOutcome plain = move_that(Outcome::zero_count, 0.1), marked = plain;
+  trial::MoveOutcome plain = move_that(trial::Outcome::zero_count, 0.1), marked = plain;
   marked.broke_away = marked.saturated = true;
   PointAccumulator point;
   point.add({{plain, plain}}, {});
   point.add({{plain, marked}}, {});
   point.add({{marked, marked}}, {});
   const PointSummary statistics = point.statistics();
-  EXPECT_EQ(statistics.of(&MoveOutcome::broke_away).trials, 2);
-  EXPECT_EQ(statistics.of(&MoveOutcome::saturated).trials, 2);
-  EXPECT_EQ(statistics.of(&MoveOutcome::broke_away).by_move[0], 1);
-  EXPECT_EQ(statistics.of(&MoveOutcome::saturated).by_move[1], 2);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::broke_away).trials, 2);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::saturated).trials, 2);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::broke_away).by_move[0], 1);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::saturated).by_move[1], 2);
 }
 
 TEST(PointStatistics, StoppedTrialsCountInEveryRateAndTheirMovesAsFarAsTheyWereRun) {
-  MoveOutcome sound = move_that(Outcome::zero_count, 0.1), stopped = move_that(Outcome::oscillating, never);
+  trial::MoveOutcome sound = move_that(trial::Outcome::zero_count, 0.1),
+                     stopped = move_that(trial::Outcome::oscillating, never);
   sound.holding_torque = 0.01;
   sound.overshoot = 4;
   stopped.holding_torque = 0.03;
@@ -102,41 +105,43 @@ TEST(PointStatistics, StoppedTrialsCountInEveryRateAndTheirMovesAsFarAsTheyWereR
   stopped.stopped = true;
   PointAccumulator point;
   point.add({{sound, sound, sound}}, {});
-  point.add({{sound, stopped, move_not_run()}}, {});
-  point.add({{stopped, move_not_run(), move_not_run()}}, {});
+  point.add({{sound, stopped, trial::move_not_run()}}, {});
+  point.add({{stopped, trial::move_not_run(), trial::move_not_run()}}, {});
   const PointSummary statistics = point.statistics();
   EXPECT_EQ(statistics.trials, 3);
-  EXPECT_EQ(statistics.of(&MoveOutcome::stopped).trials, 2);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::stopped).trials, 2);
   EXPECT_EQ(statistics.outcomes.zero_count, 1);
   EXPECT_EQ(statistics.outcomes.oscillating, 2);
   EXPECT_EQ(statistics.success_rate().value, 1.0 / 3.0);
   ASSERT_EQ(statistics.by_move.size(), 3U);
   for (int move = 0; move < 3; ++move) {
-    EXPECT_EQ(statistics.of(&MoveOutcome::stopped).by_move[static_cast<std::size_t>(move)],
+    EXPECT_EQ(statistics.of(&trial::MoveOutcome::stopped).by_move[static_cast<std::size_t>(move)],
               std::min(move + 1, 2));
     EXPECT_EQ(statistics.by_move[static_cast<std::size_t>(move)].oscillating, std::min(move + 1, 2));
   }
   EXPECT_EQ(statistics.moves, 9);
-  EXPECT_EQ(statistics.of(&MoveOutcome::overshoot).n, 6);  // three were not run
-  for (double MoveOutcome::*measure : {&MoveOutcome::holding_torque, &MoveOutcome::peak_torque,
-                                       &MoveOutcome::creep, &MoveOutcome::travel_time}) {
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::overshoot).n, 6);  // three were not run
+  for (double trial::MoveOutcome::*measure :
+       {&trial::MoveOutcome::holding_torque, &trial::MoveOutcome::peak_torque, &trial::MoveOutcome::creep,
+        &trial::MoveOutcome::travel_time}) {
     EXPECT_EQ(statistics.of(measure).n, 6);
     EXPECT_EQ(statistics.of(measure).nonfinite, 0);
   }
-  EXPECT_EQ(statistics.of(&MoveOutcome::final_error).n, 6);
-  EXPECT_EQ(statistics.of(&MoveOutcome::final_error).max, 1500.0);
-  EXPECT_NEAR(statistics.of(&MoveOutcome::overshoot).mean, (4 * 4 + 2 * 1500) / 6.0, 1e-9);
-  EXPECT_NEAR(statistics.of(&MoveOutcome::holding_torque).mean, (4 * 0.01 + 2 * 0.03) / 6.0, 1e-15);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::final_error).n, 6);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::final_error).max, 1500.0);
+  EXPECT_NEAR(statistics.of(&trial::MoveOutcome::overshoot).mean, (4 * 4 + 2 * 1500) / 6.0, 1e-9);
+  EXPECT_NEAR(statistics.of(&trial::MoveOutcome::holding_torque).mean, (4 * 0.01 + 2 * 0.03) / 6.0, 1e-15);
 }
 
 TEST(PointStatistics, FinalSettlingTimesAreOfAllMovesToo) {
   PointAccumulator point;
   for (int i = 1; i <= 100; ++i) {
-    MoveOutcome move = move_that(i <= 60 ? Outcome::zero_count : Outcome::one_count, 0.01);
+    trial::MoveOutcome move =
+        move_that(i <= 60 ? trial::Outcome::zero_count : trial::Outcome::one_count, 0.01);
     if (i <= 60) move.final_settling_time = i / 2000.0;
     point.add({{move}}, {});
   }
-  const MeasureStatistics final = point.statistics().of(&MoveOutcome::final_settling_time);
+  const MeasureStatistics final = point.statistics().of(&trial::MoveOutcome::final_settling_time);
   EXPECT_EQ(final.n, 60);
   EXPECT_EQ(final.moves, 100);
   EXPECT_EQ(final.median.value, 50 / 2000.0);
@@ -147,7 +152,8 @@ TEST(PointStatistics, FinalSettlingTimesAreOfAllMovesToo) {
 TEST(PointStatistics, LimitsOnRigsAreOfTheSlowestMove) {
   PointAccumulator on_rigs({.rigs = 100}), plain;
   for (int trial = 0; trial < 100; ++trial) {
-    const TrialOutcome moves{{move_that(Outcome::zero_count, 0.5), move_that(Outcome::zero_count, 0.01)}};
+    const trial::TrialOutcome moves{
+        {move_that(trial::Outcome::zero_count, 0.5), move_that(trial::Outcome::zero_count, 0.01)}};
     on_rigs.add(moves, {});
     plain.add(moves, {});
   }
@@ -157,10 +163,10 @@ TEST(PointStatistics, LimitsOnRigsAreOfTheSlowestMove) {
 
 TEST(PointStatistics, QuantilesOfSettlingTimesAreOfAllMovesAndTheRestOfThoseThatArrived) {
   PointAccumulator point;
-  for (int i = 1; i <= 100; ++i) point.add({{move_that(Outcome::zero_count, i / 2000.0)}}, {});
-  for (int i = 0; i < 50; ++i) point.add({{move_that(Outcome::oscillating, never)}}, {});
+  for (int i = 1; i <= 100; ++i) point.add({{move_that(trial::Outcome::zero_count, i / 2000.0)}}, {});
+  for (int i = 0; i < 50; ++i) point.add({{move_that(trial::Outcome::oscillating, never)}}, {});
   const PointSummary statistics = point.statistics();
-  const MeasureStatistics& settling = statistics.of(&MoveOutcome::settling_time);
+  const MeasureStatistics& settling = statistics.of(&trial::MoveOutcome::settling_time);
   EXPECT_EQ(statistics.trials, 150);
   EXPECT_EQ(settling.n, 100);
   EXPECT_NEAR(settling.mean, 50.5 / 2000.0, 1e-15);
@@ -182,8 +188,8 @@ TEST(PointStatistics, TrialsWithoutJerksCountInTheJerksPerTrial) {
   add_jerking(point, 0.1, {});
   add_jerking(point, 0.1, {0.2});
   add_jerking(point, 0.1, {0.2, 0.4, 0.7, 1.2, 2.0});
-  point.add({{move_that(Outcome::oscillating, never)}}, {});
-  const MeasureStatistics jerks = point.statistics().of(&MoveOutcome::jerk_count);
+  point.add({{move_that(trial::Outcome::oscillating, never)}}, {});
+  const MeasureStatistics jerks = point.statistics().of(&trial::MoveOutcome::jerk_count);
   EXPECT_EQ(jerks.n, 4);
   EXPECT_EQ(jerks.total, 6);
   EXPECT_EQ(jerks.mean, 1.5);
@@ -194,15 +200,15 @@ TEST(PointStatistics, TrialsWithoutJerksCountInTheJerksPerTrial) {
 }
 
 TEST(PointStatistics, IntervalsLieBetweenOnsetsOfTheSameMove) {
-  MoveOutcome first = move_that(Outcome::zero_count, 0.1), second = first;
+  trial::MoveOutcome first = move_that(trial::Outcome::zero_count, 0.1), second = first;
   first.jerk_count = 2;
   second.jerk_count = 3;
   PointAccumulator point;
-  point.add({{first, second}}, std::vector<Jerk>{{0, 0.5, 0.01, 1, 1},
-                                                 {0, 0.8, 0.01, 1, 1},
-                                                 {1, 0.2, 0.01, 1, 1},
-                                                 {1, 0.3, 0.01, 1, 1},
-                                                 {1, 0.5, 0.01, 1, 1}});
+  point.add({{first, second}}, std::vector<trial::Jerk>{{0, 0.5, 0.01, 1, 1},
+                                                        {0, 0.8, 0.01, 1, 1},
+                                                        {1, 0.2, 0.01, 1, 1},
+                                                        {1, 0.3, 0.01, 1, 1},
+                                                        {1, 0.5, 0.01, 1, 1}});
   const JerkIntervalStatistics intervals = point.statistics().jerk_interval;
   EXPECT_EQ(intervals.n, 3);
   EXPECT_NEAR(intervals.mean, 0.2, 1e-15);
@@ -225,16 +231,17 @@ TEST(PointStatistics, SlowingDownIsJudgedPerMoveByTheTrendOfItsIntervals) {
 }
 
 TEST(PointStatistics, AgreementAndMagnitudeAreSharesOfAllJerks) {
-  MoveOutcome up = move_that(Outcome::zero_count, 0.1), down = up, none = up;
+  trial::MoveOutcome up = move_that(trial::Outcome::zero_count, 0.1), down = up, none = up;
   up.holding_torque = 0.02;
   down.holding_torque = -0.02;
   none.holding_torque = 0.0;
   up.jerk_count = 3;
   down.jerk_count = none.jerk_count = 1;
   PointAccumulator point;
-  point.add({{up}}, std::vector<Jerk>{{0, 0.2, 0.01, 1, 1}, {0, 0.3, 0.01, 2, 1}, {0, 0.4, 0.01, 1, -1}});
-  point.add({{down}}, std::vector<Jerk>{{0, 0.2, 0.01, 1, -1}});
-  point.add({{none}}, std::vector<Jerk>{{0, 0.2, 0.01, 1, 1}});  // agrees with no direction
+  point.add({{up}},
+            std::vector<trial::Jerk>{{0, 0.2, 0.01, 1, 1}, {0, 0.3, 0.01, 2, 1}, {0, 0.4, 0.01, 1, -1}});
+  point.add({{down}}, std::vector<trial::Jerk>{{0, 0.2, 0.01, 1, -1}});
+  point.add({{none}}, std::vector<trial::Jerk>{{0, 0.2, 0.01, 1, 1}});  // agrees with no direction
   const PointSummary statistics = point.statistics();
   EXPECT_EQ(statistics.jerks_agreeing, 3);
   EXPECT_NEAR(statistics.jerk_agreement, 3.0 / 5.0, 1e-15);
@@ -243,7 +250,7 @@ TEST(PointStatistics, AgreementAndMagnitudeAreSharesOfAllJerks) {
 
 TEST(PointStatistics, MeansNameTheFiniteValuesTheyAreOf) {
   PointAccumulator point;
-  MoveOutcome move = move_that(Outcome::zero_count, 0.1);
+  trial::MoveOutcome move = move_that(trial::Outcome::zero_count, 0.1);
   move.overshoot = 2;
   move.holding_torque = 0.03;
   move.creep = 1e-7;
@@ -255,33 +262,33 @@ TEST(PointStatistics, MeansNameTheFiniteValuesTheyAreOf) {
   move.creep = -3e-7;
   move.reversal_depth = 3;
   point.add({{move}}, {});
-  MoveOutcome lost = move_that(Outcome::nonfinite, never);
+  trial::MoveOutcome lost = move_that(trial::Outcome::nonfinite, never);
   lost.holding_torque = lost.creep = never;
   point.add({{lost}}, {});
   const PointSummary statistics = point.statistics();
-  EXPECT_EQ(statistics.of(&MoveOutcome::holding_torque).n, 2);
-  EXPECT_EQ(statistics.of(&MoveOutcome::holding_torque).nonfinite, 1);
-  EXPECT_NEAR(statistics.of(&MoveOutcome::holding_torque).mean, 0.01, 1e-16);
-  EXPECT_EQ(statistics.of(&MoveOutcome::holding_torque).min, -0.01);
-  EXPECT_EQ(statistics.of(&MoveOutcome::holding_torque).max, 0.03);
-  EXPECT_NEAR(statistics.of(&MoveOutcome::creep).mean, -1e-7, 1e-20);
-  EXPECT_NEAR(statistics.of(&MoveOutcome::overshoot).mean, 2.0 / 3.0, 1e-15);
-  EXPECT_EQ(statistics.of(&MoveOutcome::overshoot).max, 2.0);
-  EXPECT_EQ(statistics.of(&MoveOutcome::peak_torque).max, 0.05);
-  EXPECT_EQ(statistics.of(&MoveOutcome::reversal_depth).max, 7.0);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::holding_torque).n, 2);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::holding_torque).nonfinite, 1);
+  EXPECT_NEAR(statistics.of(&trial::MoveOutcome::holding_torque).mean, 0.01, 1e-16);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::holding_torque).min, -0.01);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::holding_torque).max, 0.03);
+  EXPECT_NEAR(statistics.of(&trial::MoveOutcome::creep).mean, -1e-7, 1e-20);
+  EXPECT_NEAR(statistics.of(&trial::MoveOutcome::overshoot).mean, 2.0 / 3.0, 1e-15);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::overshoot).max, 2.0);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::peak_torque).max, 0.05);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::reversal_depth).max, 7.0);
 }
 
 TEST(PointStatistics, FinalErrorsAreDistancesOfTheMovesThatWereFollowed) {
   PointAccumulator point;
   for (const std::int64_t error : {-7, 2, 0, 1, -1}) {
-    MoveOutcome move = move_that(Outcome::oscillating, never);
+    trial::MoveOutcome move = move_that(trial::Outcome::oscillating, never);
     move.final_error = error;
     point.add({{move}}, {});
   }
-  MoveOutcome lost = move_that(Outcome::nonfinite, never);
+  trial::MoveOutcome lost = move_that(trial::Outcome::nonfinite, never);
   lost.final_error = 1000;
   point.add({{lost}}, {});
-  const MeasureStatistics errors = point.statistics().of(&MoveOutcome::final_error);
+  const MeasureStatistics errors = point.statistics().of(&trial::MoveOutcome::final_error);
   EXPECT_EQ(errors.n, 5);
   EXPECT_EQ(errors.mean, 11.0 / 5.0);
   EXPECT_EQ(errors.median.value, 1.0);
@@ -291,8 +298,8 @@ TEST(PointStatistics, FinalErrorsAreDistancesOfTheMovesThatWereFollowed) {
 
 TEST(PointStatistics, FinalErrorsThatAreNotInTheResultsAreNotTakenForZero) {
   PointAccumulator point({.version = 1});
-  point.add({{move_that(Outcome::zero_count, 0.1)}}, {});
-  const MeasureStatistics errors = point.statistics().of(&MoveOutcome::final_error);
+  point.add({{move_that(trial::Outcome::zero_count, 0.1)}}, {});
+  const MeasureStatistics errors = point.statistics().of(&trial::MoveOutcome::final_error);
   EXPECT_EQ(errors.n, 0);
   EXPECT_TRUE(std::isnan(errors.mean) && std::isnan(errors.median.value) && std::isnan(errors.max));
   EXPECT_EQ(point.statistics().success_rate().value, 1.0);
@@ -301,20 +308,20 @@ TEST(PointStatistics, FinalErrorsThatAreNotInTheResultsAreNotTakenForZero) {
 TEST(PointStatistics, TrueErrorsAreDistancesOfTheMovesThatHaveOne) {
   PointAccumulator point;
   for (const double error : {-4.0, 0.0, 2.5, never}) {
-    MoveOutcome move = move_that(Outcome::zero_count, 0.1);
+    trial::MoveOutcome move = move_that(trial::Outcome::zero_count, 0.1);
     move.true_error = error;
     point.add({{move}}, {});
   }
-  const MeasureStatistics errors = point.statistics().of(&MoveOutcome::true_error);
+  const MeasureStatistics errors = point.statistics().of(&trial::MoveOutcome::true_error);
   EXPECT_EQ(errors.n, 3);
   EXPECT_EQ(errors.mean, 6.5 / 3.0);
   EXPECT_DOUBLE_EQ(errors.rms, std::sqrt((16.0 + 6.25) / 3.0));
   EXPECT_EQ(errors.max, 4.0);
-  EXPECT_TRUE(std::isnan(Moments{}.rms()));
+  EXPECT_TRUE(std::isnan(statistics::Moments{}.rms()));
 }
 
 TEST(PointStatistics, PhaseChangesAndDisagreementsAreCountedPerTrial) {
-  MoveOutcome none = move_that(Outcome::zero_count, 0.1), some = none;
+  trial::MoveOutcome none = move_that(trial::Outcome::zero_count, 0.1), some = none;
   some.phase_changes = 3;
   some.encoder_disagreement = 10;
   some.travel_time = 0.5;
@@ -323,32 +330,35 @@ TEST(PointStatistics, PhaseChangesAndDisagreementsAreCountedPerTrial) {
   point.add({{some, some}}, {});
   point.add({{none, some}}, {});
   const PointSummary statistics = point.statistics();
-  EXPECT_EQ(statistics.of(&MoveOutcome::phase_changes).trials, 2);
-  EXPECT_EQ(statistics.of(&MoveOutcome::phase_changes).total, 9);
-  EXPECT_EQ(statistics.of(&MoveOutcome::phase_changes).max, 6);
-  EXPECT_EQ(statistics.of(&MoveOutcome::encoder_disagreement).trials, 2);
-  EXPECT_EQ(statistics.of(&MoveOutcome::encoder_disagreement).total, 30);
-  EXPECT_EQ(statistics.of(&MoveOutcome::encoder_disagreement).max, 20);
-  EXPECT_EQ(statistics.of(&MoveOutcome::travel_time).mean, 0.25);
-  EXPECT_EQ(statistics.of(&MoveOutcome::travel_time).max, 0.5);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::phase_changes).trials, 2);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::phase_changes).total, 9);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::phase_changes).max, 6);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::encoder_disagreement).trials, 2);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::encoder_disagreement).total, 30);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::encoder_disagreement).max, 20);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::travel_time).mean, 0.25);
+  EXPECT_EQ(statistics.of(&trial::MoveOutcome::travel_time).max, 0.5);
 }
 
 TEST(PointStatistics, TrialsThatContradictThemselvesAreRefused) {
-  const MoveOutcome move = move_that(Outcome::zero_count, 0.1);
-  MoveOutcome jerking = move;
+  const trial::MoveOutcome move = move_that(trial::Outcome::zero_count, 0.1);
+  trial::MoveOutcome jerking = move;
   jerking.jerk_count = 2;
-  const Jerk early{0, 0.2, 0.01, 1, 1}, late{0, 0.4, 0.01, 1, 1}, elsewhere{1, 0.2, 0.01, 1, 1};
+  const trial::Jerk early{0, 0.2, 0.01, 1, 1}, late{0, 0.4, 0.01, 1, 1}, elsewhere{1, 0.2, 0.01, 1, 1};
 
   EXPECT_THROW(PointAccumulator().add({}, {}), Failure) << "no move";
-  EXPECT_THROW(PointAccumulator().add({{move}}, std::vector<Jerk>{early}), Failure) << "a jerk not counted";
-  EXPECT_THROW(PointAccumulator().add({{jerking}}, std::vector<Jerk>{early}), Failure) << "a jerk missing";
-  EXPECT_THROW(PointAccumulator().add({{jerking}}, std::vector<Jerk>{late, early}), Failure)
+  EXPECT_THROW(PointAccumulator().add({{move}}, std::vector<trial::Jerk>{early}), Failure)
+      << "a jerk not counted";
+  EXPECT_THROW(PointAccumulator().add({{jerking}}, std::vector<trial::Jerk>{early}), Failure)
+      << "a jerk missing";
+  EXPECT_THROW(PointAccumulator().add({{jerking}}, std::vector<trial::Jerk>{late, early}), Failure)
       << "out of order";
-  EXPECT_THROW(PointAccumulator().add({{move}}, std::vector<Jerk>{elsewhere}), Failure) << "of no move";
+  EXPECT_THROW(PointAccumulator().add({{move}}, std::vector<trial::Jerk>{elsewhere}), Failure)
+      << "of no move";
   PointAccumulator point;
   point.add({{move}}, {});
   EXPECT_THROW(point.add({{move, move}}, {}), Failure) << "another number of moves";
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::measures

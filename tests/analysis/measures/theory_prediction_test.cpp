@@ -4,11 +4,12 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::measures {
 namespace {
 
-TrialParameters paper_rig(double ki) {
-  TrialParameters parameters;  // the defaults are the paper's rig: bounds 3.85e-5 and 3.01e-4 N m/count
+trial::TrialParameters paper_rig(double ki) {
+  trial::TrialParameters
+      parameters;  // the defaults are the paper's rig: bounds 3.85e-5 and 3.01e-4 N m/count
   parameters.controller.ki = ki;
   return parameters;
 }
@@ -26,7 +27,7 @@ TEST(TheoryPrediction, GainsOfThePaper) {
 }
 
 TEST(TheoryPrediction, ProportionalGainMakesAnIntegralGainStable) {
-  TrialParameters parameters = paper_rig(9.4e-5);
+  trial::TrialParameters parameters = paper_rig(9.4e-5);
   EXPECT_FALSE(predict(parameters).stable);
   parameters.controller.kp = 6.21e-4;
   EXPECT_TRUE(predict(parameters).stable);
@@ -36,16 +37,17 @@ TEST(TheoryPrediction, WithoutIntegralOrOnABoundNothingIsPromised) {
   EXPECT_FALSE(predict(paper_rig(0.0)).stable);
   EXPECT_FALSE(predict(paper_rig(0.0)).unstable);
   EXPECT_TRUE(predict(paper_rig(-1e-6)).unstable);
-  const IntegralGainBounds bounds = predict(paper_rig(1e-5)).bounds;
+  const theory::IntegralGainBounds bounds = predict(paper_rig(1e-5)).bounds;
   EXPECT_FALSE(predict(paper_rig(bounds.stable_below)).stable);
   EXPECT_FALSE(predict(paper_rig(bounds.unstable_above)).unstable);
 }
 
 TEST(TheoryPrediction, ATrialIsGovernedByTheStiffnessWhereItStarts) {
   // k1 = 110 + 50·cos θ: 160 at 0, 60 at π. The bound of (6) is in proportion to k1.
-  TrialParameters parameters = paper_rig(3.85e-5);
-  const Profile profile{Marginal::normal, 110.0, 50.0, {0.0, 1.0}, {0.0, 0.0}};
-  parameters.friction.profiled.push_back({&FrictionParameters::k1, std::make_shared<Profile>(profile)});
+  trial::TrialParameters parameters = paper_rig(3.85e-5);
+  const friction::Profile profile{friction::Marginal::normal, 110.0, 50.0, {0.0, 1.0}, {0.0, 0.0}};
+  parameters.friction.profiled.push_back(
+      {&friction::FrictionParameters::k1, std::make_shared<friction::Profile>(profile)});
   const TrialPrediction stiff = predict(parameters);
   parameters.initial.position = 3.14159265358979;
   const TrialPrediction soft = predict(parameters);
@@ -55,15 +57,15 @@ TEST(TheoryPrediction, ATrialIsGovernedByTheStiffnessWhereItStarts) {
 }
 
 TEST(TheoryPrediction, TheCriteriaAreNotAboutOpenLoopsAndFrictionWithoutASpring) {
-  TrialParameters coulomb = paper_rig(3e-5), air = coulomb, open_loop = coulomb, spring = coulomb;
-  coulomb.friction.model = FrictionModel::coulomb;
-  air.friction.model = FrictionModel::none;
+  trial::TrialParameters coulomb = paper_rig(3e-5), air = coulomb, open_loop = coulomb, spring = coulomb;
+  coulomb.friction.model = friction::FrictionModel::coulomb;
+  air.friction.model = friction::FrictionModel::none;
   open_loop.command.torque.levels = {0.1};
-  spring.friction.model = FrictionModel::spring;
+  spring.friction.model = friction::FrictionModel::spring;
   EXPECT_TRUE(predict(spring).applies);
   EXPECT_TRUE(predict(spring).stable);
   TheoryPrediction point;
-  for (const TrialParameters& parameters : {coulomb, air, open_loop}) {
+  for (const trial::TrialParameters& parameters : {coulomb, air, open_loop}) {
     const TrialPrediction prediction = predict(parameters);
     EXPECT_FALSE(prediction.applies || prediction.stable || prediction.unstable);
     point.add(prediction);
@@ -90,4 +92,4 @@ TEST(TheoryPrediction, VerdictIsThatOfAllTrialsOrUndecidedWithItsShares) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::measures

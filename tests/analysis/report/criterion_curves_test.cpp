@@ -8,7 +8,7 @@
 
 #include "experiments/manifest/load_study.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 const std::string head =
@@ -31,8 +31,8 @@ const CriterionCurve& curve(const std::vector<CriterionCurve>& curves, const std
 }
 
 TEST(CriterionCurves, AreThePapersBoundsForTheSoftestAndTheStiffestTrial) {
-  const Study study =
-      parse_study(head + "friction: {k1: {choice: [90, 100, 130]}, k2: {choice: [700, 800]}}\n", "test");
+  const study::Study study = manifest::parse_study(
+      head + "friction: {k1: {choice: [90, 100, 130]}, k2: {choice: [700, 800]}}\n", "test");
   const CriterionPlane plane{"controller.ki", "controller.kp", 1e-5, 6e-4, 0.0, 8e-4, true, false};
   const std::vector<CriterionCurve> curves = criterion_curves(study, 0, plane);
   ASSERT_EQ(curves.size(), 4U);
@@ -46,7 +46,7 @@ TEST(CriterionCurves, AreThePapersBoundsForTheSoftestAndTheStiffestTrial) {
 }
 
 TEST(CriterionCurves, AreFoundInAPlaneWithoutTheGainToo) {
-  const Study study = parse_study(head, "test");
+  const study::Study study = manifest::parse_study(head, "test");
   const CriterionPlane plane{"plant.inertia", "friction.k1", 2e-4, 2e-3, 50.0, 200.0, false, false};
   const std::vector<CriterionCurve> curves = criterion_curves(study, 0, plane);
   for (const CurvePoint& point : curve(curves, "(6)", true).points)
@@ -55,12 +55,12 @@ TEST(CriterionCurves, AreFoundInAPlaneWithoutTheGainToo) {
 
 TEST(CriterionCurves, ThereAreNoneWhereTheCriteriaSayNothing) {
   const CriterionPlane plane{"controller.ki", "controller.kp", 1e-5, 6e-4, 0.0, 8e-4, true, false};
-  const Study coulomb = parse_study(head + "friction: {model: coulomb}\n", "test");
+  const study::Study coulomb = manifest::parse_study(head + "friction: {model: coulomb}\n", "test");
   EXPECT_TRUE(criterion_curves(coulomb, 0, plane).empty());
   CriterionPlane strange = plane;
   strange.y = "command.targets.0";
-  EXPECT_TRUE(criterion_curves(parse_study(head, "test"), 0, strange).empty());
+  EXPECT_TRUE(criterion_curves(manifest::parse_study(head, "test"), 0, strange).empty());
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::report

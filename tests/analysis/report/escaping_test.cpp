@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 const std::string hostile = "</script><script>alert('x')</script><!-- & \"quoted\" \xff\x01";
@@ -45,4 +45,4 @@ TEST(Escaping, ScriptsDoNotEndThemselves) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::report

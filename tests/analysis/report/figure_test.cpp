@@ -12,7 +12,7 @@
 #include "analysis/report/page.hpp"
 #include "tests/results/failures.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 TEST(Datum, KeepsTheDigitsAskedFor) {
@@ -80,4 +80,4 @@ TEST(EmbeddedFiles, WhatIsMissingIsSaidWithWhatToDo) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::report

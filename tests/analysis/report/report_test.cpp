@@ -19,7 +19,7 @@
 #include "tests/results/failures.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 using testing::TemporaryFolder;
@@ -49,7 +49,7 @@ class Report : public ::testing::Test {
   static void TearDownTestSuite() { delete folder; }
 
   static TemporaryFolder* folder;
-  StudyFile file{*folder / "rich.h5"};
+  reading::StudyFile file{*folder / "rich.h5"};
 };
 
 TemporaryFolder* Report::folder = nullptr;
@@ -80,7 +80,7 @@ TEST_F(Report, EveryFigureHasACaptionAndUnitsAndATable) {
 }
 
 TEST_F(Report, TheFigureOfSuccessHasTheNumbersOfTheSummary) {
-  const StudySummary summary = summarise(file);
+  const summary::StudySummary summary = summary::summarise(file);
   const FigureData data = find_figure(study_report(file).page, "success").data.front();
   ASSERT_EQ(data.rows.size(), summary.points.size());
   for (const auto& row : data.rows) {
@@ -120,25 +120,25 @@ TEST_F(Report, TheSettlingCurvesAreDistributionFunctionsInTheirBands) {
 TEST_F(Report, TheSampleTrialsAreWhatTheySay) {
   const ReportedStudy reported = reported_study(file);
   const std::vector<SampleTrial> trials = sample_trials(reported);
-  const std::vector<MoveOutcome> outcomes = file.outcomes(file.rows());
+  const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
   const auto of = [&](const SampleTrial& trial) {
     return outcomes[static_cast<std::size_t>(trial.point * 40 + trial.index)];
   };
   ASSERT_FALSE(trials.empty());
   const double median = reported.summary.points[static_cast<std::size_t>(reported.focus)]
-                            .of(&MoveOutcome::settling_time)
+                            .of(&trial::MoveOutcome::settling_time)
                             .median.value;
   for (const SampleTrial& trial : trials) {
     if (trial.name == "median") {
       EXPECT_EQ(of(trial).settling_time, median);
-      EXPECT_EQ(of(trial).outcome, Outcome::zero_count);
+      EXPECT_EQ(of(trial).outcome, trial::Outcome::zero_count);
     }
     if (trial.name == "worst") {
       for (std::int64_t index = 0; index < 40; ++index)
         EXPECT_GE(of(trial).outcome, of(SampleTrial{"", "", reported.focus, index}).outcome);
     }
     if (trial.name == "first-failure") {
-      EXPECT_NE(of(trial).outcome, Outcome::zero_count);
+      EXPECT_NE(of(trial).outcome, trial::Outcome::zero_count);
     }
   }
 }
@@ -148,7 +148,7 @@ TEST_F(Report, TracesAreTheRecordedTrials) {
   int checked = 0;
   options.check = [&](const ReplayedTrial& replayed) -> std::vector<std::string> {
     ++checked;
-    const MoveOutcome recorded = file.outcomes({replayed.result.row, 1}).front();
+    const trial::MoveOutcome recorded = file.outcomes({replayed.result.row, 1}).front();
     EXPECT_EQ(replayed.result.outcome.moves.front().final_position, recorded.final_position);
     return checked == 1 ? std::vector<std::string>{"a <difference>"} : std::vector<std::string>{};
   };
@@ -175,9 +175,9 @@ TEST_F(Report, ShowsTheTrialsOfThePointAskedFor) {
 
 TEST_F(Report, ComparesWithABaseline) {
   testing::run_study_file(*folder / "other.h5", testing::rich_manifest(30));
-  const StudyFile baseline(*folder / "other.h5");
+  const reading::StudyFile baseline(*folder / "other.h5");
   ReportOptions options;
-  options.comparison = compare_studies(baseline, file);
+  options.comparison = comparison::compare_studies(baseline, file);
   const ReportPage page = study_report(file, options).page;
   EXPECT_EQ(page.sections[1].name, "baseline");
   EXPECT_NE(page.sections[1].html.find("trials"), std::string::npos);
@@ -205,8 +205,8 @@ TEST(ReportPage, AManifestCannotBreakIt) {
   const TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5", testing::rich_manifest(4));
   testing::run_study_file(folder / "b.h5", testing::rich_manifest(4, hostile));
-  const std::string page = html_page(study_report(StudyFile(folder / "b.h5")).page);
-  const std::string plain = html_page(study_report(StudyFile(folder / "a.h5")).page);
+  const std::string page = html_page(study_report(reading::StudyFile(folder / "b.h5")).page);
+  const std::string plain = html_page(study_report(reading::StudyFile(folder / "a.h5")).page);
   EXPECT_EQ(times_in(page, "<script"), times_in(plain, "<script"));
   EXPECT_EQ(times_in(page, "</script"), times_in(plain, "</script"));
   EXPECT_EQ(times_in(page, "<!--"), times_in(plain, "<!--"));
@@ -224,7 +224,7 @@ TEST(ReportPage, NamesOfCasesCannotBreakIt) {
         "verdict: {dwell: 0.02, window: 0.02}\n"
         "sweep: {cases: {\"" +
             name + "\": {controller.ki: 2.0e-5}, other: {controller.ki: 3.0e-5}}}\n");
-    std::string page = html_page(study_report(StudyFile(folder / "a.h5")).page);
+    std::string page = html_page(study_report(reading::StudyFile(folder / "a.h5")).page);
     std::filesystem::remove(folder / "a.h5");
     std::filesystem::remove(folder / "a.h5.shard.h5");
     return page;
@@ -242,7 +242,7 @@ TEST(ReportPage, AFlawlessStudyIsNotCalledPerfect) {
       folder / "a.h5",
       "zerocount: 1\nname: easy\nseed: 1\ntrials: 30\ncommand: {targets: [3], hold: 0.15}\n"
       "controller: {ki: 2.0e-5}\nverdict: {dwell: 0.02, window: 0.02}\n");
-  const StudyReport report = study_report(StudyFile(folder / "a.h5"));
+  const StudyReport report = study_report(reading::StudyFile(folder / "a.h5"));
   const std::string& verdict = report.page.sections.front().html;
   // 1 − 0.05^(1/30) = 9.503 %; ln 0.05 / ln 0.999 = 2994.2
   EXPECT_NE(verdict.find("does not prove 100&nbsp;% repeatability"), std::string::npos) << verdict;
@@ -258,7 +258,7 @@ TEST(ReportPage, TheBestPointAllowsForItsChoice) {
       "zerocount: 1\nname: easy\nseed: 1\ntrials: 30\ncommand: {targets: [3], hold: 0.15}\n"
       "verdict: {dwell: 0.02, window: 0.02}\n"
       "sweep: {grid: {controller.ki: [1.8e-5, 1.9e-5, 2.0e-5, 2.1e-5]}}\n");
-  const StudyReport report = study_report(StudyFile(folder / "a.h5"));
+  const StudyReport report = study_report(reading::StudyFile(folder / "a.h5"));
   const std::string& verdict = report.page.sections.front().html;
   EXPECT_NE(verdict.find("Best of 4 points, "), std::string::npos) << verdict;
   EXPECT_NE(verdict.find("at most 13.6&nbsp;% fail"), std::string::npos) << verdict;
@@ -278,7 +278,7 @@ std::string saltelli_manifest(const std::string& more) {
 ReportPage page_of(const std::string& manifest) {
   const TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5", manifest);
-  return study_report(StudyFile(folder / "a.h5")).page;
+  return study_report(reading::StudyFile(folder / "a.h5")).page;
 }
 
 TEST(DependentTrials, MakeNoClaimOfAllAxes) {
@@ -340,7 +340,7 @@ TEST_P(PaperFigures, StandWhereTheStudyShowsThem) {
   const TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5",
                           std::string("zerocount: 1\nname: paper\nseed: 1\ntrials: 3\n") + GetParam().more);
-  const std::vector<std::string> names = figure_names(study_report(StudyFile(folder / "a.h5")).page);
+  const std::vector<std::string> names = figure_names(study_report(reading::StudyFile(folder / "a.h5")).page);
   std::string found;
   for (const std::string& name : names) found += name.starts_with("paper") ? name : "";
   EXPECT_EQ(found, GetParam().figure);
@@ -368,7 +368,7 @@ INSTANTIATE_TEST_SUITE_P(
 /// However many trials there are, the page stays small.
 TEST(ReportPage, DoesNotGrowWithTheTrials) {
   const TemporaryFolder folder;
-  Study study = parse_study(
+  study::Study study = manifest::parse_study(
       "zerocount: 1\nname: many\nseed: 1\ntrials: 20000\ncommand: {targets: [3], hold: 5.0}\n"
       "initial: {encoder_phase: {uniform: [0, 1]}}\n",
       "test");
@@ -376,17 +376,18 @@ TEST(ReportPage, DoesNotGrowWithTheTrials) {
   for (std::int64_t row = 0; row < 20000; ++row) {
     trials.push_back(testing::random_trial(row, 1));
     // A jerk ends before the next one begins.
-    std::vector<Jerk>& jerks = trials.back().jerks;
-    const auto close = [](const Jerk& a, const Jerk& b) { return b.onset - a.onset < 2e-3; };
+    std::vector<trial::Jerk>& jerks = trials.back().jerks;
+    const auto close = [](const trial::Jerk& a, const trial::Jerk& b) { return b.onset - a.onset < 2e-3; };
     jerks.erase(std::unique(jerks.begin(), jerks.end(), close), jerks.end());
     trials.back().outcome.moves.front().jerk_count = std::ssize(jerks);
   }
-  testing::write_study_file(folder / "many.h5", study, trials,
-                            [&](const StudyFile& file) { return stored_statistics(file, study); });
-  const std::string page = html_page(study_report(StudyFile(folder / "many.h5")).page);
+  testing::write_study_file(folder / "many.h5", study, trials, [&](const reading::StudyFile& file) {
+    return summary::stored_statistics(file, study);
+  });
+  const std::string page = html_page(study_report(reading::StudyFile(folder / "many.h5")).page);
   EXPECT_LT(page.size(), 2000000U);
   EXPECT_NE(page.find("Shown are 50 of the"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::report

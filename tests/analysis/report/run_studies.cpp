@@ -26,24 +26,25 @@ std::string rich_manifest(int trials, const std::string& description) {
       nlohmann::json(description).dump(), trials);
 }
 
-Study run_study_file(const std::filesystem::path& path, const std::string& manifest) {
-  Study study = parse_study(manifest, "test");
-  study.engine = Engine::reference;
-  std::vector<TrialResult> results;
-  for (std::int64_t row = 0; row < trial_count(study); ++row) {
-    const StudyTrial trial = study_trial(study, row / study.trials, row % study.trials);
-    TrialResult& result = results.emplace_back();
+study::Study run_study_file(const std::filesystem::path& path, const std::string& manifest) {
+  study::Study study = manifest::parse_study(manifest, "test");
+  study.engine = study::Engine::reference;
+  std::vector<shards::TrialResult> results;
+  for (std::int64_t row = 0; row < study::trial_count(study); ++row) {
+    const study::StudyTrial trial = study::study_trial(study, row / study.trials, row % study.trials);
+    shards::TrialResult& result = results.emplace_back();
     result.row = row;
     result.inputs = trial.inputs;
-    TrialObservers observers;
-    observers.jerk = [&](const Jerk& jerk) { result.jerks.push_back(jerk); };
-    result.outcome = run_trial(trial.parameters, observers);
+    trial::TrialObservers observers;
+    observers.jerk = [&](const trial::Jerk& jerk) { result.jerks.push_back(jerk); };
+    result.outcome = trial::run_trial(trial.parameters, observers);
   }
   const std::filesystem::path shard = path.string() + ".shard.h5";
-  write_shard(shard, study, 0, results);
-  const RowRange rows{0, trial_count(study)};
-  merge_shards(std::vector<ShardInfo>{{shard, rows}}, study, path, rows,
-               [&study](const StudyFile& file) { return stored_statistics(file, study); });
+  shards::write_shard(shard, study, 0, results);
+  const layout::RowRange rows{0, study::trial_count(study)};
+  shards::merge_shards(
+      std::vector<shards::ShardInfo>{{shard, rows}}, study, path, rows,
+      [&study](const reading::StudyFile& file) { return summary::stored_statistics(file, study); });
   return study;
 }
 

@@ -12,6 +12,6 @@ namespace zerocount::testing {
 std::string rich_manifest(int trials, const std::string& description = "a test");
 
 /// Runs a study by the plain engine and writes its results file.
-Study run_study_file(const std::filesystem::path& path, const std::string& manifest);
+study::Study run_study_file(const std::filesystem::path& path, const std::string& manifest);
 
 }  // namespace zerocount::testing

@@ -6,17 +6,17 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::report {
 namespace {
 
 /// A line of counts that mostly rests, with jerks of one sample here and there.
-std::vector<SampleRecord> random_samples(std::uint64_t seed, std::int64_t size) {
+std::vector<trial::SampleRecord> random_samples(std::uint64_t seed, std::int64_t size) {
   std::mt19937_64 random(seed);
-  std::vector<SampleRecord> samples;
+  std::vector<trial::SampleRecord> samples;
   std::int64_t count = 0;
   for (std::int64_t k = 0; k < size; ++k) {
     if (random() % 50 == 0) count += static_cast<std::int64_t>(random() % 7) - 3;
-    SampleRecord sample;
+    trial::SampleRecord sample;
     sample.k = k;
     sample.t = static_cast<double>(k) / 2000.0;
     sample.count = count + (random() % 100 == 0 ? 1 : 0);
@@ -28,44 +28,47 @@ std::vector<SampleRecord> random_samples(std::uint64_t seed, std::int64_t size) 
   return samples;
 }
 
-std::vector<SampleRecord> thinned(const std::vector<SampleRecord>& samples, std::int64_t buckets) {
+std::vector<trial::SampleRecord> thinned(const std::vector<trial::SampleRecord>& samples,
+                                         std::int64_t buckets) {
   TraceThinner thinner(std::ssize(samples), buckets);
-  for (const SampleRecord& sample : samples) thinner.add(sample);
+  for (const trial::SampleRecord& sample : samples) thinner.add(sample);
   return thinner.finish();
 }
 
 /// The value of the step line through `samples` at sample k.
-std::int64_t at(const std::vector<SampleRecord>& samples, std::int64_t k) {
+std::int64_t at(const std::vector<trial::SampleRecord>& samples, std::int64_t k) {
   const auto after =
       std::upper_bound(samples.begin(), samples.end(), k,
-                       [](std::int64_t at, const SampleRecord& sample) { return at < sample.k; });
+                       [](std::int64_t at, const trial::SampleRecord& sample) { return at < sample.k; });
   return (after - 1)->error;
 }
 
 TEST(TraceThinner, KeepsTheStepLineWhereThereIsRoomForAllOfIt) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const std::vector<SampleRecord> samples = random_samples(seed, 500);
-    const std::vector<SampleRecord> kept = thinned(samples, 500);
+    const std::vector<trial::SampleRecord> samples = random_samples(seed, 500);
+    const std::vector<trial::SampleRecord> kept = thinned(samples, 500);
     EXPECT_LT(kept.size(), samples.size());
-    for (const SampleRecord& sample : samples)
+    for (const trial::SampleRecord& sample : samples)
       ASSERT_EQ(at(kept, sample.k), sample.error) << seed << " " << sample.k;
   }
 }
 
 TEST(TraceThinner, KeepsTheExtremesOfEveryStretch) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const std::vector<SampleRecord> samples = random_samples(seed, 10000);
-    const std::vector<SampleRecord> kept = thinned(samples, 100);
+    const std::vector<trial::SampleRecord> samples = random_samples(seed, 10000);
+    const std::vector<trial::SampleRecord> kept = thinned(samples, 100);
     EXPECT_LE(kept.size(), 600U);
     EXPECT_EQ(kept.front().k, 0);
     EXPECT_EQ(kept.back().k, 9999);
     for (std::int64_t stretch = 0; stretch < 100; ++stretch) {
       const auto begin = samples.begin() + stretch * 100;
-      const auto by_error = [](const SampleRecord& a, const SampleRecord& b) { return a.error < b.error; };
+      const auto by_error = [](const trial::SampleRecord& a, const trial::SampleRecord& b) {
+        return a.error < b.error;
+      };
       const auto [least, most] = std::minmax_element(begin, begin + 100, by_error);
       std::int64_t low = at(kept, stretch * 100);
       std::int64_t high = low;
-      for (const SampleRecord& sample : kept) {
+      for (const trial::SampleRecord& sample : kept) {
         if (sample.k / 100 != stretch) continue;
         low = std::min(low, sample.error);
         high = std::max(high, sample.error);
@@ -77,11 +80,11 @@ TEST(TraceThinner, KeepsTheExtremesOfEveryStretch) {
 }
 
 TEST(TraceThinner, OfRestOnlyTheEndsAreKept) {
-  std::vector<SampleRecord> samples(1000);
+  std::vector<trial::SampleRecord> samples(1000);
   for (std::size_t k = 0; k < samples.size(); ++k) samples[k].k = static_cast<std::int64_t>(k);
   EXPECT_EQ(thinned(samples, 50).size(), 2U);
   EXPECT_TRUE(thinned({}, 50).empty());
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::report

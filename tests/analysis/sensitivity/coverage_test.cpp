@@ -19,7 +19,7 @@
 #include "experiments/designs/random_key.hpp"
 #include "tests/analysis/sensitivity/test_functions.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
 using testing::g_function;
@@ -28,14 +28,16 @@ using testing::g_function;
 std::vector<std::vector<double>> uniform_columns(std::size_t columns, std::size_t n, std::uint64_t sample) {
   std::vector<std::vector<double>> all(columns);
   for (std::size_t j = 0; j < columns; ++j) {
-    const RandomStream stream{random_key(17, std::to_string(j)), static_cast<std::uint32_t>(sample)};
-    for (std::size_t i = 0; i < n; ++i) all[j].push_back(open_uniform(random_bits(stream, i, Draw::trial)));
+    const random::RandomStream stream{designs::random_key(17, std::to_string(j)),
+                                      static_cast<std::uint32_t>(sample)};
+    for (std::size_t i = 0; i < n; ++i)
+      all[j].push_back(random::open_uniform(random::random_bits(stream, i, random::Draw::trial)));
   }
   return all;
 }
 
 double normal_of(double u) {
-  return standard_normal(static_cast<std::uint64_t>(u * 0x1p63) << 1U);
+  return random::standard_normal(static_cast<std::uint64_t>(u * 0x1p63) << 1U);
 }
 
 struct Coverage {
@@ -79,7 +81,7 @@ void expect_saltelli_coverage(const testing::UnitFunction& function, const std::
   std::vector<Coverage> of_total(factors);
   for (std::uint64_t sample = 0; sample < 400; ++sample) {
     const auto indices = saltelli_indices(saltelli_of(function, factors, 300, sample), 0.95,
-                                          {random_key(sample, "bootstrap"), 0});
+                                          {designs::random_key(sample, "bootstrap"), 0});
     for (std::size_t j = 0; j < factors; ++j) {
       of_first[j].add(indices[j].first_order, first_orders[j]);
       of_total[j].add(indices[j].total, totals[j]);
@@ -120,8 +122,8 @@ TEST(SensitivityCoverage, BoundsOfSobolIndicesOfARareYesOrNo) {
         std::array<Coverage, 3> of_total;
         for (std::uint64_t sample = 0; sample < 200; ++sample) {
           const auto function = [&](std::span<const double> u) { return u[0] < p && u[1] > q ? 1.0 : 0.0; };
-          const auto found =
-              saltelli_indices(saltelli_of(function, 3, rows, sample), 0.95, {random_key(sample, "rare"), 0});
+          const auto found = saltelli_indices(saltelli_of(function, 3, rows, sample), 0.95,
+                                              {designs::random_key(sample, "rare"), 0});
           for (std::size_t j = 0; j < 3; ++j) {
             if (std::isnan(found[j].total.value)) continue;  // no yes at all
             if (!std::isnan(found[j].first_order.value)) {
@@ -163,7 +165,7 @@ TEST(SensitivityCoverage, BoundsOfSobolIndicesOfANumberThatJumpsRarely) {
         const SaltelliSample columns = saltelli_of(function, 2, rows, sample);
         const auto jumps = std::count(columns.a.begin(), columns.a.end(), 1.0) +
                            std::count(columns.b.begin(), columns.b.end(), 1.0);
-        const auto found = saltelli_indices(columns, 0.95, {random_key(sample, "jump"), 0});
+        const auto found = saltelli_indices(columns, 0.95, {designs::random_key(sample, "jump"), 0});
         if (jumps > 0 && jumps < 9) {
           EXPECT_TRUE(std::isnan(found[0].total.low) && std::isnan(found[1].first_order.high)) << jumps;
         }
@@ -307,4 +309,4 @@ TEST(SensitivityCoverage, BoundsOfLogOdds) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

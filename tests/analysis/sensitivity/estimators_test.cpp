@@ -17,10 +17,10 @@
 #include "core/failure/failure.hpp"
 #include "tests/analysis/sensitivity/test_functions.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
-constexpr RandomStream any_stream{{1, 2}, 0};
+constexpr random::RandomStream any_stream{{1, 2}, 0};
 
 SaltelliSample g_sample(std::size_t rows) {
   return testing::sample_of(testing::g_function, testing::drawn_points("saltelli", 3, 5 * rows, 1));
@@ -252,4 +252,4 @@ TEST(LogisticFit, NeedsBothAnswersAndEnoughOfThem) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

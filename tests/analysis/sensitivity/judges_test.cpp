@@ -16,7 +16,7 @@
 #include "tests/analysis/sensitivity/test_functions.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
 using Json = nlohmann::json;
@@ -50,7 +50,7 @@ std::vector<DesignCase> design_cases() {
 }
 
 std::vector<SobolIndices> indices_of(const SaltelliSample& sample, double confidence) {
-  return saltelli_indices(sample, confidence, {random_key(3, "bootstrap"), 0});
+  return saltelli_indices(sample, confidence, {designs::random_key(3, "bootstrap"), 0});
 }
 
 TEST(SensitivityJudges, SobolIndicesOfASaltelliDesignAreThoseOfOpenTurns) {
@@ -178,4 +178,4 @@ TEST(SensitivityJudges, LogisticFitsAreThoseOfAGeneralMinimiser) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

@@ -16,11 +16,11 @@
 #include "results/shards/shard.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace zerocount {
+namespace zerocount::sensitivity {
 namespace {
 
 using testing::TemporaryFolder;
-using Outcomes = std::function<std::vector<MoveOutcome>(std::span<const double> inputs)>;
+using Outcomes = std::function<std::vector<trial::MoveOutcome>(std::span<const double> inputs)>;
 
 // Three factors at two points; k1, k2 and α are 1 more than uniform numbers. The hold has 200 samples.
 std::string manifest(const std::string& more = "") {
@@ -35,9 +35,9 @@ std::string manifest(const std::string& more = "") {
 constexpr std::size_t k1 = 0;
 constexpr std::size_t k2 = 1;
 
-MoveOutcome move_with(bool success) {
-  MoveOutcome move;
-  move.outcome = success ? Outcome::zero_count : Outcome::oscillating;
+trial::MoveOutcome move_with(bool success) {
+  trial::MoveOutcome move;
+  move.outcome = success ? trial::Outcome::zero_count : trial::Outcome::oscillating;
   move.arrived = success;
   if (success) {
     move.arrival = 20;
@@ -47,30 +47,30 @@ MoveOutcome move_with(bool success) {
 }
 
 // The second of two moves succeeds where k1 and k2 are both in their upper half; the first always does.
-std::vector<MoveOutcome> both_in_upper_half(std::span<const double> inputs) {
+std::vector<trial::MoveOutcome> both_in_upper_half(std::span<const double> inputs) {
   return {move_with(true), move_with(inputs[k1] > 1.5 && inputs[k2] > 1.5)};
 }
 
 class MadeUpStudy {
  public:
   MadeUpStudy(const std::string& text, const Outcomes& outcomes) {
-    const Study study = parse_study(text, "made-up.yaml");
-    std::vector<TrialResult> results(static_cast<std::size_t>(trial_count(study)));
+    const study::Study study = manifest::parse_study(text, "made-up.yaml");
+    std::vector<shards::TrialResult> results(static_cast<std::size_t>(study::trial_count(study)));
     for (std::size_t row = 0; row < results.size(); ++row) {
       const auto index = static_cast<std::int64_t>(row);
       results[row].row = index;
-      results[row].inputs = study_trial(study, index / study.trials, index % study.trials).inputs;
+      results[row].inputs = study::study_trial(study, index / study.trials, index % study.trials).inputs;
       results[row].outcome.moves = outcomes(results[row].inputs);
     }
-    const RowRange rows{0, trial_count(study)};
-    write_shard(folder_ / "shard.h5", study, 0, results);
-    const std::vector<ShardInfo> shards{{folder_ / "shard.h5", rows}};
-    merge_shards(shards, study, folder_ / "study.h5", rows,
-                 [](const StudyFile&) { return StoredStatistics{}; });
+    const layout::RowRange rows{0, study::trial_count(study)};
+    shards::write_shard(folder_ / "shard.h5", study, 0, results);
+    const std::vector<shards::ShardInfo> shards{{folder_ / "shard.h5", rows}};
+    shards::merge_shards(shards, study, folder_ / "study.h5", rows,
+                         [](const reading::StudyFile&) { return layout::StoredStatistics{}; });
   }
 
   StudySensitivity ask(const SensitivityQuestion& question = {}) const {
-    return study_sensitivity(StudyFile(folder_ / "study.h5"), question);
+    return study_sensitivity(reading::StudyFile(folder_ / "study.h5"), question);
   }
   OutputSensitivity about(const std::string& output) const {
     return ask({.points = {1}, .outputs = {output}}).points.at(0).outputs.at(0);
@@ -210,10 +210,10 @@ TEST(StudySensitivity, WithoutVarianceNothingIsEstimatedAndThatIsSaid) {
 // with k1 of B.
 TEST(StudySensitivity, RowsWithLostTrialsAreLeftOutWholeAndCounted) {
   const MadeUpStudy study(manifest(), [](std::span<const double> inputs) {
-    MoveOutcome move = move_with(true);
+    trial::MoveOutcome move = move_with(true);
     move.jerk_count = 0;
     move.creep = inputs[k2];
-    if (inputs[k1] > 1.75) move.outcome = Outcome::nonfinite;
+    if (inputs[k1] > 1.75) move.outcome = trial::Outcome::nonfinite;
     return std::vector{move_with(true), move};
   });
   const OutputSensitivity creep = study.about("creep");
@@ -300,4 +300,4 @@ TEST(StudySensitivity, IsTheSameEveryTimeInAllForms) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::sensitivity

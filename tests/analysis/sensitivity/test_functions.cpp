@@ -85,24 +85,25 @@ std::vector<std::vector<double>> drawn_points(const std::string& design, std::si
   for (std::size_t j = 0; j < factors; ++j) {
     friction += fmt::format("{}{}: {{uniform: [1, 2]}}", j == 0 ? "" : ", ", keys.at(j));
   }
-  const Study study = parse_study(
+  const study::Study study = manifest::parse_study(
       fmt::format("{{zerocount: 1, name: t, seed: {}, trials: {}, design: {}, command: {{targets: [5]}}, "
                   "friction: {{{}}}}}",
                   seed, trials, design, friction),
       "test");
   std::vector<std::vector<double>> points;
   for (std::int64_t i = 0; i < study.trials; ++i) {
-    points.push_back(study_trial(study, 0, i).inputs);
+    points.push_back(study::study_trial(study, 0, i).inputs);
     for (double& value : points.back()) value -= 1.0;
   }
   return points;
 }
 
-SaltelliSample sample_of(const UnitFunction& function, const std::vector<std::vector<double>>& points) {
+sensitivity::SaltelliSample sample_of(const UnitFunction& function,
+                                      const std::vector<std::vector<double>>& points) {
   const std::size_t factors = points.front().size();
-  SaltelliSample sample;
+  sensitivity::SaltelliSample sample;
   sample.c.resize(factors);
-  for (std::size_t start = 0; start < points.size(); start += saltelli_row_length(factors)) {
+  for (std::size_t start = 0; start < points.size(); start += designs::saltelli_row_length(factors)) {
     sample.a.push_back(function(points[start]));
     sample.b.push_back(function(points[start + 1]));
     for (std::size_t j = 0; j < factors; ++j) sample.c[j].push_back(function(points[start + 2 + j]));

@@ -28,6 +28,7 @@ std::vector<std::vector<double>> drawn_points(const std::string& design, std::si
                                               std::size_t trials, std::uint64_t seed);
 
 /// The function at the points of a saltelli design.
-SaltelliSample sample_of(const UnitFunction& function, const std::vector<std::vector<double>>& points);
+sensitivity::SaltelliSample sample_of(const UnitFunction& function,
+                                      const std::vector<std::vector<double>>& points);
 
 }  // namespace zerocount::testing

@@ -11,10 +11,10 @@
 #include "analysis/statistics/poisson_bounds.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
-constexpr RandomStream stream{{12, 34}, 5};
+constexpr random::RandomStream stream{{12, 34}, 5};
 
 ClusterTotals totals_of(const std::vector<double>& values) {
   ClusterTotals totals;
@@ -124,4 +124,4 @@ TEST(ClusteredCount, OfFewEventsIsGarwoodsWithStudentsFactor) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::statistics

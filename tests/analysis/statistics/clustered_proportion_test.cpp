@@ -12,7 +12,7 @@
 #include "results/reading/csv.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 TEST(ClusteredProportion, OfEventsThatComeAloneIsClopperPearsons) {
@@ -86,7 +86,7 @@ TEST(ClusteredProportion, BoundsAreThoseOfTheFormulaByScipy) {
     const ClusteredProportion found = clustered_proportion(sums, confidence);
     for (const double value : {confidence, found.korn_graubard.low, found.korn_graubard.high,
                                found.wilson.low, found.wilson.high, clustered_at_least(sums, confidence)}) {
-      cases << number_text(value) << " ";
+      cases << reading::number_text(value) << " ";
     }
     cases << clusters << "\n";
   }
@@ -99,4 +99,4 @@ TEST(ClusteredProportion, BoundsAreThoseOfTheFormulaByScipy) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::statistics

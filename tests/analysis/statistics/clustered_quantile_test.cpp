@@ -14,7 +14,7 @@
 #include "results/reading/csv.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 ClusteredSample sample_of(const std::vector<std::vector<double>>& clusters, std::int64_t size) {
@@ -141,14 +141,15 @@ TEST(ClusteredQuantile, BoundsAreThoseOfTheFormulaByScipy) {
       for (int i = 0; i < size; ++i) {
         const double value = std::round(10.0 * (centre + normal(random)));
         if (value < 40.0) values.push_back(value);
-        texts += value < 40.0 ? " " + number_text(value) : " nan";
+        texts += value < 40.0 ? " " + reading::number_text(value) : " nan";
       }
       sample.add_cluster(std::span<double>(values), size);
     }
     const double p = std::vector<double>{0.05, 0.5, 0.75, 0.9, 0.95}[static_cast<std::size_t>(round) % 5];
     const Quantile found = clustered_quantile(sample, p);
     cases << p << " " << size;
-    for (const double value : {found.value, found.low, found.high}) cases << " " << number_text(value);
+    for (const double value : {found.value, found.low, found.high})
+      cases << " " << reading::number_text(value);
     cases << texts << "\n";
   }
   cases.close();
@@ -160,4 +161,4 @@ TEST(ClusteredQuantile, BoundsAreThoseOfTheFormulaByScipy) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -23,7 +23,8 @@ double evidence_against(double p, std::int64_t successes, std::int64_t trials) {
 TEST(AnytimeBounds, AreWhereTheMixtureIsTwentyTimesAsLikely) {
   for (const std::int64_t trials : {1, 2, 7, 40, 300}) {
     for (std::int64_t successes = 0; successes <= trials; ++successes) {
-      const ConfidenceInterval bounds = confidence_sequence_bounds(successes, trials, 0.95);
+      const statistics::ConfidenceInterval bounds =
+          statistics::confidence_sequence_bounds(successes, trials, 0.95);
       if (successes > 0) {
         EXPECT_NEAR(evidence_against(bounds.low, successes, trials), std::log(20.0), 1e-6);
       }
@@ -38,20 +39,21 @@ TEST(AnytimeBounds, AreWhereTheMixtureIsTwentyTimesAsLikely) {
 }
 
 TEST(AnytimeBounds, EndAtZeroAndOne) {
-  EXPECT_EQ(confidence_sequence_bounds(0, 0, 0.95).low, 0.0);
-  EXPECT_EQ(confidence_sequence_bounds(0, 0, 0.95).high, 1.0);
-  EXPECT_EQ(confidence_sequence_bounds(0, 50, 0.95).low, 0.0);
-  EXPECT_EQ(confidence_sequence_bounds(50, 50, 0.95).high, 1.0);
-  EXPECT_NEAR(confidence_sequence_bounds(0, 50, 0.9).high, 1.0 - confidence_sequence_bounds(50, 50, 0.9).low,
-              1e-12);
+  EXPECT_EQ(statistics::confidence_sequence_bounds(0, 0, 0.95).low, 0.0);
+  EXPECT_EQ(statistics::confidence_sequence_bounds(0, 0, 0.95).high, 1.0);
+  EXPECT_EQ(statistics::confidence_sequence_bounds(0, 50, 0.95).low, 0.0);
+  EXPECT_EQ(statistics::confidence_sequence_bounds(50, 50, 0.95).high, 1.0);
+  EXPECT_NEAR(statistics::confidence_sequence_bounds(0, 50, 0.9).high,
+              1.0 - statistics::confidence_sequence_bounds(50, 50, 0.9).low, 1e-12);
 }
 
 TEST(AnytimeBounds, AreWiderThanThoseOfOneLook) {
   for (const std::int64_t trials : {20, 1000, 100000, 10000000}) {
     for (const double proportion : {0.0, 0.1, 0.5, 0.99, 1.0}) {
       const auto successes = static_cast<std::int64_t>(proportion * static_cast<double>(trials));
-      const ConfidenceInterval anytime = confidence_sequence_bounds(successes, trials, 0.95);
-      const ConfidenceInterval fixed = clopper_pearson(successes, trials, 0.95);
+      const statistics::ConfidenceInterval anytime =
+          statistics::confidence_sequence_bounds(successes, trials, 0.95);
+      const statistics::ConfidenceInterval fixed = statistics::clopper_pearson(successes, trials, 0.95);
       EXPECT_LE(anytime.low, fixed.low);
       EXPECT_GE(anytime.high, fixed.high);
       EXPECT_LT(anytime.high - anytime.low, 3.5 * (fixed.high - fixed.low)) << trials << " " << proportion;
@@ -74,9 +76,10 @@ Looks look_after_every_block(double p, int studies) {
     bool fixed_always = true;
     for (std::int64_t trials = 25; trials <= 5000; trials += 25) {
       successes += std::binomial_distribution<std::int64_t>(25, p)(engine);
-      const ConfidenceInterval bounds = confidence_sequence_bounds(successes, trials, 0.95);
+      const statistics::ConfidenceInterval bounds =
+          statistics::confidence_sequence_bounds(successes, trials, 0.95);
       const bool covers = bounds.low <= p && p <= bounds.high;
-      const ConfidenceInterval fixed = wilson(successes, trials, 0.95);
+      const statistics::ConfidenceInterval fixed = statistics::wilson(successes, trials, 0.95);
       always = always && covers;
       fixed_always = fixed_always && fixed.low <= p && p <= fixed.high;
       const bool narrow = bounds.high - bounds.low <= 0.08;
@@ -118,7 +121,8 @@ TEST(AnytimeBounds, CoverTheMeanOverTheRigsHoweverOftenOneLooks) {
     bool always = true, narrow = false;
     for (std::int64_t trials = 20; always && !narrow; trials += 20) {
       for (const double p : rigs) successes += std::bernoulli_distribution(p)(engine);
-      const ConfidenceInterval bounds = confidence_sequence_bounds(successes, trials, 0.95);
+      const statistics::ConfidenceInterval bounds =
+          statistics::confidence_sequence_bounds(successes, trials, 0.95);
       always = bounds.low <= mean && mean <= bounds.high;
       narrow = bounds.high - bounds.low <= 0.08;
     }
@@ -130,17 +134,17 @@ TEST(AnytimeBounds, CoverTheMeanOverTheRigsHoweverOftenOneLooks) {
 TEST(ProjectedTrials, AreEnoughAndNotMore) {
   for (const double proportion : {0.0, 0.03, 0.5, 0.9, 1.0}) {
     const auto successes = static_cast<std::int64_t>(1000 * proportion);
-    const std::int64_t n = projected_trials(successes, 1000, 0.01, 0.95, 100, 10000000);
+    const std::int64_t n = statistics::projected_trials(successes, 1000, 0.01, 0.95, 100, 10000000);
     const auto halfwidth = [&](std::int64_t trials) {
       const auto s = static_cast<std::int64_t>(std::llround(proportion * static_cast<double>(trials)));
-      const ConfidenceInterval bounds = confidence_sequence_bounds(s, trials, 0.95);
+      const statistics::ConfidenceInterval bounds = statistics::confidence_sequence_bounds(s, trials, 0.95);
       return 0.5 * (bounds.high - bounds.low);
     };
     EXPECT_EQ(n % 100, 0);
     EXPECT_LE(halfwidth(n), 0.01);
     EXPECT_GT(halfwidth(n - 100), 0.01);
   }
-  EXPECT_EQ(projected_trials(500, 1000, 0.001, 0.95, 300, 1000), 1000);
+  EXPECT_EQ(statistics::projected_trials(500, 1000, 0.001, 0.95, 300, 1000), 1000);
 }
 
 }  // namespace

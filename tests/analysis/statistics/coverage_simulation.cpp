@@ -136,15 +136,15 @@ class Simulation {
     return rig;
   }
 
-  TrialOutcome trial(const SimulatedRig& rig, std::int64_t moves) {
-    TrialOutcome trial;
+  trial::TrialOutcome trial(const SimulatedRig& rig, std::int64_t moves) {
+    trial::TrialOutcome trial;
     const bool decided_once = uniform_(random_) < alike;
     const bool all_zero = uniform_(random_) < rig.q;
     const double time = median_time * rig.time_factor * std::exp(population_.trial_effect * normal_(random_));
     for (std::int64_t i = 0; i < moves; ++i) {
-      MoveOutcome move;
+      trial::MoveOutcome move;
       const bool zero = decided_once ? all_zero : uniform_(random_) < rig.q;
-      move.outcome = zero ? Outcome::zero_count : Outcome::one_count;
+      move.outcome = zero ? trial::Outcome::zero_count : trial::Outcome::one_count;
       move.stable = zero;
       const double settled = time * std::exp(population_.move_effect * normal_(random_));
       move.settling_time = std::ceil(settled / sample_time) * sample_time;
@@ -165,27 +165,27 @@ class Simulation {
   std::uniform_real_distribution<double> uniform_;
 };
 
-std::vector<Jerk> jerks_of(const MoveOutcome& move) {
-  std::vector<Jerk> jerks;
+std::vector<trial::Jerk> jerks_of(const trial::MoveOutcome& move) {
+  std::vector<trial::Jerk> jerks;
   for (std::int64_t i = 0; i < move.jerk_count; ++i)
     jerks.push_back({0, 0.1 * static_cast<double>(i + 1), 0.01, 1, 1});
   return jerks;
 }
 
-void add_to(PointAccumulator& point, const TrialOutcome& trial) {
+void add_to(measures::PointAccumulator& point, const trial::TrialOutcome& trial) {
   point.add(trial, jerks_of(trial.moves[0]));
 }
 
 /// Every move as a trial of its own: what becomes of bounds that take moves for independent.
-void add_moves_to(PointAccumulator& point, const TrialOutcome& trial) {
-  for (const MoveOutcome& move : trial.moves) point.add(TrialOutcome{{move}}, jerks_of(move));
+void add_moves_to(measures::PointAccumulator& point, const trial::TrialOutcome& trial) {
+  for (const trial::MoveOutcome& move : trial.moves) point.add(trial::TrialOutcome{{move}}, jerks_of(move));
 }
 
-bool is_inside(const ConfidenceInterval& bounds, double truth) {
+bool is_inside(const statistics::ConfidenceInterval& bounds, double truth) {
   return !(bounds.low > truth) && !(bounds.high < truth);  // NaN: no bound on that side
 }
-bool is_inside(const Quantile& quantile, double truth) {
-  return is_inside(ConfidenceInterval{quantile.low, quantile.high}, truth);
+bool is_inside(const statistics::Quantile& quantile, double truth) {
+  return is_inside(statistics::ConfidenceInterval{quantile.low, quantile.high}, truth);
 }
 
 class Counter {
@@ -224,38 +224,41 @@ std::vector<Coverage> coverage_of(const Population& population, const Sample& sa
     std::vector<SimulatedRig> rigs;
     for (std::int64_t rig = 0; rig < std::max<std::int64_t>(sample.rigs, 1); ++rig)
       rigs.push_back(simulation.rig());
-    PointAccumulator clustered({.rigs = sample.rigs});
-    PointAccumulator trials;
-    PointAccumulator moves;
-    Moments times, jerks;
+    measures::PointAccumulator clustered({.rigs = sample.rigs});
+    measures::PointAccumulator trials;
+    measures::PointAccumulator moves;
+    statistics::Moments times, jerks;
     for (std::int64_t i = 0; i < sample.trials; ++i) {
       const SimulatedRig rig =
           sample.rigs > 0 ? rigs[static_cast<std::size_t>(i % sample.rigs)] : simulation.rig();
-      const TrialOutcome trial = simulation.trial(rig, sample.moves);
+      const trial::TrialOutcome trial = simulation.trial(rig, sample.moves);
       add_to(clustered, trial);
       add_to(trials, trial);
       add_moves_to(moves, trial);
-      for (const MoveOutcome& move : trial.moves)
+      for (const trial::MoveOutcome& move : trial.moves)
         if (move.arrived) times.add(move.settling_time);
       jerks.add(static_cast<double>(trial.moves[0].jerk_count));
     }
     const auto stream = static_cast<std::uint32_t>(repetition);
-    const PointSummary found = clustered.statistics({.bootstrap = BootstrapDraws{seed, stream}});
-    const PointSummary of_trials = trials.statistics();
-    const PointSummary of_moves = moves.statistics();
+    const measures::PointSummary found =
+        clustered.statistics({.bootstrap = measures::BootstrapDraws{seed, stream}});
+    const measures::PointSummary of_trials = trials.statistics();
+    const measures::PointSummary of_moves = moves.statistics();
     counter.count("success", is_inside(found.success_rate().clopper_pearson, truth.success),
                   is_inside(of_trials.success_rate().clopper_pearson, truth.success));
-    counter.count("stable", is_inside(found.of(&MoveOutcome::stable).rate.clopper_pearson, truth.success),
-                  is_inside(of_trials.of(&MoveOutcome::stable).rate.clopper_pearson, truth.success));
+    counter.count("stable",
+                  is_inside(found.of(&trial::MoveOutcome::stable).rate.clopper_pearson, truth.success),
+                  is_inside(of_trials.of(&trial::MoveOutcome::stable).rate.clopper_pearson, truth.success));
     counter.count("settling mean",
-                  is_inside(found.of(&MoveOutcome::settling_time).mean_bounds, truth.mean_time),
-                  is_inside(student_t(times), truth.mean_time));
-    counter.count("settling median", is_inside(found.of(&MoveOutcome::settling_time).median, truth.median),
-                  is_inside(of_moves.of(&MoveOutcome::settling_time).median, truth.median));
-    counter.count("settling p95", is_inside(found.of(&MoveOutcome::settling_time).p95, truth.p95),
-                  is_inside(of_moves.of(&MoveOutcome::settling_time).p95, truth.p95));
-    counter.count("jerk mean", is_inside(found.of(&MoveOutcome::jerk_count).mean_bounds, truth.jerks),
-                  is_inside(student_t(jerks), truth.jerks));
+                  is_inside(found.of(&trial::MoveOutcome::settling_time).mean_bounds, truth.mean_time),
+                  is_inside(statistics::student_t(times), truth.mean_time));
+    counter.count("settling median",
+                  is_inside(found.of(&trial::MoveOutcome::settling_time).median, truth.median),
+                  is_inside(of_moves.of(&trial::MoveOutcome::settling_time).median, truth.median));
+    counter.count("settling p95", is_inside(found.of(&trial::MoveOutcome::settling_time).p95, truth.p95),
+                  is_inside(of_moves.of(&trial::MoveOutcome::settling_time).p95, truth.p95));
+    counter.count("jerk mean", is_inside(found.of(&trial::MoveOutcome::jerk_count).mean_bounds, truth.jerks),
+                  is_inside(statistics::student_t(jerks), truth.jerks));
     if (sample.rigs == 0) continue;
     counter.count("rigs without failure",
                   is_inside(found.rigs.without_failure_bounds, truth.without_failure));

@@ -12,7 +12,7 @@
 #include "results/reading/csv.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 Moments moments_of(const std::vector<double>& values) {
@@ -37,9 +37,9 @@ TEST(MeanBounds, AreSciPysForSamplesOfAllSizesAndScales) {
     const Moments moments = moments_of(values);
     const ConfidenceInterval bounds = student_t(moments, confidence);
     for (const double number : {moments.mean, moments.sd(), bounds.low, bounds.high, confidence}) {
-      cases << number_text(number) << " ";
+      cases << reading::number_text(number) << " ";
     }
-    for (const double value : values) cases << " " << number_text(value);
+    for (const double value : values) cases << " " << reading::number_text(value);
     cases << "\n";
   }
   cases.close();
@@ -85,4 +85,4 @@ TEST(MeanBounds, RefuseAConfidenceThatIsNone) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::statistics

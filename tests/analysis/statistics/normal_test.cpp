@@ -7,7 +7,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 // Abramowitz and Stegun, tables 26.1 and 26.5, to more digits by mpmath.
@@ -31,4 +31,4 @@ TEST(Normal, TwoSidedQuantileRefusesWhatIsNoConfidence) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -8,7 +8,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 /// Bounds by SciPy 1.10: binomtest(k, n).proportion_ci(confidence, method) with methods "exact" and "wilson".
@@ -135,4 +135,4 @@ TEST(Proportion, ImpossibleCountsAndConfidencesAreRefused) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -10,7 +10,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 /// numpy 1.24: quantile(x, p, method="inverted_cdf") of x_i = (7i² + 3i) mod 101, i < n; the ranks from
@@ -194,4 +194,4 @@ TEST(Histogram, DoesNotDependOnTheOrderOfItsValues) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::statistics

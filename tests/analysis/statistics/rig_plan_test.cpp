@@ -9,7 +9,7 @@
 #include "analysis/statistics/sample_size.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 TEST(RigPlan, WithOneTrialARigIsThatOfIndependentTrials) {
@@ -45,4 +45,4 @@ TEST(RigPlan, ToleranceIsShownWithSoManyTrialsAndNotWithFewer) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::statistics

@@ -10,7 +10,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 RigTrials rig_with(std::int64_t trials, std::int64_t successes, std::int64_t moves = 1) {
@@ -106,4 +106,4 @@ TEST(RigTolerance, LeavesOutAsManyRigsAsItsRankAllows) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::statistics

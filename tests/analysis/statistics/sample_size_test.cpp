@@ -8,7 +8,7 @@
 #include "analysis/statistics/proportion.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 TEST(SampleSize, OfWilkssTables) {
@@ -105,4 +105,4 @@ TEST(SampleSize, WhatNoNumberOfTrialsCanShowIsRefused) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::statistics

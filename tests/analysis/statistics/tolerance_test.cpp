@@ -11,7 +11,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 /// P(B ≤ k), B binomial (n, p), term by term.
@@ -168,4 +168,4 @@ TEST(Tolerance, ImpossibleContentsAndConfidencesAreRefused) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::statistics

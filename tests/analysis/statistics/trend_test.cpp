@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::statistics {
 namespace {
 
 RankTrend by_all_pairs(const std::vector<double>& series) {
@@ -69,4 +69,4 @@ TEST(Trend, OneValueHasNone) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::statistics

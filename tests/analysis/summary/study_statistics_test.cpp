@@ -20,18 +20,18 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/version_1_file.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
-std::vector<testing::TrialRecord> random_trials(const Study& study) {
+std::vector<testing::TrialRecord> random_trials(const study::Study& study) {
   std::vector<testing::TrialRecord> trials;
-  for (std::int64_t row = 0; row < trial_count(study); ++row)
+  for (std::int64_t row = 0; row < study::trial_count(study); ++row)
     trials.push_back(testing::random_trial(row, study.moves));
   return trials;
 }
 
 /// Every number of the statistics as text: equal text is equal statistics.
-std::string text_of(const Study& study, const std::vector<PointSummary>& points) {
+std::string text_of(const study::Study& study, const std::vector<measures::PointSummary>& points) {
   StudySummary summary;
   summary.name = study.name;
   summary.labels = study.point_labels;
@@ -40,11 +40,11 @@ std::string text_of(const Study& study, const std::vector<PointSummary>& points)
   return summary_json_text(summary);
 }
 
-void expect_refused(const Study& study, const std::vector<testing::TrialRecord>& trials,
+void expect_refused(const study::Study& study, const std::vector<testing::TrialRecord>& trials,
                     const std::string& place) {
   const testing::TemporaryFolder folder;
   testing::write_study_file(folder / "study.h5", study, trials);
-  const StudyFile file(folder / "study.h5");
+  const reading::StudyFile file(folder / "study.h5");
   try {
     study_statistics(file, study);
     FAIL() << "expected a failure that names " << place;
@@ -57,12 +57,12 @@ void expect_refused(const Study& study, const std::vector<testing::TrialRecord>&
 
 TEST(StudyStatistics, OfAFileAreThoseOfItsTrials) {
   // More trials and more jerks than are read at once, and points that do not end where a block does.
-  const Study study = testing::plain_study(5, 1700, 2);
+  const study::Study study = testing::plain_study(5, 1700, 2);
   const std::vector<testing::TrialRecord> trials = random_trials(study);
-  std::vector<PointSummary> expected;
+  std::vector<measures::PointSummary> expected;
   std::size_t jerks = 0;
-  for (std::int64_t point = 0; point < point_count(study); ++point) {
-    PointAccumulator accumulator;
+  for (std::int64_t point = 0; point < study::point_count(study); ++point) {
+    measures::PointAccumulator accumulator;
     for (std::int64_t index = 0; index < study.trials; ++index) {
       const testing::TrialRecord& trial = trials[static_cast<std::size_t>(point * study.trials + index)];
       accumulator.add(trial.outcome, trial.jerks);
@@ -74,16 +74,17 @@ TEST(StudyStatistics, OfAFileAreThoseOfItsTrials) {
 
   const testing::TemporaryFolder folder;
   testing::write_study_file(folder / "study.h5", study, trials);
-  EXPECT_EQ(text_of(study, study_statistics(StudyFile(folder / "study.h5"), study)),
+  EXPECT_EQ(text_of(study, study_statistics(reading::StudyFile(folder / "study.h5"), study)),
             text_of(study, expected));
 }
 
 TEST(StudyStatistics, OfAFileAreThoseOfItsOutcomesByNumPyAndSciPy) {
-  const Study study = testing::plain_study(3, 400, 2);
+  const study::Study study = testing::plain_study(3, 400, 2);
   const testing::TemporaryFolder folder;
-  testing::write_study_file(folder / "study.h5", study, random_trials(study), [&](const StudyFile& file) {
-    return StoredStatistics{point_columns(study_statistics(file, study)), {}, {}};
-  });
+  testing::write_study_file(
+      folder / "study.h5", study, random_trials(study), [&](const reading::StudyFile& file) {
+        return layout::StoredStatistics{measures::point_columns(study_statistics(file, study)), {}, {}};
+      });
   const std::string command =
       fmt::format("{} {} loop {} > {} 2>&1", ZEROCOUNT_PYTHON, ZEROCOUNT_STATISTICS_JUDGE,
                   (folder / "study.h5").string(), (folder / "out").string());
@@ -92,16 +93,17 @@ TEST(StudyStatistics, OfAFileAreThoseOfItsOutcomesByNumPyAndSciPy) {
 }
 
 TEST(StudyStatistics, EachPointHasAllOfItsTrialsAndNoOther) {
-  const Study study = testing::plain_study(7, 3, 1);
+  const study::Study study = testing::plain_study(7, 3, 1);
   std::vector<testing::TrialRecord> trials(21);
   for (std::int64_t row = 0; row < 21; ++row) {
-    MoveOutcome move;
-    move.outcome = row / 3 == 4 ? Outcome::zero_count : Outcome::oscillating;
+    trial::MoveOutcome move;
+    move.outcome = row / 3 == 4 ? trial::Outcome::zero_count : trial::Outcome::oscillating;
     trials[static_cast<std::size_t>(row)].outcome.moves = {move};
   }
   const testing::TemporaryFolder folder;
   testing::write_study_file(folder / "study.h5", study, trials);
-  const std::vector<PointSummary> points = study_statistics(StudyFile(folder / "study.h5"), study);
+  const std::vector<measures::PointSummary> points =
+      study_statistics(reading::StudyFile(folder / "study.h5"), study);
   ASSERT_EQ(points.size(), 7U);
   for (std::size_t point = 0; point < 7; ++point) {
     EXPECT_EQ(points[point].trials, 3);
@@ -110,13 +112,13 @@ TEST(StudyStatistics, EachPointHasAllOfItsTrialsAndNoOther) {
 }
 
 TEST(StudyStatistics, AFileThatContradictsItselfIsRefusedWithTheTrial) {
-  const Study study = testing::plain_study(2, 10, 1);
+  const study::Study study = testing::plain_study(2, 10, 1);
   std::vector<testing::TrialRecord> trials = random_trials(study);
   for (testing::TrialRecord& trial : trials) {
     trial.jerks.clear();
     trial.outcome.moves[0].jerk_count = 0;
   }
-  const Jerk jerk{0, 0.5, 0.01, 1, 1};
+  const trial::Jerk jerk{0, 0.5, 0.01, 1, 1};
 
   std::vector<testing::TrialRecord> missing = trials;
   missing[13].outcome.moves[0].jerk_count = 1;
@@ -136,8 +138,8 @@ TEST(StudyStatistics, AFileThatContradictsItselfIsRefusedWithTheTrial) {
   expect_refused(study, unordered, "trial 5");
 }
 
-Study two_gains() {
-  return parse_study(
+study::Study two_gains() {
+  return manifest::parse_study(
       "zerocount: 1\n"
       "name: two gains\n"
       "seed: 5\n"
@@ -150,11 +152,12 @@ Study two_gains() {
 }
 
 TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
-  const Study study = two_gains();
+  const study::Study study = two_gains();
   const std::vector<testing::TrialRecord> trials = random_trials(study);
   const testing::TemporaryFolder folder;
-  testing::write_study_file(folder / "study.h5", study, trials, prediction_columns(study_predictions(study)));
-  const StudyFile file(folder / "study.h5");
+  testing::write_study_file(folder / "study.h5", study, trials,
+                            measures::prediction_columns(study_predictions(study)));
+  const reading::StudyFile file(folder / "study.h5");
   const StudySummary summary = summarise(file);
 
   EXPECT_EQ(summary.name, "two gains");
@@ -168,25 +171,25 @@ TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
   ASSERT_EQ(summary.predictions.size(), 2U);
   std::int64_t stiff = 0;
   for (std::int64_t i = 0; i < study.trials; ++i) {
-    stiff += study_trial(study, 0, i).parameters.friction.uniform.k1 == 120.0;
+    stiff += study::study_trial(study, 0, i).parameters.friction.uniform.k1 == 120.0;
   }
   EXPECT_GT(stiff, 0);
   EXPECT_LT(stiff, study.trials);
   EXPECT_EQ(summary.predictions[0].trials, 30);
   EXPECT_EQ(summary.predictions[0].stable, stiff);
-  EXPECT_EQ(verdict(summary.predictions[1]), "unstable");
+  EXPECT_EQ(measures::verdict(summary.predictions[1]), "unstable");
 
   const nlohmann::ordered_json json = summary_json(summary);
   EXPECT_EQ(json["points"][0]["axes"]["case"], "low");
 }
 
 TEST(Summarise, TakesWhatTheCriteriaSayFromTheFile) {
-  const Study study = two_gains();
+  const study::Study study = two_gains();
   const testing::TemporaryFolder folder;
-  const std::vector<PointColumn> stored =
-      prediction_columns(std::vector<TheoryPrediction>{{30, 7, 2}, {30, 0, 30}});
+  const std::vector<layout::PointColumn> stored =
+      measures::prediction_columns(std::vector<measures::TheoryPrediction>{{30, 7, 2}, {30, 0, 30}});
   testing::write_study_file(folder / "stored.h5", study, random_trials(study), stored);
-  const StudySummary summary = summarise(StudyFile(folder / "stored.h5"));
+  const StudySummary summary = summarise(reading::StudyFile(folder / "stored.h5"));
   EXPECT_EQ(summary.predictions[0].stable, 7);
   EXPECT_EQ(summary.predictions[0].unstable, 2);
   EXPECT_EQ(summary.predictions[1].unstable, 30);
@@ -194,18 +197,18 @@ TEST(Summarise, TakesWhatTheCriteriaSayFromTheFile) {
 
 TEST(Summarise, ReadsAFileOfFormatVersion1) {
   const testing::TemporaryFolder folder;
-  const StudySummary summary = summarise(StudyFile(testing::version_1_file(folder.path())));
+  const StudySummary summary = summarise(reading::StudyFile(testing::version_1_file(folder.path())));
   EXPECT_EQ(summary.labels, (std::vector<std::string>{"low", "high"}));
   EXPECT_EQ(summary.points[0].success_rate().value, 1.0);
   EXPECT_EQ(summary.points[1].success_rate().value, 0.0);
-  for (const PointSummary& point : summary.points) {
+  for (const measures::PointSummary& point : summary.points) {
     EXPECT_EQ(point.judged, 3);
-    EXPECT_EQ(point.of(&MoveOutcome::final_error).n, 0);
-    EXPECT_TRUE(std::isnan(point.of(&MoveOutcome::final_error).mean));
-    EXPECT_EQ(point.of(&MoveOutcome::true_error).n, 0);
-    EXPECT_TRUE(std::isnan(point.of(&MoveOutcome::true_error).mean) &&
-                std::isnan(point.of(&MoveOutcome::true_error).rms));
-    EXPECT_EQ(point.of(&MoveOutcome::travel_time).mean, 0.0);
+    EXPECT_EQ(point.of(&trial::MoveOutcome::final_error).n, 0);
+    EXPECT_TRUE(std::isnan(point.of(&trial::MoveOutcome::final_error).mean));
+    EXPECT_EQ(point.of(&trial::MoveOutcome::true_error).n, 0);
+    EXPECT_TRUE(std::isnan(point.of(&trial::MoveOutcome::true_error).mean) &&
+                std::isnan(point.of(&trial::MoveOutcome::true_error).rms));
+    EXPECT_EQ(point.of(&trial::MoveOutcome::travel_time).mean, 0.0);
   }
   const nlohmann::ordered_json json = nlohmann::ordered_json::parse(summary_json_text(summary));
   EXPECT_TRUE(json["points"][0]["final_error"]["median"].is_null());
@@ -213,20 +216,20 @@ TEST(Summarise, ReadsAFileOfFormatVersion1) {
 }
 
 TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
-  const Study study = two_gains();
+  const study::Study study = two_gains();
   const testing::TemporaryFolder folder;
-  const auto expect_bad = [&](const std::vector<PointColumn>& columns, const std::string& words) {
+  const auto expect_bad = [&](const std::vector<layout::PointColumn>& columns, const std::string& words) {
     std::filesystem::remove(folder / "bad.h5");
     testing::write_study_file(folder / "bad.h5", study, random_trials(study), columns);
     try {
-      summarise(StudyFile(folder / "bad.h5"));
+      summarise(reading::StudyFile(folder / "bad.h5"));
       ADD_FAILURE() << "expected a failure: " << words;
     } catch (const Failure& failure) {
       EXPECT_EQ(failure.code(), ExitCode::bad_data);
       EXPECT_NE(std::string(failure.what()).find(words), std::string::npos) << failure.what();
     }
   };
-  std::vector<PointColumn> columns = prediction_columns(study_predictions(study));
+  std::vector<layout::PointColumn> columns = measures::prediction_columns(study_predictions(study));
   columns[0].values[1] = 1.5;
   expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: 1.5 is no proportion");
   columns.erase(columns.begin());
@@ -234,25 +237,25 @@ TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
 }
 
 TEST(Predictions, OfPointsThatTheCriteriaAreNotAboutComeBackAsSuch) {
-  const std::vector<TheoryPrediction> predictions{{30, 0, 0, 30}, {30, 12, 3, 0}};
-  const std::vector<PointColumn> columns = prediction_columns(predictions);
+  const std::vector<measures::TheoryPrediction> predictions{{30, 0, 0, 30}, {30, 12, 3, 0}};
+  const std::vector<layout::PointColumn> columns = measures::prediction_columns(predictions);
   EXPECT_TRUE(std::isnan(columns[0].values[0]) && std::isnan(columns[1].values[0]));
-  const std::vector<TheoryPrediction> back = predictions_of(columns, 30, "file");
+  const std::vector<measures::TheoryPrediction> back = measures::predictions_of(columns, 30, "file");
   EXPECT_EQ(back[0].outside, 30);
-  EXPECT_EQ(verdict(back[0]), "not applicable");
+  EXPECT_EQ(measures::verdict(back[0]), "not applicable");
   EXPECT_EQ(back[1].outside, 0);
   EXPECT_EQ(back[1].stable, 12);
 }
 
 TEST(Predictions, ComeBackFromTheirColumnsExactly) {
   for (const std::int64_t trials : {1LL, 3LL, 7LL, 1000LL, 999983LL, 4000000007LL}) {
-    std::vector<TheoryPrediction> predictions;
+    std::vector<measures::TheoryPrediction> predictions;
     for (std::int64_t k = 0; k < 200; ++k) {
       const std::int64_t stable = k * 7919 * 104729 % (trials + 1);
       predictions.push_back({trials, stable, trials - stable});
     }
-    const std::vector<TheoryPrediction> back =
-        predictions_of(prediction_columns(predictions), trials, "file");
+    const std::vector<measures::TheoryPrediction> back =
+        measures::predictions_of(measures::prediction_columns(predictions), trials, "file");
     ASSERT_EQ(back.size(), predictions.size());
     for (std::size_t i = 0; i < back.size(); ++i) {
       EXPECT_EQ(back[i].trials, trials);
@@ -263,4 +266,4 @@ TEST(Predictions, ComeBackFromTheirColumnsExactly) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::summary

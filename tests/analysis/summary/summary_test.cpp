@@ -16,26 +16,26 @@
 #include "analysis/measures/statistic_fields.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
 /// Statistics of `zero` trials that succeed at random times with jerks and `lost` that never arrive.
-PointSummary point_of(int zero, int lost) {
+measures::PointSummary point_of(int zero, int lost) {
   std::mt19937_64 random(51);
-  PointAccumulator point;
+  measures::PointAccumulator point;
   for (int i = 0; i < zero; ++i) {
-    MoveOutcome move;
-    move.outcome = Outcome::zero_count;
+    trial::MoveOutcome move;
+    move.outcome = trial::Outcome::zero_count;
     move.arrived = move.stable = true;
     move.settling_time = static_cast<double>(random() % 400) / 2000.0;
     move.holding_torque = 0.013 + 1e-5 * static_cast<double>(random() % 1000);
     move.jerk_count = 2;
     const double onset = static_cast<double>(random() % 1000) / 2000.0;
-    point.add({{move}}, std::vector<Jerk>{{0, onset, 0.001, 1, 1}, {0, onset + 0.1, 0.001, 1, -1}});
+    point.add({{move}}, std::vector<trial::Jerk>{{0, onset, 0.001, 1, 1}, {0, onset + 0.1, 0.001, 1, -1}});
   }
   for (int i = 0; i < lost; ++i) {
-    MoveOutcome move;
-    move.outcome = Outcome::oscillating;
+    trial::MoveOutcome move;
+    move.outcome = trial::Outcome::oscillating;
     point.add({{move}}, {});
   }
   return point.statistics();
@@ -45,9 +45,13 @@ StudySummary two_cases() {
   StudySummary summary;
   summary.name = "paper-gains";
   summary.labels = {"low gain", "high, gain"};
-  summary.axes.push_back({"case", "", "case of the sweep", SweepAxis::Kind::text, {}, {"a", "b"}});
-  summary.axes.push_back(
-      {"controller.ki", "N m/count", "integral gain", SweepAxis::Kind::number, {3.85e-5, std::nan("")}, {}});
+  summary.axes.push_back({"case", "", "case of the sweep", study::SweepAxis::Kind::text, {}, {"a", "b"}});
+  summary.axes.push_back({"controller.ki",
+                          "N m/count",
+                          "integral gain",
+                          study::SweepAxis::Kind::number,
+                          {3.85e-5, std::nan("")},
+                          {}});
   summary.observed = {{"low gain", "stable in all tests"}};
   summary.points = {point_of(40, 0), point_of(0, 7)};
   summary.predictions = {{40, 40, 0}, {7, 1, 2}};
@@ -122,15 +126,15 @@ TEST(SummaryJson, NumbersReadBackToTheSameDouble) {
   const StudySummary summary = two_cases();
   const auto json = nlohmann::json::parse(summary_json_text(summary));
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
-    for (const StatisticField& field : statistic_fields()) {
+    for (const measures::StatisticField& field : measures::statistic_fields()) {
       const auto& place =
           field.group.empty() ? json["points"][i] : json["points"][i][std::string(field.group)];
       const auto& written = place[std::string(field.name)];
       const double value = field.value(summary.points[i]);
       if (std::isnan(value)) {
-        EXPECT_TRUE(written.is_null()) << flat_name(field);
+        EXPECT_TRUE(written.is_null()) << text::flat_name(field);
       } else {
-        EXPECT_TRUE(same_double(written.get<double>(), value)) << flat_name(field);
+        EXPECT_TRUE(same_double(written.get<double>(), value)) << text::flat_name(field);
       }
     }
   }
@@ -152,13 +156,13 @@ TEST(SummaryCsv, HasALinePerPointAndReadsBackToTheSameDoubles) {
   std::istringstream row(lines[1]);
   std::string cell;
   for (int skipped = 0; skipped < 4; ++skipped) std::getline(row, cell, ',');
-  for (const StatisticField& field : statistic_fields()) {
+  for (const measures::StatisticField& field : measures::statistic_fields()) {
     ASSERT_TRUE(std::getline(row, cell, ','));
     const double value = field.value(summary.points[0]);
     if (std::isnan(value)) {
-      EXPECT_EQ(cell, "nan") << flat_name(field);
+      EXPECT_EQ(cell, "nan") << text::flat_name(field);
     } else {
-      EXPECT_TRUE(same_double(std::stod(cell), value)) << flat_name(field) << ": " << cell;
+      EXPECT_TRUE(same_double(std::stod(cell), value)) << text::flat_name(field) << ": " << cell;
     }
   }
   EXPECT_EQ(lines[1].substr(lines[1].size() - 30), "1,0,stable,stable in all tests");
@@ -222,9 +226,10 @@ TEST(SummaryTable, ShowsTheValuesOfAGridInPlaceOfItsLabels) {
   summary.labels = {"a, controller.kp=0, controller.coarse.kp=1",
                     "a, controller.kp=0.5, controller.coarse.kp=1"};
   summary.axes[0].texts = {"a", "a"};
-  summary.axes[1] = {"controller.kp", "N m/count", "", SweepAxis::Kind::number, {0, 0.5}, {}};
-  summary.axes.push_back({"controller.coarse.kp", "N m/count", "", SweepAxis::Kind::number, {1, 1}, {}});
-  summary.axes.push_back({"command.targets.0", "count", "", SweepAxis::Kind::number, {7, 8}, {}});
+  summary.axes[1] = {"controller.kp", "N m/count", "", study::SweepAxis::Kind::number, {0, 0.5}, {}};
+  summary.axes.push_back(
+      {"controller.coarse.kp", "N m/count", "", study::SweepAxis::Kind::number, {1, 1}, {}});
+  summary.axes.push_back({"command.targets.0", "count", "", study::SweepAxis::Kind::number, {7, 8}, {}});
   const std::vector<std::string> lines = lines_of(summary_table(summary));
   EXPECT_EQ(lines[2].rfind("point  case  kp (N m/count)  targets.0 (count)  trials", 0), 0U) << lines[2];
   EXPECT_EQ(lines[5].rfind("    1  a                0.5                  8", 0), 0U) << lines[5];
@@ -233,7 +238,7 @@ TEST(SummaryTable, ShowsTheValuesOfAGridInPlaceOfItsLabels) {
 TEST(SummaryTable, LeavesManySweptParametersToTheLabels) {
   StudySummary summary = two_cases();
   for (const char* name : {"dac.offset", "dac.noise", "dac.bits", "controller.kp"}) {
-    summary.axes.push_back({name, "1", "", SweepAxis::Kind::number, {0, 1}, {}});
+    summary.axes.push_back({name, "1", "", study::SweepAxis::Kind::number, {0, 1}, {}});
   }
   EXPECT_EQ(lines_of(summary_table(summary))[2].rfind("point       trials", 0), 0U);
 }
@@ -261,13 +266,13 @@ TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {
     EXPECT_EQ(plain.find(head), std::string::npos) << head;
   }
   summary.features = {.travel = true, .phases = true, .encoder_errors = true, .final_error = true};
-  summary.points[0].of(&MoveOutcome::travel_time).mean = 0.25;
-  summary.points[0].of(&MoveOutcome::phase_changes).mean = 3.0;
-  summary.points[0].of(&MoveOutcome::final_error).median.value = 17.0;
-  summary.points[0].of(&MoveOutcome::final_error).p95.value = 29.0;
-  summary.points[0].of(&MoveOutcome::encoder_disagreement).trials = 10;
-  summary.points[0].of(&MoveOutcome::true_error).mean = 3.25;
-  summary.points[0].of(&MoveOutcome::true_error).max = 4.0;
+  summary.points[0].of(&trial::MoveOutcome::travel_time).mean = 0.25;
+  summary.points[0].of(&trial::MoveOutcome::phase_changes).mean = 3.0;
+  summary.points[0].of(&trial::MoveOutcome::final_error).median.value = 17.0;
+  summary.points[0].of(&trial::MoveOutcome::final_error).p95.value = 29.0;
+  summary.points[0].of(&trial::MoveOutcome::encoder_disagreement).trials = 10;
+  summary.points[0].of(&trial::MoveOutcome::true_error).mean = 3.25;
+  summary.points[0].of(&trial::MoveOutcome::true_error).max = 4.0;
   const std::vector<std::string> lines = lines_of(summary_table(summary));
   for (const char* head : {"travel (s)", "|e| median", "|e| p95", "phase changes", "|true e| mean",
                            "|true e| max", "disagreeing"}) {
@@ -288,12 +293,12 @@ TEST(Summary, SaysThatTheBoundsOfASaltelliDesignAreTooNarrow) {
 
 TEST(Summary, SaysHowManyTrialsWereStoppedWhereAStudyCanStopThem) {
   StudySummary summary = two_cases();
-  MeasureStatistics& stopped = summary.points[1].of(&MoveOutcome::stopped);
+  measures::MeasureStatistics& stopped = summary.points[1].of(&trial::MoveOutcome::stopped);
   stopped.trials = stopped.by_move[0] = 5;
   EXPECT_EQ(summary_table(summary).find("stopped"), std::string::npos);
   EXPECT_EQ(summary_csv(summary).find("stopped"), std::string::npos);
   EXPECT_EQ(summary_json_text(summary).find("stopped"), std::string::npos);
-  const std::size_t columns = point_columns(summary.points).size();
+  const std::size_t columns = measures::point_columns(summary.points).size();
 
   summary.features.stopping = true;
   const std::vector<std::string> lines = lines_of(summary_table(summary));
@@ -305,7 +310,7 @@ TEST(Summary, SaysHowManyTrialsWereStoppedWhereAStudyCanStopThem) {
   EXPECT_EQ(json["points"][0]["stopped"], 0);
   EXPECT_EQ(json["points"][1]["stopped"], 5);
   EXPECT_EQ(json["points"][1]["moves"][0]["stopped"], 5);
-  const std::vector<PointColumn> stored = point_columns(summary.points, summary.features);
+  const std::vector<layout::PointColumn> stored = measures::point_columns(summary.points, summary.features);
   ASSERT_EQ(stored.size(), columns + 1);
   EXPECT_EQ(stored.back().name, "stopped");
   EXPECT_EQ(stored.back().values, (std::vector<double>{0, 5}));
@@ -320,12 +325,12 @@ TEST(SummaryTable, HasADashWhereTheCriteriaAreNotAboutAPoint) {
 
 /// Two points of three torque levels; the second lost its one trial in the second level.
 StudySummary load_and_unload() {
-  PointAccumulator sound({.open_loop = true}), lost({.open_loop = true});
+  measures::PointAccumulator sound({.open_loop = true}), lost({.open_loop = true});
   for (int i = 0; i < 4; ++i) {
-    TrialOutcome trial;
+    trial::TrialOutcome trial;
     for (const double torque : {0.1, 0.2, 0.0}) {
-      MoveOutcome move;
-      move.outcome = Outcome::open_loop;
+      trial::MoveOutcome move;
+      move.outcome = trial::Outcome::open_loop;
       move.holding_torque = torque;
       move.final_position = 1e-3 * torque + 1e-6 * i;
       move.creep = 1e-7;
@@ -335,7 +340,7 @@ StudySummary load_and_unload() {
     }
     sound.add(trial, {});
     if (i == 0) {
-      trial.moves[1] = trial.moves[2] = MoveOutcome{};
+      trial.moves[1] = trial.moves[2] = trial::MoveOutcome{};
       lost.add(trial, {});
     }
   }
@@ -415,10 +420,10 @@ TEST(Summary, PartsOfDifferentLengthAreRefused) {
 
 TEST(PointColumns, AreTheFieldsOfTheReportByPoint) {
   const StudySummary summary = two_cases();
-  const std::vector<PointColumn> columns = point_columns(summary.points);
-  ASSERT_EQ(columns.size(), statistic_fields().size());
+  const std::vector<layout::PointColumn> columns = measures::point_columns(summary.points);
+  ASSERT_EQ(columns.size(), measures::statistic_fields().size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    EXPECT_EQ(columns[i].name, flat_name(statistic_fields()[i]));
+    EXPECT_EQ(columns[i].name, text::flat_name(measures::statistic_fields()[i]));
     EXPECT_FALSE(columns[i].unit.empty());
     EXPECT_FALSE(columns[i].long_name.empty());
     EXPECT_EQ(columns[i].values.size(), 2U);
@@ -428,10 +433,10 @@ TEST(PointColumns, AreTheFieldsOfTheReportByPoint) {
       std::find_if(columns.begin(), columns.end(), [](const auto& c) { return c.name == "success_rate"; });
   ASSERT_NE(success, columns.end());
   EXPECT_EQ(success->values, (std::vector<double>{1.0, 0.0}));
-  const std::vector<PointColumn> predictions = prediction_columns(summary.predictions);
+  const std::vector<layout::PointColumn> predictions = measures::prediction_columns(summary.predictions);
   EXPECT_EQ(predictions[0].values, (std::vector<double>{1.0, 1.0 / 7.0}));
   EXPECT_EQ(predictions[1].values, (std::vector<double>{0.0, 2.0 / 7.0}));
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -12,27 +12,27 @@
 #include "analysis/statistics/tolerance.hpp"
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
-MoveOutcome arrived_after(double seconds) {
-  MoveOutcome move;
-  move.outcome = Outcome::zero_count;
+trial::MoveOutcome arrived_after(double seconds) {
+  trial::MoveOutcome move;
+  move.outcome = trial::Outcome::zero_count;
   move.arrived = move.stable = true;
   move.settling_time = seconds;
   return move;
 }
 
-MoveOutcome never_arrived() {
-  MoveOutcome move;
-  move.outcome = Outcome::oscillating;
+trial::MoveOutcome never_arrived() {
+  trial::MoveOutcome move;
+  move.outcome = trial::Outcome::oscillating;
   return move;
 }
 
 /// Trials of two moves; `lost` of them have one that never arrives. The slowest times go to `slowest`.
-PointAccumulator trials_of_two_moves(int trials, int lost, std::vector<double>& slowest) {
+measures::PointAccumulator trials_of_two_moves(int trials, int lost, std::vector<double>& slowest) {
   std::mt19937_64 random(121);
-  PointAccumulator point;
+  measures::PointAccumulator point;
   for (int i = 0; i < trials; ++i) {
     const double first = 0.0005 * static_cast<double>(random() % 900);
     const double second = 0.0005 * static_cast<double>(random() % 900);
@@ -46,11 +46,12 @@ PointAccumulator trials_of_two_moves(int trials, int lost, std::vector<double>& 
 TEST(AssuranceSection, LimitsAreOfTheSlowestMovesAndNeverArrivingIsBeyondThemAll) {
   for (const int lost : {0, 3, 20}) {
     std::vector<double> slowest;
-    const PointSummary point = trials_of_two_moves(400, lost, slowest).statistics();
-    for (std::size_t i = 0; i < std::size(tolerance_contents); ++i) {
-      const ToleranceLimit& limit = point.settles_within.at(i);
-      const auto rank = static_cast<std::size_t>(tolerance_rank(400, tolerance_contents[i], 0.95));
-      EXPECT_EQ(limit.content, tolerance_contents[i]);
+    const measures::PointSummary point = trials_of_two_moves(400, lost, slowest).statistics();
+    for (std::size_t i = 0; i < std::size(statistics::tolerance_contents); ++i) {
+      const statistics::ToleranceLimit& limit = point.settles_within.at(i);
+      const auto rank =
+          static_cast<std::size_t>(statistics::tolerance_rank(400, statistics::tolerance_contents[i], 0.95));
+      EXPECT_EQ(limit.content, statistics::tolerance_contents[i]);
       if (rank <= slowest.size()) {
         EXPECT_EQ(limit.within, slowest[rank - 1]);
       } else {
@@ -63,10 +64,10 @@ TEST(AssuranceSection, LimitsAreOfTheSlowestMovesAndNeverArrivingIsBeyondThemAll
 
 TEST(AssuranceSection, TellsTheSameInEveryForm) {
   std::vector<double> slowest;
-  const std::vector<PointSummary> points{
+  const std::vector<measures::PointSummary> points{
       trials_of_two_moves(400, 3, slowest).statistics({.confidence = 0.9}),
       trials_of_two_moves(100, 0, slowest).statistics({.confidence = 0.9})};
-  const SummarySection section = tolerance_section(points, {"some", "all"});
+  const measures::SummarySection section = tolerance_section(points, {"some", "all"});
   EXPECT_EQ(section.key, "assurance");
   ASSERT_EQ(section.json.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -77,7 +78,7 @@ TEST(AssuranceSection, TellsTheSameInEveryForm) {
     EXPECT_EQ(section.columns[2].values[i], json["settling_time"][0]["within"]);
     const auto statement = json["statement"].get<std::string>();
     EXPECT_NE(section.text.find(statement), std::string::npos) << section.text;
-    EXPECT_EQ(statement.rfind(claim_sentence(points[i].claim), 0), 0U);
+    EXPECT_EQ(statement.rfind(statistics::claim_sentence(points[i].claim), 0), 0U);
   }
   EXPECT_EQ(section.columns[0].name, "success_at_least");
   EXPECT_EQ(section.columns[4].name, "settling_within_99_9");
@@ -87,15 +88,15 @@ TEST(AssuranceSection, TellsTheSameInEveryForm) {
 
 TEST(AssuranceSection, BoundsOfMeansAreThoseOfTheBootstrapOfTheirPoint) {
   std::vector<double> slowest;
-  const PointAccumulator point = trials_of_two_moves(60, 0, slowest);
-  const MeasureStatistics none = point.statistics().of(&MoveOutcome::settling_time);
+  const measures::PointAccumulator point = trials_of_two_moves(60, 0, slowest);
+  const measures::MeasureStatistics none = point.statistics().of(&trial::MoveOutcome::settling_time);
   EXPECT_TRUE(std::isnan(none.mean_bounds.low));
-  const MeasureStatistics first =
-      point.statistics({.bootstrap = BootstrapDraws{7, 0}}).of(&MoveOutcome::settling_time);
-  const MeasureStatistics again =
-      point.statistics({.bootstrap = BootstrapDraws{7, 0}}).of(&MoveOutcome::settling_time);
-  const MeasureStatistics other =
-      point.statistics({.bootstrap = BootstrapDraws{7, 1}}).of(&MoveOutcome::settling_time);
+  const measures::MeasureStatistics first =
+      point.statistics({.bootstrap = measures::BootstrapDraws{7, 0}}).of(&trial::MoveOutcome::settling_time);
+  const measures::MeasureStatistics again =
+      point.statistics({.bootstrap = measures::BootstrapDraws{7, 0}}).of(&trial::MoveOutcome::settling_time);
+  const measures::MeasureStatistics other =
+      point.statistics({.bootstrap = measures::BootstrapDraws{7, 1}}).of(&trial::MoveOutcome::settling_time);
   EXPECT_LT(first.mean_bounds.low, first.mean);
   EXPECT_GT(first.mean_bounds.high, first.mean);
   EXPECT_EQ(again.mean_bounds.low, first.mean_bounds.low);
@@ -106,35 +107,37 @@ TEST(AssuranceSection, BoundsOfMeansAreThoseOfTheBootstrapOfTheirPoint) {
 
 TEST(AssuranceSection, TrialsThatWereStoppedByTheirOutcomesClaimLess) {
   std::vector<double> slowest;
-  const PointAccumulator point = trials_of_two_moves(400, 3, slowest);
-  const PointSummary planned = point.statistics();
-  const PointSummary stopped = point.statistics({.stopped_by_outcomes = true});
+  const measures::PointAccumulator point = trials_of_two_moves(400, 3, slowest);
+  const measures::PointSummary planned = point.statistics();
+  const measures::PointSummary stopped = point.statistics({.stopped_by_outcomes = true});
   EXPECT_LT(stopped.claim.success_at_least, planned.claim.success_at_least);
   EXPECT_GT(stopped.claim.success_at_least, 0.9);
   EXPECT_EQ(stopped.claim.failure_at_most, 1.0 - stopped.claim.success_at_least);
-  for (const ToleranceLimit& limit : stopped.settles_within) EXPECT_TRUE(std::isnan(limit.within));
+  for (const statistics::ToleranceLimit& limit : stopped.settles_within)
+    EXPECT_TRUE(std::isnan(limit.within));
 }
 
 TEST(AssuranceSection, TellsOfRigsWhereTrialsShareThem) {
-  PointAccumulator on_rigs({.rigs = 40}), stopped({.rigs = 40});
+  measures::PointAccumulator on_rigs({.rigs = 40}), stopped({.rigs = 40});
   for (int trial = 0; trial < 4000; ++trial) {
     const bool failed = trial % 40 == 3;  // one rig always does
     on_rigs.add({{failed ? never_arrived() : arrived_after(0.05)}}, {});
     stopped.add({{failed ? never_arrived() : arrived_after(0.05)}}, {});
   }
-  const std::vector<PointSummary> points{on_rigs.statistics()};
-  const PointSummary& point = points.front();
+  const std::vector<measures::PointSummary> points{on_rigs.statistics()};
+  const measures::PointSummary& point = points.front();
   EXPECT_EQ(point.rigs.n, 40);
   EXPECT_NEAR(point.rigs.without_failure, 39.0 / 40.0, 1e-15);
   EXPECT_NEAR(point.success_rate().value, 39.0 / 40.0, 1e-15);
   EXPECT_LT(point.success_rate().clopper_pearson.low, 0.9);  // of 4000 independent trials 0.97
-  const SummarySection section = tolerance_section(points, {"only"});
-  EXPECT_NE(section.text.find(tolerance_sentence(point.rigs.tolerance)), std::string::npos) << section.text;
+  const measures::SummarySection section = tolerance_section(points, {"only"});
+  EXPECT_NE(section.text.find(statistics::tolerance_sentence(point.rigs.tolerance)), std::string::npos)
+      << section.text;
   EXPECT_NE(section.text.find("of trials on all rigs succeed"), std::string::npos) << section.text;
   EXPECT_NE(section.text.find("(100 failures in 4000 trials on 40 rigs)"), std::string::npos);
   EXPECT_EQ(section.json[0]["rigs"]["content"], 0.9);
   EXPECT_EQ(section.json[0]["rigs"]["zero_at_least"], point.rigs.tolerance.zero_at_least);
-  const PointSummary decided = stopped.statistics({.stopped_by_outcomes = true});
+  const measures::PointSummary decided = stopped.statistics({.stopped_by_outcomes = true});
   EXPECT_LE(decided.claim.success_at_least, point.claim.success_at_least);
   EXPECT_EQ(decided.rigs.tolerance.min_rigs, 0);
 }
@@ -145,4 +148,4 @@ TEST(AssuranceSection, AConfidenceThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::summary

@@ -9,7 +9,7 @@
 #include "core/trial/last_half.hpp"
 #include "core/trial/trial.hpp"
 
-namespace zerocount {
+namespace zerocount::summary {
 namespace {
 
 // An exponential read in whole counts: the estimate is as good as the rounding of its two errors allows.
@@ -26,7 +26,7 @@ TEST(TimeToZero, IsThatOfAnExponentialDecay) {
     const auto error_at = [&](std::int64_t k) {
       return start * std::exp(-static_cast<double>(k) * sample_time / tau);
     };
-    const std::int64_t midway = std::llround(error_at(first_of_last_half(samples)));
+    const std::int64_t midway = std::llround(error_at(trial::first_of_last_half(samples)));
     const std::int64_t final_error = std::llround(error_at(samples - 1));
     if (final_error < 20 || final_error == midway) continue;
     const double zero = tau * std::log(2.0 * start);
@@ -43,19 +43,20 @@ TEST(TimeToZero, DecidesMostMovesOfASlowLoop) {
   for (const double ki : {2.0e-7, 5.0e-7, 1.0e-6}) {
     int off_target = 0, decided = 0;
     for (std::int64_t target = 3; target <= 30; target += 3) {
-      TrialParameters p;
+      trial::TrialParameters p;
       p.controller.ki = ki;
       p.command.targets = {target};
       p.command.hold = 0.3;
-      const MoveOutcome move = run_trial(p).moves[0];
-      if (move.outcome != Outcome::off_target || std::abs(move.final_error) >= std::abs(move.midway_error))
+      const trial::MoveOutcome move = trial::run_trial(p).moves[0];
+      if (move.outcome != trial::Outcome::off_target ||
+          std::abs(move.final_error) >= std::abs(move.midway_error))
         continue;
       ++off_target;
-      p.command.hold = time_to_zero(move.midway_error, move.final_error, samples_of_move(p, 0),
+      p.command.hold = time_to_zero(move.midway_error, move.final_error, trial::samples_of_move(p, 0),
                                     1.0 / p.controller.sample_rate) +
                        p.verdict.dwell;
-      const Outcome later = run_trial(p).moves[0].outcome;
-      decided += later == Outcome::zero_count || later == Outcome::one_count;
+      const trial::Outcome later = trial::run_trial(p).moves[0].outcome;
+      decided += later == trial::Outcome::zero_count || later == trial::Outcome::one_count;
     }
     EXPECT_GE(off_target, 7) << ki;
     EXPECT_GE(10 * decided, 7 * off_target) << ki;
@@ -63,20 +64,20 @@ TEST(TimeToZero, DecidesMostMovesOfASlowLoop) {
 }
 
 TEST(Undecided, AreToldWithTheHoldThatWouldDecideThem) {
-  EXPECT_EQ(undecided_sentence({.moves = 3000}), "");
+  EXPECT_EQ(measures::undecided_sentence({.moves = 3000}), "");
   EXPECT_EQ(
-      undecided_sentence({3000, 2736, 2700, 0, 0, 2.1}),
+      measures::undecided_sentence({3000, 2736, 2700, 0, 0, 2.1}),
       "2736 of 3000 moves ended more than one count off their target without oscillating; the error was "
       "still falling in 2700 of 3000 moves at the end of the hold; hold ≥ about 2.1 s");
   EXPECT_EQ(
-      undecided_sentence({.moves = 10, .off_target = 4}),
+      measures::undecided_sentence({.moves = 10, .off_target = 4}),
       "4 of 10 moves ended more than one count off their target without oscillating; in none of them was "
       "the error still falling: they have stalled");
 }
 
 TEST(Undecided, AreToldOfMovesThatOnlySeemToOscillate) {
   EXPECT_EQ(
-      undecided_sentence({300, 184, 183, 53, 29, 1.5}),
+      measures::undecided_sentence({300, 184, 183, 53, 29, 1.5}),
       "184 of 300 moves ended more than one count off their target without oscillating; the error was still "
       "falling in 183 of 300 moves at the end of the hold; it was falling, with a ripple of one count, in 53 "
       "more that count as oscillating; it had fallen to within one count, without arrival, in 29 more; hold "
@@ -85,9 +86,9 @@ TEST(Undecided, AreToldOfMovesThatOnlySeemToOscillate) {
 }
 
 TEST(Undecided, SectionHasALineForEachPointThatHasSome) {
-  std::vector<PointSummary> points(2);
+  std::vector<measures::PointSummary> points(2);
   points[1].undecided = {3000, 2736, 2700, 0, 0, 2.1};
-  const SummarySection section = undecided_section(points, {"fast", "slow"});
+  const measures::SummarySection section = undecided_section(points, {"fast", "slow"});
   EXPECT_EQ(section.text.find("fast"), std::string::npos);
   EXPECT_NE(section.text.find("slow: 2736 of 3000"), std::string::npos);
   EXPECT_NE(section.text.find("neither stable nor shown unstable"), std::string::npos);
@@ -98,4 +99,4 @@ TEST(Undecided, SectionHasALineForEachPointThatHasSome) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::summary

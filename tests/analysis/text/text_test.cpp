@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::text {
 namespace {
 
 TEST(Text, OnlyNoneIsZeroPercentAndOnlyAllIsAHundred) {
@@ -52,4 +52,4 @@ TEST(Text, ColumnsOfATableAlignWhateverTheScript) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::text

@@ -18,12 +18,12 @@ constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-PeerContact::PeerContact(const TrialParameters& p, double rest)
+PeerContact::PeerContact(const trial::TrialParameters& p, double rest)
     : plant_(p.plant),
       friction_(p.friction),
       position_(p.initial.position),
       rest_(rest),
-      contact_(friction_at(p.friction, position_)),
+      contact_(friction::friction_at(p.friction, position_)),
       spring_(contact_),
       hardening_at_anchor_(p.initial.hardening) {
   spring_.start_preloaded(p.initial.preload);
@@ -32,7 +32,7 @@ PeerContact::PeerContact(const TrialParameters& p, double rest)
   deepest_ = depth();
 }
 
-void PeerContact::adopt_contact(const FrictionParameters& friction) {
+void PeerContact::adopt_contact(const friction::FrictionParameters& friction) {
   contact_ = friction;
   frequency_ = std::sqrt((contact_.k1 + contact_.k2) / plant_.inertia);
   law_.sliding = false;
@@ -43,13 +43,13 @@ void PeerContact::adopt_contact(const FrictionParameters& friction) {
   law_.per_lambda = 1.0 / contact_.lambda;
   law_.n = contact_.n;
   law_.alpha = 0.0;
-  creep_onset_torque_ = creep_onset_torque(contact_, hardening_at_anchor_ + rest_);
+  creep_onset_torque_ = friction::creep_onset_torque(contact_, hardening_at_anchor_ + rest_);
   rest_duration_ = 0.0;
   adopt_branch();
 }
 
 void PeerContact::adopt_branch() {
-  const SpringBranch& branch = spring_.branch();
+  const friction::SpringBranch& branch = spring_.branch();
   law_.anchor = branch.elongation;
   law_.anchor_torque = branch.torque;
   law_.sign = branch.sign;
@@ -80,11 +80,11 @@ void PeerContact::begin(PeerState& y) {
     const double motion = omega != 0.0 ? omega : unbalanced;
     const double hook_torque = sigma + law_.damping * omega;
     if (std::abs(hook_torque) >= contact_.breakaway && hook_torque * motion > 0.0) {
-      break_away(sign_of(motion), y);
+      break_away(numerics::sign_of(motion), y);
       continue;
     }
     const bool turns = std::abs(rate) <= rounding * std::abs(omega);
-    return adopt_direction(sign_of(turns ? acceleration : rate), y);
+    return adopt_direction(numerics::sign_of(turns ? acceleration : rate), y);
   }
 }
 
@@ -125,14 +125,14 @@ void PeerContact::start_creep(double sigma, const PeerState& y) {
   extension_at_anchor_ = extension(y);
   hardening_at_anchor_ = y[2];
   law_.alpha = contact_.alpha;
-  law_.side = sign_of(sigma);
+  law_.side = numerics::sign_of(sigma);
 }
 
 void PeerContact::end_creep(const PeerState& y) {
   extension_at_anchor_ = extension(y);
   hardening_at_anchor_ = y[2];
   law_.alpha = 0.0;
-  creep_onset_torque_ = creep_onset_torque(contact_, y[2] + rest_);
+  creep_onset_torque_ = friction::creep_onset_torque(contact_, y[2] + rest_);
 }
 
 void PeerContact::happen(PeerEvent event, PeerState& y) {
@@ -155,7 +155,7 @@ void PeerContact::happen(PeerEvent event, PeerState& y) {
       }
       break;
     case PeerEvent::breakaway:
-      break_away(sign_of(y[1]), y);
+      break_away(numerics::sign_of(y[1]), y);
       break;
     case PeerEvent::stop:
       y[1] = 0.0;
@@ -183,9 +183,10 @@ void PeerContact::break_away(double direction, PeerState& y) {
 
 /// A new contact at θ = y[0], at rest.
 void PeerContact::re_stick(PeerState& y) {
-  contact_ = friction_at(friction_, position_ + y[0]);
-  spring_ = HystereticSpring(contact_);
-  spring_.start_virgin(virgin_elongation(contact_, breakaway_spring_torque_), sign_of(law_.sign));
+  contact_ = friction::friction_at(friction_, position_ + y[0]);
+  spring_ = friction::HystereticSpring(contact_);
+  spring_.start_virgin(friction::virgin_elongation(contact_, breakaway_spring_torque_),
+                       numerics::sign_of(law_.sign));
   hook_ = y[0] - spring_.elongation();
   extension_at_anchor_ = hardening_at_anchor_ = 0.0;
   adopt_contact(contact_);

@@ -31,7 +31,7 @@ enum class PeerEvent {
 class PeerContact {
  public:
   /// @param parameters must outlive the contact. @param rest ε, rad.
-  PeerContact(const TrialParameters& parameters, double rest);
+  PeerContact(const trial::TrialParameters& parameters, double rest);
 
   const PeerMotionLaw& law() const { return law_; }
   bool sliding() const { return law_.sliding; }
@@ -92,7 +92,7 @@ class PeerContact {
   }
 
  private:
-  void adopt_contact(const FrictionParameters& friction);
+  void adopt_contact(const friction::FrictionParameters& friction);
   void adopt_branch();
   void adopt_direction(int direction, const PeerState& y);
   double creep_rate(double sigma, const PeerState& y);
@@ -101,13 +101,13 @@ class PeerContact {
   void break_away(double direction, PeerState& y);
   void re_stick(PeerState& y);
 
-  PlantParameters plant_;
-  const FrictionAlongRotor& friction_;
+  motion::PlantParameters plant_;
+  const friction::FrictionAlongRotor& friction_;
   double position_;
   double rest_;
 
-  FrictionParameters contact_;
-  HystereticSpring spring_;
+  friction::FrictionParameters contact_;
+  friction::HystereticSpring spring_;
   PeerMotionLaw law_;
   double frequency_{0.0};  ///< ω₀, rad/s
   double direction_{0.0};

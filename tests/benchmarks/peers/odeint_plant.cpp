@@ -21,7 +21,7 @@ OdeintPlant::Controlled OdeintPlant::controlled(double tolerance) {
   return Controlled(ErrorChecker(tolerance, 0.0, 1.0, 0.0));
 }
 
-OdeintPlant::OdeintPlant(const TrialParameters& p, const OdeintSettings& settings)
+OdeintPlant::OdeintPlant(const trial::TrialParameters& p, const OdeintSettings& settings)
     : contact_(p, settings.rest),
       settings_(settings),
       stepper_(controlled(settings.tolerance)),

@@ -22,7 +22,7 @@ struct OdeintSettings {
 class OdeintPlant {
  public:
   /// @param parameters must outlive the plant.
-  OdeintPlant(const TrialParameters& parameters, const OdeintSettings& settings);
+  OdeintPlant(const trial::TrialParameters& parameters, const OdeintSettings& settings);
 
   /// Applies the torque (N m) from now on.
   void set_torque(double torque);

@@ -16,43 +16,43 @@ namespace zerocount::testing {
 
 /// @throws std::invalid_argument where a trial has more than peer_trial() knows: ideal encoders and
 /// converter, no amplifier, one control phase, stepwise targets, and a rotor that stands at the start.
-void require_plain(const TrialParameters& parameters);
+void require_plain(const trial::TrialParameters& parameters);
 
 /// What the sampled loop shows at a sample, for whoever records it.
 struct PeerSample {
   std::int64_t k{0};
   std::int64_t target{0};
   std::int64_t count{0};
-  DacOutput decided{};
+  loop::DacOutput decided{};
 };
 
 /// The sampled loop around a peer's plant: encoder, PID law, converter, delay, and the measures of each move.
 /// @param observe called with every PeerSample, before the plant moves on.
 template <class PeerPlant, class Observe>
-TrialOutcome peer_trial(const TrialParameters& p, PeerPlant& plant, Observe observe) {
+trial::TrialOutcome peer_trial(const trial::TrialParameters& p, PeerPlant& plant, Observe observe) {
   const double sample_time = 1.0 / p.controller.sample_rate;
-  const Encoder encoder = fine_encoder(p.encoder, p.initial.encoder_phase);
+  const loop::Encoder encoder = loop::fine_encoder(p.encoder, p.initial.encoder_phase);
   constexpr double unbounded = std::numeric_limits<double>::infinity();
-  const bool clamps = p.controller.anti_windup == AntiWindup::clamp;
-  const TorqueRange range{clamps ? lowest_torque(p.dac) : -unbounded,
-                          clamps ? highest_torque(p.dac) : unbounded};
-  Pid controller({p.controller.kp, p.controller.ki, p.controller.kd}, p.initial.integral, range);
-  controller.observe({0.0, static_cast<double>(read_count(encoder, plant.theta()))});
-  TorqueDelay delay(p.controller.delay);
-  TrialOutcome outcome;
+  const bool clamps = p.controller.anti_windup == loop::AntiWindup::clamp;
+  const loop::TorqueRange range{clamps ? loop::lowest_torque(p.dac) : -unbounded,
+                                clamps ? loop::highest_torque(p.dac) : unbounded};
+  loop::Pid controller({p.controller.kp, p.controller.ki, p.controller.kd}, p.initial.integral, range);
+  controller.observe({0.0, static_cast<double>(loop::read_count(encoder, plant.theta()))});
+  loop::TorqueDelay delay(p.controller.delay);
+  trial::TrialOutcome outcome;
   std::int64_t k = 0;
   for (std::size_t m = 0; m < p.command.targets.size(); ++m) {
-    const MoveTiming timing = move_timing(p, m);
+    const trial::MoveTiming timing = trial::move_timing(p, m);
     const std::int64_t target = p.command.targets[m];
-    MoveMeasures measures(timing, static_cast<std::int64_t>(m));
+    trial::MoveMeasures measures(timing, static_cast<std::int64_t>(m));
     plant.contact().forget_deepest();
     const std::int64_t breakaways_before = plant.contact().breakaways();
     const bool sliding_before = plant.contact().sliding();
     for (std::int64_t i = 0; i < timing.samples; ++i, ++k) {
       const double theta = plant.theta();
-      const std::int64_t count = read_count(encoder, theta);
-      const DacOutput decided =
-          convert(p.dac, controller.step({static_cast<double>(target - count), static_cast<double>(count)}));
+      const std::int64_t count = loop::read_count(encoder, theta);
+      const loop::DacOutput decided = loop::convert(
+          p.dac, controller.step({static_cast<double>(target - count), static_cast<double>(count)}));
       observe(PeerSample{k, target, count, decided});
       measures.add(
           {target, count, decided.torque, decided.clipped, theta, plant.contact().extension(plant.state())});
@@ -68,25 +68,25 @@ TrialOutcome peer_trial(const TrialParameters& p, PeerPlant& plant, Observe obse
 
 /// The outcome of a peer's trial alone: what is timed.
 template <class PeerPlant>
-TrialOutcome peer_outcome(const TrialParameters& p, PeerPlant& plant) {
+trial::TrialOutcome peer_outcome(const trial::TrialParameters& p, PeerPlant& plant) {
   return peer_trial(p, plant, [](const PeerSample&) {});
 }
 
 /// The samples of a peer's trial, as run_trial() records them.
 template <class PeerPlant>
-std::vector<SampleRecord> peer_records(const TrialParameters& p, PeerPlant& plant) {
-  const Encoder coarse = coarse_encoder(p.encoder, p.initial.encoder_phase);
-  TorqueDelay delay(p.controller.delay);
-  std::vector<SampleRecord> records;
+std::vector<trial::SampleRecord> peer_records(const trial::TrialParameters& p, PeerPlant& plant) {
+  const loop::Encoder coarse = loop::coarse_encoder(p.encoder, p.initial.encoder_phase);
+  loop::TorqueDelay delay(p.controller.delay);
+  std::vector<trial::SampleRecord> records;
   peer_trial(p, plant, [&](const PeerSample& sample) {
     const PeerState& y = plant.state();
-    SampleRecord record;
+    trial::SampleRecord record;
     record.k = sample.k;
     record.t = static_cast<double>(sample.k) / p.controller.sample_rate;
     record.target = record.reference = sample.target;
     record.count = sample.count;
     record.theta = plant.theta();
-    record.coarse_count = read_count(coarse, record.theta);
+    record.coarse_count = loop::read_count(coarse, record.theta);
     record.error = sample.target - sample.count;
     record.code = sample.decided.code;
     record.torque = sample.decided.torque;
@@ -95,7 +95,7 @@ std::vector<SampleRecord> peer_records(const TrialParameters& p, PeerPlant& plan
     record.xp = plant.contact().extension(y);
     record.xh = plant.contact().hardening(y);
     record.depth = plant.contact().depth();
-    record.mode = plant.contact().sliding() ? HookMode::slide : HookMode::stick;
+    record.mode = plant.contact().sliding() ? trial::HookMode::slide : trial::HookMode::stick;
     records.push_back(record);
   });
   return records;

@@ -12,21 +12,22 @@
 namespace zerocount::testing {
 namespace {
 
-bool is_ideal(const EncoderErrors& errors) {
+bool is_ideal(const loop::EncoderErrors& errors) {
   return errors.eccentricity == 0.0 && errors.interpolation == 0.0 && errors.noise == 0.0 &&
          errors.missed == 0.0;
 }
 
 }  // namespace
 
-void require_plain(const TrialParameters& p) {
+void require_plain(const trial::TrialParameters& p) {
   const bool ideal_loop = is_ideal(p.encoder.fine_errors) && is_ideal(p.encoder.coarse_errors) &&
-                          !has_errors(p.dac) && p.amplifier.bandwidth == 0.0;
-  const bool one_phase = !has_coarse_phase(p.controller) && p.controller.encoder == EncoderChoice::fine;
-  const bool stepwise =
-      p.command.torque.levels.empty() && p.command.profile.shape == ReferenceShape::step && !p.verdict.stop;
+                          !loop::has_errors(p.dac) && p.amplifier.bandwidth == 0.0;
+  const bool one_phase =
+      !loop::has_coarse_phase(p.controller) && p.controller.encoder == loop::EncoderChoice::fine;
+  const bool stepwise = p.command.torque.levels.empty() &&
+                        p.command.profile.shape == loop::ReferenceShape::step && !p.verdict.stop;
   const bool stands =
-      p.initial.velocity == 0.0 && p.initial.history.reversals == 0 && has_spring(p.friction.model);
+      p.initial.velocity == 0.0 && p.initial.history.reversals == 0 && friction::has_spring(p.friction.model);
   if (ideal_loop && one_phase && stepwise && stands) return;
   throw std::invalid_argument(
       "the peers know only ideal encoders and converters, one control phase, stepwise "
@@ -34,12 +35,12 @@ void require_plain(const TrialParameters& p) {
 }
 
 Peer odeint_peer(const std::string& name, const OdeintSettings& settings) {
-  const auto run = [settings](const TrialParameters& p) {
+  const auto run = [settings](const trial::TrialParameters& p) {
     require_plain(p);
     OdeintPlant plant(p, settings);
     return peer_outcome(p, plant);
   };
-  const auto record = [settings](const TrialParameters& p) {
+  const auto record = [settings](const trial::TrialParameters& p) {
     require_plain(p);
     OdeintPlant plant(p, settings);
     return peer_records(p, plant);

@@ -15,8 +15,9 @@ namespace zerocount::testing {
 /// A way of running trials by a library's integrator, for one thread.
 struct Peer {
   std::string name;
-  std::function<TrialOutcome(const TrialParameters&)> run;                  ///< what is timed
-  std::function<std::vector<SampleRecord>(const TrialParameters&)> record;  ///< the same with all samples
+  std::function<trial::TrialOutcome(const trial::TrialParameters&)> run;  ///< what is timed
+  std::function<std::vector<trial::SampleRecord>(const trial::TrialParameters&)>
+      record;  ///< the same with all samples
 };
 
 Peer odeint_peer(const std::string& name, const OdeintSettings& settings);

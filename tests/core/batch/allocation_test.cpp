@@ -22,17 +22,18 @@ class BatchAllocation : public ::testing::Test {
 
 /// Trials, with a place for their outcomes.
 struct Batch {
-  explicit Batch(std::vector<TrialParameters> all) : trials(std::move(all)), outcomes(trials.size()) {
-    for (const TrialParameters& trial : trials) pointers.push_back(&trial);
+  explicit Batch(std::vector<trial::TrialParameters> all) : trials(std::move(all)), outcomes(trials.size()) {
+    for (const trial::TrialParameters& trial : trials) pointers.push_back(&trial);
   }
 
-  std::vector<TrialParameters> trials;
-  std::vector<TrialOutcome> outcomes;
-  std::vector<const TrialParameters*> pointers;
+  std::vector<trial::TrialParameters> trials;
+  std::vector<trial::TrialOutcome> outcomes;
+  std::vector<const trial::TrialParameters*> pointers;
 };
 
 /// How often a run of the batch allocates.
-std::int64_t allocations_in(BatchEngine& engine, Batch& batch, const BatchObservers& observers = {}) {
+std::int64_t allocations_in(batch::BatchEngine& engine, Batch& batch,
+                            const batch::BatchObservers& observers = {}) {
   const std::int64_t before = allocations_so_far();
   engine.run(batch.pointers, batch.outcomes, observers);
   return allocations_so_far() - before;
@@ -43,7 +44,7 @@ std::string hold_of(double samples) {
 }
 
 /// Each lane needs memory for the rises of the count in the last half of a move, once (see LastHalf).
-const std::int64_t lanes = BatchSettings{}.lanes;
+const std::int64_t lanes = batch::BatchSettings{}.lanes;
 
 TEST_F(BatchAllocation, IsCounted) {
   const std::int64_t before = allocations_so_far();
@@ -54,7 +55,7 @@ TEST_F(BatchAllocation, IsCounted) {
 TEST_F(BatchAllocation, DoesNotHappenOnceTheOutcomesHaveTheirPlace) {
   for (const char* name : {"bench-transient", "bench-marginal", "bench-creep"}) {
     Batch batch(bench_trials(name, 0, 400, {hold_of(600)}));
-    BatchEngine engine;
+    batch::BatchEngine engine;
     const std::int64_t first = allocations_in(engine, batch);
     const std::int64_t second = allocations_in(engine, batch);
     std::cout << name << ": " << first << " allocations in the first run of 400 trials, " << second
@@ -65,7 +66,7 @@ TEST_F(BatchAllocation, DoesNotHappenOnceTheOutcomesHaveTheirPlace) {
 
 TEST_F(BatchAllocation, IsOneATrialWhereItsOutcomeHasNoPlace) {
   Batch warm(bench_trials("bench-transient", 0, 400));
-  BatchEngine engine;
+  batch::BatchEngine engine;
   allocations_in(engine, warm);
   Batch fresh(bench_trials("bench-transient", 400, 1000));
   EXPECT_LE(allocations_in(engine, fresh), 1000 + lanes);
@@ -74,7 +75,8 @@ TEST_F(BatchAllocation, IsOneATrialWhereItsOutcomeHasNoPlace) {
 /// Trials whose springs remember more than there is room for in a spring.
 std::int64_t long_memories(const Batch& batch) {
   std::int64_t trials = 0;
-  for (const TrialOutcome& outcome : batch.outcomes) trials += outcome.moves.front().reversal_depth > 48;
+  for (const trial::TrialOutcome& outcome : batch.outcomes)
+    trials += outcome.moves.front().reversal_depth > 48;
   return trials;
 }
 
@@ -82,7 +84,7 @@ TEST_F(BatchAllocation, DoesNotGrowWithTheNumberOfSamplesButForLongMemories) {
   for (const char* name : {"bench-transient", "bench-creep"}) {
     for (const double samples : {300.0, 1200.0, 4800.0}) {
       Batch batch(bench_trials(name, 0, 300, {hold_of(samples)}));
-      BatchEngine engine;
+      batch::BatchEngine engine;
       const std::int64_t allocations = allocations_in(engine, batch);
       std::cout << name << ", " << samples << " samples: " << allocations << " allocations in 300 trials, "
                 << long_memories(batch) << " of them with long memories\n";
@@ -93,10 +95,10 @@ TEST_F(BatchAllocation, DoesNotGrowWithTheNumberOfSamplesButForLongMemories) {
 
 TEST_F(BatchAllocation, DoesNotComeWithTheJerks) {
   Batch batch(bench_trials("bench-creep", 0, 50));
-  BatchEngine engine;
+  batch::BatchEngine engine;
   std::int64_t jerks = 0;
-  BatchObservers observers;
-  observers.jerk = [&jerks](std::size_t, const Jerk&) { ++jerks; };
+  batch::BatchObservers observers;
+  observers.jerk = [&jerks](std::size_t, const trial::Jerk&) { ++jerks; };
   allocations_in(engine, batch, observers);
   EXPECT_EQ(allocations_in(engine, batch, observers), 0);
   EXPECT_GT(jerks, 100);
@@ -104,10 +106,10 @@ TEST_F(BatchAllocation, DoesNotComeWithTheJerks) {
 
 TEST_F(BatchAllocation, IsLessThanOneASampleWithSamplesObserved) {
   Batch batch(bench_trials("bench-creep", 0, 50));
-  BatchEngine engine;
+  batch::BatchEngine engine;
   std::int64_t samples = 0;
-  BatchObservers observers;
-  observers.sample = [&samples](const BatchSample&) { ++samples; };
+  batch::BatchObservers observers;
+  observers.sample = [&samples](const batch::BatchSample&) { ++samples; };
   allocations_in(engine, batch, observers);
   samples = 0;
   const std::int64_t allocations = allocations_in(engine, batch, observers);

@@ -18,36 +18,36 @@ constexpr double accuracy = 1e-6;  // counts, before a slide
 /// What the comparison of one trial has found so far.
 class Comparison {
  public:
-  Comparison(const TrialParameters& parameters, const BatchedTrial& batched, const std::string& name)
+  Comparison(const trial::TrialParameters& parameters, const BatchedTrial& batched, const std::string& name)
       : parameters_(parameters),
         batched_(batched),
         name_(name),
         resolution_(2.0 * std::numbers::pi / parameters.encoder.fine) {}
 
-  void take(const SampleRecord& sample);
-  void take_outcome(const TrialOutcome& outcome, const std::vector<Jerk>& jerks);
+  void take(const trial::SampleRecord& sample);
+  void take_outcome(const trial::TrialOutcome& outcome, const std::vector<trial::Jerk>& jerks);
   BatchAgreement result() const { return result_; }
 
  private:
   bool settled() const { return on_edge() || result_.other_counts > 0; }
   bool on_edge() const { return result_.on_edge > 0; }
   void fail(std::int64_t BatchAgreement::*what, const std::string& text);
-  void compare_before_slide(const SampleRecord& a, const BatchSample& b, double difference);
-  void compare_after_slide(const SampleRecord& a, const BatchSample& b, double difference);
-  void compare_move(std::size_t number, const MoveOutcome& a, const MoveOutcome& b);
-  void compare_jerks(std::int64_t moves, const std::vector<Jerk>& jerks);
+  void compare_before_slide(const trial::SampleRecord& a, const batch::BatchSample& b, double difference);
+  void compare_after_slide(const trial::SampleRecord& a, const batch::BatchSample& b, double difference);
+  void compare_move(std::size_t number, const trial::MoveOutcome& a, const trial::MoveOutcome& b);
+  void compare_jerks(std::int64_t moves, const std::vector<trial::Jerk>& jerks);
   double edge_distance(double theta) const;
   /// Accuracy of θ at the sample taken last, counts.
   double allowed() const { return slid_ ? 1e-3 + 1e-7 * travel_ / resolution_ : accuracy; }
 
-  const TrialParameters& parameters_;
+  const trial::TrialParameters& parameters_;
   const BatchedTrial& batched_;
   const std::string& name_;
   double resolution_;
   BatchAgreement result_;
 
   std::int64_t taken_{0};
-  SampleRecord last_;
+  trial::SampleRecord last_;
   bool slid_{false};
   std::int64_t before_slide_{0};  // samples
   double travel_{0.0};            // rad
@@ -63,8 +63,8 @@ double Comparison::edge_distance(double theta) const {
   return std::abs(position - std::round(position));
 }
 
-void Comparison::take(const SampleRecord& sample) {
-  const SampleRecord before = last_;
+void Comparison::take(const trial::SampleRecord& sample) {
+  const trial::SampleRecord before = last_;
   last_ = sample;
   const auto i = static_cast<std::size_t>(taken_++);
   if (i > 0) {
@@ -72,19 +72,20 @@ void Comparison::take(const SampleRecord& sample) {
     // A slide may begin and end between two samples; a contact that is new has lost its hardening.
     slid_ = slid_ || sample.xh < before.xh;
   }
-  slid_ = slid_ || sample.mode == HookMode::slide;
+  slid_ = slid_ || sample.mode == trial::HookMode::slide;
   if (!slid_) before_slide_ = taken_;
   if (settled() || result_.part > 0) return;
   if (i >= batched_.samples.size() || batched_.samples[i].k != sample.k) {
     fail(&BatchAgreement::other_counts, fmt::format("sample {} is missing", i));
     return;
   }
-  const BatchSample& other = batched_.samples[i];
+  const batch::BatchSample& other = batched_.samples[i];
   const double difference = std::abs(sample.theta - other.theta) / resolution_;
   slid_ ? compare_after_slide(sample, other, difference) : compare_before_slide(sample, other, difference);
 }
 
-void Comparison::compare_before_slide(const SampleRecord& a, const BatchSample& b, double difference) {
+void Comparison::compare_before_slide(const trial::SampleRecord& a, const batch::BatchSample& b,
+                                      double difference) {
   if (a.count != b.count && std::abs(a.count - b.count) == 1 && difference < accuracy &&
       edge_distance(a.theta) < accuracy) {
     result_.on_edge = 1;
@@ -101,7 +102,8 @@ void Comparison::compare_before_slide(const SampleRecord& a, const BatchSample& 
   result_.floating = std::max(result_.floating, std::abs(a.xp - b.xp) / resolution_);
 }
 
-void Comparison::compare_after_slide(const SampleRecord& a, const BatchSample& b, double difference) {
+void Comparison::compare_after_slide(const trial::SampleRecord& a, const batch::BatchSample& b,
+                                     double difference) {
   const bool differ = a.count != b.count || a.code != b.code;
   const bool on_an_edge = difference < allowed() && edge_distance(a.theta) < allowed();
   if (result_.stray == 0 && (!(difference < allowed()) || (differ && !on_an_edge))) {
@@ -118,12 +120,13 @@ void Comparison::compare_after_slide(const SampleRecord& a, const BatchSample& b
 
 /// Every measure of the table is the same, but for positions, which agree to the accuracy of θ, and the
 /// depth, which has a rule of its own.
-void Comparison::compare_move(std::size_t number, const MoveOutcome& a, const MoveOutcome& b) {
+void Comparison::compare_move(std::size_t number, const trial::MoveOutcome& a, const trial::MoveOutcome& b) {
   std::string text;
-  for (const RecordField<MoveOutcome>& field : outcome_fields(format_version, {.stopped = true})) {
+  for (const layout::RecordField<trial::MoveOutcome>& field :
+       layout::outcome_fields(layout::format_version, {.stopped = true})) {
     const std::string& name = field.column.name;
-    const double x = value_of(field, a);
-    const double y = value_of(field, b);
+    const double x = layout::value_of(field, a);
+    const double y = layout::value_of(field, b);
     if (name == "reversal_depth" || x == y || (std::isnan(x) && std::isnan(y))) continue;
     const bool is_position = field.column.unit == "rad" || name == "true_error";
     const double difference = std::abs(x - y) / (field.column.unit == "rad" ? resolution_ : 1.0);  // counts
@@ -142,30 +145,30 @@ void Comparison::compare_move(std::size_t number, const MoveOutcome& a, const Mo
   }
 }
 
-void Comparison::compare_jerks(std::int64_t moves, const std::vector<Jerk>& jerks) {
-  const auto of_moves = [moves](const std::vector<Jerk>& all) {
-    std::vector<Jerk> some;
+void Comparison::compare_jerks(std::int64_t moves, const std::vector<trial::Jerk>& jerks) {
+  const auto of_moves = [moves](const std::vector<trial::Jerk>& all) {
+    std::vector<trial::Jerk> some;
     std::copy_if(all.begin(), all.end(), std::back_inserter(some),
-                 [moves](const Jerk& jerk) { return jerk.move < moves; });
+                 [moves](const trial::Jerk& jerk) { return jerk.move < moves; });
     return some;
   };
-  const auto same = [](const Jerk& a, const Jerk& b) {
+  const auto same = [](const trial::Jerk& a, const trial::Jerk& b) {
     return a.move == b.move && a.onset == b.onset && a.duration == b.duration && a.magnitude == b.magnitude &&
            a.direction == b.direction;
   };
-  const std::vector<Jerk> a = of_moves(jerks);
-  const std::vector<Jerk> b = of_moves(batched_.jerks);
+  const std::vector<trial::Jerk> a = of_moves(jerks);
+  const std::vector<trial::Jerk> b = of_moves(batched_.jerks);
   if (!std::equal(a.begin(), a.end(), b.begin(), b.end(), same)) {
     fail(&BatchAgreement::other_measures, fmt::format("other jerks, {} and {}", a.size(), b.size()));
   }
 }
 
-void Comparison::take_outcome(const TrialOutcome& outcome, const std::vector<Jerk>& jerks) {
+void Comparison::take_outcome(const trial::TrialOutcome& outcome, const std::vector<trial::Jerk>& jerks) {
   const auto& moves = outcome.moves;
   const bool slides =
-      std::any_of(moves.begin(), moves.end(), [](const MoveOutcome& move) { return move.broke_away; });
+      std::any_of(moves.begin(), moves.end(), [](const trial::MoveOutcome& move) { return move.broke_away; });
   result_.trials = 1;
-  result_.in_lanes = runs_in_lanes(parameters_);
+  result_.in_lanes = batch::runs_in_lanes(parameters_);
   result_.slides = slides;
   if (static_cast<std::size_t>(taken_) < batched_.samples.size() && !slides && !settled()) {
     fail(&BatchAgreement::other_counts, fmt::format("more than {} samples", taken_));
@@ -179,7 +182,7 @@ void Comparison::take_outcome(const TrialOutcome& outcome, const std::vector<Jer
   std::int64_t compared = 0;
   for (std::size_t m = 0; m < moves.size() && result_.other_measures + result_.other_depth == 0; ++m) {
     // What is measured of a move reaches to the sampling instant after it.
-    end += samples_of_move(parameters_, m);
+    end += trial::samples_of_move(parameters_, m);
     if (result_.part > 0 && (end >= before_slide_ || moves[m].broke_away)) break;
     compare_move(m, moves[m], batched_.outcome.moves[m]);
     ++compared;
@@ -189,19 +192,19 @@ void Comparison::take_outcome(const TrialOutcome& outcome, const std::vector<Jer
 
 }  // namespace
 
-BatchAgreement compare_with_reference(const TrialParameters& parameters, const BatchedTrial& batched,
+BatchAgreement compare_with_reference(const trial::TrialParameters& parameters, const BatchedTrial& batched,
                                       const std::string& name) {
   Comparison comparison(parameters, batched, name);
-  std::vector<Jerk> jerks;
-  TrialObservers observers;
-  observers.sample = [&](const SampleRecord& sample) { comparison.take(sample); };
-  observers.jerk = [&](const Jerk& jerk) { jerks.push_back(jerk); };
-  comparison.take_outcome(run_trial(parameters, observers), jerks);
+  std::vector<trial::Jerk> jerks;
+  trial::TrialObservers observers;
+  observers.sample = [&](const trial::SampleRecord& sample) { comparison.take(sample); };
+  observers.jerk = [&](const trial::Jerk& jerk) { jerks.push_back(jerk); };
+  comparison.take_outcome(trial::run_trial(parameters, observers), jerks);
   return comparison.result();
 }
 
-BatchAgreement agreement_of(const std::vector<TrialParameters>& trials, const std::string& name,
-                            const BatchSettings& settings) {
+BatchAgreement agreement_of(const std::vector<trial::TrialParameters>& trials, const std::string& name,
+                            const batch::BatchSettings& settings) {
   const std::vector<BatchedTrial> batched = run_batch(trials, settings);
   BatchAgreement agreement;
   for (std::size_t i = 0; i < trials.size(); ++i) {

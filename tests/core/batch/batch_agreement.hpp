@@ -44,11 +44,11 @@ struct BatchAgreement {
 };
 
 /// One trial.
-BatchAgreement compare_with_reference(const TrialParameters& parameters, const BatchedTrial& batched,
+BatchAgreement compare_with_reference(const trial::TrialParameters& parameters, const BatchedTrial& batched,
                                       const std::string& name);
 
 /// All of them, run as one batch.
-BatchAgreement agreement_of(const std::vector<TrialParameters>& trials, const std::string& name,
-                            const BatchSettings& settings = {});
+BatchAgreement agreement_of(const std::vector<trial::TrialParameters>& trials, const std::string& name,
+                            const batch::BatchSettings& settings = {});
 
 }  // namespace zerocount::testing

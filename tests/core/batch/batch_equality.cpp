@@ -28,9 +28,10 @@ using namespace zerocount::testing;
 /// Samples that a batch keeps until they are compared.
 constexpr double max_samples = 1e6;
 
-BatchAgreement agreement_over(const Study& study, std::int64_t point, std::int64_t first,
+BatchAgreement agreement_over(const study::Study& study, std::int64_t point, std::int64_t first,
                               std::int64_t trials) {
-  const double per_trial = static_cast<double>(samples_of_trial(study_trial(study, point, first).parameters));
+  const double per_trial =
+      static_cast<double>(trial::samples_of_trial(study::study_trial(study, point, first).parameters));
   const auto block = std::clamp(static_cast<std::int64_t>(max_samples / per_trial), std::int64_t{1}, trials);
   std::atomic<std::int64_t> next{first};
   std::mutex adding;
@@ -39,9 +40,9 @@ BatchAgreement agreement_over(const Study& study, std::int64_t point, std::int64
     for (;;) {
       const std::int64_t from = next.fetch_add(block);
       if (from >= first + trials) return;
-      std::vector<TrialParameters> some;
+      std::vector<trial::TrialParameters> some;
       for (std::int64_t i = from; i < std::min(from + block, first + trials); ++i) {
-        some.push_back(study_trial(study, point, i).parameters);
+        some.push_back(study::study_trial(study, point, i).parameters);
       }
       const BatchAgreement part = agreement_of(some, fmt::format("of {} on, trial", from));
       const std::lock_guard lock(adding);
@@ -65,7 +66,7 @@ int main(int count, char** words) {
   const std::int64_t first = count > 3 ? std::atoll(words[3]) : 0;
   const std::int64_t point = count > 4 ? std::atoll(words[4]) : 0;
   try {
-    const Study study = load_study(words[1], {fmt::format("trials={}", first + trials)});
+    const study::Study study = manifest::load_study(words[1], {fmt::format("trials={}", first + trials)});
     const BatchAgreement agreement = agreement_over(study, point, first, trials);
     constexpr std::size_t max_shown = 20;
     for (std::size_t i = 0; i < std::min(max_shown, agreement.failures.size()); ++i) {

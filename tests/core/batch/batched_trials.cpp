@@ -10,10 +10,10 @@
 namespace zerocount::testing {
 namespace {
 
-std::vector<const TrialParameters*> pointers_to(const std::vector<TrialParameters>& trials) {
-  std::vector<const TrialParameters*> pointers;
+std::vector<const trial::TrialParameters*> pointers_to(const std::vector<trial::TrialParameters>& trials) {
+  std::vector<const trial::TrialParameters*> pointers;
   pointers.reserve(trials.size());
-  for (const TrialParameters& trial : trials) pointers.push_back(&trial);
+  for (const trial::TrialParameters& trial : trials) pointers.push_back(&trial);
   return pointers;
 }
 
@@ -35,7 +35,7 @@ class Differences {
   std::string text;
 };
 
-void compare(Differences& d, const MoveOutcome& a, const MoveOutcome& b) {
+void compare(Differences& d, const trial::MoveOutcome& a, const trial::MoveOutcome& b) {
   d.expect_same("outcome", static_cast<std::int64_t>(a.outcome), static_cast<std::int64_t>(b.outcome));
   d.expect_same("arrived", std::int64_t{a.arrived}, std::int64_t{b.arrived});
   d.expect_same("stable", std::int64_t{a.stable}, std::int64_t{b.stable});
@@ -64,7 +64,7 @@ void compare(Differences& d, const MoveOutcome& a, const MoveOutcome& b) {
   d.expect_same("jerk_agreement", a.jerk_agreement, b.jerk_agreement);
 }
 
-void compare(Differences& d, const Jerk& a, const Jerk& b) {
+void compare(Differences& d, const trial::Jerk& a, const trial::Jerk& b) {
   d.expect_same("jerk's move", a.move, b.move);
   d.expect_same("onset", a.onset, b.onset);
   d.expect_same("duration", a.duration, b.duration);
@@ -72,7 +72,7 @@ void compare(Differences& d, const Jerk& a, const Jerk& b) {
   d.expect_same("direction", std::int64_t{a.direction}, std::int64_t{b.direction});
 }
 
-void compare(Differences& d, const BatchSample& a, const BatchSample& b) {
+void compare(Differences& d, const batch::BatchSample& a, const batch::BatchSample& b) {
   d.expect_same("k", a.k, b.k);
   d.expect_same("count", a.count, b.count);
   d.expect_same("code", a.code, b.code);
@@ -92,20 +92,22 @@ void compare_all(Differences& d, const char* what, const std::vector<T>& a, cons
 
 }  // namespace
 
-std::vector<BatchedTrial> run_batch(const std::vector<TrialParameters>& trials, const BatchSettings& settings,
-                                    Observed observed) {
-  BatchEngine engine(settings);
+std::vector<BatchedTrial> run_batch(const std::vector<trial::TrialParameters>& trials,
+                                    const batch::BatchSettings& settings, Observed observed) {
+  batch::BatchEngine engine(settings);
   return run_batch(engine, trials, observed);
 }
 
-std::vector<BatchedTrial> run_batch(BatchEngine& engine, const std::vector<TrialParameters>& trials,
-                                    Observed observed) {
+std::vector<BatchedTrial> run_batch(batch::BatchEngine& engine,
+                                    const std::vector<trial::TrialParameters>& trials, Observed observed) {
   std::vector<BatchedTrial> results(trials.size());
-  std::vector<TrialOutcome> outcomes(trials.size());
-  BatchObservers observers;
-  observers.jerk = [&](std::size_t trial, const Jerk& jerk) { results.at(trial).jerks.push_back(jerk); };
+  std::vector<trial::TrialOutcome> outcomes(trials.size());
+  batch::BatchObservers observers;
+  observers.jerk = [&](std::size_t trial, const trial::Jerk& jerk) {
+    results.at(trial).jerks.push_back(jerk);
+  };
   if (observed == Observed::samples_and_jerks) {
-    observers.sample = [&](const BatchSample& s) { results.at(s.trial).samples.push_back(s); };
+    observers.sample = [&](const batch::BatchSample& s) { results.at(s.trial).samples.push_back(s); };
   }
   engine.run(pointers_to(trials), outcomes, observers);
   for (std::size_t i = 0; i < trials.size(); ++i) results[i].outcome = std::move(outcomes[i]);
@@ -120,35 +122,37 @@ std::string difference_in_bits(const BatchedTrial& one, const BatchedTrial& othe
   return d.text;
 }
 
-BatchedTrial run_by_reference(const TrialParameters& parameters) {
+BatchedTrial run_by_reference(const trial::TrialParameters& parameters) {
   BatchedTrial trial;
-  TrialObservers observers;
-  observers.jerk = [&](const Jerk& jerk) { trial.jerks.push_back(jerk); };
-  observers.sample = [&](const SampleRecord& r) {
+  trial::TrialObservers observers;
+  observers.jerk = [&](const trial::Jerk& jerk) { trial.jerks.push_back(jerk); };
+  observers.sample = [&](const trial::SampleRecord& r) {
     trial.samples.push_back({0, r.k, r.count, r.code, r.theta, r.xp});
   };
-  trial.outcome = run_trial(parameters, observers);
+  trial.outcome = trial::run_trial(parameters, observers);
   return trial;
 }
 
-std::vector<InstructionSet> available_instruction_sets() {
-  std::vector<InstructionSet> sets;
-  for (const InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
-    if (is_available(set)) sets.push_back(set);
+std::vector<batch::InstructionSet> available_instruction_sets() {
+  std::vector<batch::InstructionSet> sets;
+  for (const batch::InstructionSet set :
+       {batch::InstructionSet::portable, batch::InstructionSet::avx2, batch::InstructionSet::avx512}) {
+    if (batch::is_available(set)) sets.push_back(set);
   }
   return sets;
 }
 
-TrialParameters trial_with_any_exponent(TrialKind kind, std::uint64_t index) {
-  TrialParameters p = random_trial(kind, index);
+trial::TrialParameters trial_with_any_exponent(TrialKind kind, std::uint64_t index) {
+  trial::TrialParameters p = random_trial(kind, index);
   p.amplifier = {};
-  if (p.friction.model == FrictionModel::coulomb) p.friction.model = FrictionModel::presliding;
+  if (p.friction.model == friction::FrictionModel::coulomb)
+    p.friction.model = friction::FrictionModel::presliding;
   return p;
 }
 
-TrialParameters trial_for_lanes(TrialKind kind, std::uint64_t index) {
-  TrialParameters p = trial_with_any_exponent(kind, index);
-  FrictionParameters& f = p.friction.uniform;
+trial::TrialParameters trial_for_lanes(TrialKind kind, std::uint64_t index) {
+  trial::TrialParameters p = trial_with_any_exponent(kind, index);
+  friction::FrictionParameters& f = p.friction.uniform;
   constexpr double torque = 0.02;  // N m
   f.lambda = torque * torque / (std::pow(torque, f.n) / f.lambda);
   f.n = 2.0;

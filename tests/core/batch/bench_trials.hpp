@@ -10,7 +10,8 @@ namespace zerocount::testing {
 
 /// Trials `first` to `first + count − 1` of experiments/<name>.yaml, which has one design point.
 /// @param overrides "key=value", as with --set.
-std::vector<TrialParameters> bench_trials(const std::string& name, std::int64_t first, std::int64_t count,
-                                          const std::vector<std::string>& overrides = {});
+std::vector<trial::TrialParameters> bench_trials(const std::string& name, std::int64_t first,
+                                                 std::int64_t count,
+                                                 const std::vector<std::string>& overrides = {});
 
 }  // namespace zerocount::testing

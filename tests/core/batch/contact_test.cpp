@@ -12,23 +12,23 @@ namespace zerocount::testing {
 namespace {
 
 /// cos(θ) with its own phase, so that no two parameters change alike.
-std::shared_ptr<const Profile> wave(double mean, double variation, double phase) {
-  return std::make_shared<const Profile>(Profile{Marginal::lognormal,
-                                                 std::log(mean),
-                                                 variation,
-                                                 {0.0, std::cos(phase), 0.3},
-                                                 {0.0, std::sin(phase), -0.4}});
+std::shared_ptr<const friction::Profile> wave(double mean, double variation, double phase) {
+  return std::make_shared<const friction::Profile>(friction::Profile{friction::Marginal::lognormal,
+                                                                     std::log(mean),
+                                                                     variation,
+                                                                     {0.0, std::cos(phase), 0.3},
+                                                                     {0.0, std::sin(phase), -0.4}});
 }
 
 TEST(BatchContact, TakesEveryParameterFromItsProfileWhereItSticks) {
-  using P = FrictionParameters;
+  using P = friction::FrictionParameters;
   double P::*const profiled[] = {&P::k1,     &P::k2,        &P::beta,          &P::alpha,
                                  &P::lambda, &P::breakaway, &P::coulomb_ratio, &P::stribeck_velocity};
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 160; ++i) {
     // Moves that slide far, at gains that let the rotor stick and settle again.
     trials.push_back(trial_for_lanes(i % 2 == 0 ? TrialKind::breaking_away : TrialKind::calm, 90000 + i));
-    TrialParameters& p = trials.back();
+    trial::TrialParameters& p = trials.back();
     p.friction.profiled.clear();
     P& f = p.friction.uniform;
     f.coulomb_ratio = 0.7;
@@ -46,7 +46,7 @@ TEST(BatchContact, TakesEveryParameterFromItsProfileWhereItSticks) {
 }
 
 TEST(BatchContact, DrawsItsParametersAnewWhereItSticks) {
-  using P = FrictionParameters;
+  using P = friction::FrictionParameters;
   double P::*const drawn[] = {&P::k1,
                               &P::k2,
                               &P::beta,
@@ -56,10 +56,10 @@ TEST(BatchContact, DrawsItsParametersAnewWhereItSticks) {
                               &P::breakaway,
                               &P::coulomb_ratio,
                               &P::stribeck_velocity};
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 160; ++i) {
     trials.push_back(trial_for_lanes(i % 2 == 0 ? TrialKind::breaking_away : TrialKind::calm, 96000 + i));
-    TrialParameters& p = trials.back();
+    trial::TrialParameters& p = trials.back();
     p.friction.profiled.clear();
     P& f = p.friction.uniform;
     f.coulomb_ratio = 0.7;
@@ -78,11 +78,11 @@ TEST(BatchContact, DrawsItsParametersAnewWhereItSticks) {
 }
 
 TEST(BatchContact, RemembersWhatWasBeforeTheStart) {
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 150; ++i) {
     trials.push_back(trial_for_lanes(i % 3 == 0 ? TrialKind::ringing : TrialKind::calm, 91000 + i));
-    TrialParameters& p = trials.back();
-    const double breakaway = friction_at(p.friction, p.initial.position).breakaway;
+    trial::TrialParameters& p = trials.back();
+    const double breakaway = friction::friction_at(p.friction, p.initial.position).breakaway;
     p.initial.preload = (i % 2 == 0 ? 1.0 : -1.0) * breakaway * 0.05 * static_cast<double>(i % 19);
     p.initial.hardening = i % 5 == 0 ? 1e-6 * static_cast<double>(i) : 0.0;
     p.initial.history = {static_cast<int>(i % 4 == 0 ? 0 : 1 + (7 * i) % 300), 0.6 * breakaway};
@@ -94,32 +94,32 @@ TEST(BatchContact, RemembersWhatWasBeforeTheStart) {
 }
 
 TEST(BatchContact, MayBeMovingOrSlidingAtTheStart) {
-  for (const InitialMode mode : {InitialMode::stick, InitialMode::slide}) {
-    std::vector<TrialParameters> trials;
+  for (const trial::InitialMode mode : {trial::InitialMode::stick, trial::InitialMode::slide}) {
+    std::vector<trial::TrialParameters> trials;
     for (std::uint64_t i = 0; i < 120; ++i) {
       trials.push_back(trial_for_lanes(TrialKind::calm, 92000 + i));
-      TrialParameters& p = trials.back();
+      trial::TrialParameters& p = trials.back();
       p.initial.mode = mode;
       p.initial.velocity = (i % 2 == 0 ? 1.0 : -1.0) * std::exp(-6.0 + 0.06 * static_cast<double>(i));
       p.initial.integral = i % 3 == 0 ? 0.0 : 0.001 * static_cast<double>(i);
     }
     const BatchAgreement agreement = expect_agreement_in_lanes(
-        trials, mode == InitialMode::slide ? "sliding at the start" : "moving at the start");
-    EXPECT_GT(agreement.slides, mode == InitialMode::slide ? 119 : 20);
+        trials, mode == trial::InitialMode::slide ? "sliding at the start" : "moving at the start");
+    EXPECT_GT(agreement.slides, mode == trial::InitialMode::slide ? 119 : 20);
   }
 }
 
 TEST(BatchContact, MayBeWithoutCreep) {
   for (const bool by_model : {true, false}) {
-    std::vector<TrialParameters> trials;
+    std::vector<trial::TrialParameters> trials;
     for (std::uint64_t i = 0; i < 90; ++i) {
       constexpr TrialKind kinds[] = {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away};
       trials.push_back(trial_for_lanes(kinds[i % 3], 93000 + i));
-      TrialParameters& p = trials.back();
+      trial::TrialParameters& p = trials.back();
       if (by_model) {
-        p.friction.model = FrictionModel::spring;
+        p.friction.model = friction::FrictionModel::spring;
       } else {
-        p.friction.model = FrictionModel::presliding;
+        p.friction.model = friction::FrictionModel::presliding;
         p.friction.uniform.alpha = 0.0;
       }
     }
@@ -127,9 +127,9 @@ TEST(BatchContact, MayBeWithoutCreep) {
   }
 }
 
-TrialParameters creeping_trial(std::uint64_t index, double alpha) {
-  TrialParameters p = trial_for_lanes(TrialKind::calm, 94000 + index);
-  FrictionParameters& f = p.friction.uniform;
+trial::TrialParameters creeping_trial(std::uint64_t index, double alpha) {
+  trial::TrialParameters p = trial_for_lanes(TrialKind::calm, 94000 + index);
+  friction::FrictionParameters& f = p.friction.uniform;
   f.alpha = alpha;
   f.lambda *= std::exp(0.02 * static_cast<double>((37 * index) % 200) - 2.0);
   p.friction.profiled.clear();
@@ -138,7 +138,7 @@ TrialParameters creeping_trial(std::uint64_t index, double alpha) {
 
 /// Creep from none to what is over within some tens of samples.
 TEST(BatchContact, CreepsAtAnyRate) {
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 200; ++i) {
     trials.push_back(creeping_trial(i, std::exp(-5.0 + 0.036 * static_cast<double>(i))));  // to 9 /s
   }
@@ -148,7 +148,7 @@ TEST(BatchContact, CreepsAtAnyRate) {
 /// Faster than the swing of the rotor dies out: then nothing is at rest until creep ends, and rounding has a
 /// say in how many of the last reversals are remembered.
 TEST(BatchContact, CreepsFasterThanItSwings) {
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 100; ++i) {
     trials.push_back(creeping_trial(i, std::exp(3.0 + 0.03 * static_cast<double>(i))));  // to 400 /s
   }
@@ -162,10 +162,10 @@ TEST(BatchContact, CreepsFasterThanItSwings) {
 
 /// Without softening the spring is linear; with much of it there is hardly a step without an event.
 TEST(BatchContact, SoftensByAnyAmount) {
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 150; ++i) {
     trials.push_back(trial_for_lanes(TrialKind::calm, 95000 + i));
-    FrictionParameters& f = trials.back().friction.uniform;
+    friction::FrictionParameters& f = trials.back().friction.uniform;
     f.k2 = i % 5 == 0 ? 0.0 : 200.0 * static_cast<double>(i % 50);
     f.beta = std::exp(8.0 + 0.05 * static_cast<double>(i));  // 3e3 to 5e6 /rad
     trials.back().friction.profiled.clear();

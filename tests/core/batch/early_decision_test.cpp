@@ -11,14 +11,14 @@ namespace {
 
 TEST(BatchEarlyDecision, EndsATrialWhereTheReferenceDoes) {
   for (const double limit : {2.0, 20.0, 300.0, 1000.0}) {
-    std::vector<TrialParameters> trials;
+    std::vector<trial::TrialParameters> trials;
     int stopped = 0, later = 0;
     for (std::uint64_t i = 0; i < 90; ++i) {
       constexpr TrialKind kinds[] = {TrialKind::ringing, TrialKind::calm, TrialKind::breaking_away};
       trials.push_back(trial_for_lanes(kinds[i % 3], 96000 + i));
       trials.back().verdict.stop = true;
       trials.back().verdict.limit = limit;
-      const std::vector<MoveOutcome> moves = run_trial(trials.back()).moves;
+      const std::vector<trial::MoveOutcome> moves = trial::run_trial(trials.back()).moves;
       stopped += moves.back().stopped;
       later += moves.back().stopped && !moves.front().stopped;
     }
@@ -30,9 +30,9 @@ TEST(BatchEarlyDecision, EndsATrialWhereTheReferenceDoes) {
 
 /// Trials that end give their lanes to others, which must not notice.
 TEST(BatchEarlyDecision, LeavesNothingBehindForTheNextTrialOfTheLane) {
-  std::vector<TrialParameters> trials =
+  std::vector<trial::TrialParameters> trials =
       bench_trials("bench-marginal", 0, 150, {"verdict.stop=true", "verdict.limit=30"});
-  const std::vector<TrialParameters> calm = bench_trials("bench-transient", 0, 150);
+  const std::vector<trial::TrialParameters> calm = bench_trials("bench-transient", 0, 150);
   trials.insert(trials.end(), calm.begin(), calm.end());
   const std::vector<BatchedTrial> few_lanes = run_batch(trials, {.lanes = 5});
   int stopped = 0;

@@ -33,33 +33,33 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// Random trials as they are: some run in lanes, and others go to the reference by themselves.
 TEST_P(BatchEquality, OfRandomTrials) {
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 200; ++i) trials.push_back(random_trial(GetParam().kind, 20000 + i));
   expect_agreement(trials, GetParam().name);
 }
 
 TEST_P(BatchEquality, OfRandomTrialsThatRunInLanes) {
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 250; ++i) trials.push_back(trial_for_lanes(GetParam().kind, 30000 + i));
   expect_agreement_in_lanes(trials, GetParam().name);
 }
 
 TEST_P(BatchEquality, OfRandomTrialsWithAnyCreepExponent) {
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; trials.size() < 150; ++i) {
-    const TrialParameters trial = trial_with_any_exponent(GetParam().kind, 50000 + i);
+    const trial::TrialParameters trial = trial_with_any_exponent(GetParam().kind, 50000 + i);
     if (trial.friction.uniform.n != 2.0) trials.push_back(trial);
   }
   expect_agreement_in_lanes(trials, GetParam().name);
 }
 
 TEST_P(BatchEquality, TrialsThatDoNotRunInLanesAreTheReferencesToTheLastBit) {
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 100; ++i) trials.push_back(random_trial(GetParam().kind, 40000 + i));
   const std::vector<BatchedTrial> batched = run_batch(trials);
   int others = 0;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (runs_in_lanes(trials[i])) continue;
+    if (batch::runs_in_lanes(trials[i])) continue;
     ++others;
     EXPECT_EQ(difference_in_bits(batched[i], run_by_reference(trials[i])), "") << GetParam().name << i;
   }
@@ -70,12 +70,12 @@ TEST_P(BatchEquality, TrialsThatDoNotRunInLanesAreTheReferencesToTheLastBit) {
 
 /// Trials in which something happens at an awkward moment.
 TEST(BatchEqualityInHardTrials, HoldsToo) {
-  const std::vector<TrialParameters> trials = {
+  const std::vector<trial::TrialParameters> trials = {
       trial_for_lanes(TrialKind::arriving, 30208),  // a reversal in the sample that begins with another
       trial_for_lanes(TrialKind::arriving,
                       413654),  // a move ends as the last swing falls below rest, and a loop closes
   };
-  for (const TrialParameters& trial : trials) expect_agreement_in_lanes({trial}, "hard trial");
+  for (const trial::TrialParameters& trial : trials) expect_agreement_in_lanes({trial}, "hard trial");
 }
 
 }  // namespace

@@ -11,7 +11,8 @@
 namespace zerocount::testing {
 
 /// Expects that the batch engine agrees with the reference on these trials, and prints how well.
-inline BatchAgreement expect_agreement(const std::vector<TrialParameters>& trials, const std::string& name) {
+inline BatchAgreement expect_agreement(const std::vector<trial::TrialParameters>& trials,
+                                       const std::string& name) {
   BatchAgreement agreement = agreement_of(trials, name);
   std::cout << name << ": " << agreement.figures() << "\n";
   for (const std::string& failure : agreement.failures) ADD_FAILURE() << failure;
@@ -25,7 +26,7 @@ inline BatchAgreement expect_agreement(const std::vector<TrialParameters>& trial
 }
 
 /// The same of trials that lanes run.
-inline BatchAgreement expect_agreement_in_lanes(const std::vector<TrialParameters>& trials,
+inline BatchAgreement expect_agreement_in_lanes(const std::vector<trial::TrialParameters>& trials,
                                                 const std::string& name) {
   BatchAgreement agreement = expect_agreement(trials, name);
   EXPECT_EQ(agreement.in_lanes, agreement.trials);

@@ -20,9 +20,9 @@ constexpr TrialKind kinds[] = {TrialKind::calm,         TrialKind::ringing,     
 
 /// Trials that have little in common: calm and ringing ones, creep, slides, other rigs, and some that lanes
 /// do not run.
-std::vector<TrialParameters> different_trials() {
-  std::vector<TrialParameters> trials = bench_trials("bench-transient", 0, 60);
-  const auto append = [&trials](const std::vector<TrialParameters>& more) {
+std::vector<trial::TrialParameters> different_trials() {
+  std::vector<trial::TrialParameters> trials = bench_trials("bench-transient", 0, 60);
+  const auto append = [&trials](const std::vector<trial::TrialParameters>& more) {
     trials.insert(trials.end(), more.begin(), more.end());
   };
   append(bench_trials("bench-marginal", 0, 60));
@@ -48,15 +48,15 @@ class BatchIndependence : public ::testing::Test {
     }
   }
 
-  static inline std::vector<TrialParameters> trials;
+  static inline std::vector<trial::TrialParameters> trials;
   static inline std::vector<BatchedTrial> expected;
 };
 
 TEST_F(BatchIndependence, OfTheNumberOfLanesAndTheInstructionSet) {
-  for (const InstructionSet instructions : available_instruction_sets()) {
+  for (const batch::InstructionSet instructions : available_instruction_sets()) {
     for (const int lanes : {1, 2, 7, 16, 33, 128}) {
       expect_same(run_batch(trials, {lanes, instructions}),
-                  std::to_string(lanes) + " lanes, " + std::string(name_of(instructions)));
+                  std::to_string(lanes) + " lanes, " + std::string(batch::name_of(instructions)));
     }
   }
 }
@@ -67,7 +67,7 @@ TEST_F(BatchIndependence, OfTheOrder) {
     std::vector<std::size_t> order(trials.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::shuffle(order.begin(), order.end(), random);
-    std::vector<TrialParameters> shuffled;
+    std::vector<trial::TrialParameters> shuffled;
     shuffled.reserve(trials.size());
     for (const std::size_t i : order) shuffled.push_back(trials[i]);
     const std::vector<BatchedTrial> results = run_batch(shuffled);
@@ -78,10 +78,10 @@ TEST_F(BatchIndependence, OfTheOrder) {
 }
 
 TEST_F(BatchIndependence, OfThereBeingOthers) {
-  for (const InstructionSet instructions : available_instruction_sets()) {
+  for (const batch::InstructionSet instructions : available_instruction_sets()) {
     std::vector<BatchedTrial> alone;
     alone.reserve(trials.size());
-    for (const TrialParameters& trial : trials) {
+    for (const trial::TrialParameters& trial : trials) {
       alone.push_back(run_batch({trial}, {.instructions = instructions}).front());
     }
     expect_same(alone, "alone");
@@ -91,11 +91,11 @@ TEST_F(BatchIndependence, OfThereBeingOthers) {
 /// Beside the same trial in all other lanes, and beside rigs that are nothing like it.
 TEST_F(BatchIndependence, OfWhoTheOthersAre) {
   for (std::size_t i = 0; i < trials.size(); i += 11) {
-    std::vector<TrialParameters> twins(40, trials[i]);
+    std::vector<trial::TrialParameters> twins(40, trials[i]);
     for (const BatchedTrial& twin : run_batch(twins)) {
       ASSERT_EQ(difference_in_bits(expected[i], twin), "") << "trial " << i << " among its twins";
     }
-    std::vector<TrialParameters> strangers;
+    std::vector<trial::TrialParameters> strangers;
     for (std::uint64_t j = 0; j < 31; ++j) {
       strangers.push_back(trial_for_lanes(TrialKind::unlike_the_paper, 60000 + 31 * i + j));
     }
@@ -107,14 +107,14 @@ TEST_F(BatchIndependence, OfWhoTheOthersAre) {
 }
 
 TEST_F(BatchIndependence, OfWhetherSamplesAreObserved) {
-  for (const InstructionSet instructions : available_instruction_sets()) {
+  for (const batch::InstructionSet instructions : available_instruction_sets()) {
     expect_same(run_batch(trials, {.instructions = instructions}, Observed::jerks), "samples not observed");
   }
-  BatchEngine engine;
-  std::vector<const TrialParameters*> pointers;
+  batch::BatchEngine engine;
+  std::vector<const trial::TrialParameters*> pointers;
   pointers.reserve(trials.size());
-  for (const TrialParameters& trial : trials) pointers.push_back(&trial);
-  std::vector<TrialOutcome> outcomes(trials.size());
+  for (const trial::TrialParameters& trial : trials) pointers.push_back(&trial);
+  std::vector<trial::TrialOutcome> outcomes(trials.size());
   engine.run(pointers, outcomes);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     ASSERT_EQ(difference_in_bits({expected[i].outcome, {}, {}}, {outcomes[i], {}, {}}), "") << "trial " << i;
@@ -122,8 +122,8 @@ TEST_F(BatchIndependence, OfWhetherSamplesAreObserved) {
 }
 
 TEST_F(BatchIndependence, OfWhatTheEngineRanBefore) {
-  BatchEngine engine({.lanes = 24});
-  std::vector<TrialParameters> wild;
+  batch::BatchEngine engine({.lanes = 24});
+  std::vector<trial::TrialParameters> wild;
   for (std::uint64_t i = 0; i < 100; ++i) wild.push_back(trial_for_lanes(kinds[i % 9], 61000 + i));
   run_batch(engine, wild);
   expect_same(run_batch(engine, trials), "after wild trials");
@@ -132,17 +132,17 @@ TEST_F(BatchIndependence, OfWhatTheEngineRanBefore) {
 }
 
 TEST(BatchObserversAre, ToldOfEachSampleInTheOrderOfTheTrial) {
-  const std::vector<TrialParameters> trials = different_trials();
+  const std::vector<trial::TrialParameters> trials = different_trials();
   const std::vector<BatchedTrial> results = run_batch(trials);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     std::int64_t k = 0;
-    for (const BatchSample& sample : results[i].samples) {
+    for (const batch::BatchSample& sample : results[i].samples) {
       ASSERT_EQ(sample.trial, i);
       ASSERT_EQ(sample.k, k++);
     }
-    EXPECT_EQ(k, samples_of_trial(trials[i])) << i;
+    EXPECT_EQ(k, trial::samples_of_trial(trials[i])) << i;
     std::int64_t jerks = 0;
-    for (const MoveOutcome& move : results[i].outcome.moves) jerks += move.jerk_count;
+    for (const trial::MoveOutcome& move : results[i].outcome.moves) jerks += move.jerk_count;
     EXPECT_EQ(static_cast<std::int64_t>(results[i].jerks.size()), jerks) << i;
   }
 }

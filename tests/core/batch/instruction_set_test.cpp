@@ -10,17 +10,18 @@ namespace zerocount::testing {
 namespace {
 
 TEST(InstructionSets, PortableIsAlwaysThereAndTheWidestIsOneOfThem) {
-  const std::vector<InstructionSet> sets = available_instruction_sets();
+  const std::vector<batch::InstructionSet> sets = available_instruction_sets();
   ASSERT_FALSE(sets.empty());
-  EXPECT_EQ(sets.front(), InstructionSet::portable);
-  EXPECT_EQ(sets.back(), widest_instruction_set());
-  EXPECT_EQ(BatchSettings{}.instructions, widest_instruction_set());
+  EXPECT_EQ(sets.front(), batch::InstructionSet::portable);
+  EXPECT_EQ(sets.back(), batch::widest_instruction_set());
+  EXPECT_EQ(batch::BatchSettings{}.instructions, batch::widest_instruction_set());
 }
 
 TEST(InstructionSets, HaveDifferentNames) {
   std::set<std::string_view> names;
-  for (const InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
-    names.insert(name_of(set));
+  for (const batch::InstructionSet set :
+       {batch::InstructionSet::portable, batch::InstructionSet::avx2, batch::InstructionSet::avx512}) {
+    names.insert(batch::name_of(set));
   }
   EXPECT_EQ(names.size(), 3U);
 }

@@ -11,10 +11,10 @@ namespace {
 
 TEST(BatchLoop, DelaysTheTorque) {
   for (const int delay : {0, 1, 2, 3, 4, 5, 64}) {
-    std::vector<TrialParameters> trials;
+    std::vector<trial::TrialParameters> trials;
     for (std::uint64_t i = 0; i < 30; ++i) {
       trials.push_back(trial_for_lanes(i % 5 == 0 ? TrialKind::ringing : TrialKind::calm, 80000 + i));
-      TrialParameters& p = trials.back();
+      trial::TrialParameters& p = trials.back();
       p.controller.delay = delay;
       if (i % 2 == 0) {  // such that some arrive and rest
         p.controller.ki = delay < 10 ? 1e-5 : 1e-6;
@@ -29,10 +29,10 @@ TEST(BatchLoop, DelaysTheTorque) {
 }
 
 TEST(BatchLoop, HasProportionalAndDifferentialParts) {
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 120; ++i) {
     trials.push_back(trial_for_lanes(TrialKind::calm, 81000 + i));
-    ControllerParameters& c = trials.back().controller;
+    loop::ControllerParameters& c = trials.back().controller;
     c.kp = 1e-4 * static_cast<double>(i % 7);
     c.kd = 5e-5 * static_cast<double>(i % 5);
     if (i % 12 == 0) c.ki = 0.0;  // which mostly ends in a limit cycle
@@ -43,16 +43,16 @@ TEST(BatchLoop, HasProportionalAndDifferentialParts) {
 
 /// Words so short that torques are clipped, and so fine that no code is the same for long.
 TEST(BatchLoop, ConvertsByAnyWord) {
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   int clipped = 0;
   for (std::uint64_t i = 0; i < 120; ++i) {
     trials.push_back(trial_for_lanes(i % 2 == 0 ? TrialKind::calm : TrialKind::ringing, 82000 + i));
-    TrialParameters& p = trials.back();
+    trial::TrialParameters& p = trials.back();
     p.dac.bits = i % 3 == 0 ? 6 : (i % 3 == 1 ? 12 : 24);
     p.dac.resolution = i % 3 == 0 ? 1e-3 : (i % 3 == 1 ? 1e-4 : 5e-8);
-    p.controller.anti_windup = i % 4 < 2 ? AntiWindup::clamp : AntiWindup::none;
+    p.controller.anti_windup = i % 4 < 2 ? loop::AntiWindup::clamp : loop::AntiWindup::none;
     p.initial.integral = i % 5 == 0 ? 0.05 : 0.0;
-    for (const MoveOutcome& move : run_trial(p).moves) clipped += move.saturated;
+    for (const trial::MoveOutcome& move : trial::run_trial(p).moves) clipped += move.saturated;
   }
   expect_agreement_in_lanes(trials, "converters");
   EXPECT_GT(clipped, 20);

@@ -21,7 +21,7 @@ class Choices {
   std::mt19937_64 engine_;
 };
 
-TrialParameters with_targets(TrialParameters p, Choices& choices) {
+trial::TrialParameters with_targets(trial::TrialParameters p, Choices& choices) {
   p.command.targets.clear();
   const std::int64_t moves = choices.integer(2, 7);
   for (std::int64_t move = 0; move < moves; ++move) {
@@ -33,7 +33,7 @@ TrialParameters with_targets(TrialParameters p, Choices& choices) {
 
 TEST(BatchMoves, FollowOneAnother) {
   Choices choices(1);
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 120; ++i) {
     const TrialKind kind = i % 3 == 0 ? TrialKind::ringing : TrialKind::calm;
     trials.push_back(with_targets(trial_for_lanes(kind, 70000 + i), choices));
@@ -45,10 +45,10 @@ TEST(BatchMoves, FollowOneAnother) {
 
 TEST(BatchMoves, MayBeOfOneSample) {
   Choices choices(2);
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 120; ++i) {
     trials.push_back(with_targets(trial_for_lanes(TrialKind::calm, 71000 + i), choices));
-    TrialParameters& p = trials.back();
+    trial::TrialParameters& p = trials.back();
     p.controller.sample_rate = 2000.0;
     p.command.hold = static_cast<double>(choices.integer(1, 12)) / 2000.0;
     p.verdict.dwell = static_cast<double>(choices.integer(1, 3)) / 2000.0;
@@ -60,11 +60,11 @@ TEST(BatchMoves, MayBeOfOneSample) {
 /// Dwell and window from one sample to the whole move, and moves that arrive where they begin.
 TEST(BatchMoves, AreJudgedByAnyDwellAndWindow) {
   Choices choices(3);
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   int arrived = 0, jerks = 0;
   for (std::uint64_t i = 0; i < 150; ++i) {
     trials.push_back(trial_for_lanes(TrialKind::calm, 72000 + i));
-    TrialParameters& p = trials.back();
+    trial::TrialParameters& p = trials.back();
     p.controller.sample_rate = 2000.0;
     p.controller.ki = std::min(p.controller.ki, 3e-5);
     if (i % 3 == 0) p.command.targets.front() = 0;
@@ -72,7 +72,7 @@ TEST(BatchMoves, AreJudgedByAnyDwellAndWindow) {
     p.command.hold = static_cast<double>(samples) / 2000.0;
     p.verdict.dwell = static_cast<double>(choices.integer(1, i % 2 == 0 ? 10 : samples)) / 2000.0;
     p.verdict.window = static_cast<double>(choices.integer(1, i % 2 == 0 ? 10 : samples)) / 2000.0;
-    for (const MoveOutcome& move : run_trial(p).moves) {
+    for (const trial::MoveOutcome& move : trial::run_trial(p).moves) {
       arrived += move.arrived;
       jerks += move.jerk_count > 0;
     }
@@ -84,7 +84,7 @@ TEST(BatchMoves, AreJudgedByAnyDwellAndWindow) {
 
 /// Jumps at rest go over thousands of samples; a move of more than a million is one of them.
 TEST(BatchMoves, MayBeLong) {
-  std::vector<TrialParameters> trials;
+  std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 4; ++i) {
     trials.push_back(trial_for_lanes(TrialKind::calm, 73000 + i));
     trials.back().controller.ki = 2e-5;

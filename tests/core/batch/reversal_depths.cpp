@@ -19,19 +19,19 @@ struct HeldTorque {
 };
 
 /// The torques of a trial by run_trial: [move][hold], one hold a sample.
-std::vector<std::vector<HeldTorque>> torques_of(const TrialParameters& parameters) {
+std::vector<std::vector<HeldTorque>> torques_of(const trial::TrialParameters& parameters) {
   std::vector<std::vector<HeldTorque>> moves;
   std::int64_t left = 0;
-  TrialObservers observers;
-  observers.sample = [&](const SampleRecord& sample) {
+  trial::TrialObservers observers;
+  observers.sample = [&](const trial::SampleRecord& sample) {
     if (left == 0) {
-      left = samples_of_move(parameters, moves.size());
+      left = trial::samples_of_move(parameters, moves.size());
       moves.emplace_back();
     }
     --left;
     moves.back().push_back({sample.drive_torque, 1.0 / parameters.controller.sample_rate});
   };
-  run_trial(parameters, observers);
+  trial::run_trial(parameters, observers);
   return moves;
 }
 
@@ -63,20 +63,20 @@ std::vector<HeldTorque> cut(const std::vector<HeldTorque>& holds, std::mt19937_6
 
 }  // namespace
 
-bool reversal_depth_changes_with_steps(const TrialParameters& parameters) {
-  const std::vector<MoveOutcome> moves = run_trial(parameters).moves;
+bool reversal_depth_changes_with_steps(const trial::TrialParameters& parameters) {
+  const std::vector<trial::MoveOutcome> moves = trial::run_trial(parameters).moves;
   const std::vector<std::vector<HeldTorque>> torques = torques_of(parameters);
   const double resolution = 2.0 * std::numbers::pi / parameters.encoder.fine;
   std::mt19937_64 random(1);
   for (const double factor : {1.0, 0.1, 3.0, 10.0, 0.3}) {
     for (int time = 0; time < 4; ++time) {
-      MotionTolerance tolerance = motion_tolerance(resolution);
+      motion::MotionTolerance tolerance = trial::motion_tolerance(resolution);
       tolerance.elongation *= factor;
-      Plant plant(parameters.plant, parameters.friction, plant_start(parameters), tolerance);
+      plant::Plant plant(parameters.plant, parameters.friction, trial::plant_start(parameters), tolerance);
       for (std::size_t m = 0; m < torques.size(); ++m) {
         plant.forget_deepest();
         for (const HeldTorque& hold : time == 0 ? joined(torques[m]) : cut(torques[m], random)) {
-          plant.advance(constant_torque(hold.torque), hold.duration);
+          plant.advance(motion::constant_torque(hold.torque), hold.duration);
         }
         if (plant.deepest() != moves[m].reversal_depth) return true;
       }

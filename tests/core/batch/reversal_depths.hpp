@@ -9,6 +9,6 @@ namespace zerocount::testing {
 /// each. So it is with loops that close, or do not, by less than the motion is followed to, as in a limit
 /// cycle that comes to retrace itself; and with a loop that closes while the last swing falls below the
 /// amplitude of rest.
-bool reversal_depth_changes_with_steps(const TrialParameters& parameters);
+bool reversal_depth_changes_with_steps(const trial::TrialParameters& parameters);
 
 }  // namespace zerocount::testing

@@ -27,7 +27,7 @@ void PrintTo(const BenchManifest& manifest, std::ostream* out) {
 
 class WorkloadEquality : public ::testing::TestWithParam<BenchManifest> {
  protected:
-  std::vector<TrialParameters> trials() const {
+  std::vector<trial::TrialParameters> trials() const {
     return bench_trials(GetParam().name, GetParam().first, GetParam().trials);
   }
 };
@@ -59,7 +59,7 @@ TEST(AReversalRightBeforeASample, IsFollowedAsByTheReference) {
 /// the engines draw from the same distribution.
 struct PairedMeasure {
   const char* name;
-  double (*of)(const MoveOutcome&);
+  double (*of)(const trial::MoveOutcome&);
 };
 
 /// Differences of pairs in units of what they would be by chance: by their number of either sign, and by
@@ -84,29 +84,34 @@ PairedDeviation deviation(const std::vector<double>& differences) {
 // Where the two have parted, only the distributions are the same.
 TEST_P(WorkloadEquality, OfTheDistributionsAfterASlide) {
   constexpr PairedMeasure measures[] = {
-      {"zero_count", [](const MoveOutcome& m) { return m.outcome == Outcome::zero_count ? 1.0 : 0.0; }},
-      {"one_count", [](const MoveOutcome& m) { return m.outcome == Outcome::one_count ? 1.0 : 0.0; }},
-      {"oscillating", [](const MoveOutcome& m) { return m.outcome == Outcome::oscillating ? 1.0 : 0.0; }},
-      {"off_target", [](const MoveOutcome& m) { return m.outcome == Outcome::off_target ? 1.0 : 0.0; }},
+      {"zero_count",
+       [](const trial::MoveOutcome& m) { return m.outcome == trial::Outcome::zero_count ? 1.0 : 0.0; }},
+      {"one_count",
+       [](const trial::MoveOutcome& m) { return m.outcome == trial::Outcome::one_count ? 1.0 : 0.0; }},
+      {"oscillating",
+       [](const trial::MoveOutcome& m) { return m.outcome == trial::Outcome::oscillating ? 1.0 : 0.0; }},
+      {"off_target",
+       [](const trial::MoveOutcome& m) { return m.outcome == trial::Outcome::off_target ? 1.0 : 0.0; }},
       {"oscillation_amplitude",
-       [](const MoveOutcome& m) {
-         return m.outcome == Outcome::oscillating && !m.stopped ? m.oscillation_amplitude : 0.0;
+       [](const trial::MoveOutcome& m) {
+         return m.outcome == trial::Outcome::oscillating && !m.stopped ? m.oscillation_amplitude : 0.0;
        }},
-      {"arrived", [](const MoveOutcome& m) { return m.arrived ? 1.0 : 0.0; }},
-      {"stable", [](const MoveOutcome& m) { return m.stable ? 1.0 : 0.0; }},
-      {"saturated", [](const MoveOutcome& m) { return m.saturated ? 1.0 : 0.0; }},
-      {"|final_error|", [](const MoveOutcome& m) { return std::abs(static_cast<double>(m.final_error)); }},
-      {"overshoot", [](const MoveOutcome& m) { return static_cast<double>(m.overshoot); }},
-      {"peak_torque", [](const MoveOutcome& m) { return m.peak_torque; }},
-      {"|creep|", [](const MoveOutcome& m) { return std::abs(m.creep); }},
-      {"reversal_depth", [](const MoveOutcome& m) { return static_cast<double>(m.reversal_depth); }},
+      {"arrived", [](const trial::MoveOutcome& m) { return m.arrived ? 1.0 : 0.0; }},
+      {"stable", [](const trial::MoveOutcome& m) { return m.stable ? 1.0 : 0.0; }},
+      {"saturated", [](const trial::MoveOutcome& m) { return m.saturated ? 1.0 : 0.0; }},
+      {"|final_error|",
+       [](const trial::MoveOutcome& m) { return std::abs(static_cast<double>(m.final_error)); }},
+      {"overshoot", [](const trial::MoveOutcome& m) { return static_cast<double>(m.overshoot); }},
+      {"peak_torque", [](const trial::MoveOutcome& m) { return m.peak_torque; }},
+      {"|creep|", [](const trial::MoveOutcome& m) { return std::abs(m.creep); }},
+      {"reversal_depth", [](const trial::MoveOutcome& m) { return static_cast<double>(m.reversal_depth); }},
   };
-  const std::vector<TrialParameters> all = trials();
+  const std::vector<trial::TrialParameters> all = trials();
   const std::vector<BatchedTrial> batched = run_batch(all, {}, Observed::jerks);
-  std::vector<MoveOutcome> ours, references;
+  std::vector<trial::MoveOutcome> ours, references;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const MoveOutcome reference = run_trial(all[i]).moves.front();
-    const MoveOutcome& other = batched[i].outcome.moves.front();
+    const trial::MoveOutcome reference = trial::run_trial(all[i]).moves.front();
+    const trial::MoveOutcome& other = batched[i].outcome.moves.front();
     EXPECT_EQ(other.broke_away, reference.broke_away) << i;
     if (!reference.broke_away) continue;
     ours.push_back(other);

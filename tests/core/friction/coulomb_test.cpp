@@ -9,14 +9,14 @@
 #include "core/plant/plant.hpp"
 #include "tests/core/plant/held_plant.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 namespace {
 
-using CoulombPlant = PlantWith<CoulombFriction>;
+using CoulombPlant = plant::PlantWith<CoulombFriction>;
 
 using testing::hold;
 
-constexpr MotionTolerance coulomb_tolerance{4e-16};
+constexpr motion::MotionTolerance coulomb_tolerance{4e-16};
 constexpr double level = 0.3;  // N m
 
 /// Without Stribeck the friction of a slide is the breakaway torque itself.
@@ -38,9 +38,9 @@ TEST(CoulombPlant, StandsExactlyWhileTheTorqueIsWithinTheLevel) {
   CoulombPlant plant({}, coulomb(0.5), {}, coulomb_tolerance);
   double now = 0.0;
   for (int k = 0; k < 1000; ++k) {
-    const TorqueCourse course{now, torque(random), 1e4 * std::abs(torque(random))};
+    const motion::TorqueCourse course{now, torque(random), 1e4 * std::abs(torque(random))};
     plant.advance(course, 5e-4);
-    now = course_after(course, 5e-4).now;
+    now = motion::course_after(course, 5e-4).now;
     hold(plant, k % 2 == 0 ? level : -level, 5e-4);
     ASSERT_EQ(plant.theta(), 0.0);
     ASSERT_EQ(plant.omega(), 0.0);
@@ -49,7 +49,7 @@ TEST(CoulombPlant, StandsExactlyWhileTheTorqueIsWithinTheLevel) {
 }
 
 TEST(CoulombPlant, KnowsNoPreslidingState) {
-  PlantStart start;
+  motion::PlantStart start;
   start.hardening = 1e-5;
   start.preload = 0.1;
   start.history = {0.2, -0.1};
@@ -68,7 +68,7 @@ TEST(CoulombPlant, SlidesAndStopsAsTheClosedFormSays) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int trial = 0; trial < 200; ++trial) {
-    PlantParameters rotor;
+    motion::PlantParameters rotor;
     rotor.inertia = 1e-4 * std::pow(10.0, 2.0 * unit(random));
     rotor.sliding_damping = 1e-3 * std::pow(10.0, 2.0 * unit(random));
     const double relaxation = rotor.inertia / rotor.sliding_damping;
@@ -101,7 +101,7 @@ TEST(CoulombPlant, SlidesAndStopsAsTheClosedFormSays) {
 }
 
 TEST(CoulombPlant, ReversesAtOnceWhereTheTorqueOvercomesTheLevel) {
-  PlantParameters rotor;
+  motion::PlantParameters rotor;
   rotor.sliding_damping = 0.0;
   const double omega = 1.0;
   CoulombPlant plant(rotor, coulomb(), {.velocity = omega}, coulomb_tolerance);
@@ -146,11 +146,12 @@ TEST(CoulombPlant, IsReleasedByAnAmplifierAtTheExactInstant) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int trial = 0; trial < 200; ++trial) {
-    PlantParameters rotor;
+    motion::PlantParameters rotor;
     rotor.sliding_damping = 0.0;
     const double side = unit(random) < 0.5 ? -1.0 : 1.0;
-    const TorqueCourse course{side * level * (2.0 * unit(random) - 1.0), side * level * (1.0 + unit(random)),
-                              std::pow(10.0, 1.0 + 4.0 * unit(random))};
+    const motion::TorqueCourse course{side * level * (2.0 * unit(random) - 1.0),
+                                      side * level * (1.0 + unit(random)),
+                                      std::pow(10.0, 1.0 + 4.0 * unit(random))};
     const double release =
         std::log((course.now - course.settled) / (side * level - course.settled)) / course.rate;
     const double excess = (course.settled - side * level) / rotor.inertia;
@@ -182,9 +183,9 @@ TEST(CoulombPlant, FollowsEveryTorqueAtTheVeryLevel) {
     for (const double side : {1.0, -1.0}) {
       const double beyond = side * next_after(level);
       const double within = side * std::nextafter(level, 0.0);
-      const TorqueCourse courses[] = {
-          constant_torque(side * level),
-          constant_torque(beyond),
+      const motion::TorqueCourse courses[] = {
+          motion::constant_torque(side * level),
+          motion::constant_torque(beyond),
           {beyond, 0.0, 1e3},
           {beyond, -side * level, 1e3},
           {beyond, -2.0 * side * level, 1e3},
@@ -200,13 +201,13 @@ TEST(CoulombPlant, FollowsEveryTorqueAtTheVeryLevel) {
           {side * level, -side * level, 1e3},
           {2.0 * beyond, side * level, 1e4},
       };
-      for (const TorqueCourse& course : courses) {
+      for (const motion::TorqueCourse& course : courses) {
         CoulombPlant plant({}, coulomb(ratio), {}, coulomb_tolerance);
-        for (int k = 0; k < 20; ++k) plant.advance(course_after(course, k * 5e-4), 5e-4);
+        for (int k = 0; k < 20; ++k) plant.advance(motion::course_after(course, k * 5e-4), 5e-4);
         ASSERT_TRUE(plant.finite()) << ratio << ' ' << course.now << ' ' << course.settled;
         const bool moves = std::abs(course.now) > 1.5 * level || std::abs(course.settled) > 1.5 * level;
         if (moves && course.rate > 1.0) {
-          EXPECT_GT(plant.theta() * course_after(course, 1.0).now, 0.0)
+          EXPECT_GT(plant.theta() * motion::course_after(course, 1.0).now, 0.0)
               << course.now << ' ' << course.settled;
         }
         if (std::abs(course.now) <= level && std::abs(course.settled) <= level) {
@@ -219,9 +220,9 @@ TEST(CoulombPlant, FollowsEveryTorqueAtTheVeryLevel) {
 
 TEST(CoulombPlant, SlidesUnderTheSameLawAsThePreslidingOne) {
   FrictionAlongRotor friction = coulomb(0.6);
-  Plant without({}, friction, {.velocity = 2.0, .sliding = true}, coulomb_tolerance);
+  plant::Plant without({}, friction, {.velocity = 2.0, .sliding = true}, coulomb_tolerance);
   friction.model = FrictionModel::presliding;
-  Plant with({}, friction, {.velocity = 2.0, .sliding = true}, coulomb_tolerance);
+  plant::Plant with({}, friction, {.velocity = 2.0, .sliding = true}, coulomb_tolerance);
   for (int k = 0; k < 5; ++k) {
     hold(without, 0.1, 5e-4);
     hold(with, 0.1, 5e-4);
@@ -253,10 +254,10 @@ TEST(CoulombPlant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
   CoulombPlant mirror({}, coulomb(0.7), {.velocity = -0.1}, coulomb_tolerance);
   double now = 0.0;
   for (int k = 0; k < 3000; ++k) {
-    const TorqueCourse course{now, torque(random), 3000.0};
+    const motion::TorqueCourse course{now, torque(random), 3000.0};
     plant.advance(course, 5e-4);
     mirror.advance({-course.now, -course.settled, course.rate}, 5e-4);
-    now = course_after(course, 5e-4).now;
+    now = motion::course_after(course, 5e-4).now;
     ASSERT_EQ(plant.theta(), -mirror.theta()) << k;
     ASSERT_EQ(plant.omega(), -mirror.omega()) << k;
   }
@@ -264,4 +265,4 @@ TEST(CoulombPlant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -16,7 +16,7 @@
 
 #include "core/friction/spring.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 namespace {
 
 using Real = long double;
@@ -39,7 +39,7 @@ class Draws {
 
 /// A rotor that creeps under a constant torque, on a branch of its spring.
 struct CreepingRotor {
-  PlantParameters plant;
+  motion::PlantParameters plant;
   FrictionParameters contact;
   SpringBranch branch;  ///< from xr = 0
   double torque;        ///< u, N m
@@ -220,7 +220,7 @@ TEST(CreepAtRest, NeverGrowsByMoreThanIsLeft) {
 }
 
 TEST(CreepAtRest, IsNoneWhereCreepIsAsFastAsTheSwing) {
-  const PlantParameters plant;
+  const motion::PlantParameters plant;
   FrictionParameters contact;
   const double stiffness = 860.0;
   const double swing =
@@ -233,4 +233,4 @@ TEST(CreepAtRest, IsNoneWhereCreepIsAsFastAsTheSwing) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::friction {
 namespace {
 
 constexpr double long_time = 1e3;  // s, many relaxation times
@@ -60,4 +60,4 @@ TEST(Creep, NeverSetsInWhereItsRateIsZero) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -9,17 +9,17 @@
 
 #include "core/plant/plant.hpp"
 
-namespace zerocount {
+namespace zerocount::friction {
 namespace {
 
 using Digits = boost::multiprecision::cpp_bin_float_100;
 
-constexpr MotionTolerance tolerance{4e-16};
+constexpr motion::MotionTolerance tolerance{4e-16};
 
 struct Push {
-  PlantParameters plant;
+  motion::PlantParameters plant;
   FreeMotion start;
-  TorqueCourse torque;
+  motion::TorqueCourse torque;
   double duration;
 };
 
@@ -106,11 +106,11 @@ FrictionAlongRotor no_friction() {
 // What a contact would begin with is not there.
 TEST(FreePlant, HasNoContact) {
   RandomPushes pushes;
-  PlantStart start;
+  motion::PlantStart start;
   start.hardening = 1e-5;
   start.preload = 0.1;
   start.history = {0.2, -0.1};
-  Plant plant({}, no_friction(), start, tolerance);
+  plant::Plant plant({}, no_friction(), start, tolerance);
   for (int k = 0; k < 100; ++k) {
     EXPECT_TRUE(plant.sliding());
     EXPECT_EQ(plant.read().creep.extension, 0.0);
@@ -127,13 +127,13 @@ TEST(FreePlant, MovesAsItWouldInTwoParts) {
   RandomPushes pushes;
   for (int i = 0; i < 1000; ++i) {
     const Push push = pushes.next();
-    const PlantStart start{.velocity = push.start.omega};
+    const motion::PlantStart start{.velocity = push.start.omega};
     const double first = push.duration * pushes.uniform(0.0, 1.0);
-    Plant whole(push.plant, no_friction(), start, tolerance);
-    Plant parts(push.plant, no_friction(), start, tolerance);
+    plant::Plant whole(push.plant, no_friction(), start, tolerance);
+    plant::Plant parts(push.plant, no_friction(), start, tolerance);
     whole.advance(push.torque, push.duration);
     parts.advance(push.torque, first);
-    parts.advance(course_after(push.torque, first), push.duration - first);
+    parts.advance(motion::course_after(push.torque, first), push.duration - first);
     const double speed = std::abs(push.start.omega) + 0.6 / push.plant.inertia * push.duration;
     ASSERT_NEAR(parts.omega(), whole.omega(), 1e-13 * speed);
     ASSERT_NEAR(parts.theta(), whole.theta(), 1e-13 * speed * push.duration);
@@ -142,10 +142,10 @@ TEST(FreePlant, MovesAsItWouldInTwoParts) {
 
 TEST(FreePlant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
   RandomPushes pushes;
-  Plant plant({}, no_friction(), {.velocity = 0.1}, tolerance);
-  Plant mirror({}, no_friction(), {.velocity = -0.1}, tolerance);
+  plant::Plant plant({}, no_friction(), {.velocity = 0.1}, tolerance);
+  plant::Plant mirror({}, no_friction(), {.velocity = -0.1}, tolerance);
   for (int k = 0; k < 1000; ++k) {
-    const TorqueCourse course = pushes.next().torque;
+    const motion::TorqueCourse course = pushes.next().torque;
     plant.advance(course, 5e-4);
     mirror.advance({-course.now, -course.settled, course.rate}, 5e-4);
     ASSERT_EQ(plant.theta(), -mirror.theta()) << k;
@@ -155,16 +155,16 @@ TEST(FreePlant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
 
 // Without damping nothing is lost: the work of the torque is the kinetic energy.
 TEST(FreePlant, WithoutDampingKeepsItsEnergy) {
-  PlantParameters rotor;
+  motion::PlantParameters rotor;
   rotor.presliding_damping = 0.0;
-  Plant plant(rotor, no_friction(), {.velocity = 2.0}, tolerance);
-  plant.advance(constant_torque(0.0), 10.0);
+  plant::Plant plant(rotor, no_friction(), {.velocity = 2.0}, tolerance);
+  plant.advance(motion::constant_torque(0.0), 10.0);
   EXPECT_EQ(plant.omega(), 2.0);
   EXPECT_DOUBLE_EQ(plant.theta(), 20.0);
-  plant.advance(constant_torque(-0.1), 0.02);
+  plant.advance(motion::constant_torque(-0.1), 0.02);
   const double work = -0.1 * (plant.theta() - 20.0);
   EXPECT_NEAR(0.5 * rotor.inertia * (plant.omega() * plant.omega() - 4.0), work, 1e-14);
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -19,15 +19,15 @@
 namespace zerocount::testing {
 namespace {
 
-using PreslidingPlant = PlantWith<PreslidingFriction>;
+using PreslidingPlant = plant::PlantWith<friction::PreslidingFriction>;
 
-double count_of(const TrialParameters& rig) {
+double count_of(const trial::TrialParameters& rig) {
   return 2.0 * std::numbers::pi / rig.encoder.fine;
 }
 
 /// A rig at the start of a trial, with the tolerances of one.
-PreslidingPlant plant_of(const TrialParameters& rig) {
-  return {rig.plant, rig.friction, plant_start(rig), motion_tolerance(count_of(rig))};
+PreslidingPlant plant_of(const trial::TrialParameters& rig) {
+  return {rig.plant, rig.friction, trial::plant_start(rig), trial::motion_tolerance(count_of(rig))};
 }
 
 struct Hold {
@@ -36,10 +36,10 @@ struct Hold {
 };
 
 /// Torques that the hook withstands, each held until nothing swings any more.
-std::vector<Hold> random_holds(Draws& draws, const TrialParameters& rig) {
+std::vector<Hold> random_holds(Draws& draws, const trial::TrialParameters& rig) {
   std::vector<Hold> holds;
   holds.reserve(3);
-  const double breakaway = friction_at(rig.friction, rig.initial.position).breakaway;
+  const double breakaway = friction::friction_at(rig.friction, rig.initial.position).breakaway;
   for (int i = 0; i < 3; ++i) {
     holds.push_back({0.3 * breakaway * draws.uniform(-1.0, 1.0), draws.uniform(0.2, 0.5)});
   }
@@ -47,11 +47,11 @@ std::vector<Hold> random_holds(Draws& draws, const TrialParameters& rig) {
 }
 
 void hold(PreslidingPlant& plant, double torque, double duration) {
-  plant.advance(constant_torque(torque), duration);
+  plant.advance(motion::constant_torque(torque), duration);
 }
 
 /// Rigs like the paper's, with creep of every exponent and without.
-TrialParameters rig_number(std::uint64_t index) {
+trial::TrialParameters rig_number(std::uint64_t index) {
   return random_trial(index % 4 == 0 ? TrialKind::spring_alone : TrialKind::calm, 9000 + index);
 }
 
@@ -59,7 +59,7 @@ TEST(PlantAtRest, IsWhereTheFullEquationsHaveIt) {
   double worst = 0.0;
   int rests = 0;
   for (std::uint64_t index = 0; index < 40; ++index) {
-    const TrialParameters rig = rig_number(index);
+    const trial::TrialParameters rig = rig_number(index);
     Draws draws(index);
     PreslidingPlant plant = plant_of(rig);
     OdeintMotion judge(rig);
@@ -84,7 +84,7 @@ TEST(PlantAtRest, IsWhereTheFullEquationsHaveIt) {
 TEST(PlantAtRest, StaysWithTheFullEquationsForSeconds) {
   double worst = 0.0;
   for (std::uint64_t index = 0; index < 6; ++index) {
-    TrialParameters rig = rig_number(4 * index + 1);
+    trial::TrialParameters rig = rig_number(4 * index + 1);
     rig.friction.uniform.alpha = 0.3 + static_cast<double>(index);
     rig.initial.preload = rig.initial.hardening = 0.0;
     PreslidingPlant plant = plant_of(rig);
@@ -109,7 +109,7 @@ TEST(PlantAtRest, RemembersTheSameReversalsInPiecesOfAnyLength) {
   int holds = 0;
   std::int64_t deepest = 0;
   for (std::uint64_t index = 0; index < 120; ++index) {
-    const TrialParameters rig = rig_number(1000 + index);
+    const trial::TrialParameters rig = rig_number(1000 + index);
     Draws draws(2000 + index);
     PreslidingPlant whole = plant_of(rig);
     PreslidingPlant samples = plant_of(rig);
@@ -139,7 +139,7 @@ TEST(PlantAtRest, RemembersTheSameReversalsInPiecesOfAnyLength) {
 
 TEST(PlantAtRest, IsNotWhileItSwings) {
   for (const double alpha : {0.0, 0.5}) {
-    TrialParameters rig;
+    trial::TrialParameters rig;
     rig.friction.uniform.alpha = alpha;
     PreslidingPlant plant = plant_of(rig);
     EXPECT_FALSE(plant.come_to_rest(0.012, false));
@@ -158,8 +158,8 @@ TEST(PlantAtRest, WaitsWhereSwingsMakeCreep) {
   double worst = 0.0;
   for (std::uint64_t index = 0; index < 24; ++index) {
     Draws draws(3000 + index);
-    TrialParameters rig;
-    FrictionParameters& contact = rig.friction.uniform;
+    trial::TrialParameters rig;
+    friction::FrictionParameters& contact = rig.friction.uniform;
     const double stiffest = contact.k1 + contact.k2;
     const double ratio = std::exp(draws.uniform(std::log(0.01), std::log(0.1)));  // of damping
     rig.plant.presliding_damping = 2.0 * ratio * std::sqrt(stiffest * rig.plant.inertia);
@@ -186,12 +186,12 @@ TEST(PlantAtRest, WaitsWhereSwingsMakeCreep) {
 /// the same.
 TEST(PlantAtRest, RemembersASlowUnloading) {
   for (const double direction : {1.0, -1.0}) {
-    TrialParameters rig;
+    trial::TrialParameters rig;
     rig.encoder.fine = 10000;
     rig.friction.uniform.alpha = 0.0;
     PreslidingPlant plant = plant_of(rig);
     hold(plant, direction * 0.05, 1.0);
-    HystereticSpring spring = plant.spring();
+    friction::HystereticSpring spring = plant.spring();
     const double before = spring.elongation();
     constexpr int steps = 20000;
     for (const double way : {-1.0, 1.0, -1.0}) {
@@ -206,7 +206,7 @@ TEST(PlantAtRest, RemembersASlowUnloading) {
 
 TEST(PlantAtRest, CreepsInOneDirection) {
   for (std::uint64_t index = 0; index < 20; ++index) {
-    TrialParameters rig = rig_number(4 * index + 1);
+    trial::TrialParameters rig = rig_number(4 * index + 1);
     Draws draws(index);
     PreslidingPlant plant = plant_of(rig);
     const double torque = 0.02 * draws.uniform(0.3, 1.0) * (index % 2 == 0 ? 1.0 : -1.0);
@@ -227,16 +227,16 @@ TEST(PlantAtRest, IsReachedHoweverFastItCreeps) {
   std::vector<std::uint64_t> indices{500366, 501150};  // found among thousands
   for (std::uint64_t index = 0; index < 150; ++index) indices.push_back(510000 + index);
   for (const std::uint64_t index : indices) {
-    TrialParameters p = random_trial(TrialKind::calm, index);
-    FrictionParameters& f = p.friction.uniform;
-    f.lambda = 4e-4 / hardening_limit(f, 0.02);
+    trial::TrialParameters p = random_trial(TrialKind::calm, index);
+    friction::FrictionParameters& f = p.friction.uniform;
+    f.lambda = 4e-4 / friction::hardening_limit(f, 0.02);
     f.n = 2.0;
     p.friction.profiled.clear();
     const auto i = static_cast<double>(index % 200);
     f.alpha = std::exp(3.0 + 0.015 * i);  // 20 to 400 /s
     f.lambda *= std::exp(0.02 * std::fmod(37.0 * i, 200.0) - 2.0);
-    for (const MoveOutcome& move : run_trial(p).moves) {
-      EXPECT_NE(move.outcome, Outcome::nonfinite) << index;
+    for (const trial::MoveOutcome& move : trial::run_trial(p).moves) {
+      EXPECT_NE(move.outcome, trial::Outcome::nonfinite) << index;
       EXPECT_LT(move.reversal_depth, 200) << index;
     }
   }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::friction {
 namespace {
 
 SlidingSeries with_velocity(std::initializer_list<double> coefficients) {
@@ -33,4 +33,4 @@ TEST(SlidingEvent, IsNotTheRestFromWhichTheSlideStarts) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::friction

@@ -8,23 +8,24 @@ namespace zerocount {
 
 /// A friction law that only the tests know: a linear spring with viscous damping, F = k·θ + d·ω. It counts
 /// where ω changes sign, located in time.
-class SpringDamper : public WithoutSpring {
+class SpringDamper : public friction::WithoutSpring {
  public:
   static constexpr std::string_view word = "spring_damper";
-  static constexpr std::array<ContactField, 1> contact_parameters{&FrictionParameters::k1};  // k
-  static constexpr bool has_presliding_damping = true;                                       // d
+  static constexpr std::array<friction::ContactField, 1> contact_parameters{
+      &friction::FrictionParameters::k1};               // k
+  static constexpr bool has_presliding_damping = true;  // d
   static constexpr bool runs_in_lanes = false;
 
   struct Expansion {
-    Series position{};  // θ
-    Series omega{};
-    Series exponent{};
+    numerics::Series position{};  // θ
+    numerics::Series omega{};
+    numerics::Series exponent{};
   };
   enum class Event { none, turn };
 
-  SpringDamper(const PlantParameters& plant, const FrictionAlongRotor& friction, const PlantStart& start,
-               const MotionTolerance&)
-      : stiffness_(friction_at(friction, start.position).k1),
+  SpringDamper(const motion::PlantParameters& plant, const friction::FrictionAlongRotor& friction,
+               const motion::PlantStart& start, const motion::MotionTolerance&)
+      : stiffness_(friction::friction_at(friction, start.position).k1),
         damping_(plant.presliding_damping),
         omega_(start.velocity) {}
 
@@ -35,17 +36,17 @@ class SpringDamper : public WithoutSpring {
     return s;
   }
   double expand(Expansion& s, std::size_t k, double torque) const {
-    s.position[k + 1] = s.omega[k] * reciprocal[k + 1];
+    s.position[k + 1] = s.omega[k] * numerics::reciprocal[k + 1];
     return torque - stiffness_ * s.position[k] - damping_ * s.omega[k];
   }
-  NextEvent<Event> first_event(const Expansion& s, double step) const {
-    NextEvent<Event> next{step};
-    next.offer(next_sign_change(s.omega, step), Event::turn);
+  motion::NextEvent<Event> first_event(const Expansion& s, double step) const {
+    motion::NextEvent<Event> next{step};
+    next.offer(motion::next_sign_change(s.omega, step), Event::turn);
     return next;
   }
-  void go_to(const Expansion& s, const NextEvent<Event>& next) {
-    theta_ = value_at(s.position, next.time);
-    omega_ = next.event == Event::turn ? 0.0 : value_at(s.omega, next.time);
+  void go_to(const Expansion& s, const motion::NextEvent<Event>& next) {
+    theta_ = numerics::value_at(s.position, next.time);
+    omega_ = next.event == Event::turn ? 0.0 : numerics::value_at(s.omega, next.time);
     turns_ += next.event == Event::turn ? 1 : 0;
   }
 

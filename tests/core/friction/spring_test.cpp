@@ -9,7 +9,7 @@
 #include <boost/math/special_functions/lambert_w.hpp>
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::friction {
 namespace {
 
 FrictionParameters random_friction(std::mt19937& random) {
@@ -265,4 +265,4 @@ TEST_P(SpringProperties, TorqueTakesAStretchedVirginSpringThroughItsOrigin) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::friction

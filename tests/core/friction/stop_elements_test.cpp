@@ -23,9 +23,10 @@ struct Difference {
   double proportion{0.0};
 };
 
-Difference largest_difference(const FrictionParameters& friction, std::size_t elements, std::uint64_t seed) {
+Difference largest_difference(const friction::FrictionParameters& friction, std::size_t elements,
+                              std::uint64_t seed) {
   std::mt19937_64 engine(seed);
-  HystereticSpring spring(friction);
+  friction::HystereticSpring spring(friction);
   StopElements stops(friction, elements);
   const double reach = uniform(engine, 0.3, 4.0) / friction.beta;
   Difference worst;
@@ -43,9 +44,9 @@ Difference largest_difference(const FrictionParameters& friction, std::size_t el
   return worst;
 }
 
-FrictionParameters random_friction(std::uint64_t seed) {
+friction::FrictionParameters random_friction(std::uint64_t seed) {
   std::mt19937_64 engine(seed);
-  FrictionParameters friction;
+  friction::FrictionParameters friction;
   friction.k1 = uniform(engine, 50.0, 150.0);
   friction.k2 = uniform(engine, 100.0, 1000.0);
   friction.beta = uniform(engine, 3e4, 5e5);
@@ -61,7 +62,7 @@ TEST(StopElements, SumEqualsTheSpringWithinTheBoundOfTheDiscretisation) {
 
 TEST(StopElements, SumConvergesToTheSpringQuadratically) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const FrictionParameters friction = random_friction(seed);
+    const friction::FrictionParameters friction = random_friction(seed);
     const double coarse = largest_difference(friction, 100, seed).absolute;
     const double fine = largest_difference(friction, 1600, seed).absolute;
     EXPECT_LT(fine, coarse / 64.0) << "seed " << seed;  // 256 for smooth convergence; the worst point moves
@@ -90,9 +91,9 @@ double elongation_at(const StopElements& stops, double from, double torque) {
 // Loaded by torque, the spring goes where the elements go: no branch law is inverted there.
 TEST(StopElements, ReachTheTorquesOfAHistoryWhereTheSpringDoes) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const FrictionParameters friction = random_friction(seed);
+    const friction::FrictionParameters friction = random_friction(seed);
     std::mt19937_64 engine(seed + 500);
-    HystereticSpring spring(friction);
+    friction::HystereticSpring spring(friction);
     StopElements stops(friction, 1000);
     double x = 0.0;
     for (int level = 0; level < 40; ++level) {

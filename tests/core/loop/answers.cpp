@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 class Answers {
  public:
   Json measurement() {
-    EncoderParameters encoders;
+    loop::EncoderParameters encoders;
     if (random_() % 2 == 0) {
       encoders.coarse = std::floor(power_of_ten(1.0, 5.0));
       encoders.fine = std::floor(power_of_ten(1.0, 6.0));
@@ -30,15 +30,15 @@ class Answers {
     encoders.coarse_errors = errors();
     const double phase = random_() % 4 == 0 ? 0.0 : uniform(0.0, 1.0);
     const double position = uniform(-7.0, 7.0);
-    const TrialRandomness randomness = random_randomness();
-    Measurement measurement(encoders, phase, position, randomness);
+    const random::TrialRandomness randomness = random_randomness();
+    loop::Measurement measurement(encoders, phase, position, randomness);
 
     Json samples = Json::array();
     const std::int64_t first = first_sample();
     const double pace = measurement.fine_resolution() * power_of_ten(-1.0, 2.5);
     double theta = 0.0;
     for (std::int64_t k = first; k < first + 150; ++k) {
-      const EncoderReading reading = measurement.read(k, theta);
+      const loop::EncoderReading reading = measurement.read(k, theta);
       samples.push_back({k, theta, reading.fine, reading.coarse, measurement.disagreements()});
       theta += random_() % 20 == 0 ? uniform(-1.0, 1.0) : pace * uniform(-0.8, 1.0);
     }
@@ -54,27 +54,27 @@ class Answers {
   }
 
   Json drive() {
-    DacParameters dac;
+    loop::DacParameters dac;
     dac.bits = static_cast<int>(4 + random_() % 13);
     dac.resolution = power_of_ten(-5.0, -2.0);
     dac.offset = sometimes(uniform(-0.1, 0.1));
     dac.gain_error = sometimes(uniform(-0.1, 0.1));
     dac.nonlinearity = sometimes(uniform(-3.0, 3.0));
     dac.noise = sometimes(power_of_ten(-5.0, -1.0));
-    const AmplifierParameters amplifier{sometimes(power_of_ten(0.0, 4.0))};
+    const loop::AmplifierParameters amplifier{sometimes(power_of_ten(0.0, 4.0))};
     const int delay = static_cast<int>(random_() % 4);
     const double sample_time = power_of_ten(-5.0, -2.0);
     const bool exact = random_() % 4 == 0;
-    const TrialRandomness randomness = random_randomness();
-    Drive drive(dac, amplifier, delay, sample_time, randomness);
+    const random::TrialRandomness randomness = random_randomness();
+    loop::Drive drive(dac, amplifier, delay, sample_time, randomness);
 
     Json samples = Json::array();
     const std::int64_t first = first_sample();
     const double range = dac.resolution * std::exp2(dac.bits - 1);
     for (std::int64_t k = first; k < first + 40; ++k) {
       const double wanted = uniform(-1.1, 1.1) * range;
-      const DacOutput decided = convert(dac, wanted);
-      const TorqueCourse course = exact ? drive.send_exact(wanted) : drive.send(k, decided);
+      const loop::DacOutput decided = loop::convert(dac, wanted);
+      const motion::TorqueCourse course = exact ? drive.send_exact(wanted) : drive.send(k, decided);
       samples.push_back({k, wanted, decided.code, course.now, course.settled, course.rate});
     }
     return {{"bits", dac.bits},
@@ -94,11 +94,11 @@ class Answers {
   }
 
   Json history() {
-    const RandomHistory history{static_cast<int>(random_() % 20), power_of_ten(-3.0, 1.0)};
-    const TrialRandomness randomness = random_randomness();
+    const trial::RandomHistory history{static_cast<int>(random_() % 20), power_of_ten(-3.0, 1.0)};
+    const random::TrialRandomness randomness = random_randomness();
     return {{"reversals", history.reversals}, {"torque", history.torque},
             {"key", randomness.history},      {"trial", randomness.trial},
-            {"stream", randomness.stream},    {"levels", draw_history(history, randomness)}};
+            {"stream", randomness.stream},    {"levels", trial::draw_history(history, randomness)}};
   }
 
  private:
@@ -111,8 +111,8 @@ class Answers {
     return random_() % 2 == 0 ? 0 : static_cast<std::int64_t>(random_() % ((std::uint64_t{1} << 40) - 200));
   }
 
-  EncoderErrors errors() {
-    EncoderErrors errors;
+  loop::EncoderErrors errors() {
+    loop::EncoderErrors errors;
     errors.eccentricity = sometimes(power_of_ten(-6.0, -2.0));
     errors.eccentricity_angle = uniform(-7.0, 7.0);
     errors.interpolation = sometimes(power_of_ten(-1.0, 1.0));
@@ -122,22 +122,23 @@ class Answers {
     return errors;
   }
 
-  RandomKey random_key() {
+  random::RandomKey random_key() {
     return {static_cast<std::uint32_t>(random_()), static_cast<std::uint32_t>(random_())};
   }
 
-  TrialRandomness random_randomness() {
-    TrialRandomness randomness;
+  random::TrialRandomness random_randomness() {
+    random::TrialRandomness randomness;
     randomness.trial = random_() >> (11 + random_() % 40);
     randomness.stream = static_cast<std::uint32_t>(random_() >> (32 + random_() % 32));
-    for (RandomKey* key : {&randomness.history, &randomness.fine_noise, &randomness.fine_missed,
-                           &randomness.coarse_noise, &randomness.coarse_missed, &randomness.dac_noise})
+    for (random::RandomKey* key :
+         {&randomness.history, &randomness.fine_noise, &randomness.fine_missed, &randomness.coarse_noise,
+          &randomness.coarse_missed, &randomness.dac_noise})
       *key = random_key();
     return randomness;
   }
 
-  static Json encoder(double counts, const EncoderErrors& errors, const RandomKey& noise,
-                      const RandomKey& missed) {
+  static Json encoder(double counts, const loop::EncoderErrors& errors, const random::RandomKey& noise,
+                      const random::RandomKey& missed) {
     return {{"counts", counts},
             {"eccentricity", errors.eccentricity},
             {"eccentricity_angle", errors.eccentricity_angle},

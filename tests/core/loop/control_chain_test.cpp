@@ -12,7 +12,7 @@
 
 #include "tests/core/loop/test_blocks.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 namespace {
 
 struct Input {
@@ -123,4 +123,4 @@ TEST(ControlChain, BlocksActOneAfterTheOther) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::loop

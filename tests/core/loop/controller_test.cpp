@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::loop {
 namespace {
 
 constexpr double lowest = -0.49;
@@ -332,4 +332,4 @@ TEST(Controller, APhaseSeesOnlyItsOwnEncoder) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::loop

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::loop {
 namespace {
 
 TEST(Dac, TwelveBitsReachFromMinus2048To2047) {
@@ -109,4 +109,4 @@ TEST(Dac, NonlinearityIsABowBetweenTheEndsOfTheRange) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::loop

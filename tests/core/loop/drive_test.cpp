@@ -10,13 +10,13 @@
 
 #include "tests/support/goodness_of_fit.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 namespace {
 
 constexpr double sample_time = 5e-4;
 
-TrialRandomness randomness_of(std::uint64_t trial) {
-  TrialRandomness randomness;
+random::TrialRandomness randomness_of(std::uint64_t trial) {
+  random::TrialRandomness randomness;
   randomness.trial = trial;
   randomness.dac_noise = {11, 12};
   return randomness;
@@ -39,7 +39,7 @@ std::vector<DacOutput> random_outputs(const DacParameters& dac, unsigned seed, i
   return outputs;
 }
 
-double end_of(const TorqueCourse& course, double duration) {
+double end_of(const motion::TorqueCourse& course, double duration) {
   return course.settled + (course.now - course.settled) * std::exp(-course.rate * duration);
 }
 
@@ -50,7 +50,7 @@ TEST(Drive, WithoutErrorsHoldsTheDecidedTorqueExactly) {
     EXPECT_EQ(drive.torque(), 0.0);
     const std::vector<DacOutput> outputs = random_outputs(dac, 21, 200);
     for (std::size_t k = 0; k < outputs.size(); ++k) {
-      const TorqueCourse course = drive.send(static_cast<std::int64_t>(k), outputs[k]);
+      const motion::TorqueCourse course = drive.send(static_cast<std::int64_t>(k), outputs[k]);
       const auto late = static_cast<std::size_t>(delay);
       const double expected = k < late ? 0.0 : outputs[k - late].torque;
       EXPECT_EQ(course.now, expected);
@@ -136,7 +136,7 @@ TEST(Drive, AmplifierStepResponseIsExponential) {
     Drive drive({}, {bandwidth}, 0, sample_time, randomness_of(1));
     const DacOutput output = convert({}, 0.2);
     for (int k = 0; k < 400; ++k) {
-      const TorqueCourse course = drive.send(k, output);
+      const motion::TorqueCourse course = drive.send(k, output);
       const double expected =
           output.torque * -std::expm1(-2.0 * std::numbers::pi * bandwidth * k * sample_time);
       ASSERT_NEAR(course.now, expected, 1e-15);
@@ -159,7 +159,7 @@ TEST(Drive, TorqueIsContinuousFromSampleToSample) {
     double end = 0.0;
     std::int64_t k = 0;
     for (const DacOutput& output : random_outputs(converter_with_errors(), 24, 300)) {
-      const TorqueCourse course = drive.send(k++, output);
+      const motion::TorqueCourse course = drive.send(k++, output);
       ASSERT_NEAR(course.now, end, 1e-15);
       end = end_of(course, sample_time);
     }
@@ -199,7 +199,7 @@ TEST(Drive, ManyShortSamplesEqualOneLong) {
 TEST(Drive, AmplifierComesToRest) {
   Drive drive({}, {200.0}, 0, sample_time, randomness_of(1));
   drive.send_exact(0.3);
-  TorqueCourse course;
+  motion::TorqueCourse course;
   for (int k = 0; k < 2000; ++k) {
     course = drive.send_exact(0.0);
     ASSERT_TRUE(course.now == 0.0 || std::isnormal(course.now));
@@ -208,4 +208,4 @@ TEST(Drive, AmplifierComesToRest) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::loop

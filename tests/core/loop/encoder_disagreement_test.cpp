@@ -15,58 +15,62 @@ class EncoderDisagreementProperties : public WithRandomEncoders {};
 INSTANTIATE_TEST_SUITE_P(RandomParameters, EncoderDisagreementProperties, ::testing::Range(1u, 13u));
 
 TEST_P(EncoderDisagreementProperties, IdealCountsAgreeAtEveryAngle) {
-  const EncoderParameters encoders = random_encoders();
+  const loop::EncoderParameters encoders = random_encoders();
   const double phase = random_phase();
-  const Encoder fine = fine_encoder(encoders, phase);
-  const Encoder coarse = coarse_encoder(encoders, phase);
+  const loop::Encoder fine = loop::fine_encoder(encoders, phase);
+  const loop::Encoder coarse = loop::coarse_encoder(encoders, phase);
   for (int i = 0; i < 2000; ++i) {
     const double theta = uniform(-50.0, 50.0);
-    ASSERT_TRUE(counts_agree(fine, coarse, {read_count(fine, theta), read_count(coarse, theta)})) << theta;
+    ASSERT_TRUE(
+        loop::counts_agree(fine, coarse, {loop::read_count(fine, theta), loop::read_count(coarse, theta)}))
+        << theta;
   }
 }
 
 TEST_P(EncoderDisagreementProperties, CountsThatNoAngleShowsDisagree) {
-  const EncoderParameters encoders = random_encoders();
+  const loop::EncoderParameters encoders = random_encoders();
   const double phase = random_phase();
-  const Encoder fine = fine_encoder(encoders, phase);
-  const Encoder coarse = coarse_encoder(encoders, phase);
+  const loop::Encoder fine = loop::fine_encoder(encoders, phase);
+  const loop::Encoder coarse = loop::coarse_encoder(encoders, phase);
   const double ratio = encoders.coarse / encoders.fine;
   for (int i = 0; i < 2000; ++i) {
     const double theta = uniform(-50.0, 50.0);
     const auto most =
         static_cast<std::int64_t>(std::ceil(ratio) + 1.0);  // coarse counts that a fine one meets
-    const EncoderReading reading{read_count(fine, theta), read_count(coarse, theta)};
-    ASSERT_FALSE(counts_agree(fine, coarse, {reading.fine, reading.coarse + most}));
-    ASSERT_FALSE(counts_agree(fine, coarse, {reading.fine, reading.coarse - most}));
+    const loop::EncoderReading reading{loop::read_count(fine, theta), loop::read_count(coarse, theta)};
+    ASSERT_FALSE(loop::counts_agree(fine, coarse, {reading.fine, reading.coarse + most}));
+    ASSERT_FALSE(loop::counts_agree(fine, coarse, {reading.fine, reading.coarse - most}));
   }
 }
 
 TEST(CountsAgree, TellsApartEdgesThatCoincide) {
   // The same encoder twice: one count of difference is impossible everywhere.
-  const Encoder encoder = fine_encoder({}, 0.3);
+  const loop::Encoder encoder = loop::fine_encoder({}, 0.3);
   for (std::int64_t count = -5000000; count < 5000000; count += 99991) {
-    EXPECT_TRUE(counts_agree(encoder, encoder, {count, count}));
-    EXPECT_FALSE(counts_agree(encoder, encoder, {count, count + 1}));
-    EXPECT_FALSE(counts_agree(encoder, encoder, {count, count - 1}));
+    EXPECT_TRUE(loop::counts_agree(encoder, encoder, {count, count}));
+    EXPECT_FALSE(loop::counts_agree(encoder, encoder, {count, count + 1}));
+    EXPECT_FALSE(loop::counts_agree(encoder, encoder, {count, count - 1}));
   }
   // 18.75 fine counts in a coarse one and phase 0: edges coincide at every 75 fine and 4 coarse counts.
-  const Encoder fine = fine_encoder({}, 0.0);
-  const Encoder coarse = coarse_encoder({}, 0.0);
+  const loop::Encoder fine = loop::fine_encoder({}, 0.0);
+  const loop::Encoder coarse = loop::coarse_encoder({}, 0.0);
   for (std::int64_t turn = -5000; turn < 5000; ++turn) {
-    EXPECT_TRUE(counts_agree(fine, coarse, {75 * turn, 4 * turn}));
-    EXPECT_FALSE(counts_agree(fine, coarse, {75 * turn, 4 * turn - 1}));
-    EXPECT_TRUE(counts_agree(fine, coarse, {75 * turn - 1, 4 * turn - 1}));
-    EXPECT_FALSE(counts_agree(fine, coarse, {75 * turn - 1, 4 * turn}));
-    EXPECT_TRUE(counts_agree(fine, coarse, {75 * turn + 18, 4 * turn}));  // 18.75 lies inside this count
-    EXPECT_TRUE(counts_agree(fine, coarse, {75 * turn + 18, 4 * turn + 1}));
+    EXPECT_TRUE(loop::counts_agree(fine, coarse, {75 * turn, 4 * turn}));
+    EXPECT_FALSE(loop::counts_agree(fine, coarse, {75 * turn, 4 * turn - 1}));
+    EXPECT_TRUE(loop::counts_agree(fine, coarse, {75 * turn - 1, 4 * turn - 1}));
+    EXPECT_FALSE(loop::counts_agree(fine, coarse, {75 * turn - 1, 4 * turn}));
+    EXPECT_TRUE(
+        loop::counts_agree(fine, coarse, {75 * turn + 18, 4 * turn}));  // 18.75 lies inside this count
+    EXPECT_TRUE(loop::counts_agree(fine, coarse, {75 * turn + 18, 4 * turn + 1}));
   }
 }
 
 TEST_P(EncoderDisagreementProperties, EncodersThatShareAnEccentricityNeverDisagree) {
-  EncoderParameters encoders = random_encoders();
+  loop::EncoderParameters encoders = random_encoders();
   encoders.fine_errors.eccentricity = encoders.coarse_errors.eccentricity = uniform(1e-4, 1e-1);
   encoders.fine_errors.eccentricity_angle = encoders.coarse_errors.eccentricity_angle = uniform(-7.0, 7.0);
-  Measurement measurement(encoders, random_phase(), uniform(0.0, revolution), randomness_of_encoders(1));
+  loop::Measurement measurement(encoders, random_phase(), uniform(0.0, revolution),
+                                randomness_of_encoders(1));
   for (int i = 0; i < 3000; ++i) measurement.read(i, uniform(-10.0, 10.0));
   EXPECT_EQ(measurement.disagreements(), 0);
 }
@@ -74,13 +78,13 @@ TEST_P(EncoderDisagreementProperties, EncodersThatShareAnEccentricityNeverDisagr
 TEST(EncoderDisagreement, BeginsWhereTheFineCountLagsBehindTheCoarseOne) {
   // A fine encoder that never counts stays at 0 and stands for the angles [−½, ½) of its counts: the coarse
   // counts (½ − ½/18.75, ½ + ½/18.75) are of count 0 alone, so every other coarse count is impossible.
-  EncoderParameters encoders;
+  loop::EncoderParameters encoders;
   encoders.fine_errors.missed = 1.0;
-  Measurement measurement(encoders, 0.5, 0.0, randomness_of_encoders(1));
+  loop::Measurement measurement(encoders, 0.5, 0.0, randomness_of_encoders(1));
   std::int64_t expected = 0;
   for (int k = 0; k < 1000; ++k) {
     const double theta = 0.1 * k * measurement.fine_resolution();
-    const EncoderReading reading = measurement.read(k, theta);
+    const loop::EncoderReading reading = measurement.read(k, theta);
     ASSERT_EQ(reading.fine, 0);
     if (reading.coarse != 0) ++expected;
     ASSERT_EQ(measurement.disagreements(), expected);
@@ -89,17 +93,18 @@ TEST(EncoderDisagreement, BeginsWhereTheFineCountLagsBehindTheCoarseOne) {
 }
 
 TEST(EncoderDisagreement, SeesALossOfMoreThanACoarseCountAtEverySample) {
-  EncoderParameters encoders;
+  loop::EncoderParameters encoders;
   encoders.fine_errors.missed = 0.01;
-  Measurement measurement(encoders, 0.25, 1.0, randomness_of_encoders(3));
+  loop::Measurement measurement(encoders, 0.25, 1.0, randomness_of_encoders(3));
   const double resolution = measurement.fine_resolution();
   int beyond = 0;
   int impossible_before = 0;
   for (int k = 0; k < 3000; ++k) {
     const double theta = 3.3 * k * resolution;
     const std::int64_t before = measurement.disagreements();
-    const EncoderReading reading = measurement.read(k, theta);
-    const double lag = static_cast<double>(read_count(fine_encoder(encoders, 0.25), theta) - reading.fine);
+    const loop::EncoderReading reading = measurement.read(k, theta);
+    const double lag =
+        static_cast<double>(loop::read_count(loop::fine_encoder(encoders, 0.25), theta) - reading.fine);
     const bool impossible = measurement.disagreements() > before;
     if (lag == 0.0) {
       EXPECT_FALSE(impossible);

@@ -18,13 +18,13 @@ class EncoderErrorProperties : public WithRandomEncoders {};
 INSTANTIATE_TEST_SUITE_P(RandomParameters, EncoderErrorProperties, ::testing::Range(1u, 13u));
 
 TEST_P(EncoderErrorProperties, EccentricityIsFixedOnTheRotorAndReturnsAfterARevolution) {
-  EncoderParameters encoders;
+  loop::EncoderParameters encoders;
   encoders.fine_errors.eccentricity = uniform(1e-4, 1e-2);
   encoders.fine_errors.eccentricity_angle = uniform(-7.0, 7.0);
   const double phase = random_phase();
   const double start = uniform(0.0, revolution);
-  Measurement from_start(encoders, phase, start, randomness_of_encoders(1));
-  Measurement from_zero(encoders, phase, 0.0, randomness_of_encoders(1));
+  loop::Measurement from_start(encoders, phase, start, randomness_of_encoders(1));
+  loop::Measurement from_zero(encoders, phase, 0.0, randomness_of_encoders(1));
   const std::int64_t offset = from_zero.read(0, start).fine;
   for (int i = 1; i < 300; ++i) {
     const double theta = uniform(-10.0, 10.0);
@@ -37,11 +37,12 @@ TEST_P(EncoderErrorProperties, EccentricityIsFixedOnTheRotorAndReturnsAfterARevo
 }
 
 TEST_P(EncoderErrorProperties, EccentricityReachesItsAmplitudeAQuarterTurnFromItsAngle) {
-  EncoderParameters encoders;
+  loop::EncoderParameters encoders;
   const double amplitude = uniform(1e-4, 1e-2);
   encoders.fine_errors.eccentricity = amplitude;
   encoders.fine_errors.eccentricity_angle = uniform(-7.0, 7.0);
-  Measurement measurement(encoders, 0.5, encoders.fine_errors.eccentricity_angle, randomness_of_encoders(1));
+  loop::Measurement measurement(encoders, 0.5, encoders.fine_errors.eccentricity_angle,
+                                randomness_of_encoders(1));
   const double in_counts = amplitude / measurement.fine_resolution();
   EXPECT_NEAR(static_cast<double>(measurement.read(1, revolution / 4.0).fine),
               encoders.fine / 4.0 + in_counts, 1.0);
@@ -58,13 +59,13 @@ TEST_P(EncoderErrorProperties, EccentricityReachesItsAmplitudeAQuarterTurnFromIt
 TEST_P(EncoderErrorProperties, InterpolationMovesTheEdges) {
   // The edge of count n lies where x + A·(s(x) − s(phase)) = n. Weak enough, the left side rises throughout,
   // and the edge is found by bisection: in the readings, and in the equation.
-  EncoderParameters encoders;
-  EncoderErrors& errors = encoders.fine_errors;
+  loop::EncoderParameters encoders;
+  loop::EncoderErrors& errors = encoders.fine_errors;
   errors.interpolation_period = uniform(2.0, 20.0);
   errors.interpolation = uniform(0.1, 0.9) * errors.interpolation_period / revolution;
   const double phase = random_phase();
   const double position = uniform(0.0, revolution);
-  Measurement measurement(encoders, phase, position, randomness_of_encoders(1));
+  loop::Measurement measurement(encoders, phase, position, randomness_of_encoders(1));
   const double resolution = measurement.fine_resolution();
   const long double start = std::floor(position / resolution);
   const auto sine = [&](long double x) {
@@ -90,10 +91,11 @@ TEST_P(EncoderErrorProperties, InterpolationMovesTheEdges) {
 }
 
 TEST_P(EncoderErrorProperties, InterpolationRepeatsItselfEveryPeriod) {
-  EncoderParameters encoders;
+  loop::EncoderParameters encoders;
   encoders.coarse_errors.interpolation = uniform(0.1, 5.0);
   encoders.coarse_errors.interpolation_period = static_cast<double>(1 + random_() % 20);
-  Measurement measurement(encoders, random_phase(), uniform(0.0, revolution), randomness_of_encoders(1));
+  loop::Measurement measurement(encoders, random_phase(), uniform(0.0, revolution),
+                                randomness_of_encoders(1));
   const double period = encoders.coarse_errors.interpolation_period;
   for (int i = 0; i < 500; ++i) {
     const double theta = uniform(-1.0, 1.0);
@@ -103,11 +105,11 @@ TEST_P(EncoderErrorProperties, InterpolationRepeatsItselfEveryPeriod) {
 }
 
 TEST_P(EncoderErrorProperties, NoiseIsNormalBeforeTheRounding) {
-  EncoderParameters encoders;
+  loop::EncoderParameters encoders;
   encoders.fine_errors.noise = uniform(0.1, 3.0);
   encoders.coarse_errors.noise = uniform(0.1, 3.0);
   const double phase = random_phase();
-  Measurement measurement(encoders, phase, 0.0, randomness_of_encoders(GetParam()));
+  loop::Measurement measurement(encoders, phase, 0.0, randomness_of_encoders(GetParam()));
   const double theta = uniform(-1e-3, 1e-3);
   constexpr int samples = 20000;
   const auto centre = [&](double resolution) { return theta / resolution + phase; };
@@ -130,7 +132,7 @@ TEST_P(EncoderErrorProperties, NoiseIsNormalBeforeTheRounding) {
   const std::vector<double> fine_cells = cells_of(encoders.fine_errors.noise, fine_centre);
   const std::vector<double> coarse_cells = cells_of(encoders.coarse_errors.noise, coarse_centre);
   for (int k = 0; k < samples; ++k) {
-    const EncoderReading reading = measurement.read(k, theta);
+    const loop::EncoderReading reading = measurement.read(k, theta);
     const double fine_error = static_cast<double>(reading.fine) + 0.5 - fine_centre;
     const double coarse_error = static_cast<double>(reading.coarse) + 0.5 - coarse_centre;
     ++fine.at(static_cast<std::size_t>(reading.fine - std::llround(std::floor(fine_centre)) + 20));
@@ -158,9 +160,9 @@ TEST_P(EncoderErrorProperties, NoiseIsNormalBeforeTheRounding) {
 }
 
 TEST_P(EncoderErrorProperties, PassedCountsAreMissedIndependently) {
-  EncoderParameters encoders;
+  loop::EncoderParameters encoders;
   const double p = encoders.fine_errors.missed = uniform(0.01, 0.99);
-  Measurement measurement(encoders, 0.5, 0.0, randomness_of_encoders(GetParam()));
+  loop::Measurement measurement(encoders, 0.5, 0.0, randomness_of_encoders(GetParam()));
   constexpr int step = 6;  // counts per sample
   constexpr int samples = 5000;
   std::vector<double> observed(step + 1, 0.0);
@@ -189,16 +191,16 @@ TEST_P(EncoderErrorProperties, PassedCountsAreMissedIndependently) {
 }
 
 TEST(MissedCounts, AreLostForEverAndOnlyInMotion) {
-  EncoderParameters encoders;
+  loop::EncoderParameters encoders;
   encoders.coarse_errors.missed = 1.0;
-  Measurement all_missed(encoders, 0.5, 0.0, randomness_of_encoders(1));
+  loop::Measurement all_missed(encoders, 0.5, 0.0, randomness_of_encoders(1));
   // What lay before the first sample was not passed.
   EXPECT_EQ(all_missed.read(0, 10.0 * all_missed.coarse_resolution()).coarse, 10);
   for (int k = 1; k < 100; ++k)
     EXPECT_EQ(all_missed.read(k, 3.0 * k * all_missed.coarse_resolution()).coarse, 10);
 
   encoders.coarse_errors.missed = 0.5;
-  Measurement half_missed(encoders, 0.5, 0.0, randomness_of_encoders(1));
+  loop::Measurement half_missed(encoders, 0.5, 0.0, randomness_of_encoders(1));
   half_missed.read(0, 0.0);
   const std::int64_t count = half_missed.read(1, 1000.0 * half_missed.coarse_resolution()).coarse;
   EXPECT_NEAR(static_cast<double>(count), 500.0, 100.0);

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::loop {
 namespace {
 
 TEST(Encoder, ResolutionIsARevolutionOverTheCounts) {
@@ -51,4 +51,4 @@ TEST(Encoder, CountDiffersFromThePositionByLessThanOneCount) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::loop

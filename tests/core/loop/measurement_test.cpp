@@ -13,8 +13,8 @@ namespace zerocount::testing {
 namespace {
 
 /// Errors that are on, but too small to do anything.
-EncoderErrors idle_errors() {
-  EncoderErrors errors;
+loop::EncoderErrors idle_errors() {
+  loop::EncoderErrors errors;
   errors.missed = 1e-300;
   return errors;
 }
@@ -22,10 +22,10 @@ EncoderErrors idle_errors() {
 class MeasurementProperties : public WithRandomEncoders {
  protected:
   /// Angles close to edges of either encoder, on them, and one or two roundings beside them.
-  std::vector<double> angles_at_edges(const Encoder& fine, const Encoder& coarse) {
+  std::vector<double> angles_at_edges(const loop::Encoder& fine, const loop::Encoder& coarse) {
     std::vector<double> angles;
     for (int i = 0; i < 500; ++i) {
-      const Encoder& encoder = i % 2 == 0 ? fine : coarse;
+      const loop::Encoder& encoder = i % 2 == 0 ? fine : coarse;
       const double edge = (std::floor(uniform(-2000.0, 2000.0)) - encoder.phase) * encoder.resolution;
       double below = edge;
       double above = edge;
@@ -43,23 +43,23 @@ class MeasurementProperties : public WithRandomEncoders {
 INSTANTIATE_TEST_SUITE_P(RandomParameters, MeasurementProperties, ::testing::Range(1u, 13u));
 
 TEST_P(MeasurementProperties, IdealEncodersReadAsTheyAlwaysDid) {
-  const EncoderParameters encoders = random_encoders();
+  const loop::EncoderParameters encoders = random_encoders();
   const double phase = random_phase();
-  const Encoder fine = fine_encoder(encoders, phase);
-  const Encoder coarse = coarse_encoder(encoders, phase);
-  Measurement ideal(encoders, phase, uniform(0.0, revolution), randomness_of_encoders(1));
-  EncoderParameters with_idle_errors = encoders;
+  const loop::Encoder fine = loop::fine_encoder(encoders, phase);
+  const loop::Encoder coarse = loop::coarse_encoder(encoders, phase);
+  loop::Measurement ideal(encoders, phase, uniform(0.0, revolution), randomness_of_encoders(1));
+  loop::EncoderParameters with_idle_errors = encoders;
   with_idle_errors.fine_errors = with_idle_errors.coarse_errors = idle_errors();
-  Measurement idle(with_idle_errors, phase, uniform(0.0, revolution), randomness_of_encoders(1));
+  loop::Measurement idle(with_idle_errors, phase, uniform(0.0, revolution), randomness_of_encoders(1));
 
   std::vector<double> angles = angles_at_edges(fine, coarse);
   for (int i = 0; i < 500; ++i) angles.push_back(uniform(-100.0, 100.0));
   std::int64_t k = 0;
   for (const double theta : angles) {
-    for (Measurement* measurement : {&ideal, &idle}) {
-      const EncoderReading reading = measurement->read(k, theta);
-      ASSERT_EQ(reading.fine, read_count(fine, theta));
-      ASSERT_EQ(reading.coarse, read_count(coarse, theta));
+    for (loop::Measurement* measurement : {&ideal, &idle}) {
+      const loop::EncoderReading reading = measurement->read(k, theta);
+      ASSERT_EQ(reading.fine, loop::read_count(fine, theta));
+      ASSERT_EQ(reading.coarse, loop::read_count(coarse, theta));
     }
     ++k;
   }
@@ -71,13 +71,13 @@ TEST_P(MeasurementProperties, IdealEncodersReadAsTheyAlwaysDid) {
 // Beyond all sense, but not beyond the numbers: a count stays one that others can be taken from.
 TEST(Measurement, OfAbsurdErrorsStaysAWholeNumber) {
   for (const double absurd : {1e30, 1e300, 1e308}) {
-    EncoderParameters encoders;
+    loop::EncoderParameters encoders;
     encoders.fine_errors.eccentricity = absurd;
     encoders.fine_errors.interpolation = absurd;
     encoders.coarse_errors.noise = absurd;
-    Measurement measurement(encoders, 0.5, 0.0, randomness_of_encoders(1));
+    loop::Measurement measurement(encoders, 0.5, 0.0, randomness_of_encoders(1));
     for (std::int64_t k = 0; k < 100; ++k) {
-      const EncoderReading reading = measurement.read(k, 0.01 * static_cast<double>(k));
+      const loop::EncoderReading reading = measurement.read(k, 0.01 * static_cast<double>(k));
       EXPECT_LE(std::abs(static_cast<double>(reading.fine)), 0x1p52);
       EXPECT_LE(std::abs(static_cast<double>(reading.coarse)), 0x1p52);
     }
@@ -86,21 +86,21 @@ TEST(Measurement, OfAbsurdErrorsStaysAWholeNumber) {
 
 TEST_P(MeasurementProperties, SystematicErrorsStartAtCountZero) {
   for (int i = 0; i < 100; ++i) {
-    EncoderParameters encoders = random_encoders();
+    loop::EncoderParameters encoders = random_encoders();
     encoders.fine_errors.eccentricity = encoders.coarse_errors.eccentricity = uniform(0.0, 1e-2);
     encoders.fine_errors.eccentricity_angle = uniform(-7.0, 7.0);
     encoders.fine_errors.interpolation = encoders.coarse_errors.interpolation = uniform(0.0, 5.0);
     encoders.fine_errors.interpolation_period = uniform(0.5, 100.0);
-    Measurement measurement(encoders, random_phase(), uniform(-10.0, 10.0), randomness_of_encoders(1));
-    const EncoderReading reading = measurement.read(0, 0.0);
+    loop::Measurement measurement(encoders, random_phase(), uniform(-10.0, 10.0), randomness_of_encoders(1));
+    const loop::EncoderReading reading = measurement.read(0, 0.0);
     EXPECT_EQ(reading.fine, 0);
     EXPECT_EQ(reading.coarse, 0);
   }
 }
 
 TEST_P(MeasurementProperties, ReadingDependsOnItsTrialAndItsPastAlone) {
-  EncoderParameters encoders = random_encoders();
-  for (EncoderErrors* errors : {&encoders.fine_errors, &encoders.coarse_errors}) {
+  loop::EncoderParameters encoders = random_encoders();
+  for (loop::EncoderErrors* errors : {&encoders.fine_errors, &encoders.coarse_errors}) {
     errors->eccentricity = 1e-3;
     errors->interpolation = 0.3;
     errors->noise = 0.5;
@@ -109,12 +109,12 @@ TEST_P(MeasurementProperties, ReadingDependsOnItsTrialAndItsPastAlone) {
   std::vector<double> angles;
   for (int k = 0; k < 200; ++k) angles.push_back(uniform(-1.0, 1.0));
   const auto readings = [&](std::uint64_t trial, std::uint32_t stream) {
-    TrialRandomness randomness = randomness_of_encoders(trial);
+    random::TrialRandomness randomness = randomness_of_encoders(trial);
     randomness.stream = stream;
-    Measurement measurement(encoders, 0.3, 1.0, randomness);
+    loop::Measurement measurement(encoders, 0.3, 1.0, randomness);
     std::vector<std::int64_t> counts;
     for (std::size_t k = 0; k < angles.size(); ++k) {
-      const EncoderReading reading = measurement.read(static_cast<std::int64_t>(k), angles[k]);
+      const loop::EncoderReading reading = measurement.read(static_cast<std::int64_t>(k), angles[k]);
       counts.insert(counts.end(), {reading.fine, reading.coarse});
     }
     return counts;
@@ -124,11 +124,11 @@ TEST_P(MeasurementProperties, ReadingDependsOnItsTrialAndItsPastAlone) {
   EXPECT_NE(readings(5, 1), alone);
   EXPECT_EQ(readings(5, 0), alone);
 
-  Measurement one(encoders, 0.3, 1.0, randomness_of_encoders(5));
-  Measurement other(encoders, 0.3, 1.0, randomness_of_encoders(6));
+  loop::Measurement one(encoders, 0.3, 1.0, randomness_of_encoders(5));
+  loop::Measurement other(encoders, 0.3, 1.0, randomness_of_encoders(6));
   for (std::size_t k = 0; k < angles.size(); ++k) {
     other.read(static_cast<std::int64_t>(k), -angles[k]);
-    const EncoderReading reading = one.read(static_cast<std::int64_t>(k), angles[k]);
+    const loop::EncoderReading reading = one.read(static_cast<std::int64_t>(k), angles[k]);
     ASSERT_EQ(reading.fine, alone[2 * k]);
     ASSERT_EQ(reading.coarse, alone[2 * k + 1]);
   }

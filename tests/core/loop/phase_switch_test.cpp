@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::loop {
 namespace {
 
 constexpr double sample_rate = 1000.0;
@@ -154,4 +154,4 @@ TEST(PhaseSwitch, SampleOfTheChangeIsTheFirstOfTheCoarsePhasesDwellAndNoneBefore
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::loop

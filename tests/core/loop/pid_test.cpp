@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::loop {
 namespace {
 
 constexpr TorqueRange wide{-1e9, 1e9};
@@ -83,4 +83,4 @@ TEST(Pid, ObservedSampleIsTheOneBeforeTheNext) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::loop

@@ -13,8 +13,8 @@ namespace zerocount::testing {
 
 inline constexpr double revolution = 2.0 * std::numbers::pi;
 
-inline TrialRandomness randomness_of_encoders(std::uint64_t trial) {
-  TrialRandomness randomness;
+inline random::TrialRandomness randomness_of_encoders(std::uint64_t trial) {
+  random::TrialRandomness randomness;
   randomness.trial = trial;
   randomness.fine_noise = {1, 2};
   randomness.fine_missed = {3, 4};
@@ -31,8 +31,8 @@ class WithRandomEncoders : public ::testing::TestWithParam<unsigned> {
   }
 
   /// Coarser, finer or equal, their counts commensurate or not.
-  EncoderParameters random_encoders() {
-    EncoderParameters encoders;
+  loop::EncoderParameters random_encoders() {
+    loop::EncoderParameters encoders;
     encoders.coarse = std::floor(std::pow(10.0, uniform(1.0, 5.0)));
     encoders.fine = random_() % 4 == 0 ? encoders.coarse * static_cast<double>(1 + random_() % 20)
                                        : std::floor(std::pow(10.0, uniform(1.0, 6.5)));

@@ -14,7 +14,7 @@
 #include "core/loop/reference.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace zerocount {
+namespace zerocount::loop {
 namespace {
 
 /// The longest travel in the time and within the limits of each line "duration velocity acceleration jerk".
@@ -59,4 +59,4 @@ TEST(ReferenceJudge, NoOtherMotionWithinTheLimitsGoesFartherInTheTime) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::loop

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::loop {
 namespace {
 
 constexpr double paper_resolution = 2.0 * std::numbers::pi / 1620000.0;
@@ -340,4 +340,4 @@ TEST(Reference, HugeTravelIsCountedToItsEnd) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::loop

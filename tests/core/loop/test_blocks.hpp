@@ -10,15 +10,15 @@ class LowPass {
  public:
   static constexpr double decay = 0.6;  ///< a
 
-  LowPass(const ControllerParameters&, const ControlStart&) {}
+  LowPass(const loop::ControllerParameters&, const loop::ControlStart&) {}
 
-  double step(const Feedback&, double torque) {
+  double step(const loop::Feedback&, double torque) {
     output_ = decay * output_ + (1.0 - decay) * torque;
     return output_;
   }
-  static void observe(const Feedback&) {}
+  static void observe(const loop::Feedback&) {}
   void take_over(double torque) { output_ = torque; }
-  static LinearBlock linear() { return {{LoopSignal::torque, {{1.0 - decay}, {1.0, -decay}}}}; }
+  static loop::LinearBlock linear() { return {{loop::LoopSignal::torque, {{1.0 - decay}, {1.0, -decay}}}}; }
 
  private:
   double output_{0.0};
@@ -27,13 +27,13 @@ class LowPass {
 /// y_k = u_k − ¼·(torque decided at k − 1).
 class TorqueFeedback {
  public:
-  TorqueFeedback(const ControllerParameters&, const ControlStart&) {}
+  TorqueFeedback(const loop::ControllerParameters&, const loop::ControlStart&) {}
 
-  static double step(const Feedback& now, double torque) { return torque - 0.25 * now.torque_in_force; }
-  static void observe(const Feedback&) {}
+  static double step(const loop::Feedback& now, double torque) { return torque - 0.25 * now.torque_in_force; }
+  static void observe(const loop::Feedback&) {}
   static void take_over(double) {}
-  static LinearBlock linear() {
-    return {{LoopSignal::torque, {{1.0}}}, {LoopSignal::torque_in_force, {{-0.25}}}};
+  static loop::LinearBlock linear() {
+    return {{loop::LoopSignal::torque, {{1.0}}}, {loop::LoopSignal::torque_in_force, {{-0.25}}}};
   }
 };
 

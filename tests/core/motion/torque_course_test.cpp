@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::motion {
 namespace {
 
 const TorqueCourse rising{-0.05, 0.3, 2000.0};
@@ -43,11 +43,12 @@ TEST(TorqueCourse, KnowsWhenATorqueIsReached) {
 }
 
 TEST(TorqueCourse, SeriesIsThatOfTheExponential) {
-  const Series series = torque_series(rising);
-  for (const double t : {1e-5, 1e-4, 2e-4}) EXPECT_NEAR(value_at(series, t), exact(rising, t), 1e-15);
-  const Series constant = torque_series(constant_torque(0.1));
+  const numerics::Series series = torque_series(rising);
+  for (const double t : {1e-5, 1e-4, 2e-4})
+    EXPECT_NEAR(numerics::value_at(series, t), exact(rising, t), 1e-15);
+  const numerics::Series constant = torque_series(constant_torque(0.1));
   EXPECT_EQ(constant[0], 0.1);
-  for (std::size_t k = 1; k <= series_order; ++k) EXPECT_EQ(constant[k], 0.0);
+  for (std::size_t k = 1; k <= numerics::series_order; ++k) EXPECT_EQ(constant[k], 0.0);
 }
 
 TEST(TorqueCourse, MirrorsBitForBit) {
@@ -59,4 +60,4 @@ TEST(TorqueCourse, MirrorsBitForBit) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::motion

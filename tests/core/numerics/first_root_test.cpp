@@ -9,7 +9,7 @@
 
 #include "core/numerics/power_series.hpp"
 
-namespace zerocount {
+namespace zerocount::numerics {
 namespace {
 
 /// Coefficients of Π (t − root).
@@ -107,4 +107,4 @@ TEST(PowerSeries, ExponentialAndPowerAgreeWithTheFunctions) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::numerics

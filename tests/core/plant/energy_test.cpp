@@ -16,13 +16,13 @@ namespace {
 
 constexpr double count = 2.0 * std::numbers::pi / 1620000;  // rad
 constexpr double sample = 5e-4;                             // s
-constexpr MotionTolerance tolerance{1e-10 * count};
+constexpr motion::MotionTolerance tolerance{1e-10 * count};
 
 /// Follows the plant in short steps and adds up the energy that the torque brings, and that damper and
 /// sliding friction take.
 struct EnergyLedger {
-  PlantParameters rotor;
-  FrictionParameters friction;
+  motion::PlantParameters rotor;
+  friction::FrictionParameters friction;
   double work{0.0};        // by the torque, J
   double dissipated{0.0};  // by the dampers and sliding friction, J
 
@@ -38,9 +38,9 @@ struct EnergyLedger {
   double kinetic(const auto& plant) const { return 0.5 * rotor.inertia * plant.omega() * plant.omega(); }
 
   /// One short step, by Simpson's rule.
-  TorqueCourse step(auto& plant, const TorqueCourse& course, double dt) {
-    const TorqueCourse middle = course_after(course, 0.5 * dt);
-    const TorqueCourse end = course_after(course, dt);
+  motion::TorqueCourse step(auto& plant, const motion::TorqueCourse& course, double dt) {
+    const motion::TorqueCourse middle = motion::course_after(course, 0.5 * dt);
+    const motion::TorqueCourse end = motion::course_after(course, dt);
     const auto sum = [&](double a, double b, double c) { return dt / 6.0 * (a + 4.0 * b + c); };
     const double loss = loss_power(plant);
     const double power = course.now * plant.omega();
@@ -50,13 +50,13 @@ struct EnergyLedger {
     const double middle_power = middle.now * plant.omega();
     plant.advance(middle, 0.5 * dt);
     dissipated += sum(loss, middle_loss, loss_power(plant));
-    work += is_constant(course) ? course.now * (plant.theta() - theta)
-                                : sum(power, middle_power, end.now * plant.omega());
+    work += motion::is_constant(course) ? course.now * (plant.theta() - theta)
+                                        : sum(power, middle_power, end.now * plant.omega());
     return end;
   }
 };
 
-FrictionAlongRotor of_model(FrictionModel model, FrictionParameters friction) {
+friction::FrictionAlongRotor of_model(friction::FrictionModel model, friction::FrictionParameters friction) {
   return {friction, {}, model};
 }
 
@@ -67,8 +67,8 @@ double alternating(int k) {
 
 // With k2 → 0 the spring is elastic: stored energy σ²/2k1, the same before a slide and after it because the
 // new contact carries the torque of the old one.
-FrictionParameters elastic() {
-  FrictionParameters friction;
+friction::FrictionParameters elastic() {
+  friction::FrictionParameters friction;
   friction.k1 = 400.0;
   friction.k2 = 1e-9;
   friction.breakaway = 0.1;
@@ -77,7 +77,7 @@ FrictionParameters elastic() {
 
 struct LoopDrive {
   double rate;  // of the amplifier, 1/s; 0: none
-  PlantStart start;
+  motion::PlantStart start;
 };
 
 class EnergyBalance : public ::testing::TestWithParam<LoopDrive> {};
@@ -85,14 +85,14 @@ class EnergyBalance : public ::testing::TestWithParam<LoopDrive> {};
 TEST_P(EnergyBalance, HoldsThroughBreakawayAndReStickOnAnElasticSpring) {
   EnergyLedger ledger;
   ledger.friction = elastic();
-  const PlantStart& start = GetParam().start;
-  PlantWith<SpringFriction> plant(ledger.rotor, of_model(FrictionModel::spring, ledger.friction), start,
-                                  tolerance);
+  const motion::PlantStart& start = GetParam().start;
+  plant::PlantWith<friction::SpringFriction> plant(
+      ledger.rotor, of_model(friction::FrictionModel::spring, ledger.friction), start, tolerance);
   const auto stored = [&](double torque) { return 0.5 * torque * torque / ledger.friction.k1; };
   // A slide begins with the spring at the breakaway torque.
   const double at_start = ledger.kinetic(plant) + stored(start.sliding ? ledger.friction.breakaway : 0.0);
   double largest = at_start;
-  TorqueCourse course{0.0, 0.0, GetParam().rate};
+  motion::TorqueCourse course{0.0, 0.0, GetParam().rate};
   for (int k = 0; k < 400; ++k) {
     course.settled = alternating(k);
     if (course.rate == 0.0) course.now = course.settled;
@@ -108,10 +108,11 @@ TEST_P(EnergyBalance, HoldsThroughBreakawayAndReStickOnAnElasticSpring) {
 TEST_P(EnergyBalance, HoldsUnderCoulombFriction) {
   EnergyLedger ledger;
   ledger.friction = elastic();
-  Plant plant(ledger.rotor, of_model(FrictionModel::coulomb, ledger.friction), GetParam().start, tolerance);
+  plant::Plant plant(ledger.rotor, of_model(friction::FrictionModel::coulomb, ledger.friction),
+                     GetParam().start, tolerance);
   const double at_start = ledger.kinetic(plant);
   double largest = at_start;
-  TorqueCourse course{0.0, 0.0, GetParam().rate};
+  motion::TorqueCourse course{0.0, 0.0, GetParam().rate};
   for (int k = 0; k < 400; ++k) {
     course.settled = alternating(k);
     if (course.rate == 0.0) course.now = course.settled;
@@ -137,10 +138,10 @@ TEST(HystereticEnergy, IsLostAndNeverComesBack) {
       EnergyLedger ledger;
       ledger.friction.alpha = alpha;
       ledger.friction.breakaway = 10.0;
-      PlantWith<PreslidingFriction> plant(ledger.rotor, of_model(FrictionModel::presliding, ledger.friction),
-                                          {}, tolerance);
+      plant::PlantWith<friction::PreslidingFriction> plant(
+          ledger.rotor, of_model(friction::FrictionModel::presliding, ledger.friction), {}, tolerance);
       StopElements spring(ledger.friction, 2000);
-      TorqueCourse course{0.0, 0.0, rate};
+      motion::TorqueCourse course{0.0, 0.0, rate};
       double lost = 0.0;
       double largest = 0.0;
       for (int k = 0; k < 60; ++k) {

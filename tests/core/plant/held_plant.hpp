@@ -9,15 +9,15 @@ namespace zerocount::testing {
 
 inline constexpr double count = 2.0 * std::numbers::pi / 1620000;  ///< of the fine encoder, rad
 inline constexpr double sample = 5e-4;                             ///< s
-inline constexpr MotionTolerance rig_tolerance{1e-10 * count};
+inline constexpr motion::MotionTolerance rig_tolerance{1e-10 * count};
 
 /// Where the state of the contact is looked at, with or without creep.
-using PreslidingPlant = PlantWith<PreslidingFriction>;
+using PreslidingPlant = plant::PlantWith<friction::PreslidingFriction>;
 
 /// Holds a constant torque (N m) for `duration` (s).
 template <class AnyPlant>
 void hold(AnyPlant& plant, double torque, double duration) {
-  plant.advance(constant_torque(torque), duration);
+  plant.advance(motion::constant_torque(torque), duration);
 }
 
 }  // namespace zerocount::testing

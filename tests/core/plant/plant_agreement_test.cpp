@@ -35,17 +35,17 @@ void PrintTo(const Family& family, std::ostream* out) {
 /// Random intervals of torque for one rig.
 class RandomDrive {
  public:
-  RandomDrive(Draws& draws, const TrialParameters& rig, Drive drive)
+  RandomDrive(Draws& draws, const trial::TrialParameters& rig, Drive drive)
       : draws_(draws), drive_(drive), period_(1.0 / rig.controller.sample_rate) {
-    const double breakaway = friction_at(rig.friction, rig.initial.position).breakaway;
+    const double breakaway = friction::friction_at(rig.friction, rig.initial.position).breakaway;
     largest_ = breakaway * (draws.chance(0.3) ? draws.log_uniform(0.03, 1.0) : draws.uniform(1.0, 3.0));
     wandering_ = draws.chance(0.5);
     course_.rate = drive == Drive::held ? 0.0 : draws.log_uniform(0.05, 100.0) / period_;
   }
 
   /// The course of the next interval, and how long it lasts (s).
-  std::pair<TorqueCourse, double> next() {
-    const TorqueCourse ended = course_after(course_, duration_);
+  std::pair<motion::TorqueCourse, double> next() {
+    const motion::TorqueCourse ended = motion::course_after(course_, duration_);
     const double step = (wandering_ ? 0.2 : 1.0) * largest_ * draws_.uniform(-1.0, 1.0);
     course_.settled = std::clamp(wandering_ ? course_.settled + step : step, -largest_, largest_);
     if (draws_.chance(0.1)) course_.settled = 0.0;
@@ -65,7 +65,7 @@ class RandomDrive {
   double largest_;
   bool wandering_;
   double duration_{0.0};
-  TorqueCourse course_;
+  motion::TorqueCourse course_;
 };
 
 /// Largest differences in θ, over what is promised.
@@ -77,18 +77,18 @@ struct Differences {
   EventCounts events{};
 };
 
-PlantStart start_of(const TrialParameters& p) {
+motion::PlantStart start_of(const trial::TrialParameters& p) {
   return {p.initial.position, p.initial.hardening,
-          p.initial.preload,  draw_history(p.initial.history, p.randomness),
-          p.initial.velocity, p.initial.mode == InitialMode::slide};
+          p.initial.preload,  trial::draw_history(p.initial.history, p.randomness),
+          p.initial.velocity, p.initial.mode == trial::InitialMode::slide};
 }
 
 void compare_motion(const Family& family, std::uint64_t index, Differences& worst) {
-  const TrialParameters rig = random_trial(family.kind, 5000 + index);
+  const trial::TrialParameters rig = random_trial(family.kind, 5000 + index);
   const std::string name = fmt::format("{} {}", family.name, index);
   const double count = 2.0 * std::numbers::pi / rig.encoder.fine;
-  const PlantStart start = start_of(rig);
-  Plant plant(rig.plant, rig.friction, start, {1e-11 * count});
+  const motion::PlantStart start = start_of(rig);
+  plant::Plant plant(rig.plant, rig.friction, start, {1e-11 * count});
   OdeintMotion judge(rig, start.history);
   ASSERT_EQ(plant.theta(), 0.0) << name;
   ASSERT_EQ(plant.sliding(), judge.sliding()) << name;

@@ -11,7 +11,7 @@
 #include "core/plant/plant.hpp"
 #include "tests/core/plant/held_plant.hpp"
 
-namespace zerocount {
+namespace zerocount::plant {
 namespace {
 
 using namespace testing;
@@ -20,11 +20,11 @@ constexpr double damping = 0.2;    // N m s/rad, of PlantParameters
 constexpr double breakaway = 0.3;  // N m, of FrictionParameters
 
 TEST(PlantWithVelocity, RingsOnALinearSpringAsTheClosedFormSays) {
-  FrictionAlongRotor friction;
-  friction.model = FrictionModel::spring;
+  friction::FrictionAlongRotor friction;
+  friction.model = friction::FrictionModel::spring;
   friction.uniform.k2 = 1e-12;
   friction.uniform.breakaway = 1e6;
-  const PlantParameters rotor;
+  const motion::PlantParameters rotor;
   const double velocity = -0.7;
   PreslidingPlant plant(rotor, friction, {.velocity = velocity}, rig_tolerance);
   const double decay = rotor.presliding_damping / (2.0 * rotor.inertia);
@@ -72,7 +72,7 @@ TEST(PlantWithVelocity, BreaksAwayFromAPreloadAsFromNone) {
 
 TEST(PlantArrivingFromSliding, SlidesFromTheStartAndSticksWithTheBreakawayTorque) {
   for (const double side : {1.0, -1.0}) {
-    PlantStart start;
+    motion::PlantStart start;
     start.velocity = side * 0.4;
     start.sliding = true;
     PreslidingPlant plant({}, {}, start, rig_tolerance);
@@ -88,9 +88,9 @@ TEST(PlantArrivingFromSliding, SlidesFromTheStartAndSticksWithTheBreakawayTorque
 
 // Without Stribeck the slide decelerates evenly; the contact it ends in carries σb.
 TEST(PlantArrivingFromSliding, StopsWhereTheClosedFormSays) {
-  PlantParameters rotor;
+  motion::PlantParameters rotor;
   rotor.sliding_damping = 0.0;
-  FrictionAlongRotor friction;
+  friction::FrictionAlongRotor friction;
   friction.uniform.coulomb_ratio = 1.0;
   PreslidingPlant plant(rotor, friction, {.velocity = 0.5, .sliding = true}, rig_tolerance);
   const double deceleration = (breakaway + 0.05) / rotor.inertia;
@@ -104,10 +104,10 @@ TEST(PlantArrivingFromSliding, StopsWhereTheClosedFormSays) {
 }
 
 TEST(PlantArrivingFromSliding, HasNoContactToRemember) {
-  PlantStart bare;
+  motion::PlantStart bare;
   bare.velocity = -0.8;
   bare.sliding = true;
-  PlantStart full = bare;
+  motion::PlantStart full = bare;
   full.hardening = 1e-5;
   full.preload = 0.1;
   full.history = {0.05, -0.02};
@@ -122,10 +122,10 @@ TEST(PlantArrivingFromSliding, HasNoContactToRemember) {
 }
 
 TEST(PlantArrivingFromSliding, TakesTheBreakawayTorqueOfTheRotorAngle) {
-  FrictionAlongRotor friction;
-  friction.profiled.push_back(
-      {&FrictionParameters::breakaway,
-       std::make_shared<const Profile>(Profile{Marginal::normal, 0.2, 0.05, {0.0, 1.0}, {0.0, 0.5}})});
+  friction::FrictionAlongRotor friction;
+  friction.profiled.push_back({&friction::FrictionParameters::breakaway,
+                               std::make_shared<const friction::Profile>(friction::Profile{
+                                   friction::Marginal::normal, 0.2, 0.05, {0.0, 1.0}, {0.0, 0.5}})});
   const double angle = 1.25;
   PreslidingPlant plant({}, friction, {.position = angle, .velocity = 0.3, .sliding = true}, rig_tolerance);
   const double level = 0.2 + 0.05 * (std::cos(angle) + 0.5 * std::sin(angle));
@@ -138,7 +138,7 @@ TEST(PlantWithHistory, StandsAtZeroWithoutTorque) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> torque(-0.25, 0.25);
   for (int trial = 0; trial < 50; ++trial) {
-    PlantStart start;
+    motion::PlantStart start;
     start.preload = trial % 3 == 0 ? 0.0 : torque(random);
     start.hardening = trial % 2 == 0 ? 0.0 : 1e-6;
     for (int i = 0; i <= trial; ++i) start.history.push_back(torque(random));
@@ -156,7 +156,7 @@ TEST(PlantWithHistory, StandsAtZeroWithoutTorque) {
 
 TEST(PlantWithHistory, IsThePreloadedOneWhereThePreloadIsItsOnlyLevel) {
   PreslidingPlant preloaded({}, {}, {.preload = -0.12}, rig_tolerance);
-  PlantStart start;
+  motion::PlantStart start;
   start.history = {-0.12};
   PreslidingPlant loaded({}, {}, start, rig_tolerance);
   EXPECT_EQ(loaded.spring().depth(), preloaded.spring().depth());
@@ -169,9 +169,9 @@ TEST(PlantWithHistory, IsThePreloadedOneWhereThePreloadIsItsOnlyLevel) {
 }
 
 TEST(PlantWithHistory, ForgetsWhatALargerTorqueHasWipedOut) {
-  PlantStart plain;
+  motion::PlantStart plain;
   plain.history = {0.2, -0.1, 0.06};
-  PlantStart full;
+  motion::PlantStart full;
   full.history = {0.05, -0.1, 0.03, 0.2, 0.1, 0.15, -0.1, -0.02, -0.06, 0.06, -0.01, 0.02};
   PreslidingPlant one({}, {}, plain, rig_tolerance);
   PreslidingPlant other({}, {}, full, rig_tolerance);
@@ -187,7 +187,7 @@ TEST(PlantWithHistory, ForgetsWhatALargerTorqueHasWipedOut) {
 }
 
 TEST(PlantWithHistory, HoldsAnyNumberOfReversals) {
-  PlantStart start;
+  motion::PlantStart start;
   constexpr int reversals = 100000;
   for (int i = 0; i < reversals; ++i) {
     start.history.push_back((i % 2 == 0 ? 0.25 : -0.25) * (1.0 - static_cast<double>(i) / reversals));
@@ -204,8 +204,8 @@ TEST(PlantWithHistory, MirrorsBitForBit) {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> torque(-0.2, 0.2);
   for (int trial = 0; trial < 20; ++trial) {
-    PlantStart start;
-    PlantStart mirrored;
+    motion::PlantStart start;
+    motion::PlantStart mirrored;
     start.preload = torque(random);
     start.velocity = torque(random);
     for (int i = 0; i < 9; ++i) start.history.push_back(torque(random));
@@ -215,7 +215,7 @@ TEST(PlantWithHistory, MirrorsBitForBit) {
     PreslidingPlant plant({}, {}, start, rig_tolerance);
     PreslidingPlant mirror({}, {}, mirrored, rig_tolerance);
     for (int k = 0; k < 100; ++k) {
-      const TorqueCourse course{torque(random), 3.0 * torque(random), 2000.0};
+      const motion::TorqueCourse course{torque(random), 3.0 * torque(random), 2000.0};
       plant.advance(course, sample);
       mirror.advance({-course.now, -course.settled, course.rate}, sample);
       ASSERT_EQ(plant.theta(), -mirror.theta());
@@ -225,11 +225,11 @@ TEST(PlantWithHistory, MirrorsBitForBit) {
 }
 
 TEST(PlantOnASpringAlone, IsThePreslidingOneWithoutCreepBitForBit) {
-  FrictionAlongRotor spring;
-  spring.model = FrictionModel::spring;
-  FrictionAlongRotor presliding;
+  friction::FrictionAlongRotor spring;
+  spring.model = friction::FrictionModel::spring;
+  friction::FrictionAlongRotor presliding;
   presliding.uniform.alpha = 0.0;
-  const PlantStart start{.hardening = 3e-6, .preload = 0.1, .velocity = 0.2};
+  const motion::PlantStart start{.hardening = 3e-6, .preload = 0.1, .velocity = 0.2};
   PreslidingPlant one({}, spring, start, rig_tolerance);
   PreslidingPlant other({}, presliding, start, rig_tolerance);
   std::mt19937 random(13);
@@ -245,4 +245,4 @@ TEST(PlantOnASpringAlone, IsThePreslidingOneWithoutCreepBitForBit) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::plant

@@ -9,21 +9,21 @@
 
 #include "tests/core/plant/held_plant.hpp"
 
-namespace zerocount {
+namespace zerocount::plant {
 namespace {
 
 using namespace testing;
 
-FrictionAlongRotor without_creep(FrictionParameters friction = {}) {
+friction::FrictionAlongRotor without_creep(friction::FrictionParameters friction = {}) {
   friction.alpha = 0.0;
   return {friction, {}};
 }
 
 TEST(PlantOnALinearSpring, OscillatesAsTheClosedFormSays) {
-  FrictionParameters friction;
+  friction::FrictionParameters friction;
   friction.k2 = 1e-12;
   friction.breakaway = 1e6;
-  const PlantParameters rotor;
+  const motion::PlantParameters rotor;
   PreslidingPlant plant(rotor, without_creep(friction), {}, rig_tolerance);
   const double u = 0.05;
   const double decay = rotor.presliding_damping / (2.0 * rotor.inertia);
@@ -51,22 +51,23 @@ TEST(PlantAtConstantTorque, EndsOnTheUnloadingLoopsAndStays) {
 }
 
 TEST(PlantAtConstantTorque, CreepsAsTheExactSolutionOnceTheSpringIsStill) {
-  const FrictionParameters friction;
+  const friction::FrictionParameters friction;
   PreslidingPlant plant({}, {friction, {}}, {}, rig_tolerance);
   const double u = 0.02;
   for (int k = 0; k < 400; ++k) hold(plant, u, sample);
-  const CreepState start = plant.creep();
+  const friction::CreepState start = plant.creep();
   const double torque_start = plant.spring().torque();
   for (int k = 0; k < 20000; ++k) hold(plant, u, sample);
   // The spring carries u − c·ω, with ω the creep rate: less than a thousandth of u. Bracket by the two
   // torques.
-  const double slow = creep_at_constant_torque(friction, start, torque_start, 20000 * sample).extension;
-  const double fast = creep_at_constant_torque(friction, start, u, 20000 * sample).extension;
+  const double slow =
+      friction::creep_at_constant_torque(friction, start, torque_start, 20000 * sample).extension;
+  const double fast = friction::creep_at_constant_torque(friction, start, u, 20000 * sample).extension;
   EXPECT_GE(plant.creep().extension, slow * (1 - 1e-12));
   EXPECT_LE(plant.creep().extension, fast * (1 + 1e-12));
   EXPECT_LT((fast - slow) / fast, 1e-2);
   for (int k = 0; k < 200000; ++k) hold(plant, u, sample);
-  EXPECT_NEAR(plant.creep().extension, hardening_limit(friction, u), 1e-6 * count);
+  EXPECT_NEAR(plant.creep().extension, friction::hardening_limit(friction, u), 1e-6 * count);
   EXPECT_NEAR(plant.spring().torque(), u, 1e-8 * count * 860);
 }
 
@@ -124,10 +125,10 @@ TEST(PlantThroughBreakawayAndReStick, StartsANewContactWithTheTorqueOfTheOld) {
 }
 
 TEST(PlantOnAProfile, TakesTheParametersWhereItSticks) {
-  const auto profile =
-      std::make_shared<const Profile>(Profile{Marginal::normal, 100.0, 20.0, {0.0, 1.0}, {0.0, 0.5}});
-  FrictionAlongRotor friction;
-  friction.profiled.push_back({&FrictionParameters::k1, profile});
+  const auto profile = std::make_shared<const friction::Profile>(
+      friction::Profile{friction::Marginal::normal, 100.0, 20.0, {0.0, 1.0}, {0.0, 0.5}});
+  friction::FrictionAlongRotor friction;
+  friction.profiled.push_back({&friction::FrictionParameters::k1, profile});
   const double start = 1.25;
   PreslidingPlant plant({}, friction, {.position = start}, rig_tolerance);
   EXPECT_DOUBLE_EQ(plant.contact().k1, 100.0 + 20.0 * (std::cos(start) + 0.5 * std::sin(start)));
@@ -142,7 +143,7 @@ TEST(PlantOnAProfile, TakesTheParametersWhereItSticks) {
 }
 
 TEST(Plant, GivesUpLoudlyOnAMotionItCannotFollow) {
-  PlantParameters rotor;
+  motion::PlantParameters rotor;
   rotor.inertia = 1e-200;
   PreslidingPlant plant(rotor, {{}, {}}, {}, rig_tolerance);
   hold(plant, 0.1, sample);
@@ -158,26 +159,26 @@ void slide_once(AnyPlant& plant, double torque) {
 
 template <class Law>
 void expect_next_contact_at_each_re_stick() {
-  FrictionAlongRotor friction{};
-  friction.per_contact.push_back({&FrictionParameters::breakaway,
+  friction::FrictionAlongRotor friction{};
+  friction.per_contact.push_back({&friction::FrictionParameters::breakaway,
                                   [](double u) { return 0.2 + 0.2 * u; },
                                   {.key = {1, 2}, .stream = 3},
                                   17});
   PlantWith<Law> plant({}, friction, {}, rig_tolerance);
-  EXPECT_EQ(plant.contact().breakaway, FrictionParameters{}.breakaway);
+  EXPECT_EQ(plant.contact().breakaway, friction::FrictionParameters{}.breakaway);
   for (int contact = 1; contact <= 20; ++contact) {
     slide_once(plant, contact % 2 == 0 ? 0.5 : -0.5);
     ASSERT_EQ(plant.breakaways(), contact);
-    const double u = open_uniform(random_bits_at({.key = {1, 2}, .stream = 3}, 17, contact));
+    const double u = random::open_uniform(random::random_bits_at({.key = {1, 2}, .stream = 3}, 17, contact));
     EXPECT_EQ(plant.contact().breakaway, 0.2 + 0.2 * u);
-    EXPECT_EQ(plant.contact().k1, FrictionParameters{}.k1);
+    EXPECT_EQ(plant.contact().k1, friction::FrictionParameters{}.k1);
   }
 }
 
 TEST(PlantWithContactsThatDiffer, HasTheNextContactAtEachReStick) {
-  expect_next_contact_at_each_re_stick<PreslidingFriction>();
-  expect_next_contact_at_each_re_stick<CoulombFriction>();
+  expect_next_contact_at_each_re_stick<friction::PreslidingFriction>();
+  expect_next_contact_at_each_re_stick<friction::CoulombFriction>();
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::plant

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::random {
 namespace {
 
 constexpr RandomKey key{0xa4093822, 0x299f31d0};
@@ -46,4 +46,4 @@ TEST(RandomBitsAt, DependsOnEveryBitOfTrialNumberAndStreamAndOnNothingTwice) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::random

@@ -10,7 +10,7 @@
 #include "core/random/random_numbers.hpp"
 #include "tests/support/goodness_of_fit.hpp"
 
-namespace zerocount {
+namespace zerocount::random {
 namespace {
 
 /// Φ(z), by the C library alone.
@@ -130,4 +130,4 @@ TEST(BinomialNumber, StaysWithinItsBoundsAtTheLastUniforms) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::random

@@ -13,10 +13,10 @@
 #include "core/loop/control_chain.hpp"
 #include "tests/core/loop/test_blocks.hpp"
 
-namespace zerocount {
+namespace zerocount::theory {
 namespace {
 
-constexpr ControlStart wide{0.0, {-1e300, 1e300}};
+constexpr loop::ControlStart wide{0.0, {-1e300, 1e300}};
 
 HeldPlant paper_rig() {
   return hold_plant(300.0, 0.2, 5.54e-4, 2.0 * std::numbers::pi / 1'620'000, 5e-4, {1.1, 400.0});
@@ -48,7 +48,7 @@ double growth_in_time(Chain chain, const HeldPlant& plant, int delay) {
 }
 
 template <class Chain>
-void expect_growth(const ControllerParameters& parameters) {
+void expect_growth(const loop::ControllerParameters& parameters) {
   const HeldPlant plant = paper_rig();
   const Chain chain(parameters, wide);
   for (const int delay : {0, 1, 3}) {
@@ -63,12 +63,12 @@ void expect_growth(const ControllerParameters& parameters) {
 }
 
 TEST(LinearLoop, GrowsAsTheLoopDoesInTime) {
-  const ControllerParameters parameters{.kp = 1e-4, .ki = 1.4e-4, .kd = 1e-4};
-  expect_growth<BlockChain<Pid>>(parameters);
-  expect_growth<BlockChain<Pid, LowPass>>(parameters);
-  expect_growth<BlockChain<Pid, TorqueFeedback>>(parameters);
-  expect_growth<BlockChain<Pid, LowPass, TorqueFeedback>>(parameters);
+  const loop::ControllerParameters parameters{.kp = 1e-4, .ki = 1.4e-4, .kd = 1e-4};
+  expect_growth<loop::BlockChain<loop::Pid>>(parameters);
+  expect_growth<loop::BlockChain<loop::Pid, LowPass>>(parameters);
+  expect_growth<loop::BlockChain<loop::Pid, TorqueFeedback>>(parameters);
+  expect_growth<loop::BlockChain<loop::Pid, LowPass, TorqueFeedback>>(parameters);
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::theory

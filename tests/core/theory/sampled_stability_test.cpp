@@ -13,18 +13,18 @@
 #include "core/theory/gains.hpp"
 #include "core/theory/stability.hpp"
 
-namespace zerocount {
+namespace zerocount::theory {
 namespace {
 
-const PlantParameters rig;
-const EncoderParameters paper_encoder;
+const motion::PlantParameters rig;
+const loop::EncoderParameters paper_encoder;
 
 /// The sampled loop run sample by sample in physical units, the rotor between samples by the closed form of
 /// the damped oscillator (complex exponents): an implementation apart from the one under test.
 class LinearLoop {
  public:
-  LinearLoop(double stiffness, const PlantParameters& plant, const ControllerParameters& controller,
-             const LinearDrive& drive)
+  LinearLoop(double stiffness, const motion::PlantParameters& plant,
+             const loop::ControllerParameters& controller, const LinearDrive& drive)
       : stiffness_(stiffness),
         plant_(plant),
         controller_(controller),
@@ -37,7 +37,7 @@ class LinearLoop {
   }
 
   void step() {
-    const double count = angle_ / fine_resolution(paper_encoder);
+    const double count = angle_ / loop::fine_resolution(paper_encoder);
     if (k_ == 0) last_count_ = count;
     const double error = -count;
     integral_ += controller_.ki * (error + last_error_);
@@ -72,8 +72,8 @@ class LinearLoop {
   }
 
   double stiffness_;
-  PlantParameters plant_;
-  ControllerParameters controller_;
+  motion::PlantParameters plant_;
+  loop::ControllerParameters controller_;
   LinearDrive drive_;
   double torque_{0.0};  // of the motor
   std::deque<double> pending_;
@@ -83,8 +83,8 @@ class LinearLoop {
 };
 
 /// Growth per sample of the linear loop's largest motion, from its size over late windows.
-double simulated_growth(double stiffness, const PlantParameters& plant,
-                        const ControllerParameters& controller, const LinearDrive& drive = {}) {
+double simulated_growth(double stiffness, const motion::PlantParameters& plant,
+                        const loop::ControllerParameters& controller, const LinearDrive& drive = {}) {
   LinearLoop loop(stiffness, plant, controller, drive);
   const auto largest_of_next = [&loop](int samples) {
     double largest = 0.0;
@@ -103,14 +103,14 @@ double simulated_growth(double stiffness, const PlantParameters& plant,
 }
 
 TEST(SampledStability, BoundOfThePapersRigIsBelowTheContinuousOne) {
-  const ControllerParameters controller;
+  const loop::ControllerParameters controller;
   const double sampled = sampled_critical_integral_gain(110.0, rig, paper_encoder, controller);
   EXPECT_NEAR(sampled, 3.57e-5, 0.5e-7);
   EXPECT_LT(sampled, critical_integral_gain(110.0, rig, paper_encoder, controller));
 }
 
 TEST(SampledStability, ApproachesTheContinuousBoundAtHighSampleRates) {
-  ControllerParameters controller;
+  loop::ControllerParameters controller;
   controller.kp = 3e-4;
   double last_gap = 1.0;
   for (const double rate : {4e3, 16e3, 64e3, 256e3}) {
@@ -131,11 +131,11 @@ TEST(SampledStability, LinearLoopDecaysBelowTheBoundAndGrowsAboveIt) {
   int judged = 0;
   for (int i = 0; i < 40; ++i) {
     const double stiffness = 250.0 * factor(random);
-    PlantParameters plant = rig;
+    motion::PlantParameters plant = rig;
     plant.inertia *= factor(random);
     plant.presliding_damping *= factor(random);
-    ControllerParameters controller;
-    controller.kp = 0.5 * part(random) * stiffness * fine_resolution(paper_encoder);
+    loop::ControllerParameters controller;
+    controller.kp = 0.5 * part(random) * stiffness * loop::fine_resolution(paper_encoder);
     controller.kd = 2e-4 * part(random);
     controller.delay = static_cast<int>(random() % 4);
     LinearDrive drive{0.7 + 0.6 * part(random), 0.0};
@@ -156,7 +156,7 @@ TEST(SampledStability, LinearLoopDecaysBelowTheBoundAndGrowsAboveIt) {
 
 TEST(SampledStability, SpectralRadiusIsTheGrowthOfTheLinearLoop) {
   for (const int delay : {0, 1, 3}) {
-    ControllerParameters controller;
+    loop::ControllerParameters controller;
     controller.delay = delay;
     controller.kp = 1e-4;
     controller.kd = 1e-4;
@@ -169,7 +169,7 @@ TEST(SampledStability, SpectralRadiusIsTheGrowthOfTheLinearLoop) {
 }
 
 TEST(SampledStability, DelayLowersTheBound) {
-  ControllerParameters controller;
+  loop::ControllerParameters controller;
   double last = 1.0;
   for (int delay = 0; delay < 5; ++delay) {
     controller.delay = delay;
@@ -181,13 +181,13 @@ TEST(SampledStability, DelayLowersTheBound) {
 }
 
 TEST(SampledStability, TheDrivesGainIsPartOfTheLoops) {
-  const ControllerParameters controller;
+  const loop::ControllerParameters controller;
   EXPECT_NEAR(sampled_critical_integral_gain(110.0, rig, paper_encoder, controller, {1.5, 0.0}),
               sampled_critical_integral_gain(110.0, rig, paper_encoder, controller) / 1.5, 1e-12);
 }
 
 TEST(SampledStability, NoIntegralGainIsStableWhereTheLoopWithoutIntegralIsNot) {
-  ControllerParameters controller;
+  loop::ControllerParameters controller;
   controller.kp = 1.0;  // N m/count: far beyond what half a sample of delay allows
   EXPECT_EQ(sampled_critical_integral_gain(110.0, rig, paper_encoder, controller), 0.0);
 }
@@ -197,11 +197,11 @@ TEST(SampledStability, NoIntegralGainIsStableWhereTheLoopWithoutIntegralIsNot) {
 TEST(SlowestTimeConstant, OfASlowIntegralIsInProportionToTheStiffness) {
   for (const double stiffness : {110.0, 860.0}) {
     for (const double kp : {0.0, 6.21e-4}) {
-      ControllerParameters controller;
+      loop::ControllerParameters controller;
       controller.kp = kp;
       controller.ki = 5e-8;
-      const double expected =
-          (stiffness * fine_resolution(paper_encoder) + kp) / (2.0 * controller.ki * controller.sample_rate);
+      const double expected = (stiffness * loop::fine_resolution(paper_encoder) + kp) /
+                              (2.0 * controller.ki * controller.sample_rate);
       EXPECT_NEAR(slowest_time_constant(stiffness, rig, paper_encoder, controller), expected,
                   0.02 * expected);
     }
@@ -210,7 +210,7 @@ TEST(SlowestTimeConstant, OfASlowIntegralIsInProportionToTheStiffness) {
 
 TEST(SlowestTimeConstant, IsThatOfTheDecayInTime) {
   for (const double ki : {3e-7, 1e-6, 5e-6}) {
-    ControllerParameters controller;
+    loop::ControllerParameters controller;
     controller.ki = ki;
     LinearLoop loop(110.0, rig, controller, {});
     const double tau = slowest_time_constant(110.0, rig, paper_encoder, controller);
@@ -233,7 +233,7 @@ TEST(SlowestTimeConstant, IsThatOfTheDecayInTime) {
 }
 
 TEST(SlowestTimeConstant, IsInfiniteBeyondTheBound) {
-  ControllerParameters controller;
+  loop::ControllerParameters controller;
   const double bound = sampled_critical_integral_gain(110.0, rig, paper_encoder, controller);
   controller.ki = 1.001 * bound;
   EXPECT_TRUE(std::isinf(slowest_time_constant(110.0, rig, paper_encoder, controller)));
@@ -245,10 +245,10 @@ TEST(SlowestTimeConstant, IsInfiniteBeyondTheBound) {
 
 TEST(SampledCriticalIntegralGain, OfAFreeRotorWithoutKpIsZero) {
   for (const double damping : {0.0, 1e-4, 0.05, 3.0}) {  // the search has no gain to begin with
-    const PlantParameters free{.inertia = 5.54e-4, .presliding_damping = damping};
+    const motion::PlantParameters free{.inertia = 5.54e-4, .presliding_damping = damping};
     EXPECT_EQ(sampled_critical_integral_gain(0.0, free, paper_encoder, {.kd = 1e-3}), 0.0) << damping;
   }
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::theory

@@ -12,7 +12,7 @@
 #include "core/loop/controller.hpp"
 #include "core/theory/gains.hpp"
 
-namespace zerocount {
+namespace zerocount::theory {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -22,7 +22,7 @@ class RandomLoops {
   double log_uniform(double low, double high) {
     return low * std::pow(high / low, std::uniform_real_distribution<double>(0.0, 1.0)(random_));
   }
-  PlantParameters plant() {
+  motion::PlantParameters plant() {
     return {.inertia = log_uniform(1e-5, 1e-1),
             .presliding_damping = 0.2,
             .sliding_damping = log_uniform(1e-4, 1e-1)};
@@ -35,15 +35,15 @@ class RandomLoops {
 TEST(SlidingCrossover, OfAnUndampedMassUnderProportionalControlIsAClosedForm) {
   RandomLoops random;
   for (int i = 0; i < 50; ++i) {
-    PlantParameters plant = random.plant();
+    motion::PlantParameters plant = random.plant();
     plant.sliding_damping = 0.0;
-    ControllerParameters controller;
+    loop::ControllerParameters controller;
     controller.ki = 0.0;
     controller.sample_rate = random.log_uniform(500.0, 50'000.0);
     const double T = 1.0 / controller.sample_rate;
-    const EncoderParameters encoder;
+    const loop::EncoderParameters encoder;
     const double g = random.log_uniform(1e-4, 1.0);
-    controller.kp = g * 2.0 * plant.inertia * fine_resolution(encoder) / (T * T);
+    controller.kp = g * 2.0 * plant.inertia * loop::fine_resolution(encoder) / (T * T);
     const double cosine = -g / 4.0 + std::sqrt(g * g / 16.0 + 1.0);
     const double phi = std::acos(cosine);
     const GainCrossover crossover = sliding_crossover(plant, encoder, controller);
@@ -54,14 +54,16 @@ TEST(SlidingCrossover, OfAnUndampedMassUnderProportionalControlIsAClosedForm) {
 }
 
 /// L of the whole loop in closed form, its plant by the textbook's table of z-transforms.
-std::complex<double> open_loop(double frequency, const PlantParameters& plant,
-                               const EncoderParameters& encoder, const ControllerParameters& c, double gain) {
+std::complex<double> open_loop(double frequency, const motion::PlantParameters& plant,
+                               const loop::EncoderParameters& encoder, const loop::ControllerParameters& c,
+                               double gain) {
   const double T = 1.0 / c.sample_rate;
   const std::complex<double> z = std::polar(1.0, 2.0 * pi * frequency * T);
   const double a = plant.sliding_damping / plant.inertia;
   const double E = std::exp(-a * T);
-  const std::complex<double> G = ((a * T - 1.0 + E) * z + (1.0 - E - a * T * E)) /
-                                 (a * plant.sliding_damping * fine_resolution(encoder) * (z - 1.0) * (z - E));
+  const std::complex<double> G =
+      ((a * T - 1.0 + E) * z + (1.0 - E - a * T * E)) /
+      (a * plant.sliding_damping * loop::fine_resolution(encoder) * (z - 1.0) * (z - E));
   return (c.kp + c.ki * (z + 1.0) / (z - 1.0) + c.kd * (1.0 - 1.0 / z)) * std::pow(z, -c.delay) * G * gain;
 }
 
@@ -69,14 +71,14 @@ TEST(SlidingCrossover, IsWhereTheClosedFormHasTheGain1) {
   RandomLoops random;
   int found = 0;
   for (int i = 0; i < 200; ++i) {
-    PlantParameters plant = random.plant();
+    motion::PlantParameters plant = random.plant();
     plant.sliding_damping = plant.inertia * random.log_uniform(10.0, 1000.0);  // so that E is not close to 1
-    EncoderParameters encoder;
+    loop::EncoderParameters encoder;
     encoder.fine = std::floor(random.log_uniform(1e4, 1e8));
-    ControllerParameters controller;
+    loop::ControllerParameters controller;
     controller.sample_rate = random.log_uniform(500.0, 50'000.0);
     const double T = 1.0 / controller.sample_rate;
-    const double scale = 2.0 * plant.inertia * fine_resolution(encoder) / (T * T);
+    const double scale = 2.0 * plant.inertia * loop::fine_resolution(encoder) / (T * T);
     controller.kp = scale * random.log_uniform(1e-5, 1e-1);
     controller.ki = controller.kp * random.log_uniform(1e-4, 1e-1);
     controller.kd = controller.kp * random.log_uniform(1e-1, 1e2);
@@ -97,9 +99,9 @@ TEST(SlidingCrossover, IsWhereTheClosedFormHasTheGain1) {
 
 // A PD control that samples fast compared to its bandwidth: the textbook's continuous loop.
 TEST(SlidingCrossover, TendsToTheContinuousLoopsWhereSamplingIsFast) {
-  const PlantParameters plant{.inertia = 1e-3, .presliding_damping = 0.2, .sliding_damping = 0.02};
-  const EncoderParameters encoder;
-  ControllerParameters controller;
+  const motion::PlantParameters plant{.inertia = 1e-3, .presliding_damping = 0.2, .sliding_damping = 0.02};
+  const loop::EncoderParameters encoder;
+  loop::ControllerParameters controller;
   controller.sample_rate = 1e6;
   const double w = 2.0 * pi * 40.0;  // the crossover to be found, rad/s
   const double zero = w / 3.0;       // of the control, rad/s
@@ -113,8 +115,8 @@ TEST(SlidingCrossover, TendsToTheContinuousLoopsWhereSamplingIsFast) {
 }
 
 TEST(SlidingCrossover, FallsWithADelayAndAnAmplifierThatLags) {
-  const PlantParameters plant;
-  ControllerParameters controller;
+  const motion::PlantParameters plant;
+  loop::ControllerParameters controller;
   controller.kp = 5e-4;
   controller.kd = 6e-3;
   const GainCrossover fast = sliding_crossover(plant, {}, controller);
@@ -129,7 +131,7 @@ TEST(SlidingCrossover, FallsWithADelayAndAnAmplifierThatLags) {
 }
 
 TEST(SlidingCrossover, IsNotThereWithoutGain) {
-  ControllerParameters controller;
+  loop::ControllerParameters controller;
   controller.ki = 0.0;
   EXPECT_TRUE(std::isnan(sliding_crossover({}, {}, controller).frequency));
   controller.kp = 1e3;
@@ -139,10 +141,10 @@ TEST(SlidingCrossover, IsNotThereWithoutGain) {
 // The paper's rig has a pure integral in its fine phase: two integrators in a row, which nothing can hold
 // while it slides; the coarse phase is there for that.
 TEST(SlidingLoop, OfThePapersRigIsStableInTheCoarsePhaseAlone) {
-  ControllerParameters controller;
+  loop::ControllerParameters controller;
   controller.coarse.coarse_beyond = 300.0;
-  const ControllerParameters fine = controller_in_phase(controller, ControlPhase::fine);
-  const ControllerParameters coarse = controller_in_phase(controller, ControlPhase::coarse);
+  const loop::ControllerParameters fine = loop::controller_in_phase(controller, loop::ControlPhase::fine);
+  const loop::ControllerParameters coarse = loop::controller_in_phase(controller, loop::ControlPhase::coarse);
   EXPECT_FALSE(stable_while_sliding({}, {}, fine));
   EXPECT_LT(sliding_crossover({}, {}, fine).phase_margin, 0.0);
   EXPECT_TRUE(stable_while_sliding({}, {}, coarse));
@@ -150,13 +152,13 @@ TEST(SlidingLoop, OfThePapersRigIsStableInTheCoarsePhaseAlone) {
 }
 
 TEST(SlidingLoop, HasNoDerivativeInTheFineOfTwoPhases) {
-  ControllerParameters controller;
+  loop::ControllerParameters controller;
   controller.kd = 1e-3;
-  EXPECT_EQ(controller_in_phase(controller, ControlPhase::fine).kd, 1e-3);
+  EXPECT_EQ(loop::controller_in_phase(controller, loop::ControlPhase::fine).kd, 1e-3);
   controller.coarse.coarse_beyond = 300.0;
-  EXPECT_EQ(controller_in_phase(controller, ControlPhase::fine).kd, 0.0);
-  EXPECT_EQ(controller_in_phase(controller, ControlPhase::coarse).kd, controller.coarse.kd);
+  EXPECT_EQ(loop::controller_in_phase(controller, loop::ControlPhase::fine).kd, 0.0);
+  EXPECT_EQ(loop::controller_in_phase(controller, loop::ControlPhase::coarse).kd, controller.coarse.kd);
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::theory

@@ -9,11 +9,11 @@
 #include "core/theory/sampled_stability.hpp"
 #include "core/trial/trial.hpp"
 
-namespace zerocount {
+namespace zerocount::theory {
 namespace {
 
-TrialParameters slow_rig(double ki, double kp = 0.0) {
-  TrialParameters p;
+trial::TrialParameters slow_rig(double ki, double kp = 0.0) {
+  trial::TrialParameters p;
   p.controller.ki = ki;
   p.controller.kp = kp;
   return p;
@@ -22,7 +22,7 @@ TrialParameters slow_rig(double ki, double kp = 0.0) {
 TEST(SlowApproach, HasTheTimeConstantOfTheSampledLoop) {
   for (const double kp : {0.0, 3.0e-4, 2.0e-3}) {
     for (const double stiffness : {110.0, 400.0, 860.0}) {
-      const TrialParameters p = slow_rig(1.0e-7, kp);
+      const trial::TrialParameters p = slow_rig(1.0e-7, kp);
       const double sampled = slowest_time_constant(stiffness, p.plant, p.encoder, p.controller);
       EXPECT_NEAR(slow_time_constant(stiffness, p.encoder, p.controller), sampled, 0.01 * sampled)
           << kp << " " << stiffness;
@@ -31,8 +31,8 @@ TEST(SlowApproach, HasTheTimeConstantOfTheSampledLoop) {
 }
 
 TEST(SlowApproach, IsAnExponentialWhereTheSpringDoesNotSoften) {
-  const TrialParameters p = slow_rig(1.0e-6);
-  FrictionParameters contact;
+  const trial::TrialParameters p = slow_rig(1.0e-6);
+  friction::FrictionParameters contact;
   const auto exponential = [&](double stiffness, double step) {
     return slow_time_constant(stiffness, p.encoder, p.controller) * std::log(2.0 * step);
   };
@@ -55,12 +55,12 @@ TEST(SlowApproach, IsAnExponentialWhereTheSpringDoesNotSoften) {
 TEST(SlowApproach, TellsWhenTrialsArrive) {
   for (const double ki : {2.0e-7, 1.0e-6}) {
     for (const std::int64_t step : {2, 5, 12, 30}) {
-      TrialParameters p = slow_rig(ki);
+      trial::TrialParameters p = slow_rig(ki);
       p.friction.uniform.alpha = 0.0;
       const double expected = slow_arrival_time(step, p.friction.uniform, p.encoder, p.controller);
       p.command.targets = {60, 60 - step};
       p.command.hold = 20.0 * slow_time_constant(860.0, p.encoder, p.controller);
-      const double time = run_trial(p).moves[1].settling_time;
+      const double time = trial::run_trial(p).moves[1].settling_time;
       EXPECT_GT(expected, 0.7 * time) << ki << " " << step;
       EXPECT_LT(expected, 1.5 * time) << ki << " " << step;
     }
@@ -68,8 +68,8 @@ TEST(SlowApproach, TellsWhenTrialsArrive) {
 }
 
 TEST(ChatterTime, IsThatOfTheIntegralThatTakesOverFromTheProportionalGain) {
-  const TrialParameters p = slow_rig(1.0e-6, 1.0e-3);
-  const FrictionParameters& contact = p.friction.uniform;
+  const trial::TrialParameters p = slow_rig(1.0e-6, 1.0e-3);
+  const friction::FrictionParameters& contact = p.friction.uniform;
   const double decay = 1.0e-3 / (2.0 * 1.0e-6 * 2000.0);
   const double frequency = 198.3;  // Hz, of the paper's rig
   EXPECT_NEAR(chatter_time(p.plant, contact, p.controller, 0.05), decay * std::log(frequency * 0.05),
@@ -79,4 +79,4 @@ TEST(ChatterTime, IsThatOfTheIntegralThatTakesOverFromTheProportionalGain) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::theory

@@ -12,22 +12,22 @@
 #include "core/theory/gains.hpp"
 #include "core/theory/sampled_stability.hpp"
 
-namespace zerocount {
+namespace zerocount::theory {
 namespace {
 
 // The defaults of these structs are the paper's rig.
-const PlantParameters plant;
-const FrictionParameters contact;
-const EncoderParameters encoder;
-const ControllerParameters integral_only;
+const motion::PlantParameters plant;
+const friction::FrictionParameters contact;
+const loop::EncoderParameters encoder;
+const loop::ControllerParameters integral_only;
 
 /// Half a unit of the last digit that the paper (or the text quoting it) prints.
 void expect_as_printed(double value, double printed, double last_digit) {
   EXPECT_NEAR(value, printed, 0.5 * last_digit);
 }
 
-ControllerParameters with_kp(double kp) {
-  ControllerParameters controller;
+loop::ControllerParameters with_kp(double kp) {
+  loop::ControllerParameters controller;
   controller.kp = kp;
   return controller;
 }
@@ -37,8 +37,8 @@ TEST(Gains, AnalogueGainsOfThePaperArePrintedAsTorquePerCount) {
   // and 3.01e-4 N m/count.
   const double lower = plant.presliding_damping * contact.k1 / plant.inertia;
   const double upper = plant.presliding_damping * (contact.k1 + contact.k2) / plant.inertia;
-  expect_as_printed(lower * fine_resolution(encoder), 0.15, 0.01);
-  expect_as_printed(upper * fine_resolution(encoder), 1.2, 0.1);
+  expect_as_printed(lower * loop::fine_resolution(encoder), 0.15, 0.01);
+  expect_as_printed(upper * loop::fine_resolution(encoder), 1.2, 0.1);
   expect_as_printed(with_analogue_gains({}, {0.0, lower, 0.0}, encoder).ki, 3.85e-5, 1e-7);
   expect_as_printed(with_analogue_gains({}, {0.0, upper, 0.0}, encoder).ki, 3.01e-4, 1e-6);
 }
@@ -47,14 +47,14 @@ TEST(Gains, ConversionsAreInverse) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> gain(0.0, 1e-3), rate(100.0, 2e4), counts(1e4, 1e7);
   for (int i = 0; i < 200; ++i) {
-    ControllerParameters controller;
+    loop::ControllerParameters controller;
     controller.sample_rate = rate(random);
     controller.kp = gain(random);
     controller.ki = gain(random);
     controller.kd = gain(random);
-    EncoderParameters scale;
+    loop::EncoderParameters scale;
     scale.fine = std::round(counts(random));
-    const ControllerParameters back =
+    const loop::ControllerParameters back =
         with_analogue_gains(controller, analogue_gains(controller, scale), scale);
     EXPECT_NEAR(back.kp, controller.kp, 1e-14 * controller.kp);
     EXPECT_NEAR(back.ki, controller.ki, 1e-14 * controller.ki);
@@ -67,10 +67,10 @@ TEST(Gains, SampledControllerApproachesTheContinuousOneOnAMovingError) {
   // e(t) = sin 2t rad, sampled finely: the sampled law with converted gains must give u = kP·e + kI·∫e +
   // kD·e˙.
   const AnalogueGains gains{3.0, 7.0, 0.5};
-  ControllerParameters controller;
+  loop::ControllerParameters controller;
   controller.sample_rate = 1e5;
   controller = with_analogue_gains(controller, gains, encoder);
-  const double dx = fine_resolution(encoder);
+  const double dx = loop::fine_resolution(encoder);
   const auto error = [&](int k) { return k < 0 ? 0.0 : std::sin(2.0 * k / controller.sample_rate) / dx; };
   double integral = 0.0;
   const int samples = 100000;
@@ -99,10 +99,10 @@ TEST(Criteria, CriticalGainPutsThePolesOfTheContinuousLoopOnTheImaginaryAxis) {
   std::mt19937_64 random(12);
   std::uniform_real_distribution<double> factor(0.3, 3.0);
   for (int i = 0; i < 200; ++i) {
-    PlantParameters rotor;
+    motion::PlantParameters rotor;
     rotor.inertia *= factor(random);
     rotor.presliding_damping *= factor(random);
-    ControllerParameters controller;
+    loop::ControllerParameters controller;
     controller.kp = 5e-4 * factor(random);
     controller.kd = 1e-3 * factor(random);
     const double stiffness = 300.0 * factor(random);
@@ -120,12 +120,12 @@ TEST(Criteria, CriticalGainPutsThePolesOfTheContinuousLoopOnTheImaginaryAxis) {
 
 TEST(Rules, DacStepOfThePapersRig) {
   expect_as_printed(dac_resolution_bound(contact.k1, encoder), 4.27e-4, 1e-6);
-  EXPECT_LT(DacParameters{}.resolution, dac_resolution_bound(contact.k1, encoder));
+  EXPECT_LT(loop::DacParameters{}.resolution, dac_resolution_bound(contact.k1, encoder));
 }
 
 // The coarse encoder has 18.75 times the count.
 TEST(Rules, DacStepWithTheCoarseEncoderFedBack) {
-  EXPECT_DOUBLE_EQ(dac_resolution_bound(contact.k1, encoder, EncoderChoice::coarse),
+  EXPECT_DOUBLE_EQ(dac_resolution_bound(contact.k1, encoder, loop::EncoderChoice::coarse),
                    18.75 * dac_resolution_bound(contact.k1, encoder));
 }
 
@@ -140,15 +140,17 @@ TEST(Rules, LowestStiffnessOfAUniformContactIsItsStiffness) {
 }
 
 TEST(Rules, LowestStiffnessOfASingleHarmonicIsItsTrough) {
-  Profile profile{Marginal::normal, 100.0, 10.0, {0.0, 0.0, 0.0, 0.6}, {0.0, 0.0, 0.0, 0.8}};
-  FrictionAlongRotor friction;
-  friction.profiled.push_back({&FrictionParameters::k1, std::make_shared<Profile>(profile)});
+  friction::Profile profile{
+      friction::Marginal::normal, 100.0, 10.0, {0.0, 0.0, 0.0, 0.6}, {0.0, 0.0, 0.0, 0.8}};
+  friction::FrictionAlongRotor friction;
+  friction.profiled.push_back(
+      {&friction::FrictionParameters::k1, std::make_shared<friction::Profile>(profile)});
   EXPECT_NEAR(lowest_k1(friction), 90.0, 1e-9);  // amplitude √(0.6² + 0.8²) = 1
 
-  profile.marginal = Marginal::lognormal;
+  profile.marginal = friction::Marginal::lognormal;
   profile.location = std::log(100.0);
   profile.scale = 0.1;
-  friction.profiled.front().profile = std::make_shared<Profile>(profile);
+  friction.profiled.front().profile = std::make_shared<friction::Profile>(profile);
   EXPECT_NEAR(lowest_k1(friction), 100.0 * std::exp(-0.1), 1e-9);
 }
 
@@ -157,20 +159,21 @@ TEST(Rules, NoAngleHasALowerStiffnessThanTheLowest) {
   std::normal_distribution<double> coefficient;
   std::uniform_real_distribution<double> angle(0.0, 2.0 * std::numbers::pi);
   for (int i = 0; i < 20; ++i) {
-    Profile profile{Marginal::lognormal, std::log(110.0), 0.1, {}, {}};
+    friction::Profile profile{friction::Marginal::lognormal, std::log(110.0), 0.1, {}, {}};
     for (int m = 0; m < 30; ++m) {
       profile.cosine.push_back(coefficient(random) / 5.0);
       profile.sine.push_back(coefficient(random) / 5.0);
     }
-    FrictionAlongRotor friction;
-    friction.profiled.push_back({&FrictionParameters::k1, std::make_shared<Profile>(profile)});
+    friction::FrictionAlongRotor friction;
+    friction.profiled.push_back(
+        {&friction::FrictionParameters::k1, std::make_shared<friction::Profile>(profile)});
     const double lowest = lowest_k1(friction);
     double seen = 1e9;
-    for (int j = 0; j < 20000; ++j) seen = std::min(seen, value_at(profile, angle(random)));
+    for (int j = 0; j < 20000; ++j) seen = std::min(seen, friction::value_at(profile, angle(random)));
     EXPECT_GE(seen, lowest * (1.0 - 1e-6));
     EXPECT_LE(seen, lowest * (1.0 + 1e-3));
   }
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::theory

@@ -21,40 +21,40 @@ namespace zerocount::testing {
 namespace {
 
 TEST(Divergence, IsAnErrorLargerThanTheFirstByMoreThanTheLimit) {
-  const VerdictParameters verdict{.stop = true, .limit = 100.0};
+  const trial::VerdictParameters verdict{.stop = true, .limit = 100.0};
   for (const std::int64_t first : {0, 1, -1, 30, -30, 5000, -5000}) {
     for (const int sign : {1, -1}) {
       const std::int64_t most = std::abs(first) + 100;
-      EXPECT_FALSE(diverged(verdict, first, sign * most)) << first;
-      EXPECT_TRUE(diverged(verdict, first, sign * (most + 1))) << first;
+      EXPECT_FALSE(trial::diverged(verdict, first, sign * most)) << first;
+      EXPECT_TRUE(trial::diverged(verdict, first, sign * (most + 1))) << first;
     }
-    EXPECT_FALSE(diverged(verdict, first, first));
+    EXPECT_FALSE(trial::diverged(verdict, first, first));
   }
-  EXPECT_FALSE(diverged({.stop = true, .limit = 100.5}, 0, 100));
-  EXPECT_TRUE(diverged({.stop = true, .limit = 100.5}, 0, 101));
+  EXPECT_FALSE(trial::diverged({.stop = true, .limit = 100.5}, 0, 100));
+  EXPECT_TRUE(trial::diverged({.stop = true, .limit = 100.5}, 0, 101));
 }
 
 TEST(Divergence, IsNotLookedForUnlessAskedFor) {
-  EXPECT_FALSE(diverged({.limit = 2.0}, 0, 1000000));
-  EXPECT_FALSE(VerdictParameters{}.stop);
+  EXPECT_FALSE(trial::diverged({.limit = 2.0}, 0, 1000000));
+  EXPECT_FALSE(trial::VerdictParameters{}.stop);
 }
 
 /// A trial with all that is told of it.
-RecordedTrial run_recorded(const TrialParameters& parameters, const std::string& name = "") {
+RecordedTrial run_recorded(const trial::TrialParameters& parameters, const std::string& name = "") {
   RecordedTrial trial{name, parameters, {}, {}, {}};
-  TrialObservers observers;
-  observers.sample = [&trial](const SampleRecord& sample) { trial.samples.push_back(sample); };
-  observers.jerk = [&trial](const Jerk& jerk) { trial.jerks.push_back(jerk); };
-  trial.outcome = run_trial(parameters, observers);
+  trial::TrialObservers observers;
+  observers.sample = [&trial](const trial::SampleRecord& sample) { trial.samples.push_back(sample); };
+  observers.jerk = [&trial](const trial::Jerk& jerk) { trial.jerks.push_back(jerk); };
+  trial.outcome = trial::run_trial(parameters, observers);
   return trial;
 }
 
-auto fields(const SampleRecord& r) {
+auto fields(const trial::SampleRecord& r) {
   return std::tie(r.k, r.t, r.target, r.count, r.coarse_count, r.error, r.code, r.torque, r.theta, r.omega,
                   r.xp, r.xh, r.depth, r.mode, r.reference, r.phase, r.drive_torque);
 }
 
-auto fields(const Jerk& jerk) {
+auto fields(const trial::Jerk& jerk) {
   return std::tie(jerk.move, jerk.onset, jerk.duration, jerk.magnitude, jerk.direction);
 }
 
@@ -64,7 +64,7 @@ double shown(double value) {
 }
 
 /// But what goes on after the last sample: broke_away and reversal_depth.
-auto measures(const MoveOutcome& m) {
+auto measures(const trial::MoveOutcome& m) {
   return std::tuple(m.outcome, m.arrived, m.stable, m.saturated, m.arrival, shown(m.settling_time),
                     shown(m.final_settling_time), shown(m.zero_fraction), shown(m.travel_time), m.overshoot,
                     m.final_error, shown(m.true_error), shown(m.final_position), shown(m.holding_torque),
@@ -104,8 +104,8 @@ void expect_beginning_of(const RecordedTrial& whole, const RecordedTrial& ended,
     EXPECT_EQ(fields(ended.jerks[i]), fields(whole.jerks[i])) << "jerk " << i;
   }
   if (ended.jerks.empty()) return;
-  const Jerk& last = ended.jerks.back();  // may be cut
-  const Jerk& same = whole.jerks[ended.jerks.size() - 1];
+  const trial::Jerk& last = ended.jerks.back();  // may be cut
+  const trial::Jerk& same = whole.jerks[ended.jerks.size() - 1];
   EXPECT_EQ(last.move, same.move);
   EXPECT_EQ(last.onset, same.onset);
   EXPECT_EQ(last.direction, same.direction);
@@ -113,10 +113,10 @@ void expect_beginning_of(const RecordedTrial& whole, const RecordedTrial& ended,
   EXPECT_LE(last.magnitude, same.magnitude);
 }
 
-void expect_not_run(const MoveOutcome& move) {
+void expect_not_run(const trial::MoveOutcome& move) {
   EXPECT_TRUE(move.stopped);
-  EXPECT_FALSE(was_run(move));
-  EXPECT_EQ(move.outcome, Outcome::oscillating);
+  EXPECT_FALSE(trial::was_run(move));
+  EXPECT_EQ(move.outcome, trial::Outcome::oscillating);
   EXPECT_FALSE(move.arrived || move.stable || move.broke_away || move.saturated);
   EXPECT_EQ(move.arrival, -1);
   for (const double real :
@@ -133,24 +133,24 @@ void expect_not_run(const MoveOutcome& move) {
 
 /// The move that was ended is measured like one that was never to go on.
 void expect_measured_to(const RecordedTrial& ended, const End& end) {
-  const MoveOutcome& move = ended.outcome.moves[end.move];
-  EXPECT_TRUE(move.stopped && was_run(move));
-  EXPECT_EQ(move.outcome, Outcome::oscillating);
+  const trial::MoveOutcome& move = ended.outcome.moves[end.move];
+  EXPECT_TRUE(move.stopped && trial::was_run(move));
+  EXPECT_EQ(move.outcome, trial::Outcome::oscillating);
   EXPECT_FALSE(move.stable);
-  const SampleRecord& last = ended.samples[end.sample];
+  const trial::SampleRecord& last = ended.samples[end.sample];
   EXPECT_EQ(move.final_error, last.error);
   EXPECT_EQ(move.final_position, last.theta);
   EXPECT_EQ(move.holding_torque, last.torque);
   EXPECT_EQ(move.creep, last.xp);
   if (end.move > 0) return;
-  TrialParameters shorter = ended.parameters;
+  trial::TrialParameters shorter = ended.parameters;
   shorter.verdict.stop = false;
   shorter.command.targets.resize(1);
   shorter.command.hold = static_cast<double>(end.sample + 1) / shorter.controller.sample_rate;
   const RecordedTrial cut = run_recorded(shorter);
   ASSERT_EQ(cut.samples.size(), ended.samples.size());
-  MoveOutcome other = cut.outcome.moves[0];
-  other.outcome = Outcome::oscillating;  // a move that diverges is no approach, however short it was
+  trial::MoveOutcome other = cut.outcome.moves[0];
+  other.outcome = trial::Outcome::oscillating;  // a move that diverges is no approach, however short it was
   EXPECT_EQ(measures(move), measures(other));
   EXPECT_TRUE(std::isnan(move.oscillation_amplitude) && std::isnan(move.oscillation_period));
   EXPECT_EQ(move.midway_error, 0);
@@ -166,7 +166,7 @@ struct Seen {
 
 void check(const RecordedTrial& whole, double limit, Seen& seen) {
   SCOPED_TRACE(whole.name + " limit " + std::to_string(limit));
-  TrialParameters parameters = whole.parameters;
+  trial::TrialParameters parameters = whole.parameters;
   parameters.verdict.stop = true;
   parameters.verdict.limit = limit;
   const RecordedTrial ended = run_recorded(parameters);
@@ -175,7 +175,7 @@ void check(const RecordedTrial& whole, double limit, Seen& seen) {
   ASSERT_EQ(ended.outcome.moves.size(), whole.outcome.moves.size());
   expect_beginning_of(whole, ended, end ? end->sample + 1 : whole.samples.size());
   for (std::size_t m = 0; m < ended.outcome.moves.size(); ++m) {
-    const MoveOutcome& move = ended.outcome.moves[m];
+    const trial::MoveOutcome& move = ended.outcome.moves[m];
     if (!end || m < end->move) {
       EXPECT_EQ(measures(move), measures(whole.outcome.moves[m])) << "move " << m;
       EXPECT_EQ(move.broke_away, whole.outcome.moves[m].broke_away);
@@ -201,12 +201,12 @@ TEST(EarlyDecision, EndsARandomTrialWhereItDivergesAndChangesNothingBefore) {
       const RecordedTrial whole =
           run_recorded(random_trial(kind, index),
                        "kind " + std::to_string(static_cast<int>(kind)) + " trial " + std::to_string(index));
-      if (whole.outcome.moves.back().outcome == Outcome::nonfinite) continue;
+      if (whole.outcome.moves.back().outcome == trial::Outcome::nonfinite) continue;
       for (const double limit : {2.0, 20.0, 300.0, 1000.0}) check(whole, limit, seen);
     }
   }
   for (std::uint64_t index = 100; index < 130; ++index) {  // that begin at their target and leave it
-    TrialParameters parameters = random_trial(TrialKind::ringing, index);
+    trial::TrialParameters parameters = random_trial(TrialKind::ringing, index);
     parameters.command.targets.front() = 0;
     parameters.initial.integral = 0.1;
     parameters.verdict.dwell = 1.0 / parameters.controller.sample_rate;
@@ -228,13 +228,13 @@ TEST(EarlyDecision, EndsARandomTrialWhereItDivergesAndChangesNothingBefore) {
 
 TEST(EarlyDecision, IsNothingToAnOpenLoop) {
   for (std::uint64_t index = 0; index < 5; ++index) {
-    TrialParameters parameters = widened_trial(WidenedKind::open_loop, index);
+    trial::TrialParameters parameters = widened_trial(WidenedKind::open_loop, index);
     const RecordedTrial whole = run_recorded(parameters);
     parameters.verdict.stop = true;
     parameters.verdict.limit = 2.0;
     const RecordedTrial asked = run_recorded(parameters);
     expect_beginning_of(whole, asked, whole.samples.size());
-    for (const MoveOutcome& move : asked.outcome.moves) EXPECT_FALSE(move.stopped);
+    for (const trial::MoveOutcome& move : asked.outcome.moves) EXPECT_FALSE(move.stopped);
   }
 }
 
@@ -248,7 +248,7 @@ TEST(EarlyDecision, KeepsTheOutcomesOfThePapersRig) {
   };
   int ended = 0, settled = 0, far_and_back = 0;
   for (int index = 0; index < 500; ++index) {
-    TrialParameters parameters;
+    trial::TrialParameters parameters;
     parameters.friction.uniform.k1 = draw(90.0, 130.0);
     parameters.friction.uniform.k2 = draw(600.0, 900.0);
     parameters.initial.encoder_phase = draw(0.0, 1.0);
@@ -259,15 +259,15 @@ TEST(EarlyDecision, KeepsTheOutcomesOfThePapersRig) {
     const RecordedTrial whole = run_recorded(parameters);
     parameters.verdict.stop = true;
     const RecordedTrial early = run_recorded(parameters);
-    const MoveOutcome& expected = whole.outcome.moves[0];
-    const MoveOutcome& move = early.outcome.moves[0];
+    const trial::MoveOutcome& expected = whole.outcome.moves[0];
+    const trial::MoveOutcome& move = early.outcome.moves[0];
     EXPECT_EQ(move.outcome, expected.outcome) << index;
     EXPECT_EQ(move.stable, expected.stable) << index;
     EXPECT_EQ(move.arrived, expected.arrived) << index;
     EXPECT_EQ(shown(move.settling_time), shown(expected.settling_time)) << index;
     ended += move.stopped;
-    settled += expected.outcome != Outcome::oscillating;
-    far_and_back += expected.outcome != Outcome::oscillating && end_of(whole, 300.0).has_value();
+    settled += expected.outcome != trial::Outcome::oscillating;
+    far_and_back += expected.outcome != trial::Outcome::oscillating && end_of(whole, 300.0).has_value();
   }
   std::cout << ended << " ended, " << settled << " settled, " << far_and_back << " of them from afar\n";
   EXPECT_GT(ended, 50);

@@ -19,20 +19,20 @@ using Real = long double;
 using State = std::array<Real, 2>;  // θ (rad), ω (rad/s)
 
 struct FreeTrial {
-  TrialParameters parameters;
-  std::vector<SampleRecord> samples;
-  TrialOutcome outcome;
+  trial::TrialParameters parameters;
+  std::vector<trial::SampleRecord> samples;
+  trial::TrialOutcome outcome;
 };
 
 /// A random trial, its friction taken away, and sometimes its damping.
 FreeTrial free_trial(WidenedKind kind, std::uint64_t index) {
   FreeTrial trial;
   trial.parameters = widened_trial(kind, index);
-  trial.parameters.friction.model = FrictionModel::none;
+  trial.parameters.friction.model = friction::FrictionModel::none;
   if (index % 3 == 0) trial.parameters.plant.presliding_damping = 0.0;
-  TrialObservers observers;
-  observers.sample = [&trial](const SampleRecord& sample) { trial.samples.push_back(sample); };
-  trial.outcome = run_trial(trial.parameters, observers);
+  trial::TrialObservers observers;
+  observers.sample = [&trial](const trial::SampleRecord& sample) { trial.samples.push_back(sample); };
+  trial.outcome = trial::run_trial(trial.parameters, observers);
   return trial;
 }
 
@@ -48,7 +48,7 @@ void for_each_free_trial(Check check) {
 
 TEST(FreeTrial, MovesAsItsEquationSays) {
   for_each_free_trial([](const FreeTrial& trial) {
-    const TrialParameters& p = trial.parameters;
+    const trial::TrialParameters& p = trial.parameters;
     const std::vector<LiteralDrive> drive = literal_drive(p, trial.samples);
     const Real rate = 2 * std::numbers::pi_v<Real> * p.amplifier.bandwidth;
     const Real period = 1 / static_cast<Real>(p.controller.sample_rate);
@@ -73,13 +73,13 @@ TEST(FreeTrial, MovesAsItsEquationSays) {
 
 TEST(FreeTrial, TellsOfNoContact) {
   for_each_free_trial([](const FreeTrial& trial) {
-    for (const SampleRecord& sample : trial.samples) {
-      ASSERT_EQ(sample.mode, HookMode::slide);
+    for (const trial::SampleRecord& sample : trial.samples) {
+      ASSERT_EQ(sample.mode, trial::HookMode::slide);
       ASSERT_EQ(sample.xp, 0.0);
       ASSERT_EQ(sample.xh, 0.0);
       ASSERT_EQ(sample.depth, 0);
     }
-    for (const MoveOutcome& move : trial.outcome.moves) {
+    for (const trial::MoveOutcome& move : trial.outcome.moves) {
       EXPECT_FALSE(move.broke_away);
       EXPECT_EQ(move.creep, 0.0);
       EXPECT_EQ(move.reversal_depth, 0);

@@ -23,7 +23,7 @@ TEST(Judges, AgreeWithEachOther) {
        {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away, TrialKind::spring_alone,
         TrialKind::coulomb, TrialKind::amplified, TrialKind::arriving, TrialKind::remembering}) {
     for (std::uint64_t index = 1000; index < 1002; ++index) {
-      TrialParameters parameters = random_trial(kind, index);
+      trial::TrialParameters parameters = random_trial(kind, index);
       parameters.command.hold = 120.0 / parameters.controller.sample_rate;
       const std::string name =
           "kind " + std::to_string(static_cast<int>(kind)) + " trial " + std::to_string(index);
@@ -52,14 +52,14 @@ TEST(Judges, ReadBackTheParametersTheyWrite) {
 // and creep follows xh(t) = (|U|ⁿ/λ)·(1 − exp(−αt)). A stiff, well damped rotor brings the start-up to
 // nothing.
 TEST(OdeintMotion, CreepsExactlyAtConstantTorque) {
-  TrialParameters parameters;
+  trial::TrialParameters parameters;
   parameters.plant = {1e-6, 0.02, 1e-3};
   for (const double n : {1.0, 1.5, 2.0, 3.0}) {
     parameters.friction.uniform.n = n;
     parameters.friction.uniform.lambda = std::pow(0.05, n) / 2e-5;
     OdeintMotion motion(parameters);
     for (int k = 0; k < 600; ++k) motion.advance(-0.05L, 5e-4L);
-    const FrictionParameters& f = parameters.friction.uniform;
+    const friction::FrictionParameters& f = parameters.friction.uniform;
     const double expected = 2e-5 * -std::expm1(-f.alpha * 0.3);
     EXPECT_NEAR(static_cast<double>(motion.state()[3]) / expected, 1.0, 2e-3);
     EXPECT_DOUBLE_EQ(static_cast<double>(motion.state()[2]), -static_cast<double>(motion.state()[3]));
@@ -69,7 +69,7 @@ TEST(OdeintMotion, CreepsExactlyAtConstantTorque) {
 // A slide without damping and with coulomb_ratio 1 has the constant friction Fs: while it lasts, uniform
 // acceleration.
 TEST(OdeintMotion, SlidesUniformlyUnderCoulombFriction) {
-  TrialParameters parameters;
+  trial::TrialParameters parameters;
   parameters.plant.sliding_damping = 0.0;
   parameters.friction.uniform.coulomb_ratio = 1.0;
   OdeintMotion motion(parameters);

@@ -11,7 +11,7 @@ using Real = long double;
 
 constexpr Real revolution = 2 * std::numbers::pi_v<Real>;
 
-Real level_before(const TrialParameters& p, std::size_t move) {
+Real level_before(const trial::TrialParameters& p, std::size_t move) {
   return move == 0 ? 0.0 : p.command.torque.levels[move - 1];
 }
 
@@ -23,10 +23,10 @@ Real integrated_step(Real t, bool thrice) {
 
 /// The motion over the travel (rad) whose pulse has the given velocity (rad/s), with the shortest ramp and
 /// blend.
-LiteralMotion motion_at(Real velocity, Real travel, const ReferenceProfile& limits) {
+LiteralMotion motion_at(Real velocity, Real travel, const loop::ReferenceProfile& limits) {
   Real acceleration = limits.acceleration_limit;
   LiteralMotion motion;
-  if (limits.shape == ReferenceShape::s_curve) {
+  if (limits.shape == loop::ReferenceShape::s_curve) {
     acceleration = std::min(acceleration, std::sqrt(velocity * limits.jerk_limit));
     motion.blend = acceleration / limits.jerk_limit;
   }
@@ -42,13 +42,13 @@ bool keeps_its_velocity(const LiteralMotion& motion) {
 
 }  // namespace
 
-std::int64_t literal_samples_on_the_way(const TrialParameters& p, std::size_t move) {
+std::int64_t literal_samples_on_the_way(const trial::TrialParameters& p, std::size_t move) {
   const Real way = std::abs(p.command.torque.levels[move] - level_before(p, move));
   const Real samples = way / p.command.torque.rate * p.controller.sample_rate;
   return std::llround(std::ceil(samples - 1e-6L));  // a whole number of samples is not one more
 }
 
-std::vector<MoveSpan> literal_spans(const TrialParameters& p) {
+std::vector<MoveSpan> literal_spans(const trial::TrialParameters& p) {
   const auto held = static_cast<std::size_t>(std::llround(p.command.hold * p.controller.sample_rate));
   std::vector<MoveSpan> spans;
   std::size_t first = 0;
@@ -62,7 +62,7 @@ std::vector<MoveSpan> literal_spans(const TrialParameters& p) {
   return spans;
 }
 
-std::vector<Real> literal_torques(const TrialParameters& p) {
+std::vector<Real> literal_torques(const trial::TrialParameters& p) {
   const std::vector<MoveSpan> spans = literal_spans(p);
   std::vector<Real> torques;
   for (std::size_t move = 0; move < spans.size(); ++move) {
@@ -76,11 +76,11 @@ std::vector<Real> literal_torques(const TrialParameters& p) {
   return torques;
 }
 
-LiteralMotion literal_motion(const TrialParameters& p, std::size_t move) {
+LiteralMotion literal_motion(const trial::TrialParameters& p, std::size_t move) {
   const Real from = move == 0 ? 0 : static_cast<Real>(p.command.targets[move - 1]);
   const Real travel = static_cast<Real>(p.command.targets[move]) - from;
   LiteralMotion motion;
-  if (p.command.profile.shape != ReferenceShape::step && travel != 0) {
+  if (p.command.profile.shape != loop::ReferenceShape::step && travel != 0) {
     const Real radians = std::abs(travel) * revolution / p.encoder.fine;
     Real low = 0;
     Real high = p.command.profile.velocity_limit;

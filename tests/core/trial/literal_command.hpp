@@ -16,13 +16,13 @@ struct MoveSpan {
 };
 
 /// The moves of the trial, by the stated numbers of samples.
-std::vector<MoveSpan> literal_spans(const TrialParameters& p);
+std::vector<MoveSpan> literal_spans(const trial::TrialParameters& p);
 
 /// The number of samples on the way from one torque level to the next, n = ⌈|b − a|/(rate·T)⌉; `move` has b.
-std::int64_t literal_samples_on_the_way(const TrialParameters& p, std::size_t move);
+std::int64_t literal_samples_on_the_way(const trial::TrialParameters& p, std::size_t move);
 
 /// The commanded torque (N m) of each sample, open loop.
-std::vector<long double> literal_torques(const TrialParameters& p);
+std::vector<long double> literal_torques(const trial::TrialParameters& p);
 
 /// The fastest motion from rest to rest within the limits of a profile: a velocity that is constant for the
 /// time `pulse`, averaged over the time `ramp`, which limits the acceleration, and over the time `blend`,
@@ -36,7 +36,7 @@ struct LiteralMotion {
 };
 
 /// The motion of the reference in a move, closed loop.
-LiteralMotion literal_motion(const TrialParameters& p, std::size_t move);
+LiteralMotion literal_motion(const trial::TrialParameters& p, std::size_t move);
 
 /// How far (counts, not rounded) the motion is after the time t (s).
 long double literal_travel(const LiteralMotion& motion, long double t);

@@ -10,14 +10,14 @@ namespace zerocount::testing {
 
 /// What the controller decides at a sample.
 struct LiteralDecision {
-  ControlPhase phase{ControlPhase::fine};
+  loop::ControlPhase phase{loop::ControlPhase::fine};
   long double integral{0};  ///< I, N m
   long double torque{0};    ///< u, N m
 };
 
 /// The decisions of a closed loop by the recorded references and counts. The last decided torque is that of
 /// the record.
-std::vector<LiteralDecision> literal_decisions(const TrialParameters& p,
-                                               const std::vector<SampleRecord>& samples);
+std::vector<LiteralDecision> literal_decisions(const trial::TrialParameters& p,
+                                               const std::vector<trial::SampleRecord>& samples);
 
 }  // namespace zerocount::testing

@@ -12,7 +12,7 @@ namespace zerocount::testing {
 namespace {
 
 using Errors = std::vector<std::int64_t>;
-using Samples = std::vector<SampleRecord>;
+using Samples = std::vector<trial::SampleRecord>;
 
 int sign(double value) {
   return (value > 0) - (value < 0);
@@ -26,7 +26,7 @@ std::int64_t largest(Errors::const_iterator from, Errors::const_iterator to) {
 
 /// Whether there is an angle that both counts stand for. In 1/(fine·coarse) revolutions from the rotor's
 /// start, the counts are [(f − φ)·coarse, (f + 1 − φ)·coarse) and [(c − φ)·fine, (c + 1 − φ)·fine).
-bool have_a_common_angle(const TrialParameters& p, const SampleRecord& sample) {
+bool have_a_common_angle(const trial::TrialParameters& p, const trial::SampleRecord& sample) {
   const auto fine = static_cast<std::int64_t>(p.encoder.fine);
   const auto coarse = static_cast<std::int64_t>(p.encoder.coarse);
   const std::int64_t apart = sample.count * coarse - sample.coarse_count * fine;
@@ -36,11 +36,11 @@ bool have_a_common_angle(const TrialParameters& p, const SampleRecord& sample) {
          by_phase < static_cast<long double>(apart + coarse);
 }
 
-bool is_flawed(const EncoderErrors& errors) {
+bool is_flawed(const loop::EncoderErrors& errors) {
   return errors.eccentricity != 0 || errors.interpolation != 0 || errors.noise != 0 || errors.missed != 0;
 }
 
-std::int64_t disagreements(const TrialParameters& p, const Samples& samples, const MoveSpan& span) {
+std::int64_t disagreements(const trial::TrialParameters& p, const Samples& samples, const MoveSpan& span) {
   if (!is_flawed(p.encoder.fine_errors) && !is_flawed(p.encoder.coarse_errors)) return 0;
   std::int64_t number = 0;
   for (std::size_t k = span.first; k < span.first + span.size; ++k) {
@@ -64,8 +64,9 @@ std::size_t first_of_dwell(const Errors& errors, std::size_t dwell) {
 }
 
 /// The runs of errors other than 0 from sample `from` on.
-std::vector<Jerk> jerks_of(const Errors& errors, std::size_t from, double sample_time, std::size_t move) {
-  std::vector<Jerk> jerks;
+std::vector<trial::Jerk> jerks_of(const Errors& errors, std::size_t from, double sample_time,
+                                  std::size_t move) {
+  std::vector<trial::Jerk> jerks;
   const auto zero = [](std::int64_t e) { return e == 0; };
   auto begin = std::find_if_not(errors.begin() + static_cast<std::ptrdiff_t>(from), errors.end(), zero);
   while (begin != errors.end()) {
@@ -86,7 +87,7 @@ bool only_approaches(const Errors& last_half) {
 }
 
 /// The amplitude and the period of an oscillating move, from the counts of its last half.
-void measure_oscillation(const Errors& last_half, double sample_time, MoveOutcome& outcome) {
+void measure_oscillation(const Errors& last_half, double sample_time, trial::MoveOutcome& outcome) {
   std::vector<double> counts;  // from the target
   for (const std::int64_t e : last_half) counts.push_back(-static_cast<double>(e));
   const double highest = *std::max_element(counts.begin(), counts.end());
@@ -106,25 +107,26 @@ void measure_oscillation(const Errors& last_half, double sample_time, MoveOutcom
 
 /// What is known of a move at its end.
 void judge_end(const Errors& errors, std::int64_t largest_in_window, double sample_time,
-               MoveOutcome& outcome) {
+               trial::MoveOutcome& outcome) {
   const std::size_t half = (errors.size() + 1) / 2;
   const Errors last_half(errors.begin() + static_cast<std::ptrdiff_t>(half), errors.end());
-  outcome.outcome = largest_in_window == 0       ? Outcome::zero_count
-                    : largest_in_window == 1     ? Outcome::one_count
-                    : only_approaches(last_half) ? Outcome::off_target
-                                                 : Outcome::oscillating;
+  outcome.outcome = largest_in_window == 0       ? trial::Outcome::zero_count
+                    : largest_in_window == 1     ? trial::Outcome::one_count
+                    : only_approaches(last_half) ? trial::Outcome::off_target
+                                                 : trial::Outcome::oscillating;
   outcome.midway_error = last_half.empty() ? errors.back() : last_half.front();
   std::size_t first_zero = errors.size();
   while (first_zero > 0 && errors[first_zero - 1] == 0) --first_zero;
   if (first_zero < errors.size()) outcome.final_settling_time = static_cast<double>(first_zero) * sample_time;
-  if (outcome.outcome == Outcome::oscillating) measure_oscillation(last_half, sample_time, outcome);
+  if (outcome.outcome == trial::Outcome::oscillating) measure_oscillation(last_half, sample_time, outcome);
 }
 
-void judge(const Errors& errors, const TrialParameters& p, std::size_t move, LiteralMeasures& measures) {
+void judge(const Errors& errors, const trial::TrialParameters& p, std::size_t move,
+           LiteralMeasures& measures) {
   const double rate = p.controller.sample_rate;
   const auto dwell = static_cast<std::size_t>(std::llround(p.verdict.dwell * rate));
   const auto window = std::llround(p.verdict.window * rate);
-  MoveOutcome& outcome = measures.outcome;
+  trial::MoveOutcome& outcome = measures.outcome;
   const std::int64_t in_window = largest(errors.end() - window, errors.end());
   judge_end(errors, in_window, 1 / rate, outcome);
   for (const std::int64_t e : errors) {
@@ -140,9 +142,9 @@ void judge(const Errors& errors, const TrialParameters& p, std::size_t move, Lit
                           static_cast<double>(errors.end() - errors.begin() - outcome.arrival);
   measures.jerks = jerks_of(errors, arrival + dwell, 1 / rate, move);
   outcome.jerk_count = static_cast<std::int64_t>(measures.jerks.size());
-  const auto along = std::count_if(measures.jerks.begin(), measures.jerks.end(), [&](const Jerk& jerk) {
-    return jerk.direction == sign(outcome.holding_torque);
-  });
+  const auto along =
+      std::count_if(measures.jerks.begin(), measures.jerks.end(),
+                    [&](const trial::Jerk& jerk) { return jerk.direction == sign(outcome.holding_torque); });
   if (!measures.jerks.empty()) {
     outcome.jerk_agreement = static_cast<double>(along) / static_cast<double>(measures.jerks.size());
   }
@@ -150,20 +152,20 @@ void judge(const Errors& errors, const TrialParameters& p, std::size_t move, Lit
 
 }  // namespace
 
-LiteralMeasures literal_measures(const TrialParameters& p, const Samples& samples,
+LiteralMeasures literal_measures(const trial::TrialParameters& p, const Samples& samples,
                                  const std::vector<long double>& wanted, std::size_t move) {
   const MoveSpan span = literal_spans(p)[move];
-  const SampleRecord& last = samples[span.first + span.size - 1];
+  const trial::SampleRecord& last = samples[span.first + span.size - 1];
   const bool open = !p.command.torque.levels.empty();
   const std::int64_t target = open ? 0 : p.command.targets[move];
   const long double most = std::ldexp(1.0L, p.dac.bits - 1);
   LiteralMeasures measures;
-  MoveOutcome& outcome = measures.outcome;
+  trial::MoveOutcome& outcome = measures.outcome;
   Errors errors;
   for (std::size_t k = span.first; k < span.first + span.size; ++k) {
     errors.push_back(target - samples[k].count);
     outcome.peak_torque = std::max(outcome.peak_torque, std::abs(samples[k].torque));
-    if (open && p.command.torque.through == TorquePath::exact) continue;
+    if (open && p.command.torque.through == trial::TorquePath::exact) continue;
     const long double code = wanted[k] / p.dac.resolution;
     outcome.saturated = outcome.saturated || code < -most - 0.5L || code > most - 0.5L;
   }
@@ -174,7 +176,7 @@ LiteralMeasures literal_measures(const TrialParameters& p, const Samples& sample
   outcome.encoder_disagreement = disagreements(p, samples, span);
   outcome.phase_changes = phase_changes(samples, span);
   if (open) {
-    outcome.outcome = Outcome::open_loop;
+    outcome.outcome = trial::Outcome::open_loop;
     outcome.travel_time = static_cast<double>(literal_samples_on_the_way(p, move)) / p.controller.sample_rate;
     return measures;
   }

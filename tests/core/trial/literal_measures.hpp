@@ -9,13 +9,14 @@ namespace zerocount::testing {
 
 /// What the recorded samples of a move say of it.
 struct LiteralMeasures {
-  MoveOutcome outcome;  ///< but what goes on between the samples: broke_away and reversal_depth
-  std::vector<Jerk> jerks;
+  trial::MoveOutcome outcome;  ///< but what goes on between the samples: broke_away and reversal_depth
+  std::vector<trial::Jerk> jerks;
 };
 
 /// The measures of move `move`, each by its definition over all samples of the move. The torques before
 /// rounding, N m, tell whether the converter clipped; there are none past it.
-LiteralMeasures literal_measures(const TrialParameters& p, const std::vector<SampleRecord>& samples,
+LiteralMeasures literal_measures(const trial::TrialParameters& p,
+                                 const std::vector<trial::SampleRecord>& samples,
                                  const std::vector<long double>& wanted, std::size_t move);
 
 }  // namespace zerocount::testing

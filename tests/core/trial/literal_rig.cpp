@@ -10,12 +10,12 @@ namespace zerocount::testing {
 namespace {
 
 using Real = long double;
-using Samples = std::vector<SampleRecord>;
+using Samples = std::vector<trial::SampleRecord>;
 
 constexpr Real turn = 2 * std::numbers::pi_v<Real>;
 
-Real systematic_position(Real theta, Real counts, const EncoderErrors& errors,
-                         const InitialConditions& start) {
+Real systematic_position(Real theta, Real counts, const loop::EncoderErrors& errors,
+                         const trial::InitialConditions& start) {
   const Real resolution = turn / counts;
   const Real origin = static_cast<Real>(start.position) - errors.eccentricity_angle;
   const Real seen = theta + errors.eccentricity * (std::sin(origin + theta) - std::sin(origin));
@@ -40,20 +40,21 @@ std::int64_t binomial_by_terms(std::int64_t n, Real probability, Real uniform) {
   return happened;
 }
 
-std::vector<std::int64_t> counts_of(Real counts, const EncoderErrors& errors, const RandomKey& noise,
-                                    const RandomKey& missed, const TrialParameters& p,
-                                    const Samples& samples) {
-  const TrialRandomness& random = p.randomness;
+std::vector<std::int64_t> counts_of(Real counts, const loop::EncoderErrors& errors,
+                                    const random::RandomKey& noise, const random::RandomKey& missed,
+                                    const trial::TrialParameters& p, const Samples& samples) {
+  const random::TrialRandomness& random = p.randomness;
   std::vector<std::int64_t> rounded;
   std::vector<std::int64_t> shown;
   std::int64_t lost = 0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     Real x = systematic_position(samples[k].theta, counts, errors, p.initial);
-    x += errors.noise *
-         static_cast<Real>(standard_normal(random_bits_at({noise, random.stream}, random.trial, k)));
+    x += errors.noise * static_cast<Real>(random::standard_normal(
+                            random::random_bits_at({noise, random.stream}, random.trial, k)));
     rounded.push_back(static_cast<std::int64_t>(std::floor(x)));
     const std::int64_t passed = k == 0 ? 0 : rounded[k] - rounded[k - 1];
-    const Real uniform = open_uniform(random_bits_at({missed, random.stream}, random.trial, k));
+    const Real uniform =
+        random::open_uniform(random::random_bits_at({missed, random.stream}, random.trial, k));
     const std::int64_t not_counted = binomial_by_terms(std::abs(passed), errors.missed, uniform);
     lost += passed > 0 ? not_counted : -not_counted;
     shown.push_back(rounded[k] - lost);
@@ -62,31 +63,31 @@ std::vector<std::int64_t> counts_of(Real counts, const EncoderErrors& errors, co
 }
 
 /// What the converter gives for the code of sample k, N m.
-Real converted(const TrialParameters& p, const Samples& samples, std::size_t k) {
-  const DacParameters& dac = p.dac;
+Real converted(const trial::TrialParameters& p, const Samples& samples, std::size_t k) {
+  const loop::DacParameters& dac = p.dac;
   const Real half_range = (std::ldexp(Real{1}, dac.bits) - 1) / 2;
   const Real from_middle = (static_cast<Real>(samples[k].code) + Real{0.5}) / half_range;
   const Real bow = dac.nonlinearity * (1 - from_middle * from_middle);
-  const Real z =
-      standard_normal(random_bits_at({p.randomness.dac_noise, p.randomness.stream}, p.randomness.trial, k));
+  const Real z = random::standard_normal(
+      random::random_bits_at({p.randomness.dac_noise, p.randomness.stream}, p.randomness.trial, k));
   return dac.resolution * (1 + Real{dac.gain_error}) * (static_cast<Real>(samples[k].code) + bow) +
          dac.offset + dac.noise * z;
 }
 
 }  // namespace
 
-std::vector<std::int64_t> literal_fine_counts(const TrialParameters& p, const Samples& samples) {
+std::vector<std::int64_t> literal_fine_counts(const trial::TrialParameters& p, const Samples& samples) {
   return counts_of(p.encoder.fine, p.encoder.fine_errors, p.randomness.fine_noise, p.randomness.fine_missed,
                    p, samples);
 }
 
-std::vector<std::int64_t> literal_coarse_counts(const TrialParameters& p, const Samples& samples) {
+std::vector<std::int64_t> literal_coarse_counts(const trial::TrialParameters& p, const Samples& samples) {
   return counts_of(p.encoder.coarse, p.encoder.coarse_errors, p.randomness.coarse_noise,
                    p.randomness.coarse_missed, p, samples);
 }
 
-std::vector<LiteralDrive> literal_drive(const TrialParameters& p, const Samples& samples) {
-  const bool exact = !p.command.torque.levels.empty() && p.command.torque.through == TorquePath::exact;
+std::vector<LiteralDrive> literal_drive(const trial::TrialParameters& p, const Samples& samples) {
+  const bool exact = !p.command.torque.levels.empty() && p.command.torque.through == trial::TorquePath::exact;
   const auto delay = static_cast<std::size_t>(p.controller.delay);
   const Real lag = turn * p.amplifier.bandwidth / p.controller.sample_rate;  // 2πf·T
   std::vector<LiteralDrive> drive;

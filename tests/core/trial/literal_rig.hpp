@@ -10,10 +10,10 @@
 namespace zerocount::testing {
 
 /// What an encoder shows at each sample, by the recorded angles.
-std::vector<std::int64_t> literal_fine_counts(const TrialParameters& p,
-                                              const std::vector<SampleRecord>& samples);
-std::vector<std::int64_t> literal_coarse_counts(const TrialParameters& p,
-                                                const std::vector<SampleRecord>& samples);
+std::vector<std::int64_t> literal_fine_counts(const trial::TrialParameters& p,
+                                              const std::vector<trial::SampleRecord>& samples);
+std::vector<std::int64_t> literal_coarse_counts(const trial::TrialParameters& p,
+                                                const std::vector<trial::SampleRecord>& samples);
 
 /// The amplifier at a sample.
 struct LiteralDrive {
@@ -22,6 +22,7 @@ struct LiteralDrive {
 };
 
 /// The amplifier's input and output by the recorded codes, or by the recorded torques past the converter.
-std::vector<LiteralDrive> literal_drive(const TrialParameters& p, const std::vector<SampleRecord>& samples);
+std::vector<LiteralDrive> literal_drive(const trial::TrialParameters& p,
+                                        const std::vector<trial::SampleRecord>& samples);
 
 }  // namespace zerocount::testing

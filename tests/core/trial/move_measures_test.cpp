@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::trial {
 namespace {
 
 constexpr double sample_time = 0.001;  // s
@@ -342,4 +342,4 @@ TEST(Timing, RoundsToWholeSamples) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::trial

@@ -9,13 +9,13 @@
 
 #include "tests/support/goodness_of_fit.hpp"
 
-namespace zerocount {
+namespace zerocount::trial {
 namespace {
 
 constexpr double largest = 0.25;
 
-TrialRandomness randomness_of(std::uint64_t trial) {
-  TrialRandomness randomness;
+random::TrialRandomness randomness_of(std::uint64_t trial) {
+  random::TrialRandomness randomness;
   randomness.trial = trial;
   randomness.history = {21, 22};
   return randomness;
@@ -82,11 +82,11 @@ TEST(RandomHistory, IsTheTrialsOwn) {
   std::set<double> firsts;
   for (std::uint64_t trial = 0; trial < 1000; ++trial)
     firsts.insert(draw_history({1, largest}, randomness_of(trial))[0]);
-  TrialRandomness other_stream = randomness_of(0);
+  random::TrialRandomness other_stream = randomness_of(0);
   other_stream.stream = 1;
   firsts.insert(draw_history({1, largest}, other_stream)[0]);
   EXPECT_EQ(firsts.size(), 1001u);
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::trial

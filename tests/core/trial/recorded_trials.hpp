@@ -17,13 +17,13 @@ namespace zerocount::testing {
 /// A trial with all that is told of it.
 struct RecordedTrial {
   std::string name;
-  TrialParameters parameters;
-  std::vector<SampleRecord> samples;
-  std::vector<Jerk> jerks;
-  TrialOutcome outcome;
+  trial::TrialParameters parameters;
+  std::vector<trial::SampleRecord> samples;
+  std::vector<trial::Jerk> jerks;
+  trial::TrialOutcome outcome;
 
   bool is_open() const { return !parameters.command.torque.levels.empty(); }
-  bool is_exact() const { return is_open() && parameters.command.torque.through == TorquePath::exact; }
+  bool is_exact() const { return is_open() && parameters.command.torque.through == trial::TorquePath::exact; }
 };
 
 /// Runs a random trial.
@@ -31,10 +31,10 @@ inline RecordedTrial record(WidenedKind kind, std::uint64_t index) {
   RecordedTrial trial;
   trial.name = "kind " + std::to_string(static_cast<int>(kind)) + " trial " + std::to_string(index);
   trial.parameters = widened_trial(kind, index);
-  TrialObservers observers;
-  observers.sample = [&trial](const SampleRecord& sample) { trial.samples.push_back(sample); };
-  observers.jerk = [&trial](const Jerk& jerk) { trial.jerks.push_back(jerk); };
-  trial.outcome = run_trial(trial.parameters, observers);
+  trial::TrialObservers observers;
+  observers.sample = [&trial](const trial::SampleRecord& sample) { trial.samples.push_back(sample); };
+  observers.jerk = [&trial](const trial::Jerk& jerk) { trial.jerks.push_back(jerk); };
+  trial.outcome = trial::run_trial(trial.parameters, observers);
   return trial;
 }
 

@@ -9,7 +9,7 @@
 
 #include "core/trial/parameters.hpp"
 
-namespace zerocount {
+namespace zerocount::trial {
 namespace {
 
 struct RandomRamp {
@@ -75,4 +75,4 @@ TEST(TorqueRamp, IsPartOfTheMoveOfItsLevel) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::trial

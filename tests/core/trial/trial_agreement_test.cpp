@@ -17,11 +17,11 @@
 namespace zerocount::testing {
 namespace {
 
-std::vector<SampleRecord> records_of_trial(const TrialParameters& parameters) {
-  std::vector<SampleRecord> records;
-  TrialObservers observers;
-  observers.sample = [&records](const SampleRecord& record) { records.push_back(record); };
-  run_trial(parameters, observers);
+std::vector<trial::SampleRecord> records_of_trial(const trial::TrialParameters& parameters) {
+  std::vector<trial::SampleRecord> records;
+  trial::TrialObservers observers;
+  observers.sample = [&records](const trial::SampleRecord& record) { records.push_back(record); };
+  trial::run_trial(parameters, observers);
   return records;
 }
 
@@ -41,7 +41,7 @@ class RandomTrialAgreement : public ::testing::TestWithParam<Family> {};
 TEST_P(RandomTrialAgreement, EqualsBoostOdeintSampleBySample) {
   Agreement total;
   for (std::uint64_t index = 0; index < GetParam().trials; ++index) {
-    const TrialParameters parameters = random_trial(GetParam().kind, index);
+    const trial::TrialParameters parameters = random_trial(GetParam().kind, index);
     const std::string name = std::string(GetParam().name) + " trial " + std::to_string(index);
     total.add(compare(parameters, records_of_trial(parameters), odeint_trial(parameters), name));
   }
@@ -56,7 +56,7 @@ TEST_P(RandomTrialAgreement, EqualsBoostOdeintSampleBySample) {
 TEST_P(RandomTrialAgreement, EqualsHighPrecisionCollocation) {
   Agreement total;
   for (std::uint64_t index = 2000; index < 2004; ++index) {
-    TrialParameters parameters = random_trial(GetParam().kind, index);
+    trial::TrialParameters parameters = random_trial(GetParam().kind, index);
     parameters.command.hold = std::min(parameters.command.hold, 0.1);
     const std::string name = std::string(GetParam().name) + " trial " + std::to_string(index);
     total.add(compare(parameters, records_of_trial(parameters), python_trial(parameters), name));
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Seeded, RandomTrialAgreement,
                                            Family{"arriving", TrialKind::arriving, 60},
                                            Family{"remembering", TrialKind::remembering, 60}));
 
-void expect_agreement(const TrialParameters& parameters, const std::string& name) {
+void expect_agreement(const trial::TrialParameters& parameters, const std::string& name) {
   const Agreement agreement =
       compare(parameters, records_of_trial(parameters), odeint_trial(parameters), name);
   std::cout << name << ": " << agreement.figures() << "\n";
@@ -86,7 +86,7 @@ void expect_agreement(const TrialParameters& parameters, const std::string& name
 }
 
 TEST(TrialAgreement, HoldsOverSecondsOfCreepAndJerks) {
-  TrialParameters parameters;
+  trial::TrialParameters parameters;
   parameters.command = {{30}, 7.5};
   expect_agreement(parameters, "30 counts for 7.5 s");
 }
@@ -94,7 +94,7 @@ TEST(TrialAgreement, HoldsOverSecondsOfCreepAndJerks) {
 // Hardened beyond any creep, the rotor really comes to rest, and its ever smaller oscillation meets the rest
 // rule.
 TEST(TrialAgreement, HoldsAtRestWithoutCreep) {
-  TrialParameters parameters;
+  trial::TrialParameters parameters;
   parameters.command = {{30, 29, 0}, 1.0};
   parameters.initial.hardening = 1e-3;
   expect_agreement(parameters, "from virgin");
@@ -105,13 +105,13 @@ TEST(TrialAgreement, HoldsAtRestWithoutCreep) {
 // The rotor leaves a preloaded rest only when a torque comes: rounding must not move it over an encoder edge
 // at θ = 0.
 TEST(TrialAgreement, StandsStillOnAnEdgeUntilTheFirstTorque) {
-  TrialParameters parameters;
+  trial::TrialParameters parameters;
   parameters.command = {{-2000}, 0.05};
   parameters.initial.encoder_phase = 0.0;
   parameters.controller.delay = 3;
   for (int i = -40; i <= 40; ++i) {
     parameters.initial.preload = 0.0031 * i;
-    const std::vector<SampleRecord> records = records_of_trial(parameters);
+    const std::vector<trial::SampleRecord> records = records_of_trial(parameters);
     for (std::size_t k = 0; k <= 3; ++k) EXPECT_EQ(records.at(k).count, 0) << parameters.initial.preload;
   }
 }
@@ -126,7 +126,7 @@ TEST(TrialAgreement, HoldsWhereCreepEndsAtZeroTorque) {
 TEST(TrialAgreement, HoldsWithCreepOff) {
   for (const double n : {1.0, 1.5, 2.0, 2.5, 3.0}) {
     for (const double preload : {0.03, -0.08}) {
-      TrialParameters parameters;
+      trial::TrialParameters parameters;
       parameters.friction.uniform.alpha = 0.0;
       parameters.friction.uniform.n = n;
       parameters.command = {{8, -40}, 0.1};

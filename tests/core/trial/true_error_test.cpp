@@ -16,37 +16,37 @@ namespace {
 
 /// A trial, and the last sample of each of its moves.
 struct EndedTrial {
-  TrialOutcome outcome;
-  std::vector<SampleRecord> ends;
+  trial::TrialOutcome outcome;
+  std::vector<trial::SampleRecord> ends;
 };
 
-EndedTrial run(const TrialParameters& parameters) {
+EndedTrial run(const trial::TrialParameters& parameters) {
   std::vector<std::int64_t> last;
   std::int64_t samples = 0;
-  for (std::size_t move = 0; move < move_count(parameters); ++move) {
-    samples += samples_of_move(parameters, move);
+  for (std::size_t move = 0; move < trial::move_count(parameters); ++move) {
+    samples += trial::samples_of_move(parameters, move);
     last.push_back(samples - 1);
   }
   EndedTrial trial;
-  TrialObservers observers;
-  observers.sample = [&](const SampleRecord& record) {
+  trial::TrialObservers observers;
+  observers.sample = [&](const trial::SampleRecord& record) {
     if (record.k == last[trial.ends.size()]) trial.ends.push_back(record);
   };
-  trial.outcome = run_trial(parameters, observers);
+  trial.outcome = trial::run_trial(parameters, observers);
   return trial;
 }
 
-std::int64_t ideal_count(const TrialParameters& p, double theta) {
-  return read_count(fine_encoder(p.encoder, p.initial.encoder_phase), theta);
+std::int64_t ideal_count(const trial::TrialParameters& p, double theta) {
+  return loop::read_count(loop::fine_encoder(p.encoder, p.initial.encoder_phase), theta);
 }
 
 /// Expects that by the true errors the rotor ended within the counts that an ideal encoder shows, and at the
 /// place in them where it was.
-void expect_places_of_rotor(const TrialParameters& p, const EndedTrial& trial) {
+void expect_places_of_rotor(const trial::TrialParameters& p, const EndedTrial& trial) {
   ASSERT_EQ(trial.ends.size(), trial.outcome.moves.size());
   const double resolution = 2.0 * std::numbers::pi / p.encoder.fine;
   for (std::size_t i = 0; i < trial.ends.size(); ++i) {
-    const SampleRecord& end = trial.ends[i];
+    const trial::SampleRecord& end = trial.ends[i];
     const double error = trial.outcome.moves[i].true_error;
     const double rounding = 1e-12 * (1.0 + std::abs(end.theta / resolution));
     const auto beyond = static_cast<double>(ideal_count(p, end.theta) - end.target);
@@ -59,8 +59,8 @@ void expect_places_of_rotor(const TrialParameters& p, const EndedTrial& trial) {
 
 /// Steps of 30 counts, back at last, that the loop holds at zero error; hardened, so that no creep disturbs
 /// it.
-TrialParameters small_steps(std::uint64_t trial) {
-  TrialParameters p;
+trial::TrialParameters small_steps(std::uint64_t trial) {
+  trial::TrialParameters p;
   p.command = {{30, 60, 90, 60}, 0.4};
   p.initial.hardening = 1e-3;
   p.initial.encoder_phase = std::fmod(0.05 + 0.31 * static_cast<double>(trial), 1.0);
@@ -79,10 +79,10 @@ TEST(TrueError, OfIdealEncodersIsWithinHalfACountOfTheFinalError) {
                                TrialKind::amplified, TrialKind::arriving, TrialKind::remembering}) {
     for (std::uint64_t index = 3000; index < 3030; ++index) {
       SCOPED_TRACE(::testing::Message() << "kind " << static_cast<int>(kind) << " trial " << index);
-      const TrialParameters p = random_trial(kind, index);
+      const trial::TrialParameters p = random_trial(kind, index);
       const EndedTrial trial = run(p);
       expect_places_of_rotor(p, trial);
-      for (const MoveOutcome& move : trial.outcome.moves) {
+      for (const trial::MoveOutcome& move : trial.outcome.moves) {
         EXPECT_NEAR(move.true_error, static_cast<double>(move.final_error), 0.5 + 1e-9);
         EXPECT_EQ(move.final_error == 0, move.true_error > -0.5 && move.true_error <= 0.5);
         ++(move.final_error == 0 ? zero : others);
@@ -95,14 +95,14 @@ TEST(TrueError, OfIdealEncodersIsWithinHalfACountOfTheFinalError) {
 
 TEST(TrueError, IsWhatMissedCountsHide) {
   for (std::uint64_t index = 0; index < 20; ++index) {
-    TrialParameters p = small_steps(index);
+    trial::TrialParameters p = small_steps(index);
     p.encoder.fine_errors.missed = 0.2;
     const EndedTrial trial = run(p);
     expect_places_of_rotor(p, trial);
     for (std::size_t i = 0; i < trial.ends.size(); ++i) {
       const std::int64_t lost = ideal_count(p, trial.ends[i].theta) - trial.ends[i].count;
-      const MoveOutcome& move = trial.outcome.moves[i];
-      EXPECT_EQ(move.outcome, Outcome::zero_count);
+      const trial::MoveOutcome& move = trial.outcome.moves[i];
+      EXPECT_EQ(move.outcome, trial::Outcome::zero_count);
       EXPECT_EQ(move.final_error, 0);
       EXPECT_NEAR(move.true_error, static_cast<double>(-lost), 0.5 + 1e-9);
     }
@@ -115,12 +115,12 @@ TEST(TrueError, IsWhatMissedCountsHide) {
 TEST(TrueError, IsWhatEccentricityHides) {
   double largest = 0.0;
   for (std::uint64_t index = 0; index < 20; ++index) {
-    TrialParameters p = small_steps(index);
+    trial::TrialParameters p = small_steps(index);
     p.encoder.fine_errors.eccentricity = 0.1;
     p.encoder.fine_errors.eccentricity_angle = 1.0;
     const EndedTrial trial = run(p);
     expect_places_of_rotor(p, trial);
-    for (const MoveOutcome& move : trial.outcome.moves) {
+    for (const trial::MoveOutcome& move : trial.outcome.moves) {
       EXPECT_EQ(move.final_error, 0);
       const double start = p.initial.position - 1.0;
       const double believed = 0.1 * (std::sin(start + move.final_position) - std::sin(start));
@@ -134,7 +134,7 @@ TEST(TrueError, IsWhatEccentricityHides) {
 TEST(TrueError, IsOfTheRotorUnderEveryErrorOfItsEncoder) {
   for (std::uint64_t index = 0; index < 60; ++index) {
     SCOPED_TRACE(index);
-    TrialParameters p = random_trial(static_cast<TrialKind>(index % 3), 4000 + index);
+    trial::TrialParameters p = random_trial(static_cast<TrialKind>(index % 3), 4000 + index);
     p.randomness = small_steps(index).randomness;
     p.encoder.fine_errors = {.eccentricity = 1e-3 * static_cast<double>(index % 4),
                              .interpolation = 0.3 * static_cast<double>(index % 5),
@@ -145,21 +145,21 @@ TEST(TrueError, IsOfTheRotorUnderEveryErrorOfItsEncoder) {
 }
 
 TEST(TrueError, IsNoneWithoutATarget) {
-  TrialParameters p;
+  trial::TrialParameters p;
   p.command.torque.levels = {0.05, 0.0};
   p.command.hold = 0.1;
-  for (const MoveOutcome& move : run_trial(p).moves) {
-    EXPECT_EQ(move.outcome, Outcome::open_loop);
+  for (const trial::MoveOutcome& move : trial::run_trial(p).moves) {
+    EXPECT_EQ(move.outcome, trial::Outcome::open_loop);
     EXPECT_TRUE(std::isnan(move.true_error));
   }
 }
 
 TEST(TrueError, IsNoneWhereTheMotionWasLost) {
-  TrialParameters p = small_steps(0);
-  p.initial.mode = InitialMode::slide;
+  trial::TrialParameters p = small_steps(0);
+  p.initial.mode = trial::InitialMode::slide;
   p.initial.velocity = 1e18;
-  for (const MoveOutcome& move : run_trial(p).moves) {
-    EXPECT_EQ(move.outcome, Outcome::nonfinite);
+  for (const trial::MoveOutcome& move : trial::run_trial(p).moves) {
+    EXPECT_EQ(move.outcome, trial::Outcome::nonfinite);
     EXPECT_TRUE(std::isnan(move.true_error));
   }
 }

@@ -27,8 +27,9 @@ TEST(WidenedMeasures, AreThoseOfTheSamplesOfEachMove) {
   for_each_trial([](const RecordedTrial& trial) {
     const std::vector<long double> wanted = wanted_torques(trial);
     for_each_move(trial, [&](std::size_t move, const MoveSpan& span) {
-      const MoveOutcome measured = trial.outcome.moves[move];
-      const MoveOutcome expected = literal_measures(trial.parameters, trial.samples, wanted, move).outcome;
+      const trial::MoveOutcome measured = trial.outcome.moves[move];
+      const trial::MoveOutcome expected =
+          literal_measures(trial.parameters, trial.samples, wanted, move).outcome;
       EXPECT_EQ(measured.outcome, expected.outcome);
       EXPECT_EQ(measured.arrived, expected.arrived);
       EXPECT_EQ(measured.stable, expected.stable);
@@ -70,9 +71,9 @@ TEST(WidenedMeasures, AreThoseOfTheSamplesOfEachMove) {
 TEST(WidenedMeasures, TellOfTheJerksOfEachMove) {
   for_each_trial([](const RecordedTrial& trial) {
     const std::vector<long double> wanted = wanted_torques(trial);
-    std::vector<Jerk> expected;
+    std::vector<trial::Jerk> expected;
     for_each_move(trial, [&](std::size_t move, const MoveSpan&) {
-      for (const Jerk& jerk : literal_measures(trial.parameters, trial.samples, wanted, move).jerks)
+      for (const trial::Jerk& jerk : literal_measures(trial.parameters, trial.samples, wanted, move).jerks)
         expected.push_back(jerk);
     });
     ASSERT_EQ(trial.jerks.size(), expected.size());
@@ -90,7 +91,7 @@ TEST(WidenedMeasures, TellOfTheJerksOfEachMove) {
 std::map<std::string, std::int64_t> sights() {
   std::map<std::string, std::int64_t> seen;
   for_each_trial([&](const RecordedTrial& trial) {
-    const TrialParameters& p = trial.parameters;
+    const trial::TrialParameters& p = trial.parameters;
     const long double highest = (std::ldexp(1.0L, p.dac.bits - 1) - 1.0L) * p.dac.resolution;
     if (!trial.is_open()) {
       for (const LiteralDecision& decision : literal_decisions(p, trial.samples)) {
@@ -98,23 +99,23 @@ std::map<std::string, std::int64_t> sights() {
         seen["integral beyond the converter"] += decision.integral > highest;
       }
       seen["starts in the coarse phase with an integral"] +=
-          trial.samples.front().phase == ControlPhase::coarse && p.initial.integral != 0.0;
+          trial.samples.front().phase == loop::ControlPhase::coarse && p.initial.integral != 0.0;
     }
     for_each_move(trial, [&](std::size_t move, const MoveSpan&) {
-      const MoveOutcome& m = trial.outcome.moves[move];
+      const trial::MoveOutcome& m = trial.outcome.moves[move];
       seen["arrived"] += m.arrived;
       seen["stable"] += m.stable;
       seen["arrived, not stable"] += m.arrived && !m.stable;
-      seen["zero count"] += m.outcome == Outcome::zero_count;
-      seen["one count"] += m.outcome == Outcome::one_count;
-      seen["oscillating"] += m.outcome == Outcome::oscillating;
-      seen["off target"] += m.outcome == Outcome::off_target;
+      seen["zero count"] += m.outcome == trial::Outcome::zero_count;
+      seen["one count"] += m.outcome == trial::Outcome::one_count;
+      seen["oscillating"] += m.outcome == trial::Outcome::oscillating;
+      seen["off target"] += m.outcome == trial::Outcome::off_target;
       seen["oscillation with a period"] += !std::isnan(m.oscillation_period);
       seen["oscillation without a period"] +=
           !std::isnan(m.oscillation_amplitude) && std::isnan(m.oscillation_period);
       seen["settled for good later than at first"] += m.final_settling_time > m.settling_time;
       seen["away from zero after arrival"] += m.zero_fraction < 1.0;
-      seen["open loop"] += m.outcome == Outcome::open_loop;
+      seen["open loop"] += m.outcome == trial::Outcome::open_loop;
       seen["jerks"] += m.jerk_count;
       seen["saturated"] += m.saturated;
       seen["broke away"] += m.broke_away;

@@ -18,22 +18,22 @@ namespace {
 
 /// A motion beside the recorded one.
 struct IntegratedMotion {
-  std::vector<SampleRecord> samples;     ///< the recorded ones with this motion
-  std::vector<std::int64_t> breakaways;  ///< before each sample, and before the end of the trial
+  std::vector<trial::SampleRecord> samples;  ///< the recorded ones with this motion
+  std::vector<std::int64_t> breakaways;      ///< before each sample, and before the end of the trial
 };
 
 IntegratedMotion integrate(const RecordedTrial& trial) {
-  const TrialParameters& p = trial.parameters;
+  const trial::TrialParameters& p = trial.parameters;
   const std::vector<LiteralDrive> drive = literal_drive(p, trial.samples);
   const long double amplifier = 2 * std::numbers::pi_v<long double> * p.amplifier.bandwidth;
-  OdeintMotion motion(p, draw_history(p.initial.history, p.randomness));
+  OdeintMotion motion(p, trial::draw_history(p.initial.history, p.randomness));
   IntegratedMotion integrated{trial.samples, {}};
   for (std::size_t k = 0; k < trial.samples.size(); ++k) {
-    SampleRecord& sample = integrated.samples[k];
+    trial::SampleRecord& sample = integrated.samples[k];
     sample.theta = static_cast<double>(motion.theta());
     sample.xp = static_cast<double>(motion.state()[2]);
     sample.xh = static_cast<double>(motion.state()[3]);
-    sample.mode = motion.sliding() ? HookMode::slide : HookMode::stick;
+    sample.mode = motion.sliding() ? trial::HookMode::slide : trial::HookMode::stick;
     integrated.breakaways.push_back(motion.events().breakaways);
     motion.advance({drive[k].output, drive[k].input, amplifier}, 1.0L / p.controller.sample_rate);
   }
@@ -49,7 +49,7 @@ TEST(WidenedMotion, IsThatOfThePlantUnderTheTorqueOfTheDrive) {
     const IntegratedMotion integrated = integrate(trial);
     total.add(compare(trial.parameters, trial.samples, integrated.samples, trial.name));
     for_each_move(trial, [&](std::size_t move, const MoveSpan& span) {
-      const bool slides = trial.samples[span.first].mode == HookMode::slide;
+      const bool slides = trial.samples[span.first].mode == trial::HookMode::slide;
       const bool breaks_away =
           integrated.breakaways[span.first + span.size] > integrated.breakaways[span.first];
       EXPECT_EQ(trial.outcome.moves[move].broke_away, slides || breaks_away);

@@ -44,7 +44,7 @@ TEST(WidenedTrial, FollowsTheFastestMotionWithinTheLimitsOfItsProfile) {
       const LiteralMotion motion = literal_motion(trial.parameters, move);
       const std::int64_t from = move == 0 ? 0 : trial.parameters.command.targets[move - 1];
       for (std::size_t i = 0; i < span.size; ++i) {
-        const SampleRecord& sample = trial.samples[span.first + i];
+        const trial::SampleRecord& sample = trial.samples[span.first + i];
         const long double t = static_cast<long double>(i) / trial.parameters.controller.sample_rate;
         const long double travelled = static_cast<long double>(sample.reference - from);
         ASSERT_LE(std::abs(travelled - literal_travel(motion, t)), 0.5L + 1e-6L) << "sample " << i;
@@ -68,7 +68,7 @@ TEST(WidenedTrial, IsInThePhaseThatItsCountsAskFor) {
   for_each_trial([](const RecordedTrial& trial) {
     const std::vector<LiteralDecision> decisions = literal_decisions(trial.parameters, trial.samples);
     for (std::size_t k = 0; k < trial.samples.size(); ++k) {
-      ASSERT_EQ(trial.samples[k].phase, trial.is_open() ? ControlPhase::fine : decisions[k].phase)
+      ASSERT_EQ(trial.samples[k].phase, trial.is_open() ? loop::ControlPhase::fine : decisions[k].phase)
           << "sample " << k;
     }
   });
@@ -76,11 +76,11 @@ TEST(WidenedTrial, IsInThePhaseThatItsCountsAskFor) {
 
 TEST(WidenedTrial, DecidesTheTorqueOfItsLawOrLevel) {
   for_each_trial([](const RecordedTrial& trial) {
-    const DacParameters& dac = trial.parameters.dac;
+    const loop::DacParameters& dac = trial.parameters.dac;
     const long double most = std::ldexp(1.0L, dac.bits - 1);
     const std::vector<long double> wanted = wanted_torques(trial);
     for (std::size_t k = 0; k < trial.samples.size(); ++k) {
-      const SampleRecord& sample = trial.samples[k];
+      const trial::SampleRecord& sample = trial.samples[k];
       if (trial.is_exact()) {
         ASSERT_EQ(sample.code, 0);
         ASSERT_NEAR(sample.torque, static_cast<double>(wanted[k]), 1e-14) << "sample " << k;

@@ -19,7 +19,7 @@ class WidenedDraws {
   double sign() { return chance(0.5) ? 1.0 : -1.0; }
   int below(int n) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(n)); }
   std::uint32_t word() { return static_cast<std::uint32_t>(engine_()); }
-  RandomKey key() {
+  random::RandomKey key() {
     const std::uint32_t first = word();
     return {first, word()};
   }
@@ -28,8 +28,8 @@ class WidenedDraws {
   std::mt19937_64 engine_;
 };
 
-EncoderErrors encoder_errors(WidenedDraws& draws) {
-  EncoderErrors errors;
+loop::EncoderErrors encoder_errors(WidenedDraws& draws) {
+  loop::EncoderErrors errors;
   errors.eccentricity = draws.sometimes(draws.log_uniform(1e-6, 1e-3));
   errors.eccentricity_angle = draws.uniform(-7.0, 7.0);
   errors.interpolation = draws.sometimes(draws.uniform(0.05, 1.0));
@@ -39,8 +39,8 @@ EncoderErrors encoder_errors(WidenedDraws& draws) {
   return errors;
 }
 
-EncoderParameters encoders(WidenedDraws& draws) {
-  EncoderParameters encoders;
+loop::EncoderParameters encoders(WidenedDraws& draws) {
+  loop::EncoderParameters encoders;
   if (draws.chance(0.3)) {
     encoders.fine = std::floor(draws.uniform(8e5, 2.5e6));
     encoders.coarse = draws.chance(0.2) ? encoders.fine : std::floor(draws.log_uniform(3e4, 4e5));
@@ -50,8 +50,8 @@ EncoderParameters encoders(WidenedDraws& draws) {
   return encoders;
 }
 
-DacParameters converter(WidenedDraws& draws) {
-  DacParameters dac;
+loop::DacParameters converter(WidenedDraws& draws) {
+  loop::DacParameters dac;
   dac.bits = 10 + draws.below(5);
   dac.resolution = draws.uniform(0.3, 0.5) / std::ldexp(1.0, dac.bits - 1);
   if (draws.chance(0.5)) return dac;
@@ -62,20 +62,20 @@ DacParameters converter(WidenedDraws& draws) {
   return dac;
 }
 
-ControllerParameters laws(WidenedDraws& draws, WidenedKind kind) {
-  ControllerParameters c;
+loop::ControllerParameters laws(WidenedDraws& draws, WidenedKind kind) {
+  loop::ControllerParameters c;
   c.sample_rate = draws.chance(0.6) ? 2000.0 : draws.uniform(1500.0, 3000.0);
   c.kp = draws.sometimes(draws.uniform(0.0, 3e-4));
   c.ki = draws.log_uniform(1e-5, 6e-5);
   c.kd = draws.sometimes(draws.uniform(0.0, 2e-4));
   c.delay = draws.below(4);
-  c.anti_windup = draws.chance(0.6) ? AntiWindup::clamp : AntiWindup::none;
-  c.encoder = draws.chance(0.8) ? EncoderChoice::fine : EncoderChoice::coarse;
+  c.anti_windup = draws.chance(0.6) ? loop::AntiWindup::clamp : loop::AntiWindup::none;
+  c.encoder = draws.chance(0.8) ? loop::EncoderChoice::fine : loop::EncoderChoice::coarse;
   if (kind != WidenedKind::two_phases) return c;
   c.coarse.kp = draws.uniform(3e-4, 8e-4);
   c.coarse.ki = draws.log_uniform(1e-6, 1e-5);
   c.coarse.kd = draws.uniform(2e-3, 8e-3);
-  c.coarse.encoder = draws.chance(0.5) ? EncoderChoice::fine : EncoderChoice::coarse;
+  c.coarse.encoder = draws.chance(0.5) ? loop::EncoderChoice::fine : loop::EncoderChoice::coarse;
   c.coarse.fine_within = draws.uniform(20.0, 150.0);
   c.coarse.fine_rate = std::floor(draws.sometimes(draws.uniform(0.0, 20.0)));
   c.coarse.fine_dwell = draws.sometimes(draws.uniform(0.0, 0.01));
@@ -83,7 +83,7 @@ ControllerParameters laws(WidenedDraws& draws, WidenedKind kind) {
   return c;
 }
 
-void choose_targets(WidenedDraws& draws, WidenedKind kind, CommandParameters& command) {
+void choose_targets(WidenedDraws& draws, WidenedKind kind, trial::CommandParameters& command) {
   const int moves = 2 + draws.below(3);
   for (int move = 0; move < moves; ++move) {
     const double size =
@@ -93,11 +93,11 @@ void choose_targets(WidenedDraws& draws, WidenedKind kind, CommandParameters& co
                                    : static_cast<std::int64_t>(draws.sign() * std::round(size)));
   }
   command.hold = kind == WidenedKind::one_phase ? draws.uniform(0.3, 0.8) : draws.uniform(0.1, 0.4);
-  command.profile = {static_cast<ReferenceShape>(draws.below(4) % 3), draws.log_uniform(0.05, 2.0),
+  command.profile = {static_cast<loop::ReferenceShape>(draws.below(4) % 3), draws.log_uniform(0.05, 2.0),
                      draws.log_uniform(5.0, 200.0), draws.log_uniform(500.0, 5e4)};
 }
 
-void choose_levels(WidenedDraws& draws, double sample_rate, CommandParameters& command) {
+void choose_levels(WidenedDraws& draws, double sample_rate, trial::CommandParameters& command) {
   const int moves = 2 + draws.below(3);
   for (int move = 0; move < moves; ++move) {
     const bool stay = move > 0 && draws.chance(0.1);
@@ -106,19 +106,19 @@ void choose_levels(WidenedDraws& draws, double sample_rate, CommandParameters& c
   // Sometimes the way to the first level is a whole number of samples.
   command.torque.rate = draws.chance(0.3) ? std::abs(command.torque.levels[0]) * sample_rate / 64.0
                                           : draws.log_uniform(0.5, 10.0);
-  command.torque.through = draws.chance(0.5) ? TorquePath::dac : TorquePath::exact;
+  command.torque.through = draws.chance(0.5) ? trial::TorquePath::dac : trial::TorquePath::exact;
   command.hold = draws.uniform(0.01, 0.1);
 }
 
-InitialConditions start(WidenedDraws& draws) {
-  InitialConditions initial;
+trial::InitialConditions start(WidenedDraws& draws) {
+  trial::InitialConditions initial;
   initial.encoder_phase = draws.chance(0.15) ? 0.0 : draws.uniform(0.0, 1.0);
   initial.position = draws.uniform(0.0, 6.28);
   initial.hardening = draws.sometimes(draws.log_uniform(1e-7, 1e-4));
   initial.preload = draws.sometimes(draws.uniform(-0.1, 0.1));
   if (draws.chance(0.3)) initial.history = {1 + draws.below(8), draws.uniform(0.01, 0.15)};
   if (draws.chance(0.3)) initial.velocity = draws.sign() * draws.log_uniform(0.01, 0.5);
-  if (draws.chance(0.5)) initial.mode = InitialMode::slide;
+  if (draws.chance(0.5)) initial.mode = trial::InitialMode::slide;
   if (draws.chance(0.6)) initial.integral = draws.uniform(-0.1, 0.1);
   if (draws.chance(0.1)) initial.integral = draws.sign() * draws.uniform(0.5, 0.7);  // out of any range
   return initial;
@@ -126,9 +126,9 @@ InitialConditions start(WidenedDraws& draws) {
 
 }  // namespace
 
-TrialParameters widened_trial(WidenedKind kind, std::uint64_t index) {
+trial::TrialParameters widened_trial(WidenedKind kind, std::uint64_t index) {
   WidenedDraws draws(4711 + 1'000'003 * static_cast<std::uint64_t>(kind) + 7919 * index);
-  TrialParameters p;
+  trial::TrialParameters p;
   p.friction.uniform.k1 = draws.uniform(80.0, 140.0);
   p.friction.uniform.k2 = draws.uniform(500.0, 900.0);
   p.friction.uniform.breakaway = draws.uniform(0.18, 0.3);

@@ -16,6 +16,6 @@ enum class WidenedKind {
 /// The parameters of random trial `index` of a kind: always the same for the same arguments. Two to four
 /// moves with step, trapezoidal and s-curve references; the encoders that feed back, with and without errors;
 /// delay, converter with and without errors, amplifier; anti-windup; starts of every kind.
-TrialParameters widened_trial(WidenedKind kind, std::uint64_t index);
+trial::TrialParameters widened_trial(WidenedKind kind, std::uint64_t index);
 
 }  // namespace zerocount::testing

@@ -10,10 +10,10 @@
 
 #include "experiments/designs/random_key.hpp"
 
-namespace zerocount {
+namespace zerocount::designs {
 namespace {
 
-RandomStream stream_of(std::uint64_t seed) {
+random::RandomStream stream_of(std::uint64_t seed) {
   return {random_key(seed, "friction.k1"), 0};
 }
 
@@ -74,9 +74,9 @@ TEST(LatinHypercube, AllPermutationsAreEquallyLikely) {
 // For independent permutations r·√(N − 1) is about standard normal: |r| < 4.4/√N but once in 90 000.
 TEST(LatinHypercube, ParametersAreUncorrelatedWithEachOtherAndWithTheTrialIndex) {
   constexpr std::uint64_t count = 4000;
-  const RandomStream first{random_key(5, "friction.k1"), 0};
-  const RandomStream second{random_key(5, "friction.k2"), 0};
-  const RandomStream other_point{first.key, 2};
+  const random::RandomStream first{random_key(5, "friction.k1"), 0};
+  const random::RandomStream second{random_key(5, "friction.k2"), 0};
+  const random::RandomStream other_point{first.key, 2};
   double with_second = 0.0;
   double with_point = 0.0;
   double with_index = 0.0;
@@ -93,4 +93,4 @@ TEST(LatinHypercube, ParametersAreUncorrelatedWithEachOtherAndWithTheTrialIndex)
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::designs

@@ -8,7 +8,7 @@
 #include "core/failure/failure.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::designs {
 namespace {
 
 constexpr std::uint64_t second_sample = std::uint64_t{1} << 55;
@@ -19,7 +19,7 @@ const std::string five_factors =
     "controller: {delay: {choice: [0, 1, 2]}}\n"
     "encoder: {fine_errors: {noise: 0.1}}\n";
 
-Study five_factor_study(const std::string& design, const std::string& trials) {
+study::Study five_factor_study(const std::string& design, const std::string& trials) {
   return study_of(manifest_commanding("{targets: [{integers: [1, 1000]}]}", five_factors),
                   {"design=" + design, "trials=" + trials});
 }
@@ -40,23 +40,23 @@ TEST(Saltelli, ARowIsAThenBThenAWithEachFactorFromB) {
 }
 
 TEST(Saltelli, AIsTheMonteCarloTrialOfTheSameNumber) {
-  const Study saltelli = five_factor_study("saltelli", "700");
-  const Study monte_carlo = five_factor_study("monte_carlo", "700");
+  const study::Study saltelli = five_factor_study("saltelli", "700");
+  const study::Study monte_carlo = five_factor_study("monte_carlo", "700");
   for (std::int64_t row = 0; row < 100; ++row) {
-    const StudyTrial of_row = study_trial(saltelli, 0, 7 * row);
-    const StudyTrial alone = study_trial(monte_carlo, 0, row);
+    const study::StudyTrial of_row = study::study_trial(saltelli, 0, 7 * row);
+    const study::StudyTrial alone = study::study_trial(monte_carlo, 0, row);
     EXPECT_EQ(of_row.inputs, alone.inputs);
     EXPECT_EQ(of_row.parameters.randomness.trial, alone.parameters.randomness.trial);
   }
 }
 
 TEST(Saltelli, EachOtherTrialOfARowChangesItsFactorAlone) {
-  const Study study = five_factor_study("saltelli", "7000");
+  const study::Study study = five_factor_study("saltelli", "7000");
   ASSERT_EQ(study.factors, (std::vector<std::string>{"friction.k1", "friction.k2", "controller.delay",
                                                      "command.targets.0", "within_trial"}));
   // The factors' values in the trial, the noise's as the number that it is drawn from.
   const auto values = [&](std::int64_t index) {
-    const StudyTrial trial = study_trial(study, 0, index);
+    const study::StudyTrial trial = study::study_trial(study, 0, index);
     std::vector<double> all = trial.inputs;
     all.push_back(static_cast<double>(trial.parameters.randomness.trial));
     return all;
@@ -80,15 +80,15 @@ TEST(Saltelli, EachOtherTrialOfARowChangesItsFactorAlone) {
 }
 
 TEST(Saltelli, MoreTrialsLeaveTheFirstOnesAlone) {
-  const Study few = five_factor_study("saltelli", "7");
-  const Study many = five_factor_study("saltelli", "7000000");
+  const study::Study few = five_factor_study("saltelli", "7");
+  const study::Study many = five_factor_study("saltelli", "7000000");
   for (std::int64_t i = 0; i < 7; ++i) {
-    EXPECT_EQ(study_trial(few, 0, i).inputs, study_trial(many, 0, i).inputs);
+    EXPECT_EQ(study::study_trial(few, 0, i).inputs, study::study_trial(many, 0, i).inputs);
   }
 }
 
 TEST(Saltelli, AllPointsHaveTheSameRowsWhateverIsDrawnAtThem) {
-  const Study study =
+  const study::Study study =
       study_of(minimal_manifest(
                    "friction: {k1: {uniform: [100, 120]}}\n"
                    "sweep: {cases: {a: {}, b: {friction.k1: 110, friction.k2: {uniform: [600, 800]}}}}\n"),
@@ -96,20 +96,21 @@ TEST(Saltelli, AllPointsHaveTheSameRowsWhateverIsDrawnAtThem) {
   ASSERT_EQ(study.factors, (std::vector<std::string>{"friction.k1", "friction.k2"}));
   const std::size_t k2 = column_of(study, "friction.k2");
   for (std::int64_t row = 0; row < 10; ++row) {
-    const double of_a = study_trial(study, 1, 4 * row).inputs[k2];
-    EXPECT_EQ(study_trial(study, 1, 4 * row + 2).inputs[k2], of_a) << "k1 changes";
-    EXPECT_NE(study_trial(study, 1, 4 * row + 3).inputs[k2], of_a) << "k2 changes";
-    EXPECT_EQ(study_trial(study, 0, 4 * row + 3).inputs[k2], study_trial(study, 0, 0).inputs[k2]);
+    const double of_a = study::study_trial(study, 1, 4 * row).inputs[k2];
+    EXPECT_EQ(study::study_trial(study, 1, 4 * row + 2).inputs[k2], of_a) << "k1 changes";
+    EXPECT_NE(study::study_trial(study, 1, 4 * row + 3).inputs[k2], of_a) << "k2 changes";
+    EXPECT_EQ(study::study_trial(study, 0, 4 * row + 3).inputs[k2],
+              study::study_trial(study, 0, 0).inputs[k2]);
   }
 }
 
 TEST(Saltelli, AProfileIsNoFactorAndThePlaceOnItIs) {
-  const Study study =
+  const study::Study study =
       study_of(minimal_manifest("friction: {k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.2}}}\n"
                                 "initial: {position: {uniform: [0, 6]}}\n"),
                {"design=saltelli", "trials=6"});
   EXPECT_EQ(study.factors, std::vector<std::string>{"initial.position"});
-  EXPECT_NE(study_trial(study, 0, 0).inputs, study_trial(study, 0, 1).inputs);
+  EXPECT_NE(study::study_trial(study, 0, 0).inputs, study::study_trial(study, 0, 1).inputs);
 }
 
 TEST(Saltelli, RandomHistoriesAndMissedCountsAreDrawnWithinTrials) {
@@ -117,9 +118,9 @@ TEST(Saltelli, RandomHistoriesAndMissedCountsAreDrawnWithinTrials) {
       "initial: {history: {reversals: 3, torque: 0.1}}\n", "encoder: {fine_errors: {missed: 0.01}}\n",
       "encoder: {coarse_errors: {noise: {uniform: [0, 1]}}}\n", "dac: {noise: 1.0e-5}\n"};
   for (const std::string& text : noisy) {
-    const Study study = study_of(minimal_manifest(text), {"design=saltelli", "trials=12"});
+    const study::Study study = study_of(minimal_manifest(text), {"design=saltelli", "trials=12"});
     ASSERT_FALSE(study.factors.empty()) << text;
-    EXPECT_EQ(study.factors.back(), within_trial_factor) << text;
+    EXPECT_EQ(study.factors.back(), study::within_trial_factor) << text;
   }
 }
 
@@ -154,4 +155,4 @@ TEST(Saltelli, ADesignWithoutAnythingDrawnIsRefused) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::designs

@@ -11,7 +11,7 @@
 #include "experiments/designs/random_key.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 
-namespace zerocount {
+namespace zerocount::designs {
 namespace {
 
 constexpr std::size_t dimension_count = 70;
@@ -52,7 +52,7 @@ TEST(Sobol, ADimensionDoesNotDependOnTheOthersAskedFor) {
 TEST(Sobol, EveryAlignedBlockOfTrialsFillsEveryStratumOnce) {
   const auto directions = all_directions();
   for (std::size_t d = 0; d < dimension_count; ++d) {
-    const RandomStream stream{random_key(9, std::to_string(d)), 0};
+    const random::RandomStream stream{random_key(9, std::to_string(d)), 0};
     for (const std::uint64_t block : {std::uint64_t{0}, std::uint64_t{3}, std::uint64_t{1000}}) {
       std::set<int> strata;
       for (std::uint64_t i = 64 * block; i < 64 * (block + 1); ++i) {
@@ -85,18 +85,18 @@ TEST(Sobol, TheShiftDependsOnSeedNameAndStream) {
 
 TEST(Sobol, EveryParameterHasItsOwnDimensionAndTheListsShareTheirs) {
   std::set<std::size_t> dimensions;
-  for (const Parameter& parameter : parameter_table()) {
+  for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     if (parameter.listed) {
-      EXPECT_EQ(parameter.sobol_dimension, first_sobol_dimension_of_moves) << parameter.name;
+      EXPECT_EQ(parameter.sobol_dimension, parameters::first_sobol_dimension_of_moves) << parameter.name;
       continue;
     }
     EXPECT_TRUE(dimensions.insert(parameter.sobol_dimension).second) << parameter.name;
-    EXPECT_TRUE(parameter.sobol_dimension < first_sobol_dimension_of_moves ||
-                parameter.sobol_dimension >= first_sobol_dimension_beyond_moves)
+    EXPECT_TRUE(parameter.sobol_dimension < parameters::first_sobol_dimension_of_moves ||
+                parameter.sobol_dimension >= parameters::first_sobol_dimension_beyond_moves)
         << parameter.name;
     EXPECT_LT(parameter.sobol_dimension, sobol_dimension_limit()) << parameter.name;
   }
-  EXPECT_EQ(first_sobol_dimension_beyond_moves, 3064u);
+  EXPECT_EQ(parameters::first_sobol_dimension_beyond_moves, 3064u);
 }
 
 // That a study drawn with them once gets the same trials for ever.
@@ -176,7 +176,7 @@ TEST(Sobol, TheDimensionsAreFixed) {
       {"encoder.coarse_resolution", 3072},
   };
   std::size_t checked = 0;
-  for (const Parameter& parameter : parameter_table()) {
+  for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     if (parameter.listed) continue;
     const auto known = fixed.find(parameter.name);
     ASSERT_NE(known, fixed.end()) << parameter.name << " is new: add it here";
@@ -187,4 +187,4 @@ TEST(Sobol, TheDimensionsAreFixed) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::designs

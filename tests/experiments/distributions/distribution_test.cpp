@@ -6,7 +6,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::distributions {
 namespace {
 
 struct Moments {
@@ -96,9 +96,10 @@ std::vector<Distribution> examples() {
 
 TEST(Distribution, EveryDrawIsInTheSupportUpToTheExtremes) {
   for (const Distribution& distribution : examples()) {
-    const Interval values = support(distribution);
+    const numerics::Interval values = support(distribution);
     for (const double u : {0x1p-53, 1e-9, 0.1, 0.5, 0.9, 1 - 1e-9, 1 - 0x1p-53}) {
-      EXPECT_TRUE(contains(values, quantile(distribution, u))) << distribution.index() << " at " << u;
+      EXPECT_TRUE(numerics::contains(values, quantile(distribution, u)))
+          << distribution.index() << " at " << u;
     }
   }
 }
@@ -125,4 +126,4 @@ TEST(Distribution, OnlyIntegersAndChoicesOfThemAreWhole) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::distributions

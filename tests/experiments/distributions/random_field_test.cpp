@@ -8,7 +8,7 @@
 
 #include "experiments/designs/random_key.hpp"
 
-namespace zerocount {
+namespace zerocount::distributions {
 namespace {
 
 // The correlation wanted: exp(−(d/ℓ)²) wrapped on the circle, 1 at d = 0.
@@ -55,8 +55,8 @@ TEST(RandomField, TheSeriesIsNoLongerThanItMustBe) {
   }
 }
 
-Profile rotor_of(const ProfileDescription& description, std::uint64_t seed, std::string_view name) {
-  return realise_profile(description, field_amplitudes(description), random_key(seed, name));
+friction::Profile rotor_of(const ProfileDescription& description, std::uint64_t seed, std::string_view name) {
+  return realise_profile(description, field_amplitudes(description), designs::random_key(seed, name));
 }
 
 struct Ensemble {
@@ -74,9 +74,9 @@ Ensemble ensemble_of(const ProfileDescription& description, double place, double
   double other_squares = 0.0;
   double products = 0.0;
   for (int seed = 0; seed < seeds; ++seed) {
-    const Profile profile = rotor_of(description, static_cast<std::uint64_t>(seed), "friction.k1");
-    const double x = value_at(profile, place) - description.mean;
-    const double y = value_at(profile, other_place) - description.mean;
+    const friction::Profile profile = rotor_of(description, static_cast<std::uint64_t>(seed), "friction.k1");
+    const double x = friction::value_at(profile, place) - description.mean;
+    const double y = friction::value_at(profile, other_place) - description.mean;
     e.mean += x / seeds;
     other_mean += y / seeds;
     squares += x * x / seeds;
@@ -93,7 +93,7 @@ Ensemble ensemble_of(const ProfileDescription& description, double place, double
 // With n seeds the standard errors are sd/√n of the mean, sd/√(2n) of the standard deviation and (1 − ρ²)/√n
 // of the correlation of normals; 5 of them are exceeded once in 1.7 million.
 TEST(RandomField, NormalEnsembleHasTheMeanSpreadAndCorrelationAskedFor) {
-  const ProfileDescription description{110, 0.1, 0.2, Marginal::normal};
+  const ProfileDescription description{110, 0.1, 0.2, friction::Marginal::normal};
   for (const double place : {0.0, 2.0}) {
     const Ensemble e = ensemble_of(description, place, place + 0.2);
     EXPECT_NEAR(e.mean, 110, 5 * 11 / std::sqrt(seeds));
@@ -106,7 +106,7 @@ TEST(RandomField, NormalEnsembleHasTheMeanSpreadAndCorrelationAskedFor) {
 // of the standard deviation to sd·√((κ − 1)/4n), κ = 3 + 16 cv² + … < 5 here.
 TEST(RandomField, LognormalEnsembleHasTheMeanAndSpreadOfTheParameterItself) {
   const double cv = 0.3;
-  const Ensemble e = ensemble_of({110, cv, 0.2, Marginal::lognormal}, 1.0, 1.2);
+  const Ensemble e = ensemble_of({110, cv, 0.2, friction::Marginal::lognormal}, 1.0, 1.2);
   const double s2 = std::log1p(cv * cv);
   EXPECT_NEAR(e.mean, 110, 5 * 33 / std::sqrt(seeds));
   EXPECT_NEAR(e.sd, 33, 5 * 33 / std::sqrt(1.0 * seeds));
@@ -114,10 +114,11 @@ TEST(RandomField, LognormalEnsembleHasTheMeanAndSpreadOfTheParameterItself) {
 }
 
 TEST(RandomField, ProfilesArePeriodicAndReproducible) {
-  const ProfileDescription description{110, 0.1, 0.2, Marginal::lognormal};
-  const Profile profile = rotor_of(description, 4, "friction.k1");
+  const ProfileDescription description{110, 0.1, 0.2, friction::Marginal::lognormal};
+  const friction::Profile profile = rotor_of(description, 4, "friction.k1");
   for (const double angle : {0.0, 1.0, 5.0}) {
-    EXPECT_NEAR(value_at(profile, angle), value_at(profile, angle + 2 * std::numbers::pi), 1e-9);
+    EXPECT_NEAR(friction::value_at(profile, angle), friction::value_at(profile, angle + 2 * std::numbers::pi),
+                1e-9);
   }
   EXPECT_EQ(profile.cosine, rotor_of(description, 4, "friction.k1").cosine);
   EXPECT_NE(profile.cosine, rotor_of(description, 5, "friction.k1").cosine);
@@ -126,11 +127,13 @@ TEST(RandomField, ProfilesArePeriodicAndReproducible) {
 
 TEST(RandomField, ARealisedProfileStaysInsideItsLimits) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    const Profile profile = rotor_of({1.0, 0.5, 0.1, Marginal::lognormal}, seed, "friction.breakaway");
-    const Interval values = limits(profile);
-    for (int i = 0; i < 500; ++i) ASSERT_TRUE(contains(values, value_at(profile, 0.013 * i)));
+    const friction::Profile profile =
+        rotor_of({1.0, 0.5, 0.1, friction::Marginal::lognormal}, seed, "friction.breakaway");
+    const numerics::Interval values = limits(profile);
+    for (int i = 0; i < 500; ++i)
+      ASSERT_TRUE(numerics::contains(values, friction::value_at(profile, 0.013 * i)));
   }
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::distributions

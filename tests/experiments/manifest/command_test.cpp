@@ -7,7 +7,7 @@
 
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -48,7 +48,7 @@ TEST(Command, FormsAreComplete) {
 }
 
 TEST(Command, TorqueLevelsAreMovesWithoutTargets) {
-  const Study study = study_of(
+  const study::Study study = study_of(
       manifest_commanding("{torque: {levels: [0.1, {uniform: [-0.2, -0.1]}, 0], rate: 0.5, through: exact}, "
                           "hold: 0.2}"));
   EXPECT_TRUE(study.open_loop);
@@ -58,8 +58,8 @@ TEST(Command, TorqueLevelsAreMovesWithoutTargets) {
   EXPECT_EQ(study.input_columns[0].name, "command.torque.levels.1");
   EXPECT_EQ(study.input_columns[0].unit, "N m");
   for (std::int64_t i = 0; i < 10; ++i) {
-    const StudyTrial trial = study_trial(study, 0, i);
-    const CommandParameters& command = trial.parameters.command;
+    const study::StudyTrial trial = study::study_trial(study, 0, i);
+    const trial::CommandParameters& command = trial.parameters.command;
     EXPECT_TRUE(command.targets.empty());
     ASSERT_EQ(command.torque.levels.size(), 3u);
     EXPECT_EQ(command.torque.levels[0], 0.1);
@@ -68,20 +68,21 @@ TEST(Command, TorqueLevelsAreMovesWithoutTargets) {
     EXPECT_EQ(command.torque.levels[2], 0);
     EXPECT_EQ(trial.inputs[0], command.torque.levels[1]);
     EXPECT_EQ(command.torque.rate, 0.5);
-    EXPECT_EQ(command.torque.through, TorquePath::exact);
-    EXPECT_EQ(move_count(trial.parameters), 3u);
+    EXPECT_EQ(command.torque.through, trial::TorquePath::exact);
+    EXPECT_EQ(trial::move_count(trial.parameters), 3u);
   }
 }
 
 TEST(Command, TorqueLevelsAreSwept) {
-  const Study study = study_of(manifest_commanding(
+  const study::Study study = study_of(manifest_commanding(
       "{torque: {levels: [0.1, 0]}}",
       "sweep: {grid: {command.torque.levels.0: {linspace: [0.1, 0.2, 3]}, command.torque.rate: [1, 2]}}\n"));
   EXPECT_EQ(study.point_labels[5], "command.torque.levels.0=0.2, command.torque.rate=2");
-  EXPECT_EQ(study_trial(study, 5, 0).parameters.command.torque.levels, (std::vector<double>{0.2, 0}));
-  const Study whole = study_of(manifest_commanding(
+  EXPECT_EQ(study::study_trial(study, 5, 0).parameters.command.torque.levels, (std::vector<double>{0.2, 0}));
+  const study::Study whole = study_of(manifest_commanding(
       "{torque: {levels: [0.1, 0]}}", "sweep: {grid: {command.torque.levels: [[0.1, 0], [0.2, 0.1]]}}\n"));
-  EXPECT_EQ(study_trial(whole, 1, 0).parameters.command.torque.levels, (std::vector<double>{0.2, 0.1}));
+  EXPECT_EQ(study::study_trial(whole, 1, 0).parameters.command.torque.levels,
+            (std::vector<double>{0.2, 0.1}));
 }
 
 TEST(Command, OnlyTheFormInUseIsSwept) {
@@ -100,7 +101,7 @@ TEST(Command, OnlyTheFormInUseIsSwept) {
 }
 
 TEST(Command, ASequenceIsExpandedIntoMoves) {
-  const Study study = study_of(
+  const study::Study study = study_of(
       manifest_commanding("{sequence: {targets: [-50, {integers: [1, 9]}, 60], overrun: 20, cycles: 2}}"));
   EXPECT_FALSE(study.open_loop);
   EXPECT_EQ(study.moves, 16);
@@ -108,7 +109,7 @@ TEST(Command, ASequenceIsExpandedIntoMoves) {
   ASSERT_EQ(study.input_columns.size(), 1u);
   EXPECT_EQ(study.input_columns[0].name, "command.sequence.targets.1");
   for (std::int64_t i = 0; i < 10; ++i) {
-    const StudyTrial trial = study_trial(study, 0, i);
+    const study::StudyTrial trial = study::study_trial(study, 0, i);
     const auto middle = static_cast<std::int64_t>(trial.inputs[0]);
     const std::vector<std::int64_t> cycle{-70, -50, middle, 60, 80, 60, middle, -50};
     std::vector<std::int64_t> both = cycle;
@@ -119,30 +120,30 @@ TEST(Command, ASequenceIsExpandedIntoMoves) {
 
 TEST(Command, ASequenceFromOneSide) {
   const std::string targets = "{sequence: {targets: [1, 5], overrun: 2, cycles: 2, approach: ";
-  EXPECT_EQ(
-      study_trial(study_of(manifest_commanding(targets + "positive}}")), 0, 0).parameters.command.targets,
-      (std::vector<std::int64_t>{-1, 1, 5, -1, 1, 5}));
-  EXPECT_EQ(
-      study_trial(study_of(manifest_commanding(targets + "negative}}")), 0, 0).parameters.command.targets,
-      (std::vector<std::int64_t>{7, 5, 1, 7, 5, 1}));
+  EXPECT_EQ(study::study_trial(study_of(manifest_commanding(targets + "positive}}")), 0, 0)
+                .parameters.command.targets,
+            (std::vector<std::int64_t>{-1, 1, 5, -1, 1, 5}));
+  EXPECT_EQ(study::study_trial(study_of(manifest_commanding(targets + "negative}}")), 0, 0)
+                .parameters.command.targets,
+            (std::vector<std::int64_t>{7, 5, 1, 7, 5, 1}));
 }
 
 TEST(Command, FiveCyclesFromBothSidesAreTheDefault) {
-  const Study study = study_of(manifest_commanding("{sequence: {targets: [1], overrun: 1}}"));
+  const study::Study study = study_of(manifest_commanding("{sequence: {targets: [1], overrun: 1}}"));
   EXPECT_EQ(study.moves, 20);
   EXPECT_EQ(study.sequence.back().cycle, 4);
   EXPECT_EQ(study.sequence.back().direction, -1);
 }
 
 TEST(Command, TheOverrunIsAParameterLikeAnyOther) {
-  const Study study =
+  const study::Study study =
       study_of(manifest_commanding("{sequence: {targets: [0, 10], overrun: {integers: [5, 9]}, cycles: 1}}",
                                    "sweep: {grid: {command.sequence.targets.1: [10, 20]}}\n"));
   EXPECT_EQ(study.input_columns[0].name, "command.sequence.targets.1");
   EXPECT_EQ(study.input_columns[1].name, "command.sequence.overrun");
   std::set<std::int64_t> first;
   for (std::int64_t i = 0; i < 10; ++i) {
-    const StudyTrial trial = study_trial(study, 1, i);
+    const study::StudyTrial trial = study::study_trial(study, 1, i);
     const auto overrun = static_cast<std::int64_t>(trial.inputs[1]);
     EXPECT_EQ(trial.parameters.command.targets.front(), -overrun);
     EXPECT_EQ(trial.parameters.command.targets[3], 20 + overrun);
@@ -192,13 +193,14 @@ TEST(Command, TheTargetsOfASequenceAscendInEveryTrial) {
 
 TEST(Command, ListsShareTheSobolDimensionsAndNothingElse) {
   // Value i of any list has the same point of the sequence, shifted by its own name.
-  const Study targets =
+  const study::Study targets =
       study_of(manifest_commanding("{targets: [{integers: [0, 999999]}]}", "design: sobol\n"));
-  const Study levels =
+  const study::Study levels =
       study_of(manifest_commanding("{torque: {levels: [{uniform: [0, 1]}]}}", "design: sobol\n"));
-  EXPECT_NE(std::floor(1e6 * study_trial(levels, 0, 3).inputs[0]), study_trial(targets, 0, 3).inputs[0]);
+  EXPECT_NE(std::floor(1e6 * study::study_trial(levels, 0, 3).inputs[0]),
+            study::study_trial(targets, 0, 3).inputs[0]);
   EXPECT_EQ(study_of(manifest_commanding("{targets: [1]}")).input_columns.size(), 0u);
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::manifest

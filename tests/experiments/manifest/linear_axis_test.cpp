@@ -14,7 +14,7 @@
 #include "experiments/manifest/load_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 /// All that has no default on a linear axis.
@@ -30,19 +30,20 @@ std::string stage_with(const std::string& more) {
 }
 
 TEST(LinearAxis, HasItsUnitsAndTheLengthOfACount) {
-  const Study study =
+  const study::Study study =
       study_of(stage_with("encoder: {resolution: {choice: [1.0e-9, 2.0e-9]}}\n"
                           "controller: {kp: {uniform: [0, 1]}, ki: 1.0e-4}\n"
                           "sweep: {grid: {friction.k2: [1.0e+7, 2.0e+7]}}\n"));
-  EXPECT_EQ(study.units.axis, AxisKind::linear);
+  EXPECT_EQ(study.units.axis, parameters::AxisKind::linear);
   EXPECT_EQ(study.axes[0].unit, "N/m");
   EXPECT_EQ(study.input_columns[column_of(study, "controller.kp")].unit, "N/count");
   EXPECT_EQ(study.input_columns[column_of(study, "encoder.resolution")].unit, "m/count");
-  const StudyTrial trial = study_trial(study, 0, 0);
+  const study::StudyTrial trial = study::study_trial(study, 0, 0);
   const double resolution = trial.inputs[column_of(study, "encoder.resolution")];
-  EXPECT_EQ(fine_resolution(trial.parameters.encoder), resolution);
-  EXPECT_EQ(coarse_resolution(trial.parameters.encoder), resolution) << "left out, that of the fine one";
-  EXPECT_EQ(fine_per_coarse(trial.parameters.encoder), 1.0);
+  EXPECT_EQ(loop::fine_resolution(trial.parameters.encoder), resolution);
+  EXPECT_EQ(loop::coarse_resolution(trial.parameters.encoder), resolution)
+      << "left out, that of the fine one";
+  EXPECT_EQ(loop::fine_per_coarse(trial.parameters.encoder), 1.0);
 }
 
 TEST(LinearAxis, IsAskedForAllThatTheRotaryRigsDefaultsSayNothingOf) {
@@ -109,28 +110,30 @@ TEST(LinearAxis, HasProfilesWithThePeriodOfItsTravel) {
   EXPECT_NE(refusal("").find("the profile of a linear axis needs the key travel"), std::string::npos);
   EXPECT_NE(refusal("travel: 0.005\n").find("'0.01' is out of range"), std::string::npos)
       << "a correlation length beyond the travel";
-  const Study study = study_of(stage_with(loop + "travel: 0.2\n"), {"friction.k2=" + profile});
+  const study::Study study = study_of(stage_with(loop + "travel: 0.2\n"), {"friction.k2=" + profile});
   ASSERT_EQ(study.profiles.size(), 1u);
   EXPECT_EQ(study.profiles[0].unit, "N/m");
   EXPECT_EQ(study.period, 0.2);
-  const Profile& k2 = *study.profiles[0].profile;
-  EXPECT_NE(value_at(k2, 0.05), value_at(k2, 0.1));
-  EXPECT_NEAR(value_at(k2, 0.05), value_at(k2, 0.25), 1e-12 * value_at(k2, 0.05));
+  const friction::Profile& k2 = *study.profiles[0].profile;
+  EXPECT_NE(friction::value_at(k2, 0.05), friction::value_at(k2, 0.1));
+  EXPECT_NEAR(friction::value_at(k2, 0.05), friction::value_at(k2, 0.25),
+              1e-12 * friction::value_at(k2, 0.05));
   EXPECT_EQ(study_of(stage_with(loop + "travel: 0.2\n")).warnings,
             std::vector<std::string>{"m.yaml:12:9: travel: it has no effect: no parameter of friction is a "
                                      "profile along it"});
 }
 
-std::vector<SampleRecord> records_of(const TrialParameters& parameters, TrialOutcome& outcome) {
-  std::vector<SampleRecord> records;
-  TrialObservers observers;
-  observers.sample = [&records](const SampleRecord& record) { records.push_back(record); };
-  outcome = run_trial(parameters, observers);
+std::vector<trial::SampleRecord> records_of(const trial::TrialParameters& parameters,
+                                            trial::TrialOutcome& outcome) {
+  std::vector<trial::SampleRecord> records;
+  trial::TrialObservers observers;
+  observers.sample = [&records](const trial::SampleRecord& record) { records.push_back(record); };
+  outcome = trial::run_trial(parameters, observers);
   return records;
 }
 
 /// The shipped stage as a rotary axis: the same numbers, in counts of a revolution.
-Study rotary_twin(const std::string& linear, std::int64_t counts) {
+study::Study rotary_twin(const std::string& linear, std::int64_t counts) {
   std::string text;
   for (std::size_t at = 0; at < linear.size();) {
     const std::size_t end = linear.find('\n', at);
@@ -146,20 +149,20 @@ Study rotary_twin(const std::string& linear, std::int64_t counts) {
 TEST(LinearAxis, IsItsRotaryTwinBitForBit) {
   const std::int64_t counts = 6283185307;  // so that a count is about the nanometre of the stage
   const double resolution = 2.0 * std::numbers::pi / static_cast<double>(counts);
-  const Study linear = load_study(
+  const study::Study linear = load_study(
       std::filesystem::path(ZEROCOUNT_MANIFESTS) / "linear-stage.yaml",
       {fmt::format("encoder.resolution={}", resolution), fmt::format("travel={}", 2.0 * std::numbers::pi)});
-  const Study rotary = rotary_twin(linear.manifest_text, counts);
-  ASSERT_EQ(point_count(linear), point_count(rotary));
+  const study::Study rotary = rotary_twin(linear.manifest_text, counts);
+  ASSERT_EQ(study::point_count(linear), study::point_count(rotary));
   std::int64_t compared = 0;
-  for (std::int64_t point = 0; point < point_count(linear); ++point) {
+  for (std::int64_t point = 0; point < study::point_count(linear); ++point) {
     for (std::int64_t index = 0; index < 4; ++index) {
-      const StudyTrial of_linear = study_trial(linear, point, index);
-      const StudyTrial of_rotary = study_trial(rotary, point, index);
+      const study::StudyTrial of_linear = study::study_trial(linear, point, index);
+      const study::StudyTrial of_rotary = study::study_trial(rotary, point, index);
       ASSERT_EQ(of_linear.inputs, of_rotary.inputs);
-      TrialOutcome linear_outcome, rotary_outcome;
-      const std::vector<SampleRecord> a = records_of(of_linear.parameters, linear_outcome);
-      const std::vector<SampleRecord> b = records_of(of_rotary.parameters, rotary_outcome);
+      trial::TrialOutcome linear_outcome, rotary_outcome;
+      const std::vector<trial::SampleRecord> a = records_of(of_linear.parameters, linear_outcome);
+      const std::vector<trial::SampleRecord> b = records_of(of_rotary.parameters, rotary_outcome);
       ASSERT_EQ(a.size(), b.size());
       for (std::size_t k = 0; k < a.size(); ++k, ++compared) {
         ASSERT_EQ(a[k].theta, b[k].theta) << "point " << point << " trial " << index << " sample " << k;
@@ -178,4 +181,4 @@ TEST(LinearAxis, IsItsRotaryTwinBitForBit) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::manifest

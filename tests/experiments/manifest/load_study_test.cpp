@@ -11,28 +11,28 @@
 #include "experiments/study/study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 using Names = std::vector<std::string>;
 
-Names column_names(const Study& study) {
+Names column_names(const study::Study& study) {
   Names names;
-  for (const InputColumn& column : study.input_columns) names.push_back(column.name);
+  for (const study::InputColumn& column : study.input_columns) names.push_back(column.name);
   return names;
 }
 
 TEST(Study, UnderstandsEverySection) {
-  const Study study = study_of(full_manifest());
+  const study::Study study = study_of(full_manifest());
   EXPECT_EQ(study.name, "everything");
   EXPECT_EQ(study.description, "Every section once");
   EXPECT_EQ(study.seed, 20020721u);
   EXPECT_EQ(study.trials, 1000);
-  EXPECT_EQ(study.design, Design::monte_carlo);
+  EXPECT_EQ(study.design, study::Design::monte_carlo);
   EXPECT_FALSE(study.independent_points);
   EXPECT_EQ(study.moves, 2);
-  EXPECT_EQ(point_count(study), 12);
-  EXPECT_EQ(trial_count(study), 12000);
+  EXPECT_EQ(study::point_count(study), 12);
+  EXPECT_EQ(study::trial_count(study), 12000);
   EXPECT_EQ(study.retained_trials, (std::vector<std::int64_t>{0, 7}));
   EXPECT_EQ(study.observed.size(), 7u);
   EXPECT_EQ(study.manifest_text, full_manifest());
@@ -40,16 +40,16 @@ TEST(Study, UnderstandsEverySection) {
 }
 
 TEST(Study, WhatIsLeftOutTakesTheDefaults) {
-  const Study study = study_of(minimal_manifest());
-  const TrialParameters parameters = study_trial(study, 0, 0).parameters;
-  const TrialParameters defaults;
+  const study::Study study = study_of(minimal_manifest());
+  const trial::TrialParameters parameters = study::study_trial(study, 0, 0).parameters;
+  const trial::TrialParameters defaults;
   EXPECT_EQ(parameters.plant.inertia, defaults.plant.inertia);
   EXPECT_EQ(parameters.friction.uniform.beta, defaults.friction.uniform.beta);
   EXPECT_EQ(parameters.verdict.window, defaults.verdict.window);
   EXPECT_EQ(parameters.command.targets, std::vector<std::int64_t>{5});
   EXPECT_TRUE(parameters.friction.profiled.empty());
   EXPECT_TRUE(study.input_columns.empty());
-  EXPECT_TRUE(study_trial(study, 0, 0).inputs.empty());
+  EXPECT_TRUE(study::study_trial(study, 0, 0).inputs.empty());
 }
 
 TEST(Study, InputColumnsAreWhatDiffersInTheOrderOfTheTable) {
@@ -61,49 +61,51 @@ TEST(Study, InputColumnsAreWhatDiffersInTheOrderOfTheTable) {
 }
 
 TEST(Study, InputsAreTheParametersOfTheTrial) {
-  const Study study = study_of(full_manifest());
+  const study::Study study = study_of(full_manifest());
   for (std::int64_t i = 0; i < 20; ++i) {
-    const StudyTrial trial = study_trial(study, 11, i);
+    const study::StudyTrial trial = study::study_trial(study, 11, i);
     const auto input = [&](const std::string& name) { return trial.inputs[column_of(study, name)]; };
     EXPECT_EQ(input("friction.k2"), trial.parameters.friction.uniform.k2);
     EXPECT_EQ(input("controller.anti_windup"), 1.0);
-    EXPECT_EQ(trial.parameters.controller.anti_windup, AntiWindup::none);
+    EXPECT_EQ(trial.parameters.controller.anti_windup, loop::AntiWindup::none);
     EXPECT_EQ(input("plant.inertia"), 6e-4);
     EXPECT_EQ(input("command.targets.0"), static_cast<double>(trial.parameters.command.targets[0]));
     EXPECT_EQ(input("controller.delay"), trial.parameters.controller.delay);
     EXPECT_EQ(trial.parameters.command.targets[1], 0);
-    const FrictionParameters contact =
-        friction_at(trial.parameters.friction, trial.parameters.initial.position);
+    const friction::FrictionParameters contact =
+        friction::friction_at(trial.parameters.friction, trial.parameters.initial.position);
     EXPECT_EQ(input("friction.k1"), contact.k1);
   }
 }
 
 TEST(Study, ProfilesAreSharedByAllTrialsAndNamed) {
-  const Study study = study_of(full_manifest());
+  const study::Study study = study_of(full_manifest());
   ASSERT_EQ(study.profiles.size(), 1u);
   EXPECT_EQ(study.profiles[0].name, "friction.k1");
   EXPECT_EQ(study.profiles[0].unit, "N m/rad");
   for (const std::int64_t i : {0, 5}) {
-    const FrictionAlongRotor friction = study_trial(study, 3, i).parameters.friction;
+    const friction::FrictionAlongRotor friction = study::study_trial(study, 3, i).parameters.friction;
     ASSERT_EQ(friction.profiled.size(), 1u);
     EXPECT_EQ(friction.profiled[0].profile, study.profiles[0].profile);
-    EXPECT_EQ(friction.profiled[0].parameter, &FrictionParameters::k1);
+    EXPECT_EQ(friction.profiled[0].parameter, &friction::FrictionParameters::k1);
   }
 }
 
 TEST(Study, ProfilesThatDifferBetweenPointsAreNamedByTheFirst) {
   const std::string profile = "{profile: {mean: 110, cv: 0.1, correlation_length: ";
-  const Study study = study_of(minimal_manifest("sweep: {grid: {friction.k1: [100, " + profile + "0.2}}, " +
-                                                profile + "0.5}}], controller.ki: [0, 1]}}\n"));
+  const study::Study study =
+      study_of(minimal_manifest("sweep: {grid: {friction.k1: [100, " + profile + "0.2}}, " + profile +
+                                "0.5}}], controller.ki: [0, 1]}}\n"));
   ASSERT_EQ(study.profiles.size(), 2u);
   EXPECT_EQ(study.profiles[0].name, "friction.k1@2");
   EXPECT_EQ(study.profiles[1].name, "friction.k1@4");
-  EXPECT_TRUE(study_trial(study, 0, 0).parameters.friction.profiled.empty());
-  EXPECT_EQ(study_trial(study, 5, 0).parameters.friction.profiled[0].profile, study.profiles[1].profile);
+  EXPECT_TRUE(study::study_trial(study, 0, 0).parameters.friction.profiled.empty());
+  EXPECT_EQ(study::study_trial(study, 5, 0).parameters.friction.profiled[0].profile,
+            study.profiles[1].profile);
 }
 
 TEST(Study, UnderstandsWhatCanBeSwitchedOn) {
-  const Study study = study_of(extended_manifest());
+  const study::Study study = study_of(extended_manifest());
   EXPECT_FALSE(study.open_loop);
   EXPECT_EQ(study.moves, 16);
   EXPECT_EQ(std::ssize(study.sequence), study.moves);
@@ -117,15 +119,15 @@ TEST(Study, UnderstandsWhatCanBeSwitchedOn) {
 }
 
 TEST(Study, EnumerationsAmongTheInputsAreTheNumbersOfTheirWords) {
-  const Study study = study_of(extended_manifest());
+  const study::Study study = study_of(extended_manifest());
   const std::size_t shape = column_of(study, "command.profile.shape");
   EXPECT_EQ(study.input_columns[shape].meaning,
             "how the reference goes to the next target (0 step, 1 trapezoidal, 2 s_curve)");
-  EXPECT_EQ(study_trial(study, 0, 0).inputs[shape], 0);
-  EXPECT_EQ(study_trial(study, 1, 0).inputs[shape], 2);
+  EXPECT_EQ(study::study_trial(study, 0, 0).inputs[shape], 0);
+  EXPECT_EQ(study::study_trial(study, 1, 0).inputs[shape], 2);
 }
 
-TraceExtras extras(const std::string& more, const std::string& command = "{targets: [5]}") {
+study::TraceExtras extras(const std::string& more, const std::string& command = "{targets: [5]}") {
   return study_of(manifest_commanding(command, more)).trace_extras;
 }
 
@@ -151,9 +153,9 @@ TEST(Study, SaysWhatWasStoppedWhereATrialCanBe) {
   EXPECT_FALSE(can_stop("verdict: {stop: false}"));
   EXPECT_TRUE(can_stop("verdict: {stop: true}"));
   EXPECT_TRUE(can_stop("sweep: {cases: {one: {}, two: {verdict.stop: true}}}"));
-  const Study study = study_of(minimal_manifest("verdict: {stop: true, limit: 250}"));
-  EXPECT_TRUE(study_trial(study, 0, 0).parameters.verdict.stop);
-  EXPECT_EQ(study_trial(study, 0, 0).parameters.verdict.limit, 250);
+  const study::Study study = study_of(minimal_manifest("verdict: {stop: true, limit: 250}"));
+  EXPECT_TRUE(study::study_trial(study, 0, 0).parameters.verdict.stop);
+  EXPECT_EQ(study::study_trial(study, 0, 0).parameters.verdict.limit, 250);
 }
 
 TEST(Study, RecordsTheTorqueOfTheMotorWhereItIsNotThatOfTheCode) {
@@ -176,11 +178,11 @@ TEST(Study, SeedsOfAll64BitsAreKept) {
 }
 
 TEST(Study, TrialsThatAreNotThereAreRefused) {
-  const Study study = study_of(minimal_manifest());
-  EXPECT_THROW(study_trial(study, 1, 0), Failure);
-  EXPECT_THROW(study_trial(study, -1, 0), Failure);
-  EXPECT_THROW(study_trial(study, 0, 10), Failure);
-  EXPECT_THROW(study_trial(study, 0, -1), Failure);
+  const study::Study study = study_of(minimal_manifest());
+  EXPECT_THROW(study::study_trial(study, 1, 0), Failure);
+  EXPECT_THROW(study::study_trial(study, -1, 0), Failure);
+  EXPECT_THROW(study::study_trial(study, 0, 10), Failure);
+  EXPECT_THROW(study::study_trial(study, 0, -1), Failure);
 }
 
 class StudyFile : public testing::Test {
@@ -231,4 +233,4 @@ TEST_F(StudyFile, ThatNeverEndsIsRefused) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -8,7 +8,7 @@
 #include "core/failure/failure.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 std::string failure_of(const std::string& text) {
@@ -446,4 +446,4 @@ TEST(ManifestErrors, AHugeTextIsRefusedUnread) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::manifest

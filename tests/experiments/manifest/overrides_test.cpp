@@ -8,7 +8,7 @@
 #include "core/failure/failure.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 std::string override_failure(const std::vector<std::string>& overrides,
@@ -23,7 +23,7 @@ std::string override_failure(const std::vector<std::string>& overrides,
 }
 
 TEST(Overrides, ReplaceAnyKey) {
-  const Study study =
+  const study::Study study =
       study_of(full_manifest(), {"name=other", "seed=7", "trials=20", "design=sobol", "plant.inertia=1.0e-3",
                                  "command.targets.1=4", "friction.k2={uniform: [1, 2]}",
                                  "friction.k1.profile.cv=0.2", "sweep.cases.a.controller.ki=1.0e-5",
@@ -31,10 +31,10 @@ TEST(Overrides, ReplaceAnyKey) {
   EXPECT_EQ(study.name, "other");
   EXPECT_EQ(study.seed, 7u);
   EXPECT_EQ(study.trials, 20);
-  EXPECT_EQ(study.design, Design::sobol);
-  EXPECT_EQ(point_count(study), 4);
+  EXPECT_EQ(study.design, study::Design::sobol);
+  EXPECT_EQ(study::point_count(study), 4);
   EXPECT_EQ(study.profiles[0].profile->scale, std::sqrt(std::log1p(0.2 * 0.2)));
-  const TrialParameters parameters = study_trial(study, 0, 0).parameters;
+  const trial::TrialParameters parameters = study::study_trial(study, 0, 0).parameters;
   EXPECT_EQ(parameters.plant.inertia, 2e-3);
   EXPECT_EQ(parameters.controller.ki, 1e-5);
   EXPECT_EQ(parameters.command.targets[1], 4);
@@ -42,12 +42,12 @@ TEST(Overrides, ReplaceAnyKey) {
 }
 
 TEST(Overrides, AddKeysAndWholeSections) {
-  const Study study =
+  const study::Study study =
       study_of(minimal_manifest(), {"plant.inertia=2.0e-3", "sweep={grid: {controller.ki: [0, 1]}}",
                                     "sweep.grid.controller.kp=[0, 1, 2]", "retain.trials=[3]"});
-  EXPECT_EQ(point_count(study), 6);
+  EXPECT_EQ(study::point_count(study), 6);
   EXPECT_EQ(study.retained_trials, std::vector<std::int64_t>{3});
-  EXPECT_EQ(study_trial(study, 0, 0).parameters.plant.inertia, 2e-3);
+  EXPECT_EQ(study::study_trial(study, 0, 0).parameters.plant.inertia, 2e-3);
 }
 
 TEST(Overrides, TheLastOneWins) {
@@ -61,8 +61,8 @@ TEST(Overrides, MendAManifest) {
 }
 
 TEST(Overrides, LeaveTheTextAndChangeTheHash) {
-  const Study plain = study_of(minimal_manifest());
-  const Study other = study_of(minimal_manifest(), {"trials=11"});
+  const study::Study plain = study_of(minimal_manifest());
+  const study::Study other = study_of(minimal_manifest(), {"trials=11"});
   EXPECT_EQ(other.manifest_text, minimal_manifest());
   EXPECT_EQ(other.manifest_sha256, plain.manifest_sha256);
   EXPECT_EQ(plain.study_sha256, plain.manifest_sha256);
@@ -102,10 +102,11 @@ TEST(Overrides, MistakesNameTheOverride) {
 
 TEST(Overrides, ThatTheSweepGivesAtEveryPointAreReported) {
   const auto report = [](const std::string& sweep, const std::string& change) -> std::string {
-    Problems problems;
+    yaml::Problems problems;
     std::deque<std::string> sources;
     const std::string text = "sweep: " + sweep;
-    report_swept_overrides(*parse_yaml(text, "study.yaml", false, problems), {change}, sources, problems);
+    report_swept_overrides(*yaml::parse_yaml(text, "study.yaml", false, problems), {change}, sources,
+                           problems);
     try {
       problems.raise_if_any();
     } catch (const Failure& failure) {
@@ -138,4 +139,4 @@ TEST(Overrides, AllMistakesAreToldAfterThoseOfTheFile) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::manifest

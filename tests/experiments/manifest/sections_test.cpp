@@ -6,12 +6,12 @@
 
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 TEST(Sections, GoAsDeepAsTheNamesOfParameters) {
-  const Study study = study_of(extended_manifest());
-  const TrialParameters p = study_trial(study, 0, 0).parameters;
+  const study::Study study = study_of(extended_manifest());
+  const trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;
   EXPECT_EQ(p.encoder.fine_errors.eccentricity, 1e-5);
   EXPECT_EQ(p.encoder.fine_errors.noise, 0.1);
   EXPECT_EQ(p.encoder.coarse_errors.interpolation, 0.05);
@@ -21,10 +21,10 @@ TEST(Sections, GoAsDeepAsTheNamesOfParameters) {
   EXPECT_EQ(p.dac.noise, 1e-5);
   EXPECT_GT(p.amplifier.bandwidth, 200);
   EXPECT_EQ(p.controller.coarse.kp, 1e-4);
-  EXPECT_EQ(p.controller.coarse.encoder, EncoderChoice::coarse);
+  EXPECT_EQ(p.controller.coarse.encoder, loop::EncoderChoice::coarse);
   EXPECT_GE(p.controller.coarse.fine_within, 10);
   EXPECT_EQ(p.controller.coarse.coarse_beyond, 500);
-  EXPECT_EQ(p.controller.coarse.fine_dwell, CoarsePhaseParameters{}.fine_dwell);
+  EXPECT_EQ(p.controller.coarse.fine_dwell, loop::CoarsePhaseParameters{}.fine_dwell);
   EXPECT_EQ(p.command.profile.velocity_limit, 0.5);
   EXPECT_GE(p.command.profile.jerk_limit, 1000);
   EXPECT_EQ(std::abs(p.initial.velocity), 0.01);
@@ -33,30 +33,30 @@ TEST(Sections, GoAsDeepAsTheNamesOfParameters) {
 }
 
 TEST(Sections, OfAnyDepthAreSweptByTheirDottedNames) {
-  const Study study = study_of(extended_manifest());
-  ASSERT_EQ(point_count(study), 16);
+  const study::Study study = study_of(extended_manifest());
+  ASSERT_EQ(study::point_count(study), 16);
   EXPECT_EQ(study.point_labels[11],
             "sliding, controller.coarse.kd=0, friction.model=spring, command.profile.shape=s_curve");
-  const TrialParameters p = study_trial(study, 11, 0).parameters;
-  EXPECT_EQ(p.initial.mode, InitialMode::slide);
+  const trial::TrialParameters p = study::study_trial(study, 11, 0).parameters;
+  EXPECT_EQ(p.initial.mode, trial::InitialMode::slide);
   EXPECT_EQ(p.controller.coarse.kd, 0);
-  EXPECT_EQ(p.friction.model, FrictionModel::spring);
-  EXPECT_EQ(p.command.profile.shape, ReferenceShape::s_curve);
-  EXPECT_EQ(study_trial(study, 12, 0).parameters.friction.model, FrictionModel::presliding);
-  EXPECT_EQ(study_trial(study, 12, 0).parameters.command.profile.shape, ReferenceShape::step);
+  EXPECT_EQ(p.friction.model, friction::FrictionModel::spring);
+  EXPECT_EQ(p.command.profile.shape, loop::ReferenceShape::s_curve);
+  EXPECT_EQ(study::study_trial(study, 12, 0).parameters.friction.model, friction::FrictionModel::presliding);
+  EXPECT_EQ(study::study_trial(study, 12, 0).parameters.command.profile.shape, loop::ReferenceShape::step);
   EXPECT_EQ(study.axes.back().name, "command.profile.shape");
-  EXPECT_EQ(study.axes.back().kind, SweepAxis::Kind::text);
+  EXPECT_EQ(study.axes.back().kind, study::SweepAxis::Kind::text);
   EXPECT_EQ(study.axes.back().texts[11], "s_curve");
 }
 
 TEST(Sections, AreMadeByOverrides) {
-  const Study study =
+  const study::Study study =
       study_of(minimal_manifest(), {"controller.coarse.coarse_beyond=1000", "controller.coarse.kd=2.0e-3",
                                     "dac.bits=14", "encoder.fine_errors.noise={uniform: [0, 1]}",
                                     "sweep.grid.controller.coarse.fine_within=[1, 2]"});
-  EXPECT_EQ(study_trial(study, 0, 0).parameters.controller.coarse.kd, 2e-3);
-  EXPECT_EQ(study_trial(study, 0, 0).parameters.dac.bits, 14);
-  EXPECT_EQ(study_trial(study, 1, 0).parameters.controller.coarse.fine_within, 2);
+  EXPECT_EQ(study::study_trial(study, 0, 0).parameters.controller.coarse.kd, 2e-3);
+  EXPECT_EQ(study::study_trial(study, 0, 0).parameters.dac.bits, 14);
+  EXPECT_EQ(study::study_trial(study, 1, 0).parameters.controller.coarse.fine_within, 2);
   EXPECT_EQ(study.input_columns[0].name, "encoder.fine_errors.noise");
 }
 
@@ -123,4 +123,4 @@ TEST(Sections, WordsAreThoseOfTheTable) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::manifest

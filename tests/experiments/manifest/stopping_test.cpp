@@ -3,11 +3,11 @@
 
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 TEST(Stop, MakesTrialsTheSizeOfABlock) {
-  const Study study = study_of(minimal_manifest(
+  const study::Study study = study_of(minimal_manifest(
       "stop: {success_rate_halfwidth: 0.02, confidence: 0.9, min_trials: 20, max_trials: 500}"));
   const std::int64_t stated = study_of(minimal_manifest()).trials;
   ASSERT_TRUE(study.stop);
@@ -19,7 +19,8 @@ TEST(Stop, MakesTrialsTheSizeOfABlock) {
 }
 
 TEST(Stop, HasADefaultForTheConfidenceAndNoLeastNumber) {
-  const Study study = study_of(minimal_manifest("stop: {success_rate_halfwidth: 0.02, max_trials: 500}"));
+  const study::Study study =
+      study_of(minimal_manifest("stop: {success_rate_halfwidth: 0.02, max_trials: 500}"));
   ASSERT_TRUE(study.stop);
   EXPECT_EQ(study.stop->confidence, 0.95);
   EXPECT_EQ(study.stop->min_trials, 1);
@@ -28,15 +29,15 @@ TEST(Stop, HasADefaultForTheConfidenceAndNoLeastNumber) {
 
 TEST(Stop, LeavesTheDrawsOfATrialAsTheyAre) {
   const std::string random = "friction: {k1: {uniform: [90, 130]}}\n";
-  const Study plain = study_of(minimal_manifest(random));
-  const Study stopping =
+  const study::Study plain = study_of(minimal_manifest(random));
+  const study::Study stopping =
       study_of(minimal_manifest(random + "stop: {success_rate_halfwidth: 0.02, max_trials: 500}"));
-  EXPECT_EQ(study_trial(plain, 0, 3).inputs, study_trial(stopping, 0, 3).inputs);
+  EXPECT_EQ(study::study_trial(plain, 0, 3).inputs, study::study_trial(stopping, 0, 3).inputs);
 }
 
 TEST(Stop, CanBeChangedByOverrides) {
-  const Study study = study_of(minimal_manifest("stop: {success_rate_halfwidth: 0.02, max_trials: 500}"),
-                               {"stop.max_trials=40"});
+  const study::Study study = study_of(
+      minimal_manifest("stop: {success_rate_halfwidth: 0.02, max_trials: 500}"), {"stop.max_trials=40"});
   EXPECT_EQ(study.trials, 40);
 }
 
@@ -81,4 +82,4 @@ INSTANTIATE_TEST_SUITE_P(
                 "itself; expected design: monte_carlo"}));
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -8,13 +8,13 @@
 #include "core/failure/failure.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::manifest {
 namespace {
 
 using Labels = std::vector<std::string>;
 using Numbers = std::vector<double>;
 
-Study swept(const std::string& sweep, const std::string& more = "") {
+study::Study swept(const std::string& sweep, const std::string& more = "") {
   return study_of(minimal_manifest(more + "sweep: " + sweep + "\n"));
 }
 
@@ -28,7 +28,7 @@ std::string failure_of(const std::string& sweep) {
 }
 
 TEST(Sweep, WithoutOneThereIsOnePoint) {
-  const Study study = study_of(minimal_manifest());
+  const study::Study study = study_of(minimal_manifest());
   EXPECT_EQ(study.point_labels, Labels{"all"});
   EXPECT_TRUE(study.axes.empty());
   EXPECT_EQ(swept("{}").point_labels, Labels{"all"});
@@ -36,7 +36,8 @@ TEST(Sweep, WithoutOneThereIsOnePoint) {
 }
 
 TEST(Sweep, GridIsTheProductWithTheLastKeyFastest) {
-  const Study study = swept("{grid: {controller.kp: [0, 1.0e-4], controller.ki: [1.0e-5, 2.0e-5, 3.0e-5]}}");
+  const study::Study study =
+      swept("{grid: {controller.kp: [0, 1.0e-4], controller.ki: [1.0e-5, 2.0e-5, 3.0e-5]}}");
   EXPECT_EQ(study.point_labels.size(), 6u);
   EXPECT_EQ(study.point_labels[1], "controller.kp=0, controller.ki=2e-05");
   EXPECT_EQ(study.point_labels[3], "controller.kp=0.0001, controller.ki=1e-05");
@@ -45,34 +46,35 @@ TEST(Sweep, GridIsTheProductWithTheLastKeyFastest) {
   EXPECT_EQ(study.axes[0].unit, "N m/count");
   EXPECT_EQ(study.axes[0].numbers, (Numbers{0, 0, 0, 1e-4, 1e-4, 1e-4}));
   EXPECT_EQ(study.axes[1].numbers, (Numbers{1e-5, 2e-5, 3e-5, 1e-5, 2e-5, 3e-5}));
-  EXPECT_EQ(study_trial(study, 4, 0).parameters.controller.kp, 1e-4);
-  EXPECT_EQ(study_trial(study, 4, 0).parameters.controller.ki, 2e-5);
+  EXPECT_EQ(study::study_trial(study, 4, 0).parameters.controller.kp, 1e-4);
+  EXPECT_EQ(study::study_trial(study, 4, 0).parameters.controller.ki, 2e-5);
 }
 
 TEST(Sweep, CasesAreNamed) {
-  const Study study = swept("{cases: {plain: {}, fast: {controller.ki: 9.0e-5, dac.bits: 16}}}");
+  const study::Study study = swept("{cases: {plain: {}, fast: {controller.ki: 9.0e-5, dac.bits: 16}}}");
   EXPECT_EQ(study.point_labels, (Labels{"plain", "fast"}));
   ASSERT_EQ(study.axes.size(), 3u);
   EXPECT_EQ(study.axes[0].name, "case");
   EXPECT_EQ(study.axes[0].texts, (Labels{"plain", "fast"}));
   EXPECT_EQ(study.axes[1].numbers, (Numbers{3.85e-5, 9e-5}));  // the default where the case is silent
   EXPECT_EQ(study.axes[2].numbers, (Numbers{12, 16}));
-  EXPECT_EQ(study_trial(study, 1, 0).parameters.dac.bits, 16);
-  EXPECT_EQ(study_trial(study, 0, 0).parameters.dac.bits, 12);
+  EXPECT_EQ(study::study_trial(study, 1, 0).parameters.dac.bits, 16);
+  EXPECT_EQ(study::study_trial(study, 0, 0).parameters.dac.bits, 12);
 }
 
 TEST(Sweep, CasesAndGridTogetherAreTheirProductWithTheCasesSlowest) {
-  const Study study =
+  const study::Study study =
       swept("{grid: {controller.kp: [0, 1.0e-4]}, cases: {a: {dac.bits: 10}, b: {dac.bits: 14}}}");
   EXPECT_EQ(study.point_labels, (Labels{"a, controller.kp=0", "a, controller.kp=0.0001", "b, controller.kp=0",
                                         "b, controller.kp=0.0001"}));
-  EXPECT_EQ(study_trial(study, 3, 0).parameters.dac.bits, 14);
-  EXPECT_EQ(study_trial(study, 3, 0).parameters.controller.kp, 1e-4);
+  EXPECT_EQ(study::study_trial(study, 3, 0).parameters.dac.bits, 14);
+  EXPECT_EQ(study::study_trial(study, 3, 0).parameters.controller.kp, 1e-4);
 }
 
 TEST(Sweep, TheGridWinsOverTheCasesWithAWarning) {
-  const Study study = swept("{grid: {controller.ki: [1.0e-5, 2.0e-5]}, cases: {a: {controller.ki: 5.0e-5}}}");
-  EXPECT_EQ(study_trial(study, 1, 0).parameters.controller.ki, 2e-5);
+  const study::Study study =
+      swept("{grid: {controller.ki: [1.0e-5, 2.0e-5]}, cases: {a: {controller.ki: 5.0e-5}}}");
+  EXPECT_EQ(study::study_trial(study, 1, 0).parameters.controller.ki, 2e-5);
   ASSERT_EQ(study.axes.size(), 2u);
   EXPECT_EQ(study.axes[1].numbers, (Numbers{1e-5, 2e-5}));
   EXPECT_EQ(study.warnings,
@@ -81,14 +83,14 @@ TEST(Sweep, TheGridWinsOverTheCasesWithAWarning) {
 }
 
 TEST(Sweep, LinspaceAndLogspaceIncludeTheirEnds) {
-  const Study linear = swept("{grid: {controller.ki: {linspace: [1.0e-5, 3.0e-4, 30]}}}");
+  const study::Study linear = swept("{grid: {controller.ki: {linspace: [1.0e-5, 3.0e-4, 30]}}}");
   ASSERT_EQ(linear.axes[0].numbers.size(), 30u);
   for (int i = 0; i < 30; ++i) {
     EXPECT_NEAR(linear.axes[0].numbers[static_cast<std::size_t>(i)], 1e-5 * (i + 1), 1e-18);
   }
   EXPECT_EQ(linear.axes[0].numbers.back(), 3.0e-4);
   EXPECT_EQ(linear.point_labels[1], "controller.ki=2e-05");
-  const Study logarithmic = swept("{grid: {friction.alpha: {logspace: [0.01, 100, 5]}}}");
+  const study::Study logarithmic = swept("{grid: {friction.alpha: {logspace: [0.01, 100, 5]}}}");
   EXPECT_EQ(logarithmic.axes[0].numbers, (Numbers{0.01, 0.1, 1, 10, 100}));
 }
 
@@ -107,31 +109,32 @@ TEST(Sweep, ValuesOutOfRangeAreReportedAtTheSweep) {
 }
 
 TEST(Sweep, WordsListsAndDistributionsMayBeSwept) {
-  const Study words = swept("{grid: {controller.anti_windup: [clamp, none]}}");
-  EXPECT_EQ(words.axes[0].kind, SweepAxis::Kind::text);
+  const study::Study words = swept("{grid: {controller.anti_windup: [clamp, none]}}");
+  EXPECT_EQ(words.axes[0].kind, study::SweepAxis::Kind::text);
   EXPECT_EQ(words.axes[0].texts, (Labels{"clamp", "none"}));
-  EXPECT_EQ(study_trial(words, 1, 0).parameters.controller.anti_windup, AntiWindup::none);
+  EXPECT_EQ(study::study_trial(words, 1, 0).parameters.controller.anti_windup, loop::AntiWindup::none);
 
-  const Study lists = swept("{grid: {command.targets: [[1], [{integers: [2, 9]}]]}}");
+  const study::Study lists = swept("{grid: {command.targets: [[1], [{integers: [2, 9]}]]}}");
   EXPECT_EQ(lists.point_labels[1], "command.targets=[{integers: [2, 9]}]");
   EXPECT_EQ(lists.axes[0].name, "command.targets.0");
   EXPECT_EQ(lists.axes[0].numbers[0], 1);
   EXPECT_TRUE(std::isnan(lists.axes[0].numbers[1]));
 
-  const Study cases = swept("{cases: {a: {friction.k1: {uniform: [100, 120]}}, b: {friction.k1: 90}}}");
+  const study::Study cases =
+      swept("{cases: {a: {friction.k1: {uniform: [100, 120]}}, b: {friction.k1: 90}}}");
   EXPECT_TRUE(std::isnan(cases.axes[1].numbers[0]));
   EXPECT_EQ(cases.axes[1].numbers[1], 90);
-  EXPECT_GE(study_trial(cases, 0, 0).parameters.friction.uniform.k1, 100);
-  EXPECT_EQ(study_trial(cases, 1, 0).parameters.friction.uniform.k1, 90);
+  EXPECT_GE(study::study_trial(cases, 0, 0).parameters.friction.uniform.k1, 100);
+  EXPECT_EQ(study::study_trial(cases, 1, 0).parameters.friction.uniform.k1, 90);
 }
 
 TEST(Sweep, TruthValuesMayBeSweptLikeWords) {
-  const Study study = swept("{grid: {verdict.stop: [false, true]}}");
+  const study::Study study = swept("{grid: {verdict.stop: [false, true]}}");
   EXPECT_EQ(study.point_labels, (Labels{"verdict.stop=false", "verdict.stop=true"}));
-  EXPECT_EQ(study.axes[0].kind, SweepAxis::Kind::text);
+  EXPECT_EQ(study.axes[0].kind, study::SweepAxis::Kind::text);
   EXPECT_EQ(study.axes[0].texts, (Labels{"false", "true"}));
-  EXPECT_FALSE(study_trial(study, 0, 0).parameters.verdict.stop);
-  EXPECT_TRUE(study_trial(study, 1, 0).parameters.verdict.stop);
+  EXPECT_FALSE(study::study_trial(study, 0, 0).parameters.verdict.stop);
+  EXPECT_TRUE(study::study_trial(study, 1, 0).parameters.verdict.stop);
   EXPECT_EQ(failure_of("{grid: {verdict.stop: {linspace: [0, 1, 2]}}}"),
             "m.yaml:6:41: sweep.grid.verdict.stop.linspace: the value 0 is not allowed; expected one of "
             "false, true");
@@ -140,8 +143,8 @@ TEST(Sweep, TruthValuesMayBeSweptLikeWords) {
 }
 
 TEST(Sweep, AnIndexChoosesAMove) {
-  const Study study = swept("{grid: {command.targets.0: [7, 8]}}");
-  EXPECT_EQ(study_trial(study, 1, 0).parameters.command.targets, std::vector<std::int64_t>{8});
+  const study::Study study = swept("{grid: {command.targets.0: [7, 8]}}");
+  EXPECT_EQ(study::study_trial(study, 1, 0).parameters.command.targets, std::vector<std::int64_t>{8});
   EXPECT_EQ(
       failure_of("{grid: {command.targets.1: [7]}}"),
       "m.yaml:6:16: sweep.grid.command.targets.1: there is no such target; expected an index from 0 to 0");
@@ -210,11 +213,11 @@ TEST(Sweep, TooManyPointsAreRefusedAtOnce) {
 }
 
 TEST(Sweep, AMillionPointsAreUnderstood) {
-  const Study study =
+  const study::Study study =
       swept("{grid: {controller.ki: {linspace: [0, 1, 1000]}, controller.kp: {linspace: [0, 1, 1000]}}}");
-  EXPECT_EQ(point_count(study), 1'000'000);
-  EXPECT_EQ(study_trial(study, 999'999, 9).parameters.controller.ki, 1.0);
-  EXPECT_EQ(study_trial(study, 999'000, 9).parameters.controller.kp, 0.0);
+  EXPECT_EQ(study::point_count(study), 1'000'000);
+  EXPECT_EQ(study::study_trial(study, 999'999, 9).parameters.controller.ki, 1.0);
+  EXPECT_EQ(study::study_trial(study, 999'000, 9).parameters.controller.kp, 0.0);
 }
 
 TEST(Sweep, TrialsTimesPointsAreLimited) {
@@ -225,11 +228,12 @@ TEST(Sweep, TrialsTimesPointsAreLimited) {
 }
 
 TEST(Sweep, ObservationsOfACaseHoldAtAllItsPoints) {
-  const Study study = swept("{grid: {controller.kp: [0, 1]}, cases: {a: {dac.bits: 10}, b: {dac.bits: 14}}}",
-                            "observed: {a: calm, \"a, controller.kp=1\": wild}\n");
+  const study::Study study =
+      swept("{grid: {controller.kp: [0, 1]}, cases: {a: {dac.bits: 10}, b: {dac.bits: 14}}}",
+            "observed: {a: calm, \"a, controller.kp=1\": wild}\n");
   EXPECT_EQ(study.observed, (std::map<std::string, std::string>{{"a, controller.kp=0", "calm"},
                                                                 {"a, controller.kp=1", "wild"}}));
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::manifest

@@ -8,7 +8,7 @@
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 
-namespace zerocount {
+namespace zerocount::parameters {
 namespace {
 
 // The paper's rig and what is assumed beside it. A default that changes needs a row in earlier_defaults.cpp
@@ -101,7 +101,7 @@ TEST(ParameterTable, DefaultsAreTheRigOfThePaper) {
 TEST(ParameterTable, DefaultsAreInsideTheirRanges) {
   for (const Parameter& parameter : parameter_table()) {
     if (!has_default(parameter)) continue;
-    EXPECT_TRUE(contains(parameter.range, default_value(parameter))) << parameter.name;
+    EXPECT_TRUE(numerics::contains(parameter.range, default_value(parameter))) << parameter.name;
   }
 }
 
@@ -121,7 +121,7 @@ TEST(ParameterTable, EachRowWritesItsOwnFieldAndNoOther) {
   const auto table = parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
     if (!has_default(table[row])) continue;
-    TrialParameters changed;
+    trial::TrialParameters changed;
     const double value = table[row].kind == ParameterKind::real ? 0.75 : 1.0;
     table[row].set(changed, value);
     for (std::size_t other = 0; other < table.size(); ++other) {
@@ -137,7 +137,7 @@ TEST(ParameterTable, OnlyNumbersOfFrictionMayVaryAlongTheRotorAndGoToTheSameFiel
     const bool friction = parameter.name.rfind("friction.", 0) == 0 && !has_labels(parameter);
     ASSERT_EQ(parameter.profiled != nullptr, friction) << parameter.name;
     if (!friction) continue;
-    TrialParameters changed;
+    trial::TrialParameters changed;
     changed.friction.uniform.*parameter.profiled = 0.6;
     EXPECT_EQ(parameter.get(changed), 0.6) << parameter.name;
   }
@@ -158,28 +158,28 @@ TEST(ParameterTable, NamesAreUniqueAndGroupedBySection) {
 }
 
 TEST(ParameterTable, NoNameIsAlsoASection) {
-  for (const Parameter& parameter : parameter_table()) EXPECT_FALSE(is_section(parameter.name));
-  EXPECT_TRUE(is_section("controller"));
-  EXPECT_TRUE(is_section("controller.coarse"));
-  EXPECT_FALSE(is_section("controller.coars"));
+  for (const Parameter& parameter : parameter_table()) EXPECT_FALSE(manifest::is_section(parameter.name));
+  EXPECT_TRUE(manifest::is_section("controller"));
+  EXPECT_TRUE(manifest::is_section("controller.coarse"));
+  EXPECT_FALSE(manifest::is_section("controller.coars"));
 }
 
 TEST(ParameterTable, ASectionHasInItWhatItsNameLeadsTo) {
-  EXPECT_TRUE(is_within("controller.coarse.kp", "controller.coarse"));
-  EXPECT_TRUE(is_within("controller.coarse.kp", "controller"));
-  EXPECT_TRUE(is_within("controller.coarse", "controller.coarse"));
-  EXPECT_FALSE(is_within("encoder.coarse_errors.noise", "encoder.coarse"));
-  EXPECT_FALSE(is_within("controller.coarse", "controller.coarse.kp"));
+  EXPECT_TRUE(manifest::is_within("controller.coarse.kp", "controller.coarse"));
+  EXPECT_TRUE(manifest::is_within("controller.coarse.kp", "controller"));
+  EXPECT_TRUE(manifest::is_within("controller.coarse", "controller.coarse"));
+  EXPECT_FALSE(manifest::is_within("encoder.coarse_errors.noise", "encoder.coarse"));
+  EXPECT_FALSE(manifest::is_within("controller.coarse", "controller.coarse.kp"));
 }
 
 TEST(ParameterTable, SectionsHaveTheKeysOfTheirRowsAndSections) {
   using Keys = std::vector<std::string>;
-  EXPECT_EQ(keys_below("command"), (Keys{"targets", "torque", "sequence", "hold", "profile"}));
-  EXPECT_EQ(keys_below("command.sequence"), (Keys{"targets", "overrun", "cycles", "approach"}));
-  EXPECT_EQ(keys_below("encoder"),
+  EXPECT_EQ(manifest::keys_below("command"), (Keys{"targets", "torque", "sequence", "hold", "profile"}));
+  EXPECT_EQ(manifest::keys_below("command.sequence"), (Keys{"targets", "overrun", "cycles", "approach"}));
+  EXPECT_EQ(manifest::keys_below("encoder"),
             (Keys{"fine", "coarse", "resolution", "coarse_resolution", "fine_errors", "coarse_errors"}));
-  EXPECT_EQ(keys_below("initial.history"), (Keys{"reversals", "torque"}));
-  EXPECT_TRUE(keys_below("friction.k1").empty());
+  EXPECT_EQ(manifest::keys_below("initial.history"), (Keys{"reversals", "torque"}));
+  EXPECT_TRUE(manifest::keys_below("friction.k1").empty());
 }
 
 TEST(ParameterTable, EveryRowIsDocumented) {
@@ -194,8 +194,8 @@ TEST(ParameterTable, EveryRowIsDocumented) {
 
 TEST(ParameterTable, ListingsNameEveryParameter) {
   for (const AxisKind axis : {AxisKind::rotary, AxisKind::linear}) {
-    const std::string text = parameters_as_text({axis});
-    const std::string markdown = parameters_as_markdown({axis});
+    const std::string text = manifest::parameters_as_text({axis});
+    const std::string markdown = manifest::parameters_as_markdown({axis});
     for (const Parameter& parameter : parameter_table()) {
       const std::string cell = "| " + std::string(parameter.name) + " |";
       EXPECT_EQ(text.find("\n" + std::string(parameter.name) + " ") != std::string::npos,
@@ -203,10 +203,10 @@ TEST(ParameterTable, ListingsNameEveryParameter) {
       EXPECT_EQ(markdown.find(cell) != std::string::npos, exists_on(parameter, axis)) << parameter.name;
     }
   }
-  const std::string markdown = parameters_as_markdown();
+  const std::string markdown = manifest::parameters_as_markdown();
   EXPECT_NE(markdown.find("clamp \\| none"), std::string::npos);
   EXPECT_NE(markdown.find("| false | false \\| true |"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::parameters

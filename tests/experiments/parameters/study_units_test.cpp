@@ -8,7 +8,7 @@
 
 #include "experiments/parameters/parameter_table.hpp"
 
-namespace zerocount {
+namespace zerocount::parameters {
 namespace {
 
 TEST(StudyUnits, ForceAndPositionStandForTorqueAndAngle) {
@@ -74,4 +74,4 @@ TEST(StudyUnits, ADefaultHoldsInItsOwnUnitsAlone) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::parameters

@@ -11,7 +11,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::rules {
 namespace {
 
 struct IdleCase {
@@ -281,14 +281,15 @@ INSTANTIATE_TEST_SUITE_P(
 // The rules name what there is.
 TEST(IdleKeys, SpeakOfParametersAndSectionsAlone) {
   for (const bool open_loop : {false, true}) {
-    StudyPlan plan;
+    study::StudyPlan plan;
     plan.open_loop = open_loop;
     for (const EffectRule& rule : effect_rules(plan)) {
-      for (const std::string_view name : rule.depends_on) EXPECT_TRUE(find_parameter(name)) << name;
+      for (const std::string_view name : rule.depends_on)
+        EXPECT_TRUE(parameters::find_parameter(name)) << name;
       for (const std::string_view key : rule.keys) {
-        const auto table = parameter_table();
-        EXPECT_TRUE(std::any_of(table.begin(), table.end(), [&](const Parameter& parameter) {
-          return is_within(parameter.name, key);
+        const auto table = parameters::parameter_table();
+        EXPECT_TRUE(std::any_of(table.begin(), table.end(), [&](const parameters::Parameter& parameter) {
+          return manifest::is_within(parameter.name, key);
         })) << key;
       }
     }
@@ -296,4 +297,4 @@ TEST(IdleKeys, SpeakOfParametersAndSectionsAlone) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::rules

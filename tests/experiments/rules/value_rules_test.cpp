@@ -6,7 +6,7 @@
 
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::rules {
 namespace {
 
 struct UnfitCase {
@@ -257,4 +257,4 @@ TEST(FittingValues, TheSamplesOfASequenceAreThoseOfAllItsMoves) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::rules

@@ -7,7 +7,7 @@
 #include "core/theory/gains.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 void expect_gain(double gain, double expected) {
@@ -30,7 +30,7 @@ TEST(GainUnits, AreConvertedWithTheSampleTimeAndTheCountOfTheTrial) {
   EXPECT_EQ(study.input_columns[ki].unit, "N m/(rad s)");
   for (std::int64_t index = 0; index < study.trials; ++index) {
     const StudyTrial trial = study_trial(study, 1, index);
-    const ControllerParameters& c = trial.parameters.controller;
+    const loop::ControllerParameters& c = trial.parameters.controller;
     // Both phases are fed back from the coarse encoder, whose counts are taken in fine ones.
     const double count = 2.0 * 3.14159265358979323846 / trial.parameters.encoder.fine;
     const double T = 1.0 / c.sample_rate;
@@ -49,8 +49,8 @@ TEST(GainUnits, AreTheSameContinuousControlAtEveryPointOfASweep) {
       "sweep: {grid: {controller.sample_rate: [500, 2000, 10000], encoder.fine: [36000, 1620000]}}\n"));
   ASSERT_EQ(point_count(study), 6);
   for (std::int64_t point = 0; point < 6; ++point) {
-    const TrialParameters p = study_trial(study, point, 0).parameters;
-    const AnalogueGains gains = analogue_gains(p.controller, p.encoder);
+    const trial::TrialParameters p = study_trial(study, point, 0).parameters;
+    const theory::AnalogueGains gains = theory::analogue_gains(p.controller, p.encoder);
     EXPECT_NEAR(gains.kp, 10.0, 1e-14);
     EXPECT_NEAR(gains.ki, 4.0e4, 1e-10);
     EXPECT_NEAR(gains.kd, 0.02, 1e-16);
@@ -89,4 +89,4 @@ TEST(GainUnits, HaveAWordAndAreTheSameAtAllPoints) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::study

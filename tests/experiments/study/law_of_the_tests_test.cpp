@@ -10,54 +10,59 @@
 #include "tests/core/friction/spring_damper.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 /// The laws of the program, with that of the tests as the one which manifests call presliding.
-using LawsOfTheTests = LawList<SpringDamper, SpringFriction, CoulombFriction, NoFriction>;
+using LawsOfTheTests = friction::LawList<SpringDamper, friction::SpringFriction, friction::CoulombFriction,
+                                         friction::NoFriction>;
 
-TrialParameters first_trial(const std::string& more) {
+trial::TrialParameters first_trial(const std::string& more) {
   const Study study = study_of(manifest_commanding("{targets: [20], hold: 0.5}", more));
   return study_trial(study, 0, 0).parameters;
 }
 
-TrialOutcome run(const TrialParameters& parameters, std::vector<SampleRecord>& records) {
-  return run_trial_of<PlantOf<LawsOfTheTests>>(
-      parameters, {.sample = [&](const SampleRecord& record) { records.push_back(record); }, .jerk = {}});
+trial::TrialOutcome run(const trial::TrialParameters& parameters, std::vector<trial::SampleRecord>& records) {
+  return trial::run_trial_of<plant::PlantOf<LawsOfTheTests>>(
+      parameters,
+      {.sample = [&](const trial::SampleRecord& record) { records.push_back(record); }, .jerk = {}});
 }
 
 TEST(ALawOfTheTests, RunsATrialInClosedLoopFromAManifest) {
-  const TrialParameters p = first_trial("controller: {ki: 2.0e-5}\nfriction: {k1: 200}\ndac: {bits: 16}\n");
-  std::vector<SampleRecord> records;
-  const TrialOutcome outcome = run(p, records);
-  const MoveOutcome& move = outcome.moves.at(0);
+  const trial::TrialParameters p =
+      first_trial("controller: {ki: 2.0e-5}\nfriction: {k1: 200}\ndac: {bits: 16}\n");
+  std::vector<trial::SampleRecord> records;
+  const trial::TrialOutcome outcome = run(p, records);
+  const trial::MoveOutcome& move = outcome.moves.at(0);
   EXPECT_EQ(records.size(), 1000U);
-  EXPECT_EQ(move.outcome, Outcome::zero_count);
+  EXPECT_EQ(move.outcome, trial::Outcome::zero_count);
   EXPECT_FALSE(move.broke_away);
   // At rest the torque that is held is that of the spring.
   EXPECT_NEAR(move.final_position, move.holding_torque / 200.0, 1e-9);
   // The error dies out with the time constant of the linear loop.
-  const double tau = slowest_time_constant(200.0, p.plant, p.encoder, p.controller);
+  const double tau = theory::slowest_time_constant(200.0, p.plant, p.encoder, p.controller);
   EXPECT_GT(move.settling_time, 1.5 * tau);
   EXPECT_LT(move.settling_time, 6.0 * tau);
 }
 
 TEST(ALawOfTheTests, IsUnstableBeyondTheBoundOfItsStiffness) {
   for (const double factor : {0.5, 1.5}) {
-    TrialParameters p = first_trial("friction: {k1: 200}\n");
-    p.controller.ki = factor * sampled_critical_integral_gain(200.0, p.plant, p.encoder, p.controller);
-    std::vector<SampleRecord> records;
+    trial::TrialParameters p = first_trial("friction: {k1: 200}\n");
+    p.controller.ki =
+        factor * theory::sampled_critical_integral_gain(200.0, p.plant, p.encoder, p.controller);
+    std::vector<trial::SampleRecord> records;
     EXPECT_EQ(run(p, records).moves.at(0).stable, factor < 1.0);
   }
 }
 
 TEST(ALawOfTheTests, LeavesTheOthersAlone) {
   for (const std::string model : {"spring", "coulomb", "none"}) {
-    const TrialParameters p = first_trial("friction: {model: " + model + "}\n");
-    std::vector<SampleRecord> records;
-    EXPECT_EQ(run(p, records).moves.at(0).final_position, run_trial(p).moves.at(0).final_position) << model;
+    const trial::TrialParameters p = first_trial("friction: {model: " + model + "}\n");
+    std::vector<trial::SampleRecord> records;
+    EXPECT_EQ(run(p, records).moves.at(0).final_position, trial::run_trial(p).moves.at(0).final_position)
+        << model;
   }
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::study

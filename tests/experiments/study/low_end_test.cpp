@@ -13,7 +13,7 @@
 
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 class LowEndOfRandomDistributions : public ::testing::Test {
@@ -132,4 +132,4 @@ TEST(LowEnd, OfAProfileIsLeftToEachTrial) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::study

@@ -9,7 +9,7 @@
 #include "experiments/study/slots.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 using Combination = std::vector<double>;
@@ -96,4 +96,4 @@ TEST(PointLimits, AreTheSupportAndKnowWhetherItHasZero) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::study

@@ -12,7 +12,7 @@
 #include "experiments/study/rotors.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 const std::vector<std::string> designs_with_rigs{"monte_carlo", "latin_hypercube", "sobol"};
@@ -117,7 +117,7 @@ TEST(Rigs, AllPointsShareThemIndependentOrNot) {
 // What belongs to the machine and what a trial does with it, section by section.
 TEST(Rigs, TheMachineIsOfTheRigAndTheRestOfTheTrial) {
   const std::set<std::string> of_machine{"plant", "friction", "encoder", "dac", "amplifier", "controller"};
-  for (const Parameter& parameter : parameter_table()) {
+  for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     const std::string section(parameter.name.substr(0, parameter.name.find('.')));
     EXPECT_EQ(parameter.of_machine, of_machine.count(section) == 1) << parameter.name;
   }
@@ -164,7 +164,7 @@ TEST(Rigs, WhatATrialDrawsTellsNothingOfItsRig) {
 }
 
 TEST(Rigs, SobolPlacesAreAPermutationWithinEveryRoundOfTheRigs) {
-  const RandomKey key = sobol_place_key(1);
+  const random::RandomKey key = sobol_place_key(1);
   std::set<std::uint64_t> orders;
   for (std::uint64_t round = 0; round < 20; ++round) {
     std::set<std::uint64_t> places;
@@ -181,13 +181,13 @@ TEST(Rigs, AContactDrawsByItsNumberAndTheTrialAlone) {
   const Study study = rig_study("monte_carlo", 30, 60);
   std::set<double> values;
   for (std::int64_t i = 0; i < 60; ++i) {
-    const FrictionAlongRotor friction = study_trial(study, 0, i).parameters.friction;
-    const FrictionAlongRotor again = study_trial(study, 1, i).parameters.friction;
+    const friction::FrictionAlongRotor friction = study_trial(study, 0, i).parameters.friction;
+    const friction::FrictionAlongRotor again = study_trial(study, 1, i).parameters.friction;
     ASSERT_EQ(friction.per_contact.size(), 1U);
-    EXPECT_EQ(friction_at(friction, 0.3, 0).beta, input(study, "friction.beta", i));
+    EXPECT_EQ(friction::friction_at(friction, 0.3, 0).beta, input(study, "friction.beta", i));
     for (const std::int64_t contact : {0L, 1L, 2L, 1000L}) {
-      const double beta = friction_at(friction, 0.3, contact).beta;
-      EXPECT_EQ(beta, friction_at(again, 2.0, contact).beta);
+      const double beta = friction::friction_at(friction, 0.3, contact).beta;
+      EXPECT_EQ(beta, friction::friction_at(again, 2.0, contact).beta);
       EXPECT_TRUE(beta >= 1.0e5 && beta < 2.0e5);
       values.insert(beta);
     }
@@ -228,7 +228,8 @@ TEST(Rigs, AStudyWithoutThemCanDrawOnceForAllItsTrials) {
 
 // Rotors for which there is no room are made again, and are the same.
 TEST(Rotors, AreThoseOfTheirNumberKeptOrNot) {
-  const ProfileDescription description{110, 0.1, shortest_correlation_length, Marginal::lognormal};
+  const distributions::ProfileDescription description{110, 0.1, distributions::shortest_correlation_length,
+                                                      friction::Marginal::lognormal};
   const Rotors rotors(description, std::nullopt, 7, "friction.k1", 1'000'000);
   const Rotors others(description, std::nullopt, 7, "friction.k1", 10);
   for (const std::int64_t rig : {0L, 9L, 0L}) EXPECT_EQ(rotors.rotor(rig)->cosine, others.rotor(rig)->cosine);
@@ -238,15 +239,16 @@ TEST(Rotors, AreThoseOfTheirNumberKeptOrNot) {
 }
 
 TEST(Rotors, NoneLeavesTheBoundsKnownBefore) {
-  for (const Marginal marginal : {Marginal::lognormal, Marginal::normal}) {
-    const Rotors rotors({1, 0.2, 0.5, marginal}, DrawnMean{Lognormal{100, 0.3}, Design::monte_carlo, {}}, 7,
+  for (const friction::Marginal marginal : {friction::Marginal::lognormal, friction::Marginal::normal}) {
+    const Rotors rotors({1, 0.2, 0.5, marginal},
+                        DrawnMean{distributions::Lognormal{100, 0.3}, Design::monte_carlo, {}}, 7,
                         "friction.k1", 200);
-    EXPECT_TRUE(contains(rotors.bounds(), rotors.all_limits()));
+    EXPECT_TRUE(numerics::contains(rotors.bounds(), rotors.all_limits()));
     for (std::int64_t rig = 0; rig < 200; ++rig) {
-      EXPECT_TRUE(contains(rotors.all_limits(), value_at(*rotors.rotor(rig), 0.1)));
+      EXPECT_TRUE(numerics::contains(rotors.all_limits(), friction::value_at(*rotors.rotor(rig), 0.1)));
     }
   }
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::study

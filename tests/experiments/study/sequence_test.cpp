@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 struct RandomSequence {
@@ -100,4 +100,4 @@ TEST_F(SequenceProperties, CyclesFollowOnEachOtherAndAreAlike) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::study

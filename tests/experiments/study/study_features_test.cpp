@@ -7,14 +7,15 @@
 
 #include "experiments/manifest/load_study.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 StudyFeatures features_with(const std::string& more, int seed = 5) {
-  return study_features(parse_study(fmt::format("zerocount: 1\nname: features\nseed: {}\ntrials: 3\n"
-                                                "command: {{targets: [10], hold: 0.2}}\n{}\n",
-                                                seed, more),
-                                    "test"));
+  return study_features(
+      manifest::parse_study(fmt::format("zerocount: 1\nname: features\nseed: {}\ntrials: 3\n"
+                                        "command: {{targets: [10], hold: 0.2}}\n{}\n",
+                                        seed, more),
+                            "test"));
 }
 
 bool has_encoder_errors(const std::string& more, int seed = 5) {
@@ -88,4 +89,4 @@ TEST(StudyFeatures, OfTheSampleRecordsAreThoseOfTheTable) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::study

@@ -9,7 +9,7 @@
 #include "core/trial/trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
 const std::vector<std::string> designs{"monte_carlo", "latin_hypercube", "sobol"};
@@ -143,7 +143,7 @@ TEST(StudyTrial, IsFarQuickerThanATrial) {
     });
     const double running = seconds_of([&] {
       for (std::int64_t i = 0; i < run; ++i) {
-        sum += run_trial(study_trial(study, i % 12, i).parameters).moves[0].peak_torque;
+        sum += trial::run_trial(study_trial(study, i % 12, i).parameters).moves[0].peak_torque;
       }
     });
     EXPECT_GT(sum, 0.0);
@@ -152,4 +152,4 @@ TEST(StudyTrial, IsFarQuickerThanATrial) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::study

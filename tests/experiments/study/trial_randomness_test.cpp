@@ -8,35 +8,35 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
-namespace zerocount {
+namespace zerocount::study {
 namespace {
 
-std::vector<RandomKey> keys_of(const TrialRandomness& r) {
+std::vector<random::RandomKey> keys_of(const random::TrialRandomness& r) {
   return {r.history, r.fine_noise, r.fine_missed, r.coarse_noise, r.coarse_missed, r.dac_noise};
 }
 
 TEST(TrialRandomness, IsKeyedBySeedAndName) {
-  const TrialRandomness r =
+  const random::TrialRandomness r =
       study_trial(study_of(minimal_manifest(), {"seed=77"}), 0, 3).parameters.randomness;
-  EXPECT_EQ(r.history, random_key(77, "initial.history/levels"));
-  EXPECT_EQ(r.fine_noise, random_key(77, "encoder.fine_errors.noise/samples"));
-  EXPECT_EQ(r.fine_missed, random_key(77, "encoder.fine_errors.missed/samples"));
-  EXPECT_EQ(r.coarse_noise, random_key(77, "encoder.coarse_errors.noise/samples"));
-  EXPECT_EQ(r.coarse_missed, random_key(77, "encoder.coarse_errors.missed/samples"));
-  EXPECT_EQ(r.dac_noise, random_key(77, "dac.noise/samples"));
+  EXPECT_EQ(r.history, designs::random_key(77, "initial.history/levels"));
+  EXPECT_EQ(r.fine_noise, designs::random_key(77, "encoder.fine_errors.noise/samples"));
+  EXPECT_EQ(r.fine_missed, designs::random_key(77, "encoder.fine_errors.missed/samples"));
+  EXPECT_EQ(r.coarse_noise, designs::random_key(77, "encoder.coarse_errors.noise/samples"));
+  EXPECT_EQ(r.coarse_missed, designs::random_key(77, "encoder.coarse_errors.missed/samples"));
+  EXPECT_EQ(r.dac_noise, designs::random_key(77, "dac.noise/samples"));
 }
 
 TEST(TrialRandomness, SharesNoKeyWithAnyDrawOfTheStudy) {
-  std::set<RandomKey> keys;
+  std::set<random::RandomKey> keys;
   std::size_t count = 0;
-  for (const RandomKey& key :
+  for (const random::RandomKey& key :
        keys_of(study_trial(study_of(minimal_manifest()), 0, 0).parameters.randomness)) {
     keys.insert(key);
     ++count;
   }
-  for (const Parameter& parameter : parameter_table()) {
+  for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     EXPECT_EQ(parameter.name.find('/'), std::string_view::npos);
-    keys.insert(random_key(1, parameter.name));
+    keys.insert(designs::random_key(1, parameter.name));
     ++count;
   }
   EXPECT_EQ(keys.size(), count);
@@ -49,7 +49,7 @@ TEST(TrialRandomness, CountsTrialsAndPoints) {
                                  {independent ? "independent_points=true" : "independent_points=false"});
     for (std::int64_t point = 0; point < 3; ++point) {
       for (std::int64_t index = 0; index < study.trials; ++index) {
-        const TrialRandomness r = study_trial(study, point, index).parameters.randomness;
+        const random::TrialRandomness r = study_trial(study, point, index).parameters.randomness;
         EXPECT_EQ(r.trial, static_cast<std::uint64_t>(index));
         EXPECT_EQ(r.stream, independent ? static_cast<std::uint32_t>(point) + 1 : 0u);
       }
@@ -66,4 +66,4 @@ TEST(TrialRandomness, DoesNotDependOnTheRestOfTheManifest) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::study

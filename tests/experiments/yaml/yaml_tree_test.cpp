@@ -7,7 +7,7 @@
 
 #include "core/failure/failure.hpp"
 
-namespace zerocount {
+namespace zerocount::yaml {
 namespace {
 
 YamlPointer parse(const std::string& text, Problems& problems) {
@@ -144,4 +144,4 @@ TEST(YamlTree, MutilatedTextsNeverEscape) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::yaml

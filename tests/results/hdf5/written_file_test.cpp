@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t rows = 40000;  // three chunks
 
-Table numbers_table() {
+layout::Table numbers_table() {
   return {"numbers",
-          {"row", "1", "row", Element::int64, {}, ""},
+          {"row", "1", "row", hdf5::Element::int64, {}, ""},
           std::nullopt,
-          {{"value", "m", "a value", Element::int64, {}, ""}}};
+          {{"value", "m", "a value", hdf5::Element::int64, {}, ""}}};
 }
 
 /// Writes some of everything that results files have.
@@ -33,15 +33,16 @@ void fill(hdf5::File& file) {
   file.set_text("name", "µ");
   file.set_integer("number", -3);
   file.set_unsigned("seed", UINT64_MAX);
-  hdf5::Dataset labels = file.create_dataset("labels", {Element::text, {2}, {2}});
+  hdf5::Dataset labels = file.create_dataset("labels", {hdf5::Element::text, {2}, {2}});
   labels.write_texts(std::vector<std::string>{"one", "two"});
-  TableIo table = TableIo::create(file, numbers_table(), rows, 1);
+  layout::TableIo table = layout::TableIo::create(file, numbers_table(), rows, 1);
   table.number_rows(0);
   std::vector<std::int64_t> values(rows);
   std::iota(values.begin(), values.end(), 1000);
   for (std::int64_t first = 0; first < rows; first += 10000)
     table.column(0).write(first, 10000, &values[static_cast<std::size_t>(first)]);
-  TableIo::create(file, {"nothing", {"row", "1", "row", Element::int64, {}, ""}, std::nullopt, {}}, 0, 1);
+  layout::TableIo::create(
+      file, {"nothing", {"row", "1", "row", hdf5::Element::int64, {}, ""}, std::nullopt, {}}, 0, 1);
 }
 
 hdf5::WrittenValues write_file(const fs::path& path) {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zerocount {
+namespace zerocount::layout {
 namespace {
 
 bool matches(const std::string& text, const std::string& expression) {
@@ -39,4 +39,4 @@ TEST(Provenance, IsOfTheSameBuildByVersionAndCommit) {
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::layout

@@ -54,10 +54,10 @@ bool fits(const std::string& path, const std::string& described) {
   return !std::getline(path_steps, step, '/');
 }
 
-std::string type_name(Element element) {
-  const std::map<Element, std::string> names{{Element::float64, "float64"}, {Element::int64, "int64"},
-                                             {Element::int32, "int32"},     {Element::int8, "int8"},
-                                             {Element::flag, "uint8"},      {Element::text, "string"}};
+std::string type_name(hdf5::Element element) {
+  const std::map<hdf5::Element, std::string> names{
+      {hdf5::Element::float64, "float64"}, {hdf5::Element::int64, "int64"}, {hdf5::Element::int32, "int32"},
+      {hdf5::Element::int8, "int8"},       {hdf5::Element::flag, "uint8"},  {hdf5::Element::text, "string"}};
   return names.at(element);
 }
 
@@ -101,7 +101,7 @@ TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
       EXPECT_TRUE(row[4].starts_with(dataset.text("long_name")))
           << dataset.path() << ": " << dataset.text("long_name");
     }
-    if (dataset.has_attribute("flag_values") && dataset.element() == Element::int8) {
+    if (dataset.has_attribute("flag_values") && dataset.element() == hdf5::Element::int8) {
       std::istringstream words(dataset.text("flag_meanings"));
       for (std::string word; words >> word;)
         EXPECT_NE(row[4].find(word), std::string::npos) << dataset.path();

@@ -18,30 +18,30 @@ TEST(NumberText, ReadsBackToTheSameDouble) {
   for (int i = 0; i < 100000; ++i) {
     const double value = std::bit_cast<double>(random());
     if (!std::isfinite(value)) continue;
-    EXPECT_EQ(std::strtod(number_text(value).c_str(), nullptr), value);
+    EXPECT_EQ(std::strtod(reading::number_text(value).c_str(), nullptr), value);
   }
 }
 
 TEST(NumberText, IsShortAndNamesWhatIsNotANumber) {
-  EXPECT_EQ(number_text(0.1), "0.1");
-  EXPECT_EQ(number_text(-0.0), "-0");
-  EXPECT_EQ(number_text(3.85e-5), "3.85e-05");
-  EXPECT_EQ(number_text(0.0005), "0.0005");
-  EXPECT_EQ(number_text(std::numeric_limits<double>::quiet_NaN()), "nan");
-  EXPECT_EQ(number_text(-std::numeric_limits<double>::quiet_NaN()), "nan");
-  EXPECT_EQ(number_text(-std::numeric_limits<double>::infinity()), "-inf");
+  EXPECT_EQ(reading::number_text(0.1), "0.1");
+  EXPECT_EQ(reading::number_text(-0.0), "-0");
+  EXPECT_EQ(reading::number_text(3.85e-5), "3.85e-05");
+  EXPECT_EQ(reading::number_text(0.0005), "0.0005");
+  EXPECT_EQ(reading::number_text(std::numeric_limits<double>::quiet_NaN()), "nan");
+  EXPECT_EQ(reading::number_text(-std::numeric_limits<double>::quiet_NaN()), "nan");
+  EXPECT_EQ(reading::number_text(-std::numeric_limits<double>::infinity()), "-inf");
 }
 
 TEST(CsvField, IsQuotedWhereItMustBe) {
-  EXPECT_EQ(csv_field("plain text"), "plain text");
-  EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
-  EXPECT_EQ(csv_field("say \"no\""), "\"say \"\"no\"\"\"");
-  EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
+  EXPECT_EQ(reading::csv_field("plain text"), "plain text");
+  EXPECT_EQ(reading::csv_field("a,b"), "\"a,b\"");
+  EXPECT_EQ(reading::csv_field("say \"no\""), "\"say \"\"no\"\"\"");
+  EXPECT_EQ(reading::csv_field("two\nlines"), "\"two\nlines\"");
 }
 
 TEST(CsvFile, QuotesWhatNeedsQuotes) {
   const TemporaryFolder directory;
-  CsvFile csv(directory / "a.csv");
+  reading::CsvFile csv(directory / "a.csv");
   csv.add("plain text");
   csv.add("a,b");
   csv.add("say \"no\"");
@@ -59,10 +59,10 @@ TEST(CsvFile, QuotesWhatNeedsQuotes) {
 }
 
 TEST(Csv, AColumnHasItsUnitInBrackets) {
-  EXPECT_EQ(head_with_unit("settling_time", "s"), "settling_time [s]");
-  EXPECT_EQ(head_with_unit("friction.k1", "N m/rad"), "friction.k1 [N m/rad]");
-  EXPECT_EQ(head_with_unit("success_rate", "1"), "success_rate");
-  EXPECT_EQ(head_with_unit("case", ""), "case");
+  EXPECT_EQ(reading::head_with_unit("settling_time", "s"), "settling_time [s]");
+  EXPECT_EQ(reading::head_with_unit("friction.k1", "N m/rad"), "friction.k1 [N m/rad]");
+  EXPECT_EQ(reading::head_with_unit("success_rate", "1"), "success_rate");
+  EXPECT_EQ(reading::head_with_unit("case", ""), "case");
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ class DamagedFile : public ::testing::Test {
   }
 
   TemporaryFolder directory;
-  Study study = sample_study(2, 30, 2);
+  study::Study study = sample_study(2, 30, 2);
   fs::path original = write_sample_file(directory.path(), study);
 };
 
@@ -45,14 +45,14 @@ TEST_F(DamagedFile, OfAnotherFormatIsSaidToBe) {
   expect_bad(directory / "empty.h5", "not in the HDF5 format");
   write_empty_hdf5(directory / "foreign.h5");
   expect_bad(directory / "foreign.h5", "the checksum at its end is missing");
-  append_checksum(directory / "foreign.h5");
+  storage::append_checksum(directory / "foreign.h5");
   expect_bad(directory / "foreign.h5", "foreign.h5: not a results file of zerocount");
   replace_attribute(copy("format.h5"), "format", std::string("else"));
   expect_bad(directory / "format.h5", "format.h5: its format is 'else'; expected 'zerocount-study'");
 }
 
 TEST_F(DamagedFile, OfANewerVersionIsSaidToBe) {
-  replace_attribute(copy("newer.h5"), "format_version", format_version + 1);
+  replace_attribute(copy("newer.h5"), "format_version", layout::format_version + 1);
   expect_bad(directory / "newer.h5", "newer.h5: its format version is 4, newer than the 3");
   replace_attribute(copy("older.h5"), "format_version", 0);
   expect_bad(directory / "older.h5", "its format version is 0; expected 1 to 3");
@@ -64,8 +64,8 @@ TEST_F(DamagedFile, ThatWasNeverFinishedIsSaidToBe) {
 }
 
 TEST_F(DamagedFile, ThatIsAShardIsIncomplete) {
-  const ShardInfo shard = write_sample_shard(directory.path(), study, all_rows(study));
-  expect_failure(ExitCode::bad_data, "incomplete", [&] { StudyFile{shard.path}; });
+  const shards::ShardInfo shard = write_sample_shard(directory.path(), study, layout::all_rows(study));
+  expect_failure(ExitCode::bad_data, "incomplete", [&] { reading::StudyFile{shard.path}; });
 }
 
 TEST_F(DamagedFile, WhoseAttributesContradictTheContentsIsFound) {
@@ -100,7 +100,7 @@ TEST_F(DamagedFile, WithOneFlippedBitOfAColumnFailsItsChecksums) {
     write_bytes(path, damaged);
     expect_bad(path, "changed since it was written, or damaged");
     unseal(path);
-    append_checksum(path);
+    storage::append_checksum(path);
     expect_bad(path, column);
     expect_bad(path, "their checksum is wrong");
   }

@@ -40,10 +40,10 @@ std::vector<std::vector<std::string>> read_table(const fs::path& path) {
 class Export : public ::testing::Test {
  protected:
   TemporaryFolder directory;
-  Study study = sample_study();
-  StudyFile file{write_sample_file(directory.path(), study)};
+  study::Study study = sample_study();
+  reading::StudyFile file{write_sample_file(directory.path(), study)};
   fs::path out = directory / "csv";
-  std::vector<fs::path> written = export_csv(file, out);
+  std::vector<fs::path> written = reading::export_csv(file, out);
 };
 
 TEST_F(Export, WritesEveryTable) {
@@ -76,14 +76,14 @@ TEST_F(Export, TrialsHaveTheirInputs) {
     EXPECT_EQ(
         rows[static_cast<std::size_t>(row) + 1],
         (std::vector<std::string>{std::to_string(row), std::to_string(row / 40), std::to_string(row % 40),
-                                  number_text(inputs[0]), number_text(inputs[1])}));
+                                  reading::number_text(inputs[0]), reading::number_text(inputs[1])}));
   }
 }
 
 TEST_F(Export, OutcomesHaveOneRowPerMoveAndWordsForVerdicts) {
   const auto rows = read_table(out / "outcomes.csv");
   ASSERT_EQ(rows.size(), 241U);
-  const std::vector<MoveOutcome> outcomes = file.outcomes(file.rows());
+  const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
   const std::vector<std::string> words{"zero_count", "one_count", "oscillating",
                                        "nonfinite",  "open_loop", "off_target"};
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -91,7 +91,7 @@ TEST_F(Export, OutcomesHaveOneRowPerMoveAndWordsForVerdicts) {
     EXPECT_EQ(rows[i + 1][1], std::to_string(i % 2));
     EXPECT_EQ(rows[i + 1][2], words[static_cast<std::size_t>(outcomes[i].outcome)]);
     EXPECT_EQ(rows[i + 1][3], outcomes[i].arrived ? "1" : "0");
-    EXPECT_EQ(rows[i + 1][5], number_text(outcomes[i].settling_time));
+    EXPECT_EQ(rows[i + 1][5], reading::number_text(outcomes[i].settling_time));
   }
 }
 
@@ -101,7 +101,7 @@ TEST_F(Export, JerksProfilesAndTraceAreWhole) {
   EXPECT_EQ(jerks[0], (std::vector<std::string>{"trial", "move", "onset [s]", "duration [s]",
                                                 "magnitude [count]", "direction"}));
   const auto profiles = read_table(out / "profiles.csv");
-  EXPECT_EQ(std::ssize(profiles), profile_angles + 1);
+  EXPECT_EQ(std::ssize(profiles), layout::profile_angles + 1);
   EXPECT_EQ(profiles[0], (std::vector<std::string>{"profile", "theta [rad]", "value", "unit of value"}));
   EXPECT_EQ(profiles[1][0], "friction.k1");
   EXPECT_EQ(profiles[1][3], "N m/rad");
@@ -122,21 +122,22 @@ TEST_F(Export, TablesOfStatisticsHaveOneRowPerPointAndIndex) {
   const std::vector<double> expected = sample_table(file).columns[0].values;
   for (std::size_t row = 0; row < 6; ++row) {
     EXPECT_EQ(levels[row + 1], (std::vector<std::string>{std::to_string(row / 2), std::to_string(row % 2),
-                                                         number_text(expected[row])}));
+                                                         reading::number_text(expected[row])}));
   }
 }
 
 TEST_F(Export, NeverOverwrites) {
-  expect_failure(ExitCode::bad_input, "points.csv: exists already", [&] { export_csv(file, out); });
+  expect_failure(ExitCode::bad_input, "points.csv: exists already", [&] { reading::export_csv(file, out); });
 }
 
 TEST(ExportOfAPart, HasItsOwnTrialsOnly) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  const RowRange rows{30, 25};
+  const study::Study study = sample_study();
+  const layout::RowRange rows{30, 25};
   const auto shards = write_sample_shards(directory / "shards", study, rows, 10);
-  merge_shards(shards, study, directory / "part.h5", rows, {});
-  export_csv(StudyFile(directory / "part.h5", Require::any_part), directory / "csv");
+  shards::merge_shards(shards, study, directory / "part.h5", rows, {});
+  reading::export_csv(reading::StudyFile(directory / "part.h5", reading::Require::any_part),
+                      directory / "csv");
   const auto trials = read_table(directory.path() / "csv" / "trials.csv");
   ASSERT_EQ(trials.size(), 26U);
   EXPECT_EQ(trials[1][0], "30");

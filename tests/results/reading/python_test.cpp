@@ -10,7 +10,7 @@ namespace {
 
 /// Opens the file with the libraries that its users have; their absence is a failure too.
 void expect_python_opens(const std::filesystem::path& path, const std::filesystem::path& output) {
-  const StudyFile file(path);
+  const reading::StudyFile file(path);
   const std::string command = fmt::format(
       "{} {} {} {} {} {} {} > {} 2>&1", ZEROCOUNT_PYTHON, ZEROCOUNT_OPEN_WITH_PYTHON, path.string(),
       file.rows().count, file.moves(), file.jerk_count(), file.trace_count(), output.string());
@@ -30,19 +30,19 @@ TEST(Python, OpensAFileWithRigs) {
 
 TEST(Python, OpensAFileWhoseTablesAreEmpty) {
   const TemporaryFolder directory;
-  Study study = sample_study(1, 4, 1);
+  study::Study study = sample_study(1, 4, 1);
   study.overrides.clear();
   study.profiles.clear();
   study.axes.clear();
-  std::vector<TrialResult> results(4);
+  std::vector<shards::TrialResult> results(4);
   for (std::int64_t row = 0; row < 4; ++row) {
     results[static_cast<std::size_t>(row)].row = row;
     results[static_cast<std::size_t>(row)].inputs = {1.0, 2.0};
     results[static_cast<std::size_t>(row)].outcome.moves.resize(1);
   }
-  write_shard(directory / "shard.h5", study, 0, results);
-  const std::vector<ShardInfo> shards{{directory / "shard.h5", {0, 4}}};
-  merge_shards(shards, study, directory / "empty.h5", {0, 4}, {});
+  shards::write_shard(directory / "shard.h5", study, 0, results);
+  const std::vector<shards::ShardInfo> shards{{directory / "shard.h5", {0, 4}}};
+  shards::merge_shards(shards, study, directory / "empty.h5", {0, 4}, {});
   expect_python_opens(directory / "empty.h5", directory / "output");
 }
 

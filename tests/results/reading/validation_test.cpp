@@ -22,7 +22,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Everything that a file can be asked for.
 void read_all(const fs::path& path) {
-  const StudyFile file(path);
+  const reading::StudyFile file(path);
   file.require_sound_values();
 }
 
@@ -46,7 +46,7 @@ class SoundValues : public ::testing::Test {
     hdf5::File file = hdf5::File::open_to_change(path);
     write_row(file.open_dataset(dataset), row, value);
     file.close();
-    append_checksum(path);
+    storage::append_checksum(path);
     return path;
   }
 
@@ -59,7 +59,7 @@ class SoundValues : public ::testing::Test {
 
   /// The first trial at which `measure` is at least `least`.
   std::int64_t trial_with(const std::string& measure, double least) const {
-    const StudyFile file(original);
+    const reading::StudyFile file(original);
     const std::vector<double> values = file.measure(measure, file.rows());
     std::size_t at = 0;
     while (!(values.at(at) >= least)) ++at;
@@ -67,7 +67,7 @@ class SoundValues : public ::testing::Test {
   }
 
   TemporaryFolder directory;
-  Study study = sample_study(2, 30, 2);
+  study::Study study = sample_study(2, 30, 2);
   fs::path original = write_sample_file(directory.path(), study);
 };
 
@@ -101,7 +101,7 @@ TEST_F(SoundValues, AMoveThatArrivedHasASettlingTime) {
 }
 
 TEST_F(SoundValues, AreAskedOfOneMeasureAlone) {
-  const StudyFile file(forged("outcome/outcome", 41, std::int8_t{77}));
+  const reading::StudyFile file(forged("outcome/outcome", 41, std::int8_t{77}));
   expect_failure(ExitCode::bad_data, "/outcome/outcome: trial 41, move 0", [&] {
     file.measure("outcome", {40, 2});
   });
@@ -130,7 +130,7 @@ TEST_F(SoundValues, JerksOfATrialAreInTheirOrder) {
   const std::int64_t trial = trial_with("jerk_count", 2.0);
   std::int64_t first = 0;
   {
-    const StudyFile file(original);
+    const reading::StudyFile file(original);
     while (file.jerks_at(first, 1).front().trial < trial) ++first;
   }
   const fs::path path = forged("jerk/onset", first, 1e9);

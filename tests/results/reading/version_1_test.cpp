@@ -19,14 +19,14 @@ namespace {
 class Version1 : public ::testing::Test {
  protected:
   TemporaryFolder folder;
-  StudyFile file{version_1_file(folder.path())};
+  reading::StudyFile file{version_1_file(folder.path())};
 };
 
 TEST_F(Version1, IsWholeAndKnownAsSuch) {
   EXPECT_EQ(file.header().version, 1);
   EXPECT_TRUE(file.header().complete);
   EXPECT_EQ(file.header().name, "version-1");
-  EXPECT_EQ(file.rows(), (RowRange{0, 6}));
+  EXPECT_EQ(file.rows(), (layout::RowRange{0, 6}));
   EXPECT_EQ(file.moves(), 2);
   EXPECT_EQ(file.measures().size(), 15U);
   read_everything(file.path());
@@ -34,17 +34,17 @@ TEST_F(Version1, IsWholeAndKnownAsSuch) {
 
 TEST_F(Version1, HasItsMeasuresAsTheyWereWritten) {
   // By h5dump of the file.
-  const std::vector<MoveOutcome> moves = file.outcomes(file.rows());
+  const std::vector<trial::MoveOutcome> moves = file.outcomes(file.rows());
   ASSERT_EQ(moves.size(), 12U);
   const std::vector<std::int64_t> arrivals{66, 53, 33, 28, 49, 45, -1, -1, -1, -1, -1, -1};
   for (std::size_t i = 0; i < moves.size(); ++i) {
-    EXPECT_EQ(moves[i].outcome, i < 6 ? Outcome::zero_count : Outcome::oscillating);
+    EXPECT_EQ(moves[i].outcome, i < 6 ? trial::Outcome::zero_count : trial::Outcome::oscillating);
     EXPECT_EQ(moves[i].arrival, arrivals[i]);
   }
 }
 
 TEST_F(Version1, LacksMeasuresThatWereZeroOrAreNotKnown) {
-  const MoveOutcome move = file.outcomes({3, 1})[0];
+  const trial::MoveOutcome move = file.outcomes({3, 1})[0];
   EXPECT_EQ(move.travel_time, 0.0);
   EXPECT_EQ(move.phase_changes, 0);
   EXPECT_EQ(move.encoder_disagreement, 0);
@@ -62,42 +62,50 @@ TEST_F(Version1, LacksMeasuresThatWereZeroOrAreNotKnown) {
 }
 
 TEST_F(Version1, HasSampleRecordsWhoseReferenceIsTheTarget) {
-  const std::vector<TraceRecord> records = file.trace_at(0, file.trace_count());
+  const std::vector<layout::TraceRecord> records = file.trace_at(0, file.trace_count());
   ASSERT_EQ(records.size(), 400U);
-  for (const TraceRecord& record : records) {
+  for (const layout::TraceRecord& record : records) {
     EXPECT_EQ(record.reference, record.target);
     EXPECT_EQ(record.error, record.target - record.count);
-    EXPECT_EQ(record.phase, ControlPhase::fine);
+    EXPECT_EQ(record.phase, loop::ControlPhase::fine);
     EXPECT_EQ(record.drive_torque, record.torque);
   }
 }
 
 TEST_F(Version1, IsOfAStudyWithTheDefaultsOfItsTime) {
-  const StudyTrial recorded = study_trial(recorded_study(file.header(), file.path()), 0, 1);
+  const study::StudyTrial recorded =
+      study::study_trial(layout::recorded_study(file.header(), file.path()), 0, 1);
   EXPECT_EQ(recorded.parameters.friction.uniform.beta, 2.0e5);
-  EXPECT_EQ(recorded.parameters.friction.uniform.alpha, FrictionParameters{}.alpha);
-  const Study today = parse_study(file.header().manifest, "today.yaml", file.header().overrides);
-  EXPECT_EQ(study_trial(today, 0, 1).parameters.friction.uniform.beta, FrictionParameters{}.beta);
+  EXPECT_EQ(recorded.parameters.friction.uniform.alpha, friction::FrictionParameters{}.alpha);
+  const study::Study today =
+      manifest::parse_study(file.header().manifest, "today.yaml", file.header().overrides);
+  EXPECT_EQ(study::study_trial(today, 0, 1).parameters.friction.uniform.beta,
+            friction::FrictionParameters{}.beta);
 }
 
 TEST(EarlierDefaults, AreOfEarlierVersionsAndAreNoLongerTheDefault) {
-  for (const EarlierDefault& earlier : earlier_defaults()) {
+  for (const parameters::EarlierDefault& earlier : parameters::earlier_defaults()) {
     EXPECT_GE(earlier.until_version, 1) << earlier.name;
-    EXPECT_LT(earlier.until_version, format_version) << earlier.name;
-    const auto row = find_parameter(earlier.name);
+    EXPECT_LT(earlier.until_version, layout::format_version) << earlier.name;
+    const auto row = parameters::find_parameter(earlier.name);
     ASSERT_TRUE(row) << earlier.name;
-    const Parameter& parameter = parameter_table()[*row];
-    EXPECT_TRUE(contains(parameter.range, earlier.value)) << earlier.name;
-    EXPECT_EQ(default_value_in(parameter, earlier.until_version), earlier.value) << earlier.name;
-    EXPECT_NE(default_value_in(parameter, earlier.until_version + 1), earlier.value) << earlier.name;
-    EXPECT_EQ(default_value_in(parameter, format_version), default_value(parameter)) << earlier.name;
-    EXPECT_EQ(default_value_in(parameter, newest_version), default_value(parameter)) << earlier.name;
+    const parameters::Parameter& parameter = parameters::parameter_table()[*row];
+    EXPECT_TRUE(numerics::contains(parameter.range, earlier.value)) << earlier.name;
+    EXPECT_EQ(parameters::default_value_in(parameter, earlier.until_version), earlier.value) << earlier.name;
+    EXPECT_NE(parameters::default_value_in(parameter, earlier.until_version + 1), earlier.value)
+        << earlier.name;
+    EXPECT_EQ(parameters::default_value_in(parameter, layout::format_version),
+              parameters::default_value(parameter))
+        << earlier.name;
+    EXPECT_EQ(parameters::default_value_in(parameter, parameters::newest_version),
+              parameters::default_value(parameter))
+        << earlier.name;
   }
 }
 
 TEST_F(Version1, IsExportedWithTheColumnsItHas) {
   EXPECT_TRUE(file.statistic_tables().empty());
-  export_csv(file, folder / "csv");
+  reading::export_csv(file, folder / "csv");
   std::ifstream outcomes(folder / "csv/outcomes.csv"), trace(folder / "csv/trace.csv");
   std::string header;
   std::getline(outcomes, header);

@@ -17,9 +17,9 @@ namespace zerocount::testing {
 namespace {
 
 /// What a run does: looks at what is there, and writes the rest as shards.
-void run_what_is_missing(const std::filesystem::path& directory, const Study& study) {
-  const ShardSurvey survey = list_shards(directory, study);
-  for (const RowRange& range : missing_ranges(survey.shards, all_rows(study))) {
+void run_what_is_missing(const std::filesystem::path& directory, const study::Study& study) {
+  const shards::ShardSurvey survey = shards::list_shards(directory, study);
+  for (const layout::RowRange& range : shards::missing_ranges(survey.shards, layout::all_rows(study))) {
     write_sample_shards(directory, study, range, 12);
   }
 }
@@ -41,7 +41,8 @@ bool finishes_before(std::chrono::microseconds delay, Action action) {
 
 /// Runs the study again and again, killed at random moments, until it finishes; the number of times it was
 /// killed.
-int kill_until_finished(const std::filesystem::path& directory, const Study& study, std::mt19937& random) {
+int kill_until_finished(const std::filesystem::path& directory, const study::Study& study,
+                        std::mt19937& random) {
   int killed = 0;
   std::size_t before = 0;
   for (bool finished = false; !finished && killed < 200;) {
@@ -50,8 +51,8 @@ int kill_until_finished(const std::filesystem::path& directory, const Study& stu
     const std::chrono::microseconds delay(1000 + random() % longest);
     finished = finishes_before(delay, [&] { run_what_is_missing(directory, study); });
     killed += finished ? 0 : 1;
-    const ShardSurvey survey = list_shards(directory, study);
-    for (const ShardProblem& problem : survey.problems) ADD_FAILURE() << problem.problem;
+    const shards::ShardSurvey survey = shards::list_shards(directory, study);
+    for (const shards::ShardProblem& problem : survey.problems) ADD_FAILURE() << problem.problem;
     EXPECT_GE(survey.shards.size(), before);
     before = survey.shards.size();
   }
@@ -60,7 +61,7 @@ int kill_until_finished(const std::filesystem::path& directory, const Study& stu
 
 TEST(KilledWriter, LeavesOnlyWholeShardsAndTheRestResumes) {
   const TemporaryFolder directory;
-  const Study study = sample_study(3, 40, 2);
+  const study::Study study = sample_study(3, 40, 2);
   const std::filesystem::path reference = write_sample_file(directory.path(), study, 50);
   std::mt19937 random(13);
   int killed = 0;
@@ -69,8 +70,8 @@ TEST(KilledWriter, LeavesOnlyWholeShardsAndTheRestResumes) {
     const std::filesystem::path output = directory / fmt::format("resumed{}.h5", round);
     std::filesystem::create_directory(shards);
     killed += kill_until_finished(shards, study, random);
-    merge_shards(list_shards(shards, study).shards, study, output, all_rows(study), sample_statistics,
-                 sample_provenance());
+    shards::merge_shards(shards::list_shards(shards, study).shards, study, output, layout::all_rows(study),
+                         sample_statistics, sample_provenance());
     EXPECT_EQ(stored_datasets(output), stored_datasets(reference));
   }
   EXPECT_GT(killed, 3);
@@ -78,15 +79,16 @@ TEST(KilledWriter, LeavesOnlyWholeShardsAndTheRestResumes) {
 
 TEST(KilledWriter, OfAMergeLeavesNoOutputOrAWholeOne) {
   const TemporaryFolder directory;
-  const Study study = sample_study(3, 40, 2);
+  const study::Study study = sample_study(3, 40, 2);
   const std::filesystem::path reference = write_sample_file(directory.path(), study, 50);
-  const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 20);
+  const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 20);
   const std::filesystem::path output = directory / "all.h5";
   std::mt19937 random(17);
   for (int repetition = 0; repetition < 30; ++repetition) {
     const std::chrono::microseconds delay(random() % 60000);
     finishes_before(delay, [&] {
-      merge_shards(shards, study, output, all_rows(study), sample_statistics, sample_provenance());
+      shards::merge_shards(shards, study, output, layout::all_rows(study), sample_statistics,
+                           sample_provenance());
     });
     if (!std::filesystem::exists(output)) continue;
     EXPECT_EQ(stored_datasets(output), stored_datasets(reference));

@@ -22,10 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Shards of `rows` cut at random places.
-std::vector<ShardInfo> random_shards(const fs::path& directory, const Study& study, RowRange rows,
-                                     std::mt19937& random) {
+std::vector<shards::ShardInfo> random_shards(const fs::path& directory, const study::Study& study,
+                                             layout::RowRange rows, std::mt19937& random) {
   fs::create_directories(directory);
-  std::vector<ShardInfo> shards;
+  std::vector<shards::ShardInfo> shards;
   while (rows.count > 0) {
     const std::int64_t count =
         std::min<std::int64_t>(rows.count, 1 + static_cast<std::int64_t>(random()) % 60);
@@ -36,34 +36,35 @@ std::vector<ShardInfo> random_shards(const fs::path& directory, const Study& stu
   return shards;
 }
 
-fs::path merged(const fs::path& path, const Study& study, std::span<const ShardInfo> shards) {
-  merge_shards(shards, study, path, all_rows(study), sample_statistics, sample_provenance());
+fs::path merged(const fs::path& path, const study::Study& study, std::span<const shards::ShardInfo> shards) {
+  shards::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics, sample_provenance());
   return path;
 }
 
 TEST(Merge, KeepsEverythingOfEveryTrial) {
   const TemporaryFolder directory;
-  const Study study = sample_study(4, 50, 3);
-  const StudyFile file(write_sample_file(directory.path(), study));
+  const study::Study study = sample_study(4, 50, 3);
+  const reading::StudyFile file(write_sample_file(directory.path(), study));
   expect_sound(file.path());
   EXPECT_TRUE(file.header().complete);
   EXPECT_EQ(file.header().seed, study.seed);
   EXPECT_EQ(file.moves(), 3);
-  EXPECT_EQ(file.measures().size(), outcome_fields().size() + 1);  // and whether it was stopped
+  EXPECT_EQ(file.measures().size(), layout::outcome_fields().size() + 1);  // and whether it was stopped
   std::int64_t jerk = 0;
   std::int64_t record = 0;
-  for (std::int64_t row = 0; row < trial_count(study); ++row) {
-    const TrialResult expected = sample_result(study, row);
+  for (std::int64_t row = 0; row < study::trial_count(study); ++row) {
+    const shards::TrialResult expected = sample_result(study, row);
     EXPECT_EQ(file.inputs_of(row), expected.inputs);
     expect_equal_records(file.measures(), file.outcomes({row, 1}), expected.outcome.moves);
-    std::vector<JerkRecord> jerks;
-    for (const Jerk& each : expected.jerks) jerks.push_back({each, row});
-    expect_equal_records(jerk_fields(), file.jerks({row, 1}), jerks);
-    expect_equal_records(jerk_fields(), file.jerks_at(jerk, std::ssize(jerks)), jerks);
+    std::vector<layout::JerkRecord> jerks;
+    for (const trial::Jerk& each : expected.jerks) jerks.push_back({each, row});
+    expect_equal_records(layout::jerk_fields(), file.jerks({row, 1}), jerks);
+    expect_equal_records(layout::jerk_fields(), file.jerks_at(jerk, std::ssize(jerks)), jerks);
     jerk += std::ssize(jerks);
-    std::vector<TraceRecord> trace;
-    for (const SampleRecord& each : expected.trace) trace.push_back({each, row});
-    expect_equal_records(trace_fields(study.trace_extras), file.trace_at(record, std::ssize(trace)), trace);
+    std::vector<layout::TraceRecord> trace;
+    for (const trial::SampleRecord& each : expected.trace) trace.push_back({each, row});
+    expect_equal_records(layout::trace_fields(study.trace_extras), file.trace_at(record, std::ssize(trace)),
+                         trace);
     record += std::ssize(trace);
   }
   EXPECT_EQ(jerk, file.jerk_count());
@@ -72,28 +73,28 @@ TEST(Merge, KeepsEverythingOfEveryTrial) {
 
 TEST(Merge, HasNoColumnForWhatTheStudyDoesNotUse) {
   const TemporaryFolder directory;
-  Study study = sample_study();
+  study::Study study = sample_study();
   study.outcome_extras = {};
-  const StudyFile file(write_sample_file(directory.path(), study));
+  const reading::StudyFile file(write_sample_file(directory.path(), study));
   EXPECT_FALSE(file.root().open_group("outcome").contains("stopped"));
-  EXPECT_EQ(file.measures().size(), outcome_fields().size());
-  for (const MoveOutcome& move : file.outcomes(file.rows())) EXPECT_FALSE(move.stopped);
+  EXPECT_EQ(file.measures().size(), layout::outcome_fields().size());
+  for (const trial::MoveOutcome& move : file.outcomes(file.rows())) EXPECT_FALSE(move.stopped);
   const auto moves = static_cast<std::size_t>(file.rows().count * file.moves());
   EXPECT_EQ(file.measure("stopped", file.rows()), std::vector<double>(moves, 0.0));
 }
 
 TEST(Merge, KeepsWhatIsKnownOfThePoints) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  const StudyFile file(write_sample_file(directory.path(), study));
+  const study::Study study = sample_study();
+  const reading::StudyFile file(write_sample_file(directory.path(), study));
   EXPECT_EQ(file.point_labels(), study.point_labels);
-  const std::vector<SweepAxis> axes = file.axes();
+  const std::vector<study::SweepAxis> axes = file.axes();
   ASSERT_EQ(axes.size(), 2U);
   EXPECT_EQ(axes[0].name, "controller.ki");
   EXPECT_EQ(axes[0].unit, "N m/count");
   EXPECT_TRUE(std::isnan(axes[0].numbers[0]));
   EXPECT_EQ(axes[0].numbers[2], study.axes[0].numbers[2]);
-  EXPECT_EQ(axes[1].kind, SweepAxis::Kind::text);
+  EXPECT_EQ(axes[1].kind, study::SweepAxis::Kind::text);
   EXPECT_EQ(axes[1].texts, study.axes[1].texts);
   ASSERT_EQ(file.statistics().size(), 2U);
   EXPECT_EQ(file.statistics()[0].values, std::vector<double>(3, 40.0));
@@ -104,21 +105,21 @@ TEST(Merge, KeepsWhatIsKnownOfThePoints) {
 
 TEST(Merge, KeepsTablesOfStatisticsAndFurtherGroups) {
   const TemporaryFolder directory;
-  const Study study = sample_study(3, 40, 2);
-  const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 50);
-  const StatisticsOfPoints statistics = [](const StudyFile& file) {
-    StoredStatistics stored = sample_statistics(file);
+  const study::Study study = sample_study(3, 40, 2);
+  const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 50);
+  const shards::StatisticsOfPoints statistics = [](const reading::StudyFile& file) {
+    layout::StoredStatistics stored = sample_statistics(file);
     stored.groups = [](hdf5::File& output) { output.create_group("further").set_integer("answer", 42); };
     return stored;
   };
-  merge_shards(shards, study, directory / "all.h5", all_rows(study), statistics);
-  const StudyFile file(directory / "all.h5");
-  const std::vector<StatisticTable> tables = file.statistic_tables();
+  shards::merge_shards(shards, study, directory / "all.h5", layout::all_rows(study), statistics);
+  const reading::StudyFile file(directory / "all.h5");
+  const std::vector<layout::StatisticTable> tables = file.statistic_tables();
   ASSERT_EQ(tables.size(), 1U);
-  EXPECT_EQ(tables[0].group, &level_group());
+  EXPECT_EQ(tables[0].group, &layout::level_group());
   EXPECT_EQ(tables[0].width, 2);
   ASSERT_EQ(tables[0].columns.size(), 1U);
-  const PointColumn expected = sample_table(file).columns[0];
+  const layout::PointColumn expected = sample_table(file).columns[0];
   EXPECT_EQ(tables[0].columns[0].name, expected.name);
   EXPECT_EQ(tables[0].columns[0].unit, expected.unit);
   EXPECT_EQ(tables[0].columns[0].values, expected.values);
@@ -127,28 +128,28 @@ TEST(Merge, KeepsTablesOfStatisticsAndFurtherGroups) {
 
 TEST(Merge, RefusesATableOfStatisticsThatIsNotOfItsPoints) {
   const TemporaryFolder directory;
-  const Study study = sample_study(3, 40, 2);
-  const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 50);
-  const StatisticsOfPoints statistics = [](const StudyFile& file) {
-    StoredStatistics stored = sample_statistics(file);
+  const study::Study study = sample_study(3, 40, 2);
+  const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 50);
+  const shards::StatisticsOfPoints statistics = [](const reading::StudyFile& file) {
+    layout::StoredStatistics stored = sample_statistics(file);
     stored.tables[0].columns[0].values.pop_back();
     return stored;
   };
-  EXPECT_THROW(merge_shards(shards, study, directory / "all.h5", all_rows(study), statistics),
+  EXPECT_THROW(shards::merge_shards(shards, study, directory / "all.h5", layout::all_rows(study), statistics),
                std::invalid_argument);
 }
 
 TEST(Merge, KeepsOnlyTheColumnsOfSampleRecordsThatTheStudyHas) {
   const TemporaryFolder directory;
-  Study study = sample_study(1, 5, 1);
+  study::Study study = sample_study(1, 5, 1);
   study.trace_extras = {false, true, false};
-  const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 2);
-  const StudyFile file(merged(directory / "all.h5", study, shards));
+  const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 2);
+  const reading::StudyFile file(merged(directory / "all.h5", study, shards));
   EXPECT_FALSE(file.trace_extras().reference);
   EXPECT_TRUE(file.trace_extras().phase);
   EXPECT_FALSE(file.trace_extras().drive_torque);
-  const std::vector<SampleRecord> written = sample_result(study, 0).trace;
-  const std::vector<TraceRecord> read = file.trace_at(0, file.trace_count());
+  const std::vector<trial::SampleRecord> written = sample_result(study, 0).trace;
+  const std::vector<layout::TraceRecord> read = file.trace_at(0, file.trace_count());
   ASSERT_EQ(read.size(), written.size());
   for (std::size_t i = 0; i < read.size(); ++i) {
     EXPECT_EQ(read[i].theta, written[i].theta);
@@ -160,22 +161,22 @@ TEST(Merge, KeepsOnlyTheColumnsOfSampleRecordsThatTheStudyHas) {
 
 TEST(Merge, TabulatesTheProfiles) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  const StudyFile file(write_sample_file(directory.path(), study));
+  const study::Study study = sample_study();
+  const reading::StudyFile file(write_sample_file(directory.path(), study));
   ASSERT_EQ(file.profiles().size(), 1U);
-  const StoredProfile profile = file.profiles()[0];
+  const reading::StoredProfile profile = file.profiles()[0];
   EXPECT_EQ(profile.name, "friction.k1");
-  ASSERT_EQ(profile.theta.size(), static_cast<std::size_t>(profile_angles));
+  ASSERT_EQ(profile.theta.size(), static_cast<std::size_t>(layout::profile_angles));
   for (std::size_t i = 0; i < profile.theta.size(); i += 97) {
-    EXPECT_EQ(profile.value[i], value_at(*study.profiles[0].profile, profile.theta[i]));
+    EXPECT_EQ(profile.value[i], friction::value_at(*study.profiles[0].profile, profile.theta[i]));
   }
 }
 
 TEST(Merge, ReadsOneMeasureAsNumbers) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  const StudyFile file(write_sample_file(directory.path(), study));
-  const std::vector<MoveOutcome> outcomes = file.outcomes({10, 30});
+  const study::Study study = sample_study();
+  const reading::StudyFile file(write_sample_file(directory.path(), study));
+  const std::vector<trial::MoveOutcome> outcomes = file.outcomes({10, 30});
   const std::vector<double> verdicts = file.measure("outcome", {10, 30});
   const std::vector<double> arrived = file.measure("arrived", {10, 30});
   ASSERT_EQ(verdicts.size(), outcomes.size());
@@ -188,16 +189,17 @@ TEST(Merge, ReadsOneMeasureAsNumbers) {
 
 TEST(Merge, GivesTheSameBytesForAnyDivisionIntoShards) {
   const TemporaryFolder directory;
-  const Study study = sample_study(3, 70, 2);
+  const study::Study study = sample_study(3, 70, 2);
   std::mt19937 random(11);
-  const std::vector<ShardInfo> one = write_sample_shards(directory / "one", study, all_rows(study), 1000);
+  const std::vector<shards::ShardInfo> one =
+      write_sample_shards(directory / "one", study, layout::all_rows(study), 1000);
   const fs::path reference = merged(directory / "reference.h5", study, one);
   const std::map<std::string, std::string> expected = stored_datasets(reference);
   ASSERT_GT(expected.size(), 40U);
   for (int repetition = 0; repetition < 8; ++repetition) {
     const std::string name = "cut" + std::to_string(repetition);
     const fs::path path = merged(directory / (name + ".h5"), study,
-                                 random_shards(directory / name, study, all_rows(study), random));
+                                 random_shards(directory / name, study, layout::all_rows(study), random));
     EXPECT_EQ(stored_datasets(path), expected);
     EXPECT_TRUE(read_bytes(path) == read_bytes(reference)) << "the datasets agree, but not the files";
   }
@@ -205,65 +207,68 @@ TEST(Merge, GivesTheSameBytesForAnyDivisionIntoShards) {
 
 TEST(Merge, GivesTheSameBytesAcrossManyChunks) {
   const TemporaryFolder directory;
-  Study study = sample_study(2, chunk_elements + 700, 1);
+  study::Study study = sample_study(2, layout::chunk_elements + 700, 1);
   study.retained_trials.clear();
-  const fs::path coarse = merged(directory / "coarse.h5", study,
-                                 write_sample_shards(directory / "coarse", study, all_rows(study), 30000));
+  const fs::path coarse =
+      merged(directory / "coarse.h5", study,
+             write_sample_shards(directory / "coarse", study, layout::all_rows(study), 30000));
   const fs::path fine = merged(directory / "fine.h5", study,
-                               write_sample_shards(directory / "fine", study, all_rows(study), 5555));
+                               write_sample_shards(directory / "fine", study, layout::all_rows(study), 5555));
   EXPECT_EQ(stored_datasets(coarse), stored_datasets(fine));
-  EXPECT_EQ(StudyFile(fine).trace_count(), 0);
+  EXPECT_EQ(reading::StudyFile(fine).trace_count(), 0);
   expect_sound(fine);
 }
 
 TEST(Merge, JoinsPartsAsItJoinsShards) {
   const TemporaryFolder directory;
-  const Study study = sample_study(3, 50, 2);
-  const std::vector<ShardInfo> shards = write_sample_shards(directory / "shards", study, all_rows(study), 13);
+  const study::Study study = sample_study(3, 50, 2);
+  const std::vector<shards::ShardInfo> shards =
+      write_sample_shards(directory / "shards", study, layout::all_rows(study), 13);
   const fs::path whole = merged(directory / "whole.h5", study, shards);
   std::vector<fs::path> parts;
-  for (const RowRange rows : {RowRange{0, 61}, RowRange{61, 89}}) {
+  for (const layout::RowRange rows : {layout::RowRange{0, 61}, layout::RowRange{61, 89}}) {
     parts.push_back(directory / ("part" + std::to_string(rows.first) + ".h5"));
     const auto pieces =
         write_sample_shards(directory / ("shards" + std::to_string(rows.first)), study, rows, 20);
-    merge_shards(pieces, study, parts.back(), rows, sample_statistics, sample_provenance());
-    const StudyFile part(parts.back(), Require::any_part);
+    shards::merge_shards(pieces, study, parts.back(), rows, sample_statistics, sample_provenance());
+    const reading::StudyFile part(parts.back(), reading::Require::any_part);
     EXPECT_FALSE(part.header().complete);
     EXPECT_TRUE(part.statistics().empty());
     expect_sound(parts.back());
-    expect_failure(ExitCode::bad_data, "incomplete: it holds trials", [&] { StudyFile{parts.back()}; });
+    expect_failure(ExitCode::bad_data, "incomplete: it holds trials",
+                   [&] { reading::StudyFile{parts.back()}; });
   }
-  EXPECT_EQ(stored_datasets(merged(directory / "joined.h5", study, merge_inputs(parts, study))),
+  EXPECT_EQ(stored_datasets(merged(directory / "joined.h5", study, shards::merge_inputs(parts, study))),
             stored_datasets(whole));
 }
 
 TEST(Merge, TakesDirectoriesOfShardsAndFindsTheStudyInThem) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  write_sample_shards(directory / "shards", study, all_rows(study), 25);
+  const study::Study study = sample_study();
+  write_sample_shards(directory / "shards", study, layout::all_rows(study), 25);
   const std::vector<fs::path> inputs{directory / "shards"};
-  const FileHeader header = first_header(inputs);
+  const layout::FileHeader header = shards::first_header(inputs);
   EXPECT_EQ(header.manifest, study.manifest_text);
   EXPECT_EQ(header.overrides, study.overrides);
-  expect_sound(merged(directory / "all.h5", study, merge_inputs(inputs, study)));
+  expect_sound(merged(directory / "all.h5", study, shards::merge_inputs(inputs, study)));
 }
 
 TEST(Merge, OfAStudyWithoutAxesInputsProfilesJerksOrOverrides) {
   const TemporaryFolder directory;
-  Study study = sample_study(1, 5, 1);
+  study::Study study = sample_study(1, 5, 1);
   study.axes.clear();
   study.input_columns.clear();
   study.profiles.clear();
   study.overrides.clear();
-  std::vector<TrialResult> results(5);
+  std::vector<shards::TrialResult> results(5);
   for (std::int64_t row = 0; row < 5; ++row) {
     results[static_cast<std::size_t>(row)].row = row;
     results[static_cast<std::size_t>(row)].outcome.moves.resize(1);
   }
-  write_shard(directory / "shard.h5", study, 0, results);
-  const std::vector<ShardInfo> shards{{directory / "shard.h5", {0, 5}}};
-  merge_shards(shards, study, directory / "all.h5", {0, 5}, {});
-  const StudyFile file(directory / "all.h5");
+  shards::write_shard(directory / "shard.h5", study, 0, results);
+  const std::vector<shards::ShardInfo> shards{{directory / "shard.h5", {0, 5}}};
+  shards::merge_shards(shards, study, directory / "all.h5", {0, 5}, {});
+  const reading::StudyFile file(directory / "all.h5");
   expect_sound(file.path());
   EXPECT_EQ(file.jerk_count(), 0);
   EXPECT_TRUE(file.jerks({0, 5}).empty());
@@ -275,100 +280,106 @@ TEST(Merge, OfAStudyWithoutAxesInputsProfilesJerksOrOverrides) {
 
 TEST(Merge, RefusesGapsOverlapsAndShardsOutside) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  std::vector<ShardInfo> shards = write_sample_shards(directory / "shards", study, all_rows(study), 40);
+  const study::Study study = sample_study();
+  std::vector<shards::ShardInfo> shards =
+      write_sample_shards(directory / "shards", study, layout::all_rows(study), 40);
   const fs::path output = directory / "all.h5";
-  const auto merge = [&](const std::vector<ShardInfo>& given, RowRange rows) {
-    return [&, given, rows] { merge_shards(given, study, output, rows, {}); };
+  const auto merge = [&](const std::vector<shards::ShardInfo>& given, layout::RowRange rows) {
+    return [&, given, rows] { shards::merge_shards(given, study, output, rows, {}); };
   };
   expect_failure(ExitCode::bad_data, "trials 40 to 79 are in none", merge({shards[0], shards[2]}, {0, 120}));
   expect_failure(ExitCode::bad_data, "trials 80 to 119 are in none", merge({shards[0], shards[1]}, {0, 120}));
   expect_failure(ExitCode::bad_data, "trials 0 to 39 are in none", merge({shards[1], shards[2]}, {0, 120}));
   expect_failure(ExitCode::bad_data, "trials 0 to 119 are in none", merge({}, {0, 120}));
   expect_failure(ExitCode::bad_data, "outside the 0 to 79", merge(shards, {0, 80}));
-  const ShardInfo twice = write_sample_shard(directory.path(), study, {30, 20});
+  const shards::ShardInfo twice = write_sample_shard(directory.path(), study, {30, 20});
   shards.push_back(twice);
   expect_failure(ExitCode::bad_data, "overlap", merge(shards, {0, 120}));
   EXPECT_FALSE(fs::exists(output));
-  EXPECT_FALSE(fs::exists(part_of(output)));
+  EXPECT_FALSE(fs::exists(storage::part_of(output)));
 }
 
 TEST(Merge, RefusesShardsOfAnotherStudyOrFormat) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  Study other = study;
+  const study::Study study = sample_study();
+  study::Study other = study;
   other.study_sha256 = "another";
   const std::vector<fs::path> inputs{write_sample_shard(directory.path(), study, {0, 120}).path};
-  expect_failure(ExitCode::bad_data, "of another study", [&] { merge_inputs(inputs, other); });
-  replace_attribute(inputs[0], "format_version", format_version + 1);
-  expect_failure(ExitCode::bad_data, "newer than the 3", [&] { merge_inputs(inputs, study); });
+  expect_failure(ExitCode::bad_data, "of another study", [&] { shards::merge_inputs(inputs, other); });
+  replace_attribute(inputs[0], "format_version", layout::format_version + 1);
+  expect_failure(ExitCode::bad_data, "newer than the 3", [&] { shards::merge_inputs(inputs, study); });
   const std::vector<fs::path> nothing{directory / "nothing.h5"};
-  expect_failure(ExitCode::bad_input, "nothing.h5: no such file", [&] { merge_inputs(nothing, study); });
+  expect_failure(ExitCode::bad_input, "nothing.h5: no such file",
+                 [&] { shards::merge_inputs(nothing, study); });
   fs::create_directory(directory / "empty");
   const std::vector<fs::path> empty{directory / "empty"};
-  expect_failure(ExitCode::bad_input, "no shards", [&] { merge_inputs(empty, study); });
+  expect_failure(ExitCode::bad_input, "no shards", [&] { shards::merge_inputs(empty, study); });
 }
 
 TEST(Merge, RefusesShardsOfAnEarlierFormat) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
+  const study::Study study = sample_study();
   const std::vector<fs::path> inputs{write_sample_shard(directory.path(), study, {0, 120}).path};
   replace_attribute(inputs[0], "format_version", 1);
   expect_failure(ExitCode::bad_data, "its format version is 1: such files are read, but not joined",
-                 [&] { merge_inputs(inputs, study); });
+                 [&] { shards::merge_inputs(inputs, study); });
 }
 
 TEST(Merge, RefusesTrialsOfAnotherBuild) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  Provenance another = sample_provenance();
+  const study::Study study = sample_study();
+  layout::Provenance another = sample_provenance();
   another.git_commit = std::string(40, '0');
   const std::vector<fs::path> inputs{directory / "shard.h5"};
-  write_shard(inputs[0], study, 0, sample_results(study, all_rows(study)), another);
-  expect_failure(ExitCode::bad_data, "finish with the same build", [&] { merge_inputs(inputs, study); });
+  shards::write_shard(inputs[0], study, 0, sample_results(study, layout::all_rows(study)), another);
+  expect_failure(ExitCode::bad_data, "finish with the same build",
+                 [&] { shards::merge_inputs(inputs, study); });
 }
 
 TEST(Merge, RecordsThatAShardWasMadeFromChangedSources) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  Provenance clean = sample_provenance();
+  const study::Study study = sample_study();
+  layout::Provenance clean = sample_provenance();
   clean.git_commit = "a1b2";
-  Provenance changed = clean;
+  layout::Provenance changed = clean;
   changed.git_commit = "a1b2-dirty";
-  const std::vector<ShardInfo> shards{{directory / "a.h5", {0, 50}}, {directory / "b.h5", {50, 70}}};
-  write_shard(shards[0].path, study, 0, sample_results(study, shards[0].rows), clean);
-  write_shard(shards[1].path, study, 50, sample_results(study, shards[1].rows), changed);
-  merge_shards(shards, study, directory / "all.h5", all_rows(study), {}, clean);
-  EXPECT_EQ(StudyFile(directory / "all.h5").header().provenance.git_commit, "a1b2-dirty");
+  const std::vector<shards::ShardInfo> shards{{directory / "a.h5", {0, 50}}, {directory / "b.h5", {50, 70}}};
+  shards::write_shard(shards[0].path, study, 0, sample_results(study, shards[0].rows), clean);
+  shards::write_shard(shards[1].path, study, 50, sample_results(study, shards[1].rows), changed);
+  shards::merge_shards(shards, study, directory / "all.h5", layout::all_rows(study), {}, clean);
+  EXPECT_EQ(reading::StudyFile(directory / "all.h5").header().provenance.git_commit, "a1b2-dirty");
 }
 
 TEST(Merge, ReplacesAnEarlierFileOnlyWhenItIsWhole) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
+  const study::Study study = sample_study();
   const fs::path path = write_sample_file(directory.path(), study);
   const std::string whole = read_bytes(path);
-  const std::vector<ShardInfo> shards = merge_inputs(std::vector<fs::path>{shards_directory(path)}, study);
-  const StatisticsOfPoints failing = [](const StudyFile&) -> StoredStatistics {
+  const std::vector<shards::ShardInfo> shards =
+      shards::merge_inputs(std::vector<fs::path>{layout::shards_directory(path)}, study);
+  const shards::StatisticsOfPoints failing = [](const reading::StudyFile&) -> layout::StoredStatistics {
     throw std::runtime_error("no");
   };
-  EXPECT_THROW(merge_shards(shards, study, path, all_rows(study), failing), std::runtime_error);
+  EXPECT_THROW(shards::merge_shards(shards, study, path, layout::all_rows(study), failing),
+               std::runtime_error);
   EXPECT_TRUE(read_bytes(path) == whole);
   directory.write(path.filename().string(), "an earlier file");
-  merge_shards(shards, study, path, all_rows(study), {});
-  EXPECT_EQ(StudyFile(path).rows(), all_rows(study));
+  shards::merge_shards(shards, study, path, layout::all_rows(study), {});
+  EXPECT_EQ(reading::StudyFile(path).rows(), layout::all_rows(study));
 }
 
 TEST(Merge, LeavesNothingWhereTheStatisticsFail) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 40);
+  const study::Study study = sample_study();
+  const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 40);
   const fs::path output = directory / "all.h5";
-  const StatisticsOfPoints failing = [](const StudyFile&) -> StoredStatistics {
+  const shards::StatisticsOfPoints failing = [](const reading::StudyFile&) -> layout::StoredStatistics {
     throw std::runtime_error("no");
   };
-  EXPECT_THROW(merge_shards(shards, study, output, all_rows(study), failing), std::runtime_error);
+  EXPECT_THROW(shards::merge_shards(shards, study, output, layout::all_rows(study), failing),
+               std::runtime_error);
   EXPECT_FALSE(fs::exists(output));
-  EXPECT_FALSE(fs::exists(part_of(output)));
+  EXPECT_FALSE(fs::exists(storage::part_of(output)));
 }
 
 }  // namespace

@@ -16,15 +16,16 @@ namespace {
 // Counted anew from the results that went into the file.
 TEST(RigTables, CountTheSuccessesOfEveryRigAtEveryPoint) {
   const TemporaryFolder directory;
-  const Study study = sample_study_with_rigs(3, 400, 1);
-  const StudyFile file(write_sample_file(directory.path(), study));
-  const StoredRigs stored = file.rigs().value();
+  const study::Study study = sample_study_with_rigs(3, 400, 1);
+  const reading::StudyFile file(write_sample_file(directory.path(), study));
+  const reading::StoredRigs stored = file.rigs().value();
   ASSERT_EQ(stored.rigs, 8);
   std::vector<std::int64_t> success(3 * 8, 0);
-  for (std::int64_t row = 0; row < trial_count(study); ++row) {
-    const TrialResult result = sample_result(study, row);
-    const bool all = std::all_of(result.outcome.moves.begin(), result.outcome.moves.end(),
-                                 [](const MoveOutcome& m) { return m.outcome == Outcome::zero_count; });
+  for (std::int64_t row = 0; row < study::trial_count(study); ++row) {
+    const shards::TrialResult result = sample_result(study, row);
+    const bool all =
+        std::all_of(result.outcome.moves.begin(), result.outcome.moves.end(),
+                    [](const trial::MoveOutcome& m) { return m.outcome == trial::Outcome::zero_count; });
     success[static_cast<std::size_t>(row / 400 * 8 + row % 8)] += all;
   }
   EXPECT_EQ(stored.success, success);
@@ -34,37 +35,40 @@ TEST(RigTables, CountTheSuccessesOfEveryRigAtEveryPoint) {
 
 TEST(RigTables, ATrialSucceedsWithAllItsMovesOrNotAtAll) {
   const TemporaryFolder directory;
-  const Study study = sample_study_with_rigs(1, 8, 2);
-  std::vector<TrialResult> results = sample_results(study, all_rows(study));
+  const study::Study study = sample_study_with_rigs(1, 8, 2);
+  std::vector<shards::TrialResult> results = sample_results(study, layout::all_rows(study));
   for (std::size_t i = 0; i < results.size(); ++i) {
-    results[i].outcome.moves[0].outcome = i % 2 == 0 ? Outcome::zero_count : Outcome::one_count;
-    results[i].outcome.moves[1].outcome = i % 4 < 2 ? Outcome::zero_count : Outcome::oscillating;
+    results[i].outcome.moves[0].outcome = i % 2 == 0 ? trial::Outcome::zero_count : trial::Outcome::one_count;
+    results[i].outcome.moves[1].outcome =
+        i % 4 < 2 ? trial::Outcome::zero_count : trial::Outcome::oscillating;
   }
-  const std::filesystem::path shard = shard_path(directory.path(), all_rows(study));
-  write_shard(shard, study, 0, results, sample_provenance());
+  const std::filesystem::path shard = shards::shard_path(directory.path(), layout::all_rows(study));
+  shards::write_shard(shard, study, 0, results, sample_provenance());
   const std::filesystem::path path = directory.path() / "file.h5";
-  merge_shards(std::vector<ShardInfo>{{shard, all_rows(study)}}, study, path, all_rows(study), {},
-               sample_provenance());
-  EXPECT_EQ(StudyFile(path).rigs().value().success, (std::vector<std::int64_t>{1, 0, 0, 0, 1, 0, 0, 0}));
+  shards::merge_shards(std::vector<shards::ShardInfo>{{shard, layout::all_rows(study)}}, study, path,
+                       layout::all_rows(study), {}, sample_provenance());
+  EXPECT_EQ(reading::StudyFile(path).rigs().value().success,
+            (std::vector<std::int64_t>{1, 0, 0, 0, 1, 0, 0, 0}));
 }
 
 TEST(RigTables, HaveWhatDiffersBetweenTheRigs) {
   const TemporaryFolder directory;
-  const Study study = sample_study_with_rigs();
-  const StudyFile file(write_sample_file(directory.path(), study));
-  const StoredRigs stored = file.rigs().value();
+  const study::Study study = sample_study_with_rigs();
+  const reading::StudyFile file(write_sample_file(directory.path(), study));
+  const reading::StoredRigs stored = file.rigs().value();
   ASSERT_EQ(stored.columns.size(), 1U);
   EXPECT_EQ(stored.columns[0].name, "friction.k1");
   EXPECT_EQ(stored.columns[0].unit, "N m/rad");
   for (std::int64_t rig = 0; rig < 8; ++rig) {
-    EXPECT_EQ(stored.inputs[0][static_cast<std::size_t>(rig)], rig_inputs(study, rig)[0]);
+    EXPECT_EQ(stored.inputs[0][static_cast<std::size_t>(rig)], study::rig_inputs(study, rig)[0]);
   }
 }
 
 TEST(RigTables, HaveTheRotorOfEveryRig) {
   const TemporaryFolder directory;
-  const Study study = sample_study_with_rigs();
-  const std::vector<StoredProfile> stored = StudyFile(write_sample_file(directory.path(), study)).profiles();
+  const study::Study study = sample_study_with_rigs();
+  const std::vector<reading::StoredProfile> stored =
+      reading::StudyFile(write_sample_file(directory.path(), study)).profiles();
   ASSERT_EQ(stored.size(), 2U);
   EXPECT_EQ(stored[0].rigs, 0);
   EXPECT_EQ(stored[1].rigs, 8);
@@ -72,53 +76,54 @@ TEST(RigTables, HaveTheRotorOfEveryRig) {
   for (std::int64_t rig = 0; rig < 8; ++rig) {
     for (std::size_t i = 0; i < 64; ++i) {
       EXPECT_EQ(stored[1].value[static_cast<std::size_t>(rig) * 64 + i],
-                value_at(*study.profiles[1].of_rig(rig), stored[1].theta[i]));
+                friction::value_at(*study.profiles[1].of_rig(rig), stored[1].theta[i]));
     }
   }
 }
 
 TEST(RigTables, AnglesAreEnoughForTheFieldAndNotTooManyForTheDisk) {
-  EXPECT_EQ(profile_angles_of_rig(2, 10), 64);
-  EXPECT_EQ(profile_angles_of_rig(52, 10), 512);
-  EXPECT_EQ(profile_angles_of_rig(52, 1000), 512);
-  EXPECT_EQ(profile_angles_of_rig(52, 10'000), 256);
-  EXPECT_EQ(profile_angles_of_rig(52, 1'000'000), 128);
-  EXPECT_EQ(profile_angles_of_rig(10'000, 2), 4096);
+  EXPECT_EQ(layout::profile_angles_of_rig(2, 10), 64);
+  EXPECT_EQ(layout::profile_angles_of_rig(52, 10), 512);
+  EXPECT_EQ(layout::profile_angles_of_rig(52, 1000), 512);
+  EXPECT_EQ(layout::profile_angles_of_rig(52, 10'000), 256);
+  EXPECT_EQ(layout::profile_angles_of_rig(52, 1'000'000), 128);
+  EXPECT_EQ(layout::profile_angles_of_rig(10'000, 2), 4096);
 }
 
 TEST(RigTables, DoNotDependOnHowTheRowsAreDividedAmongTheShards) {
   const TemporaryFolder first;
   const TemporaryFolder second;
-  const Study study = sample_study_with_rigs();
-  const StudyFile one(write_sample_file(first.path(), study, 7));
-  const StudyFile other(write_sample_file(second.path(), study, 50));
-  EXPECT_EQ(first_difference(one.root(), other.root()), std::nullopt);
+  const study::Study study = sample_study_with_rigs();
+  const reading::StudyFile one(write_sample_file(first.path(), study, 7));
+  const reading::StudyFile other(write_sample_file(second.path(), study, 50));
+  EXPECT_EQ(reading::first_difference(one.root(), other.root()), std::nullopt);
 }
 
 TEST(RigTables, APartHasTheRigsAndNoCounts) {
   const TemporaryFolder directory;
-  const Study study = sample_study_with_rigs();
-  const RowRange rows{0, 60};
-  const std::vector<ShardInfo> shards = write_sample_shards(directory.path() / "shards", study, rows, 20);
+  const study::Study study = sample_study_with_rigs();
+  const layout::RowRange rows{0, 60};
+  const std::vector<shards::ShardInfo> shards =
+      write_sample_shards(directory.path() / "shards", study, rows, 20);
   const std::filesystem::path path = directory.path() / "part.h5";
-  merge_shards(shards, study, path, rows, {}, sample_provenance());
-  const StudyFile part(path, Require::any_part);
+  shards::merge_shards(shards, study, path, rows, {}, sample_provenance());
+  const reading::StudyFile part(path, reading::Require::any_part);
   EXPECT_EQ(part.rigs().value().rigs, 8);
   EXPECT_TRUE(part.rigs().value().success.empty());
-  EXPECT_EQ(StudyFile(shards[0].path, Require::any_part).rigs(), std::nullopt);
+  EXPECT_EQ(reading::StudyFile(shards[0].path, reading::Require::any_part).rigs(), std::nullopt);
 }
 
 TEST(RigTables, AreNoneWithoutRigs) {
   const TemporaryFolder directory;
-  EXPECT_FALSE(StudyFile(write_sample_file(directory.path(), sample_study())).rigs().has_value());
+  EXPECT_FALSE(reading::StudyFile(write_sample_file(directory.path(), sample_study())).rigs().has_value());
 }
 
 TEST(RigTables, AreExported) {
   const TemporaryFolder directory;
-  const Study study = sample_study_with_rigs();
-  const StudyFile file(write_sample_file(directory.path(), study));
+  const study::Study study = sample_study_with_rigs();
+  const reading::StudyFile file(write_sample_file(directory.path(), study));
   const std::filesystem::path out = directory.path() / "tables";
-  export_csv(file, out);
+  reading::export_csv(file, out);
   const std::string rigs = read_bytes(out / "rigs.csv");
   EXPECT_TRUE(rigs.starts_with("rig,friction.k1 [N m/rad]\n0,")) << rigs;
   EXPECT_EQ(std::count(rigs.begin(), rigs.end(), '\n'), 9);

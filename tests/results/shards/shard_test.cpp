@@ -19,72 +19,72 @@ namespace {
 
 TEST(Shard, ReadsBackWhatWasWritten) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  const RowRange rows{35, 50};
-  const ShardInfo shard = write_sample_shard(directory.path(), study, rows);
-  const StudyFile file(shard.path, Require::any_part);
+  const study::Study study = sample_study();
+  const layout::RowRange rows{35, 50};
+  const shards::ShardInfo shard = write_sample_shard(directory.path(), study, rows);
+  const reading::StudyFile file(shard.path, reading::Require::any_part);
   EXPECT_EQ(file.rows(), rows);
   EXPECT_EQ(file.header().manifest, study.manifest_text);
   EXPECT_EQ(file.header().overrides, study.overrides);
   EXPECT_EQ(file.header().study_sha256, study.study_sha256);
   for (std::int64_t row = rows.first; row < rows.end(); ++row) {
-    const TrialResult expected = sample_result(study, row);
+    const shards::TrialResult expected = sample_result(study, row);
     EXPECT_EQ(file.inputs_of(row), expected.inputs);
     expect_equal_records(file.measures(), file.outcomes({row, 1}), expected.outcome.moves);
-    std::vector<JerkRecord> jerks;
-    for (const Jerk& jerk : expected.jerks) jerks.push_back({jerk, row});
-    expect_equal_records(jerk_fields(), file.jerks({row, 1}), jerks);
+    std::vector<layout::JerkRecord> jerks;
+    for (const trial::Jerk& jerk : expected.jerks) jerks.push_back({jerk, row});
+    expect_equal_records(layout::jerk_fields(), file.jerks({row, 1}), jerks);
   }
 }
 
 TEST(Shard, HasItsNameOnlyWhenItIsWhole) {
   const TemporaryFolder directory;
-  const ShardInfo shard = write_sample_shard(directory.path(), sample_study(), {0, 5});
+  const shards::ShardInfo shard = write_sample_shard(directory.path(), sample_study(), {0, 5});
   EXPECT_TRUE(std::filesystem::exists(shard.path));
-  EXPECT_FALSE(std::filesystem::exists(part_of(shard.path)));
+  EXPECT_FALSE(std::filesystem::exists(storage::part_of(shard.path)));
 }
 
 TEST(Shard, RefusesResultsThatAreNotItsRows) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  std::vector<TrialResult> results = sample_results(study, {0, 5});
-  EXPECT_THROW(write_shard(directory / "a.h5", study, 1, results), std::invalid_argument);
+  const study::Study study = sample_study();
+  std::vector<shards::TrialResult> results = sample_results(study, {0, 5});
+  EXPECT_THROW(shards::write_shard(directory / "a.h5", study, 1, results), std::invalid_argument);
   results[3].inputs.pop_back();
-  EXPECT_THROW(write_shard(directory / "a.h5", study, 0, results), std::invalid_argument);
-  EXPECT_THROW(write_shard(directory / "a.h5", study, 0, {}), std::invalid_argument);
+  EXPECT_THROW(shards::write_shard(directory / "a.h5", study, 0, results), std::invalid_argument);
+  EXPECT_THROW(shards::write_shard(directory / "a.h5", study, 0, {}), std::invalid_argument);
 }
 
 TEST(ShardSurvey, OfNoDirectoryIsEmpty) {
-  const ShardSurvey survey = list_shards("/nowhere/at/all.shards", sample_study());
+  const shards::ShardSurvey survey = shards::list_shards("/nowhere/at/all.shards", sample_study());
   EXPECT_TRUE(survey.shards.empty() && survey.problems.empty() && survey.unfinished.empty());
 }
 
 TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  const std::vector<ShardInfo> good = write_sample_shards(directory.path(), study, {0, 30}, 10);
-  Study other = sample_study(3, 40);
+  const study::Study study = sample_study();
+  const std::vector<shards::ShardInfo> good = write_sample_shards(directory.path(), study, {0, 30}, 10);
+  study::Study other = sample_study(3, 40);
   other.study_sha256 = "0";
   write_bytes(directory / "text.h5", "no HDF5 at all");
-  write_shard(directory / "other.h5", other, 40, sample_results(other, {40, 5}));
-  write_shard(directory / "newer.h5", study, 50, sample_results(study, {50, 5}));
+  shards::write_shard(directory / "other.h5", other, 40, sample_results(other, {40, 5}));
+  shards::write_shard(directory / "newer.h5", study, 50, sample_results(study, {50, 5}));
   replace_attribute(directory / "newer.h5", "format_version", 99);
-  write_shard(directory / "unmarked.h5", study, 60, sample_results(study, {60, 5}));
+  shards::write_shard(directory / "unmarked.h5", study, 60, sample_results(study, {60, 5}));
   remove_attribute(directory / "unmarked.h5", "finished");
-  Provenance another = current_provenance();
+  layout::Provenance another = layout::current_provenance();
   another.zerocount_version = "0.0.9";
-  write_shard(directory / "earlier.h5", study, 70, sample_results(study, {70, 5}), another);
-  another = current_provenance();
+  shards::write_shard(directory / "earlier.h5", study, 70, sample_results(study, {70, 5}), another);
+  another = layout::current_provenance();
   another.git_commit = std::string(40, '0');
-  write_shard(directory / "commit.h5", study, 75, sample_results(study, {75, 5}), another);
+  shards::write_shard(directory / "commit.h5", study, 75, sample_results(study, {75, 5}), another);
   const std::string whole = read_bytes(good[0].path);
   write_bytes(directory / "short.h5", whole.substr(0, whole.size() / 2));
   write_bytes(directory / "trials-000000000077-000000000078.h5.part", whole.substr(0, 1000));
 
-  const ShardSurvey survey = list_shards(directory.path(), study);
+  const shards::ShardSurvey survey = shards::list_shards(directory.path(), study);
   ASSERT_EQ(survey.shards.size(), good.size());
   for (std::size_t i = 0; i < good.size(); ++i) EXPECT_EQ(survey.shards[i].rows, good[i].rows);
-  using Kind = ShardProblem::Kind;
+  using Kind = shards::ShardProblem::Kind;
   struct Expected {
     std::string file;
     std::string phrase;
@@ -100,53 +100,54 @@ TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
       {"unmarked.h5", "never finished", Kind::damaged}};
   ASSERT_EQ(survey.problems.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    const ShardProblem& found = survey.problems[i];
+    const shards::ShardProblem& found = survey.problems[i];
     EXPECT_EQ(found.path.filename(), expected[i].file);
     EXPECT_NE(found.problem.find(expected[i].phrase), std::string::npos) << found.problem;
     EXPECT_NE(found.problem.find(expected[i].file), std::string::npos) << found.problem;
     EXPECT_EQ(found.kind, expected[i].kind) << found.problem;
   }
   ASSERT_EQ(survey.unfinished.size(), 1U);
-  remove_unfinished(survey);
+  shards::remove_unfinished(survey);
   EXPECT_FALSE(std::filesystem::exists(survey.unfinished[0]));
 }
 
 TEST(ShardSurvey, LeavesAloneWhatIsNoShardByItsName) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  const ShardInfo shard = write_sample_shard(directory.path(), study, {0, 5});
+  const study::Study study = sample_study();
+  const shards::ShardInfo shard = write_sample_shard(directory.path(), study, {0, 5});
   std::filesystem::copy_file(shard.path, directory / "trials.h5.damaged");
   directory.write("notes.txt", "mine");
   std::filesystem::create_directory(directory / "folder.h5");
   std::filesystem::create_directory(directory / "folder.part");
-  const ShardSurvey survey = list_shards(directory.path(), study);
+  const shards::ShardSurvey survey = shards::list_shards(directory.path(), study);
   EXPECT_EQ(survey.shards.size(), 1U);
   EXPECT_TRUE(survey.problems.empty() && survey.unfinished.empty());
-  EXPECT_EQ(shard_files(directory.path()), std::vector<std::filesystem::path>{shard.path});
+  EXPECT_EQ(shards::shard_files(directory.path()), std::vector<std::filesystem::path>{shard.path});
 }
 
 TEST(ShardSurvey, DoesNotTakeAFailureToReadForDamage) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
+  const study::Study study = sample_study();
   // To read the memory of a process at address 0 is an I/O error, for root too.
   std::filesystem::create_symlink("/proc/self/mem", directory / "unreadable.h5");
   expect_failure(ExitCode::machine_failed, "unreadable.h5: cannot read: Input/output error",
-                 [&] { list_shards(directory.path(), study); });
+                 [&] { shards::list_shards(directory.path(), study); });
 }
 
 TEST(MissingRanges, AreTheRowsInNoShard) {
   std::mt19937 random(7);
   for (int repetition = 0; repetition < 2000; ++repetition) {
-    std::vector<ShardInfo> shards(random() % 6);
+    std::vector<shards::ShardInfo> shards(random() % 6);
     std::set<std::int64_t> covered;
-    for (ShardInfo& shard : shards) {
+    for (shards::ShardInfo& shard : shards) {
       shard.rows = {static_cast<std::int64_t>(random() % 30), 1 + static_cast<std::int64_t>(random() % 8)};
       for (std::int64_t row = shard.rows.first; row < shard.rows.end(); ++row) covered.insert(row);
     }
-    const RowRange wanted{static_cast<std::int64_t>(random() % 10), static_cast<std::int64_t>(random() % 25)};
+    const layout::RowRange wanted{static_cast<std::int64_t>(random() % 10),
+                                  static_cast<std::int64_t>(random() % 25)};
     std::set<std::int64_t> missing;
     std::int64_t last_end = -1;
-    for (const RowRange& range : missing_ranges(shards, wanted)) {
+    for (const layout::RowRange& range : shards::missing_ranges(shards, wanted)) {
       EXPECT_GT(range.count, 0);
       EXPECT_GT(range.first, last_end) << "ranges that touch should be one";
       last_end = range.end();

@@ -19,14 +19,14 @@ std::string random_text(std::mt19937& random, std::size_t size) {
   return text;
 }
 
-std::string read_text(ByteFile& file, std::size_t offset, std::size_t size) {
+std::string read_text(storage::ByteFile& file, std::size_t offset, std::size_t size) {
   std::string text(size, '?');
   EXPECT_TRUE(file.read(offset, std::as_writable_bytes(std::span(text))));
   return text;
 }
 
 /// Writes at random places, and expects to read what was written there last, and zeros elsewhere.
-void expect_reads_what_was_written(ByteFile& file, std::mt19937& random) {
+void expect_reads_what_was_written(storage::ByteFile& file, std::mt19937& random) {
   std::string expected(2000, '\0');
   for (int i = 0; i < 200; ++i) {
     const std::size_t offset = random() % 1900;
@@ -43,7 +43,7 @@ void expect_reads_what_was_written(ByteFile& file, std::mt19937& random) {
 TEST(ByteFile, ReadsWhatWasWritten) {
   const TemporaryFolder folder;
   std::mt19937 random(7);
-  ByteFile file(folder / "file", ByteFile::Mode::create);
+  storage::ByteFile file(folder / "file", storage::ByteFile::Mode::create);
   expect_reads_what_was_written(file, random);
   const std::uint64_t size = file.size();
   file.resize(1000);
@@ -56,7 +56,7 @@ TEST(ByteFile, ReadsWhatWasWritten) {
 
 TEST(ByteFile, ReadsWhatWasToBeWrittenAfterAWriteHasFailed) {
   std::mt19937 random(8);
-  ByteFile file("/dev/full", ByteFile::Mode::change);
+  storage::ByteFile file("/dev/full", storage::ByteFile::Mode::change);
   expect_reads_what_was_written(file, random);
   ASSERT_TRUE(file.failure());
   EXPECT_EQ(file.failure()->action, "write");
@@ -64,7 +64,7 @@ TEST(ByteFile, ReadsWhatWasToBeWrittenAfterAWriteHasFailed) {
 }
 
 TEST(ByteFile, KeepsTheFirstFailure) {
-  ByteFile file("/dev/full", ByteFile::Mode::change);
+  storage::ByteFile file("/dev/full", storage::ByteFile::Mode::change);
   file.note({"close", EIO});
   file.write(0, std::as_bytes(std::span("text")));
   file.note({"write", EBADF});
@@ -75,9 +75,9 @@ TEST(ByteFile, KeepsTheFirstFailure) {
 TEST(ByteFile, SaysWhyItCannotBeOpened) {
   const TemporaryFolder folder;
   expect_failure(ExitCode::machine_failed, "nowhere: cannot read: No such file",
-                 [&] { ByteFile(folder / "nowhere", ByteFile::Mode::read); });
+                 [&] { storage::ByteFile(folder / "nowhere", storage::ByteFile::Mode::read); });
   expect_failure(ExitCode::machine_failed, "cannot open for writing: Is a directory",
-                 [&] { ByteFile(folder.path(), ByteFile::Mode::create); });
+                 [&] { storage::ByteFile(folder.path(), storage::ByteFile::Mode::create); });
 }
 
 }  // namespace

@@ -18,11 +18,11 @@ TEST(ChecksumTrailer, IsTheChecksumOfEverythingBeforeIt) {
     std::string bytes(size, '\0');
     for (char& byte : bytes) byte = static_cast<char>(random());
     const std::filesystem::path path = folder.write("file", bytes);
-    append_checksum(path);
-    const std::string text = "zerocount-seal sha256 " + sha256_hex(bytes) + "\n";
-    EXPECT_EQ(text.size(), checksum_trailer_length);
+    storage::append_checksum(path);
+    const std::string text = "zerocount-seal sha256 " + hash::sha256_hex(bytes) + "\n";
+    EXPECT_EQ(text.size(), storage::checksum_trailer_length);
     EXPECT_TRUE(folder.read("file") == bytes + text) << size;
-    if (size > 0) require_valid_checksum(path);
+    if (size > 0) storage::require_valid_checksum(path);
   }
 }
 
@@ -31,12 +31,12 @@ TEST(ChecksumTrailer, ThatIsMissingOrWrongMeansChangedOrDamaged) {
   const std::filesystem::path path =
       folder.write("file", "some contents, longer than a trailer" + std::string(200, '.'));
   const std::string words = "changed since it was written, or damaged";
-  expect_failure(ExitCode::bad_data, words, [&] { require_valid_checksum(path); });
-  append_checksum(path);
+  expect_failure(ExitCode::bad_data, words, [&] { storage::require_valid_checksum(path); });
+  storage::append_checksum(path);
   std::string bytes = folder.read("file");
   bytes[3] = 'E';
   folder.write("file", bytes);
-  expect_failure(ExitCode::bad_data, words, [&] { require_valid_checksum(path); });
+  expect_failure(ExitCode::bad_data, words, [&] { storage::require_valid_checksum(path); });
 }
 
 }  // namespace

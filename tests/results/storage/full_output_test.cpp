@@ -77,67 +77,71 @@ void expect_full(const Ending& ending, const fs::path& path) {
 
 TEST(FullOutput, FailsAShardWithItsPathAndTheReason) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
+  const study::Study study = sample_study();
   for (const rlim_t limit : {0U, 100U, 2000U, 20000U, 60000U}) {
     const fs::path path = directory / "shard.h5";
     expect_full(with_file_limit(limit,
                                 [&] {
-                                  write_shard(path, study, 0, sample_results(study, {0, 120}));
+                                  shards::write_shard(path, study, 0, sample_results(study, {0, 120}));
                                 }),
                 path);
     EXPECT_FALSE(fs::exists(path));
-    EXPECT_FALSE(fs::exists(part_of(path)));
+    EXPECT_FALSE(fs::exists(storage::part_of(path)));
   }
 }
 
 TEST(FullOutput, FailsAMergeAndKeepsTheShards) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
-  const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 40);
+  const study::Study study = sample_study();
+  const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 40);
   const fs::path path = directory / "all.h5";
   for (const rlim_t limit : {0U, 2000U, 50000U, 100000U}) {
-    expect_full(with_file_limit(
-                    limit, [&] { merge_shards(shards, study, path, all_rows(study), sample_statistics); }),
-                path);
+    expect_full(
+        with_file_limit(
+            limit,
+            [&] { shards::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics); }),
+        path);
     EXPECT_FALSE(fs::exists(path));
-    EXPECT_FALSE(fs::exists(part_of(path)));
+    EXPECT_FALSE(fs::exists(storage::part_of(path)));
   }
-  EXPECT_EQ(list_shards(directory / "shards", study).shards.size(), shards.size());
-  merge_shards(shards, study, path, all_rows(study), sample_statistics);
+  EXPECT_EQ(shards::list_shards(directory / "shards", study).shards.size(), shards.size());
+  shards::merge_shards(shards, study, path, layout::all_rows(study), sample_statistics);
 }
 
 TEST(FullOutput, FailsAnExport) {
   const TemporaryFolder directory;
   const fs::path path = write_sample_file(directory.path(), sample_study());
-  expect_full(with_file_limit(1000, [&] { export_csv(StudyFile(path), directory / "csv"); }),
-              directory / "csv");
+  expect_full(
+      with_file_limit(1000, [&] { reading::export_csv(reading::StudyFile(path), directory / "csv"); }),
+      directory / "csv");
   // The table of points fits and the next does not: neither stays to stop the next attempt.
   EXPECT_TRUE(fs::is_empty(directory / "csv"));
-  EXPECT_EQ(export_csv(StudyFile(path), directory / "csv").size(), 7U);
+  EXPECT_EQ(reading::export_csv(reading::StudyFile(path), directory / "csv").size(), 7U);
 }
 
 TEST(UnwritableOutput, IsSaidWithTheReason) {
   const TemporaryFolder directory;
-  const Study study = sample_study();
+  const study::Study study = sample_study();
   write_bytes(directory / "file", "not a directory");
-  const std::vector<TrialResult> results = sample_results(study, {0, 120});
+  const std::vector<shards::TrialResult> results = sample_results(study, {0, 120});
   expect_failure(ExitCode::machine_failed, "Not a directory",
-                 [&] { write_shard(directory.path() / "file" / "shard.h5", study, 0, results); });
+                 [&] { shards::write_shard(directory.path() / "file" / "shard.h5", study, 0, results); });
   expect_failure(ExitCode::machine_failed, "No such file or directory",
-                 [&] { write_shard(directory.path() / "nowhere" / "shard.h5", study, 0, results); });
+                 [&] { shards::write_shard(directory.path() / "nowhere" / "shard.h5", study, 0, results); });
   expect_failure(ExitCode::machine_failed, "Not a directory",
-                 [&] { make_directory(directory.path() / "file" / "below"); });
-  expect_failure(ExitCode::machine_failed, "File exists", [&] { make_directory(directory / "file"); });
-  const auto shards = write_sample_shards(directory / "shards", study, all_rows(study), 40);
+                 [&] { storage::make_directory(directory.path() / "file" / "below"); });
+  expect_failure(ExitCode::machine_failed, "File exists",
+                 [&] { storage::make_directory(directory / "file"); });
+  const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 40);
   expect_failure(ExitCode::machine_failed, "No such file or directory", [&] {
-    merge_shards(shards, study, directory.path() / "nowhere" / "all.h5", all_rows(study), {});
+    shards::merge_shards(shards, study, directory.path() / "nowhere" / "all.h5", layout::all_rows(study), {});
   });
 }
 
 TEST(MakeDirectory, MakesThoseAboveItToo) {
   const TemporaryFolder directory;
-  make_directory(directory.path() / "a" / "b" / "c");
-  make_directory(directory.path() / "a" / "b" / "c");
+  storage::make_directory(directory.path() / "a" / "b" / "c");
+  storage::make_directory(directory.path() / "a" / "b" / "c");
   EXPECT_TRUE(fs::is_directory(directory.path() / "a" / "b" / "c"));
 }
 

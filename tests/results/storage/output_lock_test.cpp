@@ -20,17 +20,17 @@ TEST(OutputLock, IsHeldByOneAtATime) {
   const TemporaryFolder directory;
   const std::filesystem::path output = directory / "all.h5";
   {
-    const OutputLock lock(output);
+    const storage::OutputLock lock(output);
     expect_failure(ExitCode::machine_failed, "all.h5: another run is writing this output",
-                   [&] { OutputLock{output}; });
-    const OutputLock other(directory / "other.h5");
+                   [&] { storage::OutputLock{output}; });
+    const storage::OutputLock other(directory / "other.h5");
   }
-  const OutputLock again(output);
+  const storage::OutputLock again(output);
 }
 
 TEST(OutputLock, LeavesNoFile) {
   const TemporaryFolder directory;
-  { const OutputLock lock(directory / "all.h5"); }
+  { const storage::OutputLock lock(directory / "all.h5"); }
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
 }
 
@@ -41,16 +41,16 @@ TEST(OutputLock, HoldsAgainstOtherProcessesUntilItsOwnDies) {
   ASSERT_EQ(::pipe(ready), 0);
   const pid_t child = ::fork();
   if (child == 0) {
-    const OutputLock lock(output);
+    const storage::OutputLock lock(output);
     if (::write(ready[1], "x", 1) != 1) ::_exit(1);
     for (;;) ::pause();
   }
   char byte = 0;
   ASSERT_EQ(::read(ready[0], &byte, 1), 1);
-  expect_failure(ExitCode::machine_failed, "another run", [&] { OutputLock{output}; });
+  expect_failure(ExitCode::machine_failed, "another run", [&] { storage::OutputLock{output}; });
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
-  const OutputLock lock(output);
+  const storage::OutputLock lock(output);
 }
 
 TEST(OutputLock, IsNeverHeldTwiceWhileManyTry) {
@@ -63,7 +63,7 @@ TEST(OutputLock, IsNeverHeldTwiceWhileManyTry) {
     threads.emplace_back([&] {
       for (int attempt = 0; attempt < 2000; ++attempt) {
         try {
-          const OutputLock lock(output);
+          const storage::OutputLock lock(output);
           EXPECT_EQ(++holders, 1);
           ++taken;
           --holders;
@@ -79,7 +79,7 @@ TEST(OutputLock, IsNeverHeldTwiceWhileManyTry) {
 TEST(OutputLock, SaysWhereItCannotBeMade) {
   expect_failure(ExitCode::machine_failed,
                  "/nowhere/all.h5.lock: cannot make the lock file: No such file or directory",
-                 [] { OutputLock{"/nowhere/all.h5"}; });
+                 [] { storage::OutputLock{"/nowhere/all.h5"}; });
 }
 
 }  // namespace

@@ -7,19 +7,19 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace zerocount {
+namespace zerocount::commands {
 namespace {
 
 /// The trace of one sample, in a study with these further columns.
-std::string trace_of(const TraceExtras& extras, bool json) {
-  Study study;
+std::string trace_of(const study::TraceExtras& extras, bool json) {
+  study::Study study;
   study.name = "extras";
   study.trace_extras = extras;
-  const StudyTrial trial;
-  SampleRecord record;
+  const study::StudyTrial trial;
+  trial::SampleRecord record;
   record.count = 5;
   record.reference = 7;
-  record.phase = ControlPhase::coarse;
+  record.phase = loop::ControlPhase::coarse;
   record.drive_torque = 0.125;
 
   std::string text;
@@ -57,17 +57,17 @@ TEST(TraceColumns, OfJsonAreTheSame) {
 }
 
 TEST(TraceOutcome, SaysWhetherItWasStoppedWhereTheStudyCanStop) {
-  Study study;
-  const StudyTrial trial;
+  study::Study study;
+  const study::StudyTrial trial;
   for (const bool stopped : {false, true}) {
     study.outcome_extras = {stopped};
     std::string text;
     TraceWriter writer([&text](std::string_view piece) { text += piece; }, true);
     writer.begin({study, 0, 0, trial});
-    writer.end({{MoveOutcome{}}});
+    writer.end({{trial::MoveOutcome{}}});
     EXPECT_EQ(nlohmann::json::parse(text)["outcome"][0].contains("stopped"), stopped);
   }
 }
 
 }  // namespace
-}  // namespace zerocount
+}  // namespace zerocount::commands

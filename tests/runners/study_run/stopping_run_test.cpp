@@ -52,17 +52,18 @@ class StoppingRun : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-std::int64_t successes_among(const StudyFile& file, std::int64_t point, std::int64_t trials) {
+std::int64_t successes_among(const reading::StudyFile& file, std::int64_t point, std::int64_t trials) {
   const std::vector<double> outcomes = file.measure("outcome", {point * file.header().trials, trials});
   std::int64_t successes = 0;
-  for (const double outcome : outcomes) successes += outcome == static_cast<double>(Outcome::zero_count);
+  for (const double outcome : outcomes)
+    successes += outcome == static_cast<double>(trial::Outcome::zero_count);
   return successes;
 }
 
-bool narrow(const StudyFile& file, std::int64_t trials) {
+bool narrow(const reading::StudyFile& file, std::int64_t trials) {
   for (std::int64_t point = 0; point < 2; ++point) {
-    const ConfidenceInterval bounds =
-        confidence_sequence_bounds(successes_among(file, point, trials), trials, 0.95);
+    const statistics::ConfidenceInterval bounds =
+        statistics::confidence_sequence_bounds(successes_among(file, point, trials), trials, 0.95);
     if (bounds.high - bounds.low > 2.0 * halfwidth) return false;
   }
   return true;
@@ -71,7 +72,7 @@ bool narrow(const StudyFile& file, std::int64_t trials) {
 TEST_F(StoppingRun, EndsAfterTheFirstBlockThatLeavesItSure) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5");
-  const StudyFile file(at("out.h5"));
+  const reading::StudyFile file(at("out.h5"));
   const std::int64_t trials = file.header().trials;
   EXPECT_EQ(trials % block, 0);
   EXPECT_GT(trials, 2 * block);
@@ -85,7 +86,7 @@ TEST_F(StoppingRun, HoldsTheTrialsOfAPlainStudyOfThatSize) {
   folder_.write("study.yaml", stopping_manifest());
   folder_.write("plain.yaml", manifest(""));
   complete("study.yaml", "out.h5");
-  const std::int64_t trials = StudyFile(at("out.h5")).header().trials;
+  const std::int64_t trials = reading::StudyFile(at("out.h5")).header().trials;
   complete("plain.yaml", "plain.h5", {"--set", "trials=" + std::to_string(trials)});
   const auto stopped = stored_datasets(at("out.h5"));
   const auto plain = stored_datasets(at("plain.h5"));
@@ -114,20 +115,20 @@ TEST_F(StoppingRun, ComesToTheSameForAnyThreadsAndInterruptions) {
 TEST_F(StoppingRun, SaysWhatItCameToAndWhy) {
   folder_.write("study.yaml", stopping_manifest());
   const ProgramResult sure = run("study.yaml", "out.h5");
-  const std::string trials = std::to_string(StudyFile(at("out.h5")).header().trials);
+  const std::string trials = std::to_string(reading::StudyFile(at("out.h5")).header().trials);
   EXPECT_NE(sure.err.find("wrote out.h5: " + trials + " trials at each point (all success rates"),
             std::string::npos)
       << sure.err;
   const ProgramResult unsure = run("study.yaml", "few.h5", {"--set", "stop.max_trials=120"});
   EXPECT_NE(unsure.err.find("wrote few.h5: 120 trials at each point (max_trials; some"), std::string::npos)
       << unsure.err;
-  EXPECT_EQ(StudyFile(at("few.h5")).header().trials, 120);
+  EXPECT_EQ(reading::StudyFile(at("few.h5")).header().trials, 120);
 }
 
 TEST_F(StoppingRun, TakesMinTrialsAtLeast) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5", {"--set", "stop.min_trials=1020"});
-  EXPECT_EQ(StudyFile(at("out.h5")).header().trials, 1050);
+  EXPECT_EQ(reading::StudyFile(at("out.h5")).header().trials, 1050);
 }
 
 TEST_F(StoppingRun, IsNotRunTwiceAndOverwritesNothing) {
@@ -151,14 +152,14 @@ TEST_F(StoppingRun, CannotBeDividedIntoParts) {
 TEST_F(StoppingRun, SummaryHasTheBoundsThatHold) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5");
-  const StudyFile file(at("out.h5"));
+  const reading::StudyFile file(at("out.h5"));
   const std::int64_t trials = file.header().trials;
   const ProgramResult result = zerocount_program({"summary", "out.h5", "--format", "json"}, folder_.path());
   ASSERT_EQ(result.code, 0) << result.err;
   const auto points = nlohmann::json::parse(result.out).at("points");
   for (std::int64_t point = 0; point < 2; ++point) {
-    const ConfidenceInterval bounds =
-        confidence_sequence_bounds(successes_among(file, point, trials), trials, 0.95);
+    const statistics::ConfidenceInterval bounds =
+        statistics::confidence_sequence_bounds(successes_among(file, point, trials), trials, 0.95);
     const auto& stopped = points.at(static_cast<std::size_t>(point)).at("stopped");
     EXPECT_EQ(stopped.at("success_rate_low").get<double>(), bounds.low);
     EXPECT_EQ(stopped.at("success_rate_high").get<double>(), bounds.high);
@@ -183,13 +184,13 @@ TEST_F(StoppingRun, EndsAfterAWholeRoundOfItsRigs) {
   folder_.write("study.yaml", stopping_manifest() + rigs);
   folder_.write("plain.yaml", manifest("") + rigs);
   complete("study.yaml", "out.h5");
-  const StudyFile file(at("out.h5"));
+  const reading::StudyFile file(at("out.h5"));
   const std::int64_t trials = file.header().trials;
   EXPECT_GT(trials, block);
   EXPECT_LT(trials, 2000);
   EXPECT_TRUE(narrow(file, trials));
   EXPECT_FALSE(narrow(file, trials - block));
-  const StoredRigs on_rigs = file.rigs().value();
+  const reading::StoredRigs on_rigs = file.rigs().value();
   ASSERT_EQ(on_rigs.trials.size(), 20U);
   for (const std::int64_t of_rig : on_rigs.trials) EXPECT_EQ(of_rig, trials / 10);
   complete("plain.yaml", "plain.h5", {"--set", "trials=" + std::to_string(trials)});
@@ -226,7 +227,7 @@ TEST_F(StoppingRun, SummaryKeepsTheBoundsOfTheseRigsApartFromThoseOfAll) {
 TEST_F(StoppingRun, CanBeReplayedFromItsFile) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5");
-  const StudyFile file(at("out.h5"));
+  const reading::StudyFile file(at("out.h5"));
   const std::int64_t last = file.header().trials - 1;
   const ProgramResult trace =
       zerocount_program({"trace", "out.h5", "--point", "1", "--trial", std::to_string(last)}, folder_.path());

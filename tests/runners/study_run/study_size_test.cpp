@@ -46,12 +46,12 @@ TEST(StudySize, IsAboutWhatTheFilesTake) {
   for (const std::string& manifest : manifests()) {
     const TemporaryFolder folder;
     folder.write("study.yaml", manifest);
-    const Study study = load_study(folder / "study.yaml", {});
+    const study::Study study = manifest::load_study(folder / "study.yaml", {});
     SCOPED_TRACE(manifest);
-    const StudySize size = measure_size(study);
+    const study_run::StudySize size = study_run::measure_size(study);
     fs::create_directory(folder / "shards");
-    const std::vector<RowRange> all{all_rows(study)};
-    run_trials(study, all, folder / "shards", {}, {});
+    const std::vector<layout::RowRange> all{layout::all_rows(study)};
+    study_run::run_trials(study, all, folder / "shards", {}, {});
     expect_about(size.shard_bytes, bytes_in(folder / "shards"), "shards");
     const ProgramResult run = zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path());
     ASSERT_EQ(run.code, 0) << run.err;
@@ -70,7 +70,8 @@ TEST(StudySize, IsAboutTheMemoryThatARunTakes) {
   rusage children{};
   ASSERT_EQ(getrusage(RUSAGE_CHILDREN, &children), 0);
   const double peak = 1024.0 * static_cast<double>(children.ru_maxrss);
-  expect_about(measure_size(load_study(folder / "study.yaml", {})).memory_bytes, peak, "memory");
+  expect_about(study_run::measure_size(manifest::load_study(folder / "study.yaml", {})).memory_bytes, peak,
+               "memory");
 }
 
 TEST(StudySize, ARunThatTheDiskCannotHoldIsRefusedBeforeItBegins) {
@@ -87,12 +88,12 @@ TEST(StudySize, ARunThatTheDiskCannotHoldIsRefusedBeforeItBegins) {
 }
 
 TEST(StudySize, IsToldWithTwoDigits) {
-  EXPECT_EQ(bytes_text(0.0), "0 B");
-  EXPECT_EQ(bytes_text(999.0), "999 B");
-  EXPECT_EQ(bytes_text(999.6), "1.0 kB");
-  EXPECT_EQ(bytes_text(4.44e6), "4.4 MB");
-  EXPECT_EQ(bytes_text(44.4e9), "44 GB");
-  EXPECT_EQ(bytes_text(1.5e15), "1500 TB");
+  EXPECT_EQ(study_run::bytes_text(0.0), "0 B");
+  EXPECT_EQ(study_run::bytes_text(999.0), "999 B");
+  EXPECT_EQ(study_run::bytes_text(999.6), "1.0 kB");
+  EXPECT_EQ(study_run::bytes_text(4.44e6), "4.4 MB");
+  EXPECT_EQ(study_run::bytes_text(44.4e9), "44 GB");
+  EXPECT_EQ(study_run::bytes_text(1.5e15), "1500 TB");
 }
 
 }  // namespace

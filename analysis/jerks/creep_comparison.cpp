@@ -7,15 +7,11 @@
 
 #include "core/friction/creep.hpp"
 #include "core/loop/encoder.hpp"
+#include "core/loop/measurement.hpp"
 #include "core/trial/trial.hpp"
 
 namespace zerocount::jerks {
 namespace {
-
-bool has_errors(const loop::EncoderErrors& errors) {
-  return errors.eccentricity != 0.0 || errors.interpolation != 0.0 || errors.noise != 0.0 ||
-         errors.missed != 0.0;
-}
 
 template <class Entry>
 bool has_creep_parameter(const std::vector<Entry>& entries) {
@@ -34,7 +30,7 @@ std::string why_not(const trial::TrialParameters& parameters) {
     return "a creep parameter differs between contacts";
   }
   if (parameters.dac.noise != 0.0) return "the converter has noise";
-  if (has_errors(parameters.encoder.fine_errors)) return "the encoder has errors";
+  if (loop::has_errors(parameters.encoder.fine_errors)) return "the encoder has errors";
   if (parameters.controller.encoder != loop::EncoderChoice::fine) return "the coarse encoder closes the loop";
   return {};
 }

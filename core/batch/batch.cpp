@@ -11,8 +11,8 @@ namespace {
 
 constexpr int max_delay = 64;
 
-// What lanes can run, as lists of what they know. Each enumeration has all of its words here, and each
-// structure all of its members: the compiler refuses one that is added later until it is decided here.
+// Features that lanes support. Each switch lists all enumerators and each structured binding all members, so
+// that the compiler demands a decision for one that is added later.
 
 bool lanes_know(loop::ReferenceShape shape) {
   switch (shape) {

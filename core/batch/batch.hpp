@@ -25,8 +25,8 @@ struct BatchSample {
   double xh{0.0};         ///< hardening, rad
 };
 
-/// Who is told of the trials of a batch while they run; an empty function is not called. The trials run side
-/// by side: what belongs to one comes in its order, what belongs to different ones in any.
+/// Callbacks while a batch runs; an empty function is not called. Calls for one trial come in order of time;
+/// those for different trials are interleaved.
 struct BatchObservers {
   std::function<void(std::size_t trial, const trial::Jerk&)> jerk;  ///< at the end of every jerk
   std::function<void(const BatchSample&)> sample;                   ///< at every sampling instant
@@ -37,15 +37,15 @@ struct BatchSettings {
   InstructionSet instructions{widest_instruction_set()};
 };
 
-/// Whether the lanes can run such a trial. The others, which have imperfect encoders or converters, an
-/// amplifier, two phases of control, a reference with a profile, torque levels, or a friction model without a
-/// spring, go to run_trial.
+/// Whether the lanes can run such a trial. The engine passes all others to run_trial: those with imperfect
+/// encoders or converters, an amplifier, two phases of control, a reference with a profile, torque levels, or
+/// a friction law without a spring.
 bool runs_in_lanes(const trial::TrialParameters& parameters);
 
 /// Runs trials as run_trial does, many at a time in the lanes of vectors (see core/batch/README.md).
 ///
-/// What comes of a trial depends on its parameters alone: not on the trials beside it, nor on the settings.
-/// It is that of run_trial to 3e-8 count as long as the hook sticks, with the same counts and codes.
+/// The outcome of a trial depends on its parameters alone, neither on the other trials nor on the settings.
+/// While the hook sticks, counts and codes equal those of run_trial, and θ differs by less than 3e-8 count.
 class BatchEngine {
  public:
   explicit BatchEngine(const BatchSettings& settings = {});

@@ -47,7 +47,7 @@ struct alignas(64) MotionLanes {
   Lanes softness;       ///< exp(−y) of the branch at the start of the step
 };
 
-/// What of a trial the motion depends on, the same throughout a contact.
+/// Parameters of the motion, constant throughout a contact.
 struct alignas(64) ContactLanes {
   Lanes per_inertia;           ///< 1/J
   Lanes damping;               ///< c
@@ -61,7 +61,7 @@ struct alignas(64) ContactLanes {
   Lanes coulomb;               ///< Fc, N m
   Lanes per_velocity_squared;  ///< 1/ωs²
   Lanes fast_velocity;         ///< 8ωs, rad/s: beyond it friction is that of Coulomb
-  Lanes largest_swing;         ///< that may count as rest at a reversal, rad
+  Lanes max_oscillation;       ///< that may count as rest at a reversal, rad
 };
 
 /// The time of a lane, and its steps.
@@ -109,7 +109,7 @@ struct alignas(64) MeasureLanes : trial::RunningMeasures<Lanes> {
   Lanes extension;      ///< at the last sample, rad
 };
 
-/// What a kernel reports of a lane: a sum of these.
+/// Events of a lane that a kernel reports: a sum of these.
 enum LaneEvent : int {
   no_event = 0,
   may_rest = 1,

@@ -1,4 +1,4 @@
-// What happens to the contact of a lane between its steps.
+// Changes of a lane's contact between its steps.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,7 +33,7 @@ void show_contact(BatchState& batch, int lane, const friction::FrictionParameter
   c.breakaway[lane] = contact.breakaway;
   c.coulomb[lane] = contact.coulomb_ratio * contact.breakaway;
   c.fast_velocity[lane] = 8.0 * contact.stribeck_velocity;
-  c.largest_swing[lane] = std::max(batch.time.rest[lane], std::sqrt(batch.time.rest[lane] / contact.beta));
+  c.max_oscillation[lane] = std::max(batch.time.rest[lane], std::sqrt(batch.time.rest[lane] / contact.beta));
   c.per_velocity_squared[lane] = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
 }
 

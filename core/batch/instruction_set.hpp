@@ -6,7 +6,7 @@
 
 namespace zerocount::batch {
 
-/// What the kernels of the batch engine may be made of. The results are the same with each.
+/// Instruction sets of the kernels of the batch engine. All give the same results.
 enum class InstructionSet { portable, avx2, avx512 };
 
 /// Whether this processor has it, and the kernels were built for it.

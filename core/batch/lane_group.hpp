@@ -35,7 +35,7 @@ class LaneGroup {
     all_ = used_ == P::lanes;
   }
 
-  /// How many lanes of the list these are.
+  /// Number of lanes of the list in this group.
   ZEROCOUNT_ALWAYS_INLINE int used() const { return used_; }
 
   ZEROCOUNT_ALWAYS_INLINE typename P::Mask taking_part() const {

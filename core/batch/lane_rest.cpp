@@ -11,7 +11,7 @@ namespace {
 /// The time (s) at which θ has moved by `distance` (rad, positive) in the direction of creep; infinite where
 /// it never does. By the stiffness (N m/rad) that the spring has now: good to a small part of a sample.
 double time_to_creep(const friction::CreepAtRest& creep, double distance, double stiffness) {
-  // What the spring gives way as the damper's torque falls comes to what has crept.
+  // The spring stretches as the damper's torque falls, in proportion to the growth of creep.
   const double per_creep = creep.s1 * creep.g1 / stiffness;
   const double rate = friction::rate_after_creep(creep, distance / (1.0 + per_creep));
   if (!(rate > 0.0)) return HUGE_VAL;
@@ -29,34 +29,35 @@ double count_at(const BatchState& batch, int lane, double theta) {
 /// Rest as it goes on from now.
 struct RestAhead {
   friction::CreepAtRest creep;
-  friction::Swing swing;
-  double elapsed;  ///< of the swing, s
+  friction::ResidualOscillation oscillation;
+  double elapsed;  ///< since the rest began, s
 };
 
 RestAhead rest_ahead(const LanePlant::Rest& rest) {
-  RestAhead ahead{rest.creep, rest.swing, rest.time};
+  RestAhead ahead{rest.creep, rest.oscillation, rest.time};
   if (ahead.creep.rate > 0.0) ahead.creep.rate = friction::creep_rate_after(rest.creep, rest.time);
   return ahead;
 }
 
-/// The time (s) for which the count surely stays: until creep, with whatever swings then, comes to its edge.
-/// Zero where what swings could come to an edge by itself.
+/// A time (s) for which the count cannot change: until creep and the bound of the residual oscillation reach
+/// the edge of the count. Zero if the oscillation alone could reach an edge.
 double time_within_count(const BatchState& batch, int lane, const RestAhead& rest, const LanePlant& plant) {
   const LoopLanes& l = batch.loop;
   const double low = (l.count[lane] - l.phase[lane]) * l.resolution[lane];
-  const friction::Swing::State swing = friction::swing_at(rest.swing, rest.elapsed);
-  const double slow_theta = plant.theta() - swing.elongation - swing.extension;
+  const friction::ResidualOscillation::State oscillation =
+      friction::oscillation_at(rest.oscillation, rest.elapsed);
+  const double slow_theta = plant.theta() - oscillation.elongation - oscillation.extension;
   const double above = low + l.resolution[lane] - slow_theta;
   const double below = slow_theta - low;
-  double swings = friction::swing_bound(rest.swing, rest.elapsed);
-  if (!(std::min(above, below) > swings)) return 0.0;
+  double bound = friction::oscillation_bound(rest.oscillation, rest.elapsed);
+  if (!(std::min(above, below) > bound)) return 0.0;
   if (rest.creep.rate <= 0.0) return HUGE_VAL;
   const double distance = rest.creep.sign > 0.0 ? above : below;
   const double stiffness = friction::stiffness_on(plant.spring().branch(), plant.spring().elongation());
-  double time = time_to_creep(rest.creep, distance - swings, stiffness);
-  if (swings > 0.0) {
-    swings = friction::swing_bound(rest.swing, rest.elapsed + time);
-    time = time_to_creep(rest.creep, distance - swings, stiffness);
+  double time = time_to_creep(rest.creep, distance - bound, stiffness);
+  if (bound > 0.0) {
+    bound = friction::oscillation_bound(rest.oscillation, rest.elapsed + time);
+    time = time_to_creep(rest.creep, distance - bound, stiffness);
   }
   return time;
 }

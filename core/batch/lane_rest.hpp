@@ -10,13 +10,13 @@ namespace zerocount::batch {
 /// processed.
 using PassedSample = std::function<void(double passed, double theta, const friction::CreepState& creep)>;
 
-/// By the rest rule. A lane that is at rest goes on, by creep alone and in closed form, to the next stop, or
-/// to the first sampling instant at which its count is another.
-/// @param passed told of every sample before that one; may be empty.
+/// Applies the rest rule. A lane at rest advances, by creep alone and in closed form, to the next stop, or to
+/// the first sampling instant at which its count differs.
+/// @param passed called for every sample before that one; may be empty.
 /// @returns whether the lane was at rest; then it is at a stop.
 bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& passed);
 
-/// Takes `samples` samples over, at which the error was 0 and the torque the same.
+/// Accounts for `samples` samples with zero error and an unchanged torque.
 void pass_samples(BatchState& batch, int lane, double samples);
 
 }  // namespace zerocount::batch

@@ -35,8 +35,8 @@ void LaneWork::move_sticking() {
   end_sticking_steps();
 }
 
-/// What the events at the start of a step ask for. Of the `count` lanes in the list, those that still want
-/// the step stay; says how many.
+/// Handles the events at the start of a step. Keeps in the list, of `count` lanes, those that still take the
+/// step. @returns their number.
 int LaneWork::prepare_steps(int count) {
   bool others = false;
   for (int i = 0; i < batch_.event_count; ++i) {
@@ -76,7 +76,7 @@ bool LaneWork::come_to_rest(int lane) {
   });
 }
 
-/// What the events of a step ask for.
+/// Handles the events at the end of a step.
 void LaneWork::end_sticking_steps() {
   if (observers_->sample) record_passed();
   for (int i = 0; i < batch_.event_count; ++i) {

@@ -17,7 +17,7 @@ namespace zerocount::batch {
 /// The lanes' friction law: that of the models which run in lanes.
 using LanePlant = plant::PlantWith<friction::PreslidingFriction>;
 
-/// What a lane has beside its numbers in the batch state: its trial, and what the kernels have no use for.
+/// State of a lane that the kernels do not use: its trial, the memory of the spring, measures per jerk.
 struct LaneTrial {
   const trial::TrialParameters* parameters{nullptr};
   std::size_t number{0};  ///< of the trial in the batch
@@ -48,14 +48,13 @@ struct LaneTrial {
 void load_motion(const BatchState& batch, int lane, LaneTrial& trial);
 void store_motion(BatchState& batch, int lane, LaneTrial& trial);
 
-// What happens to the contact, as Plant has it.
+// Changes of the contact, as PreslidingFriction makes them.
 void turn(BatchState& batch, int lane, LaneTrial& trial);
 void close_loop(BatchState& batch, int lane, LaneTrial& trial);
 void end_creep(BatchState& batch, int lane, LaneTrial& trial);
 void start_slide(BatchState& batch, int lane, LaneTrial& trial);
 void end_slide(BatchState& batch, int lane, LaneTrial& trial);
-/// By LanePlant::advance to the next stop.
-/// @returns whether the motion could be followed.
+/// Advances to the next stop by LanePlant::advance. @returns whether the motion stayed finite.
 bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial);
 
 /// The measures of one lane.

@@ -1,4 +1,4 @@
-// How trials come into lanes and leave them.
+// Loading of trials into lanes, and their results.
 #include "core/batch/lane_work.hpp"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 namespace zerocount::batch {
 
-/// What the end of a step lies beyond.
+/// Events whose threshold the end of a step lies beyond.
 template <class P>
 struct EventsPassed {
   using Mask = typename P::Mask;

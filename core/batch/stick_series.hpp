@@ -29,7 +29,7 @@ struct StickLaw {
   P creep_exponent;  ///< n
 };
 
-/// What order k of the series follows from, once the exponential and |σ|ⁿ are known there.
+/// Completes order k of the series, given the exponential and |σ|ⁿ at that order.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void next_order(const StickLaw<P>& law, int k, const P& power, const P& start_rate,
                                         StickSeries<P>& s, P* slope) {

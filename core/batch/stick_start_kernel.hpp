@@ -6,8 +6,8 @@
 
 namespace zerocount::batch {
 
-/// What has to be settled before a step of a lane whose hook sticks: evaluates the branch, and events
-/// may_rest alone, or slides, or any of ends_creep and turns. See PreslidingFriction::stick.
+/// Prepares the step of a lane whose hook sticks: evaluates the branch, and reports may_rest alone, or
+/// slides, or any of ends_creep and turns. See PreslidingFriction::stick.
 template <class P>
 void stick_start_kernel(BatchState& batch, LaneList list) {
   using Mask = typename P::Mask;
@@ -50,8 +50,8 @@ void stick_start_kernel(BatchState& batch, LaneList list) {
     const P unbalanced = torque - damping * omega - spring_torque;
     const P acceleration = unbalanced * per_inertia + alpha * extension_rate;
 
-    // Within twice the amplitude of rest, or of what may swing about it after a reversal, by the leading
-    // terms of CreepAtRest: the rest rule decides.
+    // Within twice the amplitude of rest, or of a residual oscillation at a reversal, by the leading terms of
+    // CreepAtRest: the rest rule decides.
     const P balance = torque_sign * torque;
     const P creep_limit = torque_power(torque, exponent) * per_lambda;
     const P limit_rate = alpha * (creep_limit - hardening);
@@ -62,14 +62,15 @@ void stick_start_kernel(BatchState& batch, LaneList list) {
                         (P(1.0) + limit_slope * damping);
     const P torque_excess = torque_sign * spring_torque - (balance - damping * slow_rate);
     const P velocity_excess = torque_sign * omega - slow_rate * (P(1.0) + alpha * damping / stiffest);
-    const P swing = (torque_excess + damping * velocity_excess) * per_inertia;
+    const P acceleration_excess = (torque_excess + damping * velocity_excess) * per_inertia;
     const P per_time_squared = stiffest * per_inertia;
     const Mask turning = elongation_rate == zero;
-    const P amplitude = select(turning, at.load(c.largest_swing), at.load(batch.time.rest));
+    const P amplitude = select(turning, at.load(c.max_oscillation), at.load(batch.time.rest));
     const P limit = P(2.0) * amplitude * per_time_squared;
     const Mask at_rest = torque == at.load(m.rest_torque);
-    const Mask rests =
-        at_rest | (swing * swing + per_time_squared * velocity_excess * velocity_excess < limit * limit);
+    const Mask rests = at_rest | (acceleration_excess * acceleration_excess +
+                                      per_time_squared * velocity_excess * velocity_excess <
+                                  limit * limit);
 
     const P hook_torque = spring_torque + damping * omega;
     const P motion = select(omega != zero, omega, torque - spring_torque);

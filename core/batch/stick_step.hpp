@@ -25,20 +25,20 @@ struct StickStep {
   StickLaw<P> law;
   StickSeries<P> series;
 
-  // How far it is good.
+  // How long a step the series allows.
   Mask reverses;      ///< dxs/dt changes its sign
   Mask reverses_too;  ///< of them, those whose reversal is to be found
   Mask too_long;
-  Mask inexact;  ///< too long, because of the terms left out
-  P last_terms;  ///< of elongation and velocity, rad
-  P allowed;     ///< of them, rad
-  P left_out;    ///< the same at the share that is used
-  P share;       ///< likewise of what is allowed
-  P rate_end;    ///< of dxs/dt·h at the whole step, rad
+  Mask inexact;    ///< too long, because of the terms left out
+  P last_terms;    ///< of elongation and velocity, rad
+  P allowed;       ///< limit of last_terms, rad
+  P left_out;      ///< last_terms at x
+  P allowed_at_x;  ///< `allowed` for the part of the step up to x, rad
+  P rate_end;      ///< of dxs/dt·h at the whole step, rad
 
-  // What is made of it.
-  P x;         ///< the share of it that is used
-  P event;     ///< LaneEvent at its end
+  // The step that is taken.
+  P x;         ///< the fraction of the full step that is used
+  P event;     ///< LaneEvent at the end of it
   Mask meets;  ///< it has an event that this kernel does not look for
   Mask beyond;
   P torque, elongation, velocity, growth;  ///< σ, xs, ω·h and xh·sgn(σ) at its end
@@ -114,14 +114,15 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const BatchState& batch,
   return inwards & (growth > P(6.0)) & (softening_rate * travelled - growth < P(40.0));
 }
 
-/// What the terms left out may come to. A swing of less than 5e-6 count is followed to 2e-6 of its amplitude.
+/// The truncation error allowed in this step. An oscillation of less than 5e-6 count is followed to 2e-6 of
+/// its amplitude.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const LaneGroup<P>& at,
                                         const StickStep<P>& step) {
   const TimeLanes& time = batch.time;
   const StickSeries<P>& s = step.series;
-  const P swings = at.load(time.longest_step) / step.h;
-  const P amplitude = max(abs(s.rate[0]), abs(s.rate[1]) * swings) * swings;
+  const P ratio = at.load(time.longest_step) / step.h;
+  const P amplitude = max(abs(s.rate[0]), abs(s.rate[1]) * ratio) * ratio;
   const P scale = min(max(amplitude * at.load(time.per_count) * P(2e5), P(1e-3)), P(1.0));
   return at.load(time.tolerance) * scale * (step.h * at.load(time.sample_rate));
 }
@@ -141,16 +142,16 @@ ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const LaneGr
                     (abs(s.elongation[batch_order]) + abs(s.velocity[batch_order]));
   step.allowed = allowed_error(batch, at, step);
   step.too_long = grows_too_much(batch, at, step);
-  // What creep adds to dxs/dt may bring it through zero and back where it is as small.
+  // Where dxs/dt is as small as the contribution of creep, that may bring it through zero and back.
   const P creep_velocity =
       P(8.0) * at.load(batch.contact.alpha) * at.load(batch.contact.damping) / step.law.k1 * abs(s.creep[0]);
   const Mask unsure =
       step.here & ~step.reverses & (min(abs(rate_start), abs(step.rate_end)) <= creep_velocity);
   const Mask seeks = step.here & step.reverses & ~step.too_long;
   step.x = P(1.0);
-  // Up to a reversal the series need not reach farther.
+  // With a reversal the series has to be accurate up to there only.
   step.left_out = step.last_terms;
-  step.share = step.allowed;
+  step.allowed_at_x = step.allowed;
   if ((seeks | unsure).any()) {
     P g[batch_order];
     for (int k = 0; k < batch_order - 1; ++k) g[k] = select(step.turning, s.rate[k + 1], s.rate[k]);
@@ -163,15 +164,15 @@ ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const LaneGr
       step.x = select(seeks, root_between(g, batch_order - 1, g[0], step.rate_end, P(1.0), seeks), P(1.0));
 #pragma GCC unroll 1
       for (int k = 1; k < batch_order; ++k) step.left_out = step.left_out * step.x;
-      step.share = step.allowed * step.x;
+      step.allowed_at_x = step.allowed * step.x;
     }
   }
   step.reverses_too = seeks;
-  step.inexact = ~(step.left_out <= step.share);
+  step.inexact = ~(step.left_out <= step.allowed_at_x);
   step.too_long = step.too_long | step.inexact;
 }
 
-/// The motion at the share that is used.
+/// The motion at the end of the part that is used.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void evaluate_end(StickStep<P>& step) {
   const StickSeries<P>& s = step.series;

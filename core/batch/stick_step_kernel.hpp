@@ -55,13 +55,15 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const LaneGroup<P>& a
   const P h = step.h;
   const P factor = P(0.9) * rough_power(step.allowed / step.last_terms, 1.0 / batch_order);
   const P shorter = select(step.inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));
-  // What speeds up will need shorter steps. (A way that is lost in rounding tells nothing.)
+  // A motion that accelerates will need shorter steps. (A displacement lost in rounding gives no
+  // information.)
   const P moved = abs(step.elongation - step.series.elongation[0]);
   const P slower = select(step.reverses | (moved == zero), one, min(one, moved / abs(step.rate_end)));
   // From one reversal to the next it takes about as long as from the one before.
-  const P half_swing = select(step.turning & step.reverses & (P(4.0) * step.left_out <= step.share),
-                              P(1.25) * step.x * h, zero);
-  const P longer = max(h * min(max(factor * slower, P(0.3)), P(2.5)), half_swing);
+  const P half_oscillation =
+      select(step.turning & step.reverses & (P(4.0) * step.left_out <= step.allowed_at_x),
+             P(1.25) * step.x * h, zero);
+  const P longer = max(h * min(max(factor * slower, P(0.3)), P(2.5)), half_oscillation);
   // A step that a stop has cut short does not shorten the one after it.
   const P before = at.load(time.next_step);
   const P kept = select(~(h < step.time_to_stop) & (factor > one), max(longer, before), longer);

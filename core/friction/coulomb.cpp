@@ -40,8 +40,8 @@ bool CoulombFriction::torque_drives(double direction, const motion::TorqueCourse
 }
 
 /// |u| can pass the breakaway torque at most once, and only towards where it settles, because u is monotonic.
-/// What moves nothing in the arithmetic counts as within the level: the rotor would slide and stick without
-/// end.
+/// An excess of torque that rounding cannot turn into motion does not start a slide, or the rotor would slide
+/// and stick without end.
 double CoulombFriction::stand(const motion::TorqueCourse& torque, double duration) {
   if (std::abs(torque.now) > contact_.breakaway && torque_drives(numerics::sign_of(torque.now), torque)) {
     break_away(numerics::sign_of(torque.now));

@@ -75,7 +75,7 @@ double error_of_creep_at_rest(const CreepAtRest& rest, const motion::PlantParame
     g3 = -per_torque * (third - curved);
   }
   const double cube = r.rate * r.rate * r.rate;
-  // What the spring's softening changes in dS/dt over k, and with it in S.
+  // Change of (dS/dt)/k, and so of S, by the softening of the spring.
   const double softened =
       plant.presliding_damping * first * r.rate * (1.0 / last_stiffness - 1.0 / stiffness);
   const double of_torque = std::abs(s3) * cube + softened;

@@ -10,8 +10,9 @@ namespace zerocount::friction {
 
 /// The motion of a rotor that only creep moves, under a constant torque u.
 ///
-/// With s = sgn(σ), let S = |σ|, U = s·u, w = s·ω and p = dxh/dt ≥ 0. Nothing swings any more: p dies out
-/// within some 1/α, far more slowly than the rotor could swing, and all else follows it:
+/// With s = sgn(σ), let S = |σ|, U = s·u, w = s·ω and p = dxh/dt ≥ 0. The
+/// oscillation of the rotor has ended: p decays within about 1/α, far more slowly than the rotor oscillates,
+/// and the other quantities follow it:
 ///
 ///   dp/dt = −(g1·p + g2·p²),   S = U − s1·p − s2·p²,   w = w1·p + w2·p².
 ///
@@ -23,7 +24,7 @@ namespace zerocount::friction {
 ///
 ///   p/(g1 + g2·p) = p₀/(g1 + g2·p₀)·exp(−g1·t).
 ///
-/// Without creep all of it is zero, and S = U.
+/// Without creep all coefficients are zero, and S = U.
 struct CreepAtRest {
   double balance{0.0};  ///< U, N m
   double sign{1.0};     ///< s
@@ -36,30 +37,30 @@ struct CreepAtRest {
   double rate{0.0};     ///< p₀, at t = 0, rad/s
 };
 
-/// Creep at rest with `sign`·torque > 0, or none where nothing moves slowly enough to be at rest: α has to be
-/// below a tenth of the rates at which the rotor's own motion dies out, c/2J and k/c.
+/// Creep at rest with `sign`·torque > 0. None where creep is too fast: α must be below a tenth of the rates
+/// at which the motion of the rotor decays, c/2J and k/c.
 /// @param torque u, N m. @param sign s. @param stiffness k, N m/rad. @param hardening xh at t = 0, rad, with
 /// |u|ⁿ/λ beyond it.
 std::optional<CreepAtRest> creep_at_rest(const motion::PlantParameters& plant,
                                          const FrictionParameters& contact, double torque, double sign,
                                          double stiffness, double hardening);
 
-/// Bound of what θ (rad) may differ from the exact motion: twice what the third powers of p, the first that
-/// are left out, and the change of the tangent stiffness from k to `last_stiffness` (N m/rad, not above k)
-/// while S goes to U would add.
+/// Error bound of θ (rad): twice the contributions of the third powers of p, the first that are left out, and
+/// of the change of the tangent stiffness from k to `last_stiffness` (N m/rad, not above k) while S goes to
+/// U.
 double error_of_creep_at_rest(const CreepAtRest& rest, const motion::PlantParameters& plant,
                               const FrictionParameters& contact, double stiffness, double last_stiffness);
 
 /// p (rad/s) after the time t (s).
 double creep_rate_after(const CreepAtRest& rest, double t);
 
-/// ∫p dt (rad): how far xh and |xp| have grown when the rate is down to `rate` (rad/s).
+/// ∫p dt (rad), the growth of xh and |xp| until the rate has fallen to `rate` (rad/s).
 double creep_until_rate(const CreepAtRest& rest, double rate);
 
 /// The rate (rad/s) at which ∫p dt has become `growth` (rad): 0 or less where it never does.
 double rate_after_creep(const CreepAtRest& rest, double growth);
 
-/// The time (s) until the rate is down to `rate` (rad/s, positive).
+/// The time (s) until the rate has fallen to `rate` (rad/s, positive).
 double time_until_rate(const CreepAtRest& rest, double rate);
 
 /// S (N m) at the rate p (rad/s).

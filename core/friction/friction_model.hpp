@@ -15,13 +15,13 @@ enum class FrictionModel {
   none         ///< NoFriction
 };
 
-/// What the law says of itself.
+/// Properties of the law.
 const LawTraits& traits_of(FrictionModel model);
 
-/// The words of friction.model, in the order of FrictionModel.
+/// Values of friction.model in a manifest, in the order of FrictionModel.
 std::vector<std::string_view> friction_model_words();
 
-// By the contact parameters that the law uses:
+// Derived from the contact parameters that the law uses:
 
 /// Whether the contact is a spring before it slides.
 bool has_spring(FrictionModel model);

@@ -45,7 +45,7 @@ concept FrictionLaw = std::constructible_from<Law, const motion::PlantParameters
   law.forget_deepest();
 };
 
-/// What a law without creep and memory says of them.
+/// Base of the laws without creep and memory.
 struct WithoutSpring {
   static CreepState creep() { return {}; }
   static std::int64_t depth() { return 0; }
@@ -53,7 +53,7 @@ struct WithoutSpring {
   static void forget_deepest() {}
 };
 
-/// What is known of a law without its motion.
+/// Properties of a law that do not depend on its state.
 struct LawTraits {
   std::string_view word;
   std::span<const ContactField> contact_parameters;

@@ -11,8 +11,9 @@
 namespace zerocount::friction {
 namespace {
 
-/// Below this share of the breakaway torque the sign of σ is a matter of rounding. Which side of the virgin
-/// curve a new contact starts on must not be: it decides whether a turn of the motion there is remembered.
+/// Below this fraction of the breakaway torque the sign of σ is a matter of rounding. A new contact then
+/// starts at the origin of the virgin curve, because the side on which it starts decides whether a reversal
+/// there is remembered.
 constexpr double torque_without_sign = 1e-14;
 
 }  // namespace
@@ -50,7 +51,7 @@ PlantMotion PreslidingFriction::motion() const {
 
 void PreslidingFriction::set_motion(const PlantMotion& motion) {
   rest_.reset();
-  swing_ = {0.0, 0.0, 0.0};
+  oscillation_ = {0.0, 0.0, 0.0};
   spring_.place(motion.elongation);
   omega_ = motion.omega;
   creep_ = motion.creep;
@@ -129,7 +130,7 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
   return next.time;
 }
 
-/// Turns the creep law on or off where it is time. @returns dxp/dt, rad/s.
+/// Turns the creep law on or off where its condition holds. @returns dxp/dt, rad/s.
 double PreslidingFriction::switch_creep() {
   if (!creeping_ && std::abs(spring_.torque()) >= creep_onset_torque_) creeping_ = true;
   const double rate = creep_rate();
@@ -158,10 +159,10 @@ bool PreslidingFriction::at_rest(const Elongation& elongation) const {
          std::abs(elongation.acceleration) < tolerance_.elongation * stiffness_per_inertia;
 }
 
-/// For how long a torque that moves leaves the elongation at rest, s.
+/// The time (s) for which a varying torque leaves the elongation at rest.
 double PreslidingFriction::time_at_rest(const Elongation& elongation, const motion::TorqueCourse& torque,
                                         double duration) const {
-  // Not less than the rounding of the torque, or the rest could end before the torque has changed.
+  // At least the rounding of the torque, or the rest could end before the torque has changed.
   const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(torque.now);
   const double whole =
       std::max(tolerance_.elongation * (contact_.k1 + contact_.k2), rounding) / plant_.inertia;

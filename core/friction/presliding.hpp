@@ -7,9 +7,9 @@
 #include "core/friction/creep.hpp"
 #include "core/friction/creep_at_rest.hpp"
 #include "core/friction/law.hpp"
+#include "core/friction/residual_oscillation.hpp"
 #include "core/friction/spring.hpp"
 #include "core/friction/sticking.hpp"
-#include "core/friction/swing.hpp"
 
 namespace zerocount::friction {
 
@@ -30,28 +30,28 @@ struct PlantMotion {
 /// The model of the paper: the pre-sliding motion (paper, eq. 4, with creep) while the hook sticks,
 /// sliding (paper, eq. 3) after breakaway, and the changes between them: Sticking and Slide.
 ///
-/// Rest rule. Without one, an oscillation would die out for ever, and rounding would make the elongation rate
-/// flip its sign in the end. Let δσ and δω be what σ and ω differ by from those of a rotor that only creep
-/// moves under the present torque (CreepAtRest; without creep σ = u and ω = 0), ε = MotionTolerance::rest,
-/// ωn² = (k1 + k2)/J, and A the amplitude with
+/// Rest rule. Without one, an oscillation would decay for ever, and the sign of the elongation rate would in
+/// the end be a matter of rounding. Let δσ and δω be the deviations of σ and ω from those of a rotor that
+/// only creep moves under the present torque (CreepAtRest; without creep σ = u and ω = 0), ε =
+/// MotionTolerance::rest, ωn² = (k1 + k2)/J, and A the amplitude with
 ///
 ///   ((δσ + c·δω)/J)² + (ωn·δω)² = (A·ωn²)².
 ///
 /// Where A < ε and |δσ| < 2ε·dσ/dxs, σ and ω are set to those of the creeping rotor, which follows
 /// CreepAtRest for as long as the torque stays. What is left out is an oscillation of amplitude ε.
 ///
-/// At a reversal this happens earlier already, where β·A² < ε. A loop of the spring of the size A is open by
-/// some β·A², so the spring of what is left of the oscillation is the straight line of stiffness k1 + k2: it
-/// is a Swing about CreepAtRest, whose reversals are not remembered but for the first. (Not where creep or
-/// the hook would notice: where within twice the amplitude creep sets in or ends, or the hook breaks away.)
+/// At a reversal it comes to rest earlier, where β·A² < ε: a loop of the spring of size A is open by about
+/// β·A², so the remaining oscillation is a ResidualOscillation about CreepAtRest. The spring remembers only
+/// its first reversal. This does not apply where creep starts or ends, or the hook breaks away, within twice
+/// the amplitude.
 ///
-/// Both conditions are on the energy of the oscillation, which only falls, and the second is asked at
-/// reversals only: so which reversal is the last one to be remembered does not depend on where steps end.
+/// Both conditions are on the energy of the oscillation, which only falls, and the second holds at reversals
+/// only. The last reversal that the spring remembers is therefore independent of the steps of integration.
 ///
-/// Where the torque moves, the elongation is held while |dxs/dt| < ε·ωn and |d²xs/dt²| < ε·ωn², with ε =
-/// MotionTolerance::elongation, from half of that acceleration until the torque has brought it to the whole;
-/// creep follows its exact solution at constant torque. The elongation is then never further than ε·(k1 +
-/// k2)/k1 from the one that balances the torque.
+/// Under a varying torque the elongation is held while |dxs/dt| < ε·ωn and |d²xs/dt²| < ε·ωn², with ε =
+/// MotionTolerance::elongation, from half of that acceleration until the torque has brought it to the full
+/// value; creep follows its exact solution at constant torque. The elongation is then never further than
+/// ε·(k1 + k2)/k1 from the one that balances the torque.
 class PreslidingFriction {
  public:
   static constexpr std::string_view word = "presliding";
@@ -74,39 +74,39 @@ class PreslidingFriction {
     return sliding_ ? slide(torque, duration) : stick(torque, duration);
   }
 
-  // For an engine that follows the motion itself and leaves to this class what is rare.
+  // For an engine that integrates the motion itself and leaves rare events to this class.
   PlantMotion motion() const;
-  /// Takes over where another has followed the motion to. The spring must be on the same branch.
+  /// Continues from the state of that engine. The spring must be on the same branch.
   void set_motion(const PlantMotion& motion);
   /// The hook starts to slide in `direction` (−1, 1).
   void break_away(double direction);
   /// The hook sticks, where the slide has come to ω = 0.
   void re_stick();
-  /// At rest under a constant torque: since when, and how it began.
+  /// State of rest under a constant torque.
   struct Rest {
-    double torque;      ///< u, N m
-    CreepAtRest creep;  ///< from then on
-    CreepState start;   ///< of such creep, then
-    Swing swing;        ///< about it
-    double time;        ///< since then, s
+    double torque;                    ///< u, N m
+    CreepAtRest creep;                ///< the motion by creep since the rest began
+    CreepState start;                 ///< of creep when the rest began
+    ResidualOscillation oscillation;  ///< about it
+    double time;                      ///< since the rest began, s
   };
 
-  /// By the rest rule, under the constant torque `torque` (N m). Where true, `advance` with that torque
-  /// follows it in one step.
-  /// @param at_reversal dxs/dt is zero now, exactly.
+  /// Applies the rest rule under the constant torque `torque` (N m). If it returns true, step() with that
+  /// torque takes the whole duration at once.
+  /// @param at_reversal dxs/dt is exactly zero.
   bool come_to_rest(double torque, bool at_reversal);
   /// None while the rotor is not at rest.
   const std::optional<Rest>& rest() const { return rest_; }
   /// θ (rad) at rest, after another `time` (s) of it.
   double theta_at_rest(double time) const;
-  /// At rest, its elongation is that of the creeping rotor, without what swings about it.
+  /// At rest, its elongation is that of the creeping rotor without the residual oscillation.
   HystereticSpring& spring() { return spring_; }
 
   /// θ, rad.
   double theta() const { return sliding_ ? slide_theta_ : hook_ + elongation() + creep_.extension; }
   /// ω, rad/s.
   double omega() const { return omega_; }
-  /// Of the present contact, or of the last one while sliding.
+  /// State of the present contact, or of the last one while sliding.
   const CreepState& creep() const { return creep_; }
   const HystereticSpring& spring() const { return spring_; }
   const FrictionParameters& contact() const { return contact_; }
@@ -120,7 +120,7 @@ class PreslidingFriction {
   std::int64_t depth() const { return static_cast<std::int64_t>(spring_.depth()); }
 
  private:
-  /// Of the spring: dxs/dt (rad/s), and d²xs/dt² (rad/s²; exact where dxs/dt is zero).
+  /// Motion of the spring: dxs/dt (rad/s), and d²xs/dt² (rad/s²; exact where dxs/dt is zero).
   struct Elongation {
     double rate;
     double acceleration;
@@ -141,14 +141,14 @@ class PreslidingFriction {
   Elongation elongation_under(double torque, double creep_rate_now) const;
   bool begin_rest(double torque, const Elongation& elongation, bool stood);
   std::optional<Excess> excess_over_rest(double torque, const Elongation& elongation, double largest) const;
-  bool swings_freely(double torque, const Excess& excess) const;
-  SwingLaw swing_law(const Excess& excess) const;
-  Swing begin_swing(const Excess& excess);
+  bool oscillates_freely(double torque, const Excess& excess) const;
+  OscillationLaw oscillation_law(const Excess& excess) const;
+  ResidualOscillation begin_oscillation(const Excess& excess);
   CreepState slow_creep(double sign) const;
-  double creep_left_out(const SwingLaw& law, const Excess& excess) const;
+  double creep_left_out(const OscillationLaw& law, const Excess& excess) const;
   void settle(const Excess& excess, bool stood);
   std::optional<CreepAtRest> slow_motion(double torque, double sign) const;
-  double elongation() const { return spring_.elongation() + swing_.elongation; }
+  double elongation() const { return spring_.elongation() + oscillation_.elongation; }
   bool leave_rest();
   double switch_creep();
   void go_on_at_rest(double duration);
@@ -175,7 +175,7 @@ class PreslidingFriction {
   double hook_{0.0};
   double omega_{0.0};
   std::optional<Rest> rest_;
-  Swing::State swing_{0.0, 0.0, 0.0};  // not zero at rest only
+  ResidualOscillation::State oscillation_{0.0, 0.0, 0.0};  // zero except at rest
 
   bool sliding_{false};
   double slide_theta_{0.0};
@@ -186,7 +186,7 @@ class PreslidingFriction {
   std::int64_t deepest_{0};
 };
 
-/// The same without creep: α counts as 0 in every contact.
+/// PreslidingFriction without creep: α is 0 in every contact.
 class SpringFriction : public PreslidingFriction {
  public:
   using PreslidingFriction::PreslidingFriction;

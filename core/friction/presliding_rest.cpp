@@ -1,4 +1,4 @@
-// The plant at rest: nothing swings any more, and creep alone moves the rotor.
+// The plant at rest: the oscillation has decayed, or is known in closed form, and creep moves the rotor.
 #include <algorithm>
 #include <cmath>
 
@@ -13,12 +13,12 @@ bool PreslidingFriction::come_to_rest(double torque, bool at_reversal) {
   return begin_rest(torque, elongation_under(torque, creep_rate_now), stood);
 }
 
-/// @returns whether nothing swung any more: the rotor stood, but for creep.
+/// @returns whether the residual oscillation had ended: only creep moved the rotor.
 bool PreslidingFriction::leave_rest() {
   if (!rest_) return false;
-  const bool stood = !(rest_->time < rest_->swing.unnoticed_after);
+  const bool stood = !(rest_->time < rest_->oscillation.end);
   spring_.place(elongation());
-  swing_ = {0.0, 0.0, 0.0};
+  oscillation_ = {0.0, 0.0, 0.0};
   rest_.reset();
   return stood;
 }
@@ -32,11 +32,11 @@ bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation,
       excess_over_rest(torque, elongation, std::max(largest, tolerance_.rest));
   if (!excess) return false;
   const double stiffness = stiffness_on(spring_.branch(), spring_.elongation());
-  Swing swing;
+  ResidualOscillation oscillation;
   if (excess->amplitude < tolerance_.rest && std::abs(excess->torque) < 2.0 * tolerance_.rest * stiffness) {
     settle(*excess, stood);
-  } else if (turns && excess->amplitude < largest && swings_freely(torque, *excess)) {
-    swing = begin_swing(*excess);
+  } else if (turns && excess->amplitude < largest && oscillates_freely(torque, *excess)) {
+    oscillation = begin_oscillation(*excess);
   } else {
     return false;
   }
@@ -47,19 +47,19 @@ bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation,
     end_creep();
   }
   deepest_ = std::max(deepest_, depth());
-  swing_ = swing_at(swing, 0.0);
+  oscillation_ = oscillation_at(oscillation, 0.0);
   CreepAtRest slow = creep;
-  slow.rate += creep.g1 * creep.sign * swing_.extension;
-  rest_ = Rest{torque, slow, slow_creep(creep.sign), swing, 0.0};
+  slow.rate += creep.g1 * creep.sign * oscillation_.extension;
+  rest_ = Rest{torque, slow, slow_creep(creep.sign), oscillation, 0.0};
   return true;
 }
 
-/// What creep comes to without the present swing.
+/// The state of creep without the part of the present oscillation.
 CreepState PreslidingFriction::slow_creep(double sign) const {
-  return {creep_.extension - swing_.extension, creep_.hardening - sign * swing_.extension};
+  return {creep_.extension - oscillation_.extension, creep_.hardening - sign * oscillation_.extension};
 }
 
-/// None where the amplitude is above `largest` (rad), or creep as fast as the swings.
+/// None where the amplitude is above `largest` (rad), or creep is as fast as the oscillation.
 std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(double torque,
                                                                                const Elongation& elongation,
                                                                                double largest) const {
@@ -69,8 +69,7 @@ std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(d
   const double per_time_squared = stiffest / inertia;
   const double spring_torque = spring_.torque();
   const double creep_now = std::abs(creep_rate());
-  // Creep decelerates by α·p, and the spring stretches by the damper's part of that. Most of the time all
-  // else is far beyond.
+  // Quick rejection. Creep decelerates by α·p, and the spring stretches by the damper's part of that.
   const double slow_velocity = 2.0 * contact_.alpha * damping * creep_now / contact_.k1;
   const double slow_torque = 2.0 * inertia * contact_.alpha * creep_now;
   if (std::abs(elongation.rate) > largest * std::sqrt(per_time_squared) + slow_velocity) return std::nullopt;
@@ -81,13 +80,13 @@ std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(d
 
   const double sign = spring_torque < 0.0 ? -1.0 : 1.0;
   CreepAtRest creep{.balance = sign * torque, .sign = sign};
-  const double left_to_creep =
+  const double remaining_creep =
       sign * torque > 0.0 ? hardening_limit(contact_, torque) - creep_.hardening : 0.0;
-  if (creeping_ && left_to_creep > 0.0) {
-    // Creep that dies out as fast as the swings do is waited for.
+  if (creeping_ && remaining_creep > 0.0) {
+    // Not at rest before creep that decays as fast as the oscillation has ended.
     if (const std::optional<CreepAtRest> found = slow_motion(torque, sign)) {
       creep = *found;
-    } else if (left_to_creep > 0.1 * tolerance_.rest) {
+    } else if (remaining_creep > 0.1 * tolerance_.rest) {
       return std::nullopt;
     }
   } else if (!creeping_ && std::abs(torque) > creep_onset_torque_) {
@@ -100,9 +99,9 @@ std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(d
   return Excess{creep, torque_excess, velocity_excess, std::sqrt(energy) / per_time_squared};
 }
 
-/// A rotor that is off by rounding alone stays: it may stand on the edge of a count. What is left of a swing
-/// is not remembered. But where the torque has changed on a rotor that stood, however little, the spring is
-/// loaded or unloaded by that, and has to remember it: a slow ramp is nothing but such steps.
+/// Moves the spring to the torque at rest. A deviation by rounding alone is kept: the rotor may stand on the
+/// edge of a count. The end of an oscillation leaves no reversal point. A change of the torque on a rotor
+/// that stood does, however small, because a slow ramp consists of such changes.
 void PreslidingFriction::settle(const Excess& excess, bool stood) {
   if (!(std::abs(excess.torque) > tolerance_.elongation * (contact_.k1 + contact_.k2))) return;
   const double torque = excess.creep.sign * spring_torque_at_rate(excess.creep, excess.creep.rate);
@@ -113,15 +112,15 @@ void PreslidingFriction::settle(const Excess& excess, bool stood) {
   }
 }
 
-/// Whether nothing but the spring, as stiff as it is at a reversal, the damper and some creep will have a say
-/// in the swings that are left. Asked at a reversal.
-bool PreslidingFriction::swings_freely(double torque, const Excess& excess) const {
+/// Whether ResidualOscillation describes the remaining motion: no breakaway, no closed loop, and no start or
+/// end of creep within twice the amplitude. Called at a reversal only.
+bool PreslidingFriction::oscillates_freely(double torque, const Excess& excess) const {
   const double margin = 2.0 * excess.amplitude;
   const double torque_margin = margin * (contact_.k1 + contact_.k2);
   if (!(std::abs(torque) + torque_margin < contact_.breakaway)) return false;
   const bool turns_back = spring_.direction() * excess.torque > 0.0;
   if (!turns_back || !(std::abs(spring_.elongation() - spring_.branch().elongation) > margin)) return false;
-  const SwingLaw law = swing_law(excess);
+  const OscillationLaw law = oscillation_law(excess);
   if (!(law.decay > 0.0 && law.frequency > law.decay)) return false;
   if (!creeping_) return std::abs(torque) + torque_margin < creep_onset_torque_;
   if (!(excess.creep.rate > 0.0 && excess.creep.balance > torque_margin)) return false;
@@ -129,9 +128,9 @@ bool PreslidingFriction::swings_freely(double torque, const Excess& excess) cons
   return creep_left_out(law, excess) < 0.1 * tolerance_.rest;
 }
 
-/// About how far (rad) creep goes in the swings beyond what Swing has of it: Σ of the second order of σⁿ,
-/// which has one sign whatever that of the swing, and what creep recovers while it is ahead.
-double PreslidingFriction::creep_left_out(const SwingLaw& law, const Excess& excess) const {
+/// Estimate (rad) of the creep that ResidualOscillation leaves out: the second-order term of σⁿ, whose mean
+/// over a period is not zero, and the recovery while xh is ahead of its limit.
+double PreslidingFriction::creep_left_out(const OscillationLaw& law, const Excess& excess) const {
   const double amplitude = excess.amplitude;
   const double stiffest = contact_.k1 + contact_.k2;
   const double per_time_squared = law.frequency * law.frequency + law.decay * law.decay;
@@ -141,10 +140,10 @@ double PreslidingFriction::creep_left_out(const SwingLaw& law, const Excess& exc
   return rectified + 2.0 * recovered;
 }
 
-SwingLaw PreslidingFriction::swing_law(const Excess& excess) const {
+OscillationLaw PreslidingFriction::oscillation_law(const Excess& excess) const {
   const double stiffest = contact_.k1 + contact_.k2;
   const double per_time = plant_.presliding_damping / plant_.inertia;
-  SwingLaw law{0.0, 0.0, 0.0, contact_.k2 * contact_.beta / stiffest};
+  OscillationLaw law{0.0, 0.0, 0.0, contact_.k2 * contact_.beta / stiffest};
   if (excess.creep.rate > 0.0) {
     const double limit = hardening_limit(contact_, excess.creep.balance);
     law.creep = stiffest * contact_.alpha * contact_.n * limit / excess.creep.balance;
@@ -155,16 +154,17 @@ SwingLaw PreslidingFriction::swing_law(const Excess& excess) const {
   return law;
 }
 
-/// Makes the present elongation a reversal, and puts the spring to where the swings from it will end.
-Swing PreslidingFriction::begin_swing(const Excess& excess) {
+/// Makes the present elongation a reversal point, and moves the spring to where the oscillation will end.
+ResidualOscillation PreslidingFriction::begin_oscillation(const Excess& excess) {
   const CreepAtRest& creep = excess.creep;
   const double from = spring_.elongation();
   spring_.set_direction(-spring_.direction());
   spring_.move_on_to_torque(creep.sign * spring_torque_at_rate(creep, creep.rate));
-  return swing_from(swing_law(excess), from - spring_.elongation(), excess.velocity, tolerance_.elongation);
+  return residual_oscillation(oscillation_law(excess), from - spring_.elongation(), excess.velocity,
+                              tolerance_.elongation);
 }
 
-/// The motion by creep alone, where it describes the coming motion to a tenth of the rest rule's amplitude.
+/// The motion by creep alone, if its error stays below a tenth of the amplitude of the rest rule.
 std::optional<CreepAtRest> PreslidingFriction::slow_motion(double torque, double sign) const {
   const bool onwards = spring_.direction() == static_cast<int>(sign);
   const double stiffness =
@@ -190,8 +190,8 @@ double PreslidingFriction::theta_at_rest(double time) const {
     const double elongation = moves ? spring_.point_at_torque(torque).elongation : spring_.elongation();
     slow = hook_ + elongation + rest_->start.extension + creep.sign * creep_until_rate(creep, rate);
   }
-  const Swing::State swing = swing_at(rest_->swing, later);
-  return slow + swing.elongation + swing.extension;
+  const ResidualOscillation::State oscillation = oscillation_at(rest_->oscillation, later);
+  return slow + oscillation.elongation + oscillation.extension;
 }
 
 void PreslidingFriction::go_on_at_rest(double duration) {
@@ -209,9 +209,10 @@ void PreslidingFriction::go_on_at_rest(double duration) {
       rate = 0.0;
     }
   }
-  swing_ = swing_at(rest_->swing, rest_->time);
-  creep_ = {creep_.extension + swing_.extension, creep_.hardening + creep.sign * swing_.extension};
-  omega_ = creep.sign * velocity_at_rate(creep, rate) + swing_.velocity;
+  oscillation_ = oscillation_at(rest_->oscillation, rest_->time);
+  creep_ = {creep_.extension + oscillation_.extension,
+            creep_.hardening + creep.sign * oscillation_.extension};
+  omega_ = creep.sign * velocity_at_rate(creep, rate) + oscillation_.velocity;
 }
 
 }  // namespace zerocount::friction

@@ -5,7 +5,7 @@
 
 namespace zerocount::friction {
 
-/// How a profile's Gaussian field becomes the parameter's value.
+/// Marginal distribution into which a profile transforms its Gaussian field.
 enum class Marginal { normal, lognormal };
 
 /// One realised friction profile: a parameter as a function of the position, periodic over a revolution (over

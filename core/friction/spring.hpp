@@ -90,7 +90,7 @@ class HystereticSpring {
     double stiffness;   ///< of the tangent, N m/rad
   };
 
-  /// What it would come to if it moved to `torque` (N m), other than the present one.
+  /// The point it would reach if it moved to `torque` (N m), which differs from the present torque.
   PointOnBranch point_at_torque(double torque) const;
 
  private:

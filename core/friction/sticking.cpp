@@ -85,7 +85,7 @@ void Sticking::find_breakaway(const StickingSeries& series, motion::NextEvent<Ev
     if (reached && sign * numerics::value_at(series.omega, *reached) > 0.0)
       next.offer(reached, Event::breakaway);
   }
-  // Where the level is passed against the motion, the hook holds until the motion turns.
+  // Against the direction of motion the hook holds, even beyond the breakaway torque, until ω = 0.
   next.offer(motion::next_sign_change(series.omega, next.time), Event::velocity_zero);
 }
 

@@ -21,7 +21,7 @@ class Sha256Hash {
   Sha256Hash();
 
   void add(std::span<const std::byte> bytes);
-  /// Of everything added; nothing can be added after it.
+  /// The digest of all added bytes. No bytes can be added afterwards.
   Sha256 digest();
 
  private:

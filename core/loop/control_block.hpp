@@ -13,8 +13,8 @@ struct TorqueRange {
   double highest{0.0};
 };
 
-/// What the controller is fed back at a sampling instant. Error and count are whole numbers, or those of a
-/// coarser encoder in counts of the fine one.
+/// Inputs of the controller at a sampling instant. Error and count are whole numbers, or those of a coarser
+/// encoder in counts of the fine one.
 struct Feedback {
   double error{0.0};            ///< reference − count, counts
   double count{0.0};            ///< counts

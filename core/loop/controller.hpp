@@ -19,7 +19,7 @@ ControllerParameters controller_in_phase(ControllerParameters controller, Contro
 /// The blocks of a control without phases, away from their limits.
 LinearChain linear_chain(const ControllerParameters& parameters);
 
-/// What anti-windup clamps the integral to. @param lowest, highest the DAC's range, N m.
+/// Range to which anti-windup clamps the integral. @param lowest, highest the DAC's range, N m.
 TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest);
 
 /// The control of the count: a chain of blocks, or one for each of two phases (PhaseSwitch), each fed back

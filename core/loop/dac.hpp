@@ -12,7 +12,7 @@ std::int64_t highest_code(const DacParameters& dac);  ///< 2^(bits−1) − 1
 double lowest_torque(const DacParameters& dac);   ///< of the lowest code, lowest_code·Δu, N m
 double highest_torque(const DacParameters& dac);  ///< of the highest code, highest_code·Δu, N m
 
-/// What the converter makes of a wanted torque.
+/// The converter's output for a wanted torque.
 struct DacOutput {
   std::int64_t code{0};
   double torque{0.0};   ///< code·Δu, N m
@@ -23,10 +23,10 @@ struct DacOutput {
 /// @param torque wanted, N m.
 DacOutput convert(const DacParameters& dac, double torque);
 
-/// Whether the converter gives anything else than code·Δu.
+/// Whether the output differs from code·Δu.
 bool has_errors(const DacParameters& dac);
 
-/// What the converter really gives for `code`, without its noise, N m:
+/// The output for `code`, without noise, N m:
 ///
 ///   Δu·(1 + gain_error)·(code + INL(code)) + offset,
 ///   INL(code) = nonlinearity·4·(code − lowest)·(highest − code)/(highest − lowest)²   codes,

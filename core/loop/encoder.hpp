@@ -28,7 +28,7 @@ struct Encoder {
   double phase{0.0};       ///< where in a count θ = 0 lies, in [0, 1)
 };
 
-/// What the two encoders read at a sampling instant.
+/// Readings of both encoders at a sampling instant.
 struct EncoderReading {
   std::int64_t fine{0};    ///< counts
   std::int64_t coarse{0};  ///< counts of the coarse encoder

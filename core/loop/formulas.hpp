@@ -46,7 +46,7 @@ ZEROCOUNT_ALWAYS_INLINE Number wanted_code(const Number& torque, const Number& r
   return rint(torque / resolution);
 }
 
-/// What the converter makes of it.
+/// The wanted code, limited to the converter's range.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number clipped_code(const Number& wanted, const Number& lowest,
                                             const Number& highest) {

@@ -10,7 +10,8 @@
 namespace zerocount::loop {
 namespace {
 
-/// Whole numbers of a double end here. Only absurd errors of an encoder come so far.
+/// Counts are limited to the whole numbers that a double represents exactly. Only unrealistic encoder errors
+/// reach this.
 constexpr double farthest_count = 0x1p52;
 
 }  // namespace

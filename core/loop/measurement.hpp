@@ -30,8 +30,8 @@ bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReadi
 ///
 /// so that the systematic errors are those since the trial's start, where the count is 0, and their places
 /// are fixed on the rotor: m + x is the position in counts from the rotor's zero, but for less than a count.
-/// What is lost stays lost. Of what passes to and fro between two samples nothing is known, so nothing is
-/// missed. No counts have been passed before the first sample.
+/// Missed counts are never recovered. Counts passed forth and back between two samples are not missed,
+/// because the model does not see them. No counts pass before the first sample.
 class ImperfectEncoder {
  public:
   ImperfectEncoder(const Encoder& encoder, const EncoderErrors& errors, double position, std::uint64_t trial,
@@ -66,7 +66,7 @@ class Measurement {
   Measurement(const EncoderParameters& encoders, double phase, double position,
               const random::TrialRandomness& randomness);
 
-  /// What the encoders show at sample k, the rotor being at θ (rad). Samples come in order.
+  /// The readings at sample k with the rotor at θ (rad). Call with ascending k.
   EncoderReading read(std::int64_t k, double theta) {
     if (ideal_) return {read_count(fine_, theta), read_count(coarse_, theta)};
     return read_with_errors(k, theta);

@@ -6,7 +6,7 @@
 
 namespace zerocount::loop {
 
-/// What is wrong with an encoder. All zero: an ideal one.
+/// Errors of an encoder. An ideal one has none.
 struct EncoderErrors {
   double eccentricity{0.0};        ///< amplitude of the reading's error once per revolution, rad
   double eccentricity_angle{0.0};  ///< angle on the rotor at which that error rises through zero, rad
@@ -84,7 +84,7 @@ enum class ReferenceShape {
   s_curve       ///< so does the acceleration
 };
 
-/// How the reference goes from one target to the next.
+/// Path of the reference from one target to the next.
 struct ReferenceProfile {
   ReferenceShape shape{ReferenceShape::step};
   double velocity_limit{2.0};        ///< rad/s

@@ -6,8 +6,8 @@
 
 namespace zerocount::loop {
 
-/// What the count is to be at each time of a move from rest to rest between two targets, in the least time
-/// that the limits of the profile allow:
+/// The reference in counts during a move from rest to rest between two targets, in the least time that the
+/// limits of the profile allow:
 ///
 /// - step: the new target at once;
 /// - trapezoidal: acceleration at its limit, cruise at the velocity limit, deceleration; without the cruise

@@ -10,7 +10,7 @@ struct TransferFunction {
   std::vector<double> a{1.0};  ///< 1, a₁, …
 };
 
-/// What a block of the controller has as its input at sample k.
+/// Input signal of a block of the controller at sample k.
 enum class LoopSignal {
   torque,          ///< from the block before it, N m; 0 for the first
   error,           ///< e_k, counts

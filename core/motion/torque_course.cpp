@@ -7,7 +7,7 @@ namespace zerocount::motion {
 
 TorqueCourse course_after(const TorqueCourse& course, double t) {
   if (is_constant(course)) return course;
-  // As a change of `now`, which a small one keeps its digits in.
+  // Computed as a change of `now`, so that a small change keeps its digits.
   const double change = (course.now - course.settled) * std::expm1(-course.rate * t);
   return {course.now + change, course.settled, course.rate};
 }

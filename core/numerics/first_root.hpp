@@ -8,7 +8,7 @@ namespace zerocount::numerics {
 /// The first t in (0, end] at which the polynomial Σ_k c[k]·tᵏ leaves the sign it has at t = 0 (c[0] ≠ 0), or
 /// nothing.
 ///
-/// No sign change is missed, however short the excursion behind it, down to a width of end·2⁻⁴⁰: the
+/// Finds every excursion to the other sign that lasts at least end·2⁻⁴⁰: the
 /// polynomial is subdivided in Bernstein form, whose coefficients bound it (Farouki, "The Bernstein
 /// polynomial basis: a centennial retrospective", CAGD 29, 2012), until one sign variation of the
 /// coefficients isolates one root. At most 16 coefficients.

@@ -59,7 +59,7 @@ class PlantWith : public Law {
   bool finite_{true};
 };
 
-/// What a plant shows at an instant.
+/// State of the plant at an instant.
 struct PlantReading {
   double theta{0.0};             ///< θ, rad
   double omega{0.0};             ///< ω, rad/s

@@ -15,7 +15,7 @@ namespace zerocount::random {
 /// independent. Result. The first two output words, w = word 0 + 2³²·word 1.
 using RandomKey = std::array<std::uint32_t, 2>;
 
-/// What a number is drawn for: the third counter word.
+/// Purpose of a random number: the third counter word.
 enum class Draw : std::uint32_t {
   trial = 0,        ///< the value of a trial (or rig); the place inside its stratum with the Latin hypercube
   sobol_shift = 1,  ///< digital shift of a Sobol dimension, index 0
@@ -25,7 +25,7 @@ enum class Draw : std::uint32_t {
       16  ///< + r: round r of the Latin hypercube's permutation; the index is the half that is hashed
 };
 
-/// Where in the random numbers of one parameter a study's point draws.
+/// Position of a study's point in the random numbers of one parameter.
 struct RandomStream {
   RandomKey key{};
   std::uint32_t stream{0};

@@ -6,8 +6,8 @@
 
 namespace zerocount::random {
 
-/// Where a trial's own random numbers come from, those that are drawn while it runs. The trial index and the
-/// stream are the counter words of the same name (random_numbers.hpp).
+/// Streams of the random numbers that are drawn while a trial runs. The trial index and the stream are the
+/// counter words of the same name (random_numbers.hpp).
 struct TrialRandomness {
   std::uint64_t trial{0};
   std::uint32_t stream{0};

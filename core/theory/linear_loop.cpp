@@ -45,7 +45,7 @@ double coefficient(const std::vector<double>& of, Eigen::Index k) {
   return k < static_cast<Eigen::Index>(of.size()) ? of[static_cast<std::size_t>(k)] : 0.0;
 }
 
-/// What comes of the signal through H, whose states begin at `state` of the map:
+/// The output of H for the signal `input`; the states of H begin at index `state` of the map:
 /// y = b₀·x + s₁, sᵢ ← bᵢ·x − aᵢ·y + sᵢ₊₁.
 Row realise(const loop::TransferFunction& transfer, const Row& input, Eigen::Index state,
             Eigen::MatrixXd& map) {

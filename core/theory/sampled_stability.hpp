@@ -8,7 +8,7 @@
 /// delay are kept exactly.
 namespace zerocount::theory {
 
-/// What drives the rotor, made linear.
+/// Linear model of converter and amplifier.
 struct LinearDrive {
   double gain{1.0};       ///< torque per torque decided: 1 + dac.gain_error
   double bandwidth{0.0};  ///< of the amplifier, Hz; 0: it follows at once

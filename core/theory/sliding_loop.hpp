@@ -8,7 +8,7 @@
 /// torque, constant at speeds well above the Stribeck velocity, is a disturbance that the loop has to reject.
 namespace zerocount::theory {
 
-/// Where the gain of the open loop falls below 1 for good.
+/// The highest frequency at which the open loop has gain 1.
 struct GainCrossover {
   /// Highest frequency with |L| = 1, Hz: the bandwidth of the loop. NaN where |L| < 1 throughout, or |L| ≥ 1
   /// up to half the sample rate.

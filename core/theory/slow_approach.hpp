@@ -6,15 +6,14 @@
 #include "core/loop/parameters.hpp"
 #include "core/motion/parameters.hpp"
 
-/// How an integral control that is slow brings the error to zero: the torque follows the spring without
-/// swinging.
+/// Approach to zero error under slow integral control: the torque follows the spring without oscillation.
 namespace zerocount::theory {
 
 /// Time constant of the error about a spring of `stiffness` k (N m/rad), s:
 ///
 ///   τ = T·(k·Δx + kp)/(2·ki).
 ///
-/// What slowest_time_constant finds of the sampled loop where it is slow against the plant's own motion.
+/// The limit of slowest_time_constant of the sampled loop for a loop much slower than the plant.
 double slow_time_constant(double stiffness, const loop::EncoderParameters& encoder,
                           const loop::ControllerParameters& controller);
 

@@ -24,8 +24,8 @@ inline bool diverged(const VerdictParameters& verdict, std::int64_t first_error,
          static_cast<double>(std::abs(error)) > verdict.limit + static_cast<double>(std::abs(first_error));
 }
 
-/// What stands for a move after one that was ended: nothing of it was run, because it would have begun in a
-/// state that is not known. It counts as oscillating and stopped; real measures are NaN, whole ones 0.
+/// The outcome of a move after one that was ended. It was not run, because its initial state is unknown. It
+/// counts as oscillating and stopped; real measures are NaN, whole ones 0.
 inline MoveOutcome move_not_run() {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   MoveOutcome move;

@@ -11,8 +11,8 @@ constexpr std::int64_t first_of_last_half(std::int64_t samples) {
   return (samples + 1) / 2;
 }
 
-/// What the count does in the last half of a move, samples h … N − 1: whether it only approaches its target,
-/// and otherwise how it oscillates.
+/// Motion of the count in the last half of a move, samples h … N − 1: whether it only approaches its target,
+/// and otherwise amplitude and period of its oscillation.
 ///
 /// The amplitude is A = (c_max − c_min)/2. An upward crossing of the middle m = (c_max + c_min)/2 is a sample
 /// k > h with c_{k−1} < m ≤ c_k. The period is the mean time between successive ones,

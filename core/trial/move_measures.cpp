@@ -83,7 +83,7 @@ bool MoveMeasures::add(const MoveSample& sample) {
   return jerk_ended;
 }
 
-/// What the error says of the move so far. Returns whether a jerk ended before this sample.
+/// Updates the measures that follow from the error. @returns whether a jerk ended before this sample.
 bool MoveMeasures::judge(const MoveSample& sample) {
   const std::int64_t error = sample.target - sample.count;
   const std::int64_t k = whole(running_.taken);

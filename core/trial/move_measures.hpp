@@ -10,7 +10,7 @@
 
 namespace zerocount::trial {
 
-/// How a move is measured, in samples.
+/// Times that the measures of a move refer to, in samples.
 struct MoveTiming {
   double sample_time{5e-4};    ///< T, s
   std::int64_t samples{2000};  ///< N, of the move
@@ -27,7 +27,7 @@ inline double true_error(std::int64_t target, double theta, double resolution, d
   return static_cast<double>(target) - (theta / resolution + phase - 0.5);
 }
 
-/// What one sample contributes to the measures of its move.
+/// Contribution of one sample to the measures of its move.
 struct MoveSample {
   std::int64_t target{0};  ///< counts; 0 where there is none
   std::int64_t count{0};   ///< counts

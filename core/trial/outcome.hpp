@@ -47,7 +47,7 @@ constexpr int severity(Outcome outcome) {
   return 6;  // no outcome at all: what only a damaged file has
 }
 
-/// What is measured of one move.
+/// Measures of one move.
 struct MoveOutcome {
   Outcome outcome{Outcome::nonfinite};
   bool arrived{false};       ///< the error was 0 for the whole dwell
@@ -62,8 +62,8 @@ struct MoveOutcome {
   double final_settling_time{std::numeric_limits<double>::quiet_NaN()};
   /// Fraction of the samples from arrival to the end with e = 0; NaN if the move never arrived.
   double zero_fraction{std::numeric_limits<double>::quiet_NaN()};
-  /// Of a move that is oscillating and was not ended early, over its last half (see LastHalf): half of the
-  /// largest minus the smallest count, counts; otherwise NaN.
+  /// (max − min)/2 of the count over the last half of an oscillating move that was not ended early (see
+  /// LastHalf), counts; otherwise NaN.
   double oscillation_amplitude{std::numeric_limits<double>::quiet_NaN()};
   /// Likewise: mean time between upward crossings of the middle of the two, s; NaN for fewer than two.
   double oscillation_period{std::numeric_limits<double>::quiet_NaN()};
@@ -97,7 +97,7 @@ struct Jerk {
   int direction{0};           ///< sgn(count − target) at onset
 };
 
-/// What is measured of a trial: one entry per move.
+/// Measures of a trial: one entry per move.
 struct TrialOutcome {
   std::vector<MoveOutcome> moves;
 };

@@ -32,8 +32,8 @@ struct CommandParameters {
   TorqueCommand torque{};
 };
 
-/// How the trial begins. `slide` is arrival from sliding: the hook slides at t = 0, and the spring had the
-/// breakaway torque when it began to.
+/// Initial state of the hook. `slide` is arrival from sliding: the hook slides at t = 0, and the spring had
+/// the breakaway torque when the slide began.
 enum class InitialMode { stick, slide };
 
 /// Random loading before t = 0 and after the preload, slow and without creep: the torque goes to `reversals`
@@ -44,10 +44,10 @@ struct RandomHistory {
   double torque{0.0};  ///< largest magnitude of a level, N m
 };
 
-/// What the trial finds at t = 0.
+/// State of rig and controller at t = 0.
 struct InitialConditions {
-  double encoder_phase{0.5};  ///< where in a count the rotor stands, in [0, 1)
-  double position{0.0};       ///< where on the rotor the contact is, rad; selects from the profiles
+  double encoder_phase{0.5};  ///< position of the rotor within a count, in [0, 1)
+  double position{0.0};       ///< position of the contact on the rotor, rad; selects from the profiles
   double hardening{0.0};      ///< xh, rad
   double preload{0.0};  ///< torque of a slow load-and-unload from virgin before t = 0, without creep, N m
   RandomHistory history{};
@@ -56,7 +56,7 @@ struct InitialConditions {
   InitialMode mode{InitialMode::stick};
 };
 
-/// How a move is judged.
+/// Criteria of the verdict on a move.
 struct VerdictParameters {
   double dwell{0.05};    ///< time at zero error that makes an arrival, s
   double window{0.05};   ///< last part of the move, by which its outcome is judged, s

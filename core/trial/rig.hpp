@@ -13,17 +13,16 @@
 
 namespace zerocount::trial {
 
-/// What the plant of a trial finds at t = 0.
+/// State of the plant at t = 0.
 motion::PlantStart plant_start(const TrialParameters& parameters);
 
-/// Farther than this, counts are no longer whole numbers of a double.
+/// Largest count that a double represents as a whole number.
 inline constexpr double max_counts = 0x1p52;
 
-/// How exactly a trial follows its motion, by the resolution (rad) of its fine encoder.
+/// Tolerances of the motion integrator, derived from the resolution (rad) of the fine encoder.
 motion::MotionTolerance motion_tolerance(double resolution);
 
-/// The rig of a trial: the plant between its drive and its encoders. What closes the loop stands outside. One
-/// sample is: read, drive, hold.
+/// The rig of a trial: drive, plant and encoders, without the controller. One sample is: read, drive, hold.
 /// @tparam AnyPlant PlantOf a list of laws.
 template <class AnyPlant>
 class Rig {
@@ -35,7 +34,7 @@ class Rig {
         drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness),
         plant_(p.plant, p.friction, plant_start(p), motion_tolerance(measurement_.fine_resolution())) {}
 
-  /// What the encoders and the plant show at t_k. Torque, target and reference are left to who decides them.
+  /// Encoder readings and plant state at t_k. The caller fills in torque, target and reference.
   SampleRecord read(std::int64_t k) {
     SampleRecord record;
     record.k = k;

@@ -15,7 +15,7 @@ struct ArrivalMeasures {
   Number arrival;         ///< first sample of that dwell, once arrived
 };
 
-/// What is known of a move so far.
+/// Measures of a move, accumulated up to the present sample.
 template <class Number>
 struct RunningMeasures : ArrivalMeasures<Number> {
   Number direction;              ///< sgn e_0
@@ -45,7 +45,7 @@ ZEROCOUNT_ALWAYS_INLINE void for_each_measure(Visit visit, Measures&... measures
   visit(measures.saturated...);
 }
 
-/// How a move is measured, in samples.
+/// Limits that the running measures compare with, in samples.
 template <class Number>
 struct MeasureLimits {
   Number samples;  ///< N, of the move

@@ -31,7 +31,7 @@ struct SampleRecord {
   double drive_torque{0.0};  ///< of the motor at this instant, after converter and amplifier, N m
 };
 
-/// Who is told of a trial while it runs; an empty function is not called.
+/// Callbacks while a trial runs; an empty function is not called.
 struct TrialObservers {
   std::function<void(const SampleRecord&)> sample;  ///< at every sampling instant, in order
   std::function<void(const Jerk&)> jerk;            ///< at the end of every jerk, in order of onset

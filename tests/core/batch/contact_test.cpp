@@ -145,8 +145,8 @@ TEST(BatchContact, CreepsAtAnyRate) {
   expect_agreement_in_lanes(trials, "creep");
 }
 
-/// Faster than the swing of the rotor dies out: then nothing is at rest until creep ends, and rounding has a
-/// say in how many of the last reversals are remembered.
+/// Creep is faster than the decay of the rotor's oscillation: then nothing is at rest until creep ends, and
+/// rounding has a say in how many of the last reversals are remembered.
 TEST(BatchContact, CreepsFasterThanItSwings) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 100; ++i) {

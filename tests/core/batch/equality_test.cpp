@@ -73,7 +73,7 @@ TEST(BatchEqualityInHardTrials, HoldsToo) {
   const std::vector<trial::TrialParameters> trials = {
       trial_for_lanes(TrialKind::arriving, 30208),  // a reversal in the sample that begins with another
       trial_for_lanes(TrialKind::arriving,
-                      413654),  // a move ends as the last swing falls below rest, and a loop closes
+                      413654),  // a move ends as the last oscillation falls below rest, and a loop closes
   };
   for (const trial::TrialParameters& trial : trials) expect_agreement_in_lanes({trial}, "hard trial");
 }

@@ -77,10 +77,10 @@ CreepingRotor random_rotor(Draws& draws, bool softening) {
     const double stiffness = draws.log_uniform(20.0, 5000.0);
     r.plant.inertia = draws.log_uniform(5e-5, 5e-2);
     r.plant.presliding_damping = 2.0 * draws.log_uniform(0.1, 3.0) * std::sqrt(stiffness * r.plant.inertia);
-    const double swing = std::min(r.plant.presliding_damping / (2.0 * r.plant.inertia),
-                                  stiffness / r.plant.presliding_damping);
+    const double oscillation = std::min(r.plant.presliding_damping / (2.0 * r.plant.inertia),
+                                        stiffness / r.plant.presliding_damping);
     FrictionParameters& f = r.contact;
-    f.alpha = 0.1 * swing * draws.log_uniform(0.03, 1.0);
+    f.alpha = 0.1 * oscillation * draws.log_uniform(0.03, 1.0);
     f.n = draws.any_of(exponents);
     r.torque = r.sign * draws.log_uniform(1e-3, 0.5);
     f.lambda = std::pow(std::abs(r.torque), f.n) / draws.log_uniform(1e-7, 3e-4);
@@ -223,12 +223,12 @@ TEST(CreepAtRest, IsNoneWhereCreepIsAsFastAsTheSwing) {
   const motion::PlantParameters plant;
   FrictionParameters contact;
   const double stiffness = 860.0;
-  const double swing =
+  const double oscillation =
       std::min(plant.presliding_damping / (2.0 * plant.inertia), stiffness / plant.presliding_damping);
-  contact.alpha = 0.0999 * swing;
+  contact.alpha = 0.0999 * oscillation;
   EXPECT_TRUE(creep_at_rest(plant, contact, 0.02, 1.0, stiffness, 0.0));
   EXPECT_TRUE(creep_at_rest(plant, contact, -0.02, -1.0, stiffness, 0.0));
-  contact.alpha = 0.1001 * swing;
+  contact.alpha = 0.1001 * oscillation;
   EXPECT_FALSE(creep_at_rest(plant, contact, 0.02, 1.0, stiffness, 0.0));
 }
 

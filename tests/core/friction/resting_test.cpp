@@ -1,5 +1,5 @@
-// The rotor that comes to rest under a constant torque: against Boost.odeint, which follows every swing and
-// all of the creep, and in pieces of any length.
+// The rotor that comes to rest under a constant torque: against Boost.odeint, which follows every oscillation
+// and all of the creep, and in pieces of any length.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -35,7 +35,7 @@ struct Hold {
   double duration;  ///< s
 };
 
-/// Torques that the hook withstands, each held until nothing swings any more.
+/// Torques that the hook withstands, each held until the oscillation has ended.
 std::vector<Hold> random_holds(Draws& draws, const trial::TrialParameters& rig) {
   std::vector<Hold> holds;
   holds.reserve(3);
@@ -152,8 +152,8 @@ TEST(PlantAtRest, IsNotWhileItSwings) {
   }
 }
 
-/// Creep goes by a power of σ, so swings about a torque add more to it on one side than they take on the
-/// other; and it recovers what it is ahead. With little damping and fast creep both are far from small.
+/// Creep goes by a power of σ, so oscillations about a torque add more to it on one side than they take on
+/// the other; and it recovers what it is ahead. With little damping and fast creep both are far from small.
 TEST(PlantAtRest, WaitsWhereSwingsMakeCreep) {
   double worst = 0.0;
   for (std::uint64_t index = 0; index < 24; ++index) {
@@ -221,7 +221,7 @@ TEST(PlantAtRest, CreepsInOneDirection) {
   }
 }
 
-/// Creep as fast as the swings die out: no slow motion is left when they have, and yet rounding must not
+/// Creep as fast as the oscillation decays: no slow motion is left when they have, and yet rounding must not
 /// make the spring reverse for ever.
 TEST(PlantAtRest, IsReachedHoweverFastItCreeps) {
   std::vector<std::uint64_t> indices{500366, 501150};  // found among thousands

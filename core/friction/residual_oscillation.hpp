@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace zerocount::friction {
+
+/// A decaying oscillation so small that each side of a loop of the spring is a parabola, and the rate of
+/// creep is linear in σ:
+///
+///   dq/dt = v − ξ·q,   J·dv/dt = −c·v − σ(q),   de/dt = ξ·q,   ξ = k·dp/d|σ|,   k = k1 + k2,
+///   σ = (k − k2·β·a)·q ± ½·k2·β·(a² − q²),
+///
+/// q and e what elongation and creep have beyond those to which they come, + where q grows and − where it
+/// falls, a the amplitude. (The branch law to second order in β·a.) With γ = (c/J + ξ)/2, ω² = (k + c·ξ)/J
+/// and ν² = ω² − γ², by the method of averaging (Nayfeh, Perturbation Methods, section 5.2),
+///
+///   q = a/a₀·(q₀·cos φ + (q₀′ + γq₀)/ν·sin φ),   e = −ξ·(dq/dt + 2γ·q)/ω²,
+///   da/dt = −γ·a − η·a²,      η = 2/(3π)·ν·k2·β/k,
+///   dφ/dt = ν·(1 − κ·a),      κ = ½·k2·β/k.
+///
+/// The truncation error is of the order β·a² and does not grow with the number of periods.
+struct ResidualOscillation {
+  double cosine{0.0};     ///< q₀, rad
+  double sine{0.0};       ///< (q₀′ + γq₀)/ν, rad
+  double decay{0.0};      ///< γ, 1/s
+  double frequency{0.0};  ///< ν, rad/s
+  double creep{0.0};      ///< ξ, 1/s
+  double loss{0.0};       ///< η·a₀, 1/s
+  double slowing{0.0};    ///< κ·a₀
+  double end{0.0};        ///< the time (s) from which q counts as 0
+
+  struct State {
+    double elongation;  ///< q, rad
+    double extension;   ///< e, rad
+    double velocity;    ///< v, rad/s
+  };
+};
+
+/// Coefficients of an underdamped oscillation: 0 < γ² < ω².
+struct OscillationLaw {
+  double decay;      ///< γ, 1/s
+  double frequency;  ///< ν, rad/s
+  double creep;      ///< ξ, 1/s
+  double softening;  ///< k2·β/k, 1/rad
+};
+
+/// From the elongation q₀ (rad) and the velocity v₀ (rad/s) at t = 0 on.
+/// @param min_amplitude amplitude (rad) below which the oscillation has ended.
+inline ResidualOscillation residual_oscillation(const OscillationLaw& law, double elongation, double velocity,
+                                                double min_amplitude) {
+  const double rate = velocity - law.creep * elongation;
+  ResidualOscillation oscillation{elongation, (rate + law.decay * elongation) / law.frequency, law.decay,
+                                  law.frequency, law.creep};
+  const double amplitude = std::hypot(oscillation.cosine, oscillation.sine);
+  oscillation.loss = 2.0 / 3.0 * std::numbers::inv_pi * law.frequency * law.softening * amplitude;
+  oscillation.slowing = 0.5 * law.softening * amplitude;
+  if (amplitude > min_amplitude)
+    oscillation.end = std::log(amplitude / min_amplitude) / law.decay;
+  return oscillation;
+}
+
+/// Upper bound of |q + e| (rad) at the time t (s) and later.
+inline double oscillation_bound(const ResidualOscillation& oscillation, double t) {
+  if (!(t < oscillation.end)) return 0.0;
+  const double of_creep = 1.0 + 4.0 * oscillation.creep / oscillation.frequency;
+  return of_creep * std::hypot(oscillation.cosine, oscillation.sine) * std::exp(-oscillation.decay * t);
+}
+
+inline ResidualOscillation::State oscillation_at(const ResidualOscillation& oscillation, double t) {
+  if (!(t < oscillation.end)) return {0.0, 0.0, 0.0};
+  // a/a₀ = exp(−γt)/(1 + x) and ∫a/a₀ dt = log(1 + x)/(η·a₀), x = η·a₀·(1 − exp(−γt))/γ.
+  const double elapsed = -std::expm1(-oscillation.decay * t) / oscillation.decay;
+  const double x = oscillation.loss * elapsed;
+  const double amplitude = std::exp(-oscillation.decay * t) / (1.0 + x);
+  const double phase = oscillation.frequency * (t - oscillation.slowing * elapsed * (1.0 - 0.5 * x));
+  const double c = std::cos(phase);
+  const double s = std::sin(phase);
+  const double q = amplitude * (oscillation.cosine * c + oscillation.sine * s);
+  const double decay = oscillation.decay + oscillation.loss * amplitude;
+  const double frequency = oscillation.frequency * (1.0 - oscillation.slowing * amplitude);
+  const double rate = amplitude * frequency * (oscillation.sine * c - oscillation.cosine * s) - decay * q;
+  const double per_time_squared =
+      oscillation.frequency * oscillation.frequency + oscillation.decay * oscillation.decay;
+  const double extension = -oscillation.creep * (rate + 2.0 * oscillation.decay * q) / per_time_squared;
+  return {q, extension, rate + oscillation.creep * q};
+}
+
+}  // namespace zerocount::friction

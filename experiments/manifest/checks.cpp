@@ -46,7 +46,7 @@ std::optional<yaml::Place> swept_place(const Checking& c, std::size_t slot, std:
   return std::nullopt;
 }
 
-// Place in the manifest of one of the involved values: a swept one, otherwise one written in the manifest, //
+// Place in the manifest of one of the involved values: a swept one, otherwise one written in the manifest,
 // otherwise the first.
 yaml::Place place_of_fault(const Checking& c, const std::vector<std::size_t>& slots, std::size_t point) {
   for (const std::size_t slot : slots) {
@@ -59,7 +59,7 @@ yaml::Place place_of_fault(const Checking& c, const std::vector<std::size_t>& sl
 }
 
 // The values that a fault involves: its values of the list, the parameters of the rule, and other values of
-// // the list that may cause it.
+// the list that may cause it.
 std::vector<std::size_t> slots_of(const rules::ValueFault& fault, const std::vector<std::size_t>& involved) {
   std::vector<std::size_t> slots;
   for (const std::size_t i : fault.listed) slots.push_back(study::listed_slot(i));
@@ -110,10 +110,9 @@ std::optional<yaml::Place> given_place(const Checking& c, std::size_t row) {
 }
 
 bool asks_for_nothing(const Checking& c, std::size_t row) {
-  const std::string_view name = parameters::parameter_table()[row].name;
-  return !study::holds_somewhere(c.plan(), {&name, 1}, [](std::span<const study::ValueLimits> limits) {
-    return limits[0].low != 0.0 || limits[0].high != 0.0;
-  });
+  return !study::holds_somewhere(
+      c.plan(), parameters::parameter_table()[row].name,
+      [](const study::ValueLimits& limits) { return limits.low != 0.0 || limits.high != 0.0; });
 }
 
 void check_effects(Checking& c) {

@@ -36,17 +36,15 @@ bool has_effect(const study::StudyPlan& plan, const std::vector<rules::EffectRul
 
 // Whether the coarse encoder is used. If not, that of a linear axis has the resolution of the fine one.
 bool uses_coarse_encoder(const study::StudyPlan& plan) {
-  const auto is_coarse = [](std::span<const study::ValueLimits> l) {
-    return l[0].high == static_cast<double>(loop::EncoderChoice::coarse);
+  const auto is_coarse = [](const study::ValueLimits& encoder) {
+    return encoder.high == static_cast<double>(loop::EncoderChoice::coarse);
   };
-  const auto is_positive = [](std::span<const study::ValueLimits> l) { return l[0].high > 0.0; };
-  const auto somewhere = [&plan](std::string_view name, const auto& holds) {
-    return study::holds_somewhere(plan, {&name, 1}, holds);
-  };
-  return somewhere("controller.encoder", is_coarse) || somewhere("controller.coarse.encoder", is_coarse) ||
-         somewhere("encoder.coarse_errors.interpolation", is_positive) ||
-         somewhere("encoder.coarse_errors.noise", is_positive) ||
-         somewhere("encoder.coarse_errors.missed", is_positive);
+  const auto is_positive = [](const study::ValueLimits& error) { return error.high > 0.0; };
+  return study::holds_somewhere(plan, "controller.encoder", is_coarse) ||
+         study::holds_somewhere(plan, "controller.coarse.encoder", is_coarse) ||
+         study::holds_somewhere(plan, "encoder.coarse_errors.interpolation", is_positive) ||
+         study::holds_somewhere(plan, "encoder.coarse_errors.noise", is_positive) ||
+         study::holds_somewhere(plan, "encoder.coarse_errors.missed", is_positive);
 }
 
 std::string why_required(const parameters::Parameter& parameter) {

@@ -10,11 +10,9 @@
 
 #include "experiments/designs/random_key.hpp"
 #include "experiments/study/factors.hpp"
-#include "experiments/study/loop_extras.hpp"
-#include "experiments/study/outcome_extras.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/slots.hpp"
-#include "experiments/study/trace_extras.hpp"
+#include "experiments/study/study_features.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -234,9 +232,7 @@ void assemble_study(const std::vector<ProfileRequest>& requests, const std::vect
   study.open_loop = plan.open_loop;
   study.point_labels = label_points(axes);
   study.axes = describe_axes(axes, plan);
-  study.trace_extras = study::find_trace_extras(plan);
-  study.outcome_extras = study::find_outcome_extras(plan);
-  study.loop_extras = study::find_loop_extras(plan);
+  study.features = study::find_features(plan, study);
   const std::vector<bool> swept = swept_slots(plan);
   list_input_columns(swept, plan, study);
   derive_randomness(study, plan);

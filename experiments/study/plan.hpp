@@ -16,8 +16,8 @@
 namespace zerocount::study {
 
 // The compiled form of a manifest. A slot stores one value of a trial. Slot s below the number of rows
-// belongs // to row s of the table of parameters (unused for listed rows). Slot rows + i is value i of the
-// listed // parameter that the study uses.
+// belongs to row s of the table of parameters (unused for listed rows). Slot rows + i is value i of the
+// listed parameter that the study uses.
 
 /// The listed parameter of a study: targets, torque levels, or the targets of a sequence.
 struct ListedValues {

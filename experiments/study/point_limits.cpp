@@ -106,4 +106,10 @@ bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> na
   return found;
 }
 
+bool holds_somewhere(const StudyPlan& plan, std::string_view name,
+                     const std::function<bool(const ValueLimits&)>& holds) {
+  return holds_somewhere(plan, {&name, 1},
+                         [&](std::span<const ValueLimits> limits) { return holds(limits.front()); });
+}
+
 }  // namespace zerocount::study

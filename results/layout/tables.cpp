@@ -77,9 +77,9 @@ Table trial_table(const std::vector<study::InputColumn>& inputs) {
   return table;
 }
 
-Table outcome_table(std::int64_t version, const study::OutcomeExtras& extras, const MeasureTable& measures) {
+Table outcome_table(std::int64_t version, const study::StudyFeatures& features, const MeasureTable& measures) {
   return {"outcome", whole_numbers("trial", "global row of the trial"),
-          whole_numbers("move", "index of the move"), columns_of(outcome_fields(version, extras, measures))};
+          whole_numbers("move", "index of the move"), columns_of(outcome_fields(version, features, measures))};
 }
 
 Table jerk_table() {
@@ -89,11 +89,11 @@ Table jerk_table() {
           columns_of(jerk_fields())};
 }
 
-Table trace_table(const study::TraceExtras& extras) {
+Table trace_table(const study::StudyFeatures& features) {
   return {"trace",
           whole_numbers("record", "index of the record, by trial and sample"),
           {},
-          columns_of(trace_fields(extras))};
+          columns_of(trace_fields(features))};
 }
 
 std::span<const StatisticGroup> statistic_groups() {

@@ -167,7 +167,7 @@ void export_rig_counts(const StoredRigs& rigs, CsvFile& csv) {
 
 void export_trace(const StudyFile& file, CsvFile& csv) {
   const std::vector<layout::RecordField<layout::TraceRecord>> fields =
-      layout::trace_fields(file.trace_extras());
+      layout::trace_fields(file.features());
   add_names(csv, fields, file.axis());
   csv.end_row();
   for_each_block(0, file.trace_count(), layout::chunk_elements, [&](std::int64_t first, std::int64_t count) {

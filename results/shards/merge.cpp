@@ -109,13 +109,13 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
   const parameters::AxisKind axis = study.units.axis;
   concatenate(
       file,
-      layout::on_axis(layout::outcome_table(layout::format_version, study.outcome_extras, measures), axis),
+      layout::on_axis(layout::outcome_table(layout::format_version, study.features, measures), axis),
       shards, study.moves, rows.first);
   concatenate(file, layout::jerk_table(), shards, 1, 0, renumber);
   write_profiles(file, study);
   if (study.rigs > 0) write_rigs(file, study);
   if (!study.retained_trials.empty()) {
-    concatenate(file, layout::on_axis(layout::trace_table(study.trace_extras), axis), shards, 1, 0, renumber);
+    concatenate(file, layout::on_axis(layout::trace_table(study.features), axis), shards, 1, 0, renumber);
   }
   return file.close();
 }

@@ -58,12 +58,12 @@ void write_outcomes(hdf5::File& file, const study::Study& study, std::span<const
   for (const TrialResult& result : results) {
     moves.insert(moves.end(), result.outcome.moves.begin(), result.outcome.moves.end());
   }
-  const study::OutcomeExtras& extras = study.outcome_extras;
+  const study::StudyFeatures& features = study.features;
   layout::TableIo io =
-      layout::TableIo::create(file, layout::outcome_table(layout::format_version, extras, measures),
+      layout::TableIo::create(file, layout::outcome_table(layout::format_version, features, measures),
                               std::ssize(results), study.moves, compression);
   io.number_rows(results.front().row);
-  layout::write_records(io, layout::outcome_fields(layout::format_version, extras, measures), 0,
+  layout::write_records(io, layout::outcome_fields(layout::format_version, features, measures), 0,
                         std::span<const trial::MoveOutcome>(moves));
 }
 
@@ -77,16 +77,16 @@ void write_jerks(hdf5::File& file, std::span<const TrialResult> results, hdf5::C
   layout::write_records(io, layout::jerk_fields(), 0, std::span<const layout::JerkRecord>(jerks));
 }
 
-void write_trace(hdf5::File& file, const study::TraceExtras& extras, std::span<const TrialResult> results,
+void write_trace(hdf5::File& file, const study::StudyFeatures& features, std::span<const TrialResult> results,
                  hdf5::Compression compression) {
   std::vector<layout::TraceRecord> records;
   for (const TrialResult& result : results) {
     for (const trial::SampleRecord& record : result.trace) records.push_back({record, result.row});
   }
   layout::TableIo io =
-      layout::TableIo::create(file, layout::trace_table(extras), std::ssize(records), 1, compression);
+      layout::TableIo::create(file, layout::trace_table(features), std::ssize(records), 1, compression);
   io.number_rows(0);
-  layout::write_records(io, layout::trace_fields(extras), 0, std::span<const layout::TraceRecord>(records));
+  layout::write_records(io, layout::trace_fields(features), 0, std::span<const layout::TraceRecord>(records));
 }
 
 /// The regular files in `directory` whose names end in `extension`, in order of names.
@@ -125,7 +125,7 @@ void write_shard(const fs::path& path, const study::Study& study, std::int64_t f
   write_trials(file, study, results, compression);
   write_outcomes(file, study, results, compression, measures);
   write_jerks(file, results, compression);
-  if (!study.retained_trials.empty()) write_trace(file, study.trace_extras, results, compression);
+  if (!study.retained_trials.empty()) write_trace(file, study.features, results, compression);
   layout::mark_finished(file);
   finish_results(path, file.close());
 }

@@ -10,7 +10,7 @@
 namespace zerocount::distributions {
 
 // The distributions of a manifest. Parameters have the unit of the quantity. All distributions are sampled by
-// // their quantile function, so that all designs map uniform numbers in the same way.
+// their quantile function, so that all designs map uniform numbers in the same way.
 
 /// Uniform on [low, high).
 struct Uniform {

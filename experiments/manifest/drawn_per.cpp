@@ -53,7 +53,7 @@ std::optional<study::Per> read_per(const yaml::Field& field, const parameters::P
   const auto per = static_cast<study::Per>(*label);
   const auto misfit = misfit_of(per, parameter, drawn, has_rigs);
   if (!misfit) return per;
-  problems.add(field.node->place, field.path, std::string(misfit->what), misfit->expected);
+  problems.add(field, std::string(misfit->what), misfit->expected);
   return std::nullopt;
 }
 

@@ -53,9 +53,9 @@ Json number_in(const numerics::Interval& range) {
 
 Json distribution_schema(const distributions::DistributionForm& form) {
   const Json number{{"type", form.whole_numbers ? "integer" : "number"}};
-  if (!form.by_key) {
-    return form.keys.empty() ? list_of(number, 1) : list_of_exactly(number, form.keys.size());
-  }
+  if (form.keys.empty()) return list_of(number, 1);
+  if (form.syntax == distributions::DistributionForm::Syntax::list)
+    return list_of_exactly(number, form.keys.size());
   Json properties = Json::object();
   for (const std::string_view key : form.keys) properties[std::string(key)] = number;
   return object_of(std::move(properties), Json(form.keys));

@@ -38,13 +38,12 @@ struct Manifest {
   study::StudyPlan& plan() { return reading.plan; }
 };
 
-// The value of a top-level key, if present. Reports a missing required key.
-std::optional<yaml::Field> find_field(Manifest& m, std::string_view key) {
-  if (const yaml::YamlEntry* entry = yaml::find_entry(*m.root.node, key))
-    return yaml::entry_of(m.root, *entry);
-  return std::nullopt;
+// The value of a top-level key, if present.
+std::optional<yaml::Field> find_field(const Manifest& m, std::string_view key) {
+  return yaml::find_field(m.root, key);
 }
 
+// Likewise; reports a missing key.
 std::optional<yaml::Field> find_required(Manifest& m, std::string_view key, std::string_view expected) {
   auto field = find_field(m, key);
   if (!field) m.problems().add(m.root.node->place, key, "the key is missing", expected);
@@ -58,7 +57,7 @@ void read_version(Manifest& m) {
                                         std::numeric_limits<std::int64_t>::max(), m.problems());
   if (!version || *version == manifest_version) return;
   const bool newer = *version > manifest_version;
-  m.problems().add(field->node->place, field->path,
+  m.problems().add(*field,
                    newer ? fmt::format("the manifest is of version {}, newer than this program", *version)
                          : fmt::format("there is no version {} of manifests", *version),
                    fmt::format("version {}{}", manifest_version, newer ? ", or a newer program" : ""));
@@ -69,7 +68,7 @@ void read_texts(Manifest& m) {
     m.study.name = yaml::read_text(*field, m.problems()).value_or("");
     if (field->node->kind == yaml::YamlNode::Kind::scalar &&
         field->node->text.find_first_not_of(" \t\r\n") == std::string::npos) {
-      m.problems().add(field->node->place, field->path, "the name is empty", "a name for the study");
+      m.problems().add(*field, "the name is empty", "a name for the study");
     }
   }
   if (const auto field = find_field(m, "description")) {
@@ -116,8 +115,7 @@ void check_trial_count(Manifest& m) {
     points *= static_cast<std::int64_t>(study::option_count(axis));
   const auto field = find_field(m, "trials");
   if (field && m.study.trials > max_study_trials / points) {
-    m.problems().add(field->node->place, field->path,
-                     fmt::format("{} trials at {} points are too many", m.study.trials, points),
+    m.problems().add(*field, fmt::format("{} trials at {} points are too many", m.study.trials, points),
                      fmt::format("at most {} trials in all", max_study_trials));
   }
 }
@@ -134,14 +132,13 @@ void check_rows(Manifest& m) {
   const std::vector<std::string> names = study::factor_names(m.plan());
   if (names.empty()) {
     const yaml::Field design = find_field(m, "design").value();
-    m.problems().add(design.node->place, design.path, "nothing is drawn in this study",
-                     "a distribution for one parameter at least");
+    m.problems().add(design, "nothing is drawn in this study", "a distribution for one parameter at least");
     return;
   }
   const auto row = static_cast<std::int64_t>(designs::saltelli_row_length(names.size()));
   if (m.study.trials % row == 0) return;
   m.problems().add(
-      field->node->place, field->path,
+      *field,
       fmt::format("{} trials are no whole number of the rows of {} that the design saltelli has for {} "
                   "factor{} ({})",
                   m.study.trials, row, names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", ")),
@@ -151,8 +148,7 @@ void check_rows(Manifest& m) {
 void require_multiple_of_rigs(Manifest& m, const yaml::Field& field, std::int64_t trials) {
   if (trials % m.study.rigs == 0) return;
   m.problems().add(
-      field.node->place, field.path,
-      fmt::format("{} trials cannot be divided equally among {} rigs", trials, m.study.rigs),
+      field, fmt::format("{} trials cannot be divided equally among {} rigs", trials, m.study.rigs),
       fmt::format("a multiple of {}, such as {}", m.study.rigs, nearest_multiples(trials, m.study.rigs)));
 }
 
@@ -163,15 +159,12 @@ void check_rigs(Manifest& m) {
   const std::int64_t block = m.study.stop ? m.study.stop->block : m.study.trials;
   if (trials && block > 0) require_multiple_of_rigs(m, *trials, block);
   if (m.study.stop) {
-    const yaml::Field stop = find_field(m, "stop").value();
-    const yaml::YamlEntry* limit = yaml::find_entry(*stop.node, "max_trials");
-    if (limit != nullptr) {
-      require_multiple_of_rigs(m, yaml::entry_of(stop, *limit), m.study.stop->max_trials);
-    }
+    const auto limit = yaml::find_field(find_field(m, "stop").value(), "max_trials");
+    if (limit) require_multiple_of_rigs(m, *limit, m.study.stop->max_trials);
   }
   if (m.study.design == study::Design::saltelli) {
     const yaml::Field design = find_field(m, "design").value();
-    m.problems().add(design.node->place, design.path,
+    m.problems().add(design,
                      "the rows of this design change one factor at a time, and a rig shares its factors with "
                      "the trials of other rows",
                      "monte_carlo, latin_hypercube or sobol with rigs");
@@ -181,25 +174,18 @@ void check_rigs(Manifest& m) {
 void read_retained(Manifest& m) {
   const auto field = find_field(m, "retain");
   if (!field || !yaml::check_map(*field, "retain: {trials: [..]}", m.problems())) return;
-  const std::vector<std::string> known{"trials"};
-  for (const yaml::YamlEntry& entry : field->node->entries) {
-    const yaml::Field list = yaml::entry_of(*field, entry);
-    if (entry.key != known.front()) {
-      parameters::add_unknown_key(*field, entry, known, m.problems());
-    } else if (yaml::check_list(list, "a list of trial indices", m.problems())) {
-      for (std::size_t i = 0; i < list.node->items.size(); ++i) {
-        const yaml::Field item = yaml::item_of(list, i);
-        const auto index =
-            yaml::read_whole(item, 0, std::max<std::int64_t>(m.study.trials - 1, 0), m.problems());
-        if (index) m.study.retained_trials.push_back(*index);
-      }
-      std::vector<std::int64_t>& kept = m.study.retained_trials;
-      std::sort(kept.begin(), kept.end());
-      if (std::adjacent_find(kept.begin(), kept.end()) != kept.end()) {
-        m.problems().add(list.node->place, list.path, "a trial stands twice in the list", "each trial once");
-      }
-    }
+  parameters::check_keys(*field, std::vector<std::string>{"trials"}, m.problems());
+  const auto list = yaml::find_field(*field, "trials");
+  if (!list || !yaml::check_list(*list, "a list of trial indices", m.problems())) return;
+  std::vector<std::int64_t>& kept = m.study.retained_trials;
+  for (std::size_t i = 0; i < list->node->items.size(); ++i) {
+    const std::int64_t last = std::max<std::int64_t>(m.study.trials - 1, 0);
+    if (const auto index = yaml::read_whole(yaml::item_of(*list, i), 0, last, m.problems()))
+      kept.push_back(*index);
   }
+  std::sort(kept.begin(), kept.end());
+  if (std::adjacent_find(kept.begin(), kept.end()) != kept.end())
+    m.problems().add(*list, "a trial stands twice in the list", "each trial once");
 }
 
 // The observation of a case applies to all its points, except those with an observation of their own.
@@ -235,15 +221,6 @@ void read_observed(Manifest& m) {
   }
 }
 
-void report_unknown_keys(Manifest& m) {
-  const std::vector<std::string> known = keys_below("");
-  for (const yaml::YamlEntry& entry : m.root.node->entries) {
-    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
-      parameters::add_unknown_key(m.root, entry, known, m.problems());
-    }
-  }
-}
-
 }  // namespace
 
 study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, yaml::Problems& problems) {
@@ -254,7 +231,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, yam
                          problems);
     return {};
   }
-  report_unknown_keys(m);
+  parameters::check_keys(m.root, keys_below(""), problems);
   read_version(m);
   read_texts(m);
   read_numbers(m);

@@ -48,7 +48,8 @@ Listing parameter_listing(const parameters::StudyUnits& units) {
 Listing distribution_listing(const parameters::StudyUnits& units) {
   Listing listing{"Distributions (in the place of any number)", {"name", "written", "meaning"}, {}};
   for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
-    listing.rows.push_back({std::string(form.name), fmt::format("{{{}: {}}}", form.name, form.shown),
+    listing.rows.push_back({std::string(form.name),
+                            fmt::format("{{{}: {}}}", form.name, distributions::shown_value(form)),
                             std::string(form.meaning)});
   }
   listing.rows.push_back(

@@ -6,40 +6,31 @@ namespace {
 template <double friction::FrictionParameters::*field>
 Parameter friction(Parameter row) {
   row.profiled = field;
-  return stored_at(
-      std::move(row), [](auto& p) -> auto& { return p.friction.uniform.*field; });
+  return stored_at(std::move(row), [](auto& p) { return &(p.friction.uniform.*field); });
 }
 
 }  // namespace
 
 std::vector<Parameter> plant_rows() {
   return {
-      stored_at(
-          real_row("plant.inertia", "kg m^2", "moment of inertia J of the rotor", "paper, section 4",
-                   numerics::above(0)),
-          [](auto& p) -> auto& { return p.plant.inertia; }),
-      stored_at(
-          real_row("plant.presliding_damping", "N m s/rad",
-                   "damping c while the hook sticks, or of an air bearing", "paper, section 4",
-                   numerics::at_least(0)),
-          [](auto& p) -> auto& { return p.plant.presliding_damping; }),
-      stored_at(
-          real_row("plant.sliding_damping", "N m s/rad", "viscous damping cs while the hook slides", assumed,
-                   numerics::at_least(0)),
-          [](auto& p) -> auto& { return p.plant.sliding_damping; }),
+      real_row("plant.inertia", "kg m^2", "moment of inertia J of the rotor", "paper, section 4",
+               numerics::above(0), [](auto& p) { return &p.plant.inertia; }),
+      real_row("plant.presliding_damping", "N m s/rad",
+               "damping c while the hook sticks, or of an air bearing", "paper, section 4",
+               numerics::at_least(0), [](auto& p) { return &p.plant.presliding_damping; }),
+      real_row("plant.sliding_damping", "N m s/rad", "viscous damping cs while the hook slides", assumed,
+               numerics::at_least(0), [](auto& p) { return &p.plant.sliding_damping; }),
   };
 }
 
 std::vector<Parameter> friction_rows() {
   using P = friction::FrictionParameters;
   return {
-      stored_at(
-          word_row("friction.model",
-                   "friction of the bearing: before it slides a spring and creep, the spring alone, or no "
-                   "motion at "
-                   "all; none is an air bearing",
-                   assumed, friction::friction_model_words()),
-          [](auto& p) -> auto& { return p.friction.model; }),
+      word_row("friction.model",
+               "friction of the bearing: before it slides a spring and creep, the spring alone, or no "
+               "motion at "
+               "all; none is an air bearing",
+               assumed, friction::friction_model_words(), [](auto& p) { return &p.friction.model; }),
       friction<&P::k1>(real_row("friction.k1", "N m/rad", "lowest tangent stiffness of the friction spring",
                                 "paper, section 4", numerics::above(0))),
       friction<&P::k2>(real_row("friction.k2", "N m/rad",

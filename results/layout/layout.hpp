@@ -43,8 +43,8 @@ struct Column {
   std::string unit;       ///< "1" where dimensionless
   std::string long_name;  ///< one line
   hdf5::Element element{hdf5::Element::float64};
-  std::vector<FlagMeaning> flags;  ///< of an enumeration, otherwise empty
-  std::string role;                ///< in /point only: "axis" or "statistic"
+  std::vector<FlagMeaning> flags{};  ///< of an enumeration, otherwise empty
+  std::string role{};                ///< in /point only: "axis" or "statistic"
 };
 
 /// The word of `value` in an enumeration; the number itself where it has none.

@@ -74,6 +74,20 @@ std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
   return values;
 }
 
+/// The columns of /point with this role, and their names; none in a shard.
+std::vector<std::pair<std::string, hdf5::Dataset>> point_columns(const hdf5::File& file,
+                                                                 std::string_view role) {
+  std::vector<std::pair<std::string, hdf5::Dataset>> columns;
+  if (!file.contains("point")) return columns;
+  const hdf5::Group group = file.open_group("point");
+  for (const std::string& name : group.children()) {
+    hdf5::Dataset dataset = group.open_dataset(name);
+    if (dataset.has_attribute("role") && dataset.text("role") == role)
+      columns.emplace_back(name, std::move(dataset));
+  }
+  return columns;
+}
+
 }  // namespace
 
 StudyFile::StudyFile(const std::filesystem::path& path, Require require, const layout::MeasureTable& table)
@@ -112,11 +126,7 @@ std::vector<std::string> StudyFile::point_labels() const {
 
 std::vector<study::SweepAxis> StudyFile::axes() const {
   std::vector<study::SweepAxis> axes;
-  if (!file_.contains("point")) return axes;
-  const hdf5::Group group = file_.open_group("point");
-  for (const std::string& name : group.children()) {
-    const hdf5::Dataset dataset = group.open_dataset(name);
-    if (!dataset.has_attribute("role") || dataset.text("role") != "axis") continue;
+  for (const auto& [name, dataset] : point_columns(file_, "axis")) {
     study::SweepAxis axis{
         name, dataset.text("units"), dataset.text("long_name"), study::SweepAxis::Kind::number, {}, {}};
     if (dataset.element() == hdf5::Element::text) {
@@ -133,13 +143,8 @@ std::vector<study::SweepAxis> StudyFile::axes() const {
 
 std::vector<layout::PointColumn> StudyFile::statistics() const {
   std::vector<layout::PointColumn> statistics;
-  if (!file_.contains("point")) return statistics;
-  const hdf5::Group group = file_.open_group("point");
-  for (const std::string& name : group.children()) {
-    const hdf5::Dataset dataset = group.open_dataset(name);
-    if (!dataset.has_attribute("role") || dataset.text("role") != "statistic") continue;
+  for (const auto& [name, dataset] : point_columns(file_, "statistic"))
     statistics.push_back({name, dataset.text("units"), dataset.text("long_name"), read_doubles(dataset)});
-  }
   return statistics;
 }
 
@@ -256,8 +261,7 @@ std::vector<StoredProfile> StudyFile::profiles() const {
     const layout::TableIo io = layout::TableIo::open(
         file_, of_rigs ? layout::rotor_table(name, unit) : layout::profile_table(name, unit));
     if (of_rigs) profile.rigs = io.rows();
-    profile.value.resize(static_cast<std::size_t>(io.rows() * io.width()));
-    io.column(0).read(0, io.rows(), profile.value.data());
+    profile.value = layout::read_column<double>(io, 0);
     profiles.push_back(std::move(profile));
   }
   return profiles;
@@ -271,15 +275,12 @@ std::optional<StoredRigs> StudyFile::rigs() const {
   const layout::TableIo io = layout::TableIo::open(file_, layout::rig_table(stored.columns));
   stored.rigs = io.rows();
   for (std::size_t column = 0; column < stored.columns.size(); ++column) {
-    std::vector<double>& values = stored.inputs.emplace_back(static_cast<std::size_t>(stored.rigs));
-    io.column(column).read(0, stored.rigs, values.data());
+    stored.inputs.push_back(layout::read_column<double>(io, column));
   }
   if (!group.contains("success")) return stored;
   const layout::TableIo counts = layout::TableIo::open(file_, layout::rig_count_table());
-  stored.success.resize(static_cast<std::size_t>(counts.rows() * counts.width()));
-  stored.trials.resize(stored.success.size());
-  counts.column(0).read(0, counts.rows(), stored.success.data());
-  counts.column(1).read(0, counts.rows(), stored.trials.data());
+  stored.success = layout::read_column<std::int64_t>(counts, 0);
+  stored.trials = layout::read_column<std::int64_t>(counts, 1);
   validate_rigs(header_, counts, stored.success, stored.trials);
   return stored;
 }

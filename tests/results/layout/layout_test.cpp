@@ -23,7 +23,7 @@ std::vector<layout::Table> all_tables() {
           layout::trial_table(study.input_columns),
           layout::outcome_table(layout::format_version, {.stopping = true}),
           layout::jerk_table(),
-          layout::trace_table({true, true, true}),
+          layout::trace_table({.travel = true, .phases = true, .drive_torque = true}),
           layout::statistic_table(layout::level_group(), {{"torque", "N m", "torque", {}}}),
           layout::profile_table("friction.k1", "N m/rad")};
 }
@@ -94,7 +94,8 @@ TEST(Layout, OfVersion1HasTheFirstMeasures) {
 }
 
 TEST(Layout, OfVersion2LacksTheMeasuresOfTheEndOfAMove) {
-  std::vector<std::string> expected = names(layout::outcome_table(layout::format_version, {.stopping = true}).columns);
+  std::vector<std::string> expected =
+      names(layout::outcome_table(layout::format_version, {.stopping = true}).columns);
   for (const char* measure : {"final_settling_time", "zero_fraction", "midway_error", "oscillation_amplitude",
                               "oscillation_period"}) {
     EXPECT_EQ(std::erase(expected, measure), 1U) << measure;

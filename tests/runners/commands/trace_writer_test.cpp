@@ -46,7 +46,8 @@ TEST(TraceColumns, ThatTheStudyUsesComeAfterTheMode) {
 }
 
 TEST(TraceColumns, OfJsonAreTheSame) {
-  const auto all = nlohmann::json::parse(trace_of({.travel = true, .phases = true, .drive_torque = true}, true))["samples"][0];
+  const auto all = nlohmann::json::parse(
+      trace_of({.travel = true, .phases = true, .drive_torque = true}, true))["samples"][0];
   EXPECT_EQ(all.size(), 17U);
   EXPECT_EQ(all["reference"], 7);
   EXPECT_EQ(all["phase"], "coarse");

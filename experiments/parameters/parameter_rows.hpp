@@ -11,8 +11,8 @@
 
 namespace zerocount::parameters {
 
-// The rows of the table of parameters, by section. The name of a new row must also be added at the end of
-// sobol_order.cpp.
+// The rows of the table of parameters, by section. Each has a Sobol dimension of its own, so that a new row
+// does not change the draws of the others. The next free one is beyond_moves(9).
 
 std::vector<Parameter> plant_rows();
 std::vector<Parameter> friction_rows();
@@ -22,6 +22,11 @@ std::vector<Parameter> controller_rows();
 std::vector<Parameter> command_rows();
 std::vector<Parameter> initial_rows();
 std::vector<Parameter> verdict_rows();
+
+/// Dimension i after those of the moves. Most of these parameters have labels and are never drawn.
+constexpr std::size_t beyond_moves(std::size_t i) {
+  return first_sobol_dimension_beyond_moves + i;
+}
 
 constexpr std::string_view assumed = "assumed";
 
@@ -64,31 +69,44 @@ Parameter or_never(Parameter row, Field) {
 
 /// A row of real numbers.
 template <class Field = NoField>
-Parameter real_row(std::string_view name, std::string_view unit, std::string_view meaning,
-                   std::string_view source, const numerics::Interval& range, Field field = {}) {
-  return stored_at({name, unit, meaning, source, ParameterKind::real, range, {}}, field);
+Parameter real_row(std::string_view name, std::size_t sobol_dimension, std::string_view unit,
+                   std::string_view meaning, std::string_view source, const numerics::Interval& range,
+                   Field field = {}) {
+  return stored_at({name, unit, meaning, source, ParameterKind::real, range, {}, sobol_dimension}, field);
 }
 
 /// A row of whole numbers.
 template <class Field = NoField>
-Parameter whole_row(std::string_view name, std::string_view unit, std::string_view meaning,
-                    std::string_view source, const numerics::Interval& range, Field field = {}) {
-  return stored_at({name, unit, meaning, source, ParameterKind::whole_number, range, {}}, field);
+Parameter whole_row(std::string_view name, std::size_t sobol_dimension, std::string_view unit,
+                    std::string_view meaning, std::string_view source, const numerics::Interval& range,
+                    Field field = {}) {
+  return stored_at({name, unit, meaning, source, ParameterKind::whole_number, range, {}, sobol_dimension},
+                   field);
 }
 
 /// A row with labels, in the order of the enumeration's values.
 template <class Field>
-Parameter word_row(std::string_view name, std::string_view meaning, std::string_view source,
-                   std::vector<std::string_view> labels, Field field) {
+Parameter word_row(std::string_view name, std::size_t sobol_dimension, std::string_view meaning,
+                   std::string_view source, std::vector<std::string_view> labels, Field field) {
   const numerics::Interval range = numerics::closed(0, static_cast<double>(labels.size() - 1));
-  return stored_at({name, "1", meaning, source, ParameterKind::enumeration, range, std::move(labels)}, field);
+  return stored_at(
+      {name, "1", meaning, source, ParameterKind::enumeration, range, std::move(labels), sobol_dimension},
+      field);
 }
 
 /// A row of `true` or `false`.
 template <class Field>
-Parameter truth_row(std::string_view name, std::string_view meaning, std::string_view source, Field field) {
-  return stored_at(
-      {name, "1", meaning, source, ParameterKind::truth, numerics::closed(0, 1), {"false", "true"}}, field);
+Parameter truth_row(std::string_view name, std::size_t sobol_dimension, std::string_view meaning,
+                    std::string_view source, Field field) {
+  return stored_at({name,
+                    "1",
+                    meaning,
+                    source,
+                    ParameterKind::truth,
+                    numerics::closed(0, 1),
+                    {"false", "true"},
+                    sobol_dimension},
+                   field);
 }
 
 /// Marks a row as required wherever it has an effect.

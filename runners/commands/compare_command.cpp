@@ -101,14 +101,14 @@ ExitCode compare(const command_line::Arguments& arguments) {
 Command compare_command() {
   return {{"compare",
            "BASELINE FILE",
-           2,
-           2,
            {{"margins", "FILE", "YAML file of margins and requirements"},
             {"format", "FORMAT", "of standard output: table (default), json, junit or markdown"},
             {"json", "FILE", "write the JSON there too"},
             {"junit", "FILE", "write JUnit XML there too"},
             {"markdown", "FILE", "write the Markdown summary there too"},
-            command_line::force_option()}},
+            command_line::force_option()},
+           2,
+           2},
           "compare a results file with a baseline: the regression gate",
           compare_help,
           compare};

@@ -273,8 +273,6 @@ Command plan_command() {
   return {
       {"plan",
        "[PILOT]",
-       0,
-       1,
        {{"success", "P", "minimum proportion of successful axes to be shown"},
         {"confidence", "LEVEL", "of the claim, or of the bounds (default 0.95)"},
         {"failures", "K", "list plans for 0 to K failures (default 3)"},
@@ -283,7 +281,9 @@ Command plan_command() {
         {"halfwidth", "H", "half-width of the two-sided bounds of a rate"},
         {"rigs-share", "P", "minimum proportion of rigs to be shown to succeed in --success of their trials"},
         {"rig-sd", "SD", "standard deviation of the success probability between rigs"},
-        {"format", "FORMAT", "table (default) or json"}}},
+        {"format", "FORMAT", "table (default) or json"}},
+       0,
+       1},
       "print how many trials a claim needs",
       plan_help,
       print_plan};

@@ -84,15 +84,6 @@ void print_text(std::string_view text) {
   fmt::print("{}", text);
 }
 
-shards::TrialResult recorded_trial(const reading::StudyFile& file, layout::RowRange row) {
-  shards::TrialResult result;
-  result.row = row.first;
-  result.inputs = file.inputs_of(row.first);
-  result.outcome.moves = file.outcomes(row);
-  for (const layout::JerkRecord& jerk : file.jerks(row)) result.jerks.push_back(jerk);
-  return result;
-}
-
 ExitCode trace(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
@@ -118,8 +109,7 @@ ExitCode trace(const command_line::Arguments& arguments) {
                                            : write_trace(subject, print_text, json);
   if (!file) return ExitCode::success;
 
-  const std::vector<std::string> different = differences(study.input_columns, recorded_trial(*file, row),
-                                                         replayed, file->measures(), file->header().version);
+  const std::vector<std::string> different = differences_from_record(*file, replayed);
   if (different.empty()) return ExitCode::success;
   std::string message =
       fmt::format("{}: point {}, trial {}: the replay is not the recorded trial", input, point, index);
@@ -132,8 +122,6 @@ ExitCode trace(const command_line::Arguments& arguments) {
 Command trace_command() {
   return {{"trace",
            "MANIFEST|FILE",
-           1,
-           1,
            {{"point", "P", "design point, by label or number from 0 (default 0)"},
             {"trial", "I", "trial of the point, from 0 (default 0)"},
             {"format", "FORMAT", "csv (default) or json"},

@@ -147,9 +147,7 @@ ExitCode run_until_sure(const study::Study& study, const fs::path& output,
       successes.add(shard);
       shards.push_back(std::move(shard));
     }
-    std::sort(shards.begin(), shards.end(), [](const shards::ShardInfo& a, const shards::ShardInfo& b) {
-      return a.rows.first < b.rows.first;
-    });
+    shards::sort_by_rows(shards);
     if (done - before < layout::total_rows(ranges)) {
       throw Failure(ExitCode::interrupted,
                     fmt::format("interrupted: {} trials are kept in {}; give the same command again to go on",

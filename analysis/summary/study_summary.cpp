@@ -49,7 +49,7 @@ StudySummary summary_of(const study::Study& study, double confidence) {
   summary.observed = study.observed;
   summary.confidence = confidence;
   summary.features = study.features;
-  summary.design = manifest::design_labels()[static_cast<std::size_t>(study.design)];
+  summary.design = manifest::design_labels[static_cast<std::size_t>(study.design)];
   return summary;
 }
 

@@ -79,7 +79,7 @@ void read_texts(Manifest& m) {
 void read_design(Manifest& m) {
   const auto field = find_field(m, "design");
   if (!field) return;
-  if (const auto design = yaml::read_label(*field, design_labels(), m.problems())) {
+  if (const auto design = yaml::read_label(*field, design_labels, m.problems())) {
     m.study.design = static_cast<study::Design>(*design);
   }
 }

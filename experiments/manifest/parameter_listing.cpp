@@ -58,7 +58,7 @@ Listing distribution_listing(const parameters::StudyUnits& units) {
            fmt::format(": a periodic random field; correlation_length in {}, marginal normal or lognormal "
                        "(default); the mean may be a distribution, drawn for each {}",
                        parameters::unit_on(units.axis, "rad"), parameters::text_on(units.axis, "rotor"))});
-  listing.rows.push_back({std::string(per_key), fmt::format("{{…, per: {}}}", fmt::join(per_labels(), " | ")),
+  listing.rows.push_back({std::string(per_key), fmt::format("{{…, per: {}}}", fmt::join(per_labels, " | ")),
                           "beside any of these: how often it is drawn; contact for friction alone, study or "
                           "rig for a profile"});
   return listing;

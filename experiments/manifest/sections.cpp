@@ -56,20 +56,21 @@ void read_general_key(SectionReading& s, const yaml::Field& field) {
   if (!s.plan().sequence) return;
   study::SequenceCycle& cycle = s.plan().sequence.value();
   if (field.path == "command.sequence.approach") {
-    if (const auto approach = yaml::read_label(field, approach_labels(), s.problems()))
+    if (const auto approach = yaml::read_label(field, approach_labels, s.problems()))
       cycle.approach = static_cast<study::SequenceApproach>(*approach);
   } else if (field.path == "command.sequence.cycles") {
     cycle.cycles = yaml::read_whole(field, 1, study::max_sequence_moves, s.problems()).value_or(cycle.cycles);
   }
 }
 
+bool is_form(std::string_view key) {
+  return std::find(command_forms.begin(), command_forms.end(), key) != command_forms.end();
+}
+
 // Whether the path belongs to a second form of the command. Its contents are not read: it is reported as one
 // form too many.
 bool is_form_too_many(SectionReading& s, const yaml::Field& section, const std::string& key) {
-  const auto forms = command_forms();
-  const bool is_form =
-      section.path == required_section && std::find(forms.begin(), forms.end(), key) != forms.end();
-  return is_form &&
+  return section.path == required_section && is_form(key) &&
          !is_within(parameters::parameter_table()[s.plan().list.row].name, section.path + "." + key);
 }
 
@@ -109,11 +110,10 @@ void take_defaults(SectionReading& s) {
 // Chooses the first form in the manifest; reports an error unless there is exactly one.
 void choose_form(SectionReading& s, const yaml::Field& command) {
   if (command.node->kind != yaml::YamlNode::Kind::map) return;
-  const auto forms = command_forms();
-  const std::string expected = fmt::format("exactly one of {}", fmt::join(forms, ", "));
+  const std::string expected = fmt::format("exactly one of {}", fmt::join(command_forms, ", "));
   std::vector<const yaml::YamlEntry*> given;
   for (const yaml::YamlEntry& entry : command.node->entries) {
-    if (std::find(forms.begin(), forms.end(), entry.key) != forms.end()) given.push_back(&entry);
+    if (is_form(entry.key)) given.push_back(&entry);
   }
   if (given.empty()) {
     s.problems().add(command, "it does not say what the moves go to", expected);

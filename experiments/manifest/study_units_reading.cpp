@@ -5,7 +5,7 @@ void read_study_units(const yaml::Field& root, Reading& reading) {
   study::StudyPlan& plan = reading.plan;
   if (const auto axis = yaml::find_field(root, "axis")) {
     plan.units.axis = static_cast<parameters::AxisKind>(
-        yaml::read_label(*axis, parameters::axis_labels(), reading.problems).value_or(0));
+        yaml::read_label(*axis, parameters::axis_labels, reading.problems).value_or(0));
   }
   const bool linear = plan.units.axis == parameters::AxisKind::linear;
   if (linear) plan.period.reset();
@@ -23,7 +23,7 @@ void read_study_units(const yaml::Field& root, Reading& reading) {
   const auto gains = controller ? yaml::find_field(*controller, "units") : std::nullopt;
   if (gains)
     plan.units.gains = static_cast<parameters::GainUnits>(
-        yaml::read_label(*gains, parameters::gain_unit_labels(), reading.problems).value_or(0));
+        yaml::read_label(*gains, parameters::gain_unit_labels, reading.problems).value_or(0));
 }
 
 void check_travel(const yaml::Field& root, Reading& reading) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -77,5 +78,15 @@ bool extremes_are_inside(const Distribution& distribution, const numerics::Inter
 
 /// Whether only whole numbers can be drawn.
 bool whole_numbers_only(const Distribution& distribution);
+
+/// Why the parameters of a distribution are invalid: the two phrases of a message.
+struct DistributionFault {
+  std::string what;
+  std::string expected;
+};
+
+/// The first fault of a distribution with finite parameters: low not below high, no spread, an empty choice,
+/// …
+std::optional<DistributionFault> find_fault(const Distribution& distribution);
 
 }  // namespace zerocount::distributions

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiments/distributions/distribution_faults.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 

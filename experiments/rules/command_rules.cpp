@@ -1,5 +1,3 @@
-#include "experiments/rules/command_rules.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +8,7 @@
 #include "core/loop/dac.hpp"
 #include "core/loop/reference.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
+#include "experiments/rules/value_rules.hpp"
 #include "experiments/study/slots.hpp"
 
 namespace zerocount::rules {

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "experiments/parameters/parameter_table.hpp"
-#include "experiments/rules/command_rules.hpp"
 
 namespace zerocount::rules {
 namespace {

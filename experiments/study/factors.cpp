@@ -11,13 +11,10 @@ namespace zerocount::study {
 namespace {
 
 bool is_drawn_somewhere(const StudyPlan& plan, std::size_t slot) {
-  bool drawn = false;
-  visit_points(plan, {&slot, 1}, [&](std::size_t point) {
-    const Value& value = *value_at_point(plan, slot, point);
-    drawn = value.kind == Value::Kind::distribution && value.per != Per::study;
-    return !drawn;
+  const std::vector<const Value*> values = values_of(plan, slot);
+  return std::any_of(values.begin(), values.end(), [](const Value* value) {
+    return value->kind == Value::Kind::distribution && value->per != Per::study;
   });
-  return drawn;
 }
 
 // Whether trials use random numbers while they run; see core/random/trial_randomness.hpp.

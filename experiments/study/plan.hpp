@@ -12,6 +12,7 @@
 #include "experiments/study/draws.hpp"
 #include "experiments/study/rotors.hpp"
 #include "experiments/study/sequence.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::study {
 
@@ -102,5 +103,8 @@ const Value* value_at_point(const StudyPlan& plan, std::size_t slot, std::size_t
 
 /// The values of all slots at a design point.
 std::vector<const Value*> values_at(const StudyPlan& plan, std::size_t point);
+
+/// The features of a study whose other members are set, from the limits of the parameters in its plan.
+StudyFeatures find_features(const StudyPlan& plan, const Study& study);
 
 }  // namespace zerocount::study

@@ -33,6 +33,9 @@ std::vector<std::size_t> listed_slots(const ListedValues& list);
 void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
                   const std::function<bool(std::size_t point)>& visit);
 
+/// The values of a slot: one of each design point at which it can differ.
+std::vector<const Value*> values_of(const StudyPlan& plan, std::size_t slot);
+
 /// The limits of the parameters at a design point, in the order of `slots`.
 std::vector<ValueLimits> limits_at(const StudyPlan& plan, std::span<const std::size_t> slots,
                                    std::size_t point);

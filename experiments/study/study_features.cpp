@@ -1,8 +1,7 @@
-#include "experiments/study/study_features.hpp"
-
 #include <algorithm>
 #include <initializer_list>
 
+#include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
 
 namespace zerocount::study {

@@ -9,7 +9,7 @@
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
-#include "runners/study_run/assemble.hpp"
+#include "runners/study_run/study_runner.hpp"
 
 namespace zerocount::commands {
 namespace {

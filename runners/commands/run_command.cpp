@@ -15,7 +15,6 @@
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
-#include "runners/study_run/assemble.hpp"
 #include "runners/study_run/earlier_shards.hpp"
 #include "runners/study_run/existing_output.hpp"
 #include "runners/study_run/extension.hpp"

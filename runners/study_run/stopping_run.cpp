@@ -9,7 +9,6 @@
 #include "experiments/manifest/load_study.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/storage/durable_file.hpp"
-#include "runners/study_run/assemble.hpp"
 #include "runners/study_run/progress.hpp"
 #include "runners/study_run/study_runner.hpp"
 

@@ -99,7 +99,8 @@ void read_numbers(Manifest& m) {
   }
 }
 
-// Reads the keys that decide the units of all values, before these.
+// Reads `axis`, `travel` and `controller.units`. Must come first, because all other values depend on the
+// units.
 void read_study_units(const yaml::Field& root, Reading& reading) {
   study::StudyPlan& plan = reading.plan;
   if (const auto axis = yaml::find_field(root, "axis")) {
@@ -125,7 +126,7 @@ void read_study_units(const yaml::Field& root, Reading& reading) {
         yaml::read_label(*gains, parameters::gain_unit_labels, reading.problems).value_or(0));
 }
 
-// Warns of a `travel` without profiles.
+// Warns if `travel` is given and nothing varies along it.
 void check_travel(const yaml::Field& root, Reading& reading) {
   const auto travel = yaml::find_field(root, "travel");
   if (!travel || !reading.profiles.empty() || reading.plan.units.axis == parameters::AxisKind::rotary) return;

@@ -178,6 +178,11 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
 /// call complete_trial().
 StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index);
 
+/// Completes the parameters of a trial after all numbers are set in the manifest's units: converts gains from
+/// SI units with the trial's sample time and encoder, and sets the resolution of a linear axis's coarse
+/// encoder to that of the fine one if it is not given.
+void complete_trial(const parameters::StudyUnits& units, trial::TrialParameters& trial);
+
 /// The inputs of rig `rig` (0 … rigs − 1): [rig column], in that column's unit.
 std::vector<double> rig_inputs(const Study& study, std::int64_t rig);
 

@@ -406,25 +406,23 @@ std::string describe(const PointTheory& theory) {
   return out + describe_beyond(theory);
 }
 
-/// Prints the input columns with belongs(column), after `title`; prints nothing if there are none.
-template <class Belongs>
-void print_columns(const study::Study& study, std::string_view title, const Belongs& belongs) {
+/// Prints the input columns that are drawn as often as one of `drawn`, after `title`; nothing if there are
+/// none.
+void print_columns(const study::Study& study, std::string_view title,
+                   std::initializer_list<study::Per> drawn) {
   std::string names;
   for (const study::InputColumn& column : study.input_columns) {
-    if (belongs(column.per)) names += " " + column.name;
+    if (std::find(drawn.begin(), drawn.end(), column.per) != drawn.end()) names += " " + column.name;
   }
   if (!names.empty()) fmt::print("  {}:{}\n", title, names);
 }
 
 void print_what_differs(const study::Study& study) {
   if (study.input_columns.empty()) fmt::print("  differing between trials: nothing\n");
-  print_columns(study, "differing between trials",
-                [](study::Per per) { return per == study::Per::trial || per == study::Per::contact; });
-  print_columns(study, "of these, drawn anew at each contact",
-                [](study::Per per) { return per == study::Per::contact; });
-  print_columns(study, "differing between rigs", [](study::Per per) { return per == study::Per::rig; });
-  print_columns(study, "the same in all trials of a point",
-                [](study::Per per) { return per == study::Per::study; });
+  print_columns(study, "differing between trials", {study::Per::trial, study::Per::contact});
+  print_columns(study, "of these, drawn anew at each contact", {study::Per::contact});
+  print_columns(study, "differing between rigs", {study::Per::rig});
+  print_columns(study, "the same in all trials of a point", {study::Per::study});
 }
 
 void print_plan(const study::Study& study) {

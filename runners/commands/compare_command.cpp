@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -42,17 +44,14 @@ ExitCode code_of(comparison::GateVerdict verdict) {
 
 /// An output format of the comparison, and the option that names a file for it.
 struct ComparisonForm {
-  std::string name;
+  std::string_view name;
   std::string (*text)(const comparison::StudyComparison&);
 };
 
-const std::vector<ComparisonForm>& forms() {
-  static const std::vector<ComparisonForm> all{{"table", comparison::comparison_table},
+constexpr std::array<ComparisonForm, 4> forms{{{"table", comparison::comparison_table},
                                                {"json", comparison::comparison_json},
                                                {"junit", comparison::comparison_junit},
-                                               {"markdown", comparison::comparison_markdown}};
-  return all;
-}
+                                               {"markdown", comparison::comparison_markdown}}};
 
 /// Destination of one output format.
 struct FormPlace {
@@ -69,7 +68,7 @@ std::vector<FormPlace> places_of(const command_line::Arguments& arguments,
   std::vector<std::filesystem::path> outputs;
   if (arguments.has("format")) outputs.emplace_back("-");
   std::vector<FormPlace> places;
-  for (const ComparisonForm& form : forms()) {
+  for (const ComparisonForm& form : forms) {
     if (form.name == "table") continue;
     const std::optional<std::filesystem::path> place = command_line::text_place(arguments, form.name);
     if (!place) continue;
@@ -80,9 +79,8 @@ std::vector<FormPlace> places_of(const command_line::Arguments& arguments,
   const bool taken = std::any_of(places.begin(), places.end(), [](const FormPlace& place) {
     return yaml::is_standard_stream(place.place);
   });
-  const auto printed = std::find_if(forms().begin(), forms().end(),
-                                    [&](const ComparisonForm& form) { return form.name == format; });
-  if (!taken) places.push_back({*printed, "-"});
+  const ComparisonForm& printed = *std::ranges::find(forms, format, &ComparisonForm::name);
+  if (!taken) places.push_back({printed, "-"});
   return places;
 }
 

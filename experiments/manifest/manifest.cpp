@@ -37,14 +37,9 @@ struct Manifest {
   study::StudyPlan& plan() { return reading.plan; }
 };
 
-// The value of a top-level key, if present.
-std::optional<yaml::Field> find_field(const Manifest& m, std::string_view key) {
-  return yaml::find_field(m.root, key);
-}
-
-// Likewise; reports a missing key.
+// The value of a top-level key. Reports a missing key.
 std::optional<yaml::Field> find_required(Manifest& m, std::string_view key, std::string_view expected) {
-  auto field = find_field(m, key);
+  auto field = yaml::find_field(m.root, key);
   if (!field) m.problems().add(m.root.node->place, key, "the key is missing", expected);
   return field;
 }
@@ -70,13 +65,13 @@ void read_texts(Manifest& m) {
       m.problems().add(*field, "the name is empty", "a name for the study");
     }
   }
-  if (const auto field = find_field(m, "description")) {
+  if (const auto field = yaml::find_field(m.root, "description")) {
     m.study.description = yaml::read_text(*field, m.problems()).value_or("");
   }
 }
 
 void read_design(Manifest& m) {
-  const auto field = find_field(m, "design");
+  const auto field = yaml::find_field(m.root, "design");
   if (!field) return;
   if (const auto design = yaml::read_label(*field, design_labels, m.problems())) {
     m.study.design = static_cast<study::Design>(*design);
@@ -90,11 +85,11 @@ void read_numbers(Manifest& m) {
   if (const auto field = find_required(m, "trials", "the number of trials at each design point")) {
     m.study.trials = yaml::read_whole(*field, 1, max_study_trials, m.problems()).value_or(0);
   }
-  if (const auto field = find_field(m, "rigs")) {
+  if (const auto field = yaml::find_field(m.root, "rigs")) {
     m.reading.has_rigs = true;
     m.study.rigs = yaml::read_whole(*field, min_rigs, max_rigs, m.problems()).value_or(0);
   }
-  if (const auto field = find_field(m, "independent_points")) {
+  if (const auto field = yaml::find_field(m.root, "independent_points")) {
     m.study.independent_points = yaml::read_truth(*field, m.problems()).value_or(false);
   }
 }
@@ -135,7 +130,7 @@ void check_travel(const yaml::Field& root, Reading& reading) {
 }
 
 void read_axes(Manifest& m) {
-  if (const auto field = find_field(m, "sweep")) m.axes = read_sweep(*field, m.reading);
+  if (const auto field = yaml::find_field(m.root, "sweep")) m.axes = read_sweep(*field, m.reading);
   for (const SweptAxis& axis : m.axes) {
     if (axis.labels.empty()) continue;  // could not be read
     m.plan().axes.push_back(axis.axis);
@@ -147,7 +142,7 @@ void check_trial_count(Manifest& m) {
   std::int64_t points = 1;
   for (const study::PlanAxis& axis : m.plan().axes)
     points *= static_cast<std::int64_t>(study::option_count(axis));
-  const auto field = find_field(m, "trials");
+  const auto field = yaml::find_field(m.root, "trials");
   if (field && m.study.trials > max_study_trials / points) {
     m.problems().add(*field, fmt::format("{} trials at {} points are too many", m.study.trials, points),
                      fmt::format("at most {} trials in all", max_study_trials));
@@ -161,11 +156,11 @@ std::string nearest_multiples(std::int64_t number, std::int64_t of) {
 
 // The design saltelli needs whole rows; a row has as many trials as there are factors, plus two.
 void check_rows(Manifest& m) {
-  const auto field = find_field(m, "trials");
+  const auto field = yaml::find_field(m.root, "trials");
   if (m.study.design != study::Design::saltelli || !field || m.study.trials == 0) return;
   const std::vector<std::string> names = study::factor_names(m.plan());
   if (names.empty()) {
-    const yaml::Field design = find_field(m, "design").value();
+    const yaml::Field design = yaml::find_field(m.root, "design").value();
     m.problems().add(design, "nothing is drawn in this study", "a distribution for one parameter at least");
     return;
   }
@@ -189,15 +184,15 @@ void require_multiple_of_rigs(Manifest& m, const yaml::Field& field, std::int64_
 // Every rig must have the same number of trials, also after each block of sequential stopping.
 void check_rigs(Manifest& m) {
   if (m.study.rigs == 0) return;
-  const auto trials = find_field(m, "trials");
+  const auto trials = yaml::find_field(m.root, "trials");
   const std::int64_t block = m.study.stop ? m.study.stop->block : m.study.trials;
   if (trials && block > 0) require_multiple_of_rigs(m, *trials, block);
   if (m.study.stop) {
-    const auto limit = yaml::find_field(find_field(m, "stop").value(), "max_trials");
+    const auto limit = yaml::find_field(yaml::find_field(m.root, "stop").value(), "max_trials");
     if (limit) require_multiple_of_rigs(m, *limit, m.study.stop->max_trials);
   }
   if (m.study.design == study::Design::saltelli) {
-    const yaml::Field design = find_field(m, "design").value();
+    const yaml::Field design = yaml::find_field(m.root, "design").value();
     m.problems().add(design,
                      "the rows of this design change one factor at a time, and a rig shares its factors with "
                      "the trials of other rows",
@@ -206,7 +201,7 @@ void check_rigs(Manifest& m) {
 }
 
 void read_retained(Manifest& m) {
-  const auto field = find_field(m, "retain");
+  const auto field = yaml::find_field(m.root, "retain");
   if (!field || !yaml::check_map(*field, "retain: {trials: [..]}", m.problems())) return;
   parameters::check_keys(*field, std::vector<std::string>{"trials"}, m.problems());
   const auto list = yaml::find_field(*field, "trials");
@@ -224,7 +219,7 @@ void read_retained(Manifest& m) {
 
 // The observation of a case applies to all its points, except those with an observation of their own.
 void read_observed(Manifest& m) {
-  const auto field = find_field(m, "observed");
+  const auto field = yaml::find_field(m.root, "observed");
   if (!field || !yaml::check_map(*field, "a map from cases or point labels to texts", m.problems())) return;
   const bool complete =
       std::none_of(m.axes.begin(), m.axes.end(), [](const auto& axis) { return axis.labels.empty(); });
@@ -274,7 +269,8 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, yam
   read_sections(m.root, m.reading, m.places);
   read_axes(m);
   read_retained(m);
-  if (const auto field = find_field(m, "stop")) read_stop(*field, max_study_trials, m.study, problems);
+  if (const auto field = yaml::find_field(m.root, "stop"))
+    read_stop(*field, max_study_trials, m.study, problems);
   check_trial_count(m);
   check_rigs(m);
   read_observed(m);

@@ -1,7 +1,6 @@
 #include "experiments/manifest/parameter_listing.hpp"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include <boost/algorithm/string/replace.hpp>
@@ -72,10 +71,6 @@ Listing key_listing() {
   return listing;
 }
 
-std::array<Listing, 3> listings(const parameters::StudyUnits& units) {
-  return {parameter_listing(units), distribution_listing(units), key_listing()};
-}
-
 std::string as_text(const Listing& listing) {
   std::vector<std::size_t> widths(listing.heads.size(), 0);
   std::vector<Row> lines{listing.heads};
@@ -108,18 +103,18 @@ std::string as_markdown(const Listing& listing) {
   return text + "\n";
 }
 
+std::string in_form(std::string (*form)(const Listing&), const parameters::StudyUnits& units) {
+  return form(parameter_listing(units)) + form(distribution_listing(units)) + form(key_listing());
+}
+
 }  // namespace
 
 std::string parameters_as_text(const parameters::StudyUnits& units) {
-  std::string text;
-  for (const Listing& listing : listings(units)) text += as_text(listing);
-  return text;
+  return in_form(as_text, units);
 }
 
 std::string parameters_as_markdown(const parameters::StudyUnits& units) {
-  std::string text;
-  for (const Listing& listing : listings(units)) text += as_markdown(listing);
-  return text;
+  return in_form(as_markdown, units);
 }
 
 }  // namespace zerocount::manifest

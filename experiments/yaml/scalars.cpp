@@ -172,15 +172,12 @@ std::optional<std::uint64_t> read_seed(const Field& field, Problems& problems) {
 std::optional<bool> read_truth(const Field& field, Problems& problems) {
   const YamlNode& node = *field.node;
   if (is_plain_scalar(node) && (node.text == "true" || node.text == "false")) return node.text == "true";
-  if (is_plain_scalar(node) && !is_yaml11_truth(node.text)) {
-    problems.add(field, fmt::format("{} is not a truth value", in_quotes(node.text)), "true or false");
-  } else {
-    const std::string what =
-        is_plain_scalar(node)
-            ? fmt::format("{} is a truth value only in some versions of YAML", in_quotes(node.text))
-            : describe(node);
-    problems.add(field, what, "true or false");
-  }
+  const std::string what =
+      !is_plain_scalar(node) ? describe(node)
+      : is_yaml11_truth(node.text)
+          ? fmt::format("{} is a truth value only in some versions of YAML", in_quotes(node.text))
+          : fmt::format("{} is not a truth value", in_quotes(node.text));
+  problems.add(field, what, "true or false");
   return std::nullopt;
 }
 

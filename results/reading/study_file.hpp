@@ -42,12 +42,12 @@ struct StoredRigs {
 };
 
 /// A results file, open to be read. Rows are global rows, here and in the file. Every function may find that
-/// the file is damaged, or holds values that cannot be (see sound_values.hpp), and throws Failure (bad_data)
+/// the file is damaged, or holds values that cannot be (see validation.hpp), and throws Failure (bad_data)
 /// then. One thread at a time.
 class StudyFile {
  public:
   /// Checks checksum trailer, format, version, completion mark, completeness as required, and that the rows
-  /// have the numbers of their places (see sound_values.hpp). Reads the file once from beginning to end.
+  /// have the numbers of their places (see validation.hpp). Reads the file once from beginning to end.
   /// @throws ForeignFile for another format or a newer version; Failure: bad_input where there is no such
   /// file, machine_failed where it cannot be read, otherwise bad_data.
   /// @param table the measures that its moves may have; stays as long as this.

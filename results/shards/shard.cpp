@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -36,20 +37,15 @@ void write_trials(hdf5::File& file, const study::Study& study, std::span<const T
   layout::TableIo io =
       layout::TableIo::create(file, layout::trial_table(study.input_columns), rows, 1, compression);
   io.number_rows(results.front().row);
-  std::vector<std::int64_t> point(results.size());
-  std::vector<std::int64_t> index(results.size());
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    point[i] = results[i].row / study.trials;
-    index[i] = results[i].row % study.trials;
-  }
-  io.column(0).write(0, rows, point.data());
-  io.column(1).write(0, rows, index.data());
-  std::vector<double> values(results.size());
-  for (std::size_t input = 0; input < study.input_columns.size(); ++input) {
-    std::transform(results.begin(), results.end(), values.begin(),
-                   [input](const TrialResult& result) { return result.inputs[input]; });
-    io.column(2 + input).write(0, rows, values.data());
-  }
+  const auto write = [&](std::size_t column, const auto& value_of) {
+    std::vector<std::invoke_result_t<decltype(value_of), const TrialResult&>> values(results.size());
+    std::transform(results.begin(), results.end(), values.begin(), value_of);
+    io.column(column).write(0, rows, values.data());
+  };
+  write(0, [&](const TrialResult& result) { return result.row / study.trials; });
+  write(1, [&](const TrialResult& result) { return result.row % study.trials; });
+  for (std::size_t input = 0; input < study.input_columns.size(); ++input)
+    write(2 + input, [input](const TrialResult& result) { return result.inputs[input]; });
 }
 
 /// Writes the table with these records; a row takes `width` of them.

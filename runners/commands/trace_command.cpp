@@ -69,19 +69,19 @@ shards::TrialResult write_trace(const TraceSubject& subject, const TraceWriter::
   return result;
 }
 
-/// Writes the trace to a file that appears when it is complete.
-shards::TrialResult write_trace_file(const TraceSubject& subject, const std::filesystem::path& path,
-                                     bool json) {
-  storage::OutputFile file(path);
+/// Writes the trace to standard output, or to a file that appears when it is complete.
+shards::TrialResult write_trace_to(const std::filesystem::path& place, const TraceSubject& subject,
+                                   bool json) {
+  if (yaml::is_standard_stream(place)) {
+    return write_trace(
+        subject, [](std::string_view text) { fmt::print("{}", text); }, json);
+  }
+  storage::OutputFile file(place);
   shards::TrialResult result = write_trace(
       subject, [&file](std::string_view text) { file.write(text); }, json);
   file.finish();
   file.publish();
   return result;
-}
-
-void print_text(std::string_view text) {
-  fmt::print("{}", text);
 }
 
 ExitCode trace(const command_line::Arguments& arguments) {
@@ -103,10 +103,8 @@ ExitCode trace(const command_line::Arguments& arguments) {
     arguments.refuse(fmt::format("{} is a part of the study and does not hold that trial", input));
   }
   const study::StudyTrial trial = study::study_trial(study, point, index);
-  const TraceSubject subject{study, point, index, trial};
-  const shards::TrialResult replayed = output && !yaml::is_standard_stream(*output)
-                                           ? write_trace_file(subject, *output, json)
-                                           : write_trace(subject, print_text, json);
+  const shards::TrialResult replayed =
+      write_trace_to(output.value_or("-"), {study, point, index, trial}, json);
   if (!file) return ExitCode::success;
 
   const std::vector<std::string> different = differences_from_record(*file, replayed);

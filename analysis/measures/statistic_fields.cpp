@@ -134,8 +134,7 @@ std::vector<StatisticField> statistic_fields(const study::StudyFeatures& feature
   }
   if (features.rigs) append(fields, rig_fields());
   for (const layout::Measure& measure : measures) {
-    if (measure.file.only_with != nullptr &&
-        layout::is_in_file(measure, layout::format_version, features))
+    if (measure.file.only_with != nullptr && layout::is_in_file(measure, layout::format_version, features))
       add(measure, [](layout::Statistic statistic) { return !is_bootstrap(statistic); });
   }
   return fields;

@@ -71,8 +71,7 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
   series.name = fmt::format("{} (point {}, trial {})", path.string(), point, index);
   const bool counts = choice.angle.value_or("count") == "count";
   // Without a drive_torque column, the motor torque equals the commanded torque after the control delay.
-  const bool commanded =
-      choice.torque.value_or("drive_torque") == "torque" || !file.trace_extras().drive_torque;
+  const bool commanded = choice.torque.value_or("drive_torque") == "torque" || !file.features().drive_torque;
   for (const layout::TraceRecord& record : records) {
     series.time.push_back(record.t);
     series.torque.push_back(commanded ? record.torque : record.drive_torque);

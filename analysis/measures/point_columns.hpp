@@ -8,7 +8,7 @@
 
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/measures/theory_prediction.hpp"
-#include "experiments/study/study_features.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::measures {

@@ -134,8 +134,7 @@ std::vector<StatisticField> statistic_fields(const study::StudyFeatures& feature
   }
   if (features.rigs) append(fields, rig_fields());
   for (const layout::Measure& measure : measures) {
-    if (measure.file.only_with != nullptr &&
-        layout::is_in_file(measure, layout::format_version, {features.stopping}))
+    if (measure.file.only_with != nullptr && layout::is_in_file(measure, layout::format_version, features))
       add(measure, [](layout::Statistic statistic) { return !is_bootstrap(statistic); });
   }
   return fields;
@@ -168,7 +167,7 @@ std::vector<const layout::Measure*> counted_qualities(const study::StudyFeatures
       measures, layout::ReportOrder::statistics,
       [](const layout::Measure& m) { return reports(m.point, layout::Statistic::count); });
   std::erase_if(counted, [&](const layout::Measure* m) {
-    return !layout::is_in_file(*m, layout::format_version, {features.stopping});
+    return !layout::is_in_file(*m, layout::format_version, features);
   });
   return counted;
 }

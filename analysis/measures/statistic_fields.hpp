@@ -4,7 +4,7 @@
 
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/text/report_field.hpp"
-#include "experiments/study/study_features.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::measures {
 

@@ -9,7 +9,7 @@
 #include "analysis/measures/theory_prediction.hpp"
 #include "analysis/report/reported_study.hpp"
 #include "experiments/parameters/parameter_table.hpp"
-#include "experiments/study/trial_completion.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::report {
 namespace {

@@ -12,7 +12,7 @@
 #include "analysis/iso230/repeatability_file.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "core/failure/failure.hpp"
-#include "experiments/study/study_features.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 
@@ -156,7 +156,7 @@ std::vector<measures::TheoryPrediction> study_predictions(const study::Study& st
 layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study) {
   const std::vector<measures::PointSummary> points = study_statistics(file, study);
   layout::StoredStatistics stored;
-  stored.points = measures::point_columns(points, study::study_features(study), file.table());
+  stored.points = measures::point_columns(points, study.features, file.table());
   const std::vector<layout::PointColumn> predictions = measures::prediction_columns(study_predictions(study));
   stored.points.insert(stored.points.end(), predictions.begin(), predictions.end());
   if (study.open_loop) {

@@ -18,7 +18,7 @@
 #include "analysis/summary/undecided.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
-#include "experiments/study/study_features.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/shards/shard.hpp"
 
@@ -48,8 +48,8 @@ StudySummary summary_of(const study::Study& study, double confidence) {
   summary.axes = study.axes;
   summary.observed = study.observed;
   summary.confidence = confidence;
-  summary.features = study::study_features(study);
-  summary.design = manifest::design_labels()[static_cast<std::size_t>(study.design)];
+  summary.features = study.features;
+  summary.design = manifest::design_labels[static_cast<std::size_t>(study.design)];
   return summary;
 }
 

@@ -12,7 +12,6 @@
 #include "analysis/measures/summary_section.hpp"
 #include "analysis/measures/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
-#include "experiments/study/study_features.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::summary {

@@ -6,7 +6,7 @@
 namespace zerocount::designs {
 namespace {
 
-// Enough rounds for equally likely permutations even of the smallest domains //
+// Enough rounds for equally likely permutations even of the smallest domains
 // (tests/experiments/designs/latin_hypercube_test.cpp).
 constexpr std::uint32_t rounds = 8;
 

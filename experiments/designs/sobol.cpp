@@ -19,7 +19,7 @@ std::vector<SobolDirections> sobol_directions(std::span<const std::size_t> dimen
   std::vector<std::uint64_t> point(dimension_count);
   for (std::size_t digit = 0; digit < std::tuple_size_v<SobolDirections>; ++digit) {
     // The Gray code of 2^(digit+1) − 1 is 2^digit, so that point equals one direction number. The engine
-    // skips // the origin, so its seed 0 is point 1.
+    // skips the origin, so its seed 0 is point 1.
     engine.seed((std::uint64_t{2} << digit) - 2);
     engine.generate(point.begin(), point.end());
     for (std::size_t i = 0; i < dimensions.size(); ++i) directions[i][digit] = point[dimensions[i]];

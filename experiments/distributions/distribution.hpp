@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -10,7 +11,7 @@
 namespace zerocount::distributions {
 
 // The distributions of a manifest. Parameters have the unit of the quantity. All distributions are sampled by
-// // their quantile function, so that all designs map uniform numbers in the same way.
+// their quantile function, so that all designs map uniform numbers in the same way.
 
 /// Uniform on [low, high).
 struct Uniform {
@@ -77,5 +78,15 @@ bool extremes_are_inside(const Distribution& distribution, const numerics::Inter
 
 /// Whether only whole numbers can be drawn.
 bool whole_numbers_only(const Distribution& distribution);
+
+/// Why the parameters of a distribution are invalid: the two phrases of a message.
+struct DistributionFault {
+  std::string what;
+  std::string expected;
+};
+
+/// The first fault of a distribution with finite parameters: low not below high, no spread, an empty choice,
+/// …
+std::optional<DistributionFault> find_fault(const Distribution& distribution);
 
 }  // namespace zerocount::distributions

@@ -1,7 +1,7 @@
-#include "experiments/distributions/distribution_faults.hpp"
-
 #include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
+
+#include "experiments/distributions/distribution.hpp"
 
 namespace zerocount::distributions {
 namespace {

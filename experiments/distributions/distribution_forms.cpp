@@ -1,14 +1,8 @@
 #include "experiments/distributions/distribution_forms.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiments/distributions/distribution_faults.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
@@ -30,11 +24,11 @@ std::optional<double> read_one(const DistributionForm& form, const yaml::Field& 
 
 std::optional<Numbers> read_list(const DistributionForm& form, const yaml::Field& field,
                                  yaml::Problems& problems) {
-  const std::string expected = fmt::format("{}: {}", form.name, form.shown);
+  const std::string expected = fmt::format("{}: {}", form.name, shown_value(form));
   if (!yaml::check_list(field, expected, problems)) return std::nullopt;
   const std::size_t count = field.node->items.size();
   if (!form.keys.empty() && count != form.keys.size()) {
-    problems.add(field.node->place, field.path, fmt::format("a list of {} stands here", count), expected);
+    problems.add(field, fmt::format("a list of {} stands here", count), expected);
     return std::nullopt;
   }
   Numbers numbers;
@@ -48,20 +42,16 @@ std::optional<Numbers> read_list(const DistributionForm& form, const yaml::Field
 // The values of `keys` in the map, in their order.
 std::optional<Numbers> read_keys(const DistributionForm& form, const yaml::Field& field,
                                  yaml::Problems& problems) {
-  const std::string expected = fmt::format("{}: {}", form.name, form.shown);
+  const std::string expected = fmt::format("{}: {}", form.name, shown_value(form));
   if (!yaml::check_map(field, expected, problems)) return std::nullopt;
   const std::vector<std::string> known(form.keys.begin(), form.keys.end());
-  for (const yaml::YamlEntry& entry : field.node->entries) {
-    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
-      parameters::add_unknown_key(field, entry, known, problems);
-    }
-  }
+  parameters::check_keys(field, known, problems);
   Numbers numbers;
   for (const std::string& key : known) {
-    const yaml::YamlEntry* entry = yaml::find_entry(*field.node, key);
-    if (entry == nullptr) {
-      problems.add(field.node->place, field.path, fmt::format("{} is missing", key), expected);
-    } else if (const auto number = read_one(form, yaml::entry_of(field, *entry), problems)) {
+    const auto value = yaml::find_field(field, key);
+    if (!value) {
+      problems.add(field, fmt::format("{} is missing", key), expected);
+    } else if (const auto number = read_one(form, *value, problems)) {
       numbers.push_back(*number);
     }
   }
@@ -69,78 +59,51 @@ std::optional<Numbers> read_keys(const DistributionForm& form, const yaml::Field
   return numbers;
 }
 
+template <class Kind, std::size_t... index>
+Distribution make(const Numbers& numbers) {
+  return Kind{numbers[index]...};
+}
+
+Distribution make_integers(const Numbers& n) {
+  return Integers{static_cast<std::int64_t>(n[0]), static_cast<std::int64_t>(n[1])};
+}
+
+Distribution make_choice(const Numbers& n) {
+  return Choice{n};
+}
+
 std::vector<DistributionForm> make_forms() {
+  using enum DistributionForm::Syntax;
   return {
       {"uniform",
-       "[low, high]",
+       list,
        {"low", "high"},
-       false,
-       false,
        "equally likely anywhere from low to below high",
-       [](const Numbers& n) -> Distribution {
-         return Uniform{n[0], n[1]};
-       }},
-      {"log_uniform",
-       "[low, high]",
-       {"low", "high"},
-       false,
-       false,
-       "the logarithm is uniform; 0 < low",
-       [](const Numbers& n) -> Distribution {
-         return LogUniform{n[0], n[1]};
-       }},
-      {"normal",
-       "{mean, sd}",
-       {"mean", "sd"},
-       true,
-       false,
-       "Gaussian",
-       [](const Numbers& n) -> Distribution {
-         return Normal{n[0], n[1]};
-       }},
+       make<Uniform, 0, 1>},
+      {"log_uniform", list, {"low", "high"}, "the logarithm is uniform; 0 < low", make<LogUniform, 0, 1>},
+      {"normal", map, {"mean", "sd"}, "Gaussian", make<Normal, 0, 1>},
       {"truncated_normal",
-       "{mean, sd, low, high}",
+       map,
        {"mean", "sd", "low", "high"},
-       true,
-       false,
        "Gaussian of the given mean and sd, conditioned on low to below high",
-       [](const Numbers& n) -> Distribution {
-         return TruncatedNormal{n[0], n[1], n[2], n[3]};
-       }},
+       make<TruncatedNormal, 0, 1, 2, 3>},
       {"lognormal",
-       "{median, cv}",
+       map,
        {"median", "cv"},
-       true,
-       false,
        "the logarithm is Gaussian; cv is the standard deviation over the mean of the variable itself",
-       [](const Numbers& n) -> Distribution {
-         return Lognormal{n[0], n[1]};
-       }},
+       make<Lognormal, 0, 1>},
       {"triangular",
-       "[low, mode, high]",
+       list,
        {"low", "mode", "high"},
-       false,
-       false,
        "density rising straight from low to mode and falling straight to high",
-       [](const Numbers& n) -> Distribution {
-         return Triangular{n[0], n[1], n[2]};
-       }},
+       make<Triangular, 0, 1, 2>},
       {"integers",
-       "[low, high]",
+       list,
        {"low", "high"},
-       false,
-       true,
        "each whole number from low to high, both included, equally likely",
-       [](const Numbers& n) -> Distribution {
-         return Integers{static_cast<std::int64_t>(n[0]), static_cast<std::int64_t>(n[1])};
-       }},
-      {"choice",
-       "[value, ...]",
-       {},
-       false,
-       false,
-       "each value of the list equally likely",
-       [](const Numbers& n) -> Distribution { return Choice{n}; }},
+       make_integers,
+       true},
+      {"choice", list, {}, "each value of the list equally likely", make_choice},
   };
 }
 
@@ -151,6 +114,12 @@ std::span<const DistributionForm> distribution_forms() {
   return forms;
 }
 
+std::string shown_value(const DistributionForm& form) {
+  if (form.keys.empty()) return "[value, ...]";
+  const std::string keys = fmt::format("{}", fmt::join(form.keys, ", "));
+  return form.syntax == DistributionForm::Syntax::map ? "{" + keys + "}" : "[" + keys + "]";
+}
+
 std::string distribution_names() {
   std::vector<std::string_view> names;
   for (const DistributionForm& form : distribution_forms()) names.push_back(form.name);
@@ -159,12 +128,13 @@ std::string distribution_names() {
 
 std::optional<Distribution> read_distribution(const DistributionForm& form, const yaml::Field& field,
                                               yaml::Problems& problems) {
-  const auto numbers = form.by_key ? read_keys(form, field, problems) : read_list(form, field, problems);
+  const auto numbers = form.syntax == DistributionForm::Syntax::map ? read_keys(form, field, problems)
+                                                                    : read_list(form, field, problems);
   if (!numbers) return std::nullopt;
   Distribution distribution = form.make(*numbers);
   const auto fault = find_fault(distribution);
   if (fault) {
-    problems.add(field.node->place, field.path, fault->what, fault->expected);
+    problems.add(field, fault->what, fault->expected);
     return std::nullopt;
   }
   return distribution;

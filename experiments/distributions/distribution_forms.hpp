@@ -13,14 +13,20 @@ namespace zerocount::distributions {
 
 /// Syntax of one distribution in a manifest: a map with the single key `name`.
 struct DistributionForm {
+  enum class Syntax {
+    list,  ///< its value is a list of the parameters in the order of `keys`
+    map    ///< its value is a map of the keys
+  };
   std::string_view name;
-  std::string_view shown;              ///< value of the key in help texts: "[low, high]"
+  Syntax syntax{Syntax::list};
   std::vector<std::string_view> keys;  ///< names of the parameters; empty: a list of any length
-  bool by_key{false};                  ///< the value is a map of the keys; otherwise a list in their order
-  bool whole_numbers{false};           ///< parameters and draws are whole numbers
   std::string_view meaning;
   Distribution (*make)(const std::vector<double>& numbers){nullptr};
+  bool whole_numbers{false};  ///< parameters and draws are whole numbers
 };
+
+/// Value of the key in help texts: "[low, high]".
+std::string shown_value(const DistributionForm& form);
 
 /// All distributions, except `profile`.
 std::span<const DistributionForm> distribution_forms();

@@ -1,6 +1,5 @@
 #include "experiments/distributions/profile_form.hpp"
 
-#include <algorithm>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -20,8 +19,8 @@ std::optional<Distribution> read_drawn_mean(const yaml::Field& field, yaml::Prob
   const std::string expected = fmt::format("a number, or a map with one of {}", distribution_names());
   const auto& entries = field.node->entries;
   if (entries.size() != 1) {
-    const bool per = yaml::find_entry(*field.node, "per") != nullptr;
-    problems.add(field.node->place, field.path,
+    const bool per = yaml::find_field(field, "per").has_value();
+    problems.add(field,
                  per ? "the mean is drawn for every rotor, as often as the profile"
                      : fmt::format("a map with {} keys stands here", entries.size()),
                  per ? "per beside profile" : expected);
@@ -33,7 +32,7 @@ std::optional<Distribution> read_drawn_mean(const yaml::Field& field, yaml::Prob
   if (!distribution) return std::nullopt;
   if (!numerics::contains(numerics::above(0.0), support(*distribution)) ||
       !extremes_are_inside(*distribution, numerics::above(0.0))) {
-    problems.add(field.node->place, field.path,
+    problems.add(field,
                  fmt::format("its values {} are not all positive and finite",
                              numerics::notation(support(*distribution))),
                  "a distribution of numbers greater than 0");
@@ -46,8 +45,7 @@ void read_marginal(const yaml::Field& field, ProfileDescription& description, ya
   const std::string& text = field.node->text;
   description.marginal = text == "normal" ? friction::Marginal::normal : friction::Marginal::lognormal;
   if (text == "normal" || text == "lognormal") return;
-  problems.add(field.node->place, field.path,
-               fmt::format("{} is no marginal", yaml::in_quotes(yaml::flow_text(*field.node))),
+  problems.add(field, fmt::format("{} is no marginal", yaml::in_quotes(yaml::flow_text(*field.node))),
                "normal or lognormal");
 }
 
@@ -60,16 +58,15 @@ std::optional<ProfileForm> read_profile(const yaml::Field& field, double period,
   ProfileForm form;
   form.description.period = period;
   const auto number = [&](std::string_view key, const numerics::Interval& range, double& to) {
-    const yaml::YamlEntry* entry = yaml::find_entry(*field.node, key);
-    if (entry == nullptr) {
-      problems.add(field.node->place, field.path, fmt::format("{} is missing", key), profile_shown);
-    } else if (const auto read = yaml::read_real(yaml::entry_of(field, *entry), range, problems)) {
-      to = *read;
+    if (const auto value = yaml::find_field(field, key)) {
+      to = yaml::read_real(*value, range, problems).value_or(to);
+    } else {
+      problems.add(field, fmt::format("{} is missing", key), profile_shown);
     }
   };
-  const yaml::YamlEntry* mean = yaml::find_entry(*field.node, "mean");
-  if (mean != nullptr && mean->value->kind == yaml::YamlNode::Kind::map) {
-    form.mean = read_drawn_mean(yaml::entry_of(field, *mean), problems);
+  const auto mean = yaml::find_field(field, "mean");
+  if (mean && mean->node->kind == yaml::YamlNode::Kind::map) {
+    form.mean = read_drawn_mean(*mean, problems);
   } else {
     number("mean", numerics::above(0.0), form.description.mean);
   }
@@ -78,13 +75,9 @@ std::optional<ProfileForm> read_profile(const yaml::Field& field, double period,
   number("correlation_length",
          numerics::closed(scale * shortest_correlation_length, scale * longest_correlation_length),
          form.description.correlation_length);
-  for (const yaml::YamlEntry& entry : field.node->entries) {
-    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
-      parameters::add_unknown_key(field, entry, known, problems);
-    } else if (entry.key == "marginal") {
-      read_marginal(yaml::entry_of(field, entry), form.description, problems);
-    }
-  }
+  parameters::check_keys(field, known, problems);
+  if (const auto marginal = yaml::find_field(field, "marginal"))
+    read_marginal(*marginal, form.description, problems);
   if (problems.size() != before) return std::nullopt;
   return form;
 }

@@ -22,7 +22,7 @@ double standard_normal(const random::RandomKey& key, std::size_t harmonic, std::
 }  // namespace
 
 std::vector<double> field_spectrum(double correlation_length) {
-  // The terms with m > M sum to less than ∫_M^∞ 2·exp(−(mℓ/2)²) dm = (2√π/ℓ)·erfc(Mℓ/2), and all terms // to
+  // The terms with m > M sum to less than ∫_M^∞ 2·exp(−(mℓ/2)²) dm = (2√π/ℓ)·erfc(Mℓ/2), and all terms to
   // at least max(1, 2√π/ℓ).
   const double whole = std::max(1.0, 2.0 * std::sqrt(std::numbers::pi) / correlation_length);
   const double tail = neglected_variance * whole * correlation_length / (2.0 * std::sqrt(std::numbers::pi));

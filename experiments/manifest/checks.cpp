@@ -6,8 +6,9 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "experiments/manifest/manifest_keys.hpp"
-#include "experiments/manifest/required_values.hpp"
 #include "experiments/rules/effect_rules.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/slots.hpp"
@@ -16,6 +17,72 @@ namespace zerocount::manifest {
 namespace {
 
 constexpr std::size_t max_reported = 20;
+
+// Whether the manifest gives the slot a value at every point.
+bool given_everywhere(const PlanPlaces& places, const study::StudyPlan& plan, std::size_t slot) {
+  if (places.written[slot]) return true;
+  return std::any_of(plan.axes.begin(), plan.axes.end(), [slot](const study::PlanAxis& axis) {
+    for (std::size_t option = 0; option < study::option_count(axis); ++option) {
+      const auto begin = axis.assignments.begin() + axis.first[option];
+      const auto end = axis.assignments.begin() + axis.first[option + 1];
+      if (std::none_of(begin, end, [slot](const study::Assignment& a) { return a.slot == slot; }))
+        return false;
+    }
+    return true;
+  });
+}
+
+bool has_effect(const study::StudyPlan& plan, const std::vector<rules::EffectRule>& rules,
+                const parameters::Parameter& parameter) {
+  return std::all_of(rules.begin(), rules.end(), [&](const rules::EffectRule& rule) {
+    const bool covers = std::any_of(rule.keys.begin(), rule.keys.end(),
+                                    [&](std::string_view key) { return is_within(parameter.name, key); });
+    return !covers || rules::can_have_effect(plan, rule);
+  });
+}
+
+// Whether the coarse encoder is used. If not, that of a linear axis has the resolution of the fine one.
+bool uses_coarse_encoder(const study::StudyPlan& plan) {
+  const auto is_coarse = [](const study::ValueLimits& encoder) {
+    return encoder.high == static_cast<double>(loop::EncoderChoice::coarse);
+  };
+  const auto is_positive = [](const study::ValueLimits& error) { return error.high > 0.0; };
+  return study::holds_somewhere(plan, "controller.encoder", is_coarse) ||
+         study::holds_somewhere(plan, "controller.coarse.encoder", is_coarse) ||
+         study::holds_somewhere(plan, "encoder.coarse_errors.interpolation", is_positive) ||
+         study::holds_somewhere(plan, "encoder.coarse_errors.noise", is_positive) ||
+         study::holds_somewhere(plan, "encoder.coarse_errors.missed", is_positive);
+}
+
+std::string why_required(const parameters::Parameter& parameter) {
+  if (!parameters::has_default(parameter)) return "the key is missing";
+  return fmt::format("the key is missing, and its default, {} {}, has another unit",
+                     parameters::default_value(parameter), parameter.unit);
+}
+
+bool is_required(const study::StudyPlan& plan, const std::vector<rules::EffectRule>& rules,
+                 const parameters::Parameter& parameter) {
+  if (!parameters::exists_on(parameter, plan.units.axis)) return false;
+  if (parameters::has_default(parameter)) {
+    return !parameters::default_holds(parameter, plan.units) && has_effect(plan, rules, parameter);
+  }
+  if (!parameter.only_on) return false;  // required values of the command are checked with its form
+  return parameter.name != "encoder.coarse_resolution" || uses_coarse_encoder(plan);
+}
+
+// Reports missing required parameters: those without a default, and those whose default has other units than
+// this study (such as the paper's N m/rad on a linear axis), if they have an effect.
+void check_required_values(const PlanPlaces& places, Reading& reading) {
+  const study::StudyPlan& plan = reading.plan;
+  const std::vector<rules::EffectRule> rules = rules::effect_rules(plan);
+  const auto table = parameters::parameter_table();
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    const parameters::Parameter& parameter = table[row];
+    if (!is_required(plan, rules, parameter) || given_everywhere(places, plan, row)) continue;
+    reading.problems.add(places.base[row], parameter.name, why_required(parameter),
+                         fmt::format("its value in {}", parameters::unit_of(parameter, plan.units)));
+  }
+}
 
 struct Checking {
   const PlanPlaces& places;
@@ -46,7 +113,7 @@ std::optional<yaml::Place> swept_place(const Checking& c, std::size_t slot, std:
   return std::nullopt;
 }
 
-// Place in the manifest of one of the involved values: a swept one, otherwise one written in the manifest, //
+// Place in the manifest of one of the involved values: a swept one, otherwise one written in the manifest,
 // otherwise the first.
 yaml::Place place_of_fault(const Checking& c, const std::vector<std::size_t>& slots, std::size_t point) {
   for (const std::size_t slot : slots) {
@@ -59,7 +126,7 @@ yaml::Place place_of_fault(const Checking& c, const std::vector<std::size_t>& sl
 }
 
 // The values that a fault involves: its values of the list, the parameters of the rule, and other values of
-// // the list that may cause it.
+// the list that may cause it.
 std::vector<std::size_t> slots_of(const rules::ValueFault& fault, const std::vector<std::size_t>& involved) {
   std::vector<std::size_t> slots;
   for (const std::size_t i : fault.listed) slots.push_back(study::listed_slot(i));
@@ -110,10 +177,9 @@ std::optional<yaml::Place> given_place(const Checking& c, std::size_t row) {
 }
 
 bool asks_for_nothing(const Checking& c, std::size_t row) {
-  const std::string_view name = parameters::parameter_table()[row].name;
-  return !study::holds_somewhere(c.plan(), {&name, 1}, [](std::span<const study::ValueLimits> limits) {
-    return limits[0].low != 0.0 || limits[0].high != 0.0;
-  });
+  return !study::holds_somewhere(
+      c.plan(), parameters::parameter_table()[row].name,
+      [](const study::ValueLimits& limits) { return limits.low != 0.0 || limits.high != 0.0; });
 }
 
 void check_effects(Checking& c) {

@@ -17,7 +17,7 @@ struct PlanPlaces {
 
 /// Checks that involve several parameters, at every design point and for all values that can be drawn: values
 /// must be consistent (value_rules.hpp), every given key must have an effect at some point
-/// (effect_rules.hpp), and required values must be given (required_values.hpp). A problem is reported at the
+/// (effect_rules.hpp), and required values must be given. A problem is reported at the
 /// place of a swept value, if one is involved.
 void check_points(const PlanPlaces& places, Reading& reading);
 

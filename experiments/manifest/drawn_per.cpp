@@ -1,7 +1,5 @@
 #include "experiments/manifest/drawn_per.hpp"
 
-#include <array>
-
 namespace zerocount::manifest {
 namespace {
 
@@ -36,11 +34,6 @@ std::optional<Misfit> misfit_of(study::Per per, const parameters::Parameter& par
 
 }  // namespace
 
-std::span<const std::string_view> per_labels() {
-  static constexpr std::array<std::string_view, 4> labels{"study", "rig", "trial", "contact"};
-  return labels;
-}
-
 study::Per usual_per(const parameters::Parameter& parameter, Drawn drawn, bool has_rigs) {
   if (!has_rigs) return drawn == Drawn::profile ? study::Per::study : study::Per::trial;
   return parameter.of_machine ? study::Per::rig : study::Per::trial;
@@ -48,12 +41,12 @@ study::Per usual_per(const parameters::Parameter& parameter, Drawn drawn, bool h
 
 std::optional<study::Per> read_per(const yaml::Field& field, const parameters::Parameter& parameter,
                                    Drawn drawn, bool has_rigs, yaml::Problems& problems) {
-  const auto label = yaml::read_label(field, per_labels(), problems);
+  const auto label = yaml::read_label(field, per_labels, problems);
   if (!label) return std::nullopt;
   const auto per = static_cast<study::Per>(*label);
   const auto misfit = misfit_of(per, parameter, drawn, has_rigs);
   if (!misfit) return per;
-  problems.add(field.node->place, field.path, std::string(misfit->what), misfit->expected);
+  problems.add(field, std::string(misfit->what), misfit->expected);
   return std::nullopt;
 }
 

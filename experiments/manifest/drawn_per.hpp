@@ -1,7 +1,7 @@
 #pragma once
 
+#include <array>
 #include <optional>
-#include <span>
 #include <string_view>
 
 #include "experiments/parameters/parameter_table.hpp"
@@ -14,7 +14,7 @@ namespace zerocount::manifest {
 constexpr std::string_view per_key = "per";
 
 /// Its values, in the order of the enumeration Per.
-std::span<const std::string_view> per_labels();
+inline constexpr std::array<std::string_view, 4> per_labels{"study", "rig", "trial", "contact"};
 
 /// Kind of draw: a single value, or a profile along the rotor.
 enum class Drawn { value, profile };

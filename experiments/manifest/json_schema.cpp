@@ -53,9 +53,9 @@ Json number_in(const numerics::Interval& range) {
 
 Json distribution_schema(const distributions::DistributionForm& form) {
   const Json number{{"type", form.whole_numbers ? "integer" : "number"}};
-  if (!form.by_key) {
-    return form.keys.empty() ? list_of(number, 1) : list_of_exactly(number, form.keys.size());
-  }
+  if (form.keys.empty()) return list_of(number, 1);
+  if (form.syntax == distributions::DistributionForm::Syntax::list)
+    return list_of_exactly(number, form.keys.size());
   Json properties = Json::object();
   for (const std::string_view key : form.keys) properties[std::string(key)] = number;
   return object_of(std::move(properties), Json(form.keys));
@@ -89,11 +89,11 @@ Json definitions() {
   for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
     const std::string name(form.name);
     all[name] = form_schema(form);
-    all[name]["properties"][per] = per_schema(per_labels());
+    all[name]["properties"][per] = per_schema(per_labels);
     all[name]["description"] = form.meaning;
   }
-  all["profile"] =
-      object_of({{"profile", profile_schema()}, {per, per_schema(per_labels().first(2))}}, {"profile"});
+  all["profile"] = object_of(
+      {{"profile", profile_schema()}, {per, per_schema(std::span(per_labels).first(2))}}, {"profile"});
   all["profile"]["description"] = "friction along the rotor: a periodic random field";
   return all;
 }
@@ -194,7 +194,7 @@ Json general_schemas() {
       {"seed", {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<std::uint64_t>::max()}}},
       {"trials", {{"type", "integer"}, {"minimum", 1}, {"maximum", std::int64_t{1} << 53}}},
       {"rigs", {{"type", "integer"}, {"minimum", min_rigs}, {"maximum", max_rigs}}},
-      {"design", {{"enum", std::vector<std::string_view>(design_labels().begin(), design_labels().end())}}},
+      {"design", {{"enum", design_labels}}},
       {"independent_points", {{"type", "boolean"}}},
       {"retain",
        object_of(
@@ -212,16 +212,16 @@ Json general_schemas() {
                          {"success_rate_halfwidth", "max_trials"})},
       {"observed", {{"type", "object"}, {"additionalProperties", text}}},
       {"sweep", sweep_schema()},
-      {"axis", {{"enum", parameters::axis_labels()}, {"default", parameters::axis_labels().front()}}},
+      {"axis", {{"enum", parameters::axis_labels}, {"default", parameters::axis_labels.front()}}},
       {"travel", number_in(numerics::above(0))},
       {"controller.units",
-       {{"enum", parameters::gain_unit_labels()}, {"default", parameters::gain_unit_labels().front()}}},
+       {{"enum", parameters::gain_unit_labels}, {"default", parameters::gain_unit_labels.front()}}},
       {"command.sequence.cycles",
        {{"type", "integer"},
         {"minimum", 1},
         {"maximum", study::max_sequence_moves},
         {"default", study::SequenceCycle{}.cycles}}},
-      {"command.sequence.approach", {{"enum", approach_labels()}, {"default", approach_labels().front()}}}};
+      {"command.sequence.approach", {{"enum", approach_labels}, {"default", approach_labels.front()}}}};
 }
 
 Json general_schema(const GeneralKey& key) {
@@ -256,7 +256,7 @@ Json section_schema(const std::string& path) {
     }
   }
   Json schema = object_of(std::move(properties), std::move(required));
-  if (path == required_section) schema["oneOf"] = one_of_keys(command_forms());
+  if (path == required_section) schema["oneOf"] = one_of_keys(command_forms);
   return schema;
 }
 

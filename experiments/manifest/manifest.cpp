@@ -14,7 +14,6 @@
 #include "experiments/manifest/sections.hpp"
 #include "experiments/manifest/stopping.hpp"
 #include "experiments/manifest/study_assembly.hpp"
-#include "experiments/manifest/study_units_reading.hpp"
 #include "experiments/manifest/sweep.hpp"
 #include "experiments/manifest/values.hpp"
 #include "experiments/parameters/unknown_key.hpp"
@@ -38,15 +37,9 @@ struct Manifest {
   study::StudyPlan& plan() { return reading.plan; }
 };
 
-// The value of a top-level key, if present. Reports a missing required key.
-std::optional<yaml::Field> find_field(Manifest& m, std::string_view key) {
-  if (const yaml::YamlEntry* entry = yaml::find_entry(*m.root.node, key))
-    return yaml::entry_of(m.root, *entry);
-  return std::nullopt;
-}
-
+// The value of a top-level key. Reports a missing key.
 std::optional<yaml::Field> find_required(Manifest& m, std::string_view key, std::string_view expected) {
-  auto field = find_field(m, key);
+  auto field = yaml::find_field(m.root, key);
   if (!field) m.problems().add(m.root.node->place, key, "the key is missing", expected);
   return field;
 }
@@ -58,7 +51,7 @@ void read_version(Manifest& m) {
                                         std::numeric_limits<std::int64_t>::max(), m.problems());
   if (!version || *version == manifest_version) return;
   const bool newer = *version > manifest_version;
-  m.problems().add(field->node->place, field->path,
+  m.problems().add(*field,
                    newer ? fmt::format("the manifest is of version {}, newer than this program", *version)
                          : fmt::format("there is no version {} of manifests", *version),
                    fmt::format("version {}{}", manifest_version, newer ? ", or a newer program" : ""));
@@ -69,18 +62,18 @@ void read_texts(Manifest& m) {
     m.study.name = yaml::read_text(*field, m.problems()).value_or("");
     if (field->node->kind == yaml::YamlNode::Kind::scalar &&
         field->node->text.find_first_not_of(" \t\r\n") == std::string::npos) {
-      m.problems().add(field->node->place, field->path, "the name is empty", "a name for the study");
+      m.problems().add(*field, "the name is empty", "a name for the study");
     }
   }
-  if (const auto field = find_field(m, "description")) {
+  if (const auto field = yaml::find_field(m.root, "description")) {
     m.study.description = yaml::read_text(*field, m.problems()).value_or("");
   }
 }
 
 void read_design(Manifest& m) {
-  const auto field = find_field(m, "design");
+  const auto field = yaml::find_field(m.root, "design");
   if (!field) return;
-  if (const auto design = yaml::read_label(*field, design_labels(), m.problems())) {
+  if (const auto design = yaml::read_label(*field, design_labels, m.problems())) {
     m.study.design = static_cast<study::Design>(*design);
   }
 }
@@ -92,17 +85,52 @@ void read_numbers(Manifest& m) {
   if (const auto field = find_required(m, "trials", "the number of trials at each design point")) {
     m.study.trials = yaml::read_whole(*field, 1, max_study_trials, m.problems()).value_or(0);
   }
-  if (const auto field = find_field(m, "rigs")) {
+  if (const auto field = yaml::find_field(m.root, "rigs")) {
     m.reading.has_rigs = true;
     m.study.rigs = yaml::read_whole(*field, min_rigs, max_rigs, m.problems()).value_or(0);
   }
-  if (const auto field = find_field(m, "independent_points")) {
+  if (const auto field = yaml::find_field(m.root, "independent_points")) {
     m.study.independent_points = yaml::read_truth(*field, m.problems()).value_or(false);
   }
 }
 
+// Reads `axis`, `travel` and `controller.units`. Must come first, because all other values depend on the
+// units.
+void read_study_units(const yaml::Field& root, Reading& reading) {
+  study::StudyPlan& plan = reading.plan;
+  if (const auto axis = yaml::find_field(root, "axis")) {
+    plan.units.axis = static_cast<parameters::AxisKind>(
+        yaml::read_label(*axis, parameters::axis_labels, reading.problems).value_or(0));
+  }
+  const bool linear = plan.units.axis == parameters::AxisKind::linear;
+  if (linear) plan.period.reset();
+  if (const auto travel = yaml::find_field(root, "travel")) {
+    const auto length = yaml::read_real(*travel, numerics::above(0), reading.problems);
+    if (linear) {
+      plan.period = length;
+    } else {
+      reading.problems.add(*travel,
+                           "a rotary axis has no travel: what varies along it has the period of a revolution",
+                           "axis: linear, or the key left out");
+    }
+  }
+  const auto controller = yaml::find_field(root, "controller");
+  const auto gains = controller ? yaml::find_field(*controller, "units") : std::nullopt;
+  if (gains)
+    plan.units.gains = static_cast<parameters::GainUnits>(
+        yaml::read_label(*gains, parameters::gain_unit_labels, reading.problems).value_or(0));
+}
+
+// Warns if `travel` is given and nothing varies along it.
+void check_travel(const yaml::Field& root, Reading& reading) {
+  const auto travel = yaml::find_field(root, "travel");
+  if (!travel || !reading.profiles.empty() || reading.plan.units.axis == parameters::AxisKind::rotary) return;
+  reading.warnings.push_back(yaml::at_place(
+      travel->node->place, travel->path, "it has no effect: no parameter of friction is a profile along it"));
+}
+
 void read_axes(Manifest& m) {
-  if (const auto field = find_field(m, "sweep")) m.axes = read_sweep(*field, m.reading);
+  if (const auto field = yaml::find_field(m.root, "sweep")) m.axes = read_sweep(*field, m.reading);
   for (const SweptAxis& axis : m.axes) {
     if (axis.labels.empty()) continue;  // could not be read
     m.plan().axes.push_back(axis.axis);
@@ -114,10 +142,9 @@ void check_trial_count(Manifest& m) {
   std::int64_t points = 1;
   for (const study::PlanAxis& axis : m.plan().axes)
     points *= static_cast<std::int64_t>(study::option_count(axis));
-  const auto field = find_field(m, "trials");
+  const auto field = yaml::find_field(m.root, "trials");
   if (field && m.study.trials > max_study_trials / points) {
-    m.problems().add(field->node->place, field->path,
-                     fmt::format("{} trials at {} points are too many", m.study.trials, points),
+    m.problems().add(*field, fmt::format("{} trials at {} points are too many", m.study.trials, points),
                      fmt::format("at most {} trials in all", max_study_trials));
   }
 }
@@ -129,19 +156,18 @@ std::string nearest_multiples(std::int64_t number, std::int64_t of) {
 
 // The design saltelli needs whole rows; a row has as many trials as there are factors, plus two.
 void check_rows(Manifest& m) {
-  const auto field = find_field(m, "trials");
+  const auto field = yaml::find_field(m.root, "trials");
   if (m.study.design != study::Design::saltelli || !field || m.study.trials == 0) return;
   const std::vector<std::string> names = study::factor_names(m.plan());
   if (names.empty()) {
-    const yaml::Field design = find_field(m, "design").value();
-    m.problems().add(design.node->place, design.path, "nothing is drawn in this study",
-                     "a distribution for one parameter at least");
+    const yaml::Field design = yaml::find_field(m.root, "design").value();
+    m.problems().add(design, "nothing is drawn in this study", "a distribution for one parameter at least");
     return;
   }
   const auto row = static_cast<std::int64_t>(designs::saltelli_row_length(names.size()));
   if (m.study.trials % row == 0) return;
   m.problems().add(
-      field->node->place, field->path,
+      *field,
       fmt::format("{} trials are no whole number of the rows of {} that the design saltelli has for {} "
                   "factor{} ({})",
                   m.study.trials, row, names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", ")),
@@ -151,27 +177,23 @@ void check_rows(Manifest& m) {
 void require_multiple_of_rigs(Manifest& m, const yaml::Field& field, std::int64_t trials) {
   if (trials % m.study.rigs == 0) return;
   m.problems().add(
-      field.node->place, field.path,
-      fmt::format("{} trials cannot be divided equally among {} rigs", trials, m.study.rigs),
+      field, fmt::format("{} trials cannot be divided equally among {} rigs", trials, m.study.rigs),
       fmt::format("a multiple of {}, such as {}", m.study.rigs, nearest_multiples(trials, m.study.rigs)));
 }
 
 // Every rig must have the same number of trials, also after each block of sequential stopping.
 void check_rigs(Manifest& m) {
   if (m.study.rigs == 0) return;
-  const auto trials = find_field(m, "trials");
+  const auto trials = yaml::find_field(m.root, "trials");
   const std::int64_t block = m.study.stop ? m.study.stop->block : m.study.trials;
   if (trials && block > 0) require_multiple_of_rigs(m, *trials, block);
   if (m.study.stop) {
-    const yaml::Field stop = find_field(m, "stop").value();
-    const yaml::YamlEntry* limit = yaml::find_entry(*stop.node, "max_trials");
-    if (limit != nullptr) {
-      require_multiple_of_rigs(m, yaml::entry_of(stop, *limit), m.study.stop->max_trials);
-    }
+    const auto limit = yaml::find_field(yaml::find_field(m.root, "stop").value(), "max_trials");
+    if (limit) require_multiple_of_rigs(m, *limit, m.study.stop->max_trials);
   }
   if (m.study.design == study::Design::saltelli) {
-    const yaml::Field design = find_field(m, "design").value();
-    m.problems().add(design.node->place, design.path,
+    const yaml::Field design = yaml::find_field(m.root, "design").value();
+    m.problems().add(design,
                      "the rows of this design change one factor at a time, and a rig shares its factors with "
                      "the trials of other rows",
                      "monte_carlo, latin_hypercube or sobol with rigs");
@@ -179,32 +201,25 @@ void check_rigs(Manifest& m) {
 }
 
 void read_retained(Manifest& m) {
-  const auto field = find_field(m, "retain");
+  const auto field = yaml::find_field(m.root, "retain");
   if (!field || !yaml::check_map(*field, "retain: {trials: [..]}", m.problems())) return;
-  const std::vector<std::string> known{"trials"};
-  for (const yaml::YamlEntry& entry : field->node->entries) {
-    const yaml::Field list = yaml::entry_of(*field, entry);
-    if (entry.key != known.front()) {
-      parameters::add_unknown_key(*field, entry, known, m.problems());
-    } else if (yaml::check_list(list, "a list of trial indices", m.problems())) {
-      for (std::size_t i = 0; i < list.node->items.size(); ++i) {
-        const yaml::Field item = yaml::item_of(list, i);
-        const auto index =
-            yaml::read_whole(item, 0, std::max<std::int64_t>(m.study.trials - 1, 0), m.problems());
-        if (index) m.study.retained_trials.push_back(*index);
-      }
-      std::vector<std::int64_t>& kept = m.study.retained_trials;
-      std::sort(kept.begin(), kept.end());
-      if (std::adjacent_find(kept.begin(), kept.end()) != kept.end()) {
-        m.problems().add(list.node->place, list.path, "a trial stands twice in the list", "each trial once");
-      }
-    }
+  parameters::check_keys(*field, std::vector<std::string>{"trials"}, m.problems());
+  const auto list = yaml::find_field(*field, "trials");
+  if (!list || !yaml::check_list(*list, "a list of trial indices", m.problems())) return;
+  std::vector<std::int64_t>& kept = m.study.retained_trials;
+  for (std::size_t i = 0; i < list->node->items.size(); ++i) {
+    const std::int64_t last = std::max<std::int64_t>(m.study.trials - 1, 0);
+    if (const auto index = yaml::read_whole(yaml::item_of(*list, i), 0, last, m.problems()))
+      kept.push_back(*index);
   }
+  std::sort(kept.begin(), kept.end());
+  if (std::adjacent_find(kept.begin(), kept.end()) != kept.end())
+    m.problems().add(*list, "a trial stands twice in the list", "each trial once");
 }
 
 // The observation of a case applies to all its points, except those with an observation of their own.
 void read_observed(Manifest& m) {
-  const auto field = find_field(m, "observed");
+  const auto field = yaml::find_field(m.root, "observed");
   if (!field || !yaml::check_map(*field, "a map from cases or point labels to texts", m.problems())) return;
   const bool complete =
       std::none_of(m.axes.begin(), m.axes.end(), [](const auto& axis) { return axis.labels.empty(); });
@@ -235,15 +250,6 @@ void read_observed(Manifest& m) {
   }
 }
 
-void report_unknown_keys(Manifest& m) {
-  const std::vector<std::string> known = keys_below("");
-  for (const yaml::YamlEntry& entry : m.root.node->entries) {
-    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
-      parameters::add_unknown_key(m.root, entry, known, m.problems());
-    }
-  }
-}
-
 }  // namespace
 
 study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, yaml::Problems& problems) {
@@ -254,7 +260,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, yam
                          problems);
     return {};
   }
-  report_unknown_keys(m);
+  parameters::check_keys(m.root, keys_below(""), problems);
   read_version(m);
   read_texts(m);
   read_numbers(m);
@@ -263,7 +269,8 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, yam
   read_sections(m.root, m.reading, m.places);
   read_axes(m);
   read_retained(m);
-  if (const auto field = find_field(m, "stop")) read_stop(*field, max_study_trials, m.study, problems);
+  if (const auto field = yaml::find_field(m.root, "stop"))
+    read_stop(*field, max_study_trials, m.study, problems);
   check_trial_count(m);
   check_rigs(m);
   read_observed(m);

@@ -83,11 +83,6 @@ const GeneralKey* find_general_key(std::string_view path) {
   return found == keys.end() ? nullptr : &*found;
 }
 
-std::span<const std::string_view> command_forms() {
-  static constexpr std::array<std::string_view, 3> forms{"targets", "torque", "sequence"};
-  return forms;
-}
-
 std::vector<std::string> keys_below(std::string_view path) {
   const std::size_t start = path.empty() ? 0 : path.size() + 1;
   std::vector<std::string> keys;
@@ -105,17 +100,6 @@ bool is_section(std::string_view path) {
   const auto paths = value_paths();
   return !path.empty() &&
          std::any_of(paths.begin(), paths.end(), [&](std::string_view name) { return is_below(name, path); });
-}
-
-std::span<const std::string_view> design_labels() {
-  static constexpr std::array<std::string_view, 4> labels{"monte_carlo", "latin_hypercube", "sobol",
-                                                          "saltelli"};
-  return labels;
-}
-
-std::span<const std::string_view> approach_labels() {
-  static constexpr std::array<std::string_view, 3> labels{"bidirectional", "positive", "negative"};
-  return labels;
 }
 
 }  // namespace zerocount::manifest

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,7 +25,7 @@ const GeneralKey* find_general_key(std::string_view path);
 constexpr std::string_view required_section = "command";
 
 /// The keys of `command` that define the moves: a study has exactly one of them.
-std::span<const std::string_view> command_forms();
+inline constexpr std::array<std::string_view, 3> command_forms{"targets", "torque", "sequence"};
 
 /// The keys allowed in the map with this dotted path (empty: the top level): parameters, general keys and
 /// maps that contain them. In the order of the table of parameters; at the top level general keys come first.
@@ -37,9 +38,10 @@ bool is_section(std::string_view path);
 bool is_within(std::string_view path, std::string_view section);
 
 /// The values of the key `design`, in the order of the enumeration Design.
-std::span<const std::string_view> design_labels();
+inline constexpr std::array<std::string_view, 4> design_labels{"monte_carlo", "latin_hypercube", "sobol",
+                                                               "saltelli"};
 
 /// The values of the key `command.sequence.approach`, in the order of the enumeration SequenceApproach.
-std::span<const std::string_view> approach_labels();
+inline constexpr std::array<std::string_view, 3> approach_labels{"bidirectional", "positive", "negative"};
 
 }  // namespace zerocount::manifest

@@ -16,7 +16,7 @@ struct Override {
   yaml::Place place;
 };
 
-// Length of the next key in `rest`, for the map at the path `walked`. Keys may contain dots: those of the //
+// Length of the next key in `rest`, for the map at the path `walked`. Keys may contain dots: those of the
 // sweep, the names of its cases, and the labels under `observed`.
 std::size_t next_key_length(const yaml::YamlNode& map, std::string_view walked, std::string_view rest) {
   std::size_t longest = 0;
@@ -39,7 +39,7 @@ std::optional<std::size_t> list_index(std::string_view text, std::size_t size) {
 }
 
 // A copy of `node` in which the value at the path `rest` is replaced by the override's. Null, after a report,
-// // if there is no such path.
+// if there is no such path.
 yaml::YamlPointer replaced(const yaml::YamlPointer& node, const Override& change, std::string_view rest,
                            yaml::Problems& problems) {
   if (rest.empty()) return change.value;

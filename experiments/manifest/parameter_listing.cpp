@@ -1,7 +1,6 @@
 #include "experiments/manifest/parameter_listing.hpp"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include <boost/algorithm/string/replace.hpp>
@@ -48,7 +47,8 @@ Listing parameter_listing(const parameters::StudyUnits& units) {
 Listing distribution_listing(const parameters::StudyUnits& units) {
   Listing listing{"Distributions (in the place of any number)", {"name", "written", "meaning"}, {}};
   for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
-    listing.rows.push_back({std::string(form.name), fmt::format("{{{}: {}}}", form.name, form.shown),
+    listing.rows.push_back({std::string(form.name),
+                            fmt::format("{{{}: {}}}", form.name, distributions::shown_value(form)),
                             std::string(form.meaning)});
   }
   listing.rows.push_back(
@@ -57,7 +57,7 @@ Listing distribution_listing(const parameters::StudyUnits& units) {
            fmt::format(": a periodic random field; correlation_length in {}, marginal normal or lognormal "
                        "(default); the mean may be a distribution, drawn for each {}",
                        parameters::unit_on(units.axis, "rad"), parameters::text_on(units.axis, "rotor"))});
-  listing.rows.push_back({std::string(per_key), fmt::format("{{…, per: {}}}", fmt::join(per_labels(), " | ")),
+  listing.rows.push_back({std::string(per_key), fmt::format("{{…, per: {}}}", fmt::join(per_labels, " | ")),
                           "beside any of these: how often it is drawn; contact for friction alone, study or "
                           "rig for a profile"});
   return listing;
@@ -69,10 +69,6 @@ Listing key_listing() {
     listing.rows.push_back({std::string(key.name), key.required ? "yes" : "no", std::string(key.meaning)});
   }
   return listing;
-}
-
-std::array<Listing, 3> listings(const parameters::StudyUnits& units) {
-  return {parameter_listing(units), distribution_listing(units), key_listing()};
 }
 
 std::string as_text(const Listing& listing) {
@@ -107,18 +103,18 @@ std::string as_markdown(const Listing& listing) {
   return text + "\n";
 }
 
+std::string in_form(std::string (*form)(const Listing&), const parameters::StudyUnits& units) {
+  return form(parameter_listing(units)) + form(distribution_listing(units)) + form(key_listing());
+}
+
 }  // namespace
 
 std::string parameters_as_text(const parameters::StudyUnits& units) {
-  std::string text;
-  for (const Listing& listing : listings(units)) text += as_text(listing);
-  return text;
+  return in_form(as_text, units);
 }
 
 std::string parameters_as_markdown(const parameters::StudyUnits& units) {
-  std::string text;
-  for (const Listing& listing : listings(units)) text += as_markdown(listing);
-  return text;
+  return in_form(as_markdown, units);
 }
 
 }  // namespace zerocount::manifest

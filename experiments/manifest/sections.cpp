@@ -29,7 +29,7 @@ void read_list(SectionReading& s, const yaml::Field& field) {
   if (!yaml::check_list(field, expected, s.problems())) return;
   const std::size_t count = field.node->items.size();
   if (count < 1 || count > parameters::max_listed_values) {
-    s.problems().add(field.node->place, field.path, fmt::format("a list of {} stands here", count), expected);
+    s.problems().add(field, fmt::format("a list of {} stands here", count), expected);
     return;
   }
   list.count = count;
@@ -51,30 +51,26 @@ void read_parameter(SectionReading& s, const yaml::Field& field, std::size_t row
   s.places.written[row] = true;
 }
 
-void read_approach(SectionReading& s, const yaml::Field& field, study::SequenceCycle& cycle) {
-  if (const auto approach = yaml::read_label(field, approach_labels(), s.problems())) {
-    cycle.approach = static_cast<study::SequenceApproach>(*approach);
-  }
-}
-
 // Reads the keys of sections that are not parameters. controller.units is read earlier, before all values.
 void read_general_key(SectionReading& s, const yaml::Field& field) {
   if (!s.plan().sequence) return;
   study::SequenceCycle& cycle = s.plan().sequence.value();
   if (field.path == "command.sequence.approach") {
-    read_approach(s, field, cycle);
+    if (const auto approach = yaml::read_label(field, approach_labels, s.problems()))
+      cycle.approach = static_cast<study::SequenceApproach>(*approach);
   } else if (field.path == "command.sequence.cycles") {
     cycle.cycles = yaml::read_whole(field, 1, study::max_sequence_moves, s.problems()).value_or(cycle.cycles);
   }
 }
 
+bool is_form(std::string_view key) {
+  return std::find(command_forms.begin(), command_forms.end(), key) != command_forms.end();
+}
+
 // Whether the path belongs to a second form of the command. Its contents are not read: it is reported as one
-// // form too many.
+// form too many.
 bool is_form_too_many(SectionReading& s, const yaml::Field& section, const std::string& key) {
-  const auto forms = command_forms();
-  const bool is_form =
-      section.path == required_section && std::find(forms.begin(), forms.end(), key) != forms.end();
-  return is_form &&
+  return section.path == required_section && is_form(key) &&
          !is_within(parameters::parameter_table()[s.plan().list.row].name, section.path + "." + key);
 }
 
@@ -114,14 +110,13 @@ void take_defaults(SectionReading& s) {
 // Chooses the first form in the manifest; reports an error unless there is exactly one.
 void choose_form(SectionReading& s, const yaml::Field& command) {
   if (command.node->kind != yaml::YamlNode::Kind::map) return;
-  const auto forms = command_forms();
-  const std::string expected = fmt::format("exactly one of {}", fmt::join(forms, ", "));
+  const std::string expected = fmt::format("exactly one of {}", fmt::join(command_forms, ", "));
   std::vector<const yaml::YamlEntry*> given;
   for (const yaml::YamlEntry& entry : command.node->entries) {
-    if (std::find(forms.begin(), forms.end(), entry.key) != forms.end()) given.push_back(&entry);
+    if (is_form(entry.key)) given.push_back(&entry);
   }
   if (given.empty()) {
-    s.problems().add(command.node->place, command.path, "it does not say what the moves go to", expected);
+    s.problems().add(command, "it does not say what the moves go to", expected);
     return;
   }
   if (given.size() > 1) {
@@ -141,19 +136,16 @@ void choose_form(SectionReading& s, const yaml::Field& command) {
 
 // Reports the keys of the form chosen that are missing.
 void check_form_complete(SectionReading& s, const yaml::Field& command) {
-  const yaml::YamlEntry* form = nullptr;
-  if (s.plan().open_loop) form = yaml::find_entry(*command.node, "torque");
-  if (s.plan().sequence) form = yaml::find_entry(*command.node, "sequence");
-  if (form == nullptr || form->value->kind != yaml::YamlNode::Kind::map) return;
-  const std::string path = yaml::entry_of(command, *form).path;
-  for (const std::string& key : keys_below(path)) {
-    const std::string name = fmt::format("{}.{}", path, key);
+  if (!s.plan().open_loop && !s.plan().sequence) return;
+  const auto form = yaml::find_field(command, s.plan().open_loop ? "torque" : "sequence");
+  if (!form || form->node->kind != yaml::YamlNode::Kind::map) return;
+  for (const std::string& key : keys_below(form->path)) {
+    const std::string name = fmt::format("{}.{}", form->path, key);
     const auto row = parameters::find_parameter(name);
-    if (!row || parameters::has_default(parameters::parameter_table()[*row]) ||
-        yaml::find_entry(*form->value, key))
+    if (!row || parameters::has_default(parameters::parameter_table()[*row]) || yaml::find_field(*form, key))
       continue;
     const parameters::Parameter& parameter = parameters::parameter_table()[*row];
-    s.problems().add(form->value->place, name, "the key is missing",
+    s.problems().add(form->node->place, name, "the key is missing",
                      parameter.listed ? fmt::format("a list of {}", key)
                                       : fmt::format("its value: {}", parameter.meaning));
   }
@@ -164,8 +156,7 @@ void check_sequence_length(SectionReading& s, const yaml::Field& command) {
   const std::int64_t moves =
       study::sequence_move_count(*s.plan().sequence, static_cast<std::int64_t>(s.plan().list.count));
   if (moves <= study::max_sequence_moves) return;
-  const yaml::YamlEntry* sequence = yaml::find_entry(*command.node, "sequence");
-  s.problems().add(sequence->value->place, "command.sequence", fmt::format("it has {} moves", moves),
+  s.problems().add(yaml::find_field(command, "sequence").value(), fmt::format("it has {} moves", moves),
                    fmt::format("at most {} moves, cycles times those of a cycle", study::max_sequence_moves));
 }
 
@@ -173,23 +164,22 @@ void check_sequence_length(SectionReading& s, const yaml::Field& command) {
 
 void read_sections(const yaml::Field& root, Reading& reading, PlanPlaces& places) {
   SectionReading s{root, reading, places};
-  const yaml::YamlEntry* entry = yaml::find_entry(*root.node, required_section);
+  const auto command = yaml::find_field(root, required_section);
   reading.plan.list.row = parameters::find_parameter("command.targets").value();
-  if (entry == nullptr) {
+  if (command) {
+    choose_form(s, *command);
+  } else {
     reading.problems.add(root.node->place, required_section, "the key is missing",
                          "command: {targets: [..]}");
-  } else {
-    choose_form(s, yaml::entry_of(root, *entry));
   }
   take_defaults(s);
   for (const std::string& key : keys_below("")) {
-    if (!is_section(key)) continue;
-    if (const yaml::YamlEntry* section = yaml::find_entry(*root.node, key))
-      read_section(s, yaml::entry_of(root, *section));
+    const auto section = is_section(key) ? yaml::find_field(root, key) : std::nullopt;
+    if (section) read_section(s, *section);
   }
-  if (entry == nullptr) return;
-  check_form_complete(s, yaml::entry_of(root, *entry));
-  check_sequence_length(s, yaml::entry_of(root, *entry));
+  if (!command) return;
+  check_form_complete(s, *command);
+  check_sequence_length(s, *command);
 }
 
 }  // namespace zerocount::manifest

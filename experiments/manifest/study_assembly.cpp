@@ -10,11 +10,8 @@
 
 #include "experiments/designs/random_key.hpp"
 #include "experiments/study/factors.hpp"
-#include "experiments/study/loop_extras.hpp"
-#include "experiments/study/outcome_extras.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/slots.hpp"
-#include "experiments/study/trace_extras.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -35,13 +32,10 @@ std::vector<bool> swept_slots(const study::StudyPlan& plan) {
 
 // Whether the slot's value at some design point is drawn anew at each contact.
 bool differs_between_contacts(const study::StudyPlan& plan, std::size_t slot) {
-  bool found = false;
-  study::visit_points(plan, {&slot, 1}, [&](std::size_t point) {
-    const study::Value& value = *study::value_at_point(plan, slot, point);
-    found = value.kind == study::Value::Kind::distribution && value.per == study::Per::contact;
-    return !found;
+  const std::vector<const study::Value*> values = study::values_of(plan, slot);
+  return std::any_of(values.begin(), values.end(), [](const study::Value* value) {
+    return value->kind == study::Value::Kind::distribution && value->per == study::Per::contact;
   });
-  return found;
 }
 
 // Only input slots are drawn.
@@ -110,33 +104,28 @@ std::string column_meaning(const parameters::Parameter& parameter, const paramet
 // How often the slot's value is drawn; the most frequent of all points.
 study::Per most_frequent_per(const study::StudyPlan& plan, std::size_t slot) {
   study::Per per = study::Per::study;
-  study::visit_points(plan, {&slot, 1}, [&](std::size_t point) {
-    const study::Value& value = *study::value_at_point(plan, slot, point);
-    switch (value.kind) {
+  for (const study::Value* value : study::values_of(plan, slot)) {
+    switch (value->kind) {
       case study::Value::Kind::number:
         break;
       case study::Value::Kind::distribution:
-        per = std::max(per, value.per);
+        per = std::max(per, value->per);
         break;
       case study::Value::Kind::profile:  // its value at the trial's start position
         per = std::max(per, study::Per::trial);
         break;
     }
-    return true;
-  });
+  }
   return per;
 }
 
 // How often the mean of the slot's profile is drawn, if it is drawn at some design point.
 std::optional<study::Per> drawn_mean(const study::StudyPlan& plan, std::size_t slot) {
   std::optional<study::Per> per;
-  study::visit_points(plan, {&slot, 1}, [&](std::size_t point) {
-    const study::Value& value = *study::value_at_point(plan, slot, point);
-    if (value.kind == study::Value::Kind::profile && plan.profiles[value.index]->has_drawn_mean()) {
-      per = std::max(per.value_or(value.per), value.per);
-    }
-    return true;
-  });
+  for (const study::Value* value : study::values_of(plan, slot)) {
+    if (value->kind == study::Value::Kind::profile && plan.profiles[value->index]->has_drawn_mean())
+      per = std::max(per.value_or(value->per), value->per);
+  }
   return per;
 }
 
@@ -234,9 +223,7 @@ void assemble_study(const std::vector<ProfileRequest>& requests, const std::vect
   study.open_loop = plan.open_loop;
   study.point_labels = label_points(axes);
   study.axes = describe_axes(axes, plan);
-  study.trace_extras = study::find_trace_extras(plan);
-  study.outcome_extras = study::find_outcome_extras(plan);
-  study.loop_extras = study::find_loop_extras(plan);
+  study.features = study::find_features(plan, study);
   const std::vector<bool> swept = swept_slots(plan);
   list_input_columns(swept, plan, study);
   derive_randomness(study, plan);

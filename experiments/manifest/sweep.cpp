@@ -97,8 +97,7 @@ void read_assignments(const yaml::Field& field, const study::SlotRange& slots, S
   if (!yaml::check_list(field, expected, state.reading.problems)) return;
   const std::size_t count = field.node->items.size();
   if (count != slots.count) {
-    state.reading.problems.add(field.node->place, field.path,
-                               fmt::format("a list of {} {} stands here", count, noun), expected);
+    state.reading.problems.add(field, fmt::format("a list of {} {} stands here", count, noun), expected);
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -137,8 +136,7 @@ void read_listed(const yaml::Field& field, const study::SlotRange& slots, SweptA
     std::string label = fmt::format("{}={}", axis.name, value_label(axis, slots, *item.node, state.list()));
     if (!seen.insert(label).second) {
       state.reading.problems.add(
-          item.node->place, item.path,
-          fmt::format("{} stands twice in the list", yaml::in_quotes(yaml::flow_text(*item.node))),
+          item, fmt::format("{} stands twice in the list", yaml::in_quotes(yaml::flow_text(*item.node))),
           "different values");
     }
     finish_option(axis, std::move(label));
@@ -173,7 +171,7 @@ void read_spaced(const yaml::Field& sweep, const yaml::Field& field, const study
 }
 
 // Reports a parameter in two axes of the grid. If the cases also give it a value, the grid takes precedence,
-// with // a warning.
+// with a warning.
 bool take_for_grid(const yaml::Field& grid, const yaml::YamlEntry& entry, const SweptAxis& axis,
                    SweepReading& state) {
   const std::string path = yaml::entry_of(grid, entry).path;
@@ -208,7 +206,7 @@ void read_grid(const yaml::Field& sweep, const yaml::Field& grid, std::vector<Sw
       read_spaced(sweep, field, *slots, axis, state);
     } else if (yaml::check_list(field, "a list of values", state.reading.problems)) {
       if (field.node->items.empty()) {
-        state.reading.problems.add(field.node->place, field.path, "the list is empty", "at least one value");
+        state.reading.problems.add(field, "the list is empty", "at least one value");
       } else if (check_point_count(sweep, field.node->items.size(), state)) {
         read_listed(field, *slots, axis, state);
       }
@@ -257,17 +255,10 @@ void read_cases(const yaml::Field& sweep, const yaml::Field& cases, std::vector<
 std::vector<SweptAxis> read_sweep(const yaml::Field& sweep, Reading& reading) {
   std::vector<SweptAxis> axes;
   if (!yaml::check_map(sweep, "a map with grid, cases or both", reading.problems)) return axes;
-  const std::vector<std::string> known{"grid", "cases"};
-  for (const yaml::YamlEntry& entry : sweep.node->entries) {
-    if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
-      parameters::add_unknown_key(sweep, entry, known, reading.problems);
-    }
-  }
+  parameters::check_keys(sweep, std::vector<std::string>{"grid", "cases"}, reading.problems);
   SweepReading state{.reading = reading};
-  if (const yaml::YamlEntry* cases = yaml::find_entry(*sweep.node, "cases"))
-    read_cases(sweep, yaml::entry_of(sweep, *cases), axes, state);
-  if (const yaml::YamlEntry* grid = yaml::find_entry(*sweep.node, "grid"))
-    read_grid(sweep, yaml::entry_of(sweep, *grid), axes, state);
+  if (const auto cases = yaml::find_field(sweep, "cases")) read_cases(sweep, *cases, axes, state);
+  if (const auto grid = yaml::find_field(sweep, "grid")) read_grid(sweep, *grid, axes, state);
   return axes;
 }
 

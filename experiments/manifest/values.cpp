@@ -28,6 +28,13 @@ study::Value number_value(double number) {
   return {.kind = study::Value::Kind::number, .number = number};
 }
 
+// Reports a value that cannot be used.
+study::Value refuse(Reading& reading, const yaml::Field& field, std::string_view what,
+                    std::string_view expected) {
+  reading.problems.add(field, what, expected);
+  return unreadable_value();
+}
+
 study::Value read_truth_value(const yaml::Field& field, yaml::Problems& problems) {
   const auto truth = yaml::read_truth(field, problems);
   return truth ? number_value(*truth ? 1.0 : 0.0) : unreadable_value();
@@ -54,7 +61,7 @@ bool check_support(const yaml::Field& field, const parameters::Parameter& parame
                    const numerics::Interval& values, Reading& reading) {
   const numerics::Interval range = parameters::range_of(parameter, reading.plan.units);
   if (numerics::contains(range, values)) return true;
-  reading.problems.add(field.node->place, field.path,
+  reading.problems.add(field,
                        fmt::format("its values {} leave the range allowed {}", numerics::notation(values),
                                    numerics::notation(range)),
                        expected_of(parameter, reading.plan.units));
@@ -69,16 +76,13 @@ study::Value read_drawn(const distributions::DistributionForm& form, const yaml:
   }
   if (parameter.kind == parameters::ParameterKind::whole_number &&
       !distributions::whole_numbers_only(*distribution)) {
-    reading.problems.add(field.node->place, field.path, "its values are not whole numbers",
-                         "integers, or a choice of whole numbers");
-    return unreadable_value();
+    return refuse(reading, field, "its values are not whole numbers",
+                  "integers, or a choice of whole numbers");
   }
   if (!distributions::extremes_are_inside(*distribution,
                                           parameters::range_of(parameter, reading.plan.units))) {
-    reading.problems.add(field.node->place, field.path,
-                         "its extreme values are too large or too small for a double",
-                         expected_of(parameter, reading.plan.units));
-    return unreadable_value();
+    return refuse(reading, field, "its extreme values are too large or too small for a double",
+                  expected_of(parameter, reading.plan.units));
   }
   reading.plan.distributions.push_back(*distribution);
   return {.kind = study::Value::Kind::distribution,
@@ -88,17 +92,14 @@ study::Value read_drawn(const distributions::DistributionForm& form, const yaml:
 study::Value read_profile_value(const yaml::Field& field, std::size_t row, study::Per per, Reading& reading) {
   constexpr std::size_t max_profiles = 1000;
   if (!reading.plan.period) {
-    reading.problems.add(field.node->place, field.path,
-                         "the profile of a linear axis needs the key travel, its period",
-                         "travel: the length in m after which friction is the same again");
-    return unreadable_value();
+    return refuse(reading, field, "the profile of a linear axis needs the key travel, its period",
+                  "travel: the length in m after which friction is the same again");
   }
   const auto form = distributions::read_profile(field, *reading.plan.period, reading.problems);
   if (!form) return unreadable_value();
   if (reading.profiles.size() == max_profiles) {
-    reading.problems.add(field.node->place, field.path, "there are too many profiles",
-                         fmt::format("at most {} in a study", max_profiles));
-    return unreadable_value();
+    return refuse(reading, field, "there are too many profiles",
+                  fmt::format("at most {} in a study", max_profiles));
   }
   reading.profiles.push_back({row, *form, per, field.node->place, field.path});
   return {.kind = study::Value::Kind::profile,
@@ -119,9 +120,8 @@ study::Value read_map(const yaml::Field& field, std::size_t row, Reading& readin
                                            distributions::distribution_names(), profile_name, per_key);
   const yaml::YamlEntry* entry = form_entry(*field.node);
   if (entry == nullptr) {
-    reading.problems.add(field.node->place, field.path,
-                         fmt::format("a map with {} keys stands here", field.node->entries.size()), expected);
-    return unreadable_value();
+    return refuse(reading, field, fmt::format("a map with {} keys stands here", field.node->entries.size()),
+                  expected);
   }
   const Drawn drawn = entry->key == profile_name ? Drawn::profile : Drawn::value;
   if (drawn == Drawn::profile && parameter.profiled == nullptr) {
@@ -132,9 +132,8 @@ study::Value read_map(const yaml::Field& field, std::size_t row, Reading& readin
     return unreadable_value();
   }
   study::Per per = usual_per(parameter, drawn, reading.has_rigs);
-  if (const yaml::YamlEntry* given = yaml::find_entry(*field.node, per_key)) {
-    per = read_per(yaml::entry_of(field, *given), parameter, drawn, reading.has_rigs, reading.problems)
-              .value_or(per);
+  if (const auto given = yaml::find_field(field, per_key)) {
+    per = read_per(*given, parameter, drawn, reading.has_rigs, reading.problems).value_or(per);
   }
   if (drawn == Drawn::profile) return read_profile_value(yaml::entry_of(field, *entry), row, per, reading);
   const distributions::DistributionForm* form =
@@ -170,8 +169,8 @@ bool check_exists(const yaml::Field& field, const parameters::Parameter& paramet
   const parameters::AxisKind axis = reading.plan.units.axis;
   if (parameters::exists_on(parameter, axis)) return true;
   reading.problems.add(
-      field.node->place, field.path,
-      fmt::format("a {} axis does not have it", parameters::axis_labels()[static_cast<std::size_t>(axis)]),
+      field,
+      fmt::format("a {} axis does not have it", parameters::axis_labels[static_cast<std::size_t>(axis)]),
       parameter.instead);
   return false;
 }
@@ -211,9 +210,8 @@ study::Value checked_number(const yaml::Field& field, std::size_t row, double nu
       (parameter.kind == parameters::ParameterKind::whole_number && number == std::trunc(number));
   if (fits && numerics::contains(parameters::range_of(parameter, reading.plan.units), number))
     return number_value(number);
-  reading.problems.add(field.node->place, field.path, fmt::format("the value {} is not allowed", number),
-                       expected_of(parameter, reading.plan.units));
-  return unreadable_value();
+  return refuse(reading, field, fmt::format("the value {} is not allowed", number),
+                expected_of(parameter, reading.plan.units));
 }
 
 }  // namespace zerocount::manifest

@@ -19,111 +19,76 @@ constexpr std::string_view missed = "probability that a count that is passed is 
 std::vector<Parameter> encoder_rows() {
   return {
       only_on(AxisKind::rotary, "encoder.resolution, m per count",
-              stored_at(
-                  whole_row("encoder.fine", "count/rev", "counts per revolution of the fine encoder",
-                            "paper, section 2", numerics::closed(1, max_count)),
-                  [](auto& p) -> auto& { return p.encoder.fine; })),
+              whole_row("encoder.fine", 16, "count/rev", "counts per revolution of the fine encoder",
+                        "paper, section 2", numerics::closed(1, max_count),
+                        [](auto& p) { return &p.encoder.fine; })),
       only_on(AxisKind::rotary, "encoder.coarse_resolution, m per count",
-              stored_at(
-                  whole_row("encoder.coarse", "count/rev", "counts per revolution of the coarse encoder",
-                            "paper, section 2", numerics::closed(1, max_count)),
-                  [](auto& p) -> auto& { return p.encoder.coarse; })),
+              whole_row("encoder.coarse", 17, "count/rev", "counts per revolution of the coarse encoder",
+                        "paper, section 2", numerics::closed(1, max_count),
+                        [](auto& p) { return &p.encoder.coarse; })),
       only_on(AxisKind::linear, "encoder.fine, counts per revolution",
-              without_default(stored_at(
-                  real_row("encoder.resolution", "m/count", "length of a count of the fine encoder",
-                           "required", numerics::above(0)),
-                  [](auto& p) -> auto& { return p.encoder.fine_length; }))),
+              without_default(real_row("encoder.resolution", beyond_moves(7), "m/count",
+                                       "length of a count of the fine encoder", "required",
+                                       numerics::above(0), [](auto& p) { return &p.encoder.fine_length; }))),
       only_on(AxisKind::linear, "encoder.coarse, counts per revolution",
-              without_default(stored_at(
-                  real_row("encoder.coarse_resolution", "m/count",
-                           "length of a count of the coarse encoder; left out, that of the fine one",
-                           "required", numerics::above(0)),
-                  [](auto& p) -> auto& { return p.encoder.coarse_length; }))),
+              without_default(real_row(
+                  "encoder.coarse_resolution", beyond_moves(8), "m/count",
+                  "length of a count of the coarse encoder; left out, that of the fine one", "required",
+                  numerics::above(0), [](auto& p) { return &p.encoder.coarse_length; }))),
 
       only_on(AxisKind::rotary, no_disc,
-              stored_at(
-                  real_row("encoder.fine_errors.eccentricity", "rad", eccentricity, assumed,
-                           numerics::at_least(0)),
-                  [](auto& p) -> auto& { return p.encoder.fine_errors.eccentricity; })),
+              real_row("encoder.fine_errors.eccentricity", 29, "rad", eccentricity, assumed,
+                       numerics::at_least(0), [](auto& p) { return &p.encoder.fine_errors.eccentricity; })),
       only_on(AxisKind::rotary, no_disc,
-              stored_at(
-                  real_row("encoder.fine_errors.eccentricity_angle", "rad", eccentricity_angle, assumed,
-                           numerics::all_numbers()),
-                  [](auto& p) -> auto& { return p.encoder.fine_errors.eccentricity_angle; })),
-      stored_at(
-          real_row("encoder.fine_errors.interpolation", "count", interpolation, assumed,
-                   numerics::at_least(0)),
-          [](auto& p) -> auto& { return p.encoder.fine_errors.interpolation; }),
-      stored_at(
-          real_row("encoder.fine_errors.interpolation_period", "count", interpolation_period, assumed,
-                   numerics::above(0)),
-          [](auto& p) -> auto& { return p.encoder.fine_errors.interpolation_period; }),
-      stored_at(
-          real_row("encoder.fine_errors.noise", "count", noise, assumed, numerics::at_least(0)),
-          [](auto& p) -> auto& { return p.encoder.fine_errors.noise; }),
-      stored_at(
-          real_row("encoder.fine_errors.missed", "1", missed, assumed, numerics::closed(0, 1)),
-          [](auto& p) -> auto& { return p.encoder.fine_errors.missed; }),
+              real_row("encoder.fine_errors.eccentricity_angle", 30, "rad", eccentricity_angle, assumed,
+                       numerics::all_numbers(),
+                       [](auto& p) { return &p.encoder.fine_errors.eccentricity_angle; })),
+      real_row("encoder.fine_errors.interpolation", 31, "count", interpolation, assumed,
+               numerics::at_least(0), [](auto& p) { return &p.encoder.fine_errors.interpolation; }),
+      real_row("encoder.fine_errors.interpolation_period", 32, "count", interpolation_period, assumed,
+               numerics::above(0), [](auto& p) { return &p.encoder.fine_errors.interpolation_period; }),
+      real_row("encoder.fine_errors.noise", 33, "count", noise, assumed, numerics::at_least(0),
+               [](auto& p) { return &p.encoder.fine_errors.noise; }),
+      real_row("encoder.fine_errors.missed", 34, "1", missed, assumed, numerics::closed(0, 1),
+               [](auto& p) { return &p.encoder.fine_errors.missed; }),
 
       only_on(AxisKind::rotary, no_disc,
-              stored_at(
-                  real_row("encoder.coarse_errors.eccentricity", "rad", eccentricity, assumed,
-                           numerics::at_least(0)),
-                  [](auto& p) -> auto& { return p.encoder.coarse_errors.eccentricity; })),
+              real_row("encoder.coarse_errors.eccentricity", 35, "rad", eccentricity, assumed,
+                       numerics::at_least(0), [](auto& p) { return &p.encoder.coarse_errors.eccentricity; })),
       only_on(AxisKind::rotary, no_disc,
-              stored_at(
-                  real_row("encoder.coarse_errors.eccentricity_angle", "rad", eccentricity_angle, assumed,
-                           numerics::all_numbers()),
-                  [](auto& p) -> auto& { return p.encoder.coarse_errors.eccentricity_angle; })),
-      stored_at(
-          real_row("encoder.coarse_errors.interpolation", "count", interpolation, assumed,
-                   numerics::at_least(0)),
-          [](auto& p) -> auto& { return p.encoder.coarse_errors.interpolation; }),
-      stored_at(
-          real_row("encoder.coarse_errors.interpolation_period", "count", interpolation_period, assumed,
-                   numerics::above(0)),
-          [](auto& p) -> auto& { return p.encoder.coarse_errors.interpolation_period; }),
-      stored_at(
-          real_row("encoder.coarse_errors.noise", "count", noise, assumed, numerics::at_least(0)),
-          [](auto& p) -> auto& { return p.encoder.coarse_errors.noise; }),
-      stored_at(
-          real_row("encoder.coarse_errors.missed", "1", missed, assumed, numerics::closed(0, 1)),
-          [](auto& p) -> auto& { return p.encoder.coarse_errors.missed; }),
+              real_row("encoder.coarse_errors.eccentricity_angle", 36, "rad", eccentricity_angle, assumed,
+                       numerics::all_numbers(),
+                       [](auto& p) { return &p.encoder.coarse_errors.eccentricity_angle; })),
+      real_row("encoder.coarse_errors.interpolation", 37, "count", interpolation, assumed,
+               numerics::at_least(0), [](auto& p) { return &p.encoder.coarse_errors.interpolation; }),
+      real_row("encoder.coarse_errors.interpolation_period", 38, "count", interpolation_period, assumed,
+               numerics::above(0), [](auto& p) { return &p.encoder.coarse_errors.interpolation_period; }),
+      real_row("encoder.coarse_errors.noise", 39, "count", noise, assumed, numerics::at_least(0),
+               [](auto& p) { return &p.encoder.coarse_errors.noise; }),
+      real_row("encoder.coarse_errors.missed", 40, "1", missed, assumed, numerics::closed(0, 1),
+               [](auto& p) { return &p.encoder.coarse_errors.missed; }),
   };
 }
 
 std::vector<Parameter> drive_rows() {
   return {
-      stored_at(
-          whole_row("dac.bits", "bit", "word length of the digital-to-analogue converter", "paper, section 2",
-                    numerics::closed(1, 32)),
-          [](auto& p) -> auto& { return p.dac.bits; }),
-      stored_at(
-          real_row("dac.resolution", "N m", "torque of one code of the digital-to-analogue converter",
-                   "paper, section 4", numerics::above(0)),
-          [](auto& p) -> auto& { return p.dac.resolution; }),
-      stored_at(
-          real_row("dac.offset", "N m", "added to the torque of every code", assumed,
-                   numerics::all_numbers()),
-          [](auto& p) -> auto& { return p.dac.offset; }),
-      stored_at(
-          real_row("dac.gain_error", "1", "relative error of the resolution", assumed, numerics::above(-1)),
-          [](auto& p) -> auto& { return p.dac.gain_error; }),
-      stored_at(
-          real_row("dac.nonlinearity", "code",
-                   "integral non-linearity: largest deviation from the straight line between the ends",
-                   assumed, numerics::all_numbers()),
-          [](auto& p) -> auto& { return p.dac.nonlinearity; }),
-      stored_at(
-          real_row("dac.noise", "N m", "standard deviation of the torque, drawn anew at each sample", assumed,
-                   numerics::at_least(0)),
-          [](auto& p) -> auto& { return p.dac.noise; }),
+      whole_row("dac.bits", 18, "bit", "word length of the digital-to-analogue converter", "paper, section 2",
+                numerics::closed(1, 32), [](auto& p) { return &p.dac.bits; }),
+      real_row("dac.resolution", 19, "N m", "torque of one code of the digital-to-analogue converter",
+               "paper, section 4", numerics::above(0), [](auto& p) { return &p.dac.resolution; }),
+      real_row("dac.offset", 41, "N m", "added to the torque of every code", assumed, numerics::all_numbers(),
+               [](auto& p) { return &p.dac.offset; }),
+      real_row("dac.gain_error", 42, "1", "relative error of the resolution", assumed, numerics::above(-1),
+               [](auto& p) { return &p.dac.gain_error; }),
+      real_row("dac.nonlinearity", 43, "code",
+               "integral non-linearity: largest deviation from the straight line between the ends", assumed,
+               numerics::all_numbers(), [](auto& p) { return &p.dac.nonlinearity; }),
+      real_row("dac.noise", 44, "N m", "standard deviation of the torque, drawn anew at each sample", assumed,
+               numerics::at_least(0), [](auto& p) { return &p.dac.noise; }),
 
-      stored_at(
-          real_row("amplifier.bandwidth", "Hz",
-                   "bandwidth (-3 dB) of the amplifier's first-order response; 0: it follows at once",
-                   assumed, numerics::at_least(0)),
-          [](auto& p) -> auto& { return p.amplifier.bandwidth; }),
+      real_row("amplifier.bandwidth", 45, "Hz",
+               "bandwidth (-3 dB) of the amplifier's first-order response; 0: it follows at once", assumed,
+               numerics::at_least(0), [](auto& p) { return &p.amplifier.bandwidth; }),
   };
 }
 

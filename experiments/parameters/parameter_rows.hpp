@@ -11,8 +11,8 @@
 
 namespace zerocount::parameters {
 
-// The rows of the table of parameters, by section. The name of a new row must also be added at the end of //
-// sobol_order.cpp.
+// The rows of the table of parameters, by section. Each has a Sobol dimension of its own, so that a new row
+// does not change the draws of the others. The next free one is beyond_moves(9).
 
 std::vector<Parameter> plant_rows();
 std::vector<Parameter> friction_rows();
@@ -23,42 +23,32 @@ std::vector<Parameter> command_rows();
 std::vector<Parameter> initial_rows();
 std::vector<Parameter> verdict_rows();
 
+/// Dimension i after those of the moves. Most of these parameters have labels and are never drawn.
+constexpr std::size_t beyond_moves(std::size_t i) {
+  return first_sobol_dimension_beyond_moves + i;
+}
+
 constexpr std::string_view assumed = "assumed";
 
 /// Maximum |target| and maximum counts per revolution: far above those of real machines, and small enough for
 /// exact arithmetic of counts in double.
 constexpr double max_count = 1e12;
 
-/// A row of real numbers.
-inline Parameter real_row(std::string_view name, std::string_view unit, std::string_view meaning,
-                          std::string_view source, const numerics::Interval& range) {
-  return {name, unit, meaning, source, ParameterKind::real, range, {}};
+/// For a row without a field in TrialParameters.
+struct NoField {};
+
+inline Parameter stored_at(Parameter row, NoField) {
+  return row;
 }
 
-/// A row of whole numbers.
-inline Parameter whole_row(std::string_view name, std::string_view unit, std::string_view meaning,
-                           std::string_view source, const numerics::Interval& range) {
-  return {name, unit, meaning, source, ParameterKind::whole_number, range, {}};
-}
-
-/// A row with labels, in the order of the enumeration's values.
-inline Parameter word_row(std::string_view name, std::string_view meaning, std::string_view source,
-                          std::vector<std::string_view> labels) {
-  const numerics::Interval range = numerics::closed(0, static_cast<double>(labels.size() - 1));
-  return {name, "1", meaning, source, ParameterKind::enumeration, range, std::move(labels)};
-}
-
-/// A row of `true` or `false`.
-inline Parameter truth_row(std::string_view name, std::string_view meaning, std::string_view source) {
-  return {name, "1", meaning, source, ParameterKind::truth, numerics::closed(0, 1), {"false", "true"}};
-}
-
-/// Adds the access to the field of TrialParameters: `At` returns a reference to it.
-template <class At>
-Parameter stored_at(Parameter row, At) {
-  row.get = [](const trial::TrialParameters& parameters) { return static_cast<double>(At{}(parameters)); };
+/// Adds the access to the field of TrialParameters: `Field` returns a pointer to it.
+template <class Field>
+Parameter stored_at(Parameter row, Field) {
+  row.get = [](const trial::TrialParameters& parameters) {
+    return static_cast<double>(*Field{}(parameters));
+  };
   row.set = [](trial::TrialParameters& parameters, double value) {
-    auto& field = At{}(parameters);
+    auto& field = *Field{}(parameters);
     field = static_cast<std::remove_reference_t<decltype(field)>>(value);
   };
   return row;
@@ -66,13 +56,57 @@ Parameter stored_at(Parameter row, At) {
 
 /// As above, for a limit in counts. The value max_count means no limit: it is infinite in the trial's
 /// parameters.
-template <class At>
-Parameter or_never(Parameter row, At) {
-  row.get = [](const trial::TrialParameters& parameters) { return std::min(At{}(parameters), max_count); };
+template <class Field>
+Parameter or_never(Parameter row, Field) {
+  row.get = [](const trial::TrialParameters& parameters) {
+    return std::min(*Field{}(parameters), max_count);
+  };
   row.set = [](trial::TrialParameters& parameters, double value) {
-    At{}(parameters) = value < max_count ? value : std::numeric_limits<double>::infinity();
+    *Field{}(parameters) = value < max_count ? value : std::numeric_limits<double>::infinity();
   };
   return row;
+}
+
+/// A row of real numbers.
+template <class Field = NoField>
+Parameter real_row(std::string_view name, std::size_t sobol_dimension, std::string_view unit,
+                   std::string_view meaning, std::string_view source, const numerics::Interval& range,
+                   Field field = {}) {
+  return stored_at({name, unit, meaning, source, ParameterKind::real, range, {}, sobol_dimension}, field);
+}
+
+/// A row of whole numbers.
+template <class Field = NoField>
+Parameter whole_row(std::string_view name, std::size_t sobol_dimension, std::string_view unit,
+                    std::string_view meaning, std::string_view source, const numerics::Interval& range,
+                    Field field = {}) {
+  return stored_at({name, unit, meaning, source, ParameterKind::whole_number, range, {}, sobol_dimension},
+                   field);
+}
+
+/// A row with labels, in the order of the enumeration's values.
+template <class Field>
+Parameter word_row(std::string_view name, std::size_t sobol_dimension, std::string_view meaning,
+                   std::string_view source, std::vector<std::string_view> labels, Field field) {
+  const numerics::Interval range = numerics::closed(0, static_cast<double>(labels.size() - 1));
+  return stored_at(
+      {name, "1", meaning, source, ParameterKind::enumeration, range, std::move(labels), sobol_dimension},
+      field);
+}
+
+/// A row of `true` or `false`.
+template <class Field>
+Parameter truth_row(std::string_view name, std::size_t sobol_dimension, std::string_view meaning,
+                    std::string_view source, Field field) {
+  return stored_at({name,
+                    "1",
+                    meaning,
+                    source,
+                    ParameterKind::truth,
+                    numerics::closed(0, 1),
+                    {"false", "true"},
+                    sobol_dimension},
+                   field);
 }
 
 /// Marks a row as required wherever it has an effect.

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "experiments/parameters/parameter_rows.hpp"
-#include "experiments/parameters/sobol_order.hpp"
 
 namespace zerocount::parameters {
 namespace {
@@ -20,7 +19,6 @@ std::vector<Parameter> make_table() {
   const auto add = [&table](std::vector<Parameter> section, bool of_machine) {
     for (Parameter& row : section) {
       row.of_machine = of_machine;
-      row.sobol_dimension = row.listed ? first_sobol_dimension_of_moves : sobol_dimension(row.name);
       table.push_back(std::move(row));
     }
   };

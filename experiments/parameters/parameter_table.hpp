@@ -24,7 +24,7 @@ struct Parameter {
   ParameterKind kind{ParameterKind::real};
   numerics::Interval range;              ///< of the allowed values
   std::vector<std::string_view> labels;  ///< of an enumeration or a boolean, in the order of its numbers
-  std::size_t sobol_dimension{0};        ///< from sobol_order.hpp; for a list that of its first value
+  std::size_t sobol_dimension{0};        ///< never changed or used twice; for a list that of its first value
   double friction::FrictionParameters::*profiled{
       nullptr};                   ///< field for a profile; null if profiles are not allowed
   std::string_view si_unit{};     ///< unit of a gain with controller.units: si; empty for other parameters

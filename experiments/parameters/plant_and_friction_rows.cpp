@@ -6,62 +6,54 @@ namespace {
 template <double friction::FrictionParameters::*field>
 Parameter friction(Parameter row) {
   row.profiled = field;
-  return stored_at(
-      std::move(row), [](auto& p) -> auto& { return p.friction.uniform.*field; });
+  return stored_at(std::move(row), [](auto& p) { return &(p.friction.uniform.*field); });
 }
 
 }  // namespace
 
 std::vector<Parameter> plant_rows() {
   return {
-      stored_at(
-          real_row("plant.inertia", "kg m^2", "moment of inertia J of the rotor", "paper, section 4",
-                   numerics::above(0)),
-          [](auto& p) -> auto& { return p.plant.inertia; }),
-      stored_at(
-          real_row("plant.presliding_damping", "N m s/rad",
-                   "damping c while the hook sticks, or of an air bearing", "paper, section 4",
-                   numerics::at_least(0)),
-          [](auto& p) -> auto& { return p.plant.presliding_damping; }),
-      stored_at(
-          real_row("plant.sliding_damping", "N m s/rad", "viscous damping cs while the hook slides", assumed,
-                   numerics::at_least(0)),
-          [](auto& p) -> auto& { return p.plant.sliding_damping; }),
+      real_row("plant.inertia", 12, "kg m^2", "moment of inertia J of the rotor", "paper, section 4",
+               numerics::above(0), [](auto& p) { return &p.plant.inertia; }),
+      real_row("plant.presliding_damping", 13, "N m s/rad",
+               "damping c while the hook sticks, or of an air bearing", "paper, section 4",
+               numerics::at_least(0), [](auto& p) { return &p.plant.presliding_damping; }),
+      real_row("plant.sliding_damping", 14, "N m s/rad", "viscous damping cs while the hook slides", assumed,
+               numerics::at_least(0), [](auto& p) { return &p.plant.sliding_damping; }),
   };
 }
 
 std::vector<Parameter> friction_rows() {
   using P = friction::FrictionParameters;
   return {
-      stored_at(
-          word_row("friction.model",
-                   "friction of the bearing: before it slides a spring and creep, the spring alone, or no "
-                   "motion at "
-                   "all; none is an air bearing",
-                   assumed, friction::friction_model_words()),
-          [](auto& p) -> auto& { return p.friction.model; }),
-      friction<&P::k1>(real_row("friction.k1", "N m/rad", "lowest tangent stiffness of the friction spring",
-                                "paper, section 4", numerics::above(0))),
-      friction<&P::k2>(real_row("friction.k2", "N m/rad",
+      word_row("friction.model", beyond_moves(0),
+               "friction of the bearing: before it slides a spring and creep, the spring alone, or no "
+               "motion at "
+               "all; none is an air bearing",
+               assumed, friction::friction_model_words(), [](auto& p) { return &p.friction.model; }),
+      friction<&P::k1>(real_row("friction.k1", 0, "N m/rad",
+                                "lowest tangent stiffness of the friction spring", "paper, section 4",
+                                numerics::above(0))),
+      friction<&P::k2>(real_row("friction.k2", 1, "N m/rad",
                                 "highest tangent stiffness of the friction spring less k1",
                                 "paper, section 4 (k1 + k2 = 860)", numerics::at_least(0))),
       friction<&P::beta>(
-          real_row("friction.beta", "1/rad", "rate at which a branch softens from k1 + k2 to k1",
+          real_row("friction.beta", 3, "1/rad", "rate at which a branch softens from k1 + k2 to k1",
                    "assumed (from the outcomes in section 4 of the paper)", numerics::above(0))),
-      friction<&P::alpha>(real_row("friction.alpha", "1/s", "rate of creep; 0 switches creep off", assumed,
+      friction<&P::alpha>(real_row("friction.alpha", 4, "1/s", "rate of creep; 0 switches creep off", assumed,
                                    numerics::at_least(0))),
-      friction<&P::lambda>(real_row("friction.lambda", "(N m)^n/rad",
+      friction<&P::lambda>(real_row("friction.lambda", 5, "(N m)^n/rad",
                                     "hardening modulus: creep ends at |torque|^n / lambda", assumed,
                                     numerics::above(0))),
-      friction<&P::n>(real_row("friction.n", "1", "exponent of the torque in the creep law", assumed,
+      friction<&P::n>(real_row("friction.n", 15, "1", "exponent of the torque in the creep law", assumed,
                                numerics::at_least(1))),
-      friction<&P::breakaway>(real_row("friction.breakaway", "N m",
+      friction<&P::breakaway>(real_row("friction.breakaway", 6, "N m",
                                        "torque at which the hook starts to slide", assumed,
                                        numerics::above(0))),
-      friction<&P::coulomb_ratio>(real_row("friction.coulomb_ratio", "1", "Coulomb level over breakaway",
+      friction<&P::coulomb_ratio>(real_row("friction.coulomb_ratio", 7, "1", "Coulomb level over breakaway",
                                            assumed, {.low = 0, .high = 1, .high_included = true})),
       friction<&P::stribeck_velocity>(real_row(
-          "friction.stribeck_velocity", "rad/s",
+          "friction.stribeck_velocity", 8, "rad/s",
           "velocity over which sliding friction falls to the Coulomb level", assumed, numerics::above(0))),
   };
 }

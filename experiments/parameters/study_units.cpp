@@ -52,16 +52,6 @@ void replace_term(std::string& text, const Rewording& term) {
 
 }  // namespace
 
-std::span<const std::string_view> axis_labels() {
-  static constexpr std::array<std::string_view, 2> all{"rotary", "linear"};
-  return all;
-}
-
-std::span<const std::string_view> gain_unit_labels() {
-  static constexpr std::array<std::string_view, 2> all{"count", "si"};
-  return all;
-}
-
 std::string unit_on(AxisKind axis, std::string_view rotary) {
   std::string unit(rotary);
   if (axis == AxisKind::rotary) return unit;

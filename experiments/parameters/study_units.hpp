@@ -1,6 +1,6 @@
 #pragma once
 
-#include <span>
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -24,8 +24,8 @@ struct StudyUnits {
 };
 
 /// The values of the manifest's keys `axis` and `controller.units`, in the order of the enumerations.
-std::span<const std::string_view> axis_labels();
-std::span<const std::string_view> gain_unit_labels();
+inline constexpr std::array<std::string_view, 2> axis_labels{"rotary", "linear"};
+inline constexpr std::array<std::string_view, 2> gain_unit_labels{"count", "si"};
 
 /// Converts the unit `rotary` of a rotary axis to an axis of this kind: m for rad, N for N m, kg for kg m^2,
 /// and products of these. Units of a linear axis stay unchanged.

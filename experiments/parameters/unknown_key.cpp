@@ -1,5 +1,7 @@
 #include "experiments/parameters/unknown_key.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -34,6 +36,13 @@ std::string_view nearest_key(std::string_view key, std::span<const std::string> 
 }
 
 }  // namespace
+
+void check_keys(const yaml::Field& map, std::span<const std::string> known, yaml::Problems& problems) {
+  for (const yaml::YamlEntry& entry : map.node->entries) {
+    if (std::find(known.begin(), known.end(), entry.key) == known.end())
+      add_unknown_key(map, entry, known, problems);
+  }
+}
 
 void add_unknown_key(const yaml::Field& map, const yaml::YamlEntry& entry, std::span<const std::string> known,
                      yaml::Problems& problems) {

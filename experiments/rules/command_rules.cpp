@@ -1,8 +1,7 @@
-#include "experiments/rules/command_rules.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "core/loop/dac.hpp"
 #include "core/loop/reference.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
+#include "experiments/rules/value_rules.hpp"
 #include "experiments/study/slots.hpp"
 
 namespace zerocount::rules {
@@ -33,11 +33,6 @@ ValueRule highest_value(std::string_view parameter, const std::string& expected)
       }};
 }
 
-std::vector<ValueRule> rules_of_samples() {
-  return {highest_value("command.hold", "a distribution of the hold with a highest value"),
-          highest_value("controller.sample_rate", "a distribution of the sample rate with a highest value")};
-}
-
 ValueRule samples_of_targets(double moves) {
   return {{"command.hold", "controller.sample_rate"}, false, [moves](Limits l, Limits) -> Faults {
             if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high)) return {};  // reported already
@@ -52,15 +47,20 @@ double farthest_apart(const study::ValueLimits& a, const study::ValueLimits& b) 
   return std::max(a.high - b.low, b.high - a.low);
 }
 
-// Longest total travel: from the start to the first value, then from each to the next.
-double longest_travel(Limits list) {
-  double way = 0.0;
+// The longest travel to each value of the list, from the start or from the value before it.
+std::vector<double> longest_travels(Limits list) {
+  std::vector<double> travels;
   study::ValueLimits last{};
   for (const study::ValueLimits& next : list) {
-    way += farthest_apart(next, last);
+    travels.push_back(farthest_apart(next, last));
     last = next;
   }
-  return way;
+  return travels;
+}
+
+double total_travel(Limits list) {
+  const std::vector<double> travels = longest_travels(list);
+  return std::accumulate(travels.begin(), travels.end(), 0.0);
 }
 
 ValueRule limits_of_torque_levels() {
@@ -78,14 +78,13 @@ ValueRule limits_of_torque_levels() {
 
 // Total time of all ramps, s. If the torque stays at 0, every rate is allowed.
 double time_of_ramps(Limits levels, const study::ValueLimits& rate) {
-  const double way = longest_travel(levels);
+  const double way = total_travel(levels);
   return way == 0.0 ? 0.0 : way / rate.low;
 }
 
 ValueRule lowest_rate_of_torque() {
   return {{"command.torque.rate"}, true, [](Limits l, Limits levels) -> Faults {
-            if (std::isfinite(time_of_ramps(levels, l[0])) || !std::isfinite(longest_travel(levels)))
-              return {};
+            if (std::isfinite(time_of_ramps(levels, l[0])) || !std::isfinite(total_travel(levels))) return {};
             return {{"the rate can be so small that the torque takes for ever to a level",
                      "a rate with a lowest value above 0"}};
           }};
@@ -158,13 +157,7 @@ ValueRule reach_of_the_overrun() {
 
 // The longest travel between consecutive targets, including the start, counts.
 double longest_step(Limits targets) {
-  double longest = 0.0;
-  study::ValueLimits last{};
-  for (const study::ValueLimits& next : targets) {
-    longest = std::max(longest, farthest_apart(next, last));
-    last = next;
-  }
-  return longest;
+  return std::ranges::max(longest_travels(targets));
 }
 
 // Likewise for a sequence, which moves beyond its targets before it reverses.
@@ -228,7 +221,9 @@ ValueRule time_of_travel(parameters::AxisKind axis, const std::optional<study::S
 }  // namespace
 
 std::vector<ValueRule> command_rules(const study::StudyPlan& plan) {
-  std::vector<ValueRule> rules = rules_of_samples();
+  std::vector<ValueRule> rules{
+      highest_value("command.hold", "a distribution of the hold with a highest value"),
+      highest_value("controller.sample_rate", "a distribution of the sample rate with a highest value")};
   const auto add = [&rules](const std::vector<ValueRule>& more) {
     rules.insert(rules.end(), more.begin(), more.end());
   };

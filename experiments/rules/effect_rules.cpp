@@ -1,6 +1,9 @@
 #include "experiments/rules/effect_rules.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "core/friction/law.hpp"
 
@@ -29,8 +32,8 @@ bool can_be_positive(const study::ValueLimits& limits) {
   return limits.high > 0.0;
 }
 
-constexpr std::string_view the_loop_is_open = "it has no effect: the loop is open with command.torque";
-constexpr std::string_view a_closed_loop = "command.targets or command.sequence, or the key left out";
+constexpr const char* the_loop_is_open = "it has no effect: the loop is open with command.torque";
+constexpr const char* a_closed_loop = "command.targets or command.sequence, or the key left out";
 
 std::vector<EffectRule> rules_of_the_command(const study::StudyPlan& plan) {
   const bool open_loop = plan.open_loop;
@@ -72,12 +75,12 @@ std::vector<EffectRule> rules_of_the_command(const study::StudyPlan& plan) {
 }
 
 // The other parameters of an encoder error have an effect only if its amplitude is not 0.
-EffectRule rule_of_an_error(std::string_view key, std::string_view amplitude, std::string_view expected) {
+EffectRule rule_of_an_error(std::string_view key, std::string_view amplitude) {
   return {.keys = {key},
           .depends_on = {amplitude},
           .has_effect = [](Limits l) { return can_be_positive(l[0]); },
           .what = "it has no effect: that error is 0 at every point",
-          .expected = expected};
+          .expected = fmt::format("{} above 0, or the key left out", amplitude)};
 }
 
 std::vector<EffectRule> rules_of_the_loop() {
@@ -89,14 +92,10 @@ std::vector<EffectRule> rules_of_the_loop() {
        .has_effect = [](Limits l) { return study::can_have_coarse_phase(l[0]); },
        .what = "it has no effect: there is no coarse phase at any point",
        .expected = "controller.coarse.coarse_beyond below 1e12, or the key left out"},
-      rule_of_an_error("encoder.fine_errors.eccentricity_angle", "encoder.fine_errors.eccentricity",
-                       "encoder.fine_errors.eccentricity above 0, or the key left out"),
-      rule_of_an_error("encoder.fine_errors.interpolation_period", "encoder.fine_errors.interpolation",
-                       "encoder.fine_errors.interpolation above 0, or the key left out"),
-      rule_of_an_error("encoder.coarse_errors.eccentricity_angle", "encoder.coarse_errors.eccentricity",
-                       "encoder.coarse_errors.eccentricity above 0, or the key left out"),
-      rule_of_an_error("encoder.coarse_errors.interpolation_period", "encoder.coarse_errors.interpolation",
-                       "encoder.coarse_errors.interpolation above 0, or the key left out"),
+      rule_of_an_error("encoder.fine_errors.eccentricity_angle", "encoder.fine_errors.eccentricity"),
+      rule_of_an_error("encoder.fine_errors.interpolation_period", "encoder.fine_errors.interpolation"),
+      rule_of_an_error("encoder.coarse_errors.eccentricity_angle", "encoder.coarse_errors.eccentricity"),
+      rule_of_an_error("encoder.coarse_errors.interpolation_period", "encoder.coarse_errors.interpolation"),
   };
 }
 
@@ -133,43 +132,38 @@ std::vector<EffectRule> rules_of_the_contact() {
   };
 }
 
-// Only warnings, so that models can be compared by changing one key.
+// Only a warning, so that models can be compared by changing one key.
+EffectRule used_by_models(bool (*uses)(friction::FrictionModel), std::vector<std::string_view> keys,
+                          std::string_view what) {
+  return {.keys = std::move(keys),
+          .depends_on = {"friction.model"},
+          .has_effect = [uses](Limits l) { return uses(friction_model(l[0])); },
+          .what = what,
+          .off_at_zero = true,
+          .warn_only = true};
+}
+
 std::vector<EffectRule> rules_of_the_model() {
+  const auto has_damping = [](friction::FrictionModel model) {
+    return friction::traits_of(model).has_presliding_damping;
+  };
   return {
-      {.keys = {"plant.sliding_damping", "friction.breakaway", "friction.coulomb_ratio",
-                "friction.stribeck_velocity"},
-       .depends_on = {"friction.model"},
-       .has_effect = [](Limits l) { return friction::has_breakaway(friction_model(l[0])); },
-       .what = "it has no effect: friction.model is none at every point",
-       .off_at_zero = true,
-       .warn_only = true},
-      {.keys = {"plant.presliding_damping"},
-       .depends_on = {"friction.model"},
-       .has_effect =
-           [](Limits l) { return friction::traits_of(friction_model(l[0])).has_presliding_damping; },
-       .what = "it has no effect: friction.model is coulomb at every point",
-       .off_at_zero = true,
-       .warn_only = true},
-      {.keys = {"friction.k1", "friction.k2", "friction.beta", "friction.alpha", "friction.lambda",
-                "friction.n", "initial.hardening", "initial.preload", "initial.history"},
-       .depends_on = {"friction.model"},
-       .has_effect = [](Limits l) { return friction::has_spring(friction_model(l[0])); },
-       .what = "it has no effect: friction.model has no spring at any point",
-       .off_at_zero = true,
-       .warn_only = true},
-      {.keys = {"friction.alpha", "friction.lambda", "friction.n", "initial.hardening"},
-       .depends_on = {"friction.model"},
-       .has_effect = [](Limits l) { return friction::has_creep(friction_model(l[0])); },
-       .what = "it has no effect: friction.model is presliding at no point",
-       .off_at_zero = true,
-       .warn_only = true},
-      {.keys = {"initial.mode"},
-       .depends_on = {"friction.model"},
-       .has_effect = [](Limits l) { return friction::has_spring(friction_model(l[0])); },
-       .what = "it has no effect: friction.model has no spring at any point, and the rotor slides wherever "
-               "there is a velocity",
-       .off_at_zero = true,
-       .warn_only = true},
+      used_by_models(friction::has_breakaway,
+                     {"plant.sliding_damping", "friction.breakaway", "friction.coulomb_ratio",
+                      "friction.stribeck_velocity"},
+                     "it has no effect: friction.model is none at every point"),
+      used_by_models(has_damping, {"plant.presliding_damping"},
+                     "it has no effect: friction.model is coulomb at every point"),
+      used_by_models(friction::has_spring,
+                     {"friction.k1", "friction.k2", "friction.beta", "friction.alpha", "friction.lambda",
+                      "friction.n", "initial.hardening", "initial.preload", "initial.history"},
+                     "it has no effect: friction.model has no spring at any point"),
+      used_by_models(friction::has_creep,
+                     {"friction.alpha", "friction.lambda", "friction.n", "initial.hardening"},
+                     "it has no effect: friction.model is presliding at no point"),
+      used_by_models(friction::has_spring, {"initial.mode"},
+                     "it has no effect: friction.model has no spring at any point, and the rotor slides "
+                     "wherever there is a velocity"),
   };
 }
 

@@ -6,19 +6,12 @@
 #include <fmt/format.h>
 
 #include "experiments/parameters/parameter_table.hpp"
-#include "experiments/rules/command_rules.hpp"
 
 namespace zerocount::rules {
 namespace {
 
 using Limits = std::span<const study::ValueLimits>;
 using Faults = std::vector<ValueFault>;
-
-// Adapts a rule that does not use the list.
-template <class Find>
-auto without_list(Find find) {
-  return [find](Limits parameters, Limits) { return find(parameters); };
-}
 
 Faults shorter_than_a_sample(const study::ValueLimits& duration, const study::ValueLimits& sample_rate) {
   if (std::round(duration.low * sample_rate.low) >= 1.0) return {};
@@ -33,8 +26,8 @@ Faults longer_than_the_hold(const study::ValueLimits& duration, const study::Val
 }
 
 std::vector<ValueRule> rules_of_durations(bool open_loop) {
-  const auto at_least_one_sample = without_list([](Limits l) { return shorter_than_a_sample(l[0], l[1]); });
-  const auto within_the_hold = without_list([](Limits l) { return longer_than_the_hold(l[0], l[1]); });
+  const auto at_least_one_sample = [](Limits l, Limits) { return shorter_than_a_sample(l[0], l[1]); };
+  const auto within_the_hold = [](Limits l, Limits) { return longer_than_the_hold(l[0], l[1]); };
   if (open_loop) return {{{"command.hold", "controller.sample_rate"}, false, at_least_one_sample}};
   return {
       {{"verdict.dwell", "controller.sample_rate"}, false, at_least_one_sample},
@@ -50,53 +43,57 @@ double largest_magnitude(const study::ValueLimits& limits) {
 
 std::vector<ValueRule> rules_of_the_start(const std::string& torque_unit) {
   return {
-      {{"initial.preload", "friction.breakaway"}, false, without_list([torque_unit](Limits l) -> Faults {
+      {{"initial.preload", "friction.breakaway"},
+       false,
+       [torque_unit](Limits l, Limits) -> Faults {
          const double torque = largest_magnitude(l[0]);
          if (torque < l[1].low || torque == 0.0) return {};
          return {{fmt::format("a preload of {} {} can reach the breakaway of {} {}", torque, torque_unit,
                               l[1].low, torque_unit),
                   "|initial.preload| below friction.breakaway"}};
-       })},
+       }},
       {{"initial.history.torque", "friction.breakaway"},
        false,
-       without_list([torque_unit](Limits l) -> Faults {
+       [torque_unit](Limits l, Limits) -> Faults {
          if (l[0].high < l[1].low || l[0].high == 0.0) return {};
          return {{fmt::format("a history of {} {} can reach the breakaway of {} {}", l[0].high, torque_unit,
                               l[1].low, torque_unit),
                   "initial.history.torque below friction.breakaway"}};
-       })},
-      {{"initial.velocity", "initial.mode", "friction.model"}, false, without_list([](Limits l) -> Faults {
+       }},
+      {{"initial.velocity", "initial.mode", "friction.model"},
+       false,
+       [](Limits l, Limits) -> Faults {
          const auto model = static_cast<friction::FrictionModel>(static_cast<int>(l[2].low));
          const bool slides =
              l[1].low == static_cast<double>(trial::InitialMode::slide) && friction::has_breakaway(model);
          if (!slides || !l[0].can_be_zero) return {};
          return {{"the velocity can be 0 where the hook slides at the start",
                   "a velocity that is never 0 with initial.mode: slide"}};
-       })},
+       }},
   };
 }
 
 // A trial that is stopped early lacks the ends of some moves.
 ValueRule no_stop_in_a_sequence() {
-  return {{"verdict.stop"}, false, without_list([](Limits l) -> Faults {
+  return {{"verdict.stop"}, false, [](Limits l, Limits) -> Faults {
             if (l[0].high == 0.0) return {};
             return {
                 {"the values of ISO 230-2 are of the ends of all moves, which a trial that is ended early "
                  "does not have",
                  "false with command.sequence"}};
-          })};
+          }};
 }
 
 ValueRule stop_with_two_phases() {
   return {{"verdict.stop", "controller.coarse.coarse_beyond"},
           false,
-          without_list([](Limits l) -> Faults {
+          [](Limits l, Limits) -> Faults {
             if (l[0].high == 0.0 || !study::can_have_coarse_phase(l[1])) return {};
             return {
                 {"the coarse phase may bring a rotor back from beyond verdict.limit, and so change an "
                  "outcome that was taken as decided",
                  ""}};
-          }),
+          },
           true};
 }
 
@@ -105,21 +102,21 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
       stop_with_two_phases(),
       {{"controller.kd", "controller.coarse.coarse_beyond"},
        false,
-       without_list([derivative_unit](Limits l) -> Faults {
+       [derivative_unit](Limits l, Limits) -> Faults {
          if (!study::can_have_coarse_phase(l[1]) || l[0].high == 0.0) return {};
          return {{fmt::format("{} {} can act in the fine phase of a control with two", l[0].high,
                               derivative_unit),
                   "0 where there is a coarse phase: the derivative belongs to it alone "
                   "(controller.coarse.kd)"}};
-       })},
+       }},
       {{"controller.coarse.fine_within", "controller.coarse.coarse_beyond"},
        false,
-       without_list([](Limits l) -> Faults {
+       [](Limits l, Limits) -> Faults {
          if (!study::can_have_coarse_phase(l[1]) || l[0].high <= l[1].low) return {};
          return {{fmt::format("the fine phase can be entered at {} counts and left beyond {}", l[0].high,
                               l[1].low),
                   "at most controller.coarse.coarse_beyond"}};
-       })},
+       }},
   };
 }
 

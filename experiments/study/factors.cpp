@@ -10,32 +10,25 @@
 namespace zerocount::study {
 namespace {
 
-using Limits = std::span<const ValueLimits>;
-
 bool is_drawn_somewhere(const StudyPlan& plan, std::size_t slot) {
-  bool drawn = false;
-  visit_points(plan, {&slot, 1}, [&](std::size_t point) {
-    const Value& value = *value_at_point(plan, slot, point);
-    drawn = value.kind == Value::Kind::distribution && value.per != Per::study;
-    return !drawn;
+  const std::vector<const Value*> values = values_of(plan, slot);
+  return std::any_of(values.begin(), values.end(), [](const Value* value) {
+    return value->kind == Value::Kind::distribution && value->per != Per::study;
   });
-  return drawn;
-}
-
-bool all_above_zero(Limits limits) {
-  return std::all_of(limits.begin(), limits.end(), [](const ValueLimits& l) { return l.high > 0.0; });
 }
 
 // Whether trials use random numbers while they run; see core/random/trial_randomness.hpp.
 bool draws_within_trials(const StudyPlan& plan) {
+  const auto above_zero = [](const ValueLimits& limits) { return limits.high > 0.0; };
   constexpr std::array<std::string_view, 5> noises{"encoder.fine_errors.noise", "encoder.fine_errors.missed",
                                                    "encoder.coarse_errors.noise",
                                                    "encoder.coarse_errors.missed", "dac.noise"};
   constexpr std::array<std::string_view, 2> history{"initial.history.reversals", "initial.history.torque"};
-  return holds_somewhere(plan, history, all_above_zero) ||
-         std::any_of(noises.begin(), noises.end(), [&](std::string_view noise) {
-           return holds_somewhere(plan, {&noise, 1}, all_above_zero);
-         });
+  return holds_somewhere(
+             plan, history,
+             [&](std::span<const ValueLimits> l) { return std::all_of(l.begin(), l.end(), above_zero); }) ||
+         std::any_of(noises.begin(), noises.end(),
+                     [&](std::string_view noise) { return holds_somewhere(plan, noise, above_zero); });
 }
 
 }  // namespace

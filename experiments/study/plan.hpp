@@ -12,12 +12,13 @@
 #include "experiments/study/draws.hpp"
 #include "experiments/study/rotors.hpp"
 #include "experiments/study/sequence.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::study {
 
 // The compiled form of a manifest. A slot stores one value of a trial. Slot s below the number of rows
-// belongs // to row s of the table of parameters (unused for listed rows). Slot rows + i is value i of the
-// listed // parameter that the study uses.
+// belongs to row s of the table of parameters (unused for listed rows). Slot rows + i is value i of the
+// listed parameter that the study uses.
 
 /// The listed parameter of a study: targets, torque levels, or the targets of a sequence.
 struct ListedValues {
@@ -102,5 +103,8 @@ const Value* value_at_point(const StudyPlan& plan, std::size_t slot, std::size_t
 
 /// The values of all slots at a design point.
 std::vector<const Value*> values_at(const StudyPlan& plan, std::size_t point);
+
+/// The features of a study whose other members are set, from the limits of the parameters in its plan.
+StudyFeatures find_features(const StudyPlan& plan, const Study& study);
 
 }  // namespace zerocount::study

@@ -83,6 +83,15 @@ void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
   }
 }
 
+std::vector<const Value*> values_of(const StudyPlan& plan, std::size_t slot) {
+  std::vector<const Value*> values;
+  visit_points(plan, {&slot, 1}, [&](std::size_t point) {
+    values.push_back(value_at_point(plan, slot, point));
+    return true;
+  });
+  return values;
+}
+
 std::vector<ValueLimits> limits_at(const StudyPlan& plan, std::span<const std::size_t> slots,
                                    std::size_t point) {
   std::vector<ValueLimits> limits;
@@ -104,6 +113,12 @@ bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> na
     return !found;
   });
   return found;
+}
+
+bool holds_somewhere(const StudyPlan& plan, std::string_view name,
+                     const std::function<bool(const ValueLimits&)>& holds) {
+  return holds_somewhere(plan, {&name, 1},
+                         [&](std::span<const ValueLimits> limits) { return holds(limits.front()); });
 }
 
 }  // namespace zerocount::study

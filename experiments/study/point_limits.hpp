@@ -33,6 +33,9 @@ std::vector<std::size_t> listed_slots(const ListedValues& list);
 void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
                   const std::function<bool(std::size_t point)>& visit);
 
+/// The values of a slot: one of each design point at which it can differ.
+std::vector<const Value*> values_of(const StudyPlan& plan, std::size_t slot);
+
 /// The limits of the parameters at a design point, in the order of `slots`.
 std::vector<ValueLimits> limits_at(const StudyPlan& plan, std::span<const std::size_t> slots,
                                    std::size_t point);
@@ -43,5 +46,8 @@ bool are_readable(std::span<const ValueLimits> limits);
 /// Whether `holds` for the limits of these parameters, in their order, at some design point.
 bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> names,
                      const std::function<bool(std::span<const ValueLimits>)>& holds);
+/// The same for one parameter.
+bool holds_somewhere(const StudyPlan& plan, std::string_view name,
+                     const std::function<bool(const ValueLimits&)>& holds);
 
 }  // namespace zerocount::study

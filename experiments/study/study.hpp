@@ -72,23 +72,27 @@ struct SequenceMove {
   std::int64_t cycle{0};    ///< from 0
 };
 
-/// The optional columns of a study's traces.
-struct TraceExtras {
-  bool reference{false};     ///< the reference is not a step at some point
-  bool phase{false};         ///< the control has two phases at some point
-  bool drive_torque{false};  ///< the motor torque is not the (delayed) code times the resolution
-};
-
-/// The optional columns of a study's outcomes.
-struct OutcomeExtras {
-  bool stopped{false};  ///< at some point trials are stopped after divergence
-};
-
-/// Effects that can occur in the loop for some values of the trials' parameters.
-struct LoopExtras {
-  bool encoder_errors{false};  ///< some trial may have an encoder with errors
-  /// Some trial may have a permanent error: it has no integral control, or Coulomb friction.
-  bool lasting_errors{false};
+/// What a study can use of the loop, at any point and in any trial: decides which optional columns its tables
+/// have. Found from the limits of the parameters, so that studies which differ only in their seed have the
+/// same columns.
+struct StudyFeatures {
+  parameters::AxisKind axis{parameters::AxisKind::rotary};  ///< whose units the tables have
+  bool open_loop{false};                                    ///< torque levels in place of targets
+  bool travel{false};                                       ///< the reference is not a step
+  bool phases{false};                                       ///< the control has two phases
+  bool drive_torque{false};    ///< the motor torque is not the (delayed) code times the resolution
+  bool encoder_errors{false};  ///< an encoder may have errors
+  /// Moves may end beside their targets by design: no integral control, Coulomb friction, or moves that are
+  /// long.
+  bool final_error{false};
+  bool stopping{false};  ///< a trial is ended where a move diverges
+  /// The design is saltelli: the trials of a row share most of their numbers, and bounds for independent
+  /// trials are too narrow.
+  bool dependent_trials{false};
+  bool rigs{false};  ///< trials share rigs: bounds allow for what the trials of one rig have in common
+  /// The design spreads the trials more evenly than chance (latin_hypercube, sobol): bounds are wider than
+  /// needed.
+  bool spread_trials{false};
 };
 
 /// Sequential stopping (`stop`): after each block of trials the study ends if the bounds of the success rate
@@ -137,9 +141,7 @@ struct Study {
   std::int64_t moves{1};                      ///< per trial
   std::vector<SequenceMove> sequence;         ///< [move]; empty without a sequence
   bool open_loop{false};                      ///< the moves are torque levels, without targets
-  TraceExtras trace_extras;
-  OutcomeExtras outcome_extras;
-  LoopExtras loop_extras;
+  StudyFeatures features;
   std::vector<std::string> warnings;  ///< possibly unintended input, one line each
 
   std::shared_ptr<const StudyPlan> plan;
@@ -175,6 +177,11 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
 /// As study_trial, with all numbers in the manifest's units. The caller may change parameters and must then
 /// call complete_trial().
 StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index);
+
+/// Completes the parameters of a trial after all numbers are set in the manifest's units: converts gains from
+/// SI units with the trial's sample time and encoder, and sets the resolution of a linear axis's coarse
+/// encoder to that of the fine one if it is not given.
+void complete_trial(const parameters::StudyUnits& units, trial::TrialParameters& trial);
 
 /// The inputs of rig `rig` (0 … rigs − 1): [rig column], in that column's unit.
 std::vector<double> rig_inputs(const Study& study, std::int64_t rig);

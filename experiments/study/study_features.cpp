@@ -1,9 +1,66 @@
-#include "experiments/study/study_features.hpp"
+#include <algorithm>
+#include <initializer_list>
 
-#include <stdexcept>
+#include "experiments/study/plan.hpp"
+#include "experiments/study/point_limits.hpp"
 
 namespace zerocount::study {
 namespace {
+
+bool can_be_positive(const ValueLimits& limits) {
+  return limits.high > 0.0;
+}
+bool can_be_nonzero(const ValueLimits& limits) {
+  return limits.low != 0.0 || limits.high != 0.0;
+}
+bool has_zero(const ValueLimits& limits) {
+  return limits.can_be_zero;
+}
+
+bool is_no_step(const ValueLimits& shape) {
+  return shape.high > static_cast<double>(loop::ReferenceShape::step);
+}
+
+bool any_holds(const StudyPlan& plan, std::initializer_list<std::string_view> names,
+               bool (*holds)(const ValueLimits&)) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](std::string_view name) { return holds_somewhere(plan, name, holds); });
+}
+
+bool has_encoder_errors(const StudyPlan& plan) {
+  return any_holds(
+      plan,
+      {"encoder.fine_errors.eccentricity", "encoder.fine_errors.interpolation", "encoder.fine_errors.noise",
+       "encoder.fine_errors.missed", "encoder.coarse_errors.eccentricity",
+       "encoder.coarse_errors.interpolation", "encoder.coarse_errors.noise", "encoder.coarse_errors.missed"},
+      can_be_positive);
+}
+
+// Coulomb friction causes hunting with integral control.
+bool causes_hunting(const ValueLimits& model) {
+  switch (static_cast<friction::FrictionModel>(static_cast<int>(model.low))) {
+    case friction::FrictionModel::coulomb:
+      return true;
+    case friction::FrictionModel::presliding:
+    case friction::FrictionModel::spring:
+    case friction::FrictionModel::none:
+      break;
+  }
+  return false;
+}
+
+// A pure delay of the closed loop does not count: the motor torque is the commanded one of an earlier sample.
+bool has_uneven_drive(const StudyPlan& plan) {
+  if (any_holds(plan,
+                {"dac.offset", "dac.gain_error", "dac.nonlinearity", "dac.noise", "amplifier.bandwidth"},
+                can_be_nonzero))
+    return true;
+  const auto is_exact = [](const ValueLimits& through) {
+    return through.high == static_cast<double>(trial::TorquePath::exact);
+  };
+  return plan.open_loop && (holds_somewhere(plan, "command.torque.through", is_exact) ||
+                            holds_somewhere(plan, "controller.delay", can_be_positive));
+}
 
 bool is_spread(Design design) {
   switch (design) {
@@ -12,24 +69,29 @@ bool is_spread(Design design) {
       return true;
     case Design::monte_carlo:
     case Design::saltelli:
-      return false;
+      break;
   }
-  throw std::logic_error("a design that is none");
+  return false;
 }
 
 }  // namespace
 
-StudyFeatures study_features(const Study& study) {
+StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
+  const bool closed_loop = !plan.open_loop;
   StudyFeatures features;
-  features.axis = study.units.axis;
-  features.open_loop = study.open_loop;
-  features.travel = study.trace_extras.reference;
-  features.phases = study.trace_extras.phase;
-  features.encoder_errors = study.loop_extras.encoder_errors;
-  features.final_error = features.travel || features.phases || study.loop_extras.lasting_errors;
-  features.stopping = study.outcome_extras.stopped;
+  features.axis = plan.units.axis;
+  features.open_loop = plan.open_loop;
+  features.travel = closed_loop && holds_somewhere(plan, "command.profile.shape", is_no_step);
+  features.phases =
+      closed_loop && holds_somewhere(plan, "controller.coarse.coarse_beyond", can_have_coarse_phase);
+  features.drive_torque = has_uneven_drive(plan);
+  features.encoder_errors = has_encoder_errors(plan);
+  features.final_error = features.travel || features.phases ||
+                         holds_somewhere(plan, "controller.ki", has_zero) ||
+                         holds_somewhere(plan, "friction.model", causes_hunting);
+  features.stopping = closed_loop && holds_somewhere(plan, "verdict.stop", can_be_positive);
   features.dependent_trials = study.design == Design::saltelli;
-  features.rigs = study.rigs > 0 && !study.open_loop;
+  features.rigs = study.rigs > 0 && closed_loop;
   features.spread_trials = is_spread(study.design);
   return features;
 }

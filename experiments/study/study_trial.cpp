@@ -8,7 +8,6 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study.hpp"
-#include "experiments/study/trial_completion.hpp"
 
 namespace zerocount::study {
 namespace {

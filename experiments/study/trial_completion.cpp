@@ -1,6 +1,5 @@
-#include "experiments/study/trial_completion.hpp"
-
 #include "core/theory/gains.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -13,18 +13,21 @@ struct Place {
   int column{0};  ///< from 1, in bytes
 };
 
+struct Field;  // see scalars.hpp
+
 /// Collects the errors of a manifest, to report all of them together.
 class Problems {
  public:
   /// `path` is the dotted path of the key; `what` and `expected` are phrases without a full stop.
   void add(const Place& place, std::string_view path, std::string_view what, std::string_view expected);
+  /// At the place of the field's value.
+  void add(const Field& field, std::string_view what, std::string_view expected);
 
   bool empty() const { return entries_.empty(); }
   std::size_t size() const { return entries_.size(); }
 
   /// @throws Failure (bad_input) with one line `file:line:column: path: what; expected` per problem, in the
-  /// order of
-  ///         the file, if there is any.
+  /// order of the file, if there is any.
   void raise_if_any() const;
 
  private:

@@ -99,10 +99,9 @@ std::optional<Whole> read_whole_of(const Field& field, Whole low, Whole high, Pr
   if (error == std::errc::invalid_argument && !(is_plain_scalar(node) && reads_as_number(node.text))) {
     add_wrong_type(field, expected, problems);
   } else if (error == std::errc::invalid_argument && !matches(node.text.substr(0, 100), "-?[0-9]+")) {
-    problems.add(node.place, field.path,
-                 fmt::format("{} is not written as a whole number", in_quotes(node.text)), expected);
+    problems.add(field, fmt::format("{} is not written as a whole number", in_quotes(node.text)), expected);
   } else {
-    problems.add(node.place, field.path, fmt::format("{} is out of range", in_quotes(node.text)), expected);
+    problems.add(field, fmt::format("{} is out of range", in_quotes(node.text)), expected);
   }
   return std::nullopt;
 }
@@ -113,7 +112,7 @@ bool check_kind(const Field& field, YamlNode::Kind kind, const std::string& expe
   const std::string what = node.kind == YamlNode::Kind::scalar
                                ? fmt::format("the single value {} stands here", in_quotes(node.text))
                                : describe(node);
-  problems.add(node.place, field.path, what, expected);
+  problems.add(field, what, expected);
   return false;
 }
 
@@ -127,8 +126,18 @@ Field item_of(const Field& list, std::size_t index) {
   return {list.node->items[index].get(), fmt::format("{}.{}", list.path, index)};
 }
 
+std::optional<Field> find_field(const Field& map, std::string_view key) {
+  const YamlEntry* entry = find_entry(*map.node, key);
+  if (entry == nullptr) return std::nullopt;
+  return entry_of(map, *entry);
+}
+
+void Problems::add(const Field& field, std::string_view what, std::string_view expected) {
+  add(field.node->place, field.path, what, expected);
+}
+
 void add_wrong_type(const Field& field, const std::string& expected, Problems& problems) {
-  problems.add(field.node->place, field.path, describe(*field.node), expected);
+  problems.add(field, describe(*field.node), expected);
 }
 
 std::optional<double> read_real(const Field& field, const numerics::Interval& range, Problems& problems) {
@@ -141,10 +150,10 @@ std::optional<double> read_real(const Field& field, const numerics::Interval& ra
   if (error == std::errc::invalid_argument) {
     add_wrong_type(field, expected, problems);
   } else if (error != std::errc{}) {
-    problems.add(node.place, field.path,
-                 fmt::format("{} is too large or too small for a double", in_quotes(node.text)), expected);
+    problems.add(field, fmt::format("{} is too large or too small for a double", in_quotes(node.text)),
+                 expected);
   } else if (!numerics::contains(range, number)) {
-    problems.add(node.place, field.path, fmt::format("{} is out of range", in_quotes(node.text)), expected);
+    problems.add(field, fmt::format("{} is out of range", in_quotes(node.text)), expected);
   } else {
     return number;
   }
@@ -163,16 +172,12 @@ std::optional<std::uint64_t> read_seed(const Field& field, Problems& problems) {
 std::optional<bool> read_truth(const Field& field, Problems& problems) {
   const YamlNode& node = *field.node;
   if (is_plain_scalar(node) && (node.text == "true" || node.text == "false")) return node.text == "true";
-  if (is_plain_scalar(node) && !is_yaml11_truth(node.text)) {
-    problems.add(node.place, field.path, fmt::format("{} is not a truth value", in_quotes(node.text)),
-                 "true or false");
-  } else {
-    const std::string what =
-        is_plain_scalar(node)
-            ? fmt::format("{} is a truth value only in some versions of YAML", in_quotes(node.text))
-            : describe(node);
-    problems.add(node.place, field.path, what, "true or false");
-  }
+  const std::string what =
+      !is_plain_scalar(node) ? describe(node)
+      : is_yaml11_truth(node.text)
+          ? fmt::format("{} is a truth value only in some versions of YAML", in_quotes(node.text))
+          : fmt::format("{} is not a truth value", in_quotes(node.text));
+  problems.add(field, what, "true or false");
   return std::nullopt;
 }
 
@@ -183,7 +188,7 @@ std::optional<std::size_t> read_label(const Field& field, std::span<const std::s
   if (node.kind == YamlNode::Kind::scalar && label != labels.end()) {
     return static_cast<std::size_t>(label - labels.begin());
   }
-  problems.add(node.place, field.path, fmt::format("{} is none of its words", in_quotes(flow_text(node))),
+  problems.add(field, fmt::format("{} is none of its words", in_quotes(flow_text(node))),
                fmt::format("one of {}", fmt::join(labels, ", ")));
   return std::nullopt;
 }
@@ -195,8 +200,7 @@ std::optional<std::string> read_text(const Field& field, Problems& problems) {
     return std::nullopt;
   }
   if (node.plain && (reads_as_number(node.text) || is_yaml11_truth(node.text) || is_nonfinite(node.text))) {
-    problems.add(node.place, field.path,
-                 fmt::format("{} reads as a number or a truth value", in_quotes(node.text)),
+    problems.add(field, fmt::format("{} reads as a number or a truth value", in_quotes(node.text)),
                  "a text, in quotation marks where it could be taken for something else");
     return std::nullopt;
   }

@@ -19,10 +19,12 @@ struct Field {
 
 Field entry_of(const Field& map, const YamlEntry& entry);
 Field item_of(const Field& list, std::size_t index);
+/// The value of `key`; nothing if `map` is not a map or does not have the key.
+std::optional<Field> find_field(const Field& map, std::string_view key);
 
-// Each function returns the value, or reports an error to `problems` and returns nothing. Nothing is //
+// Each function returns the value, or reports an error to `problems` and returns nothing. Nothing is
 // converted: a quoted number is a text, and forms with a special meaning in YAML 1.1 (`010`, `1_000`, `1:30`,
-// // `no`) are refused.
+// `no`) are refused.
 
 /// A finite decimal number inside `range`.
 std::optional<double> read_real(const Field& field, const numerics::Interval& range, Problems& problems);

@@ -43,7 +43,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     YamlNode node;
     node.place = place(mark);
-    finish_leaf(std::move(node), anchor);
+    finish(std::move(node), 1, anchor);
   }
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
@@ -63,7 +63,7 @@ class TreeBuilder : public YAML::EventHandler {
     node.place = place(mark);
     node.text = value;
     node.plain = tag == "?";
-    finish_leaf(std::move(node), anchor);
+    finish(std::move(node), 1, anchor);
   }
 
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -153,15 +153,14 @@ class TreeBuilder : public YAML::EventHandler {
   void close() {
     Open closed = std::move(open_.back());
     open_.pop_back();
-    auto node = std::make_shared<const YamlNode>(std::move(closed.node));
-    if (closed.anchor != YAML::NullAnchor) anchored_[closed.anchor] = {node, closed.size};
-    accept(node, closed.size, node->place);
+    finish(std::move(closed.node), closed.size, closed.anchor);
   }
 
-  void finish_leaf(YamlNode leaf, YAML::anchor_t anchor) {
-    auto node = std::make_shared<const YamlNode>(std::move(leaf));
-    if (anchor != YAML::NullAnchor) anchored_[anchor] = {node, 1};
-    accept(node, 1, node->place);
+  // Adds a finished node, which an alias may repeat.
+  void finish(YamlNode finished, std::size_t size, YAML::anchor_t anchor) {
+    const auto node = std::make_shared<const YamlNode>(std::move(finished));
+    if (anchor != YAML::NullAnchor) anchored_[anchor] = {node, size};
+    accept(node, size, node->place);
   }
 
   void refuse_as_key(const Place& where) const {

@@ -98,7 +98,9 @@ class Object {
  private:
   void write_attribute(const std::string& name, Id file_type, Id memory_type, Id space, const void* data);
   Handle open_attribute(const std::string& name) const;
-  Handle open_single(const std::string& name) const;  ///< an attribute with one value
+  void write_single(const std::string& name, Id file_type, Id memory_type, const void* data);
+  /// Reads an attribute with one value; `kind` completes "the attribute is not a ".
+  void read_single(const std::string& name, Id memory_type, void* data, std::string_view kind) const;
 
   std::shared_ptr<Origin> origin_;
   Handle handle_;

@@ -6,28 +6,6 @@
 #include "results/hdf5/hdf5_detail.hpp"
 
 namespace zerocount::hdf5 {
-namespace {
-
-Id memory_type(Element element) {
-  switch (element) {
-    case Element::float64:
-      return H5T_NATIVE_DOUBLE;
-    case Element::int64:
-      return H5T_NATIVE_INT64;
-    case Element::int32:
-      return H5T_NATIVE_INT32;
-    case Element::int8:
-      return H5T_NATIVE_INT8;
-    case Element::flag:
-      return H5T_NATIVE_UINT8;
-    case Element::text:
-      break;
-  }
-  return H5I_INVALID_HID;
-}
-
-}  // namespace
-
 Dataset::Dataset(Handle handle, std::shared_ptr<Origin> origin, std::string path)
     : Object(std::move(handle), std::move(origin), std::move(path)), element_(stored_element()) {}
 
@@ -36,7 +14,7 @@ Element Dataset::stored_element() const {
   if (H5Tis_variable_str(type.get()) > 0) return Element::text;
   for (const Element element :
        {Element::float64, Element::int64, Element::int32, Element::int8, Element::flag}) {
-    if (H5Tequal(type.get(), file_type(element)) > 0) return element;
+    if (H5Tequal(type.get(), types_of(element).file) > 0) return element;
   }
   fail("its elements have an unexpected type");
 }
@@ -71,18 +49,18 @@ Dataset::Selection Dataset::select(std::int64_t first, std::int64_t rows) const 
 
 void Dataset::write(std::int64_t first, std::int64_t rows, const void* data) {
   const Selection selection = select(first, rows);
-  require(
-      H5Dwrite(id(), memory_type(element_), selection.memory.get(), selection.file.get(), H5P_DEFAULT, data),
-      "its values");
+  require(H5Dwrite(id(), types_of(element_).memory, selection.memory.get(), selection.file.get(), H5P_DEFAULT,
+                   data),
+          "its values");
   const std::size_t size = static_cast<std::size_t>(rows) * row_size(element_, extent());
   written().rows.push_back({first, rows, digest_of(data, size)});
 }
 
 void Dataset::read(std::int64_t first, std::int64_t rows, void* data) const {
   const Selection selection = select(first, rows);
-  require(
-      H5Dread(id(), memory_type(element_), selection.memory.get(), selection.file.get(), H5P_DEFAULT, data),
-      "its values cannot be read or their checksum is wrong");
+  require(H5Dread(id(), types_of(element_).memory, selection.memory.get(), selection.file.get(), H5P_DEFAULT,
+                  data),
+          "its values cannot be read or their checksum is wrong");
 }
 
 void Dataset::write_texts(std::span<const std::string> texts) {

@@ -43,7 +43,12 @@ struct Origin {
 Handle made(Id id, Handle::Close close);
 void demand(herr_t status);
 
-Id file_type(Element element);  ///< for numbers; for texts see text_type()
+/// Types of the library for numbers; for texts see text_type().
+struct NumberTypes {
+  Id file;
+  Id memory;
+};
+NumberTypes types_of(Element element);
 Handle text_type();
 
 /// Properties of a new file, group or dataset: creation order tracked, no times.

@@ -75,7 +75,7 @@ Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
     }
   }
   const Handle text = text_type();
-  const Id type = storage.element == Element::text ? text.get() : file_type(storage.element);
+  const Id type = storage.element == Element::text ? text.get() : types_of(storage.element).file;
   Dataset dataset(
       own(H5Dcreate2(id(), name.c_str(), type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
           H5Dclose, problem),

@@ -53,22 +53,22 @@ void demand(herr_t status) {
   made(status, nullptr);
 }
 
-Id file_type(Element element) {
+NumberTypes types_of(Element element) {
   switch (element) {
     case Element::float64:
-      return H5T_IEEE_F64LE;
+      return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE};
     case Element::int64:
-      return H5T_STD_I64LE;
+      return {H5T_STD_I64LE, H5T_NATIVE_INT64};
     case Element::int32:
-      return H5T_STD_I32LE;
+      return {H5T_STD_I32LE, H5T_NATIVE_INT32};
     case Element::int8:
-      return H5T_STD_I8LE;
+      return {H5T_STD_I8LE, H5T_NATIVE_INT8};
     case Element::flag:
-      return H5T_STD_U8LE;
+      return {H5T_STD_U8LE, H5T_NATIVE_UINT8};
     case Element::text:
       break;
   }
-  return H5I_INVALID_HID;
+  return {H5I_INVALID_HID, H5I_INVALID_HID};
 }
 
 Handle text_type() {
@@ -169,30 +169,32 @@ void Object::write_attribute(const std::string& name, Id type, Id from, Id space
   if (!attribute.close()) fail(problem);
 }
 
+void Object::write_single(const std::string& name, Id file_type, Id memory_type, const void* data) {
+  const Handle space = made(H5Screate(H5S_SCALAR), H5Sclose);
+  write_attribute(name, file_type, memory_type, space.get(), data);
+}
+
 void Object::set_text(const std::string& name, const std::string& value) {
   const Handle type = text_type();
-  const Handle space = made(H5Screate(H5S_SCALAR), H5Sclose);
   const char* data = value.c_str();
-  write_attribute(name, type.get(), type.get(), space.get(), &data);
+  write_single(name, type.get(), type.get(), &data);
   written().attributes[name] = value;
 }
 
 void Object::set_integer(const std::string& name, std::int64_t value) {
-  const Handle space = made(H5Screate(H5S_SCALAR), H5Sclose);
-  write_attribute(name, H5T_STD_I64LE, H5T_NATIVE_INT64, space.get(), &value);
+  write_single(name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
   written().attributes[name] = std::vector<std::int64_t>{value};
 }
 
 void Object::set_unsigned(const std::string& name, std::uint64_t value) {
-  const Handle space = made(H5Screate(H5S_SCALAR), H5Sclose);
-  write_attribute(name, H5T_STD_U64LE, H5T_NATIVE_UINT64, space.get(), &value);
+  write_single(name, H5T_STD_U64LE, H5T_NATIVE_UINT64, &value);
   written().attributes[name] = value;
 }
 
 void Object::set_integers(const std::string& name, Element element, std::span<const std::int64_t> values) {
   const Size size = values.size();
   const Handle space = made(H5Screate_simple(1, &size, nullptr), H5Sclose);
-  write_attribute(name, file_type(element), H5T_NATIVE_INT64, space.get(), values.data());
+  write_attribute(name, types_of(element).file, H5T_NATIVE_INT64, space.get(), values.data());
   written().attributes[name] = std::vector<std::int64_t>(values.begin(), values.end());
 }
 
@@ -201,18 +203,17 @@ Handle Object::open_attribute(const std::string& name) const {
              fmt::format("the attribute '{}' is missing", name));
 }
 
-Handle Object::open_single(const std::string& name) const {
-  Handle attribute = open_attribute(name);
+void Object::read_single(const std::string& name, Id memory_type, void* data, std::string_view kind) const {
+  const Handle attribute = open_attribute(name);
   if (attribute_size(attribute) != 1) fail(fmt::format("the attribute '{}' is not a single value", name));
-  return attribute;
+  require(H5Aread(attribute.get(), memory_type, data),
+          fmt::format("the attribute '{}' is not a {}", name, kind));
 }
 
 std::string Object::text(const std::string& name) const {
-  const Handle attribute = open_single(name);
-  const std::string problem = fmt::format("the attribute '{}' is not a readable text", name);
   const Handle type = text_type();
   char* data = nullptr;
-  require(H5Aread(attribute.get(), type.get(), &data), problem);
+  read_single(name, type.get(), &data, "readable text");
   std::string value = data == nullptr ? "" : data;
   H5free_memory(data);
   return value;
@@ -227,18 +228,14 @@ std::vector<std::int64_t> Object::integers(const std::string& name) const {
 }
 
 std::int64_t Object::integer(const std::string& name) const {
-  const Handle attribute = open_single(name);
   std::int64_t value = 0;
-  require(H5Aread(attribute.get(), H5T_NATIVE_INT64, &value),
-          fmt::format("the attribute '{}' is not a number", name));
+  read_single(name, H5T_NATIVE_INT64, &value, "number");
   return value;
 }
 
 std::uint64_t Object::unsigned_integer(const std::string& name) const {
-  const Handle attribute = open_single(name);
   std::uint64_t value = 0;
-  require(H5Aread(attribute.get(), H5T_NATIVE_UINT64, &value),
-          fmt::format("the attribute '{}' is not a number", name));
+  read_single(name, H5T_NATIVE_UINT64, &value, "number");
   return value;
 }
 

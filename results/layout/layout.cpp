@@ -42,11 +42,11 @@ std::string word_of(const Column& column, std::int64_t value) {
 }
 
 std::vector<RecordField<trial::MoveOutcome>> outcome_fields(std::int64_t version,
-                                                            const study::OutcomeExtras& extras,
+                                                            const study::StudyFeatures& features,
                                                             const MeasureTable& measures) {
   std::vector<RecordField<trial::MoveOutcome>> fields;
   for (const Measure& measure : measures) {
-    if (is_in_file(measure, version, extras)) fields.push_back(measure.field);
+    if (is_in_file(measure, version, features)) fields.push_back(measure.field);
   }
   return fields;
 }
@@ -64,7 +64,7 @@ const std::vector<RecordField<JerkRecord>>& jerk_fields() {
   return fields;
 }
 
-std::vector<RecordField<TraceRecord>> trace_fields(const study::TraceExtras& extras) {
+std::vector<RecordField<TraceRecord>> trace_fields(const study::StudyFeatures& features) {
   using T = TraceRecord;
   std::vector<RecordField<T>> fields{
       field<T>("trial", "1", "global row of the trial", &T::trial),
@@ -82,13 +82,13 @@ std::vector<RecordField<TraceRecord>> trace_fields(const study::TraceExtras& ext
       field<T>("xh", "rad", "hardening", &T::xh),
       field<T>("depth", "1", "reversal points on the stack", &T::depth),
       field<T>("mode", "1", "whether the hook sticks or slides", &T::mode, {}, mode_words())};
-  if (extras.reference)
+  if (features.travel)
     fields.push_back(field<T>("reference", "count", "position that the control follows", &T::reference));
-  if (extras.phase) {
+  if (features.phases) {
     fields.push_back(
         field<T>("phase", "1", "phase of the control at this instant", &T::phase, {}, phase_words()));
   }
-  if (extras.drive_torque) {
+  if (features.drive_torque) {
     fields.push_back(
         field<T>("drive_torque", "N m", "torque of the motor at this instant", &T::drive_torque));
   }

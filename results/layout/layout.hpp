@@ -43,8 +43,8 @@ struct Column {
   std::string unit;       ///< "1" where dimensionless
   std::string long_name;  ///< one line
   hdf5::Element element{hdf5::Element::float64};
-  std::vector<FlagMeaning> flags;  ///< of an enumeration, otherwise empty
-  std::string role;                ///< in /point only: "axis" or "statistic"
+  std::vector<FlagMeaning> flags{};  ///< of an enumeration, otherwise empty
+  std::string role{};                ///< in /point only: "axis" or "statistic"
 };
 
 /// The word of `value` in an enumeration; the number itself where it has none.
@@ -95,13 +95,13 @@ struct TraceRecord : trial::SampleRecord {
   std::int64_t trial{0};  ///< global row
 };
 
-/// The columns of the measures of a move that a file of `version` with these extras has.
+/// The columns of the measures of a move that a file of `version` with these features has.
 std::vector<RecordField<trial::MoveOutcome>> outcome_fields(std::int64_t version = format_version,
-                                                            const study::OutcomeExtras& extras = {},
+                                                            const study::StudyFeatures& features = {},
                                                             const MeasureTable& measures = measure_table());
 const std::vector<RecordField<JerkRecord>>& jerk_fields();
-/// The columns of a sample record; those of `extras` come last.
-std::vector<RecordField<TraceRecord>> trace_fields(const study::TraceExtras& extras);
+/// The columns of a sample record; those of `features` come last.
+std::vector<RecordField<TraceRecord>> trace_fields(const study::StudyFeatures& features);
 
 /// One number per design point, made when a study is complete.
 struct PointColumn {
@@ -149,10 +149,10 @@ std::int64_t profile_angles_of_rig(std::size_t harmonics, std::int64_t rigs);
 
 Table point_table(const std::vector<study::SweepAxis>& axes, const std::vector<PointColumn>& statistics);
 Table trial_table(const std::vector<study::InputColumn>& inputs);
-Table outcome_table(std::int64_t version = format_version, const study::OutcomeExtras& extras = {},
+Table outcome_table(std::int64_t version = format_version, const study::StudyFeatures& features = {},
                     const MeasureTable& measures = measure_table());
 Table jerk_table();
-Table trace_table(const study::TraceExtras& extras);
+Table trace_table(const study::StudyFeatures& features);
 Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn>& columns);
 Table profile_table(const std::string& name, const std::string& unit);
 /// The rotors of all rigs: [rig, theta].

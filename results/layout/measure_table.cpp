@@ -263,7 +263,7 @@ MeasureTable all_measures() {
       {.field = field<M>("stopped", "1",
                          "the move had diverged and was ended there, or was not run after one that was",
                          &M::stopped),
-       .file = {.only_with = &study::OutcomeExtras::stopped},
+       .file = {.only_with = &study::StudyFeatures::stopping},
        .of_trial = OfTrial::any,
        .point = {"", {{{count}, "trials that were ended early, because a move had diverged"}}},
        .summary = {&study::StudyFeatures::stopping,
@@ -300,9 +300,9 @@ const MeasureTable& measure_table() {
   return measures;
 }
 
-bool is_in_file(const Measure& measure, std::int64_t version, const study::OutcomeExtras& extras) {
+bool is_in_file(const Measure& measure, std::int64_t version, const study::StudyFeatures& features) {
   return measure.file.since <= version &&
-         (measure.file.only_with == nullptr || extras.*measure.file.only_with);
+         (measure.file.only_with == nullptr || features.*measure.file.only_with);
 }
 
 bool is_quality(const Measure& measure) {

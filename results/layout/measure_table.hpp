@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/trial/outcome.hpp"
-#include "experiments/study/study_features.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 
 /// The table of the measures of a move. A measure is one row: its column in the results file with the valid
@@ -20,7 +20,7 @@ namespace zerocount::layout {
 struct FileHistory {
   std::int64_t since{1};  ///< first version of the layout that has it
   double before{0.0};     ///< value in files of earlier versions; NaN where it is not known
-  bool study::OutcomeExtras::*only_with{nullptr};  ///< the extra without which no file has it
+  bool study::StudyFeatures::*only_with{nullptr};  ///< the extra without which no file has it
 };
 
 /// Which values of the moves count, in statistics and in outputs of a trial.
@@ -135,8 +135,8 @@ struct Measure {
   std::optional<GatedMeasure> gate{};
 };
 
-/// Whether a file of this version with these extras has the measure.
-bool is_in_file(const Measure& measure, std::int64_t version, const study::OutcomeExtras& extras);
+/// Whether a file of this version with these features has the measure.
+bool is_in_file(const Measure& measure, std::int64_t version, const study::StudyFeatures& features);
 
 /// Whether the moves have, or lack, the measure as a quality.
 bool is_quality(const Measure& measure);

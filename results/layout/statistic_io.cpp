@@ -46,9 +46,7 @@ std::vector<StatisticTable> read_statistic_tables(const hdf5::File& file) {
     const TableIo io = TableIo::open(file, statistic_table(kind, table.columns));
     table.width = io.width();
     for (std::size_t index = 0; index < table.columns.size(); ++index) {
-      std::vector<double>& values = table.columns[index].values;
-      values.resize(static_cast<std::size_t>(io.rows() * io.width()));
-      io.column(index).read(0, io.rows(), values.data());
+      table.columns[index].values = read_column<double>(io, index);
     }
     tables.push_back(std::move(table));
   }

@@ -61,6 +61,14 @@ class TableIo {
   std::vector<hdf5::Dataset> datasets_;
 };
 
+/// All values of a column, [row][second dimension], flattened. `Value` must be the type of its elements.
+template <class Value>
+std::vector<Value> read_column(const TableIo& io, std::size_t index) {
+  std::vector<Value> values(static_cast<std::size_t>(io.rows() * io.width()));
+  io.column(index).read(0, io.rows(), values.data());
+  return values;
+}
+
 /// Writes records to the rows from `first` on; a row of a table of width w takes w records.
 template <class Record>
 void write_records(TableIo& io, const std::vector<RecordField<Record>>& fields, std::int64_t first,

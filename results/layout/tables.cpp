@@ -8,7 +8,7 @@ namespace zerocount::layout {
 namespace {
 
 Column whole_numbers(std::string_view name, std::string_view long_name) {
-  return {std::string(name), "1", std::string(long_name), hdf5::Element::int64, {}, {}};
+  return {std::string(name), "1", std::string(long_name), hdf5::Element::int64};
 }
 
 Column rig_scale() {
@@ -16,19 +16,18 @@ Column rig_scale() {
 }
 
 Column theta_scale() {
-  return {"theta", "rad", "rotor angle from the origin of the profile", hdf5::Element::float64, {}, {}};
+  return {"theta", "rad", "rotor angle from the origin of the profile", hdf5::Element::float64};
 }
 
 Column value_of_profile(const std::string& name, const std::string& unit) {
-  return {"value", unit, "realised value of " + name, hdf5::Element::float64, {}, {}};
+  return {"value", unit, "realised value of " + name, hdf5::Element::float64};
 }
 
 std::vector<Column> input_columns(const std::vector<study::InputColumn>& inputs) {
   std::vector<Column> columns;
   columns.reserve(inputs.size());
   for (const study::InputColumn& input : inputs) {
-    columns.push_back(
-        {input_column_name(input.name), input.unit, input.meaning, hdf5::Element::float64, {}, {}});
+    columns.push_back({input_column_name(input.name), input.unit, input.meaning, hdf5::Element::float64});
   }
   return columns;
 }
@@ -49,7 +48,7 @@ std::vector<Column> columns_of(const std::vector<RecordField<Record>>& fields) {
 
 Table point_table(const std::vector<study::SweepAxis>& axes, const std::vector<PointColumn>& statistics) {
   Table table{"point", whole_numbers("point", "index of the design point"), {}, {}};
-  table.columns.push_back({"label", "1", "name of the design point", hdf5::Element::text, {}, {}});
+  table.columns.push_back({"label", "1", "name of the design point", hdf5::Element::text});
   for (const study::SweepAxis& axis : axes) {
     const bool text = axis.kind == study::SweepAxis::Kind::text;
     table.columns.push_back({axis.name,
@@ -77,9 +76,11 @@ Table trial_table(const std::vector<study::InputColumn>& inputs) {
   return table;
 }
 
-Table outcome_table(std::int64_t version, const study::OutcomeExtras& extras, const MeasureTable& measures) {
+Table outcome_table(std::int64_t version, const study::StudyFeatures& features,
+                    const MeasureTable& measures) {
   return {"outcome", whole_numbers("trial", "global row of the trial"),
-          whole_numbers("move", "index of the move"), columns_of(outcome_fields(version, extras, measures))};
+          whole_numbers("move", "index of the move"),
+          columns_of(outcome_fields(version, features, measures))};
 }
 
 Table jerk_table() {
@@ -89,11 +90,11 @@ Table jerk_table() {
           columns_of(jerk_fields())};
 }
 
-Table trace_table(const study::TraceExtras& extras) {
+Table trace_table(const study::StudyFeatures& features) {
   return {"trace",
           whole_numbers("record", "index of the record, by trial and sample"),
           {},
-          columns_of(trace_fields(extras))};
+          columns_of(trace_fields(features))};
 }
 
 std::span<const StatisticGroup> statistic_groups() {

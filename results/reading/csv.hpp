@@ -40,6 +40,8 @@ class CsvFile {
   void add(double value);
   void add(std::int64_t value);
   void add(std::string_view text);  ///< quoted where it must be
+  template <class... Values>
+  requires(sizeof...(Values) > 1) void add(const Values&... values) { (add(values), ...); }
   void end_row();
   void finish() { file_.finish(); }    ///< see OutputFile; nothing can be added after it
   void publish() { file_.publish(); }  ///< gives the finished file its name

@@ -38,19 +38,31 @@ void add_values(CsvFile& csv, const std::vector<layout::RecordField<Record>>& fi
   for (const layout::RecordField<Record>& field : fields) csv.add(value_text(field, record));
 }
 
+/// Writes a table of records without other columns; read(first, count) returns some of its `rows` records.
+template <class Record, class Read>
+void export_records(const std::vector<layout::RecordField<Record>>& fields, std::int64_t rows,
+                    const Read& read, parameters::AxisKind axis, CsvFile& csv) {
+  add_names(csv, fields, axis);
+  csv.end_row();
+  for_each_block(0, rows, layout::chunk_elements, [&](std::int64_t first, std::int64_t count) {
+    for (const Record& record : read(first, count)) {
+      add_values(csv, fields, record);
+      csv.end_row();
+    }
+  });
+}
+
 void export_points(const StudyFile& file, CsvFile& csv) {
   const std::vector<std::string> labels = file.point_labels();
   const std::vector<study::SweepAxis> axes = file.axes();
   const std::vector<layout::PointColumn> statistics = file.statistics();
-  csv.add("point");
-  csv.add("label");
+  csv.add("point", "label");
   for (const study::SweepAxis& axis : axes) csv.add(head_with_unit(axis.name, axis.unit));
   for (const layout::PointColumn& statistic : statistics)
     csv.add(head_with_unit(statistic.name, statistic.unit));
   csv.end_row();
   for (std::size_t point = 0; point < labels.size(); ++point) {
-    csv.add(static_cast<std::int64_t>(point));
-    csv.add(labels[point]);
+    csv.add(static_cast<std::int64_t>(point), labels[point]);
     for (const study::SweepAxis& axis : axes) {
       if (axis.kind == study::SweepAxis::Kind::text) {
         csv.add(axis.texts.at(point));
@@ -64,7 +76,7 @@ void export_points(const StudyFile& file, CsvFile& csv) {
 }
 
 void export_trials(const StudyFile& file, CsvFile& csv) {
-  for (const char* name : {"trial", "point", "index"}) csv.add(name);
+  csv.add("trial", "point", "index");
   for (const study::InputColumn& input : file.input_columns())
     csv.add(head_with_unit(input.name, input.unit));
   csv.end_row();
@@ -75,9 +87,7 @@ void export_trials(const StudyFile& file, CsvFile& csv) {
                      inputs.push_back(file.input(column, {first, count}));
                    }
                    for (std::int64_t row = first; row < first + count; ++row) {
-                     csv.add(row);
-                     csv.add(row / file.header().trials);
-                     csv.add(row % file.header().trials);
+                     csv.add(row, row / file.header().trials, row % file.header().trials);
                      for (const std::vector<double>& values : inputs)
                        csv.add(values[static_cast<std::size_t>(row - first)]);
                      csv.end_row();
@@ -86,8 +96,7 @@ void export_trials(const StudyFile& file, CsvFile& csv) {
 }
 
 void export_outcomes(const StudyFile& file, CsvFile& csv) {
-  csv.add("trial");
-  csv.add("move");
+  csv.add("trial", "move");
   add_names(csv, file.measures(), file.axis());
   csv.end_row();
   const std::int64_t moves = file.moves();
@@ -95,8 +104,7 @@ void export_outcomes(const StudyFile& file, CsvFile& csv) {
                  [&](std::int64_t first, std::int64_t count) {
                    std::int64_t position = 0;
                    for (const trial::MoveOutcome& outcome : file.outcomes({first, count})) {
-                     csv.add(first + position / moves);
-                     csv.add(position % moves);
+                     csv.add(first + position / moves, position % moves);
                      add_values(csv, file.measures(), outcome);
                      csv.end_row();
                      ++position;
@@ -105,14 +113,8 @@ void export_outcomes(const StudyFile& file, CsvFile& csv) {
 }
 
 void export_jerks(const StudyFile& file, CsvFile& csv) {
-  add_names(csv, layout::jerk_fields(), file.axis());
-  csv.end_row();
-  for_each_block(0, file.jerk_count(), layout::chunk_elements, [&](std::int64_t first, std::int64_t count) {
-    for (const layout::JerkRecord& jerk : file.jerks_at(first, count)) {
-      add_values(csv, layout::jerk_fields(), jerk);
-      csv.end_row();
-    }
-  });
+  const auto read = [&](std::int64_t first, std::int64_t count) { return file.jerks_at(first, count); };
+  export_records(layout::jerk_fields(), file.jerk_count(), read, file.axis(), csv);
 }
 
 void export_profiles(const StudyFile& file, CsvFile& csv) {
@@ -121,9 +123,7 @@ void export_profiles(const StudyFile& file, CsvFile& csv) {
       std::any_of(profiles.begin(), profiles.end(), [](const StoredProfile& p) { return p.rigs > 0; });
   csv.add("profile");
   if (of_rigs) csv.add("rig");
-  csv.add(head_with_unit("theta", parameters::unit_on(file.axis(), "rad")));
-  csv.add("value");
-  csv.add("unit of value");
+  csv.add(head_with_unit("theta", parameters::unit_on(file.axis(), "rad")), "value", "unit of value");
   csv.end_row();
   for (const StoredProfile& profile : profiles) {
     const std::size_t angles = profile.theta.size();
@@ -134,9 +134,7 @@ void export_profiles(const StudyFile& file, CsvFile& csv) {
       } else if (of_rigs) {
         csv.add("");
       }
-      csv.add(profile.theta[i % angles]);
-      csv.add(profile.value[i]);
-      csv.add(profile.unit);
+      csv.add(profile.theta[i % angles], profile.value[i], profile.unit);
       csv.end_row();
     }
   }
@@ -154,40 +152,28 @@ void export_rigs(const StoredRigs& rigs, CsvFile& csv) {
 }
 
 void export_rig_counts(const StoredRigs& rigs, CsvFile& csv) {
-  for (const char* head : {"point", "rig", "success", "trials"}) csv.add(head);
+  csv.add("point", "rig", "success", "trials");
   csv.end_row();
   for (std::size_t i = 0; i < rigs.success.size(); ++i) {
-    csv.add(static_cast<std::int64_t>(i) / rigs.rigs);
-    csv.add(static_cast<std::int64_t>(i) % rigs.rigs);
-    csv.add(rigs.success[i]);
-    csv.add(rigs.trials[i]);
+    csv.add(static_cast<std::int64_t>(i) / rigs.rigs, static_cast<std::int64_t>(i) % rigs.rigs,
+            rigs.success[i], rigs.trials[i]);
     csv.end_row();
   }
 }
 
 void export_trace(const StudyFile& file, CsvFile& csv) {
-  const std::vector<layout::RecordField<layout::TraceRecord>> fields =
-      layout::trace_fields(file.trace_extras());
-  add_names(csv, fields, file.axis());
-  csv.end_row();
-  for_each_block(0, file.trace_count(), layout::chunk_elements, [&](std::int64_t first, std::int64_t count) {
-    for (const layout::TraceRecord& record : file.trace_at(first, count)) {
-      add_values(csv, fields, record);
-      csv.end_row();
-    }
-  });
+  const auto read = [&](std::int64_t first, std::int64_t count) { return file.trace_at(first, count); };
+  export_records(layout::trace_fields(file.features()), file.trace_count(), read, file.axis(), csv);
 }
 
 /// One row per design point and index of the second dimension.
 void export_statistics(const layout::StatisticTable& table, CsvFile& csv) {
-  csv.add("point");
-  csv.add(table.group->dimension);
+  csv.add("point", table.group->dimension);
   for (const layout::PointColumn& column : table.columns) csv.add(head_with_unit(column.name, column.unit));
   csv.end_row();
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();
   for (std::size_t row = 0; row < rows; ++row) {
-    csv.add(static_cast<std::int64_t>(row) / table.width);
-    csv.add(static_cast<std::int64_t>(row) % table.width);
+    csv.add(static_cast<std::int64_t>(row) / table.width, static_cast<std::int64_t>(row) % table.width);
     for (const layout::PointColumn& column : table.columns) csv.add(column.values[row]);
     csv.end_row();
   }

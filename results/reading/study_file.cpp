@@ -42,32 +42,28 @@ std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table) {
   return inputs;
 }
 
-/// By the unit of a position.
-parameters::AxisKind read_axis(const hdf5::File& file) {
-  const std::string unit = file.open_group("outcome").open_dataset("final_position").text("units");
-  return unit == parameters::unit_on(parameters::AxisKind::linear, "rad") ? parameters::AxisKind::linear
-                                                                          : parameters::AxisKind::rotary;
-}
-
-study::OutcomeExtras read_outcome_extras(const hdf5::File& file, const layout::MeasureTable& table) {
-  const hdf5::Group group = file.open_group("outcome");
-  study::OutcomeExtras extras;
+/// The axis by the unit of a position, and the features by their columns.
+study::StudyFeatures read_features(const hdf5::File& file, const layout::MeasureTable& table) {
+  const hdf5::Group outcome = file.open_group("outcome");
+  study::StudyFeatures features;
+  if (outcome.open_dataset("final_position").text("units") ==
+      parameters::unit_on(parameters::AxisKind::linear, "rad"))
+    features.axis = parameters::AxisKind::linear;
   for (const layout::Measure& measure : table) {
     if (measure.file.only_with != nullptr)
-      extras.*measure.file.only_with = group.contains(measure.field.column.name);
+      features.*measure.file.only_with = outcome.contains(measure.field.column.name);
   }
-  return extras;
-}
-
-study::TraceExtras read_trace_extras(const hdf5::File& file) {
-  if (!file.contains("trace")) return {};
+  if (!file.contains("trace")) return features;
   const hdf5::Group trace = file.open_group("trace");
-  return {trace.contains("reference"), trace.contains("phase"), trace.contains("drive_torque")};
+  features.travel = trace.contains("reference");
+  features.phases = trace.contains("phase");
+  features.drive_torque = trace.contains("drive_torque");
+  return features;
 }
 
-std::optional<layout::TableIo> open_trace(const hdf5::File& file, const study::TraceExtras& extras) {
+std::optional<layout::TableIo> open_trace(const hdf5::File& file, const study::StudyFeatures& features) {
   if (!file.contains("trace")) return std::nullopt;
-  return layout::TableIo::open(file, layout::trace_table(extras));
+  return layout::TableIo::open(file, layout::trace_table(features));
 }
 
 std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
@@ -78,6 +74,20 @@ std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
   return values;
 }
 
+/// The columns of /point with this role, and their names; none in a shard.
+std::vector<std::pair<std::string, hdf5::Dataset>> point_columns(const hdf5::File& file,
+                                                                 std::string_view role) {
+  std::vector<std::pair<std::string, hdf5::Dataset>> columns;
+  if (!file.contains("point")) return columns;
+  const hdf5::Group group = file.open_group("point");
+  for (const std::string& name : group.children()) {
+    hdf5::Dataset dataset = group.open_dataset(name);
+    if (dataset.has_attribute("role") && dataset.text("role") == role)
+      columns.emplace_back(name, std::move(dataset));
+  }
+  return columns;
+}
+
 }  // namespace
 
 StudyFile::StudyFile(const std::filesystem::path& path, Require require, const layout::MeasureTable& table)
@@ -85,16 +95,14 @@ StudyFile::StudyFile(const std::filesystem::path& path, Require require, const l
       file_(layout::open_results(
           path, require == Require::unfinished ? layout::Checksum::not_yet : layout::Checksum::required)),
       header_(read_required(file_, path, require)),
-      axis_(read_axis(file_)),
+      features_(read_features(file_, table)),
       inputs_(read_input_columns(file_.open_group("trial"))),
       trials_(layout::TableIo::open(file_, layout::trial_table(inputs_))),
       table_(&table),
-      outcome_extras_(read_outcome_extras(file_, table)),
-      measures_(layout::outcome_fields(header_.version, outcome_extras_, table)),
-      outcomes_(layout::TableIo::open(file_, layout::outcome_table(header_.version, outcome_extras_, table))),
+      measures_(layout::outcome_fields(header_.version, features_, table)),
+      outcomes_(layout::TableIo::open(file_, layout::outcome_table(header_.version, features_, table))),
       jerks_(layout::TableIo::open(file_, layout::jerk_table())),
-      trace_extras_(read_trace_extras(file_)),
-      trace_(open_trace(file_, trace_extras_)) {
+      trace_(open_trace(file_, features_)) {
   if (trials_.rows() != rows().count)
     trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
   if (outcomes_.rows() != rows().count)
@@ -118,11 +126,7 @@ std::vector<std::string> StudyFile::point_labels() const {
 
 std::vector<study::SweepAxis> StudyFile::axes() const {
   std::vector<study::SweepAxis> axes;
-  if (!file_.contains("point")) return axes;
-  const hdf5::Group group = file_.open_group("point");
-  for (const std::string& name : group.children()) {
-    const hdf5::Dataset dataset = group.open_dataset(name);
-    if (!dataset.has_attribute("role") || dataset.text("role") != "axis") continue;
+  for (const auto& [name, dataset] : point_columns(file_, "axis")) {
     study::SweepAxis axis{
         name, dataset.text("units"), dataset.text("long_name"), study::SweepAxis::Kind::number, {}, {}};
     if (dataset.element() == hdf5::Element::text) {
@@ -139,13 +143,8 @@ std::vector<study::SweepAxis> StudyFile::axes() const {
 
 std::vector<layout::PointColumn> StudyFile::statistics() const {
   std::vector<layout::PointColumn> statistics;
-  if (!file_.contains("point")) return statistics;
-  const hdf5::Group group = file_.open_group("point");
-  for (const std::string& name : group.children()) {
-    const hdf5::Dataset dataset = group.open_dataset(name);
-    if (!dataset.has_attribute("role") || dataset.text("role") != "statistic") continue;
+  for (const auto& [name, dataset] : point_columns(file_, "statistic"))
     statistics.push_back({name, dataset.text("units"), dataset.text("long_name"), read_doubles(dataset)});
-  }
   return statistics;
 }
 
@@ -238,10 +237,10 @@ void StudyFile::require_sound_values() const {
 std::vector<layout::TraceRecord> StudyFile::trace_at(std::int64_t first, std::int64_t count) const {
   if (!trace_) return {};
   std::vector<layout::TraceRecord> records =
-      layout::read_records(*trace_, layout::trace_fields(trace_extras_), first, count);
+      layout::read_records(*trace_, layout::trace_fields(features_), first, count);
   for (layout::TraceRecord& record : records) {
-    if (!trace_extras_.reference) record.reference = record.target;
-    if (!trace_extras_.drive_torque) record.drive_torque = record.torque;
+    if (!features_.travel) record.reference = record.target;
+    if (!features_.drive_torque) record.drive_torque = record.torque;
   }
   return records;
 }
@@ -262,8 +261,7 @@ std::vector<StoredProfile> StudyFile::profiles() const {
     const layout::TableIo io = layout::TableIo::open(
         file_, of_rigs ? layout::rotor_table(name, unit) : layout::profile_table(name, unit));
     if (of_rigs) profile.rigs = io.rows();
-    profile.value.resize(static_cast<std::size_t>(io.rows() * io.width()));
-    io.column(0).read(0, io.rows(), profile.value.data());
+    profile.value = layout::read_column<double>(io, 0);
     profiles.push_back(std::move(profile));
   }
   return profiles;
@@ -277,15 +275,12 @@ std::optional<StoredRigs> StudyFile::rigs() const {
   const layout::TableIo io = layout::TableIo::open(file_, layout::rig_table(stored.columns));
   stored.rigs = io.rows();
   for (std::size_t column = 0; column < stored.columns.size(); ++column) {
-    std::vector<double>& values = stored.inputs.emplace_back(static_cast<std::size_t>(stored.rigs));
-    io.column(column).read(0, stored.rigs, values.data());
+    stored.inputs.push_back(layout::read_column<double>(io, column));
   }
   if (!group.contains("success")) return stored;
   const layout::TableIo counts = layout::TableIo::open(file_, layout::rig_count_table());
-  stored.success.resize(static_cast<std::size_t>(counts.rows() * counts.width()));
-  stored.trials.resize(stored.success.size());
-  counts.column(0).read(0, counts.rows(), stored.success.data());
-  counts.column(1).read(0, counts.rows(), stored.trials.data());
+  stored.success = layout::read_column<std::int64_t>(counts, 0);
+  stored.trials = layout::read_column<std::int64_t>(counts, 1);
   validate_rigs(header_, counts, stored.success, stored.trials);
   return stored;
 }

@@ -42,12 +42,12 @@ struct StoredRigs {
 };
 
 /// A results file, open to be read. Rows are global rows, here and in the file. Every function may find that
-/// the file is damaged, or holds values that cannot be (see sound_values.hpp), and throws Failure (bad_data)
+/// the file is damaged, or holds values that cannot be (see validation.hpp), and throws Failure (bad_data)
 /// then. One thread at a time.
 class StudyFile {
  public:
   /// Checks checksum trailer, format, version, completion mark, completeness as required, and that the rows
-  /// have the numbers of their places (see sound_values.hpp). Reads the file once from beginning to end.
+  /// have the numbers of their places (see validation.hpp). Reads the file once from beginning to end.
   /// @throws ForeignFile for another format or a newer version; Failure: bad_input where there is no such
   /// file, machine_failed where it cannot be read, otherwise bad_data.
   /// @param table the measures that its moves may have; stays as long as this.
@@ -58,9 +58,8 @@ class StudyFile {
   const layout::FileHeader& header() const { return header_; }
   const hdf5::Group& root() const { return file_; }  ///< for groups that this class does not know
   layout::RowRange rows() const { return header_.rows; }
-  parameters::AxisKind axis() const {
-    return axis_;
-  }  ///< of a shard always rotary, whose units are those of the tables
+  /// Of a shard always rotary, whose units are those of the tables.
+  parameters::AxisKind axis() const { return features_.axis; }
   std::int64_t moves() const { return outcomes_.width(); }
 
   /// Empty in a shard, like axes, statistics and their tables.
@@ -97,7 +96,8 @@ class StudyFile {
 
   bool has_trace() const { return trace_.has_value(); }
   std::int64_t trace_count() const { return trace_ ? trace_->rows() : 0; }
-  const study::TraceExtras& trace_extras() const { return trace_extras_; }  ///< the further columns it has
+  /// Only the features that decide which columns of /outcome and /trace it has, and the axis.
+  const study::StudyFeatures& features() const { return features_; }
   /// By position in the table. Without its column, `reference` is the target, `phase` fine, and
   /// `drive_torque` the torque decided, which becomes the motor's after the control's delay.
   std::vector<layout::TraceRecord> trace_at(std::int64_t first, std::int64_t count) const;
@@ -114,15 +114,13 @@ class StudyFile {
   std::filesystem::path path_;
   hdf5::File file_;
   layout::FileHeader header_;
-  parameters::AxisKind axis_;
+  study::StudyFeatures features_;
   std::vector<study::InputColumn> inputs_;
   layout::TableIo trials_;  ///< point, index, then one column per input
   const layout::MeasureTable* table_;
-  study::OutcomeExtras outcome_extras_;
   std::vector<layout::RecordField<trial::MoveOutcome>> measures_;
   layout::TableIo outcomes_;
   layout::TableIo jerks_;
-  study::TraceExtras trace_extras_;
   std::optional<layout::TableIo> trace_;
 };
 

@@ -11,8 +11,6 @@
 #include "results/layout/statistic_io.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/shards/concatenate.hpp"
-#include "results/shards/finish.hpp"
-#include "results/shards/profile_tables.hpp"
 #include "results/shards/rig_tables.hpp"
 #include "results/storage/durable_file.hpp"
 
@@ -107,15 +105,14 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
   write_points(file, study);
   concatenate(file, layout::trial_table(study.input_columns), shards, 1, rows.first);
   const parameters::AxisKind axis = study.units.axis;
-  concatenate(
-      file,
-      layout::on_axis(layout::outcome_table(layout::format_version, study.outcome_extras, measures), axis),
-      shards, study.moves, rows.first);
+  concatenate(file,
+              layout::on_axis(layout::outcome_table(layout::format_version, study.features, measures), axis),
+              shards, study.moves, rows.first);
   concatenate(file, layout::jerk_table(), shards, 1, 0, renumber);
   write_profiles(file, study);
   if (study.rigs > 0) write_rigs(file, study);
   if (!study.retained_trials.empty()) {
-    concatenate(file, layout::on_axis(layout::trace_table(study.trace_extras), axis), shards, 1, 0, renumber);
+    concatenate(file, layout::on_axis(layout::trace_table(study.features), axis), shards, 1, 0, renumber);
   }
   return file.close();
 }
@@ -168,8 +165,7 @@ hdf5::WrittenValues write_statistics(const fs::path& part, const study::Study& s
 std::vector<ShardInfo> merge_inputs(std::span<const fs::path> inputs, const study::Study& study) {
   std::vector<ShardInfo> shards;
   for (const fs::path& path : expand(inputs)) shards.push_back(inspect_shard(path, study));
-  std::sort(shards.begin(), shards.end(),
-            [](const ShardInfo& left, const ShardInfo& right) { return left.rows.first < right.rows.first; });
+  sort_by_rows(shards);
   return shards;
 }
 
@@ -182,8 +178,7 @@ void merge_shards(std::span<const ShardInfo> shards, const study::Study& study, 
                   const layout::Provenance& provenance, const Renumbering& renumber,
                   const layout::MeasureTable& measures) {
   std::vector<ShardInfo> ordered(shards.begin(), shards.end());
-  std::sort(ordered.begin(), ordered.end(),
-            [](const ShardInfo& left, const ShardInfo& right) { return left.rows.first < right.rows.first; });
+  sort_by_rows(ordered);
   require_cover(ordered, rows, output);
   const storage::UnfinishedFile part(output);
   hdf5::WrittenValues written = write_trials_of(ordered, study, part.path(), rows,

@@ -3,13 +3,57 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "core/friction/profile.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
 
 namespace zerocount::shards {
 namespace {
+
+std::vector<double> places_over_period(double period, std::int64_t count) {
+  std::vector<double> theta(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    theta[i] = period * static_cast<double>(i) / static_cast<double>(count);
+  }
+  return theta;
+}
+
+void write_one_rotor(hdf5::File& file, const study::RealisedProfile& realised, const study::Study& study) {
+  const std::vector<double> theta = places_over_period(study.period, layout::profile_angles);
+  std::vector<double> value;
+  value.reserve(theta.size());
+  for (const double angle : theta) value.push_back(friction::value_at(*realised.profile, angle));
+  layout::TableIo io = layout::TableIo::create(
+      file, layout::on_axis(layout::profile_table(realised.name, realised.unit), study.units.axis),
+      layout::profile_angles, 1);
+  io.row_scale().write(0, layout::profile_angles, theta.data());
+  io.column(0).write(0, layout::profile_angles, value.data());
+}
+
+void write_rotors(hdf5::File& file, const study::RealisedProfile& realised, const study::Study& study) {
+  const std::int64_t rigs = study.rigs;
+  const std::int64_t angles = layout::profile_angles_of_rig(realised.profile->cosine.size(), rigs);
+  const std::vector<double> theta = places_over_period(study.period, angles);
+  layout::TableIo io = layout::TableIo::create(
+      file, layout::on_axis(layout::rotor_table(realised.name, realised.unit), study.units.axis), rigs,
+      angles);
+  io.number_rows(0);
+  io.second_scale().write(0, angles, theta.data());
+  const std::int64_t at_once = layout::chunk_rows(angles);
+  std::vector<double> values;
+  for (std::int64_t first = 0; first < rigs; first += at_once) {
+    values.clear();
+    const std::int64_t count = std::min(at_once, rigs - first);
+    for (std::int64_t rig = first; rig < first + count; ++rig) {
+      const std::shared_ptr<const friction::Profile> rotor = realised.of_rig(rig);
+      for (const double angle : theta) values.push_back(friction::value_at(*rotor, angle));
+    }
+    io.column(0).write(first, count, values.data());
+  }
+}
 
 using Flags = std::vector<std::int8_t>;
 
@@ -26,6 +70,16 @@ bool succeeded(Flags::const_iterator moves, std::int64_t count) {
 }
 
 }  // namespace
+
+void write_profiles(hdf5::File& file, const study::Study& study) {
+  for (const study::RealisedProfile& realised : study.profiles) {
+    if (realised.of_rig) {
+      write_rotors(file, realised, study);
+    } else {
+      write_one_rotor(file, realised, study);
+    }
+  }
+}
 
 void write_rigs(hdf5::File& file, const study::Study& study) {
   std::vector<std::vector<double>> values(study.rig_columns.size());

@@ -5,6 +5,9 @@
 
 namespace zerocount::shards {
 
+/// Writes the realised profiles of a study to /profile: of its one rotor, or of every rig.
+void write_profiles(hdf5::File& file, const study::Study& study);
+
 /// Writes the inputs that differ between the rigs of a study to /rig.
 void write_rigs(hdf5::File& file, const study::Study& study);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -9,7 +10,7 @@
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/reading/study_file.hpp"
-#include "results/shards/finish.hpp"
+#include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
 
 namespace zerocount::shards {
@@ -36,57 +37,48 @@ void write_trials(hdf5::File& file, const study::Study& study, std::span<const T
   layout::TableIo io =
       layout::TableIo::create(file, layout::trial_table(study.input_columns), rows, 1, compression);
   io.number_rows(results.front().row);
-  std::vector<std::int64_t> point(results.size());
-  std::vector<std::int64_t> index(results.size());
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    point[i] = results[i].row / study.trials;
-    index[i] = results[i].row % study.trials;
-  }
-  io.column(0).write(0, rows, point.data());
-  io.column(1).write(0, rows, index.data());
-  std::vector<double> values(results.size());
-  for (std::size_t input = 0; input < study.input_columns.size(); ++input) {
-    std::transform(results.begin(), results.end(), values.begin(),
-                   [input](const TrialResult& result) { return result.inputs[input]; });
-    io.column(2 + input).write(0, rows, values.data());
-  }
+  const auto write = [&](std::size_t column, const auto& value_of) {
+    std::vector<std::invoke_result_t<decltype(value_of), const TrialResult&>> values(results.size());
+    std::transform(results.begin(), results.end(), values.begin(), value_of);
+    io.column(column).write(0, rows, values.data());
+  };
+  write(0, [&](const TrialResult& result) { return result.row / study.trials; });
+  write(1, [&](const TrialResult& result) { return result.row % study.trials; });
+  for (std::size_t input = 0; input < study.input_columns.size(); ++input)
+    write(2 + input, [input](const TrialResult& result) { return result.inputs[input]; });
 }
 
-void write_outcomes(hdf5::File& file, const study::Study& study, std::span<const TrialResult> results,
-                    hdf5::Compression compression, const layout::MeasureTable& measures) {
+/// Writes the table with these records; a row takes `width` of them.
+template <class Record>
+void write_table(hdf5::File& file, const layout::Table& table,
+                 const std::vector<layout::RecordField<Record>>& fields, const std::vector<Record>& records,
+                 std::int64_t width, std::int64_t first_number, hdf5::Compression compression) {
+  layout::TableIo io = layout::TableIo::create(file, table, std::ssize(records) / width, width, compression);
+  io.number_rows(first_number);
+  layout::write_records(io, fields, 0, std::span<const Record>(records));
+}
+
+std::vector<trial::MoveOutcome> move_outcomes(std::span<const TrialResult> results) {
   std::vector<trial::MoveOutcome> moves;
-  for (const TrialResult& result : results) {
+  for (const TrialResult& result : results)
     moves.insert(moves.end(), result.outcome.moves.begin(), result.outcome.moves.end());
-  }
-  const study::OutcomeExtras& extras = study.outcome_extras;
-  layout::TableIo io =
-      layout::TableIo::create(file, layout::outcome_table(layout::format_version, extras, measures),
-                              std::ssize(results), study.moves, compression);
-  io.number_rows(results.front().row);
-  layout::write_records(io, layout::outcome_fields(layout::format_version, extras, measures), 0,
-                        std::span<const trial::MoveOutcome>(moves));
+  return moves;
 }
 
-void write_jerks(hdf5::File& file, std::span<const TrialResult> results, hdf5::Compression compression) {
+std::vector<layout::JerkRecord> jerk_records(std::span<const TrialResult> results) {
   std::vector<layout::JerkRecord> jerks;
   for (const TrialResult& result : results) {
     for (const trial::Jerk& jerk : result.jerks) jerks.push_back({jerk, result.row});
   }
-  layout::TableIo io = layout::TableIo::create(file, layout::jerk_table(), std::ssize(jerks), 1, compression);
-  io.number_rows(0);
-  layout::write_records(io, layout::jerk_fields(), 0, std::span<const layout::JerkRecord>(jerks));
+  return jerks;
 }
 
-void write_trace(hdf5::File& file, const study::TraceExtras& extras, std::span<const TrialResult> results,
-                 hdf5::Compression compression) {
+std::vector<layout::TraceRecord> trace_records(std::span<const TrialResult> results) {
   std::vector<layout::TraceRecord> records;
   for (const TrialResult& result : results) {
     for (const trial::SampleRecord& record : result.trace) records.push_back({record, result.row});
   }
-  layout::TableIo io =
-      layout::TableIo::create(file, layout::trace_table(extras), std::ssize(records), 1, compression);
-  io.number_rows(0);
-  layout::write_records(io, layout::trace_fields(extras), 0, std::span<const layout::TraceRecord>(records));
+  return records;
 }
 
 /// The regular files in `directory` whose names end in `extension`, in order of names.
@@ -104,10 +96,6 @@ std::vector<fs::path> files_in(const fs::path& directory, const char* extension)
   return files;
 }
 
-bool by_rows(const ShardInfo& left, const ShardInfo& right) {
-  return left.rows.first != right.rows.first ? left.rows.first < right.rows.first : left.path < right.path;
-}
-
 }  // namespace
 
 fs::path shard_path(const fs::path& directory, layout::RowRange rows) {
@@ -123,15 +111,36 @@ void write_shard(const fs::path& path, const study::Study& study, std::int64_t f
   layout::write_header(file, layout::make_header(study, layout::FileKind::shard,
                                                  {first_row, std::ssize(results)}, provenance));
   write_trials(file, study, results, compression);
-  write_outcomes(file, study, results, compression, measures);
-  write_jerks(file, results, compression);
-  if (!study.retained_trials.empty()) write_trace(file, study.trace_extras, results, compression);
+  const study::StudyFeatures& features = study.features;
+  write_table(file, layout::outcome_table(layout::format_version, features, measures),
+              layout::outcome_fields(layout::format_version, features, measures), move_outcomes(results),
+              study.moves, first_row, compression);
+  write_table(file, layout::jerk_table(), layout::jerk_fields(), jerk_records(results), 1, 0, compression);
+  if (!study.retained_trials.empty()) {
+    write_table(file, layout::trace_table(features), layout::trace_fields(features), trace_records(results),
+                1, 0, compression);
+  }
   layout::mark_finished(file);
   finish_results(path, file.close());
 }
 
+void finish_results(const fs::path& path, const hdf5::WrittenValues& written) {
+  const fs::path part = storage::part_of(path);
+  storage::append_checksum(part);
+  if (storage::check_checksum(part) != storage::ChecksumState::valid)
+    storage::fail_read_back(part, "the checksum at its end differs");
+  hdf5::require_written(part, written);
+  storage::publish(path);
+}
+
 std::vector<fs::path> shard_files(const fs::path& directory) {
   return files_in(directory, ".h5");
+}
+
+void sort_by_rows(std::vector<ShardInfo>& shards) {
+  std::stable_sort(shards.begin(), shards.end(), [](const ShardInfo& left, const ShardInfo& right) {
+    return left.rows.first < right.rows.first;
+  });
 }
 
 ShardInfo inspect_shard(const fs::path& path, const study::Study& study) {
@@ -157,13 +166,13 @@ ShardSurvey list_shards(const fs::path& directory, const study::Study& study) {
       survey.problems.push_back({path, failure.what(), ShardProblem::Kind::damaged});
     }
   }
-  std::sort(survey.shards.begin(), survey.shards.end(), by_rows);
+  sort_by_rows(survey.shards);
   return survey;
 }
 
 std::vector<layout::RowRange> missing_ranges(std::span<const ShardInfo> shards, layout::RowRange wanted) {
   std::vector<ShardInfo> ordered(shards.begin(), shards.end());
-  std::sort(ordered.begin(), ordered.end(), by_rows);
+  sort_by_rows(ordered);
   std::vector<layout::RowRange> missing;
   std::int64_t next = wanted.first;
   for (const ShardInfo& shard : ordered) {

@@ -10,6 +10,7 @@
 #include "core/trial/trial.hpp"
 #include "experiments/study/study.hpp"
 #include "results/hdf5/element.hpp"
+#include "results/hdf5/written_values.hpp"
 #include "results/layout/build_info.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
@@ -29,6 +30,12 @@ struct TrialResult {
 /// Path in `directory` of the shard with these rows.
 std::filesystem::path shard_path(const std::filesystem::path& directory, layout::RowRange rows);
 
+/// Appends the checksum trailer to the closed results file part_of(path), reads the file back from the disk,
+/// and renames it to `path`.
+/// @param written the expected contents
+/// @throws Failure (machine_failed) if the file cannot be flushed or read, or if its contents differ.
+void finish_results(const std::filesystem::path& path, const hdf5::WrittenValues& written);
+
 /// Shards are read once and then removed: compressing them would take longer than it saves.
 inline constexpr hdf5::Compression shard_compression = hdf5::Compression::none;
 
@@ -47,6 +54,9 @@ struct ShardInfo {
   std::filesystem::path path;
   layout::RowRange rows;
 };
+
+/// Sorts by the first row; shards with the same first row keep their order.
+void sort_by_rows(std::vector<ShardInfo>& shards);
 
 /// A file that cannot be used, and why.
 struct ShardProblem {

@@ -1,7 +1,6 @@
 #include "runners/command_line/command_line.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include <boost/program_options.hpp>
 #include <fmt/format.h>
@@ -79,7 +78,7 @@ Arguments::Arguments(const CommandSpec& spec, const std::vector<std::string>& wo
     }
   }
   if (has("help")) return;
-  if (operands_.size() < spec.least_operands) refuse(fmt::format("{} expected", spec.operands));
+  if (operands_.size() < spec.min_operands) refuse(fmt::format("{} expected", spec.operands));
   if (operands_.size() > spec.max_operands) {
     refuse(fmt::format("'{}' is one word too many", operands_[spec.max_operands]));
   }
@@ -115,10 +114,8 @@ std::optional<std::int64_t> Arguments::whole_number(std::string_view option, std
                                                     std::int64_t high) const {
   const std::optional<std::string> text = value(option);
   if (!text) return std::nullopt;
-  std::int64_t number = 0;
-  const char* const end = text->data() + text->size();
-  const auto [stop, error] = std::from_chars(text->data(), end, number);
-  if (error != std::errc{} || stop != end || number < low || number > high) {
+  const std::optional<std::int64_t> number = parse_number<std::int64_t>(*text);
+  if (!number || *number < low || *number > high) {
     refuse(fmt::format("option '--{}': '{}' is no whole number from {} to {}", option, *text, low, high));
   }
   return number;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -7,6 +8,16 @@
 #include <vector>
 
 namespace zerocount::command_line {
+
+/// The number that the whole text is; nothing if it is something else.
+template <class Number>
+std::optional<Number> parse_number(std::string_view text) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || stop != end) return std::nullopt;
+  return number;
+}
 
 /// One option of a command: `--name VALUE`, or a bare flag.
 struct OptionSpec {
@@ -20,9 +31,9 @@ struct OptionSpec {
 struct CommandSpec {
   std::string name;
   std::string operands;  ///< as the usage line shows them, e.g. "MANIFEST"
-  std::size_t least_operands{1};
-  std::size_t max_operands{1};
   std::vector<OptionSpec> options;
+  std::size_t min_operands{1};
+  std::size_t max_operands{1};
 };
 
 /// The parsed arguments of a command. All values are text.

@@ -1,7 +1,6 @@
 #include "runners/command_line/option_values.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
@@ -10,22 +9,12 @@
 namespace zerocount::command_line {
 namespace {
 
-/// Parses all of `text` as a number; nothing if that fails.
-template <typename Number>
-std::optional<Number> parsed(const std::string& text) {
-  Number number{};
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc{} || stop != end) return std::nullopt;
-  return number;
-}
-
 /// Labels take precedence over indices, because a label may be a number.
 std::int64_t point_named(const Arguments& arguments, const std::string& text,
                          std::span<const std::string> labels) {
   const auto found = std::find(labels.begin(), labels.end(), text);
   if (found != labels.end()) return found - labels.begin();
-  const std::optional<std::int64_t> number = parsed<std::int64_t>(text);
+  const std::optional<std::int64_t> number = parse_number<std::int64_t>(text);
   if (number && *number >= 0 && *number < std::ssize(labels)) return *number;
   const std::string_view near = yaml::nearest_name(text, labels);
   arguments.refuse(
@@ -38,7 +27,7 @@ std::int64_t point_named(const Arguments& arguments, const std::string& text,
 std::optional<double> probability_option(const Arguments& arguments, std::string_view option) {
   const std::optional<std::string> text = arguments.value(option);
   if (!text) return std::nullopt;
-  const std::optional<double> number = parsed<double>(*text);
+  const std::optional<double> number = parse_number<double>(*text);
   if (!number || !(*number > 0.0 && *number < 1.0)) {
     arguments.refuse(fmt::format("option '--{}': '{}' is no number between 0 and 1", option, *text));
   }

@@ -52,8 +52,6 @@ ExitCode baseline(const command_line::Arguments& arguments) {
 Command baseline_command() {
   return {{"baseline",
            "FILE -o OUTPUT --reason TEXT",
-           1,
-           1,
            {{"output,o", "OUTPUT", "the baseline to make or to replace (required)"},
             {"reason", "TEXT", "why, for the record (required)"}}},
           "make a results file the baseline of later comparisons",

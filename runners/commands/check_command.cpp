@@ -20,7 +20,6 @@
 #include "experiments/study/low_end.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/commands/commands.hpp"
-#include "runners/commands/warnings.hpp"
 #include "runners/study_run/cost.hpp"
 #include "runners/study_run/progress.hpp"
 #include "runners/study_run/study_size.hpp"
@@ -57,6 +56,7 @@ struct Range {
     low = std::min(low, value);
     high = std::max(high, value);
   }
+  bool empty() const { return low > high; }
 };
 
 std::string text(const Range& range) {
@@ -73,10 +73,11 @@ struct Arrival {
 /// One phase of the control while the rotor slides, over the trials.
 struct SlidingPhase {
   std::string_view name;
-  Range bandwidth;      // Hz
-  Range phase_margin;   // degrees
-  bool stable{true};    // in every trial
-  bool unstable{true};  // in every trial
+  loop::ControlPhase phase;
+  Range bandwidth{};     // Hz
+  Range phase_margin{};  // degrees
+  bool stable{true};     // in every trial
+  bool unstable{true};   // in every trial
 };
 
 /// Results of the theory (section 3 of the paper) for the trials of a design point.
@@ -126,19 +127,32 @@ double sampled_bound(double stiffness, const trial::TrialParameters& p) {
   return theory::sampled_critical_integral_gain(stiffness, p.plant, p.encoder, p.controller, drive_of(p));
 }
 
+/// Adds the slowest time constant of the loop in the fine phase about a spring of `stiffness` (N m/rad).
+/// Returns false, and adds nothing, if that loop is not stable.
+bool add_time_constant(Range& slowest, double stiffness, const trial::TrialParameters& p) {
+  const double tau = theory::slowest_time_constant(
+      stiffness, p.plant, p.encoder, loop::controller_in_phase(p.controller, loop::ControlPhase::fine),
+      drive_of(p));
+  if (!std::isfinite(tau) || tau <= 0.0) return false;
+  slowest.add(tau);
+  return true;
+}
+
+double hold_of(const trial::TrialParameters& p) {
+  return static_cast<double>(trial::samples_of_move(p, 0)) / p.controller.sample_rate;
+}
+
 /// The theory of a loop without a spring: its sampled bound and time constant.
 void examine_free(const study::Study& study, std::int64_t point, PointTheory& theory) {
   const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
   theory.free = first.friction.model == friction::FrictionModel::none && first.command.torque.levels.empty();
   if (!theory.free) return;
-  theory.hold = static_cast<double>(trial::samples_of_move(first, 0)) / first.controller.sample_rate;
+  theory.hold = hold_of(first);
   for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {
     const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
-    const loop::ControllerParameters fine = loop::controller_in_phase(p.controller, loop::ControlPhase::fine);
     theory.ki.add(as_given(study.units, p, p.controller.ki));
     theory.sampled_below.add(as_given(study.units, p, sampled_bound(0.0, p)));
-    const double tau = theory::slowest_time_constant(0.0, p.plant, p.encoder, fine, drive_of(p));
-    if (std::isfinite(tau) && tau > 0.0) theory.slowest.add(tau);
+    add_time_constant(theory.slowest, 0.0, p);
   }
 }
 
@@ -157,8 +171,8 @@ std::string_view why_outside(const trial::TrialParameters& first) {
   return "friction.model none has no spring, which criteria (6) and (7) are about";
 }
 
-void add_sliding(SlidingPhase& phase, loop::ControlPhase which, const trial::TrialParameters& p) {
-  const loop::ControllerParameters controller = loop::controller_in_phase(p.controller, which);
+void add_sliding(SlidingPhase& phase, const trial::TrialParameters& p) {
+  const loop::ControllerParameters controller = loop::controller_in_phase(p.controller, phase.phase);
   const theory::GainCrossover crossover =
       theory::sliding_crossover(p.plant, p.encoder, controller, drive_of(p));
   if (!std::isnan(crossover.frequency)) {
@@ -168,18 +182,6 @@ void add_sliding(SlidingPhase& phase, loop::ControlPhase which, const trial::Tri
   const bool stable = theory::stable_while_sliding(p.plant, p.encoder, controller, drive_of(p));
   phase.stable = phase.stable && stable;
   phase.unstable = phase.unstable && !stable;
-}
-
-/// Time constants of the stable loops at the lowest and highest stiffness of the trial's contact.
-Range time_constants(const trial::TrialParameters& p, const friction::FrictionParameters& contact) {
-  Range slowest;
-  for (const double stiffness : {contact.k1, contact.k1 + contact.k2}) {
-    const double tau = theory::slowest_time_constant(
-        stiffness, p.plant, p.encoder, loop::controller_in_phase(p.controller, loop::ControlPhase::fine),
-        drive_of(p));
-    if (std::isfinite(tau) && tau > 0.0) slowest.add(tau);
-  }
-  return slowest;
 }
 
 /// The initial errors of moves in the fine phase, counts; empty unless the reference is a step.
@@ -242,24 +244,23 @@ void examine_rotors(const study::Study& study, std::int64_t point, PointTheory& 
 void examine_beyond(const study::Study& study, std::int64_t point, PointTheory& theory) {
   theory.low_end = study::low_end(study, point, "friction.k1");
   const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
-  theory.hold = static_cast<double>(trial::samples_of_move(first, 0)) / first.controller.sample_rate;
-  theory.phases.push_back({loop::has_coarse_phase(first.controller) ? "fine phase" : "loop", {}, {}});
-  if (loop::has_coarse_phase(first.controller)) theory.phases.push_back({"coarse phase", {}, {}});
+  theory.hold = hold_of(first);
+  if (loop::has_coarse_phase(first.controller)) {
+    theory.phases = {{"fine phase", loop::ControlPhase::fine}, {"coarse phase", loop::ControlPhase::coarse}};
+  } else {
+    theory.phases = {{"loop", loop::ControlPhase::fine}};
+  }
   for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {
     const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
     const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
-    const Range slowest = time_constants(p, contact);
-    if (slowest.low <= slowest.high) {
-      theory.slowest.add(slowest.low);
-      theory.slowest.add(slowest.high);
-      add_arrivals(theory.longest, p, contact);
-    }
+    const bool stable_at_k1 = add_time_constant(theory.slowest, contact.k1, p);
+    const bool stable_at_k2 = add_time_constant(theory.slowest, contact.k1 + contact.k2, p);
+    if (stable_at_k1 || stable_at_k2) add_arrivals(theory.longest, p, contact);
     const double k1 = theory.low_end.kind == study::LowEnd::Kind::profile ? theory::lowest_k1(p.friction)
                                                                           : theory.low_end.value;
     add_low_end(study, p, k1, theory);
     theory.low_sampled.add(as_given(study.units, p, sampled_bound(k1, p)));
-    add_sliding(theory.phases[0], loop::ControlPhase::fine, p);
-    if (theory.phases.size() > 1) add_sliding(theory.phases[1], loop::ControlPhase::coarse, p);
+    for (SlidingPhase& phase : theory.phases) add_sliding(phase, p);
   }
   if (theory.low_end.kind == study::LowEnd::Kind::profile) examine_rotors(study, point, theory);
 }
@@ -324,11 +325,24 @@ bool may_be_too_slow(const PointTheory& theory) {
   return theory.slowest.high > theory.hold || theory.longest.time > theory.hold;
 }
 
+/// "1 core", "3 cores".
+std::string counted(std::int64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 /// "a move of 30 counts needs about 1 s"; empty where no move is a step.
 std::string arrival_text(const Arrival& longest) {
   if (longest.step == 0) return {};
-  return fmt::format("a move of {} count{} needs about {:.2g} s", longest.step, longest.step == 1 ? "" : "s",
-                     longest.time);
+  return fmt::format("a move of {} needs about {:.2g} s", counted(longest.step, "count"), longest.time);
+}
+
+/// The line of the slowest time constant; empty if no loop is stable.
+std::string slowness_line(const PointTheory& theory) {
+  if (theory.slowest.empty()) return {};
+  const std::string arrival = arrival_text(theory.longest);
+  return fmt::format("    slowest time constant         {} s{}{}, hold {:.4g} s{}\n", text(theory.slowest),
+                     arrival.empty() ? "" : "; ", arrival, theory.hold,
+                     may_be_too_slow(theory) ? ": moves may end before they arrive" : "");
 }
 
 std::string describe_beyond(const PointTheory& theory) {
@@ -336,18 +350,13 @@ std::string describe_beyond(const PointTheory& theory) {
       fmt::format("    at the lowest k1, {} ({}): (6) stable below {:.3g} {}, sampled loop below {:.3g} {}\n",
                   text({theory.lowest_k1.low, theory.lowest_k1.low}), source_of(theory),
                   theory.low_stable.low, theory.gain_unit, theory.low_sampled.low, theory.gain_unit);
-  if (theory.slowest.low <= theory.slowest.high) {
-    const std::string arrival = arrival_text(theory.longest);
-    out += fmt::format("    slowest time constant         {} s{}{}, hold {:.4g} s{}\n", text(theory.slowest),
-                       arrival.empty() ? "" : "; ", arrival, theory.hold,
-                       may_be_too_slow(theory) ? ": moves may end before they arrive" : "");
-  }
+  out += slowness_line(theory);
   for (const SlidingPhase& phase : theory.phases) {
-    const bool crosses = phase.bandwidth.low <= phase.bandwidth.high;
     out += fmt::format("    while sliding, the {} {}{}\n", phase.name,
-                       crosses ? fmt::format("crosses gain 1 at {} Hz with a phase margin of {}°: ",
-                                             text(phase.bandwidth), text(phase.phase_margin))
-                               : "has no gain crossover: ",
+                       phase.bandwidth.empty()
+                           ? "has no gain crossover: "
+                           : fmt::format("crosses gain 1 at {} Hz with a phase margin of {}°: ",
+                                         text(phase.bandwidth), text(phase.phase_margin)),
                        phase.stable ? "stable" : (phase.unstable ? "unstable" : "unstable in some trials"));
   }
   return out;
@@ -366,11 +375,7 @@ std::string describe_outside(const PointTheory& theory) {
                      theory.gain_unit, sampled_verdict(theory));
   out +=
       fmt::format("    sampled loop, below           {} {}\n", text(theory.sampled_below), theory.gain_unit);
-  if (theory.slowest.low <= theory.slowest.high) {
-    out += fmt::format("    slowest time constant         {} s, hold {:.4g} s{}\n", text(theory.slowest),
-                       theory.hold, may_be_too_slow(theory) ? ": moves may end before they arrive" : "");
-  }
-  return out;
+  return out + slowness_line(theory);
 }
 
 /// Verdict of the criteria (6) and (7) and of the sampled loop on the integral gain.
@@ -401,33 +406,30 @@ std::string describe(const PointTheory& theory) {
   return out + describe_beyond(theory);
 }
 
-/// Prints the input columns with belongs(column), after `title`; prints nothing if there are none.
-template <class Belongs>
-void print_columns(const study::Study& study, std::string_view title, const Belongs& belongs) {
+/// Prints the input columns that are drawn as often as one of `drawn`, after `title`; nothing if there are
+/// none.
+void print_columns(const study::Study& study, std::string_view title,
+                   std::initializer_list<study::Per> drawn) {
   std::string names;
   for (const study::InputColumn& column : study.input_columns) {
-    if (belongs(column.per)) names += " " + column.name;
+    if (std::find(drawn.begin(), drawn.end(), column.per) != drawn.end()) names += " " + column.name;
   }
   if (!names.empty()) fmt::print("  {}:{}\n", title, names);
 }
 
 void print_what_differs(const study::Study& study) {
   if (study.input_columns.empty()) fmt::print("  differing between trials: nothing\n");
-  print_columns(study, "differing between trials",
-                [](study::Per per) { return per == study::Per::trial || per == study::Per::contact; });
-  print_columns(study, "of these, drawn anew at each contact",
-                [](study::Per per) { return per == study::Per::contact; });
-  print_columns(study, "differing between rigs", [](study::Per per) { return per == study::Per::rig; });
-  print_columns(study, "the same in all trials of a point",
-                [](study::Per per) { return per == study::Per::study; });
+  print_columns(study, "differing between trials", {study::Per::trial, study::Per::contact});
+  print_columns(study, "of these, drawn anew at each contact", {study::Per::contact});
+  print_columns(study, "differing between rigs", {study::Per::rig});
+  print_columns(study, "the same in all trials of a point", {study::Per::study});
 }
 
 void print_plan(const study::Study& study) {
   const study_run::StudyCost cost = study_run::measure_cost(study);
   fmt::print("{}: {}\n", study.name, study.description.empty() ? "(no description)" : study.description);
-  fmt::print("  {} design point{} × {} trials = {} trials, {} move{} each\n", study::point_count(study),
-             study::point_count(study) == 1 ? "" : "s", study.trials, study::trial_count(study), study.moves,
-             study.moves == 1 ? "" : "s");
+  fmt::print("  {} × {} trials = {} trials, {} each\n", counted(study::point_count(study), "design point"),
+             study.trials, study::trial_count(study), counted(study.moves, "move"));
   if (study.rigs > 0) {
     fmt::print("  at each point {} rigs × {} trials of each\n", study.rigs, study.trials / study.rigs);
   }
@@ -442,9 +444,8 @@ void print_plan(const study::Study& study) {
           study.rigs);
     }
   }
-  fmt::print("  {:.4g} samples at {:.0f} ns: about {} on {} core{}\n", cost.samples,
-             1e9 * cost.seconds_per_sample, study_run::duration_text(cost.seconds()), cost.cores,
-             cost.cores == 1 ? "" : "s");
+  fmt::print("  {:.4g} samples at {:.0f} ns: about {} on {}\n", cost.samples, 1e9 * cost.seconds_per_sample,
+             study_run::duration_text(cost.seconds()), counted(cost.cores, "core"));
   const study_run::StudySize size = study_run::measure_size(study);
   fmt::print("  results file about {}; while it runs up to {} on the disk and {} of memory\n",
              study_run::bytes_text(size.file_bytes),
@@ -457,16 +458,18 @@ void warn_of_slowness(std::int64_t point, const std::string& label, const PointT
   const std::string arrival = arrival_text(theory.longest);
   const std::string slow =
       theory.slowest.high > theory.hold
-          ? fmt::format("the loop's slowest time constant, {:.3g} s, exceeds the hold of {:.4g} s{}{}",
-                        theory.slowest.high, theory.hold, arrival.empty() ? "" : "; ", arrival)
-          : fmt::format("the loop's slowest time constant is {:.3g} s; {}, longer than the hold of {:.4g} s",
-                        theory.slowest.high, arrival, theory.hold);
-  fmt::print(stderr, "warning: point {} ({}): {}: moves may end before they arrive\n", point, label, slow);
+          ? fmt::format(", {:.3g} s, exceeds the hold of {:.4g} s{}{}", theory.slowest.high, theory.hold,
+                        arrival.empty() ? "" : "; ", arrival)
+          : fmt::format(" is {:.3g} s; {}, longer than the hold of {:.4g} s", theory.slowest.high, arrival,
+                        theory.hold);
+  fmt::print(stderr,
+             "warning: point {} ({}): the loop's slowest time constant{}: moves may end before they arrive\n",
+             point, label, slow);
 }
 
 ExitCode check(const command_line::Arguments& arguments) {
   const study::Study study = manifest::load_study(arguments.operands()[0], arguments.values("set"));
-  warn(study);
+  print_warnings(study);
   print_plan(study);
   fmt::print("\nTheory, over the first {} trials of each point, each with the friction it starts on:\n",
              std::min(study.trials, max_trials_examined));
@@ -489,8 +492,6 @@ ExitCode check(const command_line::Arguments& arguments) {
 Command check_command() {
   return {{"check",
            "MANIFEST",
-           1,
-           1,
            {{"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
             {"all-points", "", "print the theory of every design point, not only of the first 20"}}},
           "validate a manifest; print its plan and the theory of its points",

@@ -60,6 +60,10 @@ Command find_command(const std::string& name) {
 
 }  // namespace
 
+void print_warnings(const study::Study& study) {
+  for (const std::string& warning : study.warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
 std::vector<Command> commands() {
   std::vector<Command> all{check_command(),  run_command(),         summary_command(),  trace_command(),
                            merge_command(),  export_command(),      identify_command(), parameters_command(),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/failure/failure.hpp"
+#include "experiments/study/study.hpp"
 #include "runners/command_line/command_line.hpp"
 
 namespace zerocount::commands {
@@ -33,6 +34,9 @@ Command report_command();
 Command plot_command();
 Command parameters_command();
 Command schema_command();
+
+/// Prints the warnings about the manifest to stderr.
+void print_warnings(const study::Study& study);
 
 /// All verbs, in the order of the help.
 std::vector<Command> commands();

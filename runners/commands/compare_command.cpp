@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -42,17 +44,14 @@ ExitCode code_of(comparison::GateVerdict verdict) {
 
 /// An output format of the comparison, and the option that names a file for it.
 struct ComparisonForm {
-  std::string name;
+  std::string_view name;
   std::string (*text)(const comparison::StudyComparison&);
 };
 
-const std::vector<ComparisonForm>& forms() {
-  static const std::vector<ComparisonForm> all{{"table", comparison::comparison_table},
+constexpr std::array<ComparisonForm, 4> forms{{{"table", comparison::comparison_table},
                                                {"json", comparison::comparison_json},
                                                {"junit", comparison::comparison_junit},
-                                               {"markdown", comparison::comparison_markdown}};
-  return all;
-}
+                                               {"markdown", comparison::comparison_markdown}}};
 
 /// Destination of one output format.
 struct FormPlace {
@@ -69,7 +68,7 @@ std::vector<FormPlace> places_of(const command_line::Arguments& arguments,
   std::vector<std::filesystem::path> outputs;
   if (arguments.has("format")) outputs.emplace_back("-");
   std::vector<FormPlace> places;
-  for (const ComparisonForm& form : forms()) {
+  for (const ComparisonForm& form : forms) {
     if (form.name == "table") continue;
     const std::optional<std::filesystem::path> place = command_line::text_place(arguments, form.name);
     if (!place) continue;
@@ -80,9 +79,8 @@ std::vector<FormPlace> places_of(const command_line::Arguments& arguments,
   const bool taken = std::any_of(places.begin(), places.end(), [](const FormPlace& place) {
     return yaml::is_standard_stream(place.place);
   });
-  const auto printed = std::find_if(forms().begin(), forms().end(),
-                                    [&](const ComparisonForm& form) { return form.name == format; });
-  if (!taken) places.push_back({*printed, "-"});
+  const ComparisonForm& printed = *std::ranges::find(forms, format, &ComparisonForm::name);
+  if (!taken) places.push_back({printed, "-"});
   return places;
 }
 
@@ -101,14 +99,14 @@ ExitCode compare(const command_line::Arguments& arguments) {
 Command compare_command() {
   return {{"compare",
            "BASELINE FILE",
-           2,
-           2,
            {{"margins", "FILE", "YAML file of margins and requirements"},
             {"format", "FORMAT", "of standard output: table (default), json, junit or markdown"},
             {"json", "FILE", "write the JSON there too"},
             {"junit", "FILE", "write JUnit XML there too"},
             {"markdown", "FILE", "write the Markdown summary there too"},
-            command_line::force_option()}},
+            command_line::force_option()},
+           2,
+           2},
           "compare a results file with a baseline: the regression gate",
           compare_help,
           compare};

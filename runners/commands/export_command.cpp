@@ -38,8 +38,6 @@ ExitCode export_file(const command_line::Arguments& arguments) {
 Command export_command() {
   return {{"export",
            "FILE -o DIR",
-           1,
-           1,
            {{"output,o", "DIR", "the folder for the tables (required)"}, command_line::force_option()}},
           "write a results file's tables as CSV",
           export_help,

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -45,23 +44,20 @@ constexpr const char* identify_help =
     "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
     "          zerocount identify tests.h5 --point 0 --point 1 --format yaml -o friction.yaml\n";
 
-double number_option(const command_line::Arguments& arguments, const std::string& name,
-                     const std::string& text, double low) {
-  double number = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc{} || stop != end || !std::isfinite(number) || number < low) {
-    arguments.refuse(fmt::format("option '--{}': '{}' is no number{}", name, text,
+double number_from(const command_line::Arguments& arguments, const std::string& option, std::string_view text,
+                   double low) {
+  const std::optional<double> number = command_line::parse_number<double>(text);
+  if (!number || !std::isfinite(*number) || *number < low) {
+    arguments.refuse(fmt::format("option '--{}': '{}' is no number{}", option, text,
                                  std::isfinite(low) ? fmt::format(" from {}", low) : ""));
   }
-  return number;
+  return *number;
 }
 
-std::optional<double> number_option(const command_line::Arguments& arguments, const std::string& name,
+std::optional<double> number_option(const command_line::Arguments& arguments, const std::string& option,
                                     double low) {
-  const std::optional<std::string> text = arguments.value(name);
-  if (!text) return std::nullopt;
-  return number_option(arguments, name, *text, low);
+  const std::optional<std::string> text = arguments.value(option);
+  return text ? std::optional(number_from(arguments, option, *text, low)) : std::nullopt;
 }
 
 std::optional<std::string> column_option(const command_line::Arguments& arguments, const char* name,
@@ -82,13 +78,6 @@ std::optional<double> bandwidth_option(const command_line::Arguments& arguments)
   return bandwidth;
 }
 
-std::optional<int> count_option(const command_line::Arguments& arguments, const char* name, int low,
-                                int high) {
-  const std::optional<std::int64_t> number = arguments.whole_number(name, low, high);
-  if (!number) return std::nullopt;
-  return static_cast<int>(*number);
-}
-
 identification::SeriesChoice series_choice(const command_line::Arguments& arguments) {
   constexpr double any = -std::numeric_limits<double>::infinity();
   identification::SeriesChoice choice;
@@ -96,8 +85,8 @@ identification::SeriesChoice series_choice(const command_line::Arguments& argume
   choice.angle = column_option(arguments, "angle", {"count", "theta"});
   choice.counts_per_revolution = number_option(arguments, "counts-per-revolution", 1.0);
   choice.bandwidth = bandwidth_option(arguments);
-  choice.delay = count_option(arguments, "delay", 0, 1000000);
-  choice.dac_bits = count_option(arguments, "dac-bits", 2, 32);
+  choice.delay = arguments.whole_number("delay", 0, 1000000);
+  choice.dac_bits = arguments.whole_number("dac-bits", 2, 32);
   choice.preload = number_option(arguments, "preload", any);
   choice.hardening = number_option(arguments, "hardening", 0.0);
   return choice;
@@ -117,8 +106,8 @@ identification::KnownParameter known_parameter(const command_line::Arguments& ar
   const auto coordinate =
       static_cast<identification::Coordinate>(found - identification::coordinate_keys.begin());
   constexpr double least = std::numeric_limits<double>::min();
-  return {coordinate, number_option(arguments, "fix", text.substr(equals + 1),
-                                    coordinate == identification::creep_exponent ? 1.0 : least)};
+  return {coordinate, number_from(arguments, "fix", text.substr(equals + 1),
+                                  coordinate == identification::creep_exponent ? 1.0 : least)};
 }
 
 identification::IdentificationOptions identification_options(const command_line::Arguments& arguments) {
@@ -206,8 +195,6 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
 Command identify_command() {
   return {{"identify",
            "DATA.csv|FILE...",
-           1,
-           64,
            {{"counts-per-revolution", "N", "resolution of the encoder of the column count"},
             {"angle", "COLUMN", "count or theta, if both exist (default count, if N is given)"},
             {"torque", "COLUMN", "torque or drive_torque, if both exist (default the latter)"},
@@ -223,7 +210,9 @@ Command identify_command() {
             {"trial", "I", "trial of the point (default 0)"},
             {"format", "FORMAT", "text (default), json or yaml"},
             {"output,o", "FILE", "write there instead of to standard output"},
-            command_line::force_option()}},
+            command_line::force_option()},
+           1,
+           64},
           "identify friction, damping and inertia from material tests",
           identify_help,
           identify_records};

@@ -43,8 +43,6 @@ ExitCode print_jerks(const command_line::Arguments& arguments) {
 Command jerks_command() {
   return {{"jerks",
            "FILE",
-           1,
-           1,
            {{"point", "P", "design point, by label or number; may be repeated (default: all)", true},
             {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"},
             {"creep-trials", "N", "trials of each point to compare with creep (default 20)"},

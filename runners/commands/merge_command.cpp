@@ -9,7 +9,7 @@
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
-#include "runners/study_run/assemble.hpp"
+#include "runners/study_run/study_runner.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -54,9 +54,9 @@ ExitCode merge(const command_line::Arguments& arguments) {
 Command merge_command() {
   return {{"merge",
            "PART... -o FILE",
+           {{"output,o", "FILE", "the results file to make (required)"}, command_line::force_option()},
            1,
-           100000,
-           {{"output,o", "FILE", "the results file to make (required)"}, command_line::force_option()}},
+           100000},
           "join the parts of a study that was run in parts",
           merge_help,
           merge};

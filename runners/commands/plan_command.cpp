@@ -52,33 +52,35 @@ struct PlanRequest {
   std::optional<double> rig_sd, rigs_share;
   std::int64_t failures{default_failures};
   std::string pilot;  ///< source of rig_sd and the rate, for the text
+
+  double rate() const { return true_success.value_or(worst_case_rate); }
 };
 
 /// Takes the standard deviation and the rate from the point of a pilot study whose rigs differ most.
 void measure_pilot(PlanRequest& request, const std::string& path) {
   const summary::StudySummary summary = summary::summarise(reading::StudyFile(path));
-  std::size_t worst = summary.points.size();
-  for (std::size_t i = 0; i < summary.points.size(); ++i) {
-    const double sd = summary.points[i].rigs.success_sd;
-    if (std::isnan(sd)) continue;
-    if (worst == summary.points.size() || sd > summary.points[worst].rigs.success_sd) worst = i;
+  const measures::PointSummary* worst = nullptr;
+  for (const measures::PointSummary& point : summary.points) {
+    const double sd = point.rigs.success_sd;
+    if (!std::isnan(sd) && (worst == nullptr || sd > worst->rigs.success_sd)) worst = &point;
   }
-  if (worst == summary.points.size()) {
+  if (worst == nullptr) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: has no differences between rigs; expected the results of a study with "
                               "`rigs` and several trials on each",
                               path));
   }
-  const measures::PointSummary& point = summary.points[worst];
-  const double rate = point.success_rate().value;
+  const double rate = worst->success_rate().value;
   if (!(rate > 0.0 && rate < 1.0)) {
     throw Failure(ExitCode::bad_input, fmt::format("{}: no point has both successes and failures; expected "
                                                    "--rig-sd and --true-success in place of a pilot",
                                                    path));
   }
-  request.rig_sd = point.rigs.success_sd;
+  request.rig_sd = worst->rigs.success_sd;
   if (!request.true_success) request.true_success = rate;
-  request.pilot = fmt::format("{}, point {}", path, text::printable(summary.labels[worst]));
+  request.pilot =
+      fmt::format("{}, point {}", path,
+                  text::printable(summary.labels[static_cast<std::size_t>(worst - summary.points.data())]));
 }
 
 PlanRequest request_of(const command_line::Arguments& arguments) {
@@ -120,10 +122,14 @@ std::vector<statistics::ClaimPlan> plans_of(const PlanRequest& request) {
   return plans;
 }
 
+/// Probability that the plan shows the claim, at the assumed true proportion.
+double chance(const PlanRequest& request, const statistics::ClaimPlan& plan) {
+  return statistics::chance_of_claim(plan.trials, plan.failures, *request.true_success);
+}
+
 /// Whether the plan has the requested power.
 bool has_power(const PlanRequest& request, const statistics::ClaimPlan& plan) {
-  return request.power &&
-         statistics::chance_of_claim(plan.trials, plan.failures, *request.true_success) >= *request.power;
+  return request.power && chance(request, plan) >= *request.power;
 }
 
 constexpr std::array<std::int64_t, 8> listed_trials_per_rig{1, 2, 5, 10, 20, 50, 100, 1000};
@@ -132,8 +138,7 @@ std::vector<statistics::RigPlan> halfwidth_plans(const PlanRequest& request) {
   std::vector<statistics::RigPlan> plans;
   plans.reserve(listed_trials_per_rig.size());
   for (const std::int64_t trials : listed_trials_per_rig) {
-    plans.push_back({statistics::rigs_for_halfwidth(*request.halfwidth, request.confidence,
-                                                    request.true_success.value_or(worst_case_rate),
+    plans.push_back({statistics::rigs_for_halfwidth(*request.halfwidth, request.confidence, request.rate(),
                                                     *request.rig_sd, trials),
                      trials});
   }
@@ -184,22 +189,20 @@ Json plan_json(const PlanRequest& request) {
     Json plans = Json::array();
     for (const statistics::ClaimPlan& plan : plans_of(request)) {
       Json entry{{"failures", plan.failures}, {"trials", plan.trials}};
-      if (request.true_success)
-        entry["chance"] = statistics::chance_of_claim(plan.trials, plan.failures, *request.true_success);
+      if (request.true_success) entry["chance"] = chance(request, plan);
       if (request.power) entry["has_power"] = has_power(request, plan);
       plans.push_back(std::move(entry));
     }
     json["plans"] = std::move(plans);
   }
   if (request.halfwidth) {
-    const double rate = request.true_success.value_or(worst_case_rate);
-    json["halfwidth"] = {{"halfwidth", *request.halfwidth}, {"rate", rate}};
+    json["halfwidth"] = {{"halfwidth", *request.halfwidth}, {"rate", request.rate()}};
     if (request.rig_sd) {
       json["halfwidth"]["rig_sd"] = *request.rig_sd;
       json["halfwidth"]["rig_plans"] = rig_plans_json(halfwidth_plans(request));
     } else {
       json["halfwidth"]["trials"] =
-          statistics::trials_for_halfwidth(*request.halfwidth, request.confidence, rate);
+          statistics::trials_for_halfwidth(*request.halfwidth, request.confidence, request.rate());
     }
   }
   return json;
@@ -212,9 +215,7 @@ std::string claim_text(const PlanRequest& request) {
   for (const statistics::ClaimPlan& plan : plans_of(request)) {
     columns[0].cells.push_back(std::to_string(plan.failures));
     columns[1].cells.push_back(std::to_string(plan.trials));
-    if (request.true_success)
-      columns[2].cells.push_back(
-          text::short_number(statistics::chance_of_claim(plan.trials, plan.failures, *request.true_success)));
+    if (request.true_success) columns[2].cells.push_back(text::short_number(chance(request, plan)));
     if (request.power) columns[3].cells.push_back(has_power(request, plan) ? "enough" : "too little");
   }
   std::string text =
@@ -244,7 +245,7 @@ std::string rig_halfwidth_text(const PlanRequest& request, double rate) {
 }
 
 std::string halfwidth_text(const PlanRequest& request) {
-  const double rate = request.true_success.value_or(worst_case_rate);
+  const double rate = request.rate();
   if (request.rig_sd) return rig_halfwidth_text(request, rate);
   return fmt::format("{} trials bring the {:.6g} % bounds of a rate of {:.6g} % within ±{:.6g} %{}\n",
                      statistics::trials_for_halfwidth(*request.halfwidth, request.confidence, rate),
@@ -273,8 +274,6 @@ Command plan_command() {
   return {
       {"plan",
        "[PILOT]",
-       0,
-       1,
        {{"success", "P", "minimum proportion of successful axes to be shown"},
         {"confidence", "LEVEL", "of the claim, or of the bounds (default 0.95)"},
         {"failures", "K", "list plans for 0 to K failures (default 3)"},
@@ -283,7 +282,9 @@ Command plan_command() {
         {"halfwidth", "H", "half-width of the two-sided bounds of a rate"},
         {"rigs-share", "P", "minimum proportion of rigs to be shown to succeed in --success of their trials"},
         {"rig-sd", "SD", "standard deviation of the success probability between rigs"},
-        {"format", "FORMAT", "table (default) or json"}}},
+        {"format", "FORMAT", "table (default) or json"}},
+       0,
+       1},
       "print how many trials a claim needs",
       plan_help,
       print_plan};

@@ -74,4 +74,15 @@ std::vector<std::string> differences(const std::vector<study::InputColumn>& inpu
   return lines;
 }
 
+std::vector<std::string> differences_from_record(const reading::StudyFile& file,
+                                                 const shards::TrialResult& replayed) {
+  const layout::RowRange row{replayed.row, 1};
+  shards::TrialResult recorded;
+  recorded.row = row.first;
+  recorded.inputs = file.inputs_of(row.first);
+  recorded.outcome.moves = file.outcomes(row);
+  for (const layout::JerkRecord& jerk : file.jerks(row)) recorded.jerks.push_back(jerk);
+  return differences(file.input_columns(), recorded, replayed, file.measures(), file.header().version);
+}
+
 }  // namespace zerocount::commands

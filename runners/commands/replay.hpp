@@ -5,6 +5,7 @@
 
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
+#include "results/reading/study_file.hpp"
 #include "results/shards/shard.hpp"
 
 namespace zerocount::commands {
@@ -20,5 +21,9 @@ std::vector<std::string> differences(
     const shards::TrialResult& replayed,
     const std::vector<layout::RecordField<trial::MoveOutcome>>& measures = layout::outcome_fields(),
     std::int64_t version = layout::format_version);
+
+/// The same for a trial of a results file, against its record.
+std::vector<std::string> differences_from_record(const reading::StudyFile& file,
+                                                 const shards::TrialResult& replayed);
 
 }  // namespace zerocount::commands

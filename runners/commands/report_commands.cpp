@@ -42,17 +42,6 @@ constexpr const char* plot_help =
     "\n"
     "Example: zerocount plot gains.h5 --figure success -o success.svg\n";
 
-/// Differences between a trial that was simulated again and its record in the file.
-std::vector<std::string> check(const reading::StudyFile& file, const report::ReplayedTrial& replayed) {
-  const layout::RowRange row{replayed.result.row, 1};
-  shards::TrialResult recorded;
-  recorded.row = row.first;
-  recorded.inputs = file.inputs_of(row.first);
-  recorded.outcome.moves = file.outcomes(row);
-  for (const layout::JerkRecord& jerk : file.jerks(row)) recorded.jerks.push_back(jerk);
-  return differences(file.input_columns(), recorded, replayed.result, file.measures(), file.header().version);
-}
-
 report::StudyReport report_of(const command_line::Arguments& arguments, const reading::StudyFile& file) {
   report::ReportOptions options;
   options.focus = command_line::point_option(arguments, file.point_labels());
@@ -64,7 +53,9 @@ report::StudyReport report_of(const command_line::Arguments& arguments, const re
   } else if (margins) {
     arguments.refuse("option '--margins' needs '--baseline'");
   }
-  options.check = [&file](const report::ReplayedTrial& replayed) { return check(file, replayed); };
+  options.check = [&file](const report::ReplayedTrial& replayed) {
+    return differences_from_record(file, replayed.result);
+  };
   report::StudyReport report = report::study_report(file, options);
   for (const std::string& warning : report.warnings) fmt::print(stderr, "zerocount: warning: {}\n", warning);
   return report;
@@ -140,8 +131,6 @@ ExitCode plot(const command_line::Arguments& arguments) {
 Command report_command() {
   return {{"report",
            "FILE",
-           1,
-           1,
            {{"output,o", "PAGE", "the page to write, such as report.html; - is standard output (required)"},
             {"baseline", "FILE", "compare with these results"},
             {"margins", "FILE", "the margins and requirements of that comparison"},
@@ -155,8 +144,6 @@ Command report_command() {
 Command plot_command() {
   return {{"plot",
            "FILE",
-           1,
-           1,
            {{"figure", "NAME", "which figure"},
             {"output,o", "PICTURE", "the picture to write, *.svg or *.png; - is standard output, as SVG"},
             {"baseline", "FILE", "compare with these results"},

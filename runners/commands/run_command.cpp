@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <optional>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -17,8 +15,6 @@
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
-#include "runners/commands/warnings.hpp"
-#include "runners/study_run/assemble.hpp"
 #include "runners/study_run/earlier_shards.hpp"
 #include "runners/study_run/existing_output.hpp"
 #include "runners/study_run/extension.hpp"
@@ -51,22 +47,21 @@ constexpr const char* run_help =
 /// The rows of part `text` = "I/N", I from 1 to N: parts differ by at most one trial in size.
 layout::RowRange part_of(const command_line::Arguments& arguments, const std::string& text,
                          const study::Study& study) {
-  std::int64_t part = 0;
-  std::int64_t parts = 0;
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, part);
-  const bool slash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '/';
-  const auto second = slash ? std::from_chars(first.ptr + 1, end, parts) : first;
-  const std::int64_t rows = study::trial_count(study);
-  if (!slash || second.ec != std::errc{} || second.ptr != end || part < 1 || part > parts) {
+  const std::size_t slash = text.find('/');
+  const auto part = command_line::parse_number<std::int64_t>(text.substr(0, slash));
+  const auto parts = slash == std::string::npos
+                         ? std::nullopt
+                         : command_line::parse_number<std::int64_t>(text.substr(slash + 1));
+  if (!part || !parts || *part < 1 || *part > *parts) {
     arguments.refuse(fmt::format("option '--shard': '{}' is not I/N with 1 ≤ I ≤ N, such as 2/8", text));
   }
-  if (parts > rows) {
+  const std::int64_t rows = study::trial_count(study);
+  if (*parts > rows) {
     arguments.refuse(
-        fmt::format("option '--shard': the study has {} trials, which cannot make {} parts", rows, parts));
+        fmt::format("option '--shard': the study has {} trials, which cannot make {} parts", rows, *parts));
   }
-  const auto start = [&](std::int64_t i) { return rows / parts * i + std::min(i, rows % parts); };
-  return {start(part - 1), start(part) - start(part - 1)};
+  const auto start = [&](std::int64_t i) { return rows / *parts * i + std::min(i, rows % *parts); };
+  return {start(*part - 1), start(*part) - start(*part - 1)};
 }
 
 /// Request of a run.
@@ -98,13 +93,15 @@ RunRequest run_request(const command_line::Arguments& arguments) {
   return request;
 }
 
+study_run::ForeignShards foreign_shards(const RunRequest& request) {
+  return request.force ? study_run::ForeignShards::remove : study_run::ForeignShards::refuse;
+}
+
 /// The usable shards that exist before the first trial is run.
 study_run::EarlierShards prepare_shards(const RunRequest& request, const fs::path& directory,
                                         study_run::ExistingUse existing) {
-  const study_run::ForeignShards foreign =
-      request.force ? study_run::ForeignShards::remove : study_run::ForeignShards::refuse;
   study_run::EarlierShards earlier =
-      study_run::earlier_shards(directory, request.study, request.wanted, foreign);
+      study_run::earlier_shards(directory, request.study, request.wanted, foreign_shards(request));
   const std::int64_t missing = layout::total_rows(shards::missing_ranges(earlier.usable, request.wanted));
   if (!request.force) study_run::require_room(request.output, request.study, missing);
   if (existing != study_run::ExistingUse::extend) return earlier;
@@ -147,9 +144,7 @@ void run_rows(const RunRequest& request, study_run::ExistingUse existing, const 
   }
   std::vector<shards::ShardInfo> shards = std::move(earlier.usable);
   shards.insert(shards.end(), written.begin(), written.end());
-  std::sort(shards.begin(), shards.end(), [](const shards::ShardInfo& a, const shards::ShardInfo& b) {
-    return a.rows.first < b.rows.first;
-  });
+  shards::sort_by_rows(shards);
   study_run::assemble(shards, request.study, request.output, wanted);
   for (const shards::ShardInfo& shard : written) earlier.all.push_back(shard.path);
   study_run::remove_shards(directory, earlier.all);
@@ -158,7 +153,7 @@ void run_rows(const RunRequest& request, study_run::ExistingUse existing, const 
 
 ExitCode run(const command_line::Arguments& arguments) {
   const RunRequest request = run_request(arguments);
-  warn(request.study);
+  print_warnings(request.study);
   const study_run::InterruptionWatch interruption;
   const storage::OutputLock lock(request.output);
   const study_run::ExistingUse existing =
@@ -177,9 +172,8 @@ ExitCode run(const command_line::Arguments& arguments) {
     run_rows(request, existing, interruption.token());
     return ExitCode::success;
   }
-  const study_run::ForeignShards foreign =
-      request.force ? study_run::ForeignShards::remove : study_run::ForeignShards::refuse;
-  return study_run::run_until_sure(request.study, request.output, {request.threads, request.quiet, foreign},
+  return study_run::run_until_sure(request.study, request.output,
+                                   {request.threads, request.quiet, foreign_shards(request)},
                                    interruption.token());
 }
 
@@ -189,8 +183,6 @@ Command run_command() {
   return {
       {"run",
        "MANIFEST -o FILE",
-       1,
-       1,
        {{"output,o", "FILE", "the results file to make (required)"},
         {"threads", "N", "threads to use; default: all cores"},
         {"engine", "NAME",

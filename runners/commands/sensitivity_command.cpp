@@ -57,8 +57,6 @@ Command sensitivity_command() {
   return {
       {"sensitivity",
        "FILE",
-       1,
-       1,
        {{"point,p", "P", "design point, by label or number; may be repeated (default: all)", true},
         {"output", "NAME", "output of the trials; may be repeated (default: success, settling_time)", true},
         {"confidence", "C", "confidence of the bounds, above 0 and up to 0.999 (default 0.95)"},

@@ -72,8 +72,6 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
 Command summary_command() {
   return {{"summary",
            "FILE",
-           1,
-           1,
            {{"format", "FORMAT", "table (default), json or csv"},
             {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"}}},
           "print the statistics of a results file",

@@ -27,11 +27,11 @@ ExitCode print_schema(const command_line::Arguments&) {
 Command parameters_command() {
   return {{"parameters",
            "",
-           0,
-           0,
            {{"format", "FORMAT", "text (default) or markdown"},
             {"axis", "AXIS", "rotary (default) or linear: units on this kind of axis"},
-            {"units", "UNITS", "count (default) or si: unit of the gains (controller.units)"}}},
+            {"units", "UNITS", "count (default) or si: unit of the gains (controller.units)"}},
+           0,
+           0},
           "list every parameter: unit, default, range, source",
           "Every physical value of a manifest is a number or a distribution. Missing values have the\n"
           "default, unless it is in other units: on a linear axis most values must be given, and with\n"
@@ -40,7 +40,7 @@ Command parameters_command() {
 }
 
 Command schema_command() {
-  return {{"schema", "", 0, 0, {}},
+  return {{"schema", "", {}, 0, 0},
           "print the JSON Schema of manifests, for editors",
           "Example: zerocount schema > zerocount.schema.json, and in the manifest's first line\n"
           "  # yaml-language-server: $schema=zerocount.schema.json\n",

@@ -69,27 +69,18 @@ shards::TrialResult write_trace(const TraceSubject& subject, const TraceWriter::
   return result;
 }
 
-/// Writes the trace to a file that appears when it is complete.
-shards::TrialResult write_trace_file(const TraceSubject& subject, const std::filesystem::path& path,
-                                     bool json) {
-  storage::OutputFile file(path);
+/// Writes the trace to standard output, or to a file that appears when it is complete.
+shards::TrialResult write_trace_to(const std::filesystem::path& place, const TraceSubject& subject,
+                                   bool json) {
+  if (yaml::is_standard_stream(place)) {
+    return write_trace(
+        subject, [](std::string_view text) { fmt::print("{}", text); }, json);
+  }
+  storage::OutputFile file(place);
   shards::TrialResult result = write_trace(
       subject, [&file](std::string_view text) { file.write(text); }, json);
   file.finish();
   file.publish();
-  return result;
-}
-
-void print_text(std::string_view text) {
-  fmt::print("{}", text);
-}
-
-shards::TrialResult recorded_trial(const reading::StudyFile& file, layout::RowRange row) {
-  shards::TrialResult result;
-  result.row = row.first;
-  result.inputs = file.inputs_of(row.first);
-  result.outcome.moves = file.outcomes(row);
-  for (const layout::JerkRecord& jerk : file.jerks(row)) result.jerks.push_back(jerk);
   return result;
 }
 
@@ -112,14 +103,11 @@ ExitCode trace(const command_line::Arguments& arguments) {
     arguments.refuse(fmt::format("{} is a part of the study and does not hold that trial", input));
   }
   const study::StudyTrial trial = study::study_trial(study, point, index);
-  const TraceSubject subject{study, point, index, trial};
-  const shards::TrialResult replayed = output && !yaml::is_standard_stream(*output)
-                                           ? write_trace_file(subject, *output, json)
-                                           : write_trace(subject, print_text, json);
+  const shards::TrialResult replayed =
+      write_trace_to(output.value_or("-"), {study, point, index, trial}, json);
   if (!file) return ExitCode::success;
 
-  const std::vector<std::string> different = differences(study.input_columns, recorded_trial(*file, row),
-                                                         replayed, file->measures(), file->header().version);
+  const std::vector<std::string> different = differences_from_record(*file, replayed);
   if (different.empty()) return ExitCode::success;
   std::string message =
       fmt::format("{}: point {}, trial {}: the replay is not the recorded trial", input, point, index);
@@ -132,8 +120,6 @@ ExitCode trace(const command_line::Arguments& arguments) {
 Command trace_command() {
   return {{"trace",
            "MANIFEST|FILE",
-           1,
-           1,
            {{"point", "P", "design point, by label or number from 0 (default 0)"},
             {"trial", "I", "trial of the point, from 0 (default 0)"},
             {"format", "FORMAT", "csv (default) or json"},

@@ -13,8 +13,8 @@
 namespace zerocount::commands {
 namespace {
 
-std::vector<layout::RecordField<layout::TraceRecord>> columns_of(const study::TraceExtras& extras) {
-  std::vector<layout::RecordField<layout::TraceRecord>> columns = layout::trace_fields(extras);
+std::vector<layout::RecordField<layout::TraceRecord>> columns_of(const study::StudyFeatures& features) {
+  std::vector<layout::RecordField<layout::TraceRecord>> columns = layout::trace_fields(features);
   std::erase_if(columns, [](const layout::RecordField<layout::TraceRecord>& field) {
     return field.column.name == "trial";
   });
@@ -51,8 +51,8 @@ nlohmann::ordered_json outcome_json(const trial::MoveOutcome& outcome,
 }  // namespace
 
 void TraceWriter::begin(const TraceSubject& subject) {
-  columns_ = columns_of(subject.study.trace_extras);
-  measures_ = layout::outcome_fields(layout::format_version, subject.study.outcome_extras);
+  columns_ = columns_of(subject.study.features);
+  measures_ = layout::outcome_fields(layout::format_version, subject.study.features);
   if (json_) {
     nlohmann::ordered_json inputs = nlohmann::ordered_json::object();
     for (std::size_t i = 0; i < subject.trial.inputs.size(); ++i) {

@@ -21,7 +21,7 @@ struct TraceSubject {
 };
 
 /// Writes the trace of one trial, record by record. The columns are those of the results file's /trace
-/// without `trial`, in the same order; the optional columns (Study::trace_extras) come last. Numbers read
+/// without `trial`, in the same order; the optional columns (Study::features) come last. Numbers read
 /// back to the same double; in JSON non-finite values are null.
 class TraceWriter {
  public:

@@ -42,7 +42,7 @@ void require_extensible(const fs::path& output, const layout::FileHeader& header
   if (study.trials < header.trials) refuse_more("a results file can only be extended");
   if (!study::trials_stay_when_extended(study.design)) {
     refuse_more(fmt::format("the trials of design: {} are laid out for their number, and all change with it",
-                            manifest::design_labels()[static_cast<std::size_t>(study.design)]));
+                            manifest::design_labels[static_cast<std::size_t>(study.design)]));
   }
   if (!layout::same_build(header.provenance, layout::current_provenance()) ||
       header.version != layout::format_version) {

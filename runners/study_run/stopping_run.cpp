@@ -9,7 +9,6 @@
 #include "experiments/manifest/load_study.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/storage/durable_file.hpp"
-#include "runners/study_run/assemble.hpp"
 #include "runners/study_run/progress.hpp"
 #include "runners/study_run/study_runner.hpp"
 
@@ -147,9 +146,7 @@ ExitCode run_until_sure(const study::Study& study, const fs::path& output,
       successes.add(shard);
       shards.push_back(std::move(shard));
     }
-    std::sort(shards.begin(), shards.end(), [](const shards::ShardInfo& a, const shards::ShardInfo& b) {
-      return a.rows.first < b.rows.first;
-    });
+    shards::sort_by_rows(shards);
     if (done - before < layout::total_rows(ranges)) {
       throw Failure(ExitCode::interrupted,
                     fmt::format("interrupted: {} trials are kept in {}; give the same command again to go on",

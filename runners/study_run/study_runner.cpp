@@ -13,6 +13,8 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "analysis/summary/study_statistics.hpp"
+#include "results/shards/merge.hpp"
 #include "runners/study_run/trial_runner.hpp"
 
 namespace zerocount::study_run {
@@ -192,6 +194,15 @@ std::vector<shards::ShardInfo> run_trials(const study::Study& study, std::span<c
   tbb::task_arena(threads).execute(pipeline);
   writer.flush();
   return writer.written();
+}
+
+void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
+              const std::filesystem::path& output, layout::RowRange rows,
+              const shards::Renumbering& renumber) {
+  const auto statistics = [&](const reading::StudyFile& file) {
+    return summary::stored_statistics(file, study);
+  };
+  shards::merge_shards(shards, study, output, rows, statistics, layout::current_provenance(), renumber);
 }
 
 }  // namespace zerocount::study_run

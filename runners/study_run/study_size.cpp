@@ -71,6 +71,14 @@ std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
   return trials;
 }
 
+/// Mean of bytes_of().
+double mean_bytes(std::span<const shards::TrialResult> trials) {
+  double bytes = 0.0;
+  for (const shards::TrialResult& trial : trials)
+    bytes += static_cast<double>(bytes_of(trial)) / static_cast<double>(trials.size());
+  return bytes;
+}
+
 /// Bytes of a shard of these trials.
 double shard_size(const TemporaryFolder& folder, const study::Study& study,
                   std::span<const shards::TrialResult> trials, hdf5::Compression compression) {
@@ -134,14 +142,10 @@ double table_bytes(const study::Study& study) {
 
 /// An upper bound of the size of a study's files, computed without writing any.
 double file_bytes_at_most(const study::Study& study) {
-  double bytes_of_trial = 0.0;
-  const std::vector<shards::TrialResult> trials = sampled_trials(study);
-  for (const shards::TrialResult& trial : trials)
-    bytes_of_trial += static_cast<double>(bytes_of(trial)) / static_cast<double>(trials.size());
   const double records = static_cast<double>(std::ssize(study.retained_trials) * study::point_count(study)) *
                          samples_per_trial(study) * static_cast<double>(sizeof(trial::SampleRecord));
-  const double once =
-      bytes_of_trial * static_cast<double>(study::trial_count(study)) + records + table_bytes(study);
+  const double once = mean_bytes(sampled_trials(study)) * static_cast<double>(study::trial_count(study)) +
+                      records + table_bytes(study);
   return 2.0 * storage_factor * once;  // the shards, and the results file
 }
 
@@ -160,11 +164,7 @@ std::optional<StudySize> measured_size(const study::Study& study) {
 StudySize measure_size(const study::Study& study, int threads) {
   const TemporaryFolder folder;
   std::vector<shards::TrialResult> trials = sampled_trials(study);
-  double bytes_of_trial = 0.0;
-  for (shards::TrialResult& trial : trials) {
-    trial.trace.clear();
-    bytes_of_trial += static_cast<double>(bytes_of(trial)) / static_cast<double>(trials.size());
-  }
+  for (shards::TrialResult& trial : trials) trial.trace.clear();
   const Growth file = growth_of(folder, study, trials, hdf5::Compression::deflate);
   const Growth shards = growth_of(folder, study, trials, hdf5::Compression::none);
   const auto rows = static_cast<double>(study::trial_count(study));
@@ -174,7 +174,7 @@ StudySize measure_size(const study::Study& study, int threads) {
   size.file_bytes = file.fixed + file.per_trial * rows + table_bytes(study) +
                     record_bytes(folder, study, records, hdf5::Compression::deflate);
   size.shard_bytes = shards.fixed + shards.per_trial * rows + raw_records;
-  size.memory_bytes = peak_memory(study, bytes_of_trial, raw_records, threads);
+  size.memory_bytes = peak_memory(study, mean_bytes(trials), raw_records, threads);
   return size;
 }
 

@@ -112,8 +112,8 @@ study::Study sample_study(std::int64_t points, std::int64_t trials, std::int64_t
   profile->sine = {0.0, 0.25};
   study.profiles = {{"friction.k1", "N m/rad", profile}};
   study.retained_trials = {0};
-  study.trace_extras = {true, true, true};
-  study.outcome_extras = {true};
+  study.features.travel = study.features.phases = study.features.drive_torque = true;
+  study.features.stopping = true;
   return study;
 }
 

@@ -10,7 +10,6 @@
 #include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 #include "results/shards/shard.hpp"
-#include "runners/study_run/assemble.hpp"
 #include "runners/study_run/study_runner.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/version_1_file.hpp"

@@ -127,27 +127,27 @@ TEST(Study, EnumerationsAmongTheInputsAreTheNumbersOfTheirWords) {
   EXPECT_EQ(study::study_trial(study, 1, 0).inputs[shape], 2);
 }
 
-study::TraceExtras extras(const std::string& more, const std::string& command = "{targets: [5]}") {
-  return study_of(manifest_commanding(command, more)).trace_extras;
+study::StudyFeatures features(const std::string& more, const std::string& command = "{targets: [5]}") {
+  return study_of(manifest_commanding(command, more)).features;
 }
 
 TEST(Study, RecordsAPhaseWhereThereCanBeTwo) {
-  EXPECT_FALSE(extras("").phase);
-  EXPECT_FALSE(extras("controller: {coarse: {coarse_beyond: 1.0e12}}").phase);
-  EXPECT_TRUE(extras("controller: {coarse: {coarse_beyond: 1000}}").phase);
-  EXPECT_TRUE(extras("controller: {coarse: {coarse_beyond: {uniform: [1000, 1.0e12]}}}").phase);
-  EXPECT_TRUE(extras("sweep: {cases: {one: {}, two: {controller.coarse.coarse_beyond: 200}}}").phase);
+  EXPECT_FALSE(features("").phases);
+  EXPECT_FALSE(features("controller: {coarse: {coarse_beyond: 1.0e12}}").phases);
+  EXPECT_TRUE(features("controller: {coarse: {coarse_beyond: 1000}}").phases);
+  EXPECT_TRUE(features("controller: {coarse: {coarse_beyond: {uniform: [1000, 1.0e12]}}}").phases);
+  EXPECT_TRUE(features("sweep: {cases: {one: {}, two: {controller.coarse.coarse_beyond: 200}}}").phases);
 }
 
 TEST(Study, RecordsAReferenceWhereItIsNotTheTarget) {
-  EXPECT_FALSE(extras("").reference);
-  EXPECT_TRUE(extras("", "{targets: [5], profile: {shape: s_curve}}").reference);
-  EXPECT_TRUE(extras("sweep: {grid: {command.profile.shape: [step, trapezoidal]}}").reference);
+  EXPECT_FALSE(features("").travel);
+  EXPECT_TRUE(features("", "{targets: [5], profile: {shape: s_curve}}").travel);
+  EXPECT_TRUE(features("sweep: {grid: {command.profile.shape: [step, trapezoidal]}}").travel);
 }
 
 TEST(Study, SaysWhatWasStoppedWhereATrialCanBe) {
   const auto can_stop = [](const std::string& more) {
-    return study_of(minimal_manifest(more)).outcome_extras.stopped;
+    return study_of(minimal_manifest(more)).features.stopping;
   };
   EXPECT_FALSE(can_stop(""));
   EXPECT_FALSE(can_stop("verdict: {stop: false}"));
@@ -159,18 +159,18 @@ TEST(Study, SaysWhatWasStoppedWhereATrialCanBe) {
 }
 
 TEST(Study, RecordsTheTorqueOfTheMotorWhereItIsNotThatOfTheCode) {
-  EXPECT_FALSE(extras("").drive_torque);
-  EXPECT_FALSE(extras("controller: {delay: 2}").drive_torque);
-  EXPECT_FALSE(extras("dac: {noise: 0, offset: 0}\namplifier: {bandwidth: 0}").drive_torque);
-  EXPECT_FALSE(extras("", "{torque: {levels: [0.1]}}").drive_torque);
-  EXPECT_TRUE(extras("controller: {delay: 2}", "{torque: {levels: [0.1]}}").drive_torque);
-  EXPECT_TRUE(extras("", "{torque: {levels: [0.1], through: exact}}").drive_torque);
-  EXPECT_TRUE(extras("amplifier: {bandwidth: 100}").drive_torque);
+  EXPECT_FALSE(features("").drive_torque);
+  EXPECT_FALSE(features("controller: {delay: 2}").drive_torque);
+  EXPECT_FALSE(features("dac: {noise: 0, offset: 0}\namplifier: {bandwidth: 0}").drive_torque);
+  EXPECT_FALSE(features("", "{torque: {levels: [0.1]}}").drive_torque);
+  EXPECT_TRUE(features("controller: {delay: 2}", "{torque: {levels: [0.1]}}").drive_torque);
+  EXPECT_TRUE(features("", "{torque: {levels: [0.1], through: exact}}").drive_torque);
+  EXPECT_TRUE(features("amplifier: {bandwidth: 100}").drive_torque);
   for (const std::string error : {"offset", "gain_error", "nonlinearity", "noise"}) {
-    EXPECT_TRUE(extras("dac: {" + error + ": 1.0e-6}").drive_torque) << error;
-    EXPECT_TRUE(extras("sweep: {grid: {dac." + error + ": [0, 1.0e-6]}}").drive_torque) << error;
+    EXPECT_TRUE(features("dac: {" + error + ": 1.0e-6}").drive_torque) << error;
+    EXPECT_TRUE(features("sweep: {grid: {dac." + error + ": [0, 1.0e-6]}}").drive_torque) << error;
   }
-  EXPECT_TRUE(extras("dac: {offset: {uniform: [-1, 0]}}").drive_torque);
+  EXPECT_TRUE(features("dac: {offset: {uniform: [-1, 0]}}").drive_torque);
 }
 
 TEST(Study, SeedsOfAll64BitsAreKept) {

@@ -1,5 +1,3 @@
-#include "experiments/study/study_features.hpp"
-
 #include <string>
 
 #include <fmt/format.h>
@@ -11,11 +9,11 @@ namespace zerocount::study {
 namespace {
 
 StudyFeatures features_with(const std::string& more, int seed = 5) {
-  return study_features(
-      manifest::parse_study(fmt::format("zerocount: 1\nname: features\nseed: {}\ntrials: 3\n"
-                                        "command: {{targets: [10], hold: 0.2}}\n{}\n",
-                                        seed, more),
-                            "test"));
+  return manifest::parse_study(fmt::format("zerocount: 1\nname: features\nseed: {}\ntrials: 3\n"
+                                           "command: {{targets: [10], hold: 0.2}}\n{}\n",
+                                           seed, more),
+                               "test")
+      .features;
 }
 
 bool has_encoder_errors(const std::string& more, int seed = 5) {
@@ -76,16 +74,9 @@ TEST(StudyFeatures, DoNotDependOnWhatIsDrawn) {
   }
 }
 
-TEST(StudyFeatures, OfTheSampleRecordsAreThoseOfTheTable) {
-  Study study;
-  study.trace_extras = {true, false, false};
-  EXPECT_TRUE(study_features(study).travel);
-  EXPECT_TRUE(study_features(study).final_error);
-  study.trace_extras = {false, true, false};
-  EXPECT_TRUE(study_features(study).phases);
-  EXPECT_TRUE(study_features(study).final_error);
-  study.open_loop = true;
-  EXPECT_TRUE(study_features(study).open_loop);
+TEST(StudyFeatures, LongMovesMayEndBesideTheirTargets) {
+  EXPECT_TRUE(has_final_error("controller: {coarse: {coarse_beyond: 1000}}"));
+  EXPECT_TRUE(has_final_error("sweep: {grid: {command.profile.shape: [trapezoidal]}}"));
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ std::vector<layout::Table> all_tables() {
   const study::Study study = sample_study();
   return {layout::point_table(study.axes, {{"trials", "1", "trials", {}}}),
           layout::trial_table(study.input_columns),
-          layout::outcome_table(layout::format_version, {true}),
+          layout::outcome_table(layout::format_version, {.stopping = true}),
           layout::jerk_table(),
-          layout::trace_table({true, true, true}),
+          layout::trace_table({.travel = true, .phases = true, .drive_torque = true}),
           layout::statistic_table(layout::level_group(), {{"torque", "N m", "torque", {}}}),
           layout::profile_table("friction.k1", "N m/rad")};
 }
@@ -82,7 +82,7 @@ TEST(Layout, TellsWhatWasStoppedLastAndOnlyWhereItCanBe) {
   std::vector<std::string> expected = names(layout::outcome_table().columns);
   EXPECT_EQ(std::count(expected.begin(), expected.end(), "stopped"), 0);
   expected.emplace_back("stopped");
-  EXPECT_EQ(names(layout::outcome_table(layout::format_version, {true}).columns), expected);
+  EXPECT_EQ(names(layout::outcome_table(layout::format_version, {.stopping = true}).columns), expected);
 }
 
 TEST(Layout, OfVersion1HasTheFirstMeasures) {
@@ -94,12 +94,13 @@ TEST(Layout, OfVersion1HasTheFirstMeasures) {
 }
 
 TEST(Layout, OfVersion2LacksTheMeasuresOfTheEndOfAMove) {
-  std::vector<std::string> expected = names(layout::outcome_table(layout::format_version, {true}).columns);
+  std::vector<std::string> expected =
+      names(layout::outcome_table(layout::format_version, {.stopping = true}).columns);
   for (const char* measure : {"final_settling_time", "zero_fraction", "midway_error", "oscillation_amplitude",
                               "oscillation_period"}) {
     EXPECT_EQ(std::erase(expected, measure), 1U) << measure;
   }
-  EXPECT_EQ(names(layout::outcome_table(2, {true}).columns), expected);
+  EXPECT_EQ(names(layout::outcome_table(2, {.stopping = true}).columns), expected);
 }
 
 TEST(Layout, TracesHaveTheColumnsOfTheTraceCommandAfterTheTrial) {
@@ -108,12 +109,13 @@ TEST(Layout, TracesHaveTheColumnsOfTheTraceCommandAfterTheTrial) {
                                         "omega",        "xp",    "xh",   "depth",  "mode"};
   EXPECT_EQ(names(layout::trace_table({}).columns), always);
   for (unsigned which = 0; which < 8; ++which) {
-    const study::TraceExtras extras{(which & 1U) != 0, (which & 2U) != 0, (which & 4U) != 0};
+    const study::StudyFeatures features{
+        .travel = (which & 1U) != 0, .phases = (which & 2U) != 0, .drive_torque = (which & 4U) != 0};
     std::vector<std::string> expected = always;
-    if (extras.reference) expected.emplace_back("reference");
-    if (extras.phase) expected.emplace_back("phase");
-    if (extras.drive_torque) expected.emplace_back("drive_torque");
-    EXPECT_EQ(names(layout::trace_table(extras).columns), expected);
+    if (features.travel) expected.emplace_back("reference");
+    if (features.phases) expected.emplace_back("phase");
+    if (features.drive_torque) expected.emplace_back("drive_torque");
+    EXPECT_EQ(names(layout::trace_table(features).columns), expected);
   }
 }
 
@@ -167,18 +169,18 @@ TEST(Fields, ScatterIsTheReverseOfGather) {
     for (const trial::SampleRecord& record : result.trace) records.push_back({record, result.row});
   }
   std::vector<trial::MoveOutcome> moves_back(moves.size());
-  const auto& measures = layout::outcome_fields(layout::format_version, study.outcome_extras);
+  const auto& measures = layout::outcome_fields(layout::format_version, study.features);
   for (const layout::RecordField<trial::MoveOutcome>& field : measures) {
     layout::scatter(field, layout::gather(field, std::span<const trial::MoveOutcome>(moves)),
                     std::span(moves_back));
   }
   expect_equal_records(measures, moves, moves_back);
   std::vector<layout::TraceRecord> records_back(records.size());
-  for (const layout::RecordField<layout::TraceRecord>& field : layout::trace_fields(study.trace_extras)) {
+  for (const layout::RecordField<layout::TraceRecord>& field : layout::trace_fields(study.features)) {
     layout::scatter(field, layout::gather(field, std::span<const layout::TraceRecord>(records)),
                     std::span(records_back));
   }
-  expect_equal_records(layout::trace_fields(study.trace_extras), records, records_back);
+  expect_equal_records(layout::trace_fields(study.features), records, records_back);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TEST(Merge, KeepsEverythingOfEveryTrial) {
     jerk += std::ssize(jerks);
     std::vector<layout::TraceRecord> trace;
     for (const trial::SampleRecord& each : expected.trace) trace.push_back({each, row});
-    expect_equal_records(layout::trace_fields(study.trace_extras), file.trace_at(record, std::ssize(trace)),
+    expect_equal_records(layout::trace_fields(study.features), file.trace_at(record, std::ssize(trace)),
                          trace);
     record += std::ssize(trace);
   }
@@ -74,7 +74,7 @@ TEST(Merge, KeepsEverythingOfEveryTrial) {
 TEST(Merge, HasNoColumnForWhatTheStudyDoesNotUse) {
   const TemporaryFolder directory;
   study::Study study = sample_study();
-  study.outcome_extras = {};
+  study.features.stopping = false;
   const reading::StudyFile file(write_sample_file(directory.path(), study));
   EXPECT_FALSE(file.root().open_group("outcome").contains("stopped"));
   EXPECT_EQ(file.measures().size(), layout::outcome_fields().size());
@@ -142,12 +142,12 @@ TEST(Merge, RefusesATableOfStatisticsThatIsNotOfItsPoints) {
 TEST(Merge, KeepsOnlyTheColumnsOfSampleRecordsThatTheStudyHas) {
   const TemporaryFolder directory;
   study::Study study = sample_study(1, 5, 1);
-  study.trace_extras = {false, true, false};
+  study.features.travel = study.features.drive_torque = false;
   const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 2);
   const reading::StudyFile file(merged(directory / "all.h5", study, shards));
-  EXPECT_FALSE(file.trace_extras().reference);
-  EXPECT_TRUE(file.trace_extras().phase);
-  EXPECT_FALSE(file.trace_extras().drive_torque);
+  EXPECT_FALSE(file.features().travel);
+  EXPECT_TRUE(file.features().phases);
+  EXPECT_FALSE(file.features().drive_torque);
   const std::vector<trial::SampleRecord> written = sample_result(study, 0).trace;
   const std::vector<layout::TraceRecord> read = file.trace_at(0, file.trace_count());
   ASSERT_EQ(read.size(), written.size());

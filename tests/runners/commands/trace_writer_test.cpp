@@ -11,10 +11,10 @@ namespace zerocount::commands {
 namespace {
 
 /// The trace of one sample, in a study with these further columns.
-std::string trace_of(const study::TraceExtras& extras, bool json) {
+std::string trace_of(const study::StudyFeatures& features, bool json) {
   study::Study study;
   study.name = "extras";
-  study.trace_extras = extras;
+  study.features = features;
   const study::StudyTrial trial;
   trial::SampleRecord record;
   record.count = 5;
@@ -38,15 +38,16 @@ TEST(TraceColumns, AreFourteenWhereTheStudyUsesNoMore) {
 
 TEST(TraceColumns, ThatTheStudyUsesComeAfterTheMode) {
   EXPECT_EQ(
-      trace_of({true, true, true}, false),
+      trace_of({.travel = true, .phases = true, .drive_torque = true}, false),
       "k,t,target,count,coarse_count,error,code,torque,theta,omega,xp,xh,depth,mode,reference,phase,drive_"
       "torque\n"
       "0,0,0,5,0,0,0,0,0,0,0,0,0,stick,7,coarse,0.125\n");
-  EXPECT_TRUE(trace_of({false, true, false}, false).ends_with(",stick,coarse\n"));
+  EXPECT_TRUE(trace_of({.phases = true}, false).ends_with(",stick,coarse\n"));
 }
 
 TEST(TraceColumns, OfJsonAreTheSame) {
-  const auto all = nlohmann::json::parse(trace_of({true, true, true}, true))["samples"][0];
+  const auto all = nlohmann::json::parse(
+      trace_of({.travel = true, .phases = true, .drive_torque = true}, true))["samples"][0];
   EXPECT_EQ(all.size(), 17U);
   EXPECT_EQ(all["reference"], 7);
   EXPECT_EQ(all["phase"], "coarse");
@@ -60,7 +61,7 @@ TEST(TraceOutcome, SaysWhetherItWasStoppedWhereTheStudyCanStop) {
   study::Study study;
   const study::StudyTrial trial;
   for (const bool stopped : {false, true}) {
-    study.outcome_extras = {stopped};
+    study.features.stopping = stopped;
     std::string text;
     TraceWriter writer([&text](std::string_view piece) { text += piece; }, true);
     writer.begin({study, 0, 0, trial});

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "analysis/comparison/manifest_differences.hpp"
 #include "analysis/comparison/margins_file.hpp"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
-#include <limits>
 
 #include "analysis/comparison/mean_tests.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"

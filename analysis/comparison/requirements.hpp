@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/point_trials.hpp"

@@ -1,6 +1,5 @@
 #include "analysis/identification/reading_replicates.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 

@@ -1,7 +1,6 @@
 #include "analysis/identification/record_checks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>

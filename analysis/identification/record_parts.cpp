@@ -1,6 +1,5 @@
 #include "analysis/identification/record_parts.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace zerocount::identification {

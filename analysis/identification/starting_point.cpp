@@ -1,7 +1,6 @@
 #include "analysis/identification/starting_point.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <limits>

@@ -1,7 +1,6 @@
 #include "analysis/iso230/repeatability_statistics.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>

@@ -1,5 +1,4 @@
 #include <cstddef>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>

@@ -1,8 +1,5 @@
 #include "analysis/report/report.hpp"
 
-#include <algorithm>
-#include <cstddef>
-
 #include <fmt/format.h>
 
 #include "analysis/report/comparison_section.hpp"

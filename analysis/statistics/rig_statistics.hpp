@@ -4,7 +4,6 @@
 #include <limits>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"

@@ -26,10 +26,10 @@ struct JerkRate {
   double exposure{0.0};   ///< s, sum over all moves of the time in which a jerk could have begun
   std::int64_t jerks{0};  ///< that began in the range
   double rate{std::numeric_limits<double>::quiet_NaN()};  ///< jerks / exposure, 1/s
-  statistics::ConfidenceInterval poisson{};  ///< of the rate, 1/s: Garwood's, valid for independent jerks
+  statistics::ConfidenceInterval poisson{};  ///< Garwood bounds of the rate, 1/s, for independent jerks
   /// Variance of the jerks of a trial about rate·exposure, divided by that of a Poisson number; 1 if unknown.
   double dispersion{1.0};
-  /// Of the rate, 1/s: Garwood's, with jerks and exposure divided by the dispersion if that is above 1
+  /// Garwood bounds of the rate, 1/s; jerks and exposure are divided by the dispersion if that is above 1
   /// (trials differ). These are the bounds to report.
   statistics::ConfidenceInterval bounds{};
 };

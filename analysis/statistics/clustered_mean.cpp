@@ -120,11 +120,6 @@ void ClusterTotals::add(std::int64_t cluster, double sum, double number) {
   clusters = std::max(clusters, cluster + 1);
 }
 
-double mean_of_clusters(const ClusterTotals& totals) {
-  const double number = sum_of(totals.numbers);
-  return number > 0.0 ? sum_of(totals.sums) / number : unknown_bound;
-}
-
 ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const random::RandomStream& stream,
                                          double confidence, std::int64_t resamples) {
   require_confidence(confidence);

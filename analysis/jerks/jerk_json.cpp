@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "analysis/jerks/jerk_report.hpp"
+#include "analysis/text/report_json.hpp"
 
 namespace zerocount::jerks {
 namespace {
@@ -105,8 +106,7 @@ Json jerk_json(const JerkReport& report) {
 }
 
 std::string jerk_json_text(const JerkReport& report) {
-  constexpr int indent = 2;
-  return jerk_json(report).dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text::json_text(jerk_json(report));
 }
 
 }  // namespace zerocount::jerks

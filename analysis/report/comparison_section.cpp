@@ -25,27 +25,13 @@ struct ComparedMeasure {
   const comparison::MeasureComparison* measure{nullptr};
 };
 
-int severity(comparison::GateVerdict verdict) {
-  switch (verdict) {
-    case comparison::GateVerdict::regression:
-      return 0;
-    case comparison::GateVerdict::inconclusive:
-      return 1;
-    case comparison::GateVerdict::passed:
-      return 2;
-    case comparison::GateVerdict::not_measured:
-      break;
-  }
-  return 3;
-}
-
 std::vector<ComparedMeasure> worst_first(const comparison::StudyComparison& comparison) {
   std::vector<ComparedMeasure> all;
   for (const comparison::PointComparison& point : comparison.points) {
     for (const comparison::MeasureComparison& measure : point.measures) all.push_back({&point, &measure});
   }
   std::stable_sort(all.begin(), all.end(), [](const ComparedMeasure& a, const ComparedMeasure& b) {
-    return severity(a.measure->verdict) < severity(b.measure->verdict);
+    return a.measure->verdict < b.measure->verdict;
   });
   return all;
 }
@@ -107,8 +93,9 @@ std::string differences_table(const comparison::StudyComparison& comparison) {
 }
 
 std::string file_text(const comparison::ComparedFile& file) {
-  return fmt::format("{}: {}, made {} by zerocount {} ({}), {} trials per point", file.path, file.name,
-                     file.created, file.version, file.commit, file.trials);
+  const layout::Provenance& build = file.header.provenance;
+  return fmt::format("{}: {}, made {} by zerocount {} ({}), {} trials per point", file.path, file.header.name,
+                     build.created, build.zerocount_version, build.git_commit, file.header.trials);
 }
 
 /// Figure of the change of the success rate at each point.

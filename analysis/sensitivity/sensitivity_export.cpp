@@ -1,11 +1,11 @@
 #include <array>
-#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/sensitivity/sensitivity.hpp"
+#include "analysis/text/report_json.hpp"
 #include "results/reading/csv.hpp"
 
 namespace zerocount::sensitivity {
@@ -25,17 +25,11 @@ constexpr std::array<NamedMeasure, 5> named_measures{
      {"partial_rank_correlation", &FactorSensitivity::partial_rank_correlation},
      {"log_odds", &FactorSensitivity::log_odds}}};
 
-Json number_json(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
 Json factor_json(const FactorSensitivity& factor) {
   Json json{{"name", factor.name}, {"matters", factor.matters}};
   for (const NamedMeasure& measure : named_measures) {
     const BoundedNumber& number = factor.*measure.number;
-    json[measure.name] = {{"value", number_json(number.value)},
-                          {"low", number_json(number.low)},
-                          {"high", number_json(number.high)}};
+    json[measure.name] = {{"value", number.value}, {"low", number.low}, {"high", number.high}};
   }
   return json;
 }
@@ -54,8 +48,8 @@ Json output_json(const OutputSensitivity& output) {
           {"conclusion", output.conclusion},
           {"notes", output.notes},
           {"trials", output.trials},
-          {"mean", number_json(output.mean)},
-          {"standard_deviation", number_json(output.standard_deviation)},
+          {"mean", output.mean},
+          {"standard_deviation", output.standard_deviation},
           {"factors", std::move(factors)},
           {"left_out", std::move(left_out)}};
 }
@@ -93,8 +87,7 @@ std::string sensitivity_json(const StudySensitivity& sensitivity) {
                   {"design_is_saltelli", sensitivity.from_saltelli},
                   {"confidence", sensitivity.confidence},
                   {"points", std::move(points)}};
-  constexpr int indent = 2;
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text::json_text(json);
 }
 
 std::string sensitivity_csv(const StudySensitivity& sensitivity) {

@@ -25,6 +25,17 @@ struct ReportedStudy {
   std::int64_t focus{0};                                         ///< design point of the single trials
 };
 
+/// The label, the statistics and the success bounds of a point.
+inline const std::string& label_of(const ReportedStudy& reported, std::int64_t point) {
+  return reported.summary.labels[static_cast<std::size_t>(point)];
+}
+inline const measures::PointSummary& point_of(const ReportedStudy& reported, std::int64_t point) {
+  return reported.summary.points[static_cast<std::size_t>(point)];
+}
+inline const statistics::ConfidenceInterval& bounds_of(const ReportedStudy& reported, std::int64_t point) {
+  return reported.success_bounds[static_cast<std::size_t>(point)];
+}
+
 /// Note for results of a study with dependent trials (StudyFeatures::dependent_trials).
 inline constexpr std::string_view dependence_sentence =
     "The trials of a saltelli design are not independent: those of a row share most of their draws.";

@@ -45,9 +45,8 @@ struct RowsOfPoint {
 RowsOfPoint rows_to_show(const ReportedStudy& reported) {
   RowsOfPoint rows;
   TrialRank worst;
-  const double median = reported.summary.points[static_cast<std::size_t>(reported.focus)]
-                            .of(&trial::MoveOutcome::settling_time)
-                            .median.value;
+  const double median =
+      point_of(reported, reported.focus).of(&trial::MoveOutcome::settling_time).median.value;
   visit_trials(reported.file, rows_of(reported, reported.focus),
                [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
                  const TrialRank rank = rank_of(moves);
@@ -133,7 +132,7 @@ Figure trace_figure(const ReportedStudy& reported, const SampleTrial& trial, con
       "Error and torque over time of trial {} of point {}, simulated again: {}; {}. The error should reach "
       "the dashed line and stay there. Its scale is linear within one count and logarithmic beyond. Samples "
       "are thinned, but all extremes are shown.",
-      trial.index, reported.summary.labels[static_cast<std::size_t>(trial.point)],
+      trial.index, label_of(reported, trial.point),
       replayed.result.outcome.moves.size() == 1 ? settled : "the first move " + settled, ending_of(outcome));
   Figure figure = figure_of("trace", "trace-" + trial.name, trial.title, caption);
   FigureData data{"samples",

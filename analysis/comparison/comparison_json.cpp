@@ -66,11 +66,9 @@ Json requirement_json(const RequirementResult& requirement) {
 }
 
 Json undecided_json(const measures::UndecidedMoves& moves) {
-  return {{"moves", moves.moves},
-          {"off_target", moves.off_target},
-          {"still_falling", moves.still_falling},
-          {"falling_with_ripple", moves.falling_with_ripple},
-          {"about_to_arrive", moves.about_to_arrive}};
+  Json json{{"moves", moves.moves}};
+  for (const measures::UndecidedCount& each : measures::undecided_counts) json[each.name] = moves.*each.count;
+  return json;
 }
 
 Json point_json(const PointComparison& point) {

@@ -25,6 +25,25 @@ struct UndecidedMoves {
   double advised_hold{std::numeric_limits<double>::quiet_NaN()};
 };
 
+/// One of the counts as summaries and comparisons report it.
+struct UndecidedCount {
+  const char* name;       ///< in JSON
+  const char* column;     ///< in CSV
+  const char* long_name;  ///< what it counts
+  std::int64_t UndecidedMoves::*count;
+};
+inline constexpr UndecidedCount undecided_counts[] = {
+    {"off_target", "undecided_moves", "moves that ended off target", &UndecidedMoves::off_target},
+    {"still_falling", "still_falling_moves", "of them, with an error that was still falling",
+     &UndecidedMoves::still_falling},
+    {"falling_with_ripple", "falling_with_ripple_moves",
+     "moves that count as oscillating with an error that was still falling, but for a ripple",
+     &UndecidedMoves::falling_with_ripple},
+    {"about_to_arrive", "about_to_arrive_moves",
+     "moves whose error had fallen to within one count, and that had not arrived",
+     &UndecidedMoves::about_to_arrive},
+};
+
 /// Whether a longer hold may be what a move lacks: it did not arrive, with an error that fell in the last
 /// half of its hold.
 bool is_still_falling(const trial::MoveOutcome& move);

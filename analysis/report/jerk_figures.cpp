@@ -43,12 +43,13 @@ ShownMoves shown_moves(const ReportedStudy& reported, std::int64_t point) {
   const layout::RowRange rows = rows_of(reported, point);
   const auto visit_jerking = [&](const auto& act) {
     std::int64_t index = 0;
-    visit_trials(reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> outcomes) {
-      for (std::size_t move = 0; move < outcomes.size(); ++move) {
-        if (outcomes[move].jerk_count > 0)
-          act(index++, JerkingMove{row, static_cast<std::int64_t>(move), outcomes[move]});
-      }
-    });
+    measures::visit_trials(
+        reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> outcomes) {
+          for (std::size_t move = 0; move < outcomes.size(); ++move) {
+            if (outcomes[move].jerk_count > 0)
+              act(index++, JerkingMove{row, static_cast<std::int64_t>(move), outcomes[move]});
+          }
+        });
   };
   visit_jerking([&](std::int64_t, const JerkingMove&) { ++moves.all; });
   const std::vector<std::int64_t> chosen = spread_over(moves.all, max_moves);

@@ -9,7 +9,6 @@
 #include "analysis/report/html_table.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/tolerance.hpp"
-#include "analysis/summary/settling_text.hpp"
 #include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/text.hpp"
 

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "analysis/measures/visit_trials.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/summary.hpp"
 #include "core/trial/outcome.hpp"
@@ -56,12 +55,6 @@ std::int64_t most_telling_point(const std::vector<measures::PointSummary>& point
 
 /// The global rows of the trials of a point.
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point);
-
-/// Called with the row and the moves of a trial.
-using TrialVisitor = std::function<void(std::int64_t row, std::span<const trial::MoveOutcome> moves)>;
-
-/// Visits the trials of these rows in order, reading the file in blocks.
-void visit_trials(const reading::StudyFile& file, layout::RowRange rows, const TrialVisitor& visit);
 
 /// At most `max_count` evenly spaced indices of 0 … `size` − 1, increasing.
 std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t max_count);

@@ -49,13 +49,14 @@ void visit_ends(const ReportedStudy& reported, const ShownTrials& shown, std::si
                 const Visit& visit) {
   const layout::RowRange rows = rows_of(reported, shown.point);
   const std::vector<double> starts = reported.file.input(column, rows);
-  visit_trials(reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-    if (shown.rig && study::rig_of(reported.study, row - rows.first) != *shown.rig) return;
-    const double end = starts[static_cast<std::size_t>(row - rows.first)] + moves.back().final_position;
-    const double start = starts[static_cast<std::size_t>(row - rows.first)];
-    visit(EndOnRotor{row - rows.first, on_rotor(std::isfinite(end) ? end : start, reported.study.period),
-                     trial::worst_outcome(moves)});
-  });
+  measures::visit_trials(
+      reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+        if (shown.rig && study::rig_of(reported.study, row - rows.first) != *shown.rig) return;
+        const double end = starts[static_cast<std::size_t>(row - rows.first)] + moves.back().final_position;
+        const double start = starts[static_cast<std::size_t>(row - rows.first)];
+        visit(EndOnRotor{row - rows.first, on_rotor(std::isfinite(end) ? end : start, reported.study.period),
+                         trial::worst_outcome(moves)});
+      });
 }
 
 /// A profile's point: the one in its name, otherwise most_telling_point().

@@ -32,12 +32,12 @@ double band_of(const ReportedStudy& reported, const measures::PointSummary& poin
 
 statistics::Histogram<double> settling_times(const ReportedStudy& reported, std::int64_t point) {
   statistics::Histogram<double> times;
-  visit_trials(reported.file, rows_of(reported, point),
-               [&](std::int64_t, std::span<const trial::MoveOutcome> moves) {
-                 for (const trial::MoveOutcome& move : moves) {
-                   if (move.arrived) times.add(move.settling_time);
-                 }
-               });
+  measures::visit_trials(reported.file, rows_of(reported, point),
+                         [&](std::int64_t, std::span<const trial::MoveOutcome> moves) {
+                           for (const trial::MoveOutcome& move : moves) {
+                             if (move.arrived) times.add(move.settling_time);
+                           }
+                         });
   return times;
 }
 

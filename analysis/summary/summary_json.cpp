@@ -3,7 +3,6 @@
 #include <string>
 #include <utility>
 
-#include "analysis/measures/outcome_counts.hpp"
 #include "analysis/measures/statistic_fields.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/summary_parts.hpp"

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "results/layout/header.hpp"
 
 /// The result of comparing a results file with a baseline. README.md of this folder describes the method.
@@ -30,23 +30,22 @@ enum class GateVerdict {
 
 /// One measure at one design point in the two files. A positive effect is a change for the worse.
 struct MeasureComparison {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
   std::string measure;         ///< name, of gate_measures()
   std::string unit;            ///< of every value here
   std::string test;            ///< that gave p
   std::int64_t baseline_n{0};  ///< trials with a value
   std::int64_t current_n{0};   ///< trials with a value; the number of pairs in both where they are paired
-  double baseline{unknown};    ///< proportion or mean
-  double current{unknown};     ///< proportion or mean
-  double effect{unknown};      ///< how much worse the current file is
-  statistics::ConfidenceInterval bounds{unknown, unknown};  ///< of the effect, each one-sided
-  double margin{unknown};                                   ///< largest accepted effect
+  double baseline{statistics::unknown};  ///< proportion or mean
+  double current{statistics::unknown};   ///< proportion or mean
+  double effect{statistics::unknown};    ///< how much worse the current file is
+  statistics::ConfidenceInterval bounds{statistics::unknown,
+                                        statistics::unknown};  ///< of the effect, each one-sided
+  double margin{statistics::unknown};                          ///< largest accepted effect
   bool both_ways{false};          ///< a change for the better beyond the margin fails too
-  double p{unknown};              ///< of no difference, against a change for the worse (either, if both_ways)
-  double adjusted_p{unknown};     ///< after control of the false discoveries
-  double improvement_p{unknown};  ///< of no difference, against a change for the better
-  double adjusted_improvement_p{unknown};  ///< after control of the false discoveries
+  double p{statistics::unknown};  ///< of no difference, against a change for the worse (either, if both_ways)
+  double adjusted_p{statistics::unknown};              ///< after control of the false discoveries
+  double improvement_p{statistics::unknown};           ///< of no difference, against a change for the better
+  double adjusted_improvement_p{statistics::unknown};  ///< after control of the false discoveries
   GateVerdict verdict{GateVerdict::not_measured};
   bool improved{false};                    ///< better: significantly, and by more than the margin
   std::optional<double> trials_to_decide;  ///< per design point; of an inconclusive measure, where known
@@ -61,9 +60,9 @@ struct RequirementResult {
   bool at_least{true};  ///< ≥; otherwise ≤
   double limit{0.0};
   std::int64_t n{0};  ///< trials or moves that the value is of
-  double value{MeasureComparison::unknown};
+  double value{statistics::unknown};
   /// One-sided bounds: the one against the limit at the confidence, the other stricter (see README.md).
-  statistics::ConfidenceInterval bounds{MeasureComparison::unknown, MeasureComparison::unknown};
+  statistics::ConfidenceInterval bounds{statistics::unknown, statistics::unknown};
   GateVerdict verdict{GateVerdict::inconclusive};
   std::optional<double> trials_to_decide;  ///< per design point, where known
 };

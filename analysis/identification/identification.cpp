@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include "analysis/identification/missing_information.hpp"
 #include "analysis/identification/reading_replicates.hpp"
 #include "analysis/identification/residual_checks.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::identification {
@@ -144,9 +144,9 @@ struct Estimation {
   }
 
   ParameterEstimate open(const FittedQuantity& quantity) const {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     ParameterEstimate parameter =
-        parameter_of(quantity, EstimateStatus::not_identifiable, {none, none, none, none});
+        parameter_of(quantity, EstimateStatus::not_identifiable,
+                     {statistics::unknown, statistics::unknown, statistics::unknown, statistics::unknown});
     parameter.reason = missing_information(records, parts, fit, quantity.coordinates.back());
     return parameter;
   }

@@ -65,7 +65,7 @@ void MeasureAccumulator::add(std::span<const trial::MoveOutcome> moves) {
   } else if (!(counted.needs_target && kind_.open_loop)) {
     const bool known = is_known(*measure_, kind_.version);
     for (const trial::MoveOutcome& move : moves) {
-      const double value = known ? counted_value(*measure_, move) : MeasureStatistics::unknown;
+      const double value = known ? counted_value(*measure_, move) : statistics::unknown;
       if (!in_clusters_ && trial::was_run(move)) moments_.add(value);
       if (in_clusters_ && !std::isnan(value)) values_.push_back(value);
     }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,23 +9,23 @@
 #include "analysis/statistics/moments.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "results/layout/measure_table.hpp"
 
 namespace zerocount::measures {
 
 /// Proportion of trials, with bounds; NaN where there are none that could be a part of it.
 struct RateWithBounds {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double value{unknown};
-  statistics::ConfidenceInterval clopper_pearson{unknown, unknown};
-  statistics::ConfidenceInterval wilson{unknown, unknown};
+  double value{statistics::unknown};
+  statistics::ConfidenceInterval clopper_pearson{statistics::unknown, statistics::unknown};
+  statistics::ConfidenceInterval wilson{statistics::unknown, statistics::unknown};
 };
 
 /// The statistics of one measure over the moves or, of a sum or a quality, over the trials: in the measure's
 /// unit, NaN where there is none. Only what its row of the table reports is worked out.
 struct MeasureStatistics {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  static constexpr statistics::Quantile no_quantile{unknown, unknown, unknown};
+  static constexpr statistics::Quantile no_quantile{statistics::unknown, statistics::unknown,
+                                                    statistics::unknown};
   std::int64_t n{0};                  ///< values that are known
   std::int64_t moves{0};              ///< values, including the censored ones
   std::int64_t nonfinite{0};          ///< values left out because they are not finite
@@ -34,15 +33,16 @@ struct MeasureStatistics {
   std::int64_t total{0};              ///< sum of the values of the trials
   std::vector<std::int64_t> by_move;  ///< [move] of a quality: trials whose move has it
   RateWithBounds rate;                ///< of trials with the quality
-  double mean{unknown};
-  double sd{unknown};
-  double rms{unknown};
-  double min{unknown};
-  double max{unknown};
+  double mean{statistics::unknown};
+  double sd{statistics::unknown};
+  double rms{statistics::unknown};
+  double min{statistics::unknown};
+  double max{statistics::unknown};
   statistics::Quantile p05{no_quantile}, p25{no_quantile}, median{no_quantile}, p75{no_quantile},
       p95{no_quantile};
   statistics::ConfidenceInterval mean_bounds{
-      unknown, unknown};  ///< Student's at a level; at a point by the bootstrap, if wanted
+      statistics::unknown,
+      statistics::unknown};  ///< Student's at a level; at a point by the bootstrap, if wanted
 };
 
 /// The statistics of all measures of a table.

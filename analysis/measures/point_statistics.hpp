@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "analysis/measures/measure_statistics.hpp"
@@ -10,6 +9,7 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/rig_statistics.hpp"
 #include "analysis/statistics/tolerance.hpp"
+#include "analysis/statistics/unknown.hpp"
 
 /// Statistics of a design point. All bounds have the confidence of the summary. Every proportion and mean
 /// names its denominator: "of trials" is all trials of the point, "of moves" all moves of all its trials.
@@ -32,8 +32,8 @@ std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome);
 /// Time between the onsets of successive jerks of a move, s.
 struct JerkIntervalStatistics {
   std::int64_t n{0};  ///< intervals: jerks − 1 for each move with jerks
-  double mean{std::numeric_limits<double>::quiet_NaN()};
-  double median{std::numeric_limits<double>::quiet_NaN()};
+  double mean{statistics::unknown};
+  double median{statistics::unknown};
 };
 
 /// Whether jerks slow down, as the paper's Fig. 8 shows: whether the intervals of a move grow in their order.
@@ -42,12 +42,12 @@ struct JerkIntervalStatistics {
 /// the move slows down if S > 0, speeds up if S < 0. Jerks at random times would make both equally frequent,
 /// whatever the distribution of the intervals, and τ zero on average.
 struct JerkSlowing {
-  std::int64_t moves{0};                                        ///< moves with 3 jerks or more
-  std::int64_t slowing{0};                                      ///< of them, S > 0
-  std::int64_t quickening{0};                                   ///< of them, S < 0
-  double proportion{std::numeric_limits<double>::quiet_NaN()};  ///< slowing / moves
-  double tau{std::numeric_limits<double>::quiet_NaN()};  ///< Kendall's τ_a over the pairs of intervals within
-                                                         ///< a move, all moves pooled
+  std::int64_t moves{0};                   ///< moves with 3 jerks or more
+  std::int64_t slowing{0};                 ///< of them, S > 0
+  std::int64_t quickening{0};              ///< of them, S < 0
+  double proportion{statistics::unknown};  ///< slowing / moves
+  double tau{statistics::unknown};         ///< Kendall's τ_a over the pairs of intervals within
+                                           ///< a move, all moves pooled
 };
 
 /// One torque level of an open-loop study, over the trials of a point: all values at the end of the level.
@@ -59,9 +59,8 @@ struct LevelStatistics : StatisticsOfMeasures {
 /// All statistics of a design point.
 struct PointSummary : StatisticsOfMeasures {
   std::int64_t trials{0};
-  std::int64_t moves{0};  ///< moves of all trials
-  double hold{
-      std::numeric_limits<double>::quiet_NaN()};  ///< of a move, s, in a summary; NaN where trials differ
+  std::int64_t moves{0};             ///< moves of all trials
+  double hold{statistics::unknown};  ///< of a move, s, in a summary; NaN where trials differ
 
   std::int64_t judged{0};              ///< trials with targets: all, or none in an open-loop study
   OutcomeCounts outcomes;              ///< trials by the worst of their moves
@@ -74,10 +73,10 @@ struct PointSummary : StatisticsOfMeasures {
   JerkIntervalStatistics jerk_interval;
   JerkSlowing jerk_slowing;
   std::int64_t jerks_agreeing{0};  ///< jerks in the direction of the sign of their move's holding torque
-  double jerk_agreement{std::numeric_limits<double>::quiet_NaN()};        ///< jerks_agreeing / jerks
-  double jerk_one_count_share{std::numeric_limits<double>::quiet_NaN()};  ///< jerks of magnitude 1 / jerks
-  UndecidedMoves undecided;             ///< only off_target is known without the study
-  std::vector<LevelStatistics> levels;  ///< [move] in an open-loop study, otherwise empty
+  double jerk_agreement{statistics::unknown};        ///< jerks_agreeing / jerks
+  double jerk_one_count_share{statistics::unknown};  ///< jerks of magnitude 1 / jerks
+  UndecidedMoves undecided;                          ///< only off_target is known without the study
+  std::vector<LevelStatistics> levels;               ///< [move] in an open-loop study, otherwise empty
 
   /// The proportion of trials all of whose moves ended at zero error.
   const RateWithBounds& success_rate() const { return of(&trial::MoveOutcome::outcome).rate; }

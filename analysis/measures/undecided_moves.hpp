@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
 
+#include "analysis/statistics/unknown.hpp"
 #include "core/trial/outcome.hpp"
 
 namespace zerocount::measures {
@@ -22,7 +22,7 @@ struct UndecidedMoves {
   std::int64_t about_to_arrive{0};
   /// Hold that most of those whose error still fell are expected to need, s; NaN where there are none, or
   /// nothing in their control brings the error to zero.
-  double advised_hold{std::numeric_limits<double>::quiet_NaN()};
+  double advised_hold{statistics::unknown};
 };
 
 /// One of the counts as summaries and comparisons report it.

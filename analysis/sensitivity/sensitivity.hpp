@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/sensitivity/bounded_number.hpp"
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "results/layout/measure_table.hpp"
 #include "results/reading/study_file.hpp"
 
@@ -42,11 +42,11 @@ struct FactorLeftOut {
 struct OutputSensitivity {
   std::string output;  ///< as sensitivity_outputs() has it
   std::string unit;
-  std::string meaning;     ///< one line, with what was done about trials that have no value
-  std::int64_t trials{0};  ///< used
-  double mean{std::numeric_limits<double>::quiet_NaN()};                ///< of the output, in its unit
-  double standard_deviation{std::numeric_limits<double>::quiet_NaN()};  ///< likewise
-  std::vector<FactorSensitivity> factors;                               ///< strongest first
+  std::string meaning;               ///< one line, with what was done about trials that have no value
+  std::int64_t trials{0};            ///< used
+  double mean{statistics::unknown};  ///< of the output, in its unit
+  double standard_deviation{statistics::unknown};  ///< likewise
+  std::vector<FactorSensitivity> factors;          ///< strongest first
   std::vector<FactorLeftOut> left_out;
   std::vector<std::string> notes;  ///< what limits these numbers, a sentence each
   std::string conclusion;          ///< one sentence: which factors matter

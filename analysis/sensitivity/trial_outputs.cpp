@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 
 #include <fmt/format.h>
@@ -11,12 +10,11 @@
 
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/measures/visit_trials.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::sensitivity {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether every move ran to its end, and its motion is known. Qualities, and times that may be later than
 /// any, need not that.
@@ -60,7 +58,7 @@ TrialOutputs trial_outputs(const reading::StudyFile& file, const study::Study& s
   const layout::RowRange rows{point * file.header().trials, file.header().trials};
   TrialOutputs outputs;
   measures::visit_trials(file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-    double duration = none;
+    double duration = statistics::unknown;
     // Only if a move never arrived are the parameters of its trial needed.
     const auto late = [&] {
       if (std::isnan(duration))
@@ -68,7 +66,8 @@ TrialOutputs trial_outputs(const reading::StudyFile& file, const study::Study& s
       return duration;
     };
     const bool has_value = measures::has_targets(measure, moves) && (of_any_trial || is_whole(moves));
-    outputs.values.push_back(has_value ? measures::value_of_trial(measure, moves, late) : none);
+    outputs.values.push_back(has_value ? measures::value_of_trial(measure, moves, late)
+                                       : statistics::unknown);
     outputs.never_arrived += !std::isnan(duration);
   });
   return outputs;

@@ -1,16 +1,16 @@
 #include "analysis/statistics/mean_bounds.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <boost/math/distributions/students_t.hpp>
+
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::statistics {
 
 ConfidenceInterval student_t(const Moments& sample, double confidence) {
   require_confidence(confidence);
   if (sample.n < 2) {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     return {unknown, unknown};
   }
   const auto n = static_cast<double>(sample.n);

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <boost/math/distributions/binomial.hpp>
 #include <fmt/format.h>
 
 #include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::statistics {
@@ -30,7 +30,7 @@ void require_open_unit(const char* what, double value) {
 }
 
 double rate(std::int64_t successes, std::int64_t trials) {
-  if (trials == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (trials == 0) return unknown;
   return static_cast<double>(successes) / static_cast<double>(trials);
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::statistics {
@@ -72,7 +73,7 @@ SuccessClaim weaker_claim(const SuccessClaim& one, const SuccessClaim& other) {
 }
 
 double rule_of_three(const SuccessClaim& claim) {
-  if (claim.failures > 0 || claim.trials == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (claim.failures > 0 || claim.trials == 0) return unknown;
   return -std::log1p(-claim.confidence) / static_cast<double>(claim.rigs > 0 ? claim.rigs : claim.trials);
 }
 

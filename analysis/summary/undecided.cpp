@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "analysis/measures/visit_trials.hpp"
 #include "analysis/statistics/quantile.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "analysis/text/text.hpp"
 #include "core/theory/slow_approach.hpp"
 #include "core/trial/last_half.hpp"
@@ -67,7 +67,7 @@ double needed_hold(const trial::MoveOutcome& move, std::size_t number, std::int6
 
 /// @param needed holds, s
 double advised_hold(const std::vector<double>& needed) {
-  if (needed.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (needed.empty()) return statistics::unknown;
   statistics::Histogram<double> holds;
   for (const double hold : needed) holds.add(hold);
   return rounded_up(statistics::quantile(holds, advised_proportion).value);

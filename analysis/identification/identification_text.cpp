@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "analysis/identification/identification_report.hpp"
-#include "analysis/identification/manifest_fragment.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::identification {

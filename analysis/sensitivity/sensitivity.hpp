@@ -18,9 +18,9 @@ namespace zerocount::sensitivity {
 /// One factor: something that is drawn anew in every trial. All indices are dimensionless.
 struct FactorSensitivity {
   std::string name;  ///< dotted path of the parameter, or within_trial_factor
-  /// Share of the output's variance that this factor explains alone.
+  /// First-order Sobol' index: proportion of the output's variance that this factor explains alone.
   BoundedNumber first_order;
-  /// Share that this factor has a part in, alone or together with others; only from a saltelli design.
+  /// Total Sobol' index, with the interactions with other factors; only from a saltelli design.
   BoundedNumber total;
   BoundedNumber rank_correlation;          ///< Spearman's; in [−1, 1]
   BoundedNumber partial_rank_correlation;  ///< with the other factors' part taken out; in [−1, 1]
@@ -31,6 +31,19 @@ struct FactorSensitivity {
   /// partial_rank_correlation do.
   bool matters{false};
 };
+
+/// The numbers of a factor, in the order of the outputs.
+struct FactorNumber {
+  const char* name;  ///< in JSON and CSV
+  const char* head;  ///< in the table
+  BoundedNumber FactorSensitivity::*number;
+};
+inline constexpr FactorNumber factor_numbers[] = {
+    {"total", "total", &FactorSensitivity::total},
+    {"first_order", "first order", &FactorSensitivity::first_order},
+    {"rank_correlation", "rank corr.", &FactorSensitivity::rank_correlation},
+    {"partial_rank_correlation", "partial rank corr.", &FactorSensitivity::partial_rank_correlation},
+    {"log_odds", "log odds per sd", &FactorSensitivity::log_odds}};
 
 /// A factor that has no row, and why.
 struct FactorLeftOut {

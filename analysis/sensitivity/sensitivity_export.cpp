@@ -1,4 +1,3 @@
-#include <array>
 #include <string>
 
 #include <fmt/format.h>
@@ -13,21 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct NamedMeasure {
-  const char* name;
-  BoundedNumber FactorSensitivity::*number;
-};
-
-constexpr std::array<NamedMeasure, 5> named_measures{
-    {{"total", &FactorSensitivity::total},
-     {"first_order", &FactorSensitivity::first_order},
-     {"rank_correlation", &FactorSensitivity::rank_correlation},
-     {"partial_rank_correlation", &FactorSensitivity::partial_rank_correlation},
-     {"log_odds", &FactorSensitivity::log_odds}}};
-
 Json factor_json(const FactorSensitivity& factor) {
   Json json{{"name", factor.name}, {"matters", factor.matters}};
-  for (const NamedMeasure& measure : named_measures) {
+  for (const FactorNumber& measure : factor_numbers) {
     const BoundedNumber& number = factor.*measure.number;
     json[measure.name] = {{"value", number.value}, {"low", number.low}, {"high", number.high}};
   }
@@ -56,7 +43,7 @@ Json output_json(const OutputSensitivity& output) {
 
 std::string csv_header() {
   std::string line = "point,label,output,factor,matters";
-  for (const NamedMeasure& measure : named_measures) {
+  for (const FactorNumber& measure : factor_numbers) {
     line += fmt::format(",{0},{0}_low,{0}_high", measure.name);
   }
   return line + "\n";
@@ -66,7 +53,7 @@ std::string csv_row(const PointSensitivity& point, const OutputSensitivity& outp
                     const FactorSensitivity& factor) {
   std::string line = fmt::format("{},{},{},{},{}", point.point, reading::csv_field(point.label),
                                  output.output, reading::csv_field(factor.name), factor.matters ? 1 : 0);
-  for (const NamedMeasure& measure : named_measures) {
+  for (const FactorNumber& measure : factor_numbers) {
     const BoundedNumber& number = factor.*measure.number;
     for (const double value : {number.value, number.low, number.high})
       line += fmt::format(",{}", reading::number_text(value));

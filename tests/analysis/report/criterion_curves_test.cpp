@@ -58,7 +58,7 @@ TEST(CriterionCurves, ThereAreNoneWhereTheCriteriaSayNothing) {
   const study::Study coulomb = manifest::parse_study(head + "friction: {model: coulomb}\n", "test");
   EXPECT_TRUE(criterion_curves(coulomb, 0, plane).empty());
   CriterionPlane strange = plane;
-  strange.y = "command.targets.0";
+  strange.y.parameter = "command.targets.0";
   EXPECT_TRUE(criterion_curves(manifest::parse_study(head, "test"), 0, strange).empty());
 }
 

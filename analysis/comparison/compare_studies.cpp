@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "analysis/comparison/manifest_differences.hpp"
 #include "analysis/comparison/margins_file.hpp"
@@ -20,18 +19,6 @@
 
 namespace zerocount::comparison {
 namespace {
-
-ComparedFile described(const reading::StudyFile& file) {
-  const layout::FileHeader& header = file.header();
-  return {file.path().string(),
-          header.name,
-          header.provenance.zerocount_version,
-          header.provenance.git_commit,
-          std::string(layout::name_of(header.engine)),
-          header.provenance.created,
-          header.seed,
-          header.trials};
-}
 
 /// Why the datasets of the two need not be equal to the bit; empty where they must be.
 std::string why_bits_may_differ(const layout::FileHeader& one, const layout::FileHeader& other) {
@@ -198,8 +185,8 @@ void note_undecided_moves(StudyComparison& result) {
 }
 
 void note_unpaired_trials(StudyComparison& result) {
-  const std::int64_t before = result.baseline.trials;
-  const std::int64_t after = result.current.trials;
+  const std::int64_t before = result.baseline.header.trials;
+  const std::int64_t after = result.current.header.trials;
   if (result.layer != ComparisonLayer::paired || before == after) return;
   result.notes.push_back(fmt::format(
       "compared are the first {} trials of each point: of the {} in {}, the others have no partner",
@@ -218,8 +205,8 @@ StudyComparison compare_studies(const reading::StudyFile& baseline, const readin
   require_same_kind(baseline, current, old_values, new_values);
 
   StudyComparison result;
-  result.baseline = described(baseline);
-  result.current = described(current);
+  result.baseline = {baseline.path().string(), baseline.header()};
+  result.current = {current.path().string(), current.header()};
   result.confidence = rules.confidence;
   result.false_discovery_rate = rules.false_discovery_rate;
   result.manifest_differences = manifest_differences(old_values, new_values);

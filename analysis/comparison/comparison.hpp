@@ -1,15 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/unknown.hpp"
+#include "results/layout/header.hpp"
 
-/// What the comparison of a results file with a baseline found: see README.md of this folder for the method.
+/// The result of comparing a results file with a baseline. README.md of this folder describes the method.
 namespace zerocount::comparison {
 
 /// How much the two files have in common, which decides how they can be compared.
@@ -19,38 +20,36 @@ enum class ComparisonLayer {
   two_samples  ///< different draws: distributions are compared
 };
 
-/// What is said of a measure, a point, a requirement, or of all of it.
+/// Verdict on a measure, a point, a requirement, or the whole comparison; the worst first.
 enum class GateVerdict {
-  passed,        ///< shown: no worse than the margin allows, or the requirement is met
   regression,    ///< shown: worse by more than the margin, or the requirement is not met
-  inconclusive,  ///< neither is shown
-  not_measured   ///< too few trials have a value at all; counts neither way
+  inconclusive,  ///< neither a regression nor its absence is shown
+  passed,        ///< shown: no worse than the margin allows, or the requirement is met
+  not_measured   ///< too few trials have a value; does not affect the other verdicts
 };
 
-/// One measure at one design point in the two files. An effect counts as positive where it is for the worse.
+/// One measure at one design point in the two files. A positive effect is a change for the worse.
 struct MeasureComparison {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
   std::string measure;         ///< name, of gate_measures()
   std::string unit;            ///< of every value here
   std::string test;            ///< that gave p
   std::int64_t baseline_n{0};  ///< trials with a value
   std::int64_t current_n{0};   ///< trials with a value; the number of pairs in both where they are paired
-  double baseline{unknown};    ///< proportion or mean
-  double current{unknown};     ///< proportion or mean
-  double effect{unknown};      ///< how much worse the current file is
-  statistics::ConfidenceInterval bounds{
-      unknown, unknown};          ///< of the effect: each holds by itself with the confidence
-  double margin{unknown};         ///< effect that is still accepted
+  double baseline{statistics::unknown};  ///< proportion or mean
+  double current{statistics::unknown};   ///< proportion or mean
+  double effect{statistics::unknown};    ///< how much worse the current file is
+  statistics::ConfidenceInterval bounds{statistics::unknown,
+                                        statistics::unknown};  ///< of the effect, each one-sided
+  double margin{statistics::unknown};                          ///< largest accepted effect
   bool both_ways{false};          ///< a change for the better beyond the margin fails too
-  double p{unknown};              ///< of no difference, against a change for the worse (either, if both_ways)
-  double adjusted_p{unknown};     ///< after control of the false discoveries
-  double improvement_p{unknown};  ///< of no difference, against a change for the better
-  double adjusted_improvement_p{unknown};  ///< after control of the false discoveries
+  double p{statistics::unknown};  ///< of no difference, against a change for the worse (either, if both_ways)
+  double adjusted_p{statistics::unknown};              ///< after control of the false discoveries
+  double improvement_p{statistics::unknown};           ///< of no difference, against a change for the better
+  double adjusted_improvement_p{statistics::unknown};  ///< after control of the false discoveries
   GateVerdict verdict{GateVerdict::not_measured};
   bool improved{false};                    ///< better: significantly, and by more than the margin
   std::optional<double> trials_to_decide;  ///< per design point; of an inconclusive measure, where known
-  std::string note;                        ///< why, where there is more to say; otherwise empty
+  std::string note;                        ///< reason or remark; may be empty
 };
 
 /// An absolute requirement on one quantity at one design point of the current file.
@@ -61,9 +60,9 @@ struct RequirementResult {
   bool at_least{true};  ///< ≥; otherwise ≤
   double limit{0.0};
   std::int64_t n{0};  ///< trials or moves that the value is of
-  double value{MeasureComparison::unknown};
+  double value{statistics::unknown};
   /// One-sided bounds: the one against the limit at the confidence, the other stricter (see README.md).
-  statistics::ConfidenceInterval bounds{MeasureComparison::unknown, MeasureComparison::unknown};
+  statistics::ConfidenceInterval bounds{statistics::unknown, statistics::unknown};
   GateVerdict verdict{GateVerdict::inconclusive};
   std::optional<double> trials_to_decide;  ///< per design point, where known
 };
@@ -83,23 +82,16 @@ struct PointComparison {
   std::vector<RequirementResult> requirements;
 };
 
-/// One key that the two manifests do not have in common, or not with the same value.
+/// A key that is in one manifest only, or has different values.
 struct ManifestDifference {
   std::string key;       ///< dotted path
   std::string baseline;  ///< YAML on one line; empty where the key is missing
   std::string current;
 };
 
-/// Who made one of the files.
 struct ComparedFile {
   std::string path;
-  std::string name;  ///< of the study
-  std::string version;
-  std::string commit;
-  std::string engine;
-  std::string created;
-  std::uint64_t seed{0};
-  std::int64_t trials{0};  ///< per design point
+  layout::FileHeader header{};
 };
 
 /// Everything that a comparison found.
@@ -109,8 +101,7 @@ struct StudyComparison {
   ComparisonLayer layer{ComparisonLayer::two_samples};
   std::string layer_reason;  ///< why this layer, one line
   bool equal_to_the_bit{false};
-  std::string
-      first_difference;  ///< first dataset that differs, with the place; empty where none was looked for
+  std::string first_difference;  ///< first dataset that differs, with the place; empty if not searched for
   std::vector<ManifestDifference> manifest_differences;
   std::vector<std::string> changed_inputs;  ///< drawn parameters whose values differ on the same draws
   double confidence{0.95};                  ///< of each bound

@@ -1,10 +1,10 @@
-#include <cmath>
 #include <cstdint>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "analysis/comparison/comparison_report.hpp"
+#include "analysis/text/report_json.hpp"
 
 namespace zerocount::comparison {
 namespace {
@@ -20,9 +20,15 @@ Json interval_json(const statistics::ConfidenceInterval& bounds) {
 }
 
 Json file_json(const ComparedFile& file) {
-  return {{"path", file.path},         {"name", file.name},     {"zerocount_version", file.version},
-          {"git_commit", file.commit}, {"engine", file.engine}, {"created", file.created},
-          {"seed", file.seed},         {"trials", file.trials}};
+  const layout::Provenance& build = file.header.provenance;
+  return {{"path", file.path},
+          {"name", file.header.name},
+          {"zerocount_version", build.zerocount_version},
+          {"git_commit", build.git_commit},
+          {"engine", layout::name_of(file.header.engine)},
+          {"created", build.created},
+          {"seed", file.header.seed},
+          {"trials", file.header.trials}};
 }
 
 Json measure_json(const MeasureComparison& measure) {
@@ -60,11 +66,9 @@ Json requirement_json(const RequirementResult& requirement) {
 }
 
 Json undecided_json(const measures::UndecidedMoves& moves) {
-  return {{"moves", moves.moves},
-          {"off_target", moves.off_target},
-          {"still_falling", moves.still_falling},
-          {"falling_with_ripple", moves.falling_with_ripple},
-          {"about_to_arrive", moves.about_to_arrive}};
+  Json json{{"moves", moves.moves}};
+  for (const measures::UndecidedCount& each : measures::undecided_counts) json[each.name] = moves.*each.count;
+  return json;
 }
 
 Json point_json(const PointComparison& point) {
@@ -116,7 +120,7 @@ std::string comparison_json(const StudyComparison& comparison) {
         {{"key", one.key}, {"baseline", one.baseline}, {"current", one.current}});
   }
   for (const PointComparison& point : comparison.points) json["points"].push_back(point_json(point));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text::json_text(json);
 }
 
 }  // namespace zerocount::comparison

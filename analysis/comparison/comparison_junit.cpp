@@ -43,7 +43,7 @@ std::string message_of(const ComparisonRow& row) {
 }  // namespace
 
 std::string comparison_junit(const StudyComparison& comparison) {
-  const std::string suite = comparison.current.name;
+  const std::string suite = comparison.current.header.name;
   VerdictCounts counts = count_verdicts(comparison);
   std::string cases;
   for (const ComparisonRow& row : comparison_rows(comparison)) {

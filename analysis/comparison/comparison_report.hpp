@@ -29,8 +29,8 @@ VerdictCounts count_verdicts(const StudyComparison& comparison);
 /// The verdict in a sentence.
 std::string verdict_sentence(const StudyComparison& comparison);
 
-/// Trials per design point that would decide everything that is inconclusive; nothing where that is unknown
-/// of some of it, or nothing is inconclusive.
+/// Trials per design point that would decide all inconclusive verdicts; nothing if the number is unknown for
+/// one of them, or if there are none.
 std::optional<double> trials_to_decide(const StudyComparison& comparison);
 
 /// A value of a measure or requirement with its unit: proportions in per cent.
@@ -39,15 +39,14 @@ std::string value_text(double value, std::string_view quantity, std::string_view
 /// A number of trials to two digits, rounded up.
 std::string trials_text(double trials);
 
-/// For a terminal. Of many rows only those that did not simply pass are shown, and it is said how many are
-/// not.
+/// For a terminal. A long table shows only the noteworthy rows, with the number of the others.
 std::string comparison_table(const StudyComparison& comparison);
 
-/// Everything, as an object; numbers that are not known are null.
+/// The whole comparison as one object; unknown numbers are null.
 std::string comparison_json(const StudyComparison& comparison);
 
-/// JUnit XML: a test suite with one case per point and measure or requirement. A regression is a failure;
-/// what is inconclusive is an error; what was not measured is skipped.
+/// JUnit XML: a test suite with one case per point and measure or requirement. A regression is a failure, an
+/// inconclusive verdict an error, and a measure without values is skipped.
 std::string comparison_junit(const StudyComparison& comparison);
 
 /// A summary for a pull request or a job's page.

@@ -82,9 +82,12 @@ ComparisonRow row_of(const PointComparison& point, const RequirementResult& requ
 }
 
 std::string file_text(const ComparedFile& file, std::size_t points) {
-  return text::printable(fmt::format(
-      "{}: study {}, seed {}, {} trials at {} points, zerocount {} ({}), {} engine, {}", file.path, file.name,
-      file.seed, file.trials, points, file.version, file.commit, file.engine, file.created));
+  const layout::FileHeader& header = file.header;
+  const layout::Provenance& build = header.provenance;
+  return text::printable(
+      fmt::format("{}: study {}, seed {}, {} trials at {} points, zerocount {} ({}), {} engine, {}",
+                  file.path, header.name, header.seed, header.trials, points, build.zerocount_version,
+                  build.git_commit, layout::name_of(header.engine), build.created));
 }
 
 }  // namespace

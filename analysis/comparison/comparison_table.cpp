@@ -1,7 +1,8 @@
-#include <algorithm>
+#include <array>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/comparison/comparison_rows.hpp"
@@ -22,6 +23,14 @@ std::string cell(std::string_view text) {
   return escaped;
 }
 
+constexpr std::array<const char*, 10> heads{"point",  "measure", "baseline", "file",    "worse by",
+                                            "bounds", "margin",  "p",        "verdict", "note"};
+
+std::vector<std::string> cells_of(const ComparisonRow& row) {
+  return {row.point,  row.measure, row.baseline, row.current, row.worse_by,
+          row.bounds, row.margin,  row.p,        row.verdict, row.note};
+}
+
 std::string head_of(const StudyComparison& comparison) {
   std::string text;
   for (const auto& [name, value] : comparison_facts(comparison))
@@ -39,12 +48,8 @@ std::string comparison_table(const StudyComparison& comparison) {
     std::erase_if(rows, [](const ComparisonRow& row) { return !row.noteworthy; });
     omitted = fmt::format("({} rows that simply passed are not shown)\n", all - rows.size());
   }
-  std::vector<std::vector<std::string>> cells{
-      {"point", "measure", "baseline", "file", "worse by", "bounds", "margin", "p", "verdict", "note"}};
-  for (const ComparisonRow& row : rows) {
-    cells.push_back({row.point, row.measure, row.baseline, row.current, row.worse_by, row.bounds, row.margin,
-                     row.p, row.verdict, row.note});
-  }
+  std::vector<std::vector<std::string>> cells{{heads.begin(), heads.end()}};
+  for (const ComparisonRow& row : rows) cells.push_back(cells_of(row));
   const std::vector<bool> numeric{false, false, true, true, true, true, true, true, false, false};
   const std::string table = rows.empty() ? "" : text::aligned_table(cells, numeric);
   return fmt::format(
@@ -58,23 +63,23 @@ std::string comparison_markdown(const StudyComparison& comparison) {
   const std::string_view mark = comparison.verdict == GateVerdict::passed       ? "✅"
                                 : comparison.verdict == GateVerdict::regression ? "❌"
                                                                                 : "❓";
-  std::string text = fmt::format("## {} {}: {}\n\n", mark, cell(text::printable(comparison.current.name)),
-                                 cell(verdict_sentence(comparison)));
+  std::string text =
+      fmt::format("## {} {}: {}\n\n", mark, cell(text::printable(comparison.current.header.name)),
+                  cell(verdict_sentence(comparison)));
   for (const auto& [name, value] : comparison_facts(comparison))
     text += fmt::format("- {}: {}\n", name, cell(value));
   std::vector<ComparisonRow> rows = comparison_rows(comparison);
   const std::size_t all = rows.size();
   std::erase_if(rows, [](const ComparisonRow& row) { return !row.noteworthy; });
   if (!rows.empty()) {
-    text +=
-        "\n| point | measure | baseline | file | worse by | bounds | margin | p | verdict | note |\n"
-        "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | --- | --- |\n";
+    text += fmt::format("\n| {} |\n| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | --- | --- |\n",
+                        fmt::join(heads, " | "));
   }
   for (const ComparisonRow& row : rows) {
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(row.point),
-                        cell(row.measure), cell(row.baseline), cell(row.current), cell(row.worse_by),
-                        cell(row.bounds), cell(row.margin), cell(row.p),
-                        row.verdict == "regression" ? "**regression**" : row.verdict, cell(row.note));
+    std::vector<std::string> cells = cells_of(row);
+    for (std::string& text_of_cell : cells)
+      text_of_cell = text_of_cell == "regression" ? "**regression**" : cell(text_of_cell);
+    text += fmt::format("| {} |\n", fmt::join(cells, " | "));
   }
   return text + fmt::format(
                     "\n{} of {} judgements passed and are not listed. Bounds: {:.6g} % each; false discovery "

@@ -81,11 +81,7 @@ std::string reason_of(const MeasureComparison& measure) {
 }  // namespace
 
 GateVerdict worst_of(std::span<const GateVerdict> verdicts) {
-  for (const GateVerdict verdict :
-       {GateVerdict::regression, GateVerdict::inconclusive, GateVerdict::passed}) {
-    if (std::find(verdicts.begin(), verdicts.end(), verdict) != verdicts.end()) return verdict;
-  }
-  return GateVerdict::not_measured;
+  return verdicts.empty() ? GateVerdict::not_measured : *std::min_element(verdicts.begin(), verdicts.end());
 }
 
 std::int64_t decide(std::span<PointComparison> points, const GateRules& rules) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
@@ -10,7 +9,7 @@
 
 #include "results/layout/measure_table.hpp"
 
-/// What a comparison judges, and by how much a measure may change.
+/// The judged measures, their margins, and the absolute requirements.
 namespace zerocount::comparison {
 
 /// How much worse a measure may be: the larger of `absolute` and `relative` times the baseline's value.
@@ -31,7 +30,7 @@ struct GateMeasure {
   bool proportion() const { return layout::is_quality(*measure); }
 };
 
-/// Those of the table, in the order of the report: proportions before means.
+/// The gate measures of the table, in the order of the report: proportions before means.
 std::vector<GateMeasure> gate_measures(const layout::MeasureTable& measures = layout::measure_table());
 
 /// The gate measure of this name of the program's own table.
@@ -39,11 +38,11 @@ std::optional<GateMeasure> find_gate_measure(std::string_view name);
 
 enum class RequirementKind {
   proportion,  ///< of trials with the quality of a gate measure
-  quantile,    ///< over trials, of the worst of their moves
-  mean         ///< over trials, of a sum over their moves
+  quantile,    ///< over trials; the value of a trial is that of its worst move
+  mean         ///< over trials; the value of a trial is the sum over its moves
 };
 
-/// What can be required of a file whatever the baseline says.
+/// A quantity that a requirement can limit, independently of the baseline.
 struct RequirableQuantity {
   std::string name;
   std::string_view unit;
@@ -52,7 +51,8 @@ struct RequirableQuantity {
   double probability{0.0};  ///< of a quantile
 };
 
-/// Of every gate measure: a proportion or the mean of a sum under its own name, otherwise quantiles.
+/// The quantities that a requirement can limit. A proportion, or the mean of a sum, has the name of its gate
+/// measure; other measures have quantiles (NAME.median, .p95, .p99).
 std::span<const RequirableQuantity> requirable_quantities();
 const RequirableQuantity* find_requirable(std::string_view name);
 
@@ -79,7 +79,7 @@ bool is_judged(const GateRules& rules, const GateMeasure& measure);
 /// The margin of a measure at a point: the point's own, or that of all points, or the default.
 GateMargin margin_of(const GateRules& rules, const std::string& label, const GateMeasure& measure);
 
-/// What holds at a point: the requirements of every point and its own.
+/// The requirements at a point: those of every point and its own.
 std::vector<Requirement> requirements_of(const GateRules& rules, const std::string& label);
 
 }  // namespace zerocount::comparison

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/failure/failure.hpp"
 #include "core/numerics/interval.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/yaml/nearest_name.hpp"

@@ -16,10 +16,9 @@ struct MatchedPoint {
   std::int64_t current{0};
 };
 
-/// The design points of both files, by label, in the order of the baseline. Where the label is the name of a
-/// case, or holds one, the axes may differ: the case may have been given another gain. Otherwise the axes
-/// must agree to the bit.
-/// @throws Failure (bad_data) that names what has no partner.
+/// Matches the design points of both files by label, in the order of the baseline. In studies with cases the
+/// axes may differ, because a case may have got another gain; otherwise they must be bitwise equal.
+/// @throws Failure (bad_data) that lists the points without a partner.
 std::vector<MatchedPoint> match_points(const reading::StudyFile& baseline, const reading::StudyFile& current);
 
 /// Whether trial i of both files drew the same random numbers.
@@ -29,9 +28,9 @@ struct DrawComparison {
   std::vector<std::string> changed_inputs;  ///< whose values differ all the same, because the manifests do
 };
 
-/// The seeds and designs must be the same, and every drawn parameter of both files must have the same value
-/// in trial i, to the bit, or, where its distribution was changed, rise in the same order of trials: equal
-/// draws through another distribution. Looked at in all trials that both have.
+/// The draws are the same if the seeds and designs are equal and every random parameter of both files either
+/// has bitwise equal values in all common trials or, after a change of its distribution, sorts the trials in
+/// the same order.
 DrawComparison compare_draws(const reading::StudyFile& baseline, const reading::StudyFile& current,
                              const ManifestValues& old_values, const ManifestValues& new_values,
                              const std::vector<MatchedPoint>& points);

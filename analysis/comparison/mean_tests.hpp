@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "analysis/statistics/proportion.hpp"
@@ -27,11 +26,11 @@ MeanDifference mean_difference(std::span<const double> baseline, std::span<const
 /// P(t ≥ value/standard error): one-sided, against a difference for the worse. Without any spread 0, ½ or 1.
 double p_of(const MeanDifference& difference);
 
-/// Bounds of the difference, each by itself with `confidence`, with what was not seen in mind: for each bound
-/// one more trial is counted, `unit` beyond the mean on the side of that bound. Where nearly all differences
-/// are 0 the spread that is seen says little; in n trials that all agree, the upper bound is so
-/// about 2.7·unit/n, where the rule of three has 3/n for the proportion of trials that might differ.
-/// @param unit what one trial may well differ by, greater than 0
+/// One-sided bounds of the difference, each with `confidence`. For each bound one more trial is added, `unit`
+/// beyond the mean on the side of that bound, because the observed spread is too small if nearly all
+/// differences are 0. In n trials without a difference the upper bound is about 2.7·unit/n; the rule of three
+/// gives 3/n for the proportion of trials that might differ.
+/// @param unit plausible difference of a single trial, greater than 0
 statistics::ConfidenceInterval cautious_bounds(std::span<const double> differences, double unit,
                                                double confidence);
 statistics::ConfidenceInterval cautious_bounds(std::span<const double> baseline,

@@ -30,7 +30,7 @@ std::vector<double> negated(std::vector<double> values) {
   return values;
 }
 
-/// With rigs, the means of every rig: trials of one rig are not independent.
+/// With rigs, the mean of each rig, because trials of one rig are not independent.
 ComparedValues over_rigs(const ComparedValues& values, std::int64_t baseline_rigs,
                          std::int64_t current_rigs) {
   return {means_by_rig(values.baseline, baseline_rigs), means_by_rig(values.current, current_rigs),
@@ -65,7 +65,8 @@ ComparedValues paired_values(const PointTrials& baseline, const PointTrials& cur
   return over_rigs(values, baseline.rigs, current.rigs);
 }
 
-/// 1 for each trial that failed: that lacks a quality of which less is worse, or has one of which more is.
+/// 1 for each trial that failed, 0 for the others. If less of the quality is worse, a failed trial lacks it;
+/// otherwise a failed trial has it.
 std::vector<double> failures_of(const PointTrials& trials, const GateMeasure& measure) {
   std::vector<double> failures = trials.of(measure);
   if (measure.measure->gate->worse == layout::Worse::less) {
@@ -101,8 +102,9 @@ PairedFailures paired_failures(const std::vector<double>& baseline, const std::v
   return failures;
 }
 
-void compare_share(MeasureComparison& result, const GateMeasure& measure, const PointTrials& baseline_trials,
-                   const PointTrials& current_trials, bool paired, double confidence) {
+void compare_proportion(MeasureComparison& result, const GateMeasure& measure,
+                        const PointTrials& baseline_trials, const PointTrials& current_trials, bool paired,
+                        double confidence) {
   const std::vector<double> baseline = failures_of(baseline_trials, measure);
   const std::vector<double> current = failures_of(current_trials, measure);
   const FailureCounts counts{std::count(baseline.begin(), baseline.end(), 1.0), std::ssize(baseline),
@@ -131,7 +133,8 @@ void compare_share(MeasureComparison& result, const GateMeasure& measure, const 
                                  counts.current_trials - counts.current_failures, counts.current_trials});
 }
 
-/// What one trial may well differ by: 1 of what is counted; the time that settling takes.
+/// Plausible difference of a single trial, the `unit` of cautious_bounds(): 1 for counts; for times the
+/// larger of both means, or 1 ms without one.
 double unit_of(const GateMeasure& measure, const MeasureComparison& result) {
   if (measure.measure->field.column.element != hdf5::Element::float64) return 1.0;
   const double value = std::max(std::abs(result.baseline), std::abs(result.current));
@@ -143,8 +146,7 @@ std::string test_of_means(bool paired, bool over_rigs) {
                      over_rigs ? ", over rigs" : "");
 }
 
-/// Both the ranks and the means must speak for a change: each test alone can be moved by what the other does
-/// not see.
+/// p is the larger of the p-values of a rank test and a t-test: both must show a change.
 void test_means(MeasureComparison& result, const ComparedValues& values, double unit, bool paired,
                 double confidence) {
   MeanDifference worse;
@@ -184,9 +186,9 @@ void compare_mean(MeasureComparison& result, const GateMeasure& measure, const P
   test_means(result, values, unit_of(measure, result), paired, confidence);
 }
 
-/// Shares of trials on rigs: the rates of failure of the rigs. One rig more might fail in all of its trials.
-void compare_share_over_rigs(MeasureComparison& result, const GateMeasure& measure,
-                             const ComparedValues& failures, bool paired, double confidence) {
+/// Compares the failure rates of the rigs. One more rig might fail in all of its trials, so the unit is 1.
+void compare_proportion_over_rigs(MeasureComparison& result, const GateMeasure& measure,
+                                  const ComparedValues& failures, bool paired, double confidence) {
   result.baseline_n = std::ssize(failures.baseline);
   result.current_n = std::ssize(failures.current);
   result.baseline = proportion_with(measure, mean_of(failures.baseline));
@@ -209,10 +211,10 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
     if (!measure.proportion()) {
       compare_mean(result, measure, baseline, current, paired, rules.confidence);
     } else if (baseline.rigs > 0 || current.rigs > 0) {
-      compare_share_over_rigs(result, measure, compared_failures(baseline, current, measure, paired), paired,
-                              rules.confidence);
+      compare_proportion_over_rigs(result, measure, compared_failures(baseline, current, measure, paired),
+                                   paired, rules.confidence);
     } else {
-      compare_share(result, measure, baseline, current, paired, rules.confidence);
+      compare_proportion(result, measure, baseline, current, paired, rules.confidence);
     }
     const GateMargin margin = margin_of(rules, label, measure);
     result.margin = margin.absolute;

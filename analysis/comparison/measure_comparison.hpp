@@ -10,13 +10,14 @@
 
 namespace zerocount::comparison {
 
-/// Values that a mean must have, in both files, to be judged: fewer say nothing of a mean, and where so few
-/// trials arrive it is the proportion of arrivals that is compared.
+/// Minimum number of values in each file for the comparison of a mean. If fewer trials arrive, the proportion
+/// of arrivals shows the difference.
 inline constexpr std::int64_t least_values = 20;
 
-/// The tests of all judged measures at one point, without verdicts: the false discoveries are controlled over
-/// all points.
-/// @param paired trial i of both drew the same random numbers; both have the same number of trials then.
+/// Tests all judged measures at one point. The verdicts follow in decide(), which controls the false
+/// discoveries over all points.
+/// @param paired whether trial i of both drew the same random numbers; both then have the same number of
+/// trials
 std::vector<MeasureComparison> compare_measures(const GateRules& rules, const std::string& label,
                                                 const PointTrials& baseline, const PointTrials& current,
                                                 bool paired);

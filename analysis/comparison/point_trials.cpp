@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/measures/trial_value.hpp"
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::comparison {
 
@@ -56,7 +57,7 @@ std::vector<double> trial_means(const PointTrials& trials, const GateMeasure& me
       sum += value;
       ++count;
     });
-    means.push_back(count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN());
+    means.push_back(count > 0 ? sum / count : statistics::unknown);
   }
   return means_by_rig(means, trials.rigs);
 }

@@ -14,7 +14,7 @@
 
 namespace zerocount::comparison {
 
-/// What a comparison looks at of the trials of one design point.
+/// The compared values of the trials of one design point.
 struct PointTrials {
   std::int64_t trials{0};
   std::int64_t moves{0};  ///< of each
@@ -22,7 +22,7 @@ struct PointTrials {
   /// [trial][move], flattened, NaN where a move has no value.
   std::map<std::string, std::vector<double>, std::less<>> values{};
   measures::UndecidedMoves undecided{};  ///< of all moves
-  std::int64_t rigs{0};  ///< that the trials run on, trial i on rig i mod rigs; 0: no trials share a rig
+  std::int64_t rigs{0};  ///< number of rigs, trial i on rig i mod rigs; 0: no trials share a rig
   const layout::MeasureTable* table{&layout::measure_table()};
 
   const std::vector<double>& of(const GateMeasure& measure) const {
@@ -42,16 +42,18 @@ PointTrials read_point_trials(const reading::StudyFile& file, std::int64_t point
 /// The first `trials` of them. `undecided` stays that of all.
 PointTrials first_trials(const PointTrials& all, std::int64_t trials);
 
-/// The value of every trial with one, over those of its moves that have one: their mean; with rigs, the mean
-/// of these of every rig with one.
+/// For each trial the mean over its moves with a value; with rigs, the mean of these over each rig. Trials
+/// and rigs without a value are left out. For settling_time this is the mean settling time of the moves, not
+/// the settling time of the trial (largest_of_moves()).
 std::vector<double> trial_means(const PointTrials& trials, const GateMeasure& measure);
 
-/// Mean over the trials of every rig, of those values that are not NaN; rigs without a value are left out.
-/// Without rigs the values themselves, without NaN.
+/// Mean over the trials of each rig, ignoring NaN; rigs without a value are left out. Without rigs the values
+/// themselves, without NaN.
 /// @param values [trial]
 std::vector<double> means_by_rig(std::span<const double> values, std::int64_t rigs);
 
-/// The largest value of the moves of every trial, [trial]; infinite where a move has none.
+/// The largest value of the moves of each trial, [trial]; infinite if a move has no value. For settling_time
+/// this is the settling time of the trial.
 std::vector<double> largest_of_moves(const PointTrials& trials, const GateMeasure& measure);
 
 }  // namespace zerocount::comparison

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
-#include <limits>
 
 #include "analysis/comparison/mean_tests.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
+#include "analysis/statistics/quantile.hpp"
 
 namespace zerocount::comparison {
 namespace {
@@ -47,6 +46,12 @@ std::optional<statistics::ClusterSums> sums_by_rig(const std::vector<double>& qu
     sums.add(hits, trials);
   }
   return sums;
+}
+
+/// @param quality 1 for each trial that has it, otherwise 0
+ProportionClaim claim_of(const std::vector<double>& quality, std::int64_t rigs, double limit, bool at_least) {
+  return {std::count(quality.begin(), quality.end(), 1.0), std::ssize(quality), limit, at_least,
+          sums_by_rig(quality, rigs)};
 }
 
 /// One-sided bounds: `low` with one confidence, `high` with another.
@@ -109,24 +114,22 @@ void judge_proportion(RequirementResult& result, const ProportionClaim& claim, d
 
 void judge_quality(RequirementResult& result, const std::vector<double>& quality, std::int64_t rigs,
                    double confidence, double failing) {
-  const ProportionClaim claim{std::count(quality.begin(), quality.end(), 1.0), std::ssize(quality),
-                              result.limit, result.at_least, sums_by_rig(quality, rigs)};
+  const ProportionClaim claim = claim_of(quality, rigs, result.limit, result.at_least);
   result.value = statistics::rate(claim.successes, claim.trials);
   judge_proportion(result, claim, confidence, failing);
 }
 
-void judge_quantile(RequirementResult& result, std::vector<double> times, std::int64_t rigs,
+void judge_quantile(RequirementResult& result, const std::vector<double>& values, std::int64_t rigs,
                     double probability, double confidence, double failing) {
-  std::vector<double> in_time;
-  in_time.reserve(times.size());
-  for (const double time : times) in_time.push_back(time <= result.limit ? 1.0 : 0.0);
-  std::sort(times.begin(), times.end());
-  const auto n = static_cast<double>(times.size());
-  const auto position = static_cast<std::size_t>(std::ceil(probability * n));
-  result.value = times[std::max<std::size_t>(position, 1) - 1];
-  const auto within = std::upper_bound(times.begin(), times.end(), result.limit) - times.begin();
-  judge_proportion(result, {within, std::ssize(times), probability, true, sums_by_rig(in_time, rigs)},
-                   confidence, failing);
+  statistics::Histogram<double> histogram;
+  std::vector<double> within;  // [trial] 1 for a value within the limit
+  for (const double value : values) {
+    histogram.add(value);
+    within.push_back(value <= result.limit ? 1.0 : 0.0);
+  }
+  result.value =
+      statistics::order_statistic(histogram, statistics::quantile_rank(histogram.size, probability));
+  judge_proportion(result, claim_of(within, rigs, probability, true), confidence, failing);
 }
 
 void judge_mean(RequirementResult& result, const std::vector<double>& values, double confidence,

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/point_trials.hpp"
@@ -13,10 +10,10 @@ namespace zerocount::comparison {
 /// `confidence`, meets it; it fails where the other bound, at `failing_confidence`, contradicts it; otherwise
 /// it is inconclusive.
 ///
-/// Shares have Clopper–Pearson bounds. A quantile of the settling time (of the slowest move of each trial;
-/// infinite where one did not arrive) is judged as the proportion of trials that settle within the limit: q_p
-/// ≤ L holds where that share is at least p; its bounds are those of this proportion. The mean of the jerks
-/// has the bounds of cautious_bounds.
+/// Proportions have Clopper–Pearson bounds. A quantile of the settling time of a trial (that of its slowest
+/// move; infinite if a move did not arrive) is judged as the proportion of trials that settle within the
+/// limit L: q_p ≤ L holds if that proportion is at least p. Its bounds are those of this proportion. The mean
+/// of the jerks has the bounds of cautious_bounds().
 RequirementResult judge_requirement(const Requirement& requirement, const PointTrials& trials,
                                     double confidence, double failing_confidence);
 

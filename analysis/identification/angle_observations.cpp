@@ -1,6 +1,5 @@
 #include "analysis/identification/angle_observations.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

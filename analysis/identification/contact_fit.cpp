@@ -26,18 +26,12 @@ constexpr int max_rounds = 6;
 /// The rounds end when the fit changes by less than this many (textbook) standard deviations.
 constexpr double small_change = 0.05;
 
-Eigen::Map<const Eigen::VectorXd> readings_of(const TestRecord& record) {
-  return {record.reading.data(), static_cast<Eigen::Index>(record.reading.size())};
-}
-
 Observations all_readings(std::span<const TestRecord> records) {
   Observations observations;
   for (const TestRecord& record : records) {
-    const double middle = record.counted ? 0.5 : 0.0;
     std::vector<AngleObservation>& of_record = observations.emplace_back();
-    for (std::size_t k = 0; k < record.reading.size(); ++k) {
-      of_record.push_back({k, k, record.reading[k] + middle, first_variance});
-    }
+    for (std::size_t k = 0; k < record.reading.size(); ++k)
+      of_record.push_back({k, k, record.reading[k] + middle_of_reading(record), first_variance});
   }
   return observations;
 }
@@ -60,8 +54,8 @@ FitSetting setting_for(std::span<const TestRecord> records, std::span<const Reco
 void update_misfit(std::span<const TestRecord> records, ContactFit& fit) {
   fit.misfit.clear();
   for (std::size_t r = 0; r < records.size(); ++r) {
-    const double middle = records[r].counted ? 0.5 : 0.0;
-    const Eigen::VectorXd left = readings_of(records[r]).array() + middle - fit.model.motions[r].path.array();
+    const Eigen::VectorXd left =
+        readings_of(records[r]).array() + middle_of_reading(records[r]) - fit.model.motions[r].path.array();
     fit.misfit.push_back(std::sqrt(left.squaredNorm() / static_cast<double>(left.size())));
   }
 }
@@ -112,8 +106,7 @@ FitPoint fit_roughly(std::span<const TestRecord> records, std::span<const Record
   const Observations observations = all_readings(records);
   FitPoint start{setting.prior, Eigen::VectorXd(records.size())};
   for (std::size_t r = 0; r < records.size(); ++r) {
-    start.offset[static_cast<Eigen::Index>(r)] =
-        records[r].reading.front() + (records[r].counted ? 0.5 : 0.0);
+    start.offset[static_cast<Eigen::Index>(r)] = records[r].reading.front() + middle_of_reading(records[r]);
   }
   FitSetting rough = setting;
   rough.tolerance = 1e-3;
@@ -163,14 +156,10 @@ FittedModel followed_model(std::span<const TestRecord> records, const FitPoint& 
 }
 
 /// The largest component of the remaining Gauss–Newton step, in textbook standard deviations.
-double remaining_step(std::span<const TestRecord> records, const ContactFit& fit) {
-  NormalEquationsSum sum(records.size(), fit.setting);
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    sum.add(r, fit.observations[r], fit.model.motions[r].path, fit.model.motions[r].sensitivity);
-  }
-  const NormalEquations equations = sum.with_prior(fit.model.point.contact);
+double remaining_step(const ContactFit& fit) {
   const Eigen::MatrixXd covariance = textbook_covariance(fit.model, fit.observations, fit.setting);
-  const Eigen::VectorXd step = covariance * equations.gradient;
+  const Eigen::VectorXd step =
+      covariance * normal_equations(fit.model, fit.observations, fit.setting).gradient;
   return (step.array().abs() / covariance.diagonal().array().sqrt()).maxCoeff();
 }
 
@@ -180,7 +169,7 @@ void refine(std::span<const TestRecord> records, const FitPoint& from, int round
   update_misfit(records, fit);
   for (int round = 0; round < rounds; ++round) {
     observe_again(records, fit);
-    if (remaining_step(records, fit) < small_change) break;
+    if (remaining_step(fit) < small_change) break;
     const FitPoint point = fit_jointly(records, fit.observations, fit.model.point, fit.setting).point;
     fit.model = followed_model(records, point, fit.setting);
     update_misfit(records, fit);

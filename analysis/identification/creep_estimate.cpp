@@ -37,10 +37,7 @@ void add_hold(const TorqueHold& hold, double sample_time, const Eigen::VectorXd&
 }  // namespace
 
 Eigen::VectorXd measured_angle(const TestRecord& record) {
-  const double middle = record.counted ? 0.5 : 0.0;
-  const Eigen::Map<const Eigen::VectorXd> readings(record.reading.data(),
-                                                   static_cast<Eigen::Index>(record.reading.size()));
-  return record.unit * (readings.array() + middle);
+  return record.unit * (readings_of(record).array() + middle_of_reading(record));
 }
 
 Eigen::VectorXd creep_extension(const TestRecord& record, const CreepEstimate& creep, double creep_torque) {

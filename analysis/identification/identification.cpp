@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include "analysis/identification/missing_information.hpp"
 #include "analysis/identification/reading_replicates.hpp"
 #include "analysis/identification/residual_checks.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::identification {
@@ -74,10 +74,7 @@ RecordSummary summary_of(const TestRecord& record, const RecordParts& parts, con
   summary.branches = parts.branches.size();
   summary.reversals = parts.reversals();
   summary.holds = parts.holds.size();
-  const double range = torque_range(record);
-  summary.ring_downs = static_cast<std::size_t>(
-      std::count_if(parts.holds.begin(), parts.holds.end(),
-                    [&](const TorqueHold& hold) { return rings_down(hold, range); }));
+  summary.ring_downs = parts.ring_downs();
   summary.misfit = fit.misfit[number];
   summary.noise = fit.noise[number];
   return summary;
@@ -91,25 +88,15 @@ bool is_open(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
   return !(half_width(estimate) <= (quantity.logarithmic ? max_log_halfwidth : widest_exponent));
 }
 
-/// An estimate without a value.
-ParameterEstimate unestimated(const FittedQuantity& quantity) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  ParameterEstimate parameter;
-  parameter.name = quantity.name;
-  parameter.key = quantity.key;
-  parameter.unit = quantity.unit;
-  parameter.value = parameter.standard_error = parameter.low = parameter.high = none;
-  return parameter;
+ParameterEstimate parameter_of(const FittedQuantity& quantity, EstimateStatus status,
+                               const QuantityEstimate& estimate) {
+  return {estimate, std::string(quantity.name), std::string(quantity.key), std::string(quantity.unit),
+          status};
 }
 
 /// Converts an estimate to the parameter's own scale.
 ParameterEstimate reported(const FittedQuantity& quantity, const QuantityEstimate& estimate) {
-  ParameterEstimate parameter = unestimated(quantity);
-  parameter.status = EstimateStatus::estimated;
-  parameter.value = estimate.value;
-  parameter.standard_error = estimate.standard_error;
-  parameter.low = estimate.low;
-  parameter.high = estimate.high;
+  ParameterEstimate parameter = parameter_of(quantity, EstimateStatus::estimated, estimate);
   if (!quantity.logarithmic) {
     constexpr double least_exponent = 1.0;
     parameter.value = std::max(parameter.value, least_exponent);
@@ -125,57 +112,44 @@ ParameterEstimate reported(const FittedQuantity& quantity, const QuantityEstimat
 }
 
 ParameterEstimate given(const FittedQuantity& quantity, const IdentificationOptions& options) {
-  ParameterEstimate parameter = unestimated(quantity);
-  parameter.status = EstimateStatus::known;
+  double value = std::exp(quantity.value);  // of k1 + k2, which has no key
   for (const KnownParameter& known : options.known) {
-    if (coordinate_keys[known.coordinate] == quantity.key) parameter.value = known.value;
+    if (coordinate_keys[known.coordinate] == quantity.key) value = known.value;
   }
-  if (quantity.key.empty()) parameter.value = std::exp(quantity.value);
-  parameter.low = parameter.high = parameter.value;
-  parameter.standard_error = 0.0;
-  return parameter;
+  return parameter_of(quantity, EstimateStatus::known, {value, 0.0, value, value});
 }
 
-/// The state of an identification while it runs.
-class Estimation {
- public:
-  Estimation(std::span<const TestRecord> records, std::span<const RecordParts> parts, const ContactFit& fit,
-             const ReadingReplicates& replicates, const IdentificationOptions& options, double widening)
-      : records_(records),
-        parts_(parts),
-        fit_(fit),
-        replicates_(replicates),
-        options_(options),
-        widening_(widening) {}
+/// What the estimate of a quantity comes from.
+struct Estimation {
+  std::span<const TestRecord> records;
+  std::span<const RecordParts> parts;
+  const ContactFit& fit;
+  const ReadingReplicates& replicates;
+  const IdentificationOptions& options;
+  double widening;
 
   ParameterEstimate estimate(const FittedQuantity& quantity) const {
     const Coordinate coordinate = quantity.coordinates.front();
-    if (quantity.key.empty() ? is_known(options_, log_k1) && is_known(options_, log_k2)
-                             : is_known(options_, coordinate)) {
-      return given(quantity, options_);
+    if (quantity.key.empty() ? is_known(options, log_k1) && is_known(options, log_k2)
+                             : is_known(options, coordinate)) {
+      return given(quantity, options);
     }
-    QuantityEstimate found = interval_by_replicates(quantity, replicates_, widening_);
+    QuantityEstimate found = interval_by_replicates(quantity, replicates, widening);
     if (is_open(quantity, found)) return open(quantity);
     if (half_width(found) > max_linear_halfwidth && !quantity.key.empty()) {
-      found = interval_by_profile(records_, fit_, quantity, found);
+      found = interval_by_profile(records, fit, quantity, found);
       if (is_open(quantity, found)) return open(quantity);
     }
     return reported(quantity, found);
   }
 
- private:
   ParameterEstimate open(const FittedQuantity& quantity) const {
-    ParameterEstimate parameter = unestimated(quantity);
-    parameter.reason = missing_information(records_, parts_, fit_, quantity.coordinates.back());
+    ParameterEstimate parameter =
+        parameter_of(quantity, EstimateStatus::not_identifiable,
+                     {statistics::unknown, statistics::unknown, statistics::unknown, statistics::unknown});
+    parameter.reason = missing_information(records, parts, fit, quantity.coordinates.back());
     return parameter;
   }
-
-  std::span<const TestRecord> records_;
-  std::span<const RecordParts> parts_;
-  const ContactFit& fit_;
-  const ReadingReplicates& replicates_;
-  const IdentificationOptions& options_;
-  double widening_;
 };
 
 /// Correlation of the errors of two quantities in the replicates.
@@ -231,7 +205,7 @@ Identification identify(const std::vector<TestRecord>& records, const Identifica
     result.records.push_back(summary_of(records[r], parts[r], fit, r));
   }
   const std::vector<FittedQuantity> quantities = fitted_quantities(fit.model.point, fit.setting.creep_torque);
-  const Estimation estimation(records, parts, fit, replicates, options, result.checks.widening);
+  const Estimation estimation{records, parts, fit, replicates, options, result.checks.widening};
   for (const FittedQuantity& quantity : quantities) {
     result.parameters.push_back(estimation.estimate(quantity));
   }

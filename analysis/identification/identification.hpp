@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/identification/confidence_interval.hpp"
 #include "analysis/identification/contact_fit.hpp"
 #include "analysis/identification/residual_checks.hpp"
 #include "analysis/identification/test_record.hpp"
@@ -16,17 +17,14 @@ enum class EstimateStatus {
   not_identifiable  ///< the records do not determine it
 };
 
-/// Estimate of one parameter.
-struct ParameterEstimate {
+/// Estimate of one parameter in its own unit; all four numbers are NaN if it is not identifiable, and the
+/// standard error is 0 if it is known.
+struct ParameterEstimate : QuantityEstimate {
   std::string name;  ///< k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda or n
   std::string key;   ///< in a manifest; empty for k1_plus_k2
   std::string unit;
   EstimateStatus status{EstimateStatus::not_identifiable};
-  double value{0.0};           ///< NaN if not identifiable; likewise the next three
-  double standard_error{0.0};  ///< of the value; 0 if known
-  double low{0.0};             ///< of the 95 % confidence interval
-  double high{0.0};
-  std::string reason;  ///< why it is not identifiable
+  std::string reason{};  ///< why it is not identifiable
 };
 
 /// The detected parts of a record, and the quality of the fit.

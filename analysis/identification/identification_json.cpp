@@ -1,19 +1,12 @@
-#include <cmath>
-
 #include <nlohmann/json.hpp>
 
 #include "analysis/identification/identification_report.hpp"
-#include "analysis/identification/manifest_fragment.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::identification {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
 
 std::string status_word(EstimateStatus status) {
   switch (status) {
@@ -33,10 +26,10 @@ Json parameter_json(const ParameterEstimate& parameter) {
   object["key"] = parameter.key.empty() ? Json() : Json(parameter.key);
   object["unit"] = parameter.unit;
   object["status"] = status_word(parameter.status);
-  object["value"] = number(parameter.value);
-  object["standard_error"] = number(parameter.standard_error);
-  object["low"] = number(parameter.low);
-  object["high"] = number(parameter.high);
+  object["value"] = parameter.value;
+  object["standard_error"] = parameter.standard_error;
+  object["low"] = parameter.low;
+  object["high"] = parameter.high;
   if (!parameter.reason.empty()) object["reason"] = parameter.reason;
   if (parameter.status == EstimateStatus::estimated && !parameter.key.empty()) {
     object["distribution"] = distribution_text(parameter);

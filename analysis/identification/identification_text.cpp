@@ -1,9 +1,7 @@
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "analysis/identification/identification_report.hpp"
-#include "analysis/identification/manifest_fragment.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::identification {

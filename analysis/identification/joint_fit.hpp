@@ -69,6 +69,10 @@ struct NormalEquations {
   std::size_t observations{0};  ///< in the sum
 };
 
+/// Of all observations and the prior at the model.
+NormalEquations normal_equations(const FittedModel& model, const Observations& observations,
+                                 const FitSetting& setting);
+
 class NormalEquationsSum {
  public:
   NormalEquationsSum(std::size_t records, const FitSetting& setting);

@@ -1,9 +1,9 @@
-#include "analysis/identification/manifest_fragment.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
+
+#include "analysis/identification/identification_report.hpp"
 
 namespace zerocount::identification {
 namespace {

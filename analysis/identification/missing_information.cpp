@@ -14,10 +14,9 @@ struct CreepingHold {
   double creep{0.0};   ///< fitted travel from a quarter of the hold to its end, in units of the readings
 };
 
-std::vector<CreepingHold> creeping_holds(std::span<const TestRecord> records,
-                                         std::span<const RecordParts> parts, const ContactFit& fit) {
+std::vector<CreepingHold> creeping_holds(std::span<const RecordParts> parts, const ContactFit& fit) {
   std::vector<CreepingHold> holds;
-  for (std::size_t r = 0; r < records.size(); ++r) {
+  for (std::size_t r = 0; r < parts.size(); ++r) {
     const Eigen::VectorXd& path = fit.model.motions[r].path;
     for (const TorqueHold& hold : parts[r].holds) {
       const std::size_t settled = hold.first + (hold.last - hold.first) / 4;
@@ -37,15 +36,8 @@ std::string of_spring(const ContactFit& fit, std::span<const TestRecord> records
       softening);
 }
 
-std::string of_ring_down(std::span<const TestRecord> records, std::span<const RecordParts> parts) {
-  std::size_t ring_downs = 0;
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const double range = torque_range(records[r]);
-    ring_downs += static_cast<std::size_t>(
-        std::count_if(parts[r].holds.begin(), parts[r].holds.end(),
-                      [&](const TorqueHold& hold) { return rings_down(hold, range); }));
-  }
-  if (ring_downs == 0) {
+std::string of_ring_down(std::span<const RecordParts> parts) {
+  if (std::none_of(parts.begin(), parts.end(), [](const RecordParts& one) { return one.ring_downs() > 0; })) {
     return "there is no ring-down: the torque never steps (by 5 % of its range within 8 samples) and then "
            "stays";
   }
@@ -88,13 +80,13 @@ std::string missing_information(std::span<const TestRecord> records, std::span<c
       return of_spring(fit, records);
     case log_damping:
     case log_inertia:
-      return of_ring_down(records, parts);
+      return of_ring_down(parts);
     case log_alpha:
     case log_limit:
     case creep_exponent:
       break;
   }
-  return of_creep(creeping_holds(records, parts, fit), coordinate);
+  return of_creep(creeping_holds(parts, fit), coordinate);
 }
 
 }  // namespace zerocount::identification

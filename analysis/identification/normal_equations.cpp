@@ -3,7 +3,6 @@
 #include "analysis/identification/joint_fit.hpp"
 
 namespace zerocount::identification {
-namespace {}  // namespace
 
 FittedModel model_at(std::span<const TestRecord> records, const FitPoint& point, const FitSetting& setting) {
   FittedModel model{point, {}};
@@ -15,13 +14,17 @@ FittedModel model_at(std::span<const TestRecord> records, const FitPoint& point,
   return model;
 }
 
+NormalEquations normal_equations(const FittedModel& model, const Observations& observations,
+                                 const FitSetting& setting) {
+  NormalEquationsSum sum(observations.size(), setting);
+  for (std::size_t r = 0; r < observations.size(); ++r)
+    sum.add(r, observations[r], model.motions[r].path, model.motions[r].sensitivity);
+  return sum.with_prior(model.point.contact);
+}
+
 Eigen::MatrixXd textbook_covariance(const FittedModel& model, const Observations& observations,
                                     const FitSetting& setting) {
-  NormalEquationsSum sum(observations.size(), setting);
-  for (std::size_t r = 0; r < observations.size(); ++r) {
-    sum.add(r, observations[r], model.motions[r].path, model.motions[r].sensitivity);
-  }
-  const Eigen::MatrixXd matrix = sum.with_prior(setting.prior).matrix;
+  const Eigen::MatrixXd matrix = normal_equations(model, observations, setting).matrix;
   return matrix.llt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
 }
 

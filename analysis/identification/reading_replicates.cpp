@@ -1,6 +1,5 @@
 #include "analysis/identification/reading_replicates.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -84,16 +83,10 @@ std::vector<double> residuals_of(const FittedModel& model, const Observations& o
 ReadingReplicates replicate_readings(std::span<const TestRecord> records, const FittedModel& model,
                                      const FitSetting& setting, const std::vector<double>& noise,
                                      std::size_t replicates) {
-  NormalEquationsSum at_model(records.size(), setting);
   Observations observations(records.size());
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const RecordMotion& motion = model.motions[r];
-    const Eigen::VectorXd readings =
-        Eigen::Map<const Eigen::VectorXd>(records[r].reading.data(), motion.path.size());
-    observe(records[r], motion.path, readings, noise[r], observations[r]);
-    at_model.add(r, observations[r], motion.path, motion.sensitivity);
-  }
-  const Eigen::MatrixXd matrix = at_model.with_prior(setting.prior).matrix;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    observe(records[r], model.motions[r].path, readings_of(records[r]), noise[r], observations[r]);
+  const Eigen::MatrixXd matrix = normal_equations(model, observations, setting).matrix;
   const Eigen::LLT<Eigen::MatrixXd> root(matrix);
 
   ReadingReplicates result;

@@ -1,7 +1,6 @@
 #include "analysis/identification/record_checks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -256,7 +255,7 @@ void check_clipping(const RawSeries& series, const TestRecord& record) {
   constexpr double tolerance = 2e-3;  // of the range
   for (const TorqueHold& hold : parts_of(record).holds) {
     const bool at_extreme = hold.torque >= high - tolerance * range || hold.torque <= low + tolerance * range;
-    if (at_extreme && !rings_down(hold, range)) check_flat_top(series, record, hold);
+    if (at_extreme && !hold.rings_down) check_flat_top(series, record, hold);
   }
 }
 

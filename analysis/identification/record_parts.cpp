@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace zerocount::identification {
 namespace {
@@ -20,7 +21,8 @@ double torque_at(const TestRecord& record, std::ptrdiff_t sample) {
 
 /// The branches between turning points. A turning point is an extreme after which the torque returns by more
 /// than the threshold.
-std::vector<LoadingBranch> branches_of(const TestRecord& record, double threshold) {
+std::vector<LoadingBranch> branches_of(const TestRecord& record, double range) {
+  const double threshold = turn_threshold * range;
   std::vector<LoadingBranch> branches;
   LoadingBranch branch;  // from the last turning point to the extreme torque since then
   int direction = 0;
@@ -41,19 +43,23 @@ std::vector<LoadingBranch> branches_of(const TestRecord& record, double threshol
     }
   }
   if (direction != 0) branches.push_back(branch);
+  for (LoadingBranch& one : branches)
+    one.slow =
+        one.last - one.first >= min_part_samples && std::abs(one.to - one.from) >= slow_threshold * range;
   return branches;
 }
 
-std::vector<TorqueHold> holds_of(const TestRecord& record, double tolerance) {
+std::vector<TorqueHold> holds_of(const TestRecord& record, double range) {
   std::vector<TorqueHold> holds;
   const std::size_t samples = record.torque.size();
   for (std::size_t first = 0; first < samples;) {
     const double torque = record.torque[first].now;
     std::size_t end = first + 1;
-    while (end < samples && std::abs(record.torque[end].now - torque) <= tolerance) ++end;
+    while (end < samples && std::abs(record.torque[end].now - torque) <= hold_tolerance * range) ++end;
     if (end - first >= min_part_samples) {
       const auto before = static_cast<std::ptrdiff_t>(first) - static_cast<std::ptrdiff_t>(step_samples);
-      holds.push_back({first, end - 1, torque, torque_at(record, before)});
+      const double from = torque_at(record, before);
+      holds.push_back({first, end - 1, torque, from, std::abs(torque - from) >= step_threshold * range});
     }
     first = end;
   }
@@ -64,16 +70,12 @@ std::vector<TorqueHold> holds_of(const TestRecord& record, double tolerance) {
 
 RecordParts parts_of(const TestRecord& record) {
   const double range = torque_range(record);
-  return {branches_of(record, turn_threshold * range), holds_of(record, hold_tolerance * range)};
+  return {branches_of(record, range), holds_of(record, range)};
 }
 
-bool rings_down(const TorqueHold& hold, double range) {
-  return std::abs(hold.torque - hold.from) >= step_threshold * range;
-}
-
-bool is_slow(const LoadingBranch& branch, double range) {
-  return branch.last - branch.first >= min_part_samples &&
-         std::abs(branch.to - branch.from) >= slow_threshold * range;
+std::size_t RecordParts::ring_downs() const {
+  return static_cast<std::size_t>(
+      std::count_if(holds.begin(), holds.end(), std::mem_fn(&TorqueHold::rings_down)));
 }
 
 }  // namespace zerocount::identification

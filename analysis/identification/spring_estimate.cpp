@@ -73,11 +73,8 @@ SpringEstimate secant_estimate(std::span<const TestRecord> records, std::span<co
     estimate = {torque / travel, offset * torque, softened / travel};
   };
   for (std::size_t r = 0; r < records.size(); ++r) {
-    const double range = torque_range(records[r]);
     for (const TorqueHold& hold : parts[r].holds) {
-      if (rings_down(hold, range)) {
-        take(std::abs(hold.torque - hold.from), first_swing(records[r], hold).travel);
-      }
+      if (hold.rings_down) take(std::abs(hold.torque - hold.from), first_swing(records[r], hold).travel);
     }
   }
   if (std::isfinite(estimate.k1)) return estimate;
@@ -94,13 +91,12 @@ SpringEstimate estimate_spring(std::span<const TestRecord> records, std::span<co
                                const CreepEstimate& creep, double creep_torque) {
   std::vector<double> slopes, offsets, rates;
   for (std::size_t r = 0; r < records.size(); ++r) {
-    const double range = torque_range(records[r]);
     const Eigen::VectorXd angle =
         measured_angle(records[r]) - creep_extension(records[r], creep, creep_torque);
     const bool virgin = records[r].start.preload == 0.0 && records[r].start.history.empty();
     for (std::size_t b = 0; b < parts[r].branches.size(); ++b) {
       const LoadingBranch& branch = parts[r].branches[b];
-      if (!is_slow(branch, range)) continue;
+      if (!branch.slow) continue;
       const Chord chord = chord_of(records[r], branch, angle, virgin && b == 0);
       const double travel = chord.travel.back();
       const Line line = line_through(chord, 0.6 * travel);

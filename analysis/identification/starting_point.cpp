@@ -1,7 +1,6 @@
 #include "analysis/identification/starting_point.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -22,7 +21,7 @@ RingDown largest_ring_down(std::span<const TestRecord> records, std::span<const 
   RingDown largest;
   for (std::size_t r = 0; r < records.size(); ++r) {
     for (const TorqueHold& hold : parts[r].holds) {
-      if (!rings_down(hold, torque_range(records[r]))) continue;
+      if (!hold.rings_down) continue;
       const bool larger = largest.record == nullptr || std::abs(hold.torque - hold.from) >
                                                            std::abs(largest.hold.torque - largest.hold.from);
       if (larger) largest = {&records[r], hold};
@@ -34,8 +33,7 @@ RingDown largest_ring_down(std::span<const TestRecord> records, std::span<const 
 /// Sum of squares of the residuals about their mean, in units of the readings.
 double misfit(const TestRecord& record, const ContactPoint& point, double creep_torque) {
   const Eigen::VectorXd path = angle_path(record, contact_at(point, creep_torque));
-  const Eigen::Map<const Eigen::VectorXd> readings(record.reading.data(), path.size());
-  const Eigen::VectorXd residual = readings - path;
+  const Eigen::VectorXd residual = readings_of(record) - path;
   const double sum = (residual.array() - residual.mean()).square().sum();
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
 }
@@ -99,10 +97,7 @@ ChosenRecords all_of(std::span<const TestRecord> records) {
 ChosenRecords ringing_records(std::span<const TestRecord> records, std::span<const RecordParts> parts) {
   ChosenRecords ringing;
   for (std::size_t r = 0; r < records.size(); ++r) {
-    const double range = torque_range(records[r]);
-    const bool rings = std::any_of(parts[r].holds.begin(), parts[r].holds.end(),
-                                   [&](const TorqueHold& hold) { return rings_down(hold, range); });
-    if (rings) ringing.push_back(&records[r]);
+    if (parts[r].ring_downs() > 0) ringing.push_back(&records[r]);
   }
   return ringing;
 }

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/motion/plant_start.hpp"
 #include "core/motion/torque_course.hpp"
 
@@ -24,6 +26,15 @@ struct TestRecord {
 
 inline std::size_t sample_count(const TestRecord& record) {
   return record.reading.size();
+}
+
+inline Eigen::Map<const Eigen::VectorXd> readings_of(const TestRecord& record) {
+  return {record.reading.data(), static_cast<Eigen::Index>(record.reading.size())};
+}
+
+/// Mean distance of the angle from its reading, in the record's unit: half a count, or 0 without counts.
+inline double middle_of_reading(const TestRecord& record) {
+  return record.counted ? 0.5 : 0.0;
 }
 
 /// Maximum − minimum torque, N m.

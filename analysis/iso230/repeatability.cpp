@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
+
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::iso230 {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr double coverage = 2.0;  // of the standard's bands x̄ ± 2·s
 
 /// Smallest and largest of the values added; one that is NaN makes both NaN.
@@ -29,11 +29,11 @@ class Extremes {
 double mean_of(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) sum += value;
-  return values.empty() ? undefined : sum / static_cast<double>(values.size());
+  return values.empty() ? statistics::unknown : sum / static_cast<double>(values.size());
 }
 
 double standard_uncertainty(const std::vector<double>& values, double mean) {
-  if (values.size() < 2) return undefined;
+  if (values.size() < 2) return statistics::unknown;
   double squares = 0.0;
   for (const double value : values) squares += (value - mean) * (value - mean);
   return std::sqrt(squares / static_cast<double>(values.size() - 1));

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <limits>
 #include <span>
 #include <vector>
+
+#include "analysis/statistics/unknown.hpp"
 
 /// Accuracy and repeatability of positioning after ISO 230-2:2014, "Test code for machine tools – Part 2:
 /// Determination of accuracy and repeatability of positioning of numerically controlled axes".
@@ -41,32 +42,32 @@ struct TargetDeviations {
 
 /// What the standard says of one target, in the unit of the deviations; NaN where it is not defined.
 struct TargetRepeatability {
-  double mean_positive{std::numeric_limits<double>::quiet_NaN()};           ///< x̄i↑
-  double mean_negative{std::numeric_limits<double>::quiet_NaN()};           ///< x̄i↓
-  double mean{std::numeric_limits<double>::quiet_NaN()};                    ///< x̄i
-  double reversal{std::numeric_limits<double>::quiet_NaN()};                ///< Bi
-  double uncertainty_positive{std::numeric_limits<double>::quiet_NaN()};    ///< si↑
-  double uncertainty_negative{std::numeric_limits<double>::quiet_NaN()};    ///< si↓
-  double repeatability_positive{std::numeric_limits<double>::quiet_NaN()};  ///< Ri↑
-  double repeatability_negative{std::numeric_limits<double>::quiet_NaN()};  ///< Ri↓
-  double repeatability{std::numeric_limits<double>::quiet_NaN()};           ///< Ri
+  double mean_positive{statistics::unknown};           ///< x̄i↑
+  double mean_negative{statistics::unknown};           ///< x̄i↓
+  double mean{statistics::unknown};                    ///< x̄i
+  double reversal{statistics::unknown};                ///< Bi
+  double uncertainty_positive{statistics::unknown};    ///< si↑
+  double uncertainty_negative{statistics::unknown};    ///< si↓
+  double repeatability_positive{statistics::unknown};  ///< Ri↑
+  double repeatability_negative{statistics::unknown};  ///< Ri↓
+  double repeatability{statistics::unknown};           ///< Ri
 };
 
 /// What the standard says of the axis, in the unit of the deviations; NaN where it is not defined, which is
 /// so where it is not for one of the targets.
 struct AxisRepeatability {
-  double reversal{std::numeric_limits<double>::quiet_NaN()};                ///< B
-  double mean_reversal{std::numeric_limits<double>::quiet_NaN()};           ///< B̄, signed
-  double repeatability_positive{std::numeric_limits<double>::quiet_NaN()};  ///< R↑
-  double repeatability_negative{std::numeric_limits<double>::quiet_NaN()};  ///< R↓
-  double repeatability{std::numeric_limits<double>::quiet_NaN()};           ///< R
-  double systematic_positive{std::numeric_limits<double>::quiet_NaN()};     ///< E↑
-  double systematic_negative{std::numeric_limits<double>::quiet_NaN()};     ///< E↓
-  double systematic{std::numeric_limits<double>::quiet_NaN()};              ///< E
-  double mean_bidirectional{std::numeric_limits<double>::quiet_NaN()};      ///< M
-  double accuracy_positive{std::numeric_limits<double>::quiet_NaN()};       ///< A↑
-  double accuracy_negative{std::numeric_limits<double>::quiet_NaN()};       ///< A↓
-  double accuracy{std::numeric_limits<double>::quiet_NaN()};                ///< A
+  double reversal{statistics::unknown};                ///< B
+  double mean_reversal{statistics::unknown};           ///< B̄, signed
+  double repeatability_positive{statistics::unknown};  ///< R↑
+  double repeatability_negative{statistics::unknown};  ///< R↓
+  double repeatability{statistics::unknown};           ///< R
+  double systematic_positive{statistics::unknown};     ///< E↑
+  double systematic_negative{statistics::unknown};     ///< E↓
+  double systematic{statistics::unknown};              ///< E
+  double mean_bidirectional{statistics::unknown};      ///< M
+  double accuracy_positive{statistics::unknown};       ///< A↑
+  double accuracy_negative{statistics::unknown};       ///< A↓
+  double accuracy{statistics::unknown};                ///< A
 };
 
 struct Repeatability {

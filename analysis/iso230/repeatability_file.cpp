@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,14 +11,13 @@
 
 #include "analysis/iso230/repeatability_fields.hpp"
 #include "analysis/iso230/repeatability_layout.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
 
 namespace zerocount::iso230 {
 namespace {
-
-constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 /// What is read of the outcomes.
 const std::vector<layout::RecordField<trial::MoveOutcome>>& measured_fields() {
@@ -53,7 +51,7 @@ struct TrialValues {
     std::size_t column = 0;
     for (const DeviationSource& source : deviation_sources()) {
       for (const auto& field : axis_fields()) {
-        axis[column++].push_back(trial ? ((*trial).*source.values).axis.*field.value : not_measured);
+        axis[column++].push_back(trial ? ((*trial).*source.values).axis.*field.value : statistics::unknown);
       }
     }
     targets.front().insert(targets.front().end(), positions.begin(), positions.end());
@@ -61,7 +59,8 @@ struct TrialValues {
     for (const DeviationSource& source : deviation_sources()) {
       for (const auto& field : target_fields()) {
         for (std::size_t target = 0; target < positions.size(); ++target) {
-          const double value = trial ? ((*trial).*source.values).targets[target].*field.value : not_measured;
+          const double value =
+              trial ? ((*trial).*source.values).targets[target].*field.value : statistics::unknown;
           targets[column].push_back(value);
         }
         ++column;

@@ -17,40 +17,34 @@ void require_rows(const layout::TableIo& io, std::int64_t rows) {
 }
 
 /// The trials of one point, column by column.
-class PointReader {
- public:
-  PointReader(const layout::TableIo& axis, const layout::TableIo& targets, std::int64_t first,
-              std::int64_t trials)
-      : axis_(axis), targets_(targets), first_(first), trials_(trials) {}
+struct PointReader {
+  const layout::TableIo& axis_table;
+  const layout::TableIo& target_table;
+  std::int64_t first;  ///< row
+  std::int64_t trials;
 
   std::int64_t evaluated() const {
-    std::vector<std::uint8_t> flags(static_cast<std::size_t>(trials_));
-    axis_.column(0).read(first_, trials_, flags.data());
+    std::vector<std::uint8_t> flags(static_cast<std::size_t>(trials));
+    axis_table.column(0).read(first, trials, flags.data());
     return std::count(flags.begin(), flags.end(), std::uint8_t{1});
   }
 
   /// [trial], of an axis value.
   std::vector<double> axis(std::size_t source, std::size_t field) const {
-    std::vector<double> values(static_cast<std::size_t>(trials_));
-    axis_.column(1 + source * axis_fields().size() + field).read(first_, trials_, values.data());
+    std::vector<double> values(static_cast<std::size_t>(trials));
+    axis_table.column(1 + source * axis_fields().size() + field).read(first, trials, values.data());
     return values;
   }
 
   /// [target][trial], of the column of the table of targets.
   std::vector<std::vector<double>> target_column(std::size_t column) const {
-    const auto width = static_cast<std::size_t>(targets_.width());
-    std::vector<double> values(static_cast<std::size_t>(trials_) * width);
-    targets_.column(column).read(first_, trials_, values.data());
+    const auto width = static_cast<std::size_t>(target_table.width());
+    std::vector<double> values(static_cast<std::size_t>(trials) * width);
+    target_table.column(column).read(first, trials, values.data());
     std::vector<std::vector<double>> by_target(width);
     for (std::size_t i = 0; i < values.size(); ++i) by_target[i % width].push_back(values[i]);
     return by_target;
   }
-
- private:
-  const layout::TableIo& axis_;
-  const layout::TableIo& targets_;
-  std::int64_t first_;
-  std::int64_t trials_;
 };
 
 SourceRepeatability source_statistics(const PointReader& reader, std::size_t source, std::size_t targets,
@@ -117,7 +111,7 @@ RepeatabilitySummary read_repeatability(const hdf5::Group& root, const study::St
   if (targets.width() != summary.shape.targets)
     targets.row_scale().fail("it is of another number of targets");
   for (std::int64_t point = 0; point < study::point_count(study); ++point) {
-    const PointReader reader(axis, targets, point * study.trials, study.trials);
+    const PointReader reader{axis, targets, point * study.trials, study.trials};
     summary.points.push_back(point_statistics(reader, summary.shape, study.trials, confidence));
   }
   return summary;

@@ -1,17 +1,14 @@
 #include "analysis/iso230/repeatability_statistics.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
 
+#include "analysis/statistics/unknown.hpp"
+
 namespace zerocount::iso230 {
-namespace {
-
-constexpr double no_rank = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 ValueStatistics statistics_of(std::vector<double> values, double confidence) {
   std::erase_if(values, [](double value) { return std::isnan(value); });
@@ -51,7 +48,9 @@ const std::vector<text::ReportField<PointRepeatability>>& point_repeatability_fi
        [](P p) { return text::to_double(p.evaluated); }},
       {"", "zero_repeatability", "1",
        "trials whose repeatability by the fine encoder is exactly 0, NaN of a single cycle", true,
-       [](P p) { return p.zero_repeatability ? text::to_double(*p.zero_repeatability) : no_rank; }},
+       [](P p) {
+         return p.zero_repeatability ? text::to_double(*p.zero_repeatability) : statistics::unknown;
+       }},
       {"", "zero_repeatability_rate", "1",
        "zero_repeatability as a proportion of trials, NaN of a single cycle", false,
        [](P p) { return p.zero_rate; }},

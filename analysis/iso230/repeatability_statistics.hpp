@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include "analysis/measures/measure_statistics.hpp"
 #include "analysis/statistics/moments.hpp"
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "analysis/text/report_field.hpp"
 
 namespace zerocount::iso230 {
@@ -45,10 +45,10 @@ struct PointRepeatability {
   /// Trials in which, by the encoder, all approaches of a target ended on the same count: R = 0, or R↑ or R↓
   /// where there is one direction only. Nothing of a single cycle, which has no repeatability.
   std::optional<std::int64_t> zero_repeatability{};
-  double zero_rate{std::numeric_limits<double>::quiet_NaN()};  ///< zero_repeatability / trials; NaN for n = 1
-  statistics::ConfidenceInterval zero_bounds{0.0, 1.0};        ///< of zero_rate, Clopper–Pearson
-  std::vector<statistics::Moments> positions;                  ///< [target], counts
-  std::vector<SourceRepeatability> sources;                    ///< [deviation_sources()]
+  double zero_rate{statistics::unknown};                 ///< zero_repeatability / trials; NaN for n = 1
+  statistics::ConfidenceInterval zero_bounds{0.0, 1.0};  ///< of zero_rate, Clopper–Pearson
+  std::vector<statistics::Moments> positions;            ///< [target], counts
+  std::vector<SourceRepeatability> sources;              ///< [deviation_sources()]
 };
 
 /// The numbers of a point that are neither of the axis nor of a target.

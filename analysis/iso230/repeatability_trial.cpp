@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 #include "core/loop/encoder.hpp"
 
@@ -56,8 +57,7 @@ SequenceShape shape_of(std::span<const study::SequenceMove> sequence) {
 
 std::vector<double> listed_targets(std::span<const study::SequenceMove> sequence,
                                    const trial::TrialParameters& parameters) {
-  std::vector<double> positions(static_cast<std::size_t>(target_count(sequence)),
-                                std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> positions(static_cast<std::size_t>(target_count(sequence)), statistics::unknown);
   for (std::size_t move = 0; move < sequence.size(); ++move) {
     if (sequence[move].target < 0) continue;
     positions[static_cast<std::size_t>(sequence[move].target)] =

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/statistics/unknown.hpp"
 #include "experiments/study/study.hpp"
 
 namespace zerocount::jerks {
@@ -14,10 +15,10 @@ namespace zerocount::jerks {
 struct CreepWait {
   std::int64_t trial{0};  ///< index within its point
   std::int64_t move{0};
-  bool first{false};  ///< the first wait after arrival
-  double since{0.0};  ///< start of the prediction: a dwell after the error became 0
-  double onset{std::numeric_limits<double>::quiet_NaN()};  ///< of the jerk that ended it; NaN without one
-  double end{0.0};  ///< end of the wait: the onset, or the end of the move
+  bool first{false};                  ///< the first wait after arrival
+  double since{0.0};                  ///< start of the prediction: a dwell after the error became 0
+  double onset{statistics::unknown};  ///< of the jerk that ended it; NaN without one
+  double end{0.0};                    ///< end of the wait: the onset, or the end of the move
   double predicted{std::numeric_limits<double>::infinity()};  ///< onset by the closed form; infinite: never
 };
 
@@ -51,9 +52,9 @@ struct CreepAgreement {
   std::int64_t ended{0};      ///< waits that ended with a jerk
   std::int64_t predicted{0};  ///< of them, predicted to within two samples and 1 % of the time from `since`
   std::int64_t lasting{0};    ///< waits without a jerk
-  std::int64_t lasting_predicted{0};                                   ///< of them, predicted to last as long
-  double median_deviation{std::numeric_limits<double>::quiet_NaN()};   ///< of |onset − predicted|, s
-  double largest_deviation{std::numeric_limits<double>::quiet_NaN()};  ///< likewise
+  std::int64_t lasting_predicted{0};              ///< of them, predicted to last as long
+  double median_deviation{statistics::unknown};   ///< of |onset − predicted|, s
+  double largest_deviation{statistics::unknown};  ///< likewise
 };
 
 /// @param sample_time s.

@@ -1,10 +1,10 @@
 #include <cstddef>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "analysis/jerks/jerk_report.hpp"
+#include "analysis/text/report_json.hpp"
 
 namespace zerocount::jerks {
 namespace {
@@ -106,8 +106,7 @@ Json jerk_json(const JerkReport& report) {
 }
 
 std::string jerk_json_text(const JerkReport& report) {
-  constexpr int indent = 2;
-  return jerk_json(report).dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text::json_text(jerk_json(report));
 }
 
 }  // namespace zerocount::jerks

@@ -13,6 +13,7 @@
 #include "analysis/jerks/jerk_rates.hpp"
 #include "analysis/jerks/observed_move.hpp"
 #include "analysis/statistics/histogram.hpp"
+#include "analysis/statistics/trial_clusters.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::jerks {
@@ -72,17 +73,30 @@ class EventSums {
   statistics::ClusterSums sums_;
 };
 
-/// First pass over the moves of a point: everything except the bounds of the intervals.
+JerkIntervals interval_statistics(const statistics::ClusteredSample& sample, double confidence) {
+  JerkIntervals intervals{sample.observed().size, statistics::mean(sample.observed()), {}, {}};
+  for (const double probability : jerk_interval_probabilities) {
+    intervals.quantiles.push_back(statistics::clustered_quantile(sample, probability, confidence));
+    intervals.independent.push_back(
+        statistics::effective_events(sample.at_most(intervals.quantiles.back().value)));
+  }
+  return intervals;
+}
+
+/// Collects the moves of a point.
 class JerkCollector {
  public:
-  JerkCollector(double confidence, bool on_rigs)
+  JerkCollector(double confidence, std::int64_t rigs)
       : confidence_(confidence),
-        rates_(on_rigs),
+        rates_(rigs > 0),
         laplace_(confidence),
-        agreeing_(on_rigs),
-        one_count_(on_rigs) {}
+        agreeing_(rigs > 0),
+        one_count_(rigs > 0),
+        intervals_(rigs) {}
 
   void add(const ObservedMove& move) {
+    if (move.cluster != cluster_) close_cluster();
+    cluster_ = move.cluster;
     ++found_.moves;
     if (!move.arrived) return;
     ++found_.arrived;
@@ -93,19 +107,19 @@ class JerkCollector {
     rates_.add(move);
     laplace_.add(trend_after_first(move));
     for (std::size_t i = 0; i < move.jerks.size(); ++i) {
-      if (i > 0) intervals_.add(interval_before(move, i));
+      if (i > 0) intervals_of_cluster_.push_back(interval_before(move, i));
       add_jerk(move, move.jerks[i]);
     }
   }
 
   JerkStatistics statistics() {
+    close_cluster();
     JerkStatistics result = found_;
     result.confidence = confidence_;
     result.rates = rates_.rates(confidence_);
     result.slowing = laplace_.summary();
     result.agreement = statistics::clustered_proportion(agreeing_.sums(), confidence_);
-    result.intervals.n = intervals_.size;
-    result.intervals.mean = statistics::mean(intervals_);
+    result.intervals = interval_statistics(intervals_.sample(), confidence_);
     JerkMagnitudes& magnitudes = result.magnitudes;
     magnitudes.one_count = statistics::clustered_proportion(one_count_.sums(), confidence_);
     magnitudes.counts.assign(magnitude_counts_.begin(), magnitude_counts_.end());
@@ -115,9 +129,13 @@ class JerkCollector {
     magnitudes.longest_duration = statistics::largest(durations_);
     return result;
   }
-  const statistics::Histogram<double>& intervals() const { return intervals_; }
 
  private:
+  void close_cluster() {
+    intervals_.add_trial(cluster_, intervals_of_cluster_, std::ssize(intervals_of_cluster_));
+    intervals_of_cluster_.clear();
+  }
+
   void add_jerk(const ObservedMove& move, const SampledJerk& jerk) {
     ++found_.jerks;
     found_.with_jerks += move.trial != last_with_jerks_;
@@ -135,53 +153,14 @@ class JerkCollector {
   JerkRates rates_;
   LaplaceSum laplace_;
   EventSums agreeing_, one_count_;
-  statistics::Histogram<double> intervals_, durations_;
+  statistics::TrialClusters intervals_;
+  std::vector<double> intervals_of_cluster_;
+  std::int64_t cluster_{0};
+  statistics::Histogram<double> durations_;
   statistics::Histogram<std::int64_t> magnitudes_;
   std::array<std::int64_t, magnitude_classes> magnitude_counts_{};
   std::int64_t last_with_jerks_{-1};
 };
-
-/// Quantile of the intervals with order-statistic bounds: ranks for `independent` observations, scaled to all
-/// n (Woodruff 1952).
-statistics::Quantile quantile_of_clusters(const statistics::Histogram<double>& histogram, double probability,
-                                          double independent, double confidence) {
-  const double value =
-      statistics::order_statistic(histogram, statistics::quantile_rank(histogram.size, probability));
-  const auto whole = std::max<std::int64_t>(1, static_cast<std::int64_t>(independent));
-  const statistics::RankBounds ranks = statistics::quantile_rank_bounds(whole, probability, confidence);
-  const double scale = static_cast<double>(histogram.size) / static_cast<double>(whole);
-  const auto low = static_cast<std::int64_t>(std::floor(static_cast<double>(ranks.low) * scale));
-  const auto high = static_cast<std::int64_t>(std::ceil(static_cast<double>(ranks.high) * scale));
-  return {value, statistics::order_statistic(histogram, low),
-          statistics::order_statistic(histogram, ranks.high > whole ? 0 : high)};
-}
-
-/// Second pass: the correlation of the intervals of a trial, for their bounds.
-void add_interval_quantiles(JerkIntervals& intervals, const statistics::Histogram<double>& histogram,
-                            const reading::StudyFile& file, const study::Study& study, std::int64_t point,
-                            double confidence) {
-  constexpr std::size_t count = std::size(jerk_interval_probabilities);
-  std::array<double, count> values{};
-  for (std::size_t q = 0; q < count; ++q)
-    values[q] = statistics::order_statistic(
-        histogram, statistics::quantile_rank(histogram.size, jerk_interval_probabilities[q]));
-  std::vector<EventSums> sums(count, EventSums(study.rigs > 0));
-  if (histogram.size > 0) {
-    for_each_move(file, study, point, [&](const ObservedMove& move) {
-      if (!move.arrived || move.lost) return;
-      for (std::size_t i = 1; i < move.jerks.size(); ++i) {
-        const double interval = interval_before(move, i);
-        for (std::size_t q = 0; q < count; ++q) sums[q].add(move.cluster, interval <= values[q]);
-      }
-    });
-  }
-  for (std::size_t q = 0; q < count; ++q) {
-    const double independent = statistics::adjusted_events(sums[q].sums(), 0.5 * (1.0 - confidence));
-    intervals.independent.push_back(statistics::effective_events(sums[q].sums()));
-    intervals.quantiles.push_back(
-        quantile_of_clusters(histogram, jerk_interval_probabilities[q], independent, confidence));
-  }
-}
 
 void require_jerks(const reading::StudyFile& file, const study::Study& study, std::int64_t point) {
   if (study.open_loop) {
@@ -200,11 +179,10 @@ JerkStatistics jerk_statistics(const reading::StudyFile& file, const study::Stud
                                double confidence) {
   require_jerks(file, study, point);
   statistics::require_confidence(confidence);
-  JerkCollector collector(confidence, study.rigs > 0);
+  JerkCollector collector(confidence, study.rigs);
   for_each_move(file, study, point, [&](const ObservedMove& move) { collector.add(move); });
   JerkStatistics result = collector.statistics();
   result.trials = file.header().trials;
-  add_interval_quantiles(result.intervals, collector.intervals(), file, study, point, confidence);
   return result;
 }
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "experiments/study/study.hpp"
 #include "results/reading/study_file.hpp"
 
@@ -20,16 +20,16 @@ namespace zerocount::jerks {
 
 /// Rate of jerks in a range of the time since arrival.
 struct JerkRate {
-  double from{0.0};       ///< s since arrival
-  double to{0.0};         ///< s since arrival; `to` itself belongs to the next range
-  std::int64_t moves{0};  ///< moves in which a jerk could have begun in the range
-  double exposure{0.0};   ///< s, sum over all moves of the time in which a jerk could have begun
-  std::int64_t jerks{0};  ///< that began in the range
-  double rate{std::numeric_limits<double>::quiet_NaN()};  ///< jerks / exposure, 1/s
-  statistics::ConfidenceInterval poisson{};  ///< of the rate, 1/s: Garwood's, valid for independent jerks
+  double from{0.0};                  ///< s since arrival
+  double to{0.0};                    ///< s since arrival; `to` itself belongs to the next range
+  std::int64_t moves{0};             ///< moves in which a jerk could have begun in the range
+  double exposure{0.0};              ///< s, sum over all moves of the time in which a jerk could have begun
+  std::int64_t jerks{0};             ///< that began in the range
+  double rate{statistics::unknown};  ///< jerks / exposure, 1/s
+  statistics::ConfidenceInterval poisson{};  ///< Garwood bounds of the rate, 1/s, for independent jerks
   /// Variance of the jerks of a trial about rate·exposure, divided by that of a Poisson number; 1 if unknown.
   double dispersion{1.0};
-  /// Of the rate, 1/s: Garwood's, with jerks and exposure divided by the dispersion if that is above 1
+  /// Garwood bounds of the rate, 1/s; jerks and exposure are divided by the dispersion if that is above 1
   /// (trials differ). These are the bounds to report.
   statistics::ConfidenceInterval bounds{};
 };
@@ -37,7 +37,7 @@ struct JerkRate {
 /// Time between the onsets of successive jerks of a move, s.
 struct JerkIntervals {
   std::int64_t n{0};
-  double mean{std::numeric_limits<double>::quiet_NaN()};
+  double mean{statistics::unknown};
   /// At jerk_interval_probabilities, with order-statistic bounds for the effective number of intervals.
   std::vector<statistics::Quantile> quantiles;
   std::vector<double> independent;  ///< [quantile]: effective number of intervals
@@ -50,10 +50,10 @@ inline constexpr std::array<double, 5> jerk_interval_probabilities{0.05, 0.25, 0
 struct JerkMagnitudes {
   statistics::ClusteredProportion one_count;  ///< proportion of jerks of one count
   std::vector<std::int64_t> counts;           ///< [m]: jerks of magnitude m + 1; last: or more
-  double mean{std::numeric_limits<double>::quiet_NaN()};
+  double mean{statistics::unknown};
   std::int64_t max{0};
-  double median_duration{std::numeric_limits<double>::quiet_NaN()};   ///< s
-  double longest_duration{std::numeric_limits<double>::quiet_NaN()};  ///< s
+  double median_duration{statistics::unknown};   ///< s
+  double longest_duration{statistics::unknown};  ///< s
 };
 
 /// The jerks of all trials of a design point.

@@ -1,6 +1,4 @@
-#include <cmath>
 #include <cstddef>
-#include <iterator>
 
 #include <fmt/format.h>
 

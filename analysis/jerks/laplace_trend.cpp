@@ -5,6 +5,7 @@
 
 #include "analysis/statistics/normal.hpp"
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::jerks {
 
@@ -16,7 +17,7 @@ LaplaceTerm laplace_term(std::span<const std::int64_t> instants, std::int64_t si
 }
 
 double laplace_score(const LaplaceTerm& term) {
-  if (!(term.variance > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(term.variance > 0.0)) return statistics::unknown;
   return term.excess / std::sqrt(term.variance);
 }
 

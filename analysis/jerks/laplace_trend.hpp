@@ -1,8 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
+
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::jerks {
 
@@ -33,10 +34,9 @@ struct LaplaceSummary {
   std::int64_t slowing{0};     ///< of those tested, slowing down with the stated confidence (one-sided)
   std::int64_t quickening{0};  ///< of those tested, speeding up with the stated confidence (one-sided)
   /// Σ excess/√(Σ variance) of all moves: standard normal without a trend, negative if jerks slow down.
-  double summed{std::numeric_limits<double>::quiet_NaN()};
-  double stouffer{
-      std::numeric_limits<double>::quiet_NaN()};  ///< Σ score/√moves: all moves have the same weight
-  double p_slowing{std::numeric_limits<double>::quiet_NaN()};  ///< Φ(summed): small if jerks slow down
+  double summed{statistics::unknown};
+  double stouffer{statistics::unknown};   ///< Σ score/√moves: all moves have the same weight
+  double p_slowing{statistics::unknown};  ///< Φ(summed): small if jerks slow down
 };
 
 /// Minimum number of events for which the score of one series is close enough to normal for a test at 5 %.

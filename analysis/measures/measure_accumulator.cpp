@@ -22,7 +22,7 @@ bool needs_every_value(const layout::Measure& measure, const layout::ReportedSta
          reports(reported, layout::Statistic::p95);
 }
 
-/// Whether results of this version hold the measure, or its value is known all the same.
+/// Whether files of this version have the measure, or a known value in place of it.
 bool is_known(const layout::Measure& measure, std::int64_t version) {
   return measure.file.since <= version || !std::isnan(measure.file.before);
 }
@@ -44,7 +44,7 @@ void MeasureAccumulator::add_quality(std::span<const trial::MoveOutcome> moves) 
   hits_[static_cast<std::size_t>(trials_) % hits_.size()] += value_of_trial(*measure_, moves) > 0.0;
 }
 
-/// Adds values_ with so many that are later than any.
+/// Adds values_ to the clusters, with `size` − |values_| censored values: later than all others.
 void MeasureAccumulator::add_clusters(std::int64_t size) {
   if (reports(*reported_, layout::Statistic::bootstrap_low)) {
     totals_.add(kind_.rigs > 0 ? trials_ % kind_.rigs : trials_,
@@ -65,7 +65,7 @@ void MeasureAccumulator::add(std::span<const trial::MoveOutcome> moves) {
   } else if (!(counted.needs_target && kind_.open_loop)) {
     const bool known = is_known(*measure_, kind_.version);
     for (const trial::MoveOutcome& move : moves) {
-      const double value = known ? counted_value(*measure_, move) : MeasureStatistics::unknown;
+      const double value = known ? counted_value(*measure_, move) : statistics::unknown;
       if (!in_clusters_ && trial::was_run(move)) moments_.add(value);
       if (in_clusters_ && !std::isnan(value)) values_.push_back(value);
     }

@@ -1,50 +1,48 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "analysis/statistics/moments.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "results/layout/measure_table.hpp"
 
 namespace zerocount::measures {
 
-/// Share of trials with bounds; NaN where there are none that could be a part of it.
+/// Proportion of trials, with bounds; NaN where there are none that could be a part of it.
 struct RateWithBounds {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double value{unknown};
-  statistics::ConfidenceInterval clopper_pearson{unknown, unknown};
-  statistics::ConfidenceInterval wilson{unknown, unknown};
+  double value{statistics::unknown};
+  statistics::ConfidenceInterval clopper_pearson{statistics::unknown, statistics::unknown};
+  statistics::ConfidenceInterval wilson{statistics::unknown, statistics::unknown};
 };
 
 /// The statistics of one measure over the moves or, of a sum or a quality, over the trials: in the measure's
 /// unit, NaN where there is none. Only what its row of the table reports is worked out.
 struct MeasureStatistics {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  static constexpr statistics::Quantile no_quantile{unknown, unknown, unknown};
+  static constexpr statistics::Quantile no_quantile{statistics::unknown, statistics::unknown,
+                                                    statistics::unknown};
   std::int64_t n{0};                  ///< values that are known
-  std::int64_t moves{0};              ///< values, with those that are later than any
+  std::int64_t moves{0};              ///< values, including the censored ones
   std::int64_t nonfinite{0};          ///< values left out because they are not finite
   std::int64_t trials{0};             ///< trials with the quality, or values above 0
   std::int64_t total{0};              ///< sum of the values of the trials
   std::vector<std::int64_t> by_move;  ///< [move] of a quality: trials whose move has it
   RateWithBounds rate;                ///< of trials with the quality
-  double mean{unknown};
-  double sd{unknown};
-  double rms{unknown};
-  double min{unknown};
-  double max{unknown};
+  double mean{statistics::unknown};
+  double sd{statistics::unknown};
+  double rms{statistics::unknown};
+  double min{statistics::unknown};
+  double max{statistics::unknown};
   statistics::Quantile p05{no_quantile}, p25{no_quantile}, median{no_quantile}, p75{no_quantile},
       p95{no_quantile};
-  statistics::ConfidenceInterval mean_bounds{unknown,
-                                             unknown};  ///< Student's of a level; otherwise if asked for
+  statistics::ConfidenceInterval mean_bounds{
+      statistics::unknown,
+      statistics::unknown};  ///< Student's at a level; at a point by the bootstrap, if wanted
 };
 
 /// The statistics of all measures of a table.
@@ -56,25 +54,31 @@ struct StatisticsOfMeasures {
   const MeasureStatistics& of(const layout::Measure& measure) const {
     return measures.at(static_cast<std::size_t>(&measure - table->data()));
   }
-  /// Those of the measure that stands there in the outcome of a move.
+  /// The statistics of the measure that is this member of MoveOutcome.
   template <class Value>
   const MeasureStatistics& of(Value trial::MoveOutcome::*member) const {
-    std::size_t row = 0;
-    while (table->at(row).field.member != layout::Member<trial::MoveOutcome>(member)) ++row;
-    return measures[row];
+    return measures[row_of(member)];
   }
   template <class Value>
   MeasureStatistics& of(Value trial::MoveOutcome::*member) {
-    return const_cast<MeasureStatistics&>(std::as_const(*this).of(member));
+    return measures[row_of(member)];
+  }
+
+ private:
+  template <class Value>
+  std::size_t row_of(Value trial::MoveOutcome::*member) const {
+    std::size_t row = 0;
+    while (table->at(row).field.member != layout::Member<trial::MoveOutcome>(member)) ++row;
+    return row;
   }
 };
 
-/// How a statistic is named and worked out.
+/// Name and value of a statistic.
 struct StatisticKind {
   layout::Statistic statistic;
-  std::string_view name;     ///< empty: it has that of the measure
-  std::string_view meaning;  ///< stands in the long name
-  std::string_view bound{};  ///< likewise, before the meaning
+  std::string_view name;     ///< empty: the name of the measure
+  std::string_view meaning;  ///< for the long name
+  std::string_view bound{};  ///< for the long name, before the meaning
   bool whole{false};
   double (*value)(const MeasureStatistics&);
 };
@@ -85,10 +89,10 @@ std::span<const StatisticKind> statistic_kinds();
 /// "lower 95 % bound of the mean".
 std::string meaning_of(const StatisticKind& kind);
 
-/// A statistic of those of a measure, as a number.
+/// The value of a statistic.
 double value_of(layout::Statistic statistic, const MeasureStatistics& statistics);
 
-/// Whether a statistic is among those reported.
+/// Whether `reported` contains the statistic.
 bool reports(const layout::ReportedStatistics& reported, layout::Statistic statistic);
 
 }  // namespace zerocount::measures

@@ -14,19 +14,19 @@
 namespace zerocount::measures {
 namespace {
 
-/// Onsets are whole multiples of the sample time. Their differences carry rounding errors that would make
-/// equal intervals differ, in a histogram and in a comparison: to the picosecond they do not.
+/// Rounded to 1 ps: onsets are whole multiples of the sample time, and the rounding errors of their
+/// differences would make equal intervals differ.
 double rounded_interval(double seconds) {
   return std::round(seconds * 1e12) / 1e12;
 }
 
-/// No limit is known for trials whose number was decided by their outcomes.
-auto tolerance_limits(const statistics::ClusteredSample& slowest, const StatisticsOptions& options) {
+/// Without limits if the outcomes decided the number of trials: the limits need a fixed number.
+auto tolerance_limits(const statistics::ClusteredSample& times, const StatisticsOptions& options) {
   std::array<statistics::ToleranceLimit, std::size(statistics::tolerance_contents)> limits{};
   for (std::size_t i = 0; i < limits.size(); ++i) {
     limits[i].content = statistics::tolerance_contents[i];
-    if (options.stopped_by_outcomes || slowest.size() == 0) continue;
-    limits[i].within = statistics::clustered_upper_limit(slowest, limits[i].content, options.confidence);
+    if (options.stopped_by_outcomes || times.size() == 0) continue;
+    limits[i].within = statistics::clustered_upper_limit(times, limits[i].content, options.confidence);
   }
   return limits;
 }
@@ -56,8 +56,27 @@ std::vector<MeasureStatistics> statistics_of(const std::vector<MeasureAccumulato
 
 }  // namespace
 
+std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome) {
+  switch (outcome) {
+    case trial::Outcome::zero_count:
+      return &OutcomeCounts::zero_count;
+    case trial::Outcome::one_count:
+      return &OutcomeCounts::one_count;
+    case trial::Outcome::off_target:
+      return &OutcomeCounts::off_target;
+    case trial::Outcome::oscillating:
+      return &OutcomeCounts::oscillating;
+    case trial::Outcome::nonfinite:
+      return &OutcomeCounts::nonfinite;
+    case trial::Outcome::open_loop:
+      return &OutcomeCounts::open_loop;
+  }
+  throw Failure(ExitCode::bad_data,
+                fmt::format("a move with outcome {}; expected 0 to 5", static_cast<int>(outcome)));
+}
+
 PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTable& table)
-    : kind_(kind), slowest_times_(kind.rigs) {
+    : kind_(kind), trial_settling_times_(kind.rigs) {
   counted_.table = &table;
   for (const layout::Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
 }
@@ -93,7 +112,7 @@ void PointAccumulator::add_moves(const std::vector<trial::MoveOutcome>& moves) {
   for (MeasureAccumulator& measure : measures_) measure.add(moves);
   if (kind_.open_loop) return;
   if (kind_.rigs > 0) add_to_rig(moves);
-  add_slowest_time(moves);
+  add_trial_settling_time(moves);
 }
 
 void PointAccumulator::add_level(std::size_t level, std::span<const trial::MoveOutcome> move) {
@@ -122,8 +141,9 @@ void PointAccumulator::add_to_rig(const std::vector<trial::MoveOutcome>& moves) 
   rig.zero_moves += zero;
 }
 
-/// A move that never arrived, or was not run because one before it had diverged, is later than any time.
-void PointAccumulator::add_slowest_time(const std::vector<trial::MoveOutcome>& moves) {
+/// The settling time of a trial is that of its slowest move. It is censored if a move did not arrive, or was
+/// not run because a move before it diverged.
+void PointAccumulator::add_trial_settling_time(const std::vector<trial::MoveOutcome>& moves) {
   values_.clear();
   if (std::all_of(moves.begin(), moves.end(),
                   [](const trial::MoveOutcome& m) { return trial::was_run(m) && m.arrived; })) {
@@ -131,7 +151,7 @@ void PointAccumulator::add_slowest_time(const std::vector<trial::MoveOutcome>& m
     for (const trial::MoveOutcome& move : moves) slowest = std::max(slowest, move.settling_time);
     values_.push_back(slowest);
   }
-  slowest_times_.add_trial(counted_.trials, values_, 1);
+  trial_settling_times_.add_trial(counted_.trials, values_, 1);
 }
 
 void PointAccumulator::add_jerks(const trial::MoveOutcome& move, std::span<const trial::Jerk> jerks) {
@@ -188,7 +208,7 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
   result.claim = claim(result, options);
   if (options.stopped_by_outcomes)
     result.rigs.tolerance = {};  // it takes a number of trials that was fixed beforehand
-  result.settles_within = tolerance_limits(slowest_times_.sample(), options);
+  result.settles_within = tolerance_limits(trial_settling_times_.sample(), options);
   result.jerk_interval = {jerk_intervals_.size, statistics::mean(jerk_intervals_),
                           statistics::quantile(jerk_intervals_, 0.5).value};
   result.jerk_slowing.proportion = statistics::rate(result.jerk_slowing.slowing, result.jerk_slowing.moves);

@@ -6,7 +6,6 @@
 
 #include "analysis/measures/measure_accumulator.hpp"
 #include "analysis/measures/point_statistics.hpp"
-#include "analysis/measures/statistics_options.hpp"
 #include "analysis/statistics/histogram.hpp"
 #include "analysis/statistics/trend.hpp"
 #include "analysis/statistics/trial_clusters.hpp"
@@ -14,15 +13,15 @@
 
 namespace zerocount::measures {
 
-/// Takes the trials of one design point, one after the other, and gives its statistics. The trials of one rig
-/// and the moves of one trial are clusters: bounds allow for what they have in common.
+/// Collects the trials of one design point and computes its statistics. The trials of one rig and the moves
+/// of one trial are clusters: the bounds account for their correlation.
 ///
-/// Its memory grows with the number of distinct settling times, jerk counts, jerk intervals and final errors
-/// (with rigs: of each rig), not with the number of trials: for one sample rate, at most with the samples of
-/// a move and the counts that the rotor strays.
+/// The memory grows with the number of distinct settling times, jerk counts, jerk intervals and final errors
+/// (with rigs: of each rig), not with the number of trials. For one sample rate it is limited by the samples
+/// of a move and the maximum error in counts.
 class PointAccumulator {
  public:
-  /// @param table the measures that are taken; stays as long as this.
+  /// @param table the measures; must outlive this object.
   explicit PointAccumulator(const MoveKind& kind = {},
                             const layout::MeasureTable& table = layout::measure_table());
 
@@ -39,7 +38,7 @@ class PointAccumulator {
   void add_moves(const std::vector<trial::MoveOutcome>& moves);
   void add_level(std::size_t level, std::span<const trial::MoveOutcome> move);
   void add_to_rig(const std::vector<trial::MoveOutcome>& moves);
-  void add_slowest_time(const std::vector<trial::MoveOutcome>& moves);
+  void add_trial_settling_time(const std::vector<trial::MoveOutcome>& moves);
   void add_jerks(const trial::MoveOutcome& move, std::span<const trial::Jerk> jerks);
   statistics::SuccessClaim claim(const PointSummary& point, const StatisticsOptions& options) const;
 
@@ -48,12 +47,12 @@ class PointAccumulator {
   std::vector<MeasureAccumulator> measures_;             ///< [row of the table]
   std::vector<std::vector<MeasureAccumulator>> levels_;  ///< [move][row of the table]
   std::vector<statistics::RigTrials> rigs_;              ///< [rig], of those that have trials
-  statistics::TrialClusters slowest_times_;              ///< of trials: of the move that took longest
+  statistics::TrialClusters trial_settling_times_;       ///< of each trial: of its slowest move
   std::int64_t jerks_{0};
   statistics::Histogram<double> jerk_intervals_;
   statistics::RankTrend interval_trend_;
   std::int64_t one_count_jerks_{0};
-  std::vector<double> values_;  ///< of the trial or move at hand; kept for its memory
+  std::vector<double> values_;  ///< of the current trial or move
 };
 
 }  // namespace zerocount::measures

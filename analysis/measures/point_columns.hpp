@@ -24,12 +24,12 @@ std::vector<layout::PointColumn> point_columns(
 layout::StatisticTable level_table(std::span<const PointSummary> points,
                                    const layout::MeasureTable& measures = layout::measure_table());
 
-/// A proportion of trials that the criteria foretell, as it is reported. The list of them is the one source
-/// of the names in the CSV summary and in the results file.
+/// A reported proportion of trials by the criteria's prediction. The names are those in the CSV summary and
+/// in the results file.
 struct PredictionField {
   std::string_view name;
-  std::string_view long_name;              ///< what it is, with its denominator
-  std::int64_t TheoryPrediction::*trials;  ///< the trials whose share it is
+  std::string_view long_name;              ///< with the denominator
+  std::int64_t TheoryPrediction::*trials;  ///< the trials in the numerator
 };
 
 /// Where (6) holds, and where (7) is exceeded.

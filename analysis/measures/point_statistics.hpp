@@ -2,26 +2,38 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "analysis/measures/measure_statistics.hpp"
-#include "analysis/measures/outcome_counts.hpp"
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/rig_statistics.hpp"
 #include "analysis/statistics/tolerance.hpp"
+#include "analysis/statistics/unknown.hpp"
 
-/// What is reported of a design point. All bounds have the confidence of the summary. Every proportion and
-/// mean names what it is a proportion or mean of: "of trials" is of all trials of the point, "of moves" of
-/// all moves of all its trials. No trial is left out of either.
+/// Statistics of a design point. All bounds have the confidence of the summary. Every proportion and mean
+/// names its denominator: "of trials" is all trials of the point, "of moves" all moves of all its trials.
 namespace zerocount::measures {
+
+/// How many trials (or moves) had each outcome.
+struct OutcomeCounts {
+  std::int64_t zero_count{0};
+  std::int64_t one_count{0};
+  std::int64_t off_target{0};
+  std::int64_t oscillating{0};
+  std::int64_t nonfinite{0};
+  std::int64_t open_loop{0};  ///< not judged
+};
+
+/// Where an outcome is counted.
+/// @throws Failure (bad_data) for a value that is no outcome, which only a damaged file has.
+std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome);
 
 /// Time between the onsets of successive jerks of a move, s.
 struct JerkIntervalStatistics {
   std::int64_t n{0};  ///< intervals: jerks − 1 for each move with jerks
-  double mean{std::numeric_limits<double>::quiet_NaN()};
-  double median{std::numeric_limits<double>::quiet_NaN()};
+  double mean{statistics::unknown};
+  double median{statistics::unknown};
 };
 
 /// Whether jerks slow down, as the paper's Fig. 8 shows: whether the intervals of a move grow in their order.
@@ -30,43 +42,41 @@ struct JerkIntervalStatistics {
 /// the move slows down if S > 0, speeds up if S < 0. Jerks at random times would make both equally frequent,
 /// whatever the distribution of the intervals, and τ zero on average.
 struct JerkSlowing {
-  std::int64_t moves{0};                                        ///< moves with 3 jerks or more
-  std::int64_t slowing{0};                                      ///< of them, S > 0
-  std::int64_t quickening{0};                                   ///< of them, S < 0
-  double proportion{std::numeric_limits<double>::quiet_NaN()};  ///< slowing / moves
-  double tau{std::numeric_limits<double>::quiet_NaN()};  ///< Kendall's τ_a over the pairs of intervals within
-                                                         ///< a move, all moves pooled
+  std::int64_t moves{0};                   ///< moves with 3 jerks or more
+  std::int64_t slowing{0};                 ///< of them, S > 0
+  std::int64_t quickening{0};              ///< of them, S < 0
+  double proportion{statistics::unknown};  ///< slowing / moves
+  double tau{statistics::unknown};         ///< Kendall's τ_a over the pairs of intervals within
+                                           ///< a move, all moves pooled
 };
 
-/// One torque level of an open-loop study, over the trials of a point: all values as the level ends. Trials
-/// whose motion was lost, in this level or before, are counted and have no part in the rest.
+/// One torque level of an open-loop study, over the trials of a point: all values at the end of the level.
+/// Trials whose motion was lost in this level or before are only counted.
 struct LevelStatistics : StatisticsOfMeasures {
   std::int64_t nonfinite{0};  ///< trials whose motion was lost
 };
 
-/// Everything that is reported of a design point.
+/// All statistics of a design point.
 struct PointSummary : StatisticsOfMeasures {
   std::int64_t trials{0};
-  std::int64_t moves{0};  ///< moves of all trials
-  double hold{
-      std::numeric_limits<double>::quiet_NaN()};  ///< of a move, s, in a summary; NaN where trials differ
+  std::int64_t moves{0};             ///< moves of all trials
+  double hold{statistics::unknown};  ///< of a move, s, in a summary; NaN where trials differ
 
   std::int64_t judged{0};              ///< trials with targets: all, or none in an open-loop study
   OutcomeCounts outcomes;              ///< trials by the worst of their moves
   std::vector<OutcomeCounts> by_move;  ///< [move] trials by this move, which all of them have
-  statistics::SuccessClaim
-      claim;  ///< what zero_count of judged shows of all axes; none of an open-loop study
-  statistics::RigStatistics rigs;  ///< how the rigs differ; of a study with rigs
-  /// Limits of the settling time of the slowest move of a trial, with the contents of tolerance_contents; a
-  /// move that never arrives is beyond every limit.
+  statistics::SuccessClaim claim;      ///< from zero_count of judged trials; none for an open-loop study
+  statistics::RigStatistics rigs;      ///< differences between rigs, of a study with rigs
+  /// Upper tolerance limits of the settling time of a trial (that of its slowest move), with the contents of
+  /// tolerance_contents; a trial with a move that never arrives is above every limit.
   std::array<statistics::ToleranceLimit, std::size(statistics::tolerance_contents)> settles_within{};
   JerkIntervalStatistics jerk_interval;
   JerkSlowing jerk_slowing;
   std::int64_t jerks_agreeing{0};  ///< jerks in the direction of the sign of their move's holding torque
-  double jerk_agreement{std::numeric_limits<double>::quiet_NaN()};        ///< jerks_agreeing / jerks
-  double jerk_one_count_share{std::numeric_limits<double>::quiet_NaN()};  ///< jerks of magnitude 1 / jerks
-  UndecidedMoves undecided;  ///< but for off_target moves nothing is known of them without the study
-  std::vector<LevelStatistics> levels;  ///< [move] in an open-loop study, otherwise empty
+  double jerk_agreement{statistics::unknown};        ///< jerks_agreeing / jerks
+  double jerk_one_count_share{statistics::unknown};  ///< jerks of magnitude 1 / jerks
+  UndecidedMoves undecided;                          ///< only off_target is known without the study
+  std::vector<LevelStatistics> levels;               ///< [move] in an open-loop study, otherwise empty
 
   /// The proportion of trials all of whose moves ended at zero error.
   const RateWithBounds& success_rate() const { return of(&trial::MoveOutcome::outcome).rate; }

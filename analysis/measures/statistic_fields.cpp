@@ -1,7 +1,6 @@
 #include "analysis/measures/statistic_fields.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <iterator>
 
 #include <fmt/format.h>

@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "analysis/statistics/unknown.hpp"
 #include "core/trial/divergence.hpp"
 #include "results/layout/fields.hpp"
 
 namespace zerocount::measures {
-namespace {
-
-constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move) {
   if (!trial::was_run(move) || (measure.values.needs_motion && move.outcome == trial::Outcome::nonfinite))
-    return no_value;
+    return statistics::unknown;
   const double value = layout::value_of(measure.field, move);
   return measure.values.magnitude ? std::abs(value) : value;
 }
@@ -44,14 +40,14 @@ double value_of_trial(const layout::Measure& measure, std::span<const trial::Mov
       for (const trial::MoveOutcome& move : moves) {
         double value = std::abs(layout::value_of(measure.field, move));
         if (std::isnan(value) && late && measure.values.nan_is_late) value = late();
-        if (std::isnan(value)) return no_value;
+        if (std::isnan(value)) return statistics::unknown;
         result = std::max(result, value);
       }
       return result;
     case layout::OfTrial::last:
       return layout::value_of(measure.field, moves.back());
   }
-  return no_value;
+  return statistics::unknown;
 }
 
 }  // namespace zerocount::measures

@@ -55,11 +55,9 @@ void add_move(UndecidedMoves& counts, const trial::MoveOutcome& move) {
 }
 
 UndecidedMoves sum_of(const UndecidedMoves& one, const UndecidedMoves& other) {
-  return {.moves = one.moves + other.moves,
-          .off_target = one.off_target + other.off_target,
-          .still_falling = one.still_falling + other.still_falling,
-          .falling_with_ripple = one.falling_with_ripple + other.falling_with_ripple,
-          .about_to_arrive = one.about_to_arrive + other.about_to_arrive};
+  UndecidedMoves sum{.moves = one.moves + other.moves};
+  for (const UndecidedCount& each : undecided_counts) sum.*each.count = one.*each.count + other.*each.count;
+  return sum;
 }
 
 bool any_undecided(const UndecidedMoves& moves) {

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
 
+#include "analysis/statistics/unknown.hpp"
 #include "core/trial/outcome.hpp"
 
 namespace zerocount::measures {
@@ -22,7 +22,26 @@ struct UndecidedMoves {
   std::int64_t about_to_arrive{0};
   /// Hold that most of those whose error still fell are expected to need, s; NaN where there are none, or
   /// nothing in their control brings the error to zero.
-  double advised_hold{std::numeric_limits<double>::quiet_NaN()};
+  double advised_hold{statistics::unknown};
+};
+
+/// One of the counts as summaries and comparisons report it.
+struct UndecidedCount {
+  const char* name;       ///< in JSON
+  const char* column;     ///< in CSV
+  const char* long_name;  ///< what it counts
+  std::int64_t UndecidedMoves::*count;
+};
+inline constexpr UndecidedCount undecided_counts[] = {
+    {"off_target", "undecided_moves", "moves that ended off target", &UndecidedMoves::off_target},
+    {"still_falling", "still_falling_moves", "of them, with an error that was still falling",
+     &UndecidedMoves::still_falling},
+    {"falling_with_ripple", "falling_with_ripple_moves",
+     "moves that count as oscillating with an error that was still falling, but for a ripple",
+     &UndecidedMoves::falling_with_ripple},
+    {"about_to_arrive", "about_to_arrive_moves",
+     "moves whose error had fallen to within one count, and that had not arrived",
+     &UndecidedMoves::about_to_arrive},
 };
 
 /// Whether a longer hold may be what a move lacks: it did not arrive, with an error that fell in the last

@@ -1,5 +1,3 @@
-#include "analysis/report/comparison_section.hpp"
-
 #include <algorithm>
 #include <cstddef>
 
@@ -9,6 +7,7 @@
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/report/escaping.hpp"
 #include "analysis/report/html_table.hpp"
+#include "analysis/report/report_sections.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::report {
@@ -25,51 +24,32 @@ struct ComparedMeasure {
   const comparison::MeasureComparison* measure{nullptr};
 };
 
-int severity(comparison::GateVerdict verdict) {
-  switch (verdict) {
-    case comparison::GateVerdict::regression:
-      return 0;
-    case comparison::GateVerdict::inconclusive:
-      return 1;
-    case comparison::GateVerdict::passed:
-      return 2;
-    case comparison::GateVerdict::not_measured:
-      break;
-  }
-  return 3;
-}
-
 std::vector<ComparedMeasure> worst_first(const comparison::StudyComparison& comparison) {
   std::vector<ComparedMeasure> all;
   for (const comparison::PointComparison& point : comparison.points) {
     for (const comparison::MeasureComparison& measure : point.measures) all.push_back({&point, &measure});
   }
   std::stable_sort(all.begin(), all.end(), [](const ComparedMeasure& a, const ComparedMeasure& b) {
-    return severity(a.measure->verdict) < severity(b.measure->verdict);
+    return a.measure->verdict < b.measure->verdict;
   });
   return all;
 }
 
 std::string table_of(const std::vector<ComparedMeasure>& measures) {
-  HtmlColumn point{"point", "", true, {}}, measure{"measure", "", true, {}},
-      baseline{"baseline", "", false, {}}, current{"now", "", false, {}}, effect{"worse by", "", false, {}},
-      bounds{"bounds", "", false, {}}, margin{"margin", "", false, {}}, p{"adjusted p", "", false, {}},
-      verdict{"verdict", "", true, {}};
+  std::vector<HtmlColumn> columns{
+      {"point", "", true, {}},   {"measure", "", true, {}},     {"baseline", "", false, {}},
+      {"now", "", false, {}},    {"worse by", "", false, {}},   {"bounds", "", false, {}},
+      {"margin", "", false, {}}, {"adjusted p", "", false, {}}, {"verdict", "", true, {}}};
   for (std::size_t i = 0; i < std::min(measures.size(), max_measures); ++i) {
     const comparison::MeasureComparison& one = *measures[i].measure;
     const auto text = [&](double value) { return comparison::value_text(value, one.measure, one.unit); };
-    point.cells.push_back(measures[i].point->label);
-    measure.cells.push_back(one.measure);
-    baseline.cells.push_back(text(one.baseline));
-    current.cells.push_back(text(one.current));
-    effect.cells.push_back(text(one.effect));
-    bounds.cells.push_back(fmt::format("{} … {}", text(one.bounds.low), text(one.bounds.high)));
-    margin.cells.push_back(text(one.margin));
-    p.cells.push_back(text::short_number(one.adjusted_p));
-    verdict.cells.push_back(
-        fmt::format("{}{}", comparison::word_of(one.verdict), one.improved ? ", improved" : ""));
+    add_row(columns,
+            {measures[i].point->label, one.measure, text(one.baseline), text(one.current), text(one.effect),
+             fmt::format("{} … {}", text(one.bounds.low), text(one.bounds.high)), text(one.margin),
+             text::short_number(one.adjusted_p),
+             fmt::format("{}{}", comparison::word_of(one.verdict), one.improved ? ", improved" : "")});
   }
-  std::string html = html_table({point, measure, baseline, current, effect, bounds, margin, p, verdict});
+  std::string html = html_table(columns);
   if (measures.size() > max_measures) {
     html += fmt::format(
         "<p class=\"note\">The first {} of {} rows, the failed ones first; all are printed by "
@@ -80,35 +60,33 @@ std::string table_of(const std::vector<ComparedMeasure>& measures) {
 }
 
 std::string requirements_table(const comparison::StudyComparison& comparison) {
-  HtmlColumn point{"point", "", true, {}}, text{"requirement", "", true, {}}, value{"value", "", false, {}},
-      verdict{"verdict", "", true, {}};
-  for (const comparison::PointComparison& compared : comparison.points) {
-    for (const comparison::RequirementResult& requirement : compared.requirements) {
-      point.cells.push_back(compared.label);
-      text.cells.push_back(requirement.text);
-      value.cells.push_back(
-          comparison::value_text(requirement.value, requirement.quantity, requirement.unit));
-      verdict.cells.push_back(std::string(comparison::word_of(requirement.verdict)));
-    }
+  std::vector<HtmlColumn> columns{{"point", "", true, {}},
+                                  {"requirement", "", true, {}},
+                                  {"value", "", false, {}},
+                                  {"verdict", "", true, {}}};
+  for (const comparison::PointComparison& point : comparison.points) {
+    for (const comparison::RequirementResult& one : point.requirements)
+      add_row(columns, {point.label, one.text, comparison::value_text(one.value, one.quantity, one.unit),
+                        std::string(comparison::word_of(one.verdict))});
   }
-  if (point.cells.empty()) return "";
-  return "<h3>Requirements</h3>\n" + html_table({point, text, value, verdict});
+  if (columns.front().cells.empty()) return "";
+  return "<h3>Requirements</h3>\n" + html_table(columns);
 }
 
 std::string differences_table(const comparison::StudyComparison& comparison) {
   if (comparison.manifest_differences.empty()) return "<p>The manifests are the same.</p>\n";
-  HtmlColumn key{"key", "", true, {}}, before{"baseline", "", true, {}}, now{"now", "", true, {}};
+  std::vector<HtmlColumn> columns{{"key", "", true, {}}, {"baseline", "", true, {}}, {"now", "", true, {}}};
   for (const comparison::ManifestDifference& difference : comparison.manifest_differences) {
-    key.cells.push_back(difference.key);
-    before.cells.push_back(difference.baseline.empty() ? "–" : difference.baseline);
-    now.cells.push_back(difference.current.empty() ? "–" : difference.current);
+    add_row(columns, {difference.key, difference.baseline.empty() ? "–" : difference.baseline,
+                      difference.current.empty() ? "–" : difference.current});
   }
-  return "<h3>Differences of the manifests</h3>\n" + html_table({key, before, now});
+  return "<h3>Differences of the manifests</h3>\n" + html_table(columns);
 }
 
 std::string file_text(const comparison::ComparedFile& file) {
-  return fmt::format("{}: {}, made {} by zerocount {} ({}), {} trials per point", file.path, file.name,
-                     file.created, file.version, file.commit, file.trials);
+  const layout::Provenance& build = file.header.provenance;
+  return fmt::format("{}: {}, made {} by zerocount {} ({}), {} trials per point", file.path, file.header.name,
+                     build.created, build.zerocount_version, build.git_commit, file.header.trials);
 }
 
 /// Figure of the change of the success rate at each point.

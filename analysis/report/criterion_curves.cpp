@@ -1,7 +1,6 @@
 #include "analysis/report/criterion_curves.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -37,8 +36,8 @@ class CriterionTrials {
  public:
   CriterionTrials(const study::Study& study, std::int64_t point, const CriterionPlane& plane)
       : units_(study.units) {
-    const auto x = parameters::find_parameter(plane.x);
-    const auto y = parameters::find_parameter(plane.y);
+    const auto x = parameters::find_parameter(plane.x.parameter);
+    const auto y = parameters::find_parameter(plane.y.parameter);
     if (!x || !y) return;
     set_x_ = parameters::parameter_table()[*x].set;
     set_y_ = parameters::parameter_table()[*y].set;
@@ -83,10 +82,6 @@ class CriterionTrials {
   void (*set_y_)(trial::TrialParameters&, double){nullptr};
 };
 
-double between(double low, double high, double fraction, bool by_ratio) {
-  return by_ratio ? low * std::pow(high / low, fraction) : low + fraction * (high - low);
-}
-
 /// The lowest fraction in [0, 1] at which `excess` changes its sign, if any.
 std::optional<double> crossing(const std::function<double(double)>& excess) {
   double low = 0.0;
@@ -114,8 +109,7 @@ std::vector<CurvePoint> curve(CriterionTrials& trials, const Criterion& criterio
   for (int i = 0; i < curve_points; ++i) {
     const double fixed = static_cast<double>(i) / (curve_points - 1);
     const auto place = [&](double fraction) {
-      return CurvePoint{between(plane.x_low, plane.x_high, along_x ? fraction : fixed, plane.x_by_ratio),
-                        between(plane.y_low, plane.y_high, along_x ? fixed : fraction, plane.y_by_ratio)};
+      return CurvePoint{plane.x.at(along_x ? fraction : fixed), plane.y.at(along_x ? fixed : fraction)};
     };
     const std::optional<double> found = crossing([&](double fraction) {
       const CurvePoint at = place(fraction);
@@ -133,7 +127,7 @@ std::vector<CriterionCurve> criterion_curves(const study::Study& study, std::int
   CriterionTrials trials(study, point, plane);
   std::vector<CriterionCurve> curves;
   if (trials.empty()) return curves;
-  const bool along_x = plane.y != "controller.ki";
+  const bool along_x = plane.y.parameter != "controller.ki";
   for (const Criterion& criterion : criteria) {
     std::vector<CurvePoint> points = curve(trials, criterion, plane, along_x);
     std::vector<CurvePoint> other = curve(trials, criterion, plane, !along_x);

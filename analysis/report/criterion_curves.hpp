@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,12 +9,20 @@
 
 namespace zerocount::report {
 
-/// The two axes of a stability map.
+/// An axis of a stability map.
+struct PlaneAxis {
+  std::string parameter;  ///< dotted path
+  double low{0.0}, high{1.0};
+  bool by_ratio{false};  ///< logarithmic axis
+
+  /// The value at a fraction of the axis from `low` to `high`.
+  double at(double fraction) const {
+    return by_ratio ? low * std::pow(high / low, fraction) : low + fraction * (high - low);
+  }
+};
+
 struct CriterionPlane {
-  std::string x, y;  ///< dotted paths of parameters
-  double x_low{0.0}, x_high{1.0};
-  double y_low{0.0}, y_high{1.0};
-  bool x_by_ratio{false}, y_by_ratio{false};  ///< logarithmic axis
+  PlaneAxis x, y;
 };
 
 struct CurvePoint {

@@ -1,7 +1,6 @@
 #include "analysis/report/embedded_files.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
@@ -19,12 +18,6 @@ std::string_view embedded_file(std::string_view name) {
       fmt::format("this zerocount was built without {}, which draws the figures; in its sources, run "
                   "'npm ci --prefix analysis/report' (./quickstart does), then cmake and the build again",
                   name));
-}
-
-std::span<const std::string_view> drawing_libraries() {
-  static constexpr std::array<std::string_view, 3> names{"vega.min.js", "vega-lite.min.js",
-                                                         "vega-embed.min.js"};
-  return names;
 }
 
 }  // namespace zerocount::report

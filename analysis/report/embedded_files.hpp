@@ -1,7 +1,7 @@
 #pragma once
 
+#include <array>
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace zerocount::report {
@@ -21,6 +21,7 @@ std::span<const EmbeddedFile> embedded_files();
 std::string_view embedded_file(std::string_view name);
 
 /// The libraries for drawing, in loading order.
-std::span<const std::string_view> drawing_libraries();
+inline constexpr std::array<std::string_view, 3> drawing_libraries{"vega.min.js", "vega-lite.min.js",
+                                                                   "vega-embed.min.js"};
 
 }  // namespace zerocount::report

@@ -76,6 +76,17 @@ void put_on_axis(Figure& figure, parameters::AxisKind axis) {
   }
 }
 
+nlohmann::ordered_json data_json(const Figure& figure) {
+  nlohmann::ordered_json data = nlohmann::ordered_json::array();
+  for (const FigureData& part : figure.data) {
+    nlohmann::ordered_json columns = nlohmann::ordered_json::array();
+    for (const FigureColumn& column : part.columns)
+      columns.push_back({column.field, column.title, column.unit});
+    data.push_back({{"name", part.name}, {"columns", columns}, {"rows", part.rows}});
+  }
+  return data;
+}
+
 void set_rows(Figure& figure, std::size_t rows, int row) {
   figure.specification["height"] = static_cast<int>(rows) * row;
 }

@@ -44,6 +44,9 @@ void call_bounds_too_narrow(Figure& figure, const std::string& why);
 /// Converts the figure's titles, units and caption from a rotary axis to an axis of this kind.
 void put_on_axis(Figure& figure, parameters::AxisKind axis);
 
+/// The data as JSON: [{"name", "columns": [[field, title, unit]], "rows"}].
+nlohmann::ordered_json data_json(const Figure& figure);
+
 /// Sets the height to `rows` rows of `row` pixels each.
 void set_rows(Figure& figure, std::size_t rows, int row);
 

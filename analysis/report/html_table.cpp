@@ -8,6 +8,10 @@
 
 namespace zerocount::report {
 
+void add_row(std::vector<HtmlColumn>& columns, std::vector<std::string> cells) {
+  for (std::size_t i = 0; i < columns.size(); ++i) columns[i].cells.push_back(std::move(cells[i]));
+}
+
 std::string html_table(const std::vector<HtmlColumn>& columns) {
   std::string text = "<div class=\"scroll\"><table><thead><tr>";
   for (const HtmlColumn& column : columns) {

@@ -14,6 +14,9 @@ struct HtmlColumn {
   std::vector<std::string> below{};  ///< [row] smaller second line of the cell; may be empty
 };
 
+/// Adds a cell to each column.
+void add_row(std::vector<HtmlColumn>& columns, std::vector<std::string> cells);
+
 /// The columns as a table that scrolls if it is too wide.
 std::string html_table(const std::vector<HtmlColumn>& columns);
 

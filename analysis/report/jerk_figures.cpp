@@ -5,6 +5,7 @@
 
 #include "analysis/jerks/jerk_statistics.hpp"
 #include "analysis/report/report_figures.hpp"
+#include "core/numerics/sign.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -42,12 +43,13 @@ ShownMoves shown_moves(const ReportedStudy& reported, std::int64_t point) {
   const layout::RowRange rows = rows_of(reported, point);
   const auto visit_jerking = [&](const auto& act) {
     std::int64_t index = 0;
-    visit_trials(reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> outcomes) {
-      for (std::size_t move = 0; move < outcomes.size(); ++move) {
-        if (outcomes[move].jerk_count > 0)
-          act(index++, JerkingMove{row, static_cast<std::int64_t>(move), outcomes[move]});
-      }
-    });
+    measures::visit_trials(
+        reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> outcomes) {
+          for (std::size_t move = 0; move < outcomes.size(); ++move) {
+            if (outcomes[move].jerk_count > 0)
+              act(index++, JerkingMove{row, static_cast<std::int64_t>(move), outcomes[move]});
+          }
+        });
   };
   visit_jerking([&](std::int64_t, const JerkingMove&) { ++moves.all; });
   const std::vector<std::int64_t> chosen = spread_over(moves.all, max_moves);
@@ -55,10 +57,6 @@ ShownMoves shown_moves(const ReportedStudy& reported, std::int64_t point) {
     if (std::binary_search(chosen.begin(), chosen.end(), index)) moves.shown.push_back(move);
   });
   return moves;
-}
-
-int sign(double value) {
-  return (value > 0.0) - (value < 0.0);
 }
 
 std::int64_t add_jerks(FigureData& data, const reading::StudyFile& file, const JerkingMove& move,
@@ -72,7 +70,7 @@ std::int64_t add_jerks(FigureData& data, const reading::StudyFile& file, const J
       continue;
     }
     ++added;
-    const bool towards = jerk.direction == sign(move.outcome.holding_torque);
+    const bool towards = jerk.direction == numerics::sign_of(move.outcome.holding_torque);
     data.rows.push_back(ordered_json::array(
         {number, move.row % file.header().trials, move.move, datum(jerk.onset - move.outcome.settling_time),
          datum(jerk.duration), jerk.magnitude, towards ? "towards the holding torque" : "against it"}));
@@ -98,7 +96,7 @@ Figure raster(const ReportedStudy& reported, std::int64_t point) {
       "its direction. Jerks caused by creep alone have the same direction, and their rate decreases with "
       "time. Marks of both colours, or an increasing density, show another cause as well, such as a coarse "
       "DAC. ",
-      reported.summary.labels[static_cast<std::size_t>(point)]);
+      label_of(reported, point));
   if (std::ssize(moves.shown) < moves.all) {
     caption += fmt::format("Shown are {} of the {} moves with jerks, evenly spaced. ", moves.shown.size(),
                            moves.all);
@@ -136,7 +134,7 @@ std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point) {
                             "arrived (line), against the time since arrival. A decreasing rate shows creep "
                             "that ends as the contact hardens. The boxes are 95 % bounds of the rate in each "
                             "range of time (Garwood, widened if trials differ), for each range separately.",
-                            reported.summary.labels[static_cast<std::size_t>(point)]));
+                            label_of(reported, point)));
   ordered_json& x = figure.specification["encoding"]["x"];
   const double first = jerks.rates.front().from > 0.0 ? jerks.rates.front().from : jerks.rates.front().to;
   x["axis"]["values"] = round_numbers(jerks.rates.front().from, jerks.rates.back().to, first);
@@ -153,7 +151,7 @@ std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point) {
 std::vector<Figure> jerk_figures(const ReportedStudy& reported) {
   const std::vector<measures::PointSummary>& points = reported.summary.points;
   const std::int64_t point = point_with_most_jerks(points);
-  if (points[static_cast<std::size_t>(point)].of(&trial::MoveOutcome::jerk_count).total == 0) return {};
+  if (point_of(reported, point).of(&trial::MoveOutcome::jerk_count).total == 0) return {};
   std::vector<Figure> figures{raster(reported, point)};
   if (std::optional<Figure> rates = rate(reported, point)) figures.push_back(std::move(*rates));
   return figures;

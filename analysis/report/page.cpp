@@ -34,27 +34,17 @@ std::string css_colours() {
 
 std::string scripts() {
   std::string text;
-  for (const std::string_view library : drawing_libraries())
+  for (const std::string_view library : drawing_libraries)
     text += fmt::format("<script>{}</script>\n", script_source(embedded_file(library)));
   return text;
-}
-
-ordered_json data_json(const FigureData& data) {
-  ordered_json columns = ordered_json::array();
-  for (const FigureColumn& column : data.columns)
-    columns.push_back({column.field, column.title, column.unit});
-  ordered_json rows = ordered_json::array();
-  for (const ordered_json& row : data.rows) rows.push_back(row);
-  return {{"name", data.name}, {"columns", columns}, {"rows", rows}};
 }
 
 ordered_json figures_json(const ReportPage& page) {
   ordered_json figures = ordered_json::array();
   for (const PageSection& section : page.sections) {
     for (const Figure& figure : section.figures) {
-      ordered_json data = ordered_json::array();
-      for (const FigureData& part : figure.data) data.push_back(data_json(part));
-      figures.push_back({{"name", figure.name}, {"specification", figure.specification}, {"data", data}});
+      figures.push_back(
+          {{"name", figure.name}, {"specification", figure.specification}, {"data", data_json(figure)}});
     }
   }
   return {{"theme", figure_theme()}, {"figures", figures}};

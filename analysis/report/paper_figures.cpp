@@ -36,7 +36,7 @@ SampleTrial first_trial(std::int64_t point) {
 SampleTrial typical_trial(const ReportedStudy& reported) {
   SampleTrial typical = first_trial(0);
   bool found = false;
-  visit_trials(
+  measures::visit_trials(
       reported.file, rows_of(reported, 0), [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
         const auto jerks = static_cast<double>(moves.front().jerk_count);
         if (found ||

@@ -7,9 +7,8 @@
 #include "analysis/measures/statistic_fields.hpp"
 #include "analysis/report/escaping.hpp"
 #include "analysis/report/html_table.hpp"
-#include "analysis/report/report_texts.hpp"
+#include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/tolerance.hpp"
-#include "analysis/summary/settling_text.hpp"
 #include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/text.hpp"
 
@@ -39,12 +38,8 @@ struct PointCell {
   bool needs_rigs{false};
 };
 
-std::string counted(std::int64_t number) {
-  return fmt::format("{}", number);
-}
-
 constexpr PointCell point_cells[] = {
-    {"trials", "", [](Point point, Theory) { return counted(point.trials); }},
+    {"trials", "", [](Point point, Theory) { return std::to_string(point.trials); }},
     {"zero-count", "95 % bounds",
      [](Point point, Theory) { return text::percentage(point.outcomes.zero_count, point.trials); },
      [](Point, Bounds rate) { return fmt::format("{:.1f} … {:.1f}", 100.0 * rate.low, 100.0 * rate.high); }},
@@ -66,10 +61,10 @@ constexpr PointCell point_cells[] = {
     {"worst 5 % of rigs", "",
      [](Point point, Theory) { return fmt::format("{:.1f} %", 100.0 * point.rigs.worst_5_percent); }, nullptr,
      false, true},
-    {"one count", "", [](Point point, Theory) { return counted(point.outcomes.one_count); }},
-    {"undecided", "", [](Point point, Theory) { return counted(point.outcomes.off_target); }},
-    {"oscil\u00adlating", "", [](Point point, Theory) { return counted(point.outcomes.oscillating); }},
-    {"lost", "", [](Point point, Theory) { return counted(point.outcomes.nonfinite); }},
+    {"one count", "", [](Point point, Theory) { return std::to_string(point.outcomes.one_count); }},
+    {"undecided", "", [](Point point, Theory) { return std::to_string(point.outcomes.off_target); }},
+    {"oscil\u00adlating", "", [](Point point, Theory) { return std::to_string(point.outcomes.oscillating); }},
+    {"lost", "", [](Point point, Theory) { return std::to_string(point.outcomes.nonfinite); }},
     {"stable", "",
      [](Point point, Theory) {
        return text::percentage(point.of(&trial::MoveOutcome::stable).trials, point.trials);
@@ -164,12 +159,10 @@ std::string level_table_html(const summary::StudySummary& summary, std::size_t r
   for (std::size_t point = 0; point < summary.points.size(); ++point) {
     for (std::size_t level = 0; level < summary.points[point].levels.size() && written < rows;
          ++level, ++written) {
-      columns[0].cells.push_back(summary.labels[point]);
-      columns[1].cells.push_back(fmt::format("{}", level + 1));
-      std::size_t column = 2;
+      std::vector<std::string> cells{summary.labels[point], fmt::format("{}", level + 1)};
       for (const measures::LevelField& field : fields)
-        columns[column++].cells.push_back(
-            text::short_number(field.value(summary.points[point].levels[level])));
+        cells.push_back(text::short_number(field.value(summary.points[point].levels[level])));
+      add_row(columns, std::move(cells));
     }
   }
   return html_table(columns);

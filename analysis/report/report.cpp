@@ -1,46 +1,34 @@
 #include "analysis/report/report.hpp"
 
-#include <algorithm>
-#include <cstddef>
-
 #include <fmt/format.h>
 
-#include "analysis/report/comparison_section.hpp"
 #include "analysis/report/embedded_files.hpp"
 #include "analysis/report/escaping.hpp"
 #include "analysis/report/report_figures.hpp"
-#include "analysis/report/report_texts.hpp"
-#include "analysis/report/sensitivity_section.hpp"
+#include "analysis/report/report_sections.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::report {
 namespace {
 
 /// Simulates trials again, and collects their differences from the file.
-class Replays {
- public:
-  Replays(const ReportedStudy& reported, const ReportOptions& options)
-      : reported_(reported), options_(options) {}
+struct Replays {
+  const ReportedStudy& reported;
+  const ReportOptions& options;
+  std::vector<std::string> warnings{};
 
   ReplayedTrial run(const SampleTrial& trial) {
-    ReplayedTrial replayed = replay_trial(reported_.study, trial.point, trial.index, trial.buckets);
-    replayed.result.row = rows_of(reported_, trial.point).first + trial.index;
-    if (!options_.check) return replayed;
-    const std::vector<std::string> different = options_.check(replayed);
+    ReplayedTrial replayed = replay_trial(reported.study, trial.point, trial.index, trial.buckets);
+    replayed.result.row = rows_of(reported, trial.point).first + trial.index;
+    if (!options.check) return replayed;
+    const std::vector<std::string> different = options.check(replayed);
     if (different.empty()) return replayed;
-    warnings_.push_back(
+    warnings.push_back(
         fmt::format("point {}, trial {}: the repeated trial differs from the recorded one: {}{}", trial.point,
                     trial.index, different.front(),
                     different.size() > 1 ? fmt::format("; and {} more", different.size() - 1) : ""));
     return replayed;
   }
-
-  const std::vector<std::string>& warnings() const { return warnings_; }
-
- private:
-  const ReportedStudy& reported_;
-  const ReportOptions& options_;
-  std::vector<std::string> warnings_;
 };
 
 std::vector<Figure> figures_of_paper(const ReportedStudy& reported, Replays& replays) {
@@ -110,7 +98,7 @@ StudyReport study_report(const reading::StudyFile& file, const ReportOptions& op
     }
     reported.focus = *options.focus;
   }
-  Replays replays(reported, options);
+  Replays replays{reported, options};
   StudyReport report;
   ReportPage& page = report.page;
   page.title = reported.summary.name;
@@ -134,7 +122,7 @@ StudyReport study_report(const reading::StudyFile& file, const ReportOptions& op
   add(page, {"run", "What was run", run_html(reported), {}});
   qualify_bounds(reported, page);
   put_on_axis(reported.study.units.axis, page);
-  report.warnings = replays.warnings();
+  report.warnings = replays.warnings;
   page.sections.front().html = warnings_html(report.warnings) + page.sections.front().html;
   return report;
 }
@@ -160,17 +148,10 @@ const Figure& find_figure(const ReportPage& page, const std::string& name) {
 }
 
 std::string drawing_program(const Figure& figure) {
-  nlohmann::ordered_json data = nlohmann::ordered_json::array();
-  for (const FigureData& part : figure.data) {
-    nlohmann::ordered_json columns = nlohmann::ordered_json::array();
-    for (const FigureColumn& column : part.columns)
-      columns.push_back({column.field, column.title, column.unit});
-    data.push_back({{"name", part.name}, {"columns", columns}, {"rows", part.rows}});
-  }
   const nlohmann::ordered_json input{{"specification", figure.specification},
                                      {"theme", figure_theme()},
                                      {"colours", light_colours()},
-                                     {"data", data}};
+                                     {"data", data_json(figure)}};
   const auto quoted = [](std::string_view text) { return nlohmann::ordered_json(std::string(text)).dump(); };
   return fmt::format(
       // Prevents the libraries from using node's module system.

@@ -9,7 +9,6 @@
 #include "analysis/statistics/confidence_sequence.hpp"
 #include "analysis/summary/study_summary.hpp"
 #include "results/layout/header.hpp"
-#include "results/layout/table_io.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -67,19 +66,6 @@ std::int64_t most_telling_point(const std::vector<measures::PointSummary>& point
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point) {
   const std::int64_t trials = reported.file.header().trials;
   return {point * trials, trials};
-}
-
-void visit_trials(const reading::StudyFile& file, layout::RowRange rows, const TrialVisitor& visit) {
-  const std::int64_t moves = file.moves();
-  const std::int64_t at_once = layout::chunk_rows(moves);
-  for (std::int64_t first = rows.first; first < rows.end(); first += at_once) {
-    const layout::RowRange block{first, std::min(at_once, rows.end() - first)};
-    const std::vector<trial::MoveOutcome> outcomes = file.outcomes(block);
-    for (std::int64_t row = block.first; row < block.end(); ++row) {
-      visit(row, std::span(outcomes).subspan(static_cast<std::size_t>((row - block.first) * moves),
-                                             static_cast<std::size_t>(moves)));
-    }
-  }
 }
 
 std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t max_count) {

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "analysis/measures/visit_trials.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/summary.hpp"
 #include "core/trial/outcome.hpp"
@@ -24,6 +23,17 @@ struct ReportedStudy {
   std::string bounds_name{};                                     ///< kind of these bounds, for captions
   std::int64_t focus{0};                                         ///< design point of the single trials
 };
+
+/// The label, the statistics and the success bounds of a point.
+inline const std::string& label_of(const ReportedStudy& reported, std::int64_t point) {
+  return reported.summary.labels[static_cast<std::size_t>(point)];
+}
+inline const measures::PointSummary& point_of(const ReportedStudy& reported, std::int64_t point) {
+  return reported.summary.points[static_cast<std::size_t>(point)];
+}
+inline const statistics::ConfidenceInterval& bounds_of(const ReportedStudy& reported, std::int64_t point) {
+  return reported.success_bounds[static_cast<std::size_t>(point)];
+}
 
 /// Note for results of a study with dependent trials (StudyFeatures::dependent_trials).
 inline constexpr std::string_view dependence_sentence =
@@ -45,12 +55,6 @@ std::int64_t most_telling_point(const std::vector<measures::PointSummary>& point
 
 /// The global rows of the trials of a point.
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point);
-
-/// Called with the row and the moves of a trial.
-using TrialVisitor = std::function<void(std::int64_t row, std::span<const trial::MoveOutcome> moves)>;
-
-/// Visits the trials of these rows in order, reading the file in blocks.
-void visit_trials(const reading::StudyFile& file, layout::RowRange rows, const TrialVisitor& visit);
 
 /// At most `max_count` evenly spaced indices of 0 … `size` − 1, increasing.
 std::vector<std::int64_t> spread_over(std::int64_t size, std::int64_t max_count);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/report_figures.hpp"
+#include "results/layout/layout.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -14,24 +15,6 @@ using nlohmann::ordered_json;
 constexpr std::int64_t max_profiles = 4;
 constexpr std::int64_t profile_points = 512;
 constexpr std::int64_t max_failures = 250;
-
-const char* word_of(trial::Outcome outcome) {
-  switch (outcome) {
-    case trial::Outcome::zero_count:
-      return "zero_count";
-    case trial::Outcome::one_count:
-      return "one_count";
-    case trial::Outcome::off_target:
-      return "off_target";
-    case trial::Outcome::oscillating:
-      return "oscillating";
-    case trial::Outcome::nonfinite:
-      return "nonfinite";
-    case trial::Outcome::open_loop:
-      break;
-  }
-  return "open_loop";
-}
 
 /// Final position of a trial on the rotor, and its outcome.
 struct EndOnRotor {
@@ -66,17 +49,18 @@ void visit_ends(const ReportedStudy& reported, const ShownTrials& shown, std::si
                 const Visit& visit) {
   const layout::RowRange rows = rows_of(reported, shown.point);
   const std::vector<double> starts = reported.file.input(column, rows);
-  visit_trials(reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-    if (shown.rig && study::rig_of(reported.study, row - rows.first) != *shown.rig) return;
-    const double end = starts[static_cast<std::size_t>(row - rows.first)] + moves.back().final_position;
-    const double start = starts[static_cast<std::size_t>(row - rows.first)];
-    visit(EndOnRotor{row - rows.first, on_rotor(std::isfinite(end) ? end : start, reported.study.period),
-                     trial::worst_outcome(moves)});
-  });
+  measures::visit_trials(
+      reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+        if (shown.rig && study::rig_of(reported.study, row - rows.first) != *shown.rig) return;
+        const double end = starts[static_cast<std::size_t>(row - rows.first)] + moves.back().final_position;
+        const double start = starts[static_cast<std::size_t>(row - rows.first)];
+        visit(EndOnRotor{row - rows.first, on_rotor(std::isfinite(end) ? end : start, reported.study.period),
+                         trial::worst_outcome(moves)});
+      });
 }
 
 /// A profile's point: the one in its name, otherwise most_telling_point().
-std::int64_t point_of(const ReportedStudy& reported, const std::string& profile) {
+std::int64_t point_of_profile(const ReportedStudy& reported, const std::string& profile) {
   const std::size_t at = profile.find('@');
   return at == std::string::npos ? most_telling_point(reported.summary.points)
                                  : std::stoll(profile.substr(at + 1));
@@ -151,7 +135,7 @@ reading::StoredProfile rotor_of_rig(const reading::StoredProfile& profile, std::
 
 std::string caption_of(const ReportedStudy& reported, const std::string& parameter, const ShownTrials& shown,
                        bool failed) {
-  const std::string& label = reported.summary.labels[static_cast<std::size_t>(shown.point)];
+  const std::string& label = label_of(reported, shown.point);
   const std::string trials =
       shown.rig ? fmt::format("rig {} at point {}", *shown.rig, label) : fmt::format("point {}", label);
   std::string caption =
@@ -170,7 +154,7 @@ std::string caption_of(const ReportedStudy& reported, const std::string& paramet
 }
 
 Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile& stored, std::size_t column) {
-  ShownTrials shown{point_of(reported, stored.name)};
+  ShownTrials shown{point_of_profile(reported, stored.name)};
   if (stored.rigs > 0) shown.rig = worst_rig(reported, shown.point);
   const reading::StoredProfile profile = shown.rig ? rotor_of_rig(stored, *shown.rig) : stored;
   const std::int64_t trials_shown = reported.file.header().trials / std::max<std::int64_t>(stored.rigs, 1);
@@ -188,8 +172,9 @@ Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile&
                      {"outcome", "outcome", ""}}};
   for (const std::int64_t i : spread_over(std::ssize(failures), max_failures)) {
     const EndOnRotor& end = failures[static_cast<std::size_t>(i)];
-    trials.rows.push_back(ordered_json::array(
-        {end.trial, datum(end.angle), datum(value_at(profile, end.angle, period)), word_of(end.outcome)}));
+    trials.rows.push_back(
+        ordered_json::array({end.trial, datum(end.angle), datum(value_at(profile, end.angle, period)),
+                             layout::outcome_labels()[static_cast<std::size_t>(end.outcome)].word}));
   }
   const std::string parameter = profile.name.substr(0, profile.name.find('@'));
   std::string caption = caption_of(reported, parameter, shown, !failures.empty());

@@ -2,10 +2,11 @@
 #include <cstddef>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/report/escaping.hpp"
 #include "analysis/report/html_table.hpp"
-#include "analysis/report/report_texts.hpp"
+#include "analysis/report/report_sections.hpp"
 #include "analysis/report/sweep_numbers.hpp"
 #include "analysis/statistics/moments.hpp"
 #include "analysis/text/text.hpp"
@@ -46,31 +47,17 @@ statistics::Moments moments_of(const reading::StudyFile& file, std::size_t colum
 }
 
 std::string inputs_table(const reading::StudyFile& file) {
-  HtmlColumn name{"parameter", "", true, {}};
-  HtmlColumn meaning{"meaning", "", true, {}};
-  HtmlColumn unit{"unit", "", true, {}};
-  HtmlColumn low{"smallest", "", false, {}};
-  HtmlColumn mean{"mean", "", false, {}};
-  HtmlColumn high{"largest", "", false, {}};
+  std::vector<HtmlColumn> columns{{"parameter", "", true, {}}, {"meaning", "", true, {}},
+                                  {"unit", "", true, {}},      {"smallest", "", false, {}},
+                                  {"mean", "", false, {}},     {"largest", "", false, {}}};
   for (std::size_t i = 0; i < file.input_columns().size(); ++i) {
     const study::InputColumn& input = file.input_columns()[i];
     const statistics::Moments values = moments_of(file, i);
-    name.cells.push_back(input.name);
-    meaning.cells.push_back(input.meaning);
-    unit.cells.push_back(input.unit);
-    low.cells.push_back(text::short_number(values.min));
-    mean.cells.push_back(text::short_number(values.mean));
-    high.cells.push_back(text::short_number(values.max));
+    add_row(columns, {input.name, input.meaning, input.unit, text::short_number(values.min),
+                      text::short_number(values.mean), text::short_number(values.max)});
   }
-  if (name.cells.empty()) return "<p>All trials have the same parameters.</p>\n";
-  return "<h3>Parameters that differ between trials</h3>\n" +
-         html_table({name, meaning, unit, low, mean, high});
-}
-
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
-  return all;
+  if (columns.front().cells.empty()) return "<p>All trials have the same parameters.</p>\n";
+  return "<h3>Parameters that differ between trials</h3>\n" + html_table(columns);
 }
 
 /// The sweep: the range of each number of the grid, and the cases.
@@ -90,7 +77,7 @@ std::vector<HtmlFact> sweep_facts(const ReportedStudy& reported) {
     for (const std::string& name : axis.texts) {
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
-    facts.push_back({"Cases", joined(names)});
+    facts.push_back({"Cases", fmt::format("{}", fmt::join(names, ", "))});
   }
   return facts;
 }
@@ -110,7 +97,8 @@ std::vector<HtmlFact> facts_of(const ReportedStudy& reported) {
       {"SHA-256 of the manifest", header.manifest_sha256},
       {"File", reported.file.path().filename().string()}};
   if (!header.overrides.empty())
-    facts.insert(facts.begin() + 2, {"Set on the command line", joined(header.overrides)});
+    facts.insert(facts.begin() + 2,
+                 {"Set on the command line", fmt::format("{}", fmt::join(header.overrides, ", "))});
   std::vector<HtmlFact> swept = sweep_facts(reported);
   facts.insert(facts.begin() + 1, swept.begin(), swept.end());
   return facts;

@@ -1,11 +1,10 @@
-#include "analysis/report/sensitivity_section.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "analysis/report/escaping.hpp"
+#include "analysis/report/report_sections.hpp"
 #include "analysis/sensitivity/sensitivity.hpp"
 
 namespace zerocount::report {

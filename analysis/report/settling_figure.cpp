@@ -32,13 +32,17 @@ double band_of(const ReportedStudy& reported, const measures::PointSummary& poin
 
 statistics::Histogram<double> settling_times(const ReportedStudy& reported, std::int64_t point) {
   statistics::Histogram<double> times;
-  visit_trials(reported.file, rows_of(reported, point),
-               [&](std::int64_t, std::span<const trial::MoveOutcome> moves) {
-                 for (const trial::MoveOutcome& move : moves) {
-                   if (move.arrived) times.add(move.settling_time);
-                 }
-               });
+  measures::visit_trials(reported.file, rows_of(reported, point),
+                         [&](std::int64_t, std::span<const trial::MoveOutcome> moves) {
+                           for (const trial::MoveOutcome& move : moves) {
+                             if (move.arrived) times.add(move.settling_time);
+                           }
+                         });
   return times;
+}
+
+const measures::MeasureStatistics& settling_of(const ReportedStudy& reported, std::int64_t point) {
+  return point_of(reported, point).of(&trial::MoveOutcome::settling_time);
 }
 
 /// The points with arrivals; if there are too many, evenly spaced ones from the best to the worst.
@@ -51,8 +55,7 @@ std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   }
   if (std::ssize(with_arrivals) <= max_curves) return with_arrivals;
   std::stable_sort(with_arrivals.begin(), with_arrivals.end(), [&](std::int64_t a, std::int64_t b) {
-    return points[static_cast<std::size_t>(a)].of(&trial::MoveOutcome::settling_time).n >
-           points[static_cast<std::size_t>(b)].of(&trial::MoveOutcome::settling_time).n;
+    return settling_of(reported, a).n > settling_of(reported, b).n;
   });
   std::vector<std::int64_t> shown;
   for (const std::int64_t i : spread_over(std::ssize(with_arrivals), max_curves))
@@ -123,14 +126,13 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   double end = 0.0;
   double start = std::numeric_limits<double>::infinity();
   for (const std::int64_t point : shown) {
-    end = std::max(end, points[static_cast<std::size_t>(point)].of(&trial::MoveOutcome::settling_time).max);
-    start = std::min(
-        start, points[static_cast<std::size_t>(point)].of(&trial::MoveOutcome::settling_time).median.value);
+    end = std::max(end, settling_of(reported, point).max);
+    start = std::min(start, settling_of(reported, point).median.value);
   }
   for (const std::int64_t point : shown) {
-    const auto at = static_cast<std::size_t>(point);
-    add_curve(data, reported.summary.labels[at], settling_times(reported, point), points[at].moves,
-              band_of(reported, points[at]), end);
+    const measures::PointSummary& summary = point_of(reported, point);
+    add_curve(data, label_of(reported, point), settling_times(reported, point), summary.moves,
+              band_of(reported, summary), end);
   }
   ordered_json& x = figure.specification["encoding"]["x"];
   if (start > 0.0 && end > 12.0 * start) {  // otherwise a few late arrivals would compress all others

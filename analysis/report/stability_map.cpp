@@ -82,14 +82,8 @@ FigureData curves_of(const ReportedStudy& reported, const PointGroup& group, con
                      const study::SweepAxis& y) {
   const CellEdges x_edges(x);
   const CellEdges y_edges(y);
-  const CriterionPlane plane{x.name,
-                             y.name,
-                             x_edges.values.front(),
-                             x_edges.values.back(),
-                             y_edges.values.front(),
-                             y_edges.values.back(),
-                             x_edges.by_ratio,
-                             y_edges.by_ratio};
+  const CriterionPlane plane{{x.name, x_edges.values.front(), x_edges.values.back(), x_edges.by_ratio},
+                             {y.name, y_edges.values.front(), y_edges.values.back(), y_edges.by_ratio}};
   FigureData data{"curves",
                   {{"criterion", "criterion", ""},
                    {"which", "trial (first or last to reach it)", ""},
@@ -105,7 +99,7 @@ FigureData curves_of(const ReportedStudy& reported, const PointGroup& group, con
     const auto named = static_cast<std::size_t>(place * static_cast<double>(curve.points.size()));
     // The label stands outside of the pair of curves if there is room.
     const bool room =
-        curve.points[named].x < x_edges.between(plane.x_high, x_edges.between(plane.x_low, plane.x_high));
+        curve.points[named].x < x_edges.between(plane.x.high, x_edges.between(plane.x.low, plane.x.high));
     const char* side = curve.first || !room ? "right" : "left";
     for (std::size_t i = 0; i < curve.points.size(); ++i) {
       data.rows.push_back(ordered_json::array(

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -28,23 +29,20 @@ std::vector<FigureColumn> common_columns() {
 }
 
 ordered_json row_of(const ReportedStudy& reported, std::int64_t point) {
-  const measures::PointSummary& summary = reported.summary.points[static_cast<std::size_t>(point)];
-  const measures::RateWithBounds& rate = summary.success_rate();
-  const statistics::ConfidenceInterval& bounds = reported.success_bounds[static_cast<std::size_t>(point)];
-  return ordered_json::array({reported.summary.labels[static_cast<std::size_t>(point)], datum(rate.value),
+  const measures::PointSummary& summary = point_of(reported, point);
+  const statistics::ConfidenceInterval& bounds = bounds_of(reported, point);
+  return ordered_json::array({label_of(reported, point), datum(summary.success_rate().value),
                               datum(bounds.low), datum(bounds.high), summary.outcomes.zero_count,
                               summary.trials});
 }
 
 /// The points by decreasing success; evenly spaced points of that order if there are too many.
 std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
-  const auto& points = reported.summary.points;
-  std::vector<std::int64_t> order(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int64_t>(i);
+  std::vector<std::int64_t> order(reported.summary.points.size());
+  std::iota(order.begin(), order.end(), std::int64_t{0});
   if (std::ssize(order) <= max_lines) return order;
   std::stable_sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
-    return points[static_cast<std::size_t>(a)].success_rate().value >
-           points[static_cast<std::size_t>(b)].success_rate().value;
+    return point_of(reported, a).success_rate().value > point_of(reported, b).success_rate().value;
   });
   std::vector<std::int64_t> shown;
   for (const std::int64_t i : spread_over(std::ssize(order), max_lines))
@@ -70,7 +68,7 @@ Figure line_per_point(const ReportedStudy& reported) {
   double lowest = 1.0;
   for (const std::int64_t point : shown) {
     data.rows.push_back(row_of(reported, point));
-    lowest = std::min(lowest, reported.success_bounds[static_cast<std::size_t>(point)].low);
+    lowest = std::min(lowest, bounds_of(reported, point).low);
   }
   const double from = lowest > 0.9 ? std::floor(lowest * 100.0) / 100.0 : 0.0;
   figure.specification["layer"][0]["encoding"]["x"]["scale"]["domain"] = {from, 1};

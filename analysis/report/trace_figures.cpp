@@ -45,24 +45,23 @@ struct RowsOfPoint {
 RowsOfPoint rows_to_show(const ReportedStudy& reported) {
   RowsOfPoint rows;
   TrialRank worst;
-  const double median = reported.summary.points[static_cast<std::size_t>(reported.focus)]
-                            .of(&trial::MoveOutcome::settling_time)
-                            .median.value;
-  visit_trials(reported.file, rows_of(reported, reported.focus),
-               [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-                 const TrialRank rank = rank_of(moves);
-                 if (rows.worst < 0 || worst < rank) {
-                   worst = rank;
-                   rows.worst = row;
-                 }
-                 const bool failed = !trial::is_success(rank.outcome);
-                 if (failed && rows.first_failure < 0) rows.first_failure = row;
-                 const bool typical =
-                     std::any_of(moves.begin(), moves.end(), [&](const trial::MoveOutcome& move) {
-                       return move.arrived && move.settling_time == median;
-                     });
-                 if (!failed && typical && rows.median < 0) rows.median = row;
-               });
+  const double median =
+      point_of(reported, reported.focus).of(&trial::MoveOutcome::settling_time).median.value;
+  measures::visit_trials(reported.file, rows_of(reported, reported.focus),
+                         [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+                           const TrialRank rank = rank_of(moves);
+                           if (rows.worst < 0 || worst < rank) {
+                             worst = rank;
+                             rows.worst = row;
+                           }
+                           const bool failed = !trial::is_success(rank.outcome);
+                           if (failed && rows.first_failure < 0) rows.first_failure = row;
+                           const bool typical =
+                               std::any_of(moves.begin(), moves.end(), [&](const trial::MoveOutcome& move) {
+                                 return move.arrived && move.settling_time == median;
+                               });
+                           if (!failed && typical && rows.median < 0) rows.median = row;
+                         });
   return rows;
 }
 
@@ -89,10 +88,10 @@ std::int64_t first_failure_of_study(const ReportedStudy& reported) {
   for (std::size_t point = 0; point < reported.summary.points.size() && first < 0; ++point) {
     const measures::PointSummary& summary = reported.summary.points[point];
     if (summary.outcomes.zero_count == summary.trials) continue;
-    visit_trials(reported.file, rows_of(reported, static_cast<std::int64_t>(point)),
-                 [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-                   if (first < 0 && !trial::succeeded(moves)) first = row;
-                 });
+    measures::visit_trials(reported.file, rows_of(reported, static_cast<std::int64_t>(point)),
+                           [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+                             if (first < 0 && !trial::succeeded(moves)) first = row;
+                           });
   }
   return first;
 }
@@ -133,7 +132,7 @@ Figure trace_figure(const ReportedStudy& reported, const SampleTrial& trial, con
       "Error and torque over time of trial {} of point {}, simulated again: {}; {}. The error should reach "
       "the dashed line and stay there. Its scale is linear within one count and logarithmic beyond. Samples "
       "are thinned, but all extremes are shown.",
-      trial.index, reported.summary.labels[static_cast<std::size_t>(trial.point)],
+      trial.index, label_of(reported, trial.point),
       replayed.result.outcome.moves.size() == 1 ? settled : "the first move " + settled, ending_of(outcome));
   Figure figure = figure_of("trace", "trace-" + trial.name, trial.title, caption);
   FigureData data{"samples",

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/escaping.hpp"
-#include "analysis/report/report_texts.hpp"
+#include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/statistics/tolerance.hpp"
 #include "analysis/summary/undecided.hpp"
@@ -18,7 +18,7 @@ namespace {
 /// " (95 % bounds a to b)"; empty if the trials are not independent.
 std::string bounds_text(const ReportedStudy& reported, std::int64_t point) {
   if (reported.summary.features.dependent_trials) return "";
-  const statistics::ConfidenceInterval& bounds = reported.success_bounds[static_cast<std::size_t>(point)];
+  const statistics::ConfidenceInterval& bounds = bounds_of(reported, point);
   return fmt::format(" (95 % bounds {} to {})", proportion_text(bounds.low), proportion_text(bounds.high));
 }
 
@@ -39,14 +39,6 @@ std::string flawless_text(const ReportedStudy& reported, const statistics::Succe
       "failure is at most {}. To show that it is below 0.1 % takes {} {} without a failure.",
       claim.trials, statistics::percent_at_most(claim.failure_at_most),
       statistics::trials_for_claim(0.999, claim.confidence, 0), claim.rigs > 0 ? "rigs" : "trials");
-}
-
-std::string label_of(const ReportedStudy& reported, std::int64_t point) {
-  return reported.summary.labels[static_cast<std::size_t>(point)];
-}
-
-const measures::PointSummary& point_of(const ReportedStudy& reported, std::int64_t point) {
-  return reported.summary.points[static_cast<std::size_t>(point)];
 }
 
 /// The claim of the best point, with bounds that account for its selection among all points (Bonferroni).
@@ -201,43 +193,34 @@ void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, s
                   proportion_text(point.jerk_one_count_share))));
 }
 
+/// The points at which a criterion decides every trial.
+struct DecidedPoints {
+  std::int64_t points{0}, trials{0}, stable{0}, undecided{0};
+
+  void add(const measures::PointSummary& point) {
+    ++points;
+    trials += point.trials;
+    stable += point.of(&trial::MoveOutcome::stable).trials;
+    undecided += point.outcomes.off_target;
+  }
+  /// @param statement "Criterion (7) is exceeded"
+  void add_to(std::vector<std::string>& lines, std::string_view statement) const {
+    if (points == 0) return;
+    lines.push_back(fmt::format("{} in every trial of {} point{}; {} there were stable{}.", statement, points,
+                                points == 1 ? "" : "s", of_all(stable, trials), undecided_text(undecided)));
+  }
+};
+
 void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) {
-  std::int64_t stable_points = 0;
-  std::int64_t stable_trials = 0;
-  std::int64_t stable_of = 0;
-  std::int64_t stable_undecided = 0;
-  std::int64_t beyond_points = 0;
-  std::int64_t beyond_stable = 0;
-  std::int64_t beyond_of = 0;
-  std::int64_t beyond_undecided = 0;
+  DecidedPoints stable, beyond;
   for (std::size_t i = 0; i < reported.summary.predictions.size(); ++i) {
     const measures::TheoryPrediction& prediction = reported.summary.predictions[i];
-    const measures::PointSummary& point = reported.summary.points[i];
     if (measures::predicted_trials(prediction) == 0) continue;
-    if (prediction.stable == prediction.trials) {
-      ++stable_points;
-      stable_trials += point.of(&trial::MoveOutcome::stable).trials;
-      stable_of += point.trials;
-      stable_undecided += point.outcomes.off_target;
-    }
-    if (prediction.unstable == prediction.trials) {
-      ++beyond_points;
-      beyond_stable += point.of(&trial::MoveOutcome::stable).trials;
-      beyond_of += point.trials;
-      beyond_undecided += point.outcomes.off_target;
-    }
+    if (prediction.stable == prediction.trials) stable.add(reported.summary.points[i]);
+    if (prediction.unstable == prediction.trials) beyond.add(reported.summary.points[i]);
   }
-  if (stable_points > 0) {
-    lines.push_back(
-        fmt::format("Criterion (6) of the paper holds in every trial of {} point{}; {} there were stable{}.",
-                    stable_points, stable_points == 1 ? "" : "s", of_all(stable_trials, stable_of),
-                    undecided_text(stable_undecided)));
-  }
-  if (beyond_points > 0) {
-    lines.push_back(fmt::format(
-        "Criterion (7) is exceeded in every trial of {} point{}; {} there were stable{}.", beyond_points,
-        beyond_points == 1 ? "" : "s", of_all(beyond_stable, beyond_of), undecided_text(beyond_undecided)));
-  }
+  stable.add_to(lines, "Criterion (6) of the paper holds");
+  beyond.add_to(lines, "Criterion (7) is exceeded");
 }
 
 std::string as_html(const std::string& headline, const std::vector<std::string>& lines) {

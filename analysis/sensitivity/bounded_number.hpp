@@ -1,14 +1,14 @@
 #pragma once
 
-#include <limits>
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::sensitivity {
 
 /// A number with its confidence bounds; NaN where there is none.
 struct BoundedNumber {
-  double value{std::numeric_limits<double>::quiet_NaN()};
-  double low{std::numeric_limits<double>::quiet_NaN()};
-  double high{std::numeric_limits<double>::quiet_NaN()};
+  double value{statistics::unknown};
+  double low{statistics::unknown};
+  double high{statistics::unknown};
 };
 
 /// Whether 0 is outside the bounds. Not where there are none.

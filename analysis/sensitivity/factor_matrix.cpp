@@ -1,7 +1,6 @@
 #include "analysis/sensitivity/factor_matrix.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace zerocount::sensitivity {

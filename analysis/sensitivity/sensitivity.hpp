@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/sensitivity/bounded_number.hpp"
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "results/layout/measure_table.hpp"
 #include "results/reading/study_file.hpp"
 
@@ -18,9 +18,9 @@ namespace zerocount::sensitivity {
 /// One factor: something that is drawn anew in every trial. All indices are dimensionless.
 struct FactorSensitivity {
   std::string name;  ///< dotted path of the parameter, or within_trial_factor
-  /// Share of the output's variance that this factor explains alone.
+  /// First-order Sobol' index: proportion of the output's variance that this factor explains alone.
   BoundedNumber first_order;
-  /// Share that this factor has a part in, alone or together with others; only from a saltelli design.
+  /// Total Sobol' index, with the interactions with other factors; only from a saltelli design.
   BoundedNumber total;
   BoundedNumber rank_correlation;          ///< Spearman's; in [−1, 1]
   BoundedNumber partial_rank_correlation;  ///< with the other factors' part taken out; in [−1, 1]
@@ -32,6 +32,19 @@ struct FactorSensitivity {
   bool matters{false};
 };
 
+/// The numbers of a factor, in the order of the outputs.
+struct FactorNumber {
+  const char* name;  ///< in JSON and CSV
+  const char* head;  ///< in the table
+  BoundedNumber FactorSensitivity::*number;
+};
+inline constexpr FactorNumber factor_numbers[] = {
+    {"total", "total", &FactorSensitivity::total},
+    {"first_order", "first order", &FactorSensitivity::first_order},
+    {"rank_correlation", "rank corr.", &FactorSensitivity::rank_correlation},
+    {"partial_rank_correlation", "partial rank corr.", &FactorSensitivity::partial_rank_correlation},
+    {"log_odds", "log odds per sd", &FactorSensitivity::log_odds}};
+
 /// A factor that has no row, and why.
 struct FactorLeftOut {
   std::string name;
@@ -42,11 +55,11 @@ struct FactorLeftOut {
 struct OutputSensitivity {
   std::string output;  ///< as sensitivity_outputs() has it
   std::string unit;
-  std::string meaning;     ///< one line, with what was done about trials that have no value
-  std::int64_t trials{0};  ///< used
-  double mean{std::numeric_limits<double>::quiet_NaN()};                ///< of the output, in its unit
-  double standard_deviation{std::numeric_limits<double>::quiet_NaN()};  ///< likewise
-  std::vector<FactorSensitivity> factors;                               ///< strongest first
+  std::string meaning;               ///< one line, with what was done about trials that have no value
+  std::int64_t trials{0};            ///< used
+  double mean{statistics::unknown};  ///< of the output, in its unit
+  double standard_deviation{statistics::unknown};  ///< likewise
+  std::vector<FactorSensitivity> factors;          ///< strongest first
   std::vector<FactorLeftOut> left_out;
   std::vector<std::string> notes;  ///< what limits these numbers, a sentence each
   std::string conclusion;          ///< one sentence: which factors matter

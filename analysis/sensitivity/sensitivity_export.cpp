@@ -1,11 +1,10 @@
-#include <array>
-#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/sensitivity/sensitivity.hpp"
+#include "analysis/text/report_json.hpp"
 #include "results/reading/csv.hpp"
 
 namespace zerocount::sensitivity {
@@ -13,29 +12,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct NamedMeasure {
-  const char* name;
-  BoundedNumber FactorSensitivity::*number;
-};
-
-constexpr std::array<NamedMeasure, 5> named_measures{
-    {{"total", &FactorSensitivity::total},
-     {"first_order", &FactorSensitivity::first_order},
-     {"rank_correlation", &FactorSensitivity::rank_correlation},
-     {"partial_rank_correlation", &FactorSensitivity::partial_rank_correlation},
-     {"log_odds", &FactorSensitivity::log_odds}}};
-
-Json number_json(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
 Json factor_json(const FactorSensitivity& factor) {
   Json json{{"name", factor.name}, {"matters", factor.matters}};
-  for (const NamedMeasure& measure : named_measures) {
+  for (const FactorNumber& measure : factor_numbers) {
     const BoundedNumber& number = factor.*measure.number;
-    json[measure.name] = {{"value", number_json(number.value)},
-                          {"low", number_json(number.low)},
-                          {"high", number_json(number.high)}};
+    json[measure.name] = {{"value", number.value}, {"low", number.low}, {"high", number.high}};
   }
   return json;
 }
@@ -54,15 +35,15 @@ Json output_json(const OutputSensitivity& output) {
           {"conclusion", output.conclusion},
           {"notes", output.notes},
           {"trials", output.trials},
-          {"mean", number_json(output.mean)},
-          {"standard_deviation", number_json(output.standard_deviation)},
+          {"mean", output.mean},
+          {"standard_deviation", output.standard_deviation},
           {"factors", std::move(factors)},
           {"left_out", std::move(left_out)}};
 }
 
 std::string csv_header() {
   std::string line = "point,label,output,factor,matters";
-  for (const NamedMeasure& measure : named_measures) {
+  for (const FactorNumber& measure : factor_numbers) {
     line += fmt::format(",{0},{0}_low,{0}_high", measure.name);
   }
   return line + "\n";
@@ -72,7 +53,7 @@ std::string csv_row(const PointSensitivity& point, const OutputSensitivity& outp
                     const FactorSensitivity& factor) {
   std::string line = fmt::format("{},{},{},{},{}", point.point, reading::csv_field(point.label),
                                  output.output, reading::csv_field(factor.name), factor.matters ? 1 : 0);
-  for (const NamedMeasure& measure : named_measures) {
+  for (const FactorNumber& measure : factor_numbers) {
     const BoundedNumber& number = factor.*measure.number;
     for (const double value : {number.value, number.low, number.high})
       line += fmt::format(",{}", reading::number_text(value));
@@ -93,8 +74,7 @@ std::string sensitivity_json(const StudySensitivity& sensitivity) {
                   {"design_is_saltelli", sensitivity.from_saltelli},
                   {"confidence", sensitivity.confidence},
                   {"points", std::move(points)}};
-  constexpr int indent = 2;
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text::json_text(json);
 }
 
 std::string sensitivity_csv(const StudySensitivity& sensitivity) {

@@ -17,25 +17,10 @@ std::string with_bounds(const BoundedNumber& number) {
   return fmt::format("{:.3f} [{:.3f}, {:.3f}]", number.value, number.low, number.high);
 }
 
-struct Measure {
-  const char* head;
-  BoundedNumber FactorSensitivity::*number;
-};
-
-// Those that some factor has.
-std::vector<Measure> measures_of(const OutputSensitivity& output, bool from_saltelli) {
-  std::vector<Measure> all{{"total", &FactorSensitivity::total},
-                           {from_saltelli ? "first order" : "alone", &FactorSensitivity::first_order},
-                           {"rank corr.", &FactorSensitivity::rank_correlation},
-                           {"partial rank corr.", &FactorSensitivity::partial_rank_correlation},
-                           {"log odds per sd", &FactorSensitivity::log_odds}};
-  const auto is_missing = [&](const Measure& measure) {
-    return std::all_of(output.factors.begin(), output.factors.end(), [&](const FactorSensitivity& factor) {
-      return std::isnan((factor.*measure.number).value);
-    });
-  };
-  all.erase(std::remove_if(all.begin(), all.end(), is_missing), all.end());
-  return all;
+bool has_some(const OutputSensitivity& output, const FactorNumber& one) {
+  return std::any_of(output.factors.begin(), output.factors.end(), [&](const FactorSensitivity& factor) {
+    return !std::isnan((factor.*one.number).value);
+  });
 }
 
 std::string factor_table(const OutputSensitivity& output, bool from_saltelli) {
@@ -44,8 +29,10 @@ std::string factor_table(const OutputSensitivity& output, bool from_saltelli) {
     columns[0].cells.push_back(text::printable(factor.name));
     columns[1].cells.emplace_back(factor.matters ? "yes" : "");
   }
-  for (const Measure& measure : measures_of(output, from_saltelli)) {
-    text::TextColumn column{measure.head, false, {}};
+  for (const FactorNumber& measure : factor_numbers) {
+    if (!has_some(output, measure)) continue;
+    const bool alone = measure.number == &FactorSensitivity::first_order && !from_saltelli;
+    text::TextColumn column{alone ? "alone" : measure.head, false, {}};
     for (const FactorSensitivity& factor : output.factors) {
       column.cells.push_back(with_bounds(factor.*measure.number));
     }

@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "analysis/measures/trial_value.hpp"
+#include "analysis/measures/visit_trials.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
-#include "results/layout/table_io.hpp"
 
 namespace zerocount::sensitivity {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether every move ran to its end, and its motion is known. Qualities, and times that may be later than
 /// any, need not that.
@@ -57,27 +55,21 @@ TrialOutputs trial_outputs(const reading::StudyFile& file, const study::Study& s
                            const SensitivityOutput& output) {
   const layout::Measure& measure = *output.measure;
   const bool of_any_trial = layout::is_quality(measure) || measure.values.nan_is_late;
-  const std::int64_t trials = file.header().trials;
-  const auto moves = static_cast<std::size_t>(file.moves());
-  const std::int64_t at_once = layout::chunk_rows(file.moves());
+  const layout::RowRange rows{point * file.header().trials, file.header().trials};
   TrialOutputs outputs;
-  for (std::int64_t first = 0; first < trials; first += at_once) {
-    const layout::RowRange block{point * trials + first, std::min(at_once, trials - first)};
-    const std::vector<trial::MoveOutcome> outcomes = file.outcomes(block);
-    for (std::int64_t i = 0; i < block.count; ++i) {
-      const auto of_trial = std::span(outcomes).subspan(static_cast<std::size_t>(i) * moves, moves);
-      double duration = none;
-      // Only where a move never arrived do the parameters of its trial have to be worked out.
-      const auto late = [&] {
-        if (std::isnan(duration))
-          duration = move_duration(study::study_trial(study, point, first + i).parameters);
-        return duration;
-      };
-      const bool has_value = measures::has_targets(measure, of_trial) && (of_any_trial || is_whole(of_trial));
-      outputs.values.push_back(has_value ? measures::value_of_trial(measure, of_trial, late) : none);
-      outputs.never_arrived += !std::isnan(duration);
-    }
-  }
+  measures::visit_trials(file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+    double duration = statistics::unknown;
+    // Only if a move never arrived are the parameters of its trial needed.
+    const auto late = [&] {
+      if (std::isnan(duration))
+        duration = move_duration(study::study_trial(study, point, row - rows.first).parameters);
+      return duration;
+    };
+    const bool has_value = measures::has_targets(measure, moves) && (of_any_trial || is_whole(moves));
+    outputs.values.push_back(has_value ? measures::value_of_trial(measure, moves, late)
+                                       : statistics::unknown);
+    outputs.never_arrived += !std::isnan(duration);
+  });
   return outputs;
 }
 

@@ -10,16 +10,16 @@
 
 #include "analysis/statistics/normal.hpp"
 #include "analysis/statistics/poisson_bounds.hpp"
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::statistics {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double unknown_bound = std::numeric_limits<double>::quiet_NaN();
 
 /// A mean with its standard error.
 struct Estimate {
-  double mean{unknown_bound};
+  double mean{unknown};
   double error{0.0};
 };
 
@@ -93,7 +93,7 @@ double student_limit(double degrees_of_freedom, double confidence) {
 }
 
 double finite_or_unknown(double bound) {
-  return std::isfinite(bound) ? bound : unknown_bound;
+  return std::isfinite(bound) ? bound : unknown;
 }
 
 double sum_of(const std::vector<double>& values) {
@@ -120,15 +120,10 @@ void ClusterTotals::add(std::int64_t cluster, double sum, double number) {
   clusters = std::max(clusters, cluster + 1);
 }
 
-double mean_of_clusters(const ClusterTotals& totals) {
-  const double number = sum_of(totals.numbers);
-  return number > 0.0 ? sum_of(totals.sums) / number : unknown_bound;
-}
-
 ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const random::RandomStream& stream,
                                          double confidence, std::int64_t resamples) {
   require_confidence(confidence);
-  constexpr ConfidenceInterval none{unknown_bound, unknown_bound};
+  constexpr ConfidenceInterval none{unknown, unknown};
   if (number_of_positive(totals.numbers) < 2) return none;
   const auto clusters = static_cast<double>(totals.sums.size());
   const Estimate estimate = estimate_of(totals, std::vector<std::int32_t>(totals.sums.size(), 1), clusters);
@@ -148,7 +143,7 @@ ConfidenceInterval clustered_count_bounds(const ClusterTotals& totals, const ran
   require_confidence(confidence);
   const auto clusters = static_cast<double>(totals.sums.size());
   const double number = sum_of(totals.numbers);
-  if (!(number > 0.0)) return {unknown_bound, unknown_bound};
+  if (!(number > 0.0)) return {unknown, unknown};
   const double count = sum_of(totals.sums);
   if (count == 0.0) {
     return {0.0, poisson_bounds(0.0, confidence).high / static_cast<double>(totals.clusters)};
@@ -156,7 +151,7 @@ ConfidenceInterval clustered_count_bounds(const ClusterTotals& totals, const ran
   if (number_of_positive(totals.sums) >= min_counting_clusters) {
     return clustered_mean_bounds(totals, stream, confidence, resamples);
   }
-  if (clusters < 2.0) return {unknown_bound, unknown_bound};
+  if (clusters < 2.0) return {unknown, unknown};
   const Estimate estimate = estimate_of(totals, std::vector<std::int32_t>(totals.sums.size(), 1), clusters);
   const double shorter = two_sided_normal_quantile(confidence) / student_limit(clusters - 1.0, confidence);
   const double events = count / overdispersion(totals, estimate) * shorter * shorter;

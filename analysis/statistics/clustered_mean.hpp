@@ -24,9 +24,6 @@ struct ClusterTotals {
   void add(std::int64_t cluster, double sum, double number);
 };
 
-/// Σ sums/Σ numbers; NaN of no values.
-double mean_of_clusters(const ClusterTotals& totals);
-
 /// Bounds of the mean of values in independent clusters, in the values' unit: the outer bounds of two
 /// intervals. With the mean θ = Σsᵢ/Σnᵢ of m clusters and its standard error by linearisation,
 ///

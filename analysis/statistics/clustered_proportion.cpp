@@ -11,10 +11,6 @@
 namespace zerocount::statistics {
 namespace {
 
-double proportion_of(const ClusterSums& sums) {
-  return rate(sums.hits, sums.events);
-}
-
 /// Whether the variance between clusters can be estimated.
 bool variance_is_known(const ClusterSums& sums) {
   return sums.clusters > 1 && sums.hits > 0 && sums.hits < sums.events;
@@ -42,15 +38,6 @@ double upper_bound(double proportion, double events, double tail) {
   return boost::math::ibetac_inv(hits + 1.0, events - hits, tail);
 }
 
-ConfidenceInterval wilson_bounds(double p, double events, double tail) {
-  const double z = -normal_quantile(tail);
-  const double scale = 1.0 + z * z / events;
-  const double centre = (p + z * z / (2.0 * events)) / scale;
-  const double half_width = z * std::sqrt(p * (1.0 - p) / events + z * z / (4.0 * events * events)) / scale;
-  return {p > 0.0 ? std::max(0.0, centre - half_width) : 0.0,
-          p < 1.0 ? std::min(1.0, centre + half_width) : 1.0};
-}
-
 }  // namespace
 
 void ClusterSums::add(std::int64_t cluster_hits, std::int64_t cluster_events) {
@@ -71,7 +58,7 @@ double effective_events(const ClusterSums& sums) {
   const auto m = static_cast<double>(sums.clusters);
   if (are_single_events(sums)) return n;
   if (!variance_is_known(sums)) return n * n / sums.events_squared;
-  const double p = proportion_of(sums);
+  const double p = rate(sums.hits, sums.events);
   const double squares = sums.hits_squared - 2.0 * p * sums.hits_by_events + p * p * sums.events_squared;
   const double variance = m / (m - 1.0) * std::max(0.0, squares) / (n * n);
   const double of_independent = p * (1.0 - p) / n;
@@ -92,23 +79,23 @@ ClusteredProportion clustered_proportion(const ClusterSums& sums, double confide
   if (sums.events == 0) return result;
   const double tail = 0.5 * (1.0 - confidence);
   const double events = adjusted_events(sums, tail);
-  result.value = proportion_of(sums);
+  result.value = rate(sums.hits, sums.events);
   result.effective_events = effective_events(sums);
   result.korn_graubard = {lower_bound(result.value, events, tail), upper_bound(result.value, events, tail)};
-  result.wilson = wilson_bounds(result.value, events, tail);
+  result.wilson = wilson_interval(result.value, events, -normal_quantile(tail));
   return result;
 }
 
 double clustered_at_least(const ClusterSums& sums, double confidence) {
   require_confidence(confidence);
   if (sums.events == 0) return 0.0;
-  return lower_bound(proportion_of(sums), adjusted_events(sums, 1.0 - confidence), 1.0 - confidence);
+  return lower_bound(rate(sums.hits, sums.events), adjusted_events(sums, 1.0 - confidence), 1.0 - confidence);
 }
 
 double clustered_at_most(const ClusterSums& sums, double confidence) {
   require_confidence(confidence);
   if (sums.events == 0) return 1.0;
-  return upper_bound(proportion_of(sums), adjusted_events(sums, 1.0 - confidence), 1.0 - confidence);
+  return upper_bound(rate(sums.hits, sums.events), adjusted_events(sums, 1.0 - confidence), 1.0 - confidence);
 }
 
 }  // namespace zerocount::statistics

@@ -1,18 +1,18 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::statistics {
 
 /// k hits among n events that form clusters: the trials of one rig, the moves or the jerks of one trial.
 /// Clusters are independent; events of one cluster are correlated.
 struct ClusteredProportion {
-  std::int64_t hits{0};                                    ///< k
-  std::int64_t events{0};                                  ///< n
-  double value{std::numeric_limits<double>::quiet_NaN()};  ///< k/n
+  std::int64_t hits{0};          ///< k
+  std::int64_t events{0};        ///< n
+  double value{unknown};         ///< k/n
   double effective_events{0.0};  ///< equivalent number of independent events, without t adjustment
   ConfidenceInterval korn_graubard{0.0, 1.0};  ///< Clopper–Pearson with the effective number of events
   ConfidenceInterval wilson{0.0, 1.0};         ///< Wilson with the same number

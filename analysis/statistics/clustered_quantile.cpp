@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/statistics/tolerance.hpp"
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::statistics {
 namespace {
-
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// The effective number of independent values at a quantile, rounded down.
 std::int64_t whole_values(const ClusteredSample& sample, double sample_quantile, double tail) {
@@ -27,7 +25,7 @@ double scaled_low(const ClusteredSample& sample, std::int64_t rank, std::int64_t
                          static_cast<std::int64_t>(std::floor(static_cast<double>(rank) * scale)));
 }
 double scaled_high(const ClusteredSample& sample, std::int64_t rank, std::int64_t whole) {
-  if (rank > whole) return not_known;
+  if (rank > whole) return unknown;
   const double scale = static_cast<double>(sample.size()) / static_cast<double>(whole);
   return order_statistic(sample.observed(),
                          static_cast<std::int64_t>(std::ceil(static_cast<double>(rank) * scale)));
@@ -93,7 +91,7 @@ ClusterSums ClusteredSample::at_most(double x) const {
 Quantile clustered_quantile(const ClusteredSample& sample, double probability, double confidence) {
   const double value = order_statistic(sample.observed(), quantile_rank(sample.size(), probability));
   require_confidence(confidence);
-  if (sample.observed().size == 0) return {not_known, not_known, not_known};
+  if (sample.observed().size == 0) return {unknown, unknown, unknown};
   const std::int64_t whole = whole_values(sample, value, 0.5 * (1.0 - confidence));
   const RankBounds ranks = quantile_rank_bounds(whole, probability, confidence);
   return {value, scaled_low(sample, ranks.low, whole), scaled_high(sample, ranks.high, whole)};
@@ -102,7 +100,7 @@ Quantile clustered_quantile(const ClusteredSample& sample, double probability, d
 double clustered_upper_limit(const ClusteredSample& sample, double content, double confidence) {
   const std::int64_t rank = quantile_rank(sample.size(), content);
   require_confidence(confidence);
-  if (sample.observed().size == 0) return not_known;
+  if (sample.observed().size == 0) return unknown;
   const std::int64_t whole = whole_values(sample, order_statistic(sample.observed(), rank), 1.0 - confidence);
   return scaled_high(sample, tolerance_rank(whole, content, confidence), whole);
 }

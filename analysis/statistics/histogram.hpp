@@ -2,8 +2,9 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
+
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::statistics {
 
@@ -27,14 +28,13 @@ double mean(const Histogram<Value>& histogram) {
   double sum = 0.0;
   for (const auto& [value, count] : histogram.counts)
     sum += static_cast<double>(value) * static_cast<double>(count);
-  return histogram.size > 0 ? sum / static_cast<double>(histogram.size)
-                            : std::numeric_limits<double>::quiet_NaN();
+  return histogram.size > 0 ? sum / static_cast<double>(histogram.size) : unknown;
 }
 
 /// Standard deviation with divisor n − 1, in the values' unit; NaN of fewer than two observations.
 template <typename Value>
 double standard_deviation(const Histogram<Value>& histogram) {
-  if (histogram.size < 2) return std::numeric_limits<double>::quiet_NaN();
+  if (histogram.size < 2) return unknown;
   const double centre = mean(histogram);
   double squares = 0.0;
   for (const auto& [value, count] : histogram.counts) {
@@ -55,13 +55,11 @@ Value total(const Histogram<Value>& histogram) {
 /// Smallest and largest value; NaN of an empty histogram.
 template <typename Value>
 double smallest(const Histogram<Value>& histogram) {
-  return histogram.size > 0 ? static_cast<double>(histogram.counts.begin()->first)
-                            : std::numeric_limits<double>::quiet_NaN();
+  return histogram.size > 0 ? static_cast<double>(histogram.counts.begin()->first) : unknown;
 }
 template <typename Value>
 double largest(const Histogram<Value>& histogram) {
-  return histogram.size > 0 ? static_cast<double>(histogram.counts.rbegin()->first)
-                            : std::numeric_limits<double>::quiet_NaN();
+  return histogram.size > 0 ? static_cast<double>(histogram.counts.rbegin()->first) : unknown;
 }
 
 /// The `rank`-th smallest observation, rank = 1 … size; NaN outside that.
@@ -74,7 +72,7 @@ double order_statistic(const Histogram<Value>& histogram, std::int64_t rank) {
       if (below >= rank) return static_cast<double>(value);
     }
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return unknown;
 }
 
 }  // namespace zerocount::statistics

@@ -1,22 +1,16 @@
 #include "analysis/statistics/mean_bounds.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <boost/math/distributions/students_t.hpp>
-#include <fmt/format.h>
 
-#include "core/failure/failure.hpp"
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::statistics {
 
 ConfidenceInterval student_t(const Moments& sample, double confidence) {
-  if (!(confidence > 0.0 && confidence < 1.0)) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("a confidence of {}; expected a number between 0 and 1", confidence));
-  }
+  require_confidence(confidence);
   if (sample.n < 2) {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     return {unknown, unknown};
   }
   const auto n = static_cast<double>(sample.n);

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::statistics {
 
@@ -12,9 +13,9 @@ namespace zerocount::statistics {
 struct Moments {
   std::int64_t n{0};          ///< finite values
   std::int64_t nonfinite{0};  ///< values left out because they are not finite
-  double mean{std::numeric_limits<double>::quiet_NaN()};
-  double min{std::numeric_limits<double>::quiet_NaN()};
-  double max{std::numeric_limits<double>::quiet_NaN()};
+  double mean{unknown};
+  double min{unknown};
+  double max{unknown};
   double squares{0.0};  ///< sum of the squared deviations from the mean, in the square of the unit
 
   void add(double value) {
@@ -34,9 +35,7 @@ struct Moments {
   double rms() const { return std::sqrt(mean * mean + squares / static_cast<double>(n)); }
 
   /// Standard deviation with divisor n − 1; NaN of fewer than two values.
-  double sd() const {
-    return n < 2 ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(squares / static_cast<double>(n - 1));
-  }
+  double sd() const { return n < 2 ? unknown : std::sqrt(squares / static_cast<double>(n - 1)); }
 };
 
 }  // namespace zerocount::statistics

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <boost/math/distributions/binomial.hpp>
 #include <fmt/format.h>
 
 #include "analysis/statistics/normal.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::statistics {
@@ -23,14 +23,14 @@ void require_proportion(std::int64_t successes, std::int64_t trials, double conf
 
 }  // namespace
 
-void require_confidence(double confidence) {
-  if (confidence > 0.0 && confidence < 1.0) return;
+void require_open_unit(const char* what, double value) {
+  if (value > 0.0 && value < 1.0) return;
   throw Failure(ExitCode::bad_input,
-                fmt::format("a confidence of {}; expected a number between 0 and 1", confidence));
+                fmt::format("a {} of {}; expected a number between 0 and 1", what, value));
 }
 
 double rate(std::int64_t successes, std::int64_t trials) {
-  if (trials == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (trials == 0) return unknown;
   return static_cast<double>(successes) / static_cast<double>(trials);
 }
 
@@ -61,14 +61,16 @@ double proportion_at_most(std::int64_t successes, std::int64_t trials, double co
 ConfidenceInterval wilson(std::int64_t successes, std::int64_t trials, double confidence) {
   require_proportion(successes, trials, confidence);
   if (trials == 0) return {0.0, 1.0};
-  const double n = static_cast<double>(trials);
-  const double p = static_cast<double>(successes) / n;
-  const double z = two_sided_normal_quantile(confidence);
+  return wilson_interval(rate(successes, trials), static_cast<double>(trials),
+                         two_sided_normal_quantile(confidence));
+}
+
+ConfidenceInterval wilson_interval(double p, double n, double z) {
   const double scale = 1.0 + z * z / n;
   const double centre = (p + z * z / (2.0 * n)) / scale;
   const double half_width = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / scale;
-  return {successes == 0 ? 0.0 : std::max(0.0, centre - half_width),
-          successes == trials ? 1.0 : std::min(1.0, centre + half_width)};
+  return {p > 0.0 ? std::max(0.0, centre - half_width) : 0.0,
+          p < 1.0 ? std::min(1.0, centre + half_width) : 1.0};
 }
 
 }  // namespace zerocount::statistics

@@ -13,8 +13,11 @@ struct ConfidenceInterval {
 /// Default confidence of the bounds in a summary, and confidence of all bounds in a results file.
 inline constexpr double summary_confidence = 0.95;
 
-/// @throws Failure (bad_input) unless 0 < confidence < 1.
-void require_confidence(double confidence);
+/// @throws Failure (bad_input) unless 0 < value < 1; `what` names it in the message.
+void require_open_unit(const char* what, double value);
+inline void require_confidence(double confidence) {
+  require_open_unit("confidence", confidence);
+}
 
 /// successes/trials; NaN if trials is 0.
 double rate(std::int64_t successes, std::int64_t trials);
@@ -47,5 +50,8 @@ double proportion_at_most(std::int64_t successes, std::int64_t trials, double co
 /// 1 and [0, 1]. Source: Wilson (1927).
 ConfidenceInterval wilson(std::int64_t successes, std::int64_t trials,
                           double confidence = summary_confidence);
+
+/// The same formula for the proportion p of n independent events, n > 0 and not necessarily whole.
+ConfidenceInterval wilson_interval(double p, double n, double z);
 
 }  // namespace zerocount::statistics

@@ -6,18 +6,9 @@
 #include <numeric>
 
 #include <boost/math/distributions/binomial.hpp>
-#include <fmt/format.h>
-
-#include "core/failure/failure.hpp"
 
 namespace zerocount::statistics {
 namespace {
-
-void require_inside_unit_interval(const char* what, double value) {
-  if (value > 0.0 && value < 1.0) return;
-  throw Failure(ExitCode::bad_input,
-                fmt::format("a {} of {}; expected a number between 0 and 1", what, value));
-}
 
 /// Smallest k in [0, end) with holds(k), by bisection; `end` if there is none. `holds` must be monotonic:
 /// false, then true.
@@ -38,7 +29,7 @@ std::int64_t first_where(std::int64_t end, const Predicate& holds) {
 }  // namespace
 
 std::int64_t quantile_rank(std::int64_t observations, double probability) {
-  require_inside_unit_interval("quantile's probability", probability);
+  require_open_unit("quantile's probability", probability);
   if (observations == 0) return 0;
   constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
   const double product = static_cast<double>(observations) * probability;
@@ -47,8 +38,8 @@ std::int64_t quantile_rank(std::int64_t observations, double probability) {
 }
 
 RankBounds quantile_rank_bounds(std::int64_t observations, double probability, double confidence) {
-  require_inside_unit_interval("quantile's probability", probability);
-  require_inside_unit_interval("confidence", confidence);
+  require_open_unit("quantile's probability", probability);
+  require_confidence(confidence);
   const std::int64_t n = observations;
   const double tail = 0.5 * (1.0 - confidence);
   const boost::math::binomial_distribution<double> below(static_cast<double>(n), probability);

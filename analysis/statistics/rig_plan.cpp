@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::int64_t max_rigs = 1'000'000'000;
 
-void require_open_unit(const char* what, double value) {
-  if (value > 0.0 && value < 1.0) return;
-  throw Failure(ExitCode::bad_input,
-                fmt::format("a {} of {}; expected a number between 0 and 1", what, value));
-}
-
 /// Expected sums over rigs whose success probabilities have the standard deviation `rig_sd`.
 ClusterSums expected_sums(double rate, double rig_sd, double rigs, double trials) {
   const double of_trials = rate * (1.0 - rate) - rig_sd * rig_sd;

@@ -65,7 +65,7 @@ double lower_bound_of(const RigTrials& rig, double allowance) {
 double success_sd_of(std::span<const RigTrials> rigs) {
   const auto n = static_cast<double>(rigs.size());
   const auto trials = static_cast<double>(rigs.front().trials);
-  if (rigs.size() < 2 || rigs.front().trials < 2) return RigStatistics::unknown;
+  if (rigs.size() < 2 || rigs.front().trials < 2) return unknown;
   double sum = 0.0, squares = 0.0, within = 0.0;
   for (const RigTrials& rig : rigs) {
     const double p = rate(rig.successes, rig.trials);

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/tolerance.hpp"
+#include "analysis/statistics/unknown.hpp"
 
 /// How much rigs differ in their success. Repeatability concerns the trials of one rig, robustness the
 /// differences between rigs.
@@ -25,7 +24,6 @@ struct RigTrials {
 /// "At least the proportion `content` of all rigs hold zero in at least the proportion `zero_at_least` of
 /// their moves."
 struct RigTolerance {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double content{0.9};
   double confidence{summary_confidence};
   double zero_at_least{unknown};  ///< NaN if there are too few rigs
@@ -61,7 +59,6 @@ std::string tolerance_sentence(const RigTolerance& tolerance);
 
 /// Differences between rigs at a design point. NaN without rigs.
 struct RigStatistics {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   std::int64_t n{0};  ///< rigs
   /// Standard deviation between rigs of the probability of success: the moment estimate of the beta-binomial
   /// distribution, √max(0, S² − Σp̂ᵢ(1 − p̂ᵢ)/(R·(m − 1))) with S² the variance of the rigs' success rates p̂ᵢ

@@ -15,12 +15,6 @@ namespace {
 constexpr std::int64_t max_trials = 1'000'000'000'000;
 constexpr std::int64_t max_failures = 1'000'000'000;
 
-void require_proportion(const char* what, double proportion) {
-  if (proportion > 0.0 && proportion < 1.0) return;
-  throw Failure(ExitCode::bad_input,
-                fmt::format("a {} of {}; expected a number between 0 and 1", what, proportion));
-}
-
 [[noreturn]] void too_many(const char* what) {
   throw Failure(ExitCode::bad_input, fmt::format("{} would need more than {} trials", what, max_trials));
 }
@@ -58,7 +52,7 @@ double halfwidth_of(double n, double rate, double confidence) {
 }  // namespace
 
 std::int64_t trials_for_claim(double success, double confidence, std::int64_t failures) {
-  require_proportion("success rate", success);
+  require_open_unit("success rate", success);
   require_confidence(confidence);
   if (failures < 0)
     throw Failure(ExitCode::bad_input, fmt::format("{} failures; expected 0 or more", failures));
@@ -75,9 +69,9 @@ double chance_of_claim(std::int64_t trials, std::int64_t failures, double true_s
 }
 
 ClaimPlan plan_with_power(double success, double confidence, double true_success, double power) {
-  require_proportion("success rate", success);
-  require_proportion("true success rate", true_success);
-  require_proportion("power", power);
+  require_open_unit("success rate", success);
+  require_open_unit("true success rate", true_success);
+  require_open_unit("power", power);
   if (!(true_success > success)) {
     throw Failure(
         ExitCode::bad_input,
@@ -97,7 +91,7 @@ std::int64_t trials_for_halfwidth(double halfwidth, double confidence, double ra
                   fmt::format("a half-width of {}; expected a number between 0 and 0.5", halfwidth));
   }
   require_confidence(confidence);
-  require_proportion("success rate", rate);
+  require_open_unit("success rate", rate);
   return least(1, max_trials, "the half-width", [&](std::int64_t trials) {
     return halfwidth_of(static_cast<double>(trials), rate, confidence) <= halfwidth;
   });

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 /// Planning: the number of trials that a claim needs.
 namespace zerocount::statistics {

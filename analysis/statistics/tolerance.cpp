@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "analysis/text/text.hpp"
-#include "core/failure/failure.hpp"
 
 namespace zerocount::statistics {
 namespace {
@@ -33,10 +33,7 @@ std::string percent_with(double percent, int decimals) {
 
 std::int64_t tolerance_rank(std::int64_t observations, double content, double confidence) {
   require_confidence(confidence);
-  if (!(content > 0.0 && content < 1.0)) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("a content of {}; expected a number between 0 and 1", content));
-  }
+  require_open_unit("content", content);
   const boost::math::binomial_distribution<double> within(static_cast<double>(observations), content);
   std::int64_t low = 1;
   std::int64_t high = observations + 1;
@@ -76,7 +73,7 @@ SuccessClaim weaker_claim(const SuccessClaim& one, const SuccessClaim& other) {
 }
 
 double rule_of_three(const SuccessClaim& claim) {
-  if (claim.failures > 0 || claim.trials == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (claim.failures > 0 || claim.trials == 0) return unknown;
   return -std::log1p(-claim.confidence) / static_cast<double>(claim.rigs > 0 ? claim.rigs : claim.trials);
 }
 

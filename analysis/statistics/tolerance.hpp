@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/unknown.hpp"
 
 /// Tolerance statements: the proportion of all axes described by the manifest that succeed, or settle in
 /// time, with a stated confidence. Distribution-free; the trials must be independent.
@@ -24,8 +24,8 @@ inline constexpr std::array<double, 3> tolerance_contents{0.95, 0.99, 0.999};
 
 /// An upper tolerance limit of the settling time.
 struct ToleranceLimit {
-  double content{0.0};                                      ///< the proportion of axes
-  double within{std::numeric_limits<double>::quiet_NaN()};  ///< s; NaN if there is no limit
+  double content{0.0};     ///< the proportion of axes
+  double within{unknown};  ///< s; NaN if there is no limit
 };
 
 /// Tolerance statement about the success of all axes that the manifest describes, from the trials of a point.

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <vector>
+
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::statistics {
 namespace {
@@ -60,7 +61,7 @@ RankTrend rank_trend(std::span<const double> series) {
 
 double kendall_tau(const RankTrend& trend) {
   const std::int64_t pairs = trend.rising + trend.falling + trend.equal;
-  if (pairs == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (pairs == 0) return unknown;
   return static_cast<double>(trend.rising - trend.falling) / static_cast<double>(pairs);
 }
 

@@ -11,10 +11,10 @@
 
 #include "analysis/iso230/repeatability_file.hpp"
 #include "analysis/measures/point_columns.hpp"
+#include "analysis/measures/visit_trials.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
-#include "results/layout/table_io.hpp"
 
 namespace zerocount::summary {
 namespace {
@@ -93,21 +93,14 @@ StudyAccumulator::StudyAccumulator(const study::Study& study, double confidence,
 }
 
 void StudyAccumulator::add(const reading::StudyFile& file, layout::RowRange rows) {
-  const std::int64_t moves = file.moves();
   const measures::MoveKind kind{study_.open_loop, file.header().version, study_.rigs};
   JerkStream jerks(file, rows);
   trial::TrialOutcome trial;
-  const std::int64_t trials_at_once = layout::chunk_rows(moves);
-  for (std::int64_t first = rows.first; first < rows.end(); first += trials_at_once) {
-    const layout::RowRange block{first, std::min(trials_at_once, rows.end() - first)};
-    const std::vector<trial::MoveOutcome> outcomes = file.outcomes(block);
-    for (std::int64_t row = block.first; row < block.end(); ++row) {
-      while (!point_ || std::ssize(points_) < row / study_.trials) begin_point(kind, file.table());
-      const auto begin = outcomes.begin() + (row - block.first) * moves;
-      trial.moves.assign(begin, begin + moves);
-      add_trial(*point_, file, row, trial, jerks);
-    }
-  }
+  measures::visit_trials(file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+    while (!point_ || std::ssize(points_) < row / study_.trials) begin_point(kind, file.table());
+    trial.moves.assign(moves.begin(), moves.end());
+    add_trial(*point_, file, row, trial, jerks);
+  });
   if (!jerks.at_end()) fail(file, "jerks are recorded beyond those that the trials counted");
 }
 

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "analysis/iso230/repeatability_summary.hpp"
 #include "analysis/measures/point_columns.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "analysis/summary/stopping_section.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/summary/tolerance_section.hpp"
@@ -27,15 +26,14 @@ namespace {
 
 /// The hold of the moves at a point, s; NaN where trials differ in it.
 double hold_of(const study::Study& study, std::int64_t point) {
-  constexpr double differs = std::numeric_limits<double>::quiet_NaN();
-  if (study.open_loop) return differs;
+  if (study.open_loop) return statistics::unknown;
   const bool recorded =
       std::any_of(study.input_columns.begin(), study.input_columns.end(),
                   [](const study::InputColumn& column) { return column.name == "command.hold"; });
   const double hold = study::study_trial(study, point, 0).parameters.command.hold;
   constexpr std::int64_t looked_at = 64;  // a hold that is drawn differs long before
   for (std::int64_t index = 1; recorded && index < std::min(looked_at, study.trials); ++index) {
-    if (study::study_trial(study, point, index).parameters.command.hold != hold) return differs;
+    if (study::study_trial(study, point, index).parameters.command.hold != hold) return statistics::unknown;
   }
   return hold;
 }

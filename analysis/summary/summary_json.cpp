@@ -3,7 +3,6 @@
 #include <string>
 #include <utility>
 
-#include "analysis/measures/outcome_counts.hpp"
 #include "analysis/measures/statistic_fields.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/summary_parts.hpp"
@@ -84,9 +83,7 @@ nlohmann::ordered_json summary_json(const StudySummary& summary) {
 }
 
 std::string summary_json_text(const StudySummary& summary) {
-  constexpr int indent = 2;
-  return summary_json(summary).dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-         "\n";
+  return text::json_text(summary_json(summary));
 }
 
 }  // namespace zerocount::summary

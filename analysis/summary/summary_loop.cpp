@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/summary/settling_text.hpp"
 #include "analysis/summary/summary_parts.hpp"
 
 namespace zerocount::summary {
@@ -123,6 +122,12 @@ void add_predictions(std::vector<text::TextColumn>& columns, const StudySummary&
 }
 
 }  // namespace
+
+std::string settling_text(const measures::PointSummary& point, double time) {
+  if (!std::isnan(time) || point.of(&trial::MoveOutcome::settling_time).moves == 0)
+    return text::short_number(time);
+  return std::isnan(point.hold) ? "> hold" : fmt::format("> {} s", text::short_number(point.hold));
+}
 
 std::vector<text::TextColumn> loop_columns(const StudySummary& summary) {
   std::vector<text::TextColumn> columns = sweep_columns(summary);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,12 @@ namespace zerocount::summary {
 
 /// "95 % bounds", with the confidence of the summary: the head of a column of them.
 std::string bounds_head(const StudySummary& summary);
+
+/// A quantile of the settling times of all moves of a point, or a bound of it, as text: four significant
+/// digits, "> 1 s" if it is not reached within the hold, "> hold" if trials differ in theirs, "–" if there is
+/// no move with a target.
+/// @param time s; NaN if not reached
+std::string settling_text(const measures::PointSummary& point, double time);
 
 /// What tells the points apart: their labels, and a column for each swept parameter with its unit in the
 /// head, where these are few. In a grid, whose labels only repeat the swept values, the number of the point

@@ -4,17 +4,16 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <limits>
-#include <utility>
 
 #include <fmt/format.h>
 
+#include "analysis/measures/visit_trials.hpp"
 #include "analysis/statistics/quantile.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "analysis/text/text.hpp"
 #include "core/theory/slow_approach.hpp"
 #include "core/trial/last_half.hpp"
 #include "core/trial/parameters.hpp"
-#include "results/layout/table_io.hpp"
 
 namespace zerocount::summary {
 namespace {
@@ -68,7 +67,7 @@ double needed_hold(const trial::MoveOutcome& move, std::size_t number, std::int6
 
 /// @param needed holds, s
 double advised_hold(const std::vector<double>& needed) {
-  if (needed.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (needed.empty()) return statistics::unknown;
   statistics::Histogram<double> holds;
   for (const double hold : needed) holds.add(hold);
   return rounded_up(statistics::quantile(holds, advised_proportion).value);
@@ -93,23 +92,18 @@ UndecidedAccumulator::UndecidedAccumulator(const study::Study& study)
     : study_(study), counts_(study.point_labels.size()), needed_(study.point_labels.size()) {}
 
 void UndecidedAccumulator::add(const reading::StudyFile& file, layout::RowRange rows) {
-  const auto moves = static_cast<std::size_t>(file.moves());
-  const std::int64_t rows_at_once = layout::chunk_rows(file.moves());
-  for (std::int64_t first = rows.first; first < rows.end(); first += rows_at_once) {
-    const layout::RowRange block{first, std::min(rows_at_once, rows.end() - first)};
-    const std::vector<trial::MoveOutcome> outcomes = file.outcomes(block);
-    for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      const std::int64_t row = block.first + static_cast<std::int64_t>(i / moves);
-      const std::int64_t point = row / study_.trials;
-      measures::add_move(counts_[static_cast<std::size_t>(point)], outcomes[i]);
-      if (!measures::is_still_falling(outcomes[i])) continue;
+  measures::visit_trials(file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+    const std::int64_t point = row / study_.trials;
+    const auto at = static_cast<std::size_t>(point);
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      measures::add_move(counts_[at], moves[i]);
+      if (!measures::is_still_falling(moves[i])) continue;
       const trial::TrialParameters parameters =
           study::study_trial(study_, point, row % study_.trials).parameters;
       if (!(parameters.controller.ki > 0.0)) continue;
-      needed_[static_cast<std::size_t>(point)].push_back(
-          needed_hold(outcomes[i], i % moves, i % moves == 0 ? 0 : outcomes[i - 1].final_error, parameters));
+      needed_[at].push_back(needed_hold(moves[i], i, i == 0 ? 0 : moves[i - 1].final_error, parameters));
     }
-  }
+  });
 }
 
 std::vector<measures::UndecidedMoves> UndecidedAccumulator::moves() {
@@ -121,43 +115,25 @@ std::vector<measures::UndecidedMoves> UndecidedAccumulator::moves() {
 measures::SummarySection undecided_section(std::span<const measures::PointSummary> points,
                                            const std::vector<std::string>& labels) {
   measures::SummarySection section{.key = "undecided", .json = {}, .columns = {}, .text = {}};
-  layout::PointColumn off_target{"undecided_moves", "1", "moves that ended off target", {}};
-  layout::PointColumn falling{
-      "still_falling_moves", "1", "of them, with an error that was still falling", {}};
-  layout::PointColumn ripple{
-      "falling_with_ripple_moves",
-      "1",
-      "moves that count as oscillating with an error that was still falling, but for a ripple",
-      {}};
-  layout::PointColumn arriving{"about_to_arrive_moves",
-                               "1",
-                               "moves whose error had fallen to within one count, and that had not arrived",
-                               {}};
-  layout::PointColumn hold{"hold_at_least", "s", "hold that most of these are expected to need", {}};
-  bool any = false;
+  for (const measures::UndecidedCount& each : measures::undecided_counts)
+    section.columns.push_back({each.column, "1", each.long_name, {}});
+  section.columns.push_back({"hold_at_least", "s", "hold that most of these are expected to need", {}});
   for (std::size_t i = 0; i < points.size(); ++i) {
     const measures::UndecidedMoves& point = points[i].undecided;
-    section.json.push_back({{"moves", point.moves},
-                            {"off_target", point.off_target},
-                            {"still_falling", point.still_falling},
-                            {"falling_with_ripple", point.falling_with_ripple},
-                            {"about_to_arrive", point.about_to_arrive},
-                            {"hold_at_least", point.advised_hold}});
-    off_target.values.push_back(static_cast<double>(point.off_target));
-    falling.values.push_back(static_cast<double>(point.still_falling));
-    ripple.values.push_back(static_cast<double>(point.falling_with_ripple));
-    arriving.values.push_back(static_cast<double>(point.about_to_arrive));
-    hold.values.push_back(point.advised_hold);
+    nlohmann::ordered_json& json = section.json.emplace_back();
+    json["moves"] = point.moves;
+    auto column = section.columns.begin();
+    for (const measures::UndecidedCount& each : measures::undecided_counts) {
+      json[each.name] = point.*each.count;
+      (column++)->values.push_back(static_cast<double>(point.*each.count));
+    }
+    json["hold_at_least"] = point.advised_hold;
+    column->values.push_back(point.advised_hold);
     if (!measures::any_undecided(point)) continue;
-    any = true;
     section.text += fmt::format("{}: {}{}\n", text::printable(labels[i]), measures::undecided_sentence(point),
                                 clipping_remark(points[i]));
   }
-  if (any) {
-    section.text += fmt::format("{}\n", measures::undecided_meaning);
-  }
-  section.columns = {std::move(off_target), std::move(falling), std::move(ripple), std::move(arriving),
-                     std::move(hold)};
+  if (!section.text.empty()) section.text += fmt::format("{}\n", measures::undecided_meaning);
   return section;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -9,6 +10,11 @@
 #include "analysis/text/report_field.hpp"
 
 namespace zerocount::text {
+
+/// A JSON object as text, indented, ending with a line break. Bytes that are not UTF-8 are replaced.
+inline std::string json_text(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
 
 /// Adds the numbers of `subject` to a JSON object under the names of their fields, by group. Whole numbers
 /// are written as integers, NaN as null.

@@ -12,7 +12,6 @@
 
 #include "analysis/identification/identification.hpp"
 #include "analysis/identification/identification_report.hpp"
-#include "analysis/identification/manifest_fragment.hpp"
 #include "analysis/identification/raw_series.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"

@@ -30,7 +30,7 @@ comparison::MeasureComparison reported_measure(const std::string& name, comparis
 comparison::StudyComparison sample() {
   comparison::StudyComparison comparison;
   comparison.baseline.path = "old.h5";
-  comparison.current.name = "gains & <more>";
+  comparison.current.header.name = "gains & <more>";
   comparison.layer = comparison::ComparisonLayer::paired;
   comparison.layer_reason = "they are of different builds";
   comparison.manifest_differences = {{"controller.ki", "1e-5", ""}};

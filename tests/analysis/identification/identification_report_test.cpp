@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/identification/manifest_fragment.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/manifest/load_study.hpp"

@@ -27,7 +27,7 @@ TEST(RecordParts, BranchesGoFromTurnToTurn) {
     for (std::size_t b = 0; b < 4; ++b) {
       EXPECT_NEAR(parts.branches[b].from, turns[b], 2.4e-4);
       EXPECT_NEAR(parts.branches[b].to, turns[b + 1], 2.4e-4);
-      EXPECT_TRUE(identification::is_slow(parts.branches[b], 0.2));
+      EXPECT_TRUE(parts.branches[b].slow);
       if (b > 0) {
         EXPECT_EQ(parts.branches[b].first, parts.branches[b - 1].last);
       }
@@ -46,9 +46,9 @@ TEST(RecordParts, HoldsBeginWithARingDownAfterAStepOnly) {
   programme.step(0.1).hold(0.2).ramp(0.15, 0.1).hold(0.3).step(0.0).hold(0.1);
   const identification::RecordParts parts = parts_of_programme(programme);
   ASSERT_EQ(parts.holds.size(), 3u);
-  EXPECT_TRUE(identification::rings_down(parts.holds[0], 0.15));
-  EXPECT_FALSE(identification::rings_down(parts.holds[1], 0.15));
-  EXPECT_TRUE(identification::rings_down(parts.holds[2], 0.15));
+  EXPECT_TRUE(parts.holds[0].rings_down);
+  EXPECT_FALSE(parts.holds[1].rings_down);
+  EXPECT_TRUE(parts.holds[2].rings_down);
   EXPECT_NEAR(parts.holds[1].torque, 0.15, 2.4e-4);
   EXPECT_NEAR(static_cast<double>(parts.holds[1].last - parts.holds[1].first), 600.0, 3.0);
 }

@@ -33,7 +33,7 @@ const CriterionCurve& curve(const std::vector<CriterionCurve>& curves, const std
 TEST(CriterionCurves, AreThePapersBoundsForTheSoftestAndTheStiffestTrial) {
   const study::Study study = manifest::parse_study(
       head + "friction: {k1: {choice: [90, 100, 130]}, k2: {choice: [700, 800]}}\n", "test");
-  const CriterionPlane plane{"controller.ki", "controller.kp", 1e-5, 6e-4, 0.0, 8e-4, true, false};
+  const CriterionPlane plane{{"controller.ki", 1e-5, 6e-4, true}, {"controller.kp", 0.0, 8e-4}};
   const std::vector<CriterionCurve> curves = criterion_curves(study, 0, plane);
   ASSERT_EQ(curves.size(), 4U);
   for (const auto& [criterion, first, stiffness] :
@@ -47,18 +47,18 @@ TEST(CriterionCurves, AreThePapersBoundsForTheSoftestAndTheStiffestTrial) {
 
 TEST(CriterionCurves, AreFoundInAPlaneWithoutTheGainToo) {
   const study::Study study = manifest::parse_study(head, "test");
-  const CriterionPlane plane{"plant.inertia", "friction.k1", 2e-4, 2e-3, 50.0, 200.0, false, false};
+  const CriterionPlane plane{{"plant.inertia", 2e-4, 2e-3}, {"friction.k1", 50.0, 200.0}};
   const std::vector<CriterionCurve> curves = criterion_curves(study, 0, plane);
   for (const CurvePoint& point : curve(curves, "(6)", true).points)
     EXPECT_NEAR(bound(point.y, 0.0, point.x), 3.85e-5, 1e-10);
 }
 
 TEST(CriterionCurves, ThereAreNoneWhereTheCriteriaSayNothing) {
-  const CriterionPlane plane{"controller.ki", "controller.kp", 1e-5, 6e-4, 0.0, 8e-4, true, false};
+  const CriterionPlane plane{{"controller.ki", 1e-5, 6e-4, true}, {"controller.kp", 0.0, 8e-4}};
   const study::Study coulomb = manifest::parse_study(head + "friction: {model: coulomb}\n", "test");
   EXPECT_TRUE(criterion_curves(coulomb, 0, plane).empty());
   CriterionPlane strange = plane;
-  strange.y = "command.targets.0";
+  strange.y.parameter = "command.targets.0";
   EXPECT_TRUE(criterion_curves(manifest::parse_study(head, "test"), 0, strange).empty());
 }
 

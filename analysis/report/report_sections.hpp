@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/report/page.hpp"
+#include "analysis/report/reported_study.hpp"
+
+/// The texts and tables of a report, as HTML, and its sections with both text and figures.
+namespace zerocount::report {
+
+/// The conclusions in words: success of the best and the worst point with tolerance statements, settling
+/// times, jerks, and the prediction of the criteria. For 100 % success it states the upper bound of the
+/// failure probability.
+std::string verdict_html(const ReportedStudy& reported);
+
+/// The provenance: size, design, random parameters, program, manifest.
+std::string run_html(const ReportedStudy& reported);
+
+/// The table of the points, or of the levels of an open-loop study. At most 400 rows; a note states if there
+/// are more.
+std::string points_html(const ReportedStudy& reported);
+
+/// Comparison with a baseline: the verdict, the differences of the manifests, and every measure at every
+/// point, failed ones first.
+PageSection comparison_section(const comparison::StudyComparison& comparison);
+
+/// The anchor of sensitivity_section() in the page.
+inline constexpr const char* sensitivity_section_name = "sensitivity";
+
+/// Sensitivity to the random parameters at the point whose success rate is nearest to one half. Nothing if
+/// the study has no random parameters or no index could be estimated.
+std::optional<PageSection> sensitivity_section(const ReportedStudy& reported);
+
+}  // namespace zerocount::report

@@ -121,9 +121,11 @@ void Comparison::compare_after_slide(const trial::SampleRecord& a, const batch::
 /// Every measure of the table is the same, but for positions, which agree to the accuracy of θ, and the
 /// depth, which has a rule of its own.
 void Comparison::compare_move(std::size_t number, const trial::MoveOutcome& a, const trial::MoveOutcome& b) {
+  study::StudyFeatures features;
+  features.stopping = true;
   std::string text;
   for (const layout::RecordField<trial::MoveOutcome>& field :
-       layout::outcome_fields(layout::format_version, {.stopped = true})) {
+       layout::outcome_fields(layout::format_version, features)) {
     const std::string& name = field.column.name;
     const double x = layout::value_of(field, a);
     const double y = layout::value_of(field, b);

@@ -170,8 +170,8 @@ struct Simd {
     for (int i = 0; i < Chains; ++i) r.part[i] = (Real)(((Bits)shifted.part[i] + 1023) << 52);
     return r;
   }
-  /// 2 to the power log₂(a)·fraction, within 7 %, for positive normal a: its bits, taken as a number, are about
-  /// its logarithm.
+  /// 2 to the power log₂(a)·fraction, within 7 %, for positive normal a: its bits, taken as a number, are
+  /// about its logarithm.
   friend ZEROCOUNT_ALWAYS_INLINE Simd rough_power(const Simd& a, double fraction) {
     const Simd shift(0x1.8p52);
     Simd r;

@@ -55,8 +55,7 @@ inline ResidualOscillation residual_oscillation(const OscillationLaw& law, doubl
   const double amplitude = std::hypot(oscillation.cosine, oscillation.sine);
   oscillation.loss = 2.0 / 3.0 * std::numbers::inv_pi * law.frequency * law.softening * amplitude;
   oscillation.slowing = 0.5 * law.softening * amplitude;
-  if (amplitude > min_amplitude)
-    oscillation.end = std::log(amplitude / min_amplitude) / law.decay;
+  if (amplitude > min_amplitude) oscillation.end = std::log(amplitude / min_amplitude) / law.decay;
   return oscillation;
 }
 

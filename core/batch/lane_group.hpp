@@ -16,33 +16,27 @@ class LaneGroup {
     constexpr int least_side_by_side = P::lanes / 2 > 1 ? P::lanes / 2 : 1;
     base_ = list.lanes[first] / P::lanes * P::lanes;
     used_ = 0;
-    for (int i = 0; i < P::lanes; ++i) takes_part_[i] = 0;
+    unsigned side_by_side = 0;
     while (first + used_ < list.count && list.lanes[first + used_] < base_ + P::lanes) {
-      takes_part_[list.lanes[first + used_] - base_] = -1;
+      side_by_side |= 1U << (list.lanes[first + used_] - base_);
       ++used_;
     }
     stretch_ = used_ >= least_side_by_side;
     if (stretch_) {
+      taking_part_ = side_by_side;
       for (int i = 0; i < P::lanes; ++i) lane_[i] = base_ + i;
     } else {
       const int rest = list.count - first;
       used_ = rest < P::lanes ? rest : P::lanes;
-      for (int i = 0; i < P::lanes; ++i) {
-        lane_[i] = i < used_ ? list.lanes[first + i] : spare_lane;
-        takes_part_[i] = i < used_ ? -1 : 0;
-      }
+      taking_part_ = (1U << used_) - 1U;
+      for (int i = 0; i < P::lanes; ++i) lane_[i] = i < used_ ? list.lanes[first + i] : spare_lane;
     }
-    all_ = used_ == P::lanes;
   }
 
   /// Number of lanes of the list in this group.
   ZEROCOUNT_ALWAYS_INLINE int used() const { return used_; }
 
-  ZEROCOUNT_ALWAYS_INLINE typename P::Mask taking_part() const {
-    typename P::Mask mask;
-    __builtin_memcpy(&mask, takes_part_, sizeof mask);
-    return mask;
-  }
+  ZEROCOUNT_ALWAYS_INLINE typename P::Mask taking_part() const { return P::Mask::of_bits(taking_part_); }
 
   ZEROCOUNT_ALWAYS_INLINE P load(const double* of) const {
     P r;
@@ -56,9 +50,7 @@ class LaneGroup {
 
   ZEROCOUNT_ALWAYS_INLINE void store(double* to, const P& value) const {
     if (stretch_) {
-      P kept = value;
-      if (!all_) kept = select(taking_part(), value, load(to));
-      __builtin_memcpy(to + base_, &kept, sizeof kept);
+      value.store(to + base_, taking_part());
     } else {
       scatter(to, value);
     }
@@ -67,7 +59,7 @@ class LaneGroup {
   /// Adds the lanes whose `events` are not 0 to the batch state.
   ZEROCOUNT_ALWAYS_INLINE void add_events_to(BatchState& batch, const P& events) const {
     const typename P::Mask noted = (events != P(0.0)) & taking_part();
-    if (noted.any()) append_events(batch, events, noted);
+    if (noted.any()) append_events(batch, events, noted.bits());
   }
 
   ZEROCOUNT_ALWAYS_INLINE int lane(int i) const { return lane_[i]; }
@@ -98,26 +90,21 @@ class LaneGroup {
     for (int i = 0; i < P::lanes; ++i) to[lane_[i]] = value[i];
   }
 
-  __attribute__((noinline)) void append_events(BatchState& batch, const P& events,
-                                               const typename P::Mask& noted) const {
-    constexpr int width = sizeof(events.part[0]) / sizeof(double);
-    for (int p = 0; p < P::lanes / width; ++p) {
-      const auto part = noted.part[p];
-      for (int j = 0; j < width; ++j) {
-        if (part[j] == 0) continue;
-        const int lane = lane_[p * width + j];
-        batch.events[lane] = static_cast<int>(events.part[p][j]);
-        batch.event_lanes[batch.event_count++] = lane;
-      }
+  __attribute__((noinline)) void append_events(BatchState& batch, const P& events, unsigned noted) const {
+    double value[P::lanes];
+    __builtin_memcpy(value, &events, sizeof value);
+    for (; noted != 0; noted &= noted - 1) {
+      const int i = __builtin_ctz(noted);
+      batch.events[lane_[i]] = static_cast<int>(value[i]);
+      batch.event_lanes[batch.event_count++] = lane_[i];
     }
   }
 
   int base_;
   int used_;
   bool stretch_;
-  bool all_;
+  unsigned taking_part_;  ///< one bit a lane of the pack
   int lane_[P::lanes];
-  std::int64_t takes_part_[P::lanes];
 };
 
 /// For for_each_measure: between lanes and packs.

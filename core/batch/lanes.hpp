@@ -2,6 +2,10 @@
 
 #include <cstdint>
 
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+
 #include "core/numerics/number.hpp"
 
 /// Vectors of doubles for the kernels of the batch engine, by the vector extension of GCC and Clang.
@@ -15,24 +19,91 @@
 /// what they must not include.
 namespace zerocount::batch {
 
+/// One vector of `Width` doubles, its masks, and the operations that differ between instruction sets.
 template <int Width>
 struct VectorOf {
   typedef double Real __attribute__((vector_size(8 * Width)));
   typedef std::int64_t Bits __attribute__((vector_size(8 * Width)));
+  typedef std::int64_t Mask __attribute__((vector_size(8 * Width)));  ///< all bits of a lane set, or none
+
+  static ZEROCOUNT_ALWAYS_INLINE Mask less(Real a, Real b) { return a < b; }
+  static ZEROCOUNT_ALWAYS_INLINE Mask less_or_equal(Real a, Real b) { return a <= b; }
+  static ZEROCOUNT_ALWAYS_INLINE Mask equal(Real a, Real b) { return a == b; }
+  static ZEROCOUNT_ALWAYS_INLINE Real select(Mask mask, Real a, Real b) { return mask ? a : b; }
+  static ZEROCOUNT_ALWAYS_INLINE void store(double* to, Mask mask, Real value) {
+    Real kept;
+    __builtin_memcpy(&kept, to, sizeof kept);
+    kept = mask ? value : kept;
+    __builtin_memcpy(to, &kept, sizeof kept);
+  }
+  /// One bit a lane.
+  static ZEROCOUNT_ALWAYS_INLINE unsigned bits(Mask mask) {
+    std::int64_t lane[Width];
+    __builtin_memcpy(lane, &mask, sizeof lane);
+    unsigned bits = 0;
+    for (int j = 0; j < Width; ++j) bits |= static_cast<unsigned>(lane[j] & 1) << j;
+    return bits;
+  }
+  static ZEROCOUNT_ALWAYS_INLINE Mask of_bits(unsigned bits) {
+    std::int64_t lane[Width];
+    for (int j = 0; j < Width; ++j) lane[j] = -static_cast<std::int64_t>(bits >> j & 1U);
+    Mask mask;
+    __builtin_memcpy(&mask, lane, sizeof mask);
+    return mask;
+  }
 };
 
-/// Mask by lane: all bits set, or none.
+#ifdef __AVX512F__
+/// With the mask registers of AVX-512.
+template <>
+struct VectorOf<8> {
+  typedef double Real __attribute__((vector_size(64)));
+  typedef std::int64_t Bits __attribute__((vector_size(64)));
+  using Mask = __mmask8;  ///< one bit a lane
+
+  static ZEROCOUNT_ALWAYS_INLINE Mask less(Real a, Real b) {
+    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ);
+  }
+  static ZEROCOUNT_ALWAYS_INLINE Mask less_or_equal(Real a, Real b) {
+    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ);
+  }
+  static ZEROCOUNT_ALWAYS_INLINE Mask equal(Real a, Real b) {
+    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_EQ_OQ);
+  }
+  static ZEROCOUNT_ALWAYS_INLINE Real select(Mask mask, Real a, Real b) {
+    return (Real)_mm512_mask_blend_pd(mask, (__m512d)b, (__m512d)a);
+  }
+  static ZEROCOUNT_ALWAYS_INLINE void store(double* to, Mask mask, Real value) {
+    _mm512_mask_storeu_pd(to, mask, (__m512d)value);
+  }
+  static ZEROCOUNT_ALWAYS_INLINE unsigned bits(Mask mask) { return mask; }
+  static ZEROCOUNT_ALWAYS_INLINE Mask of_bits(unsigned bits) { return static_cast<Mask>(bits); }
+};
+#endif
+
+/// Mask by lane.
 template <int Width, int Chains>
 struct SimdMask {
-  using Bits = typename VectorOf<Width>::Bits;
-  Bits part[Chains];
+  using Vector = VectorOf<Width>;
+  using Part = typename Vector::Mask;
+  Part part[Chains];
 
+  /// The lanes whose bit is set.
+  static ZEROCOUNT_ALWAYS_INLINE SimdMask of_bits(unsigned bits) {
+    SimdMask r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = Vector::of_bits(bits >> (i * Width));
+    return r;
+  }
+  /// One bit a lane.
+  ZEROCOUNT_ALWAYS_INLINE unsigned bits() const {
+    unsigned bits = 0;
+    for (int i = 0; i < Chains; ++i) bits |= Vector::bits(part[i]) << (i * Width);
+    return bits;
+  }
   ZEROCOUNT_ALWAYS_INLINE bool any() const {
-    Bits all = part[0];
+    Part all = part[0];
     for (int i = 1; i < Chains; ++i) all |= part[i];
-    std::int64_t found = 0;
-    for (int j = 0; j < Width; ++j) found |= all[j];
-    return found != 0;
+    return Vector::bits(all) != 0;
   }
   friend ZEROCOUNT_ALWAYS_INLINE SimdMask operator&(const SimdMask& a, const SimdMask& b) {
     SimdMask r;
@@ -44,22 +115,23 @@ struct SimdMask {
     for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] | b.part[i];
     return r;
   }
-  friend ZEROCOUNT_ALWAYS_INLINE SimdMask operator==(const SimdMask& a, const SimdMask& b) {
-    SimdMask r;
-    for (int i = 0; i < Chains; ++i) r.part[i] = ~(a.part[i] ^ b.part[i]);
-    return r;
-  }
   friend ZEROCOUNT_ALWAYS_INLINE SimdMask operator~(const SimdMask& a) {
     SimdMask r;
-    for (int i = 0; i < Chains; ++i) r.part[i] = ~a.part[i];
+    for (int i = 0; i < Chains; ++i) r.part[i] = static_cast<Part>(~a.part[i]);
+    return r;
+  }
+  friend ZEROCOUNT_ALWAYS_INLINE SimdMask operator==(const SimdMask& a, const SimdMask& b) {
+    SimdMask r;
+    for (int i = 0; i < Chains; ++i) r.part[i] = static_cast<Part>(~(a.part[i] ^ b.part[i]));
     return r;
   }
 };
 
 template <int Width, int Chains>
 struct Simd {
-  using Real = typename VectorOf<Width>::Real;
-  using Bits = typename VectorOf<Width>::Bits;
+  using Vector = VectorOf<Width>;
+  using Real = typename Vector::Real;
+  using Bits = typename Vector::Bits;
   using Mask = SimdMask<Width, Chains>;
   static constexpr int lanes = Width * Chains;
   Real part[Chains];
@@ -96,27 +168,31 @@ struct Simd {
   }
   friend ZEROCOUNT_ALWAYS_INLINE Mask operator<(const Simd& a, const Simd& b) {
     Mask r;
-    for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] < b.part[i];
+    for (int i = 0; i < Chains; ++i) r.part[i] = Vector::less(a.part[i], b.part[i]);
     return r;
   }
   friend ZEROCOUNT_ALWAYS_INLINE Mask operator<=(const Simd& a, const Simd& b) {
     Mask r;
-    for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] <= b.part[i];
+    for (int i = 0; i < Chains; ++i) r.part[i] = Vector::less_or_equal(a.part[i], b.part[i]);
     return r;
   }
   friend ZEROCOUNT_ALWAYS_INLINE Mask operator>(const Simd& a, const Simd& b) { return b < a; }
   friend ZEROCOUNT_ALWAYS_INLINE Mask operator>=(const Simd& a, const Simd& b) { return b <= a; }
   friend ZEROCOUNT_ALWAYS_INLINE Mask operator==(const Simd& a, const Simd& b) {
     Mask r;
-    for (int i = 0; i < Chains; ++i) r.part[i] = a.part[i] == b.part[i];
+    for (int i = 0; i < Chains; ++i) r.part[i] = Vector::equal(a.part[i], b.part[i]);
     return r;
   }
   friend ZEROCOUNT_ALWAYS_INLINE Mask operator!=(const Simd& a, const Simd& b) { return ~(a == b); }
 
+  /// Writes the lanes of `mask`.
+  ZEROCOUNT_ALWAYS_INLINE void store(double* to, const Mask& mask) const {
+    for (int i = 0; i < Chains; ++i) Vector::store(to + i * Width, mask.part[i], part[i]);
+  }
   /// a where `mask`, else b.
   friend ZEROCOUNT_ALWAYS_INLINE Simd select(const Mask& mask, const Simd& a, const Simd& b) {
     Simd r;
-    for (int i = 0; i < Chains; ++i) r.part[i] = mask.part[i] ? a.part[i] : b.part[i];
+    for (int i = 0; i < Chains; ++i) r.part[i] = Vector::select(mask.part[i], a.part[i], b.part[i]);
     return r;
   }
   friend ZEROCOUNT_ALWAYS_INLINE Simd abs(const Simd& a) {

@@ -106,10 +106,10 @@ template <class P>
 ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const LaneGroup<P>& at,
                                            const StickStep<P>& step, const P& passed) {
   constexpr int width = sizeof(passed.part[0]) / sizeof(double);
-  for (int i = 0; i < P::lanes; ++i) {
+  for (unsigned lanes = ((passed > P(0.0)) & step.here).bits(); lanes != 0; lanes &= lanes - 1) {
+    const int i = __builtin_ctz(lanes);
     const int p = i / width;
     const int j = i % width;
-    if (passed.part[p][j] == 0.0 || step.here.part[p][j] == 0) continue;
     PassedSamples& record = batch.passed[batch.passed_count++];
     record.lane = at.lane(i);
     record.samples = passed.part[p][j];
@@ -155,9 +155,7 @@ void stick_step_kernel(BatchState& batch, LaneList list) {
     const typename P::Mask lost = step.beyond | (at.load(batch.time.steps) > P(max_steps_to_stop));
     at.add_events_to(batch, select(done, step.event, zero) + events_where<P>(step.meets, meets_event) +
                                 events_where<P>(lost, beyond_kernel));
-    if (batch.passed != nullptr && ((passed > zero) & step.here).any()) {
-      record_passed(batch, at, step, passed);
-    }
+    if (batch.passed != nullptr) record_passed(batch, at, step, passed);
   }
 }
 

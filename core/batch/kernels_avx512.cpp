@@ -8,8 +8,8 @@ namespace zerocount::batch {
 
 using Avx512 = Simd<8, 2>;
 
-const Kernels avx512_kernels{sample_kernel<Avx512>,
-                             stick_start_kernel<Avx512>,
+const Kernels avx512_kernels{sample_kernel<Simd<8, 1>>,
+                             stick_start_kernel<Simd<8, 1>>,
                              stick_step_kernel<Avx512, false>,
                              stick_step_kernel<Simd<8, 1>, true>,
                              slide_kernel<Avx512, true>,

@@ -12,8 +12,8 @@ template <class P>
 class LaneGroup {
  public:
   /// The lanes from number `first` of the list on, as many as go into one pack.
-  ZEROCOUNT_ALWAYS_INLINE LaneGroup(const LaneList& list, int first) {
-    constexpr int least_side_by_side = P::lanes / 2 > 1 ? P::lanes / 2 : 1;
+  ZEROCOUNT_ALWAYS_INLINE LaneGroup(const LaneList& list, int first,
+                                    int least_side_by_side = P::lanes / 2 > 1 ? P::lanes / 2 : 1) {
     base_ = list.lanes[first] / P::lanes * P::lanes;
     used_ = 0;
     unsigned side_by_side = 0;

@@ -16,7 +16,7 @@ void sample_kernel(BatchState& batch, LaneList list) {
   TimeLanes& time = batch.time;
   batch.event_count = 0;
   for (int first = 0, next = 0; first < list.count; first = next) {
-    const LaneGroup<P> at(list, first);
+    const LaneGroup<P> at(list, first, 1);
     next = first + at.used();
     const P extension = at.load(m.extension);
     const Mask sliding = to_mask(at.load(m.slide_direction));

@@ -17,7 +17,7 @@ void stick_start_kernel(BatchState& batch, LaneList list) {
   const P zero(0.0);
   constexpr double none = __builtin_nan("");  // no header of others may be in here
   for (int first = 0, next = 0; first < list.count; first = next) {
-    const LaneGroup<P> at(list, first);
+    const LaneGroup<P> at(list, first, 1);
     next = first + at.used();
     const P elongation = at.load(m.elongation);
     const P hardening = at.load(m.hardening);

@@ -13,7 +13,7 @@ inline constexpr int max_lanes = 128;
 inline constexpr int lane_slots = max_lanes + 8;
 inline constexpr int spare_lane = max_lanes;
 
-inline constexpr int batch_order = 20;  ///< of the Taylor series
+inline constexpr int batch_order = 14;  ///< of the Taylor series
 /// A lane that has tried so many steps since its last stop is left to the reference.
 inline constexpr double max_steps_to_stop = 500.0;
 

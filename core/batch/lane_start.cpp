@@ -46,7 +46,7 @@ void start_time(TimeLanes& time, int lane, const trial::TrialParameters& p, doub
   time.sample_time[lane] = 1.0 / p.controller.sample_rate;
   time.next_step[lane] = time.sample_time[lane];
   time.steps[lane] = 0.0;
-  time.tolerance[lane] = tolerance.elongation;
+  time.tolerance[lane] = 1e3 * tolerance.elongation;
   time.rest[lane] = tolerance.rest;
   time.per_count[lane] = 1.0 / resolution;
 }

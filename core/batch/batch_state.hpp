@@ -141,7 +141,16 @@ struct PassedSamples {
   double growth[batch_order + 1];      ///< of xp, likewise
 };
 
+// States of a lane (BatchState::state).
+inline constexpr double any_state = -1.0;  ///< in a query: all but idle
+inline constexpr double idle = 0.0;        ///< without a trial
+inline constexpr double sticking = 1.0;    ///< the hook sticks
+inline constexpr double waiting =
+    2.0;  ///< the hook sticks; waits for other lanes with an event in their step
+inline constexpr double sliding = 3.0;  ///< the hook slides
+
 struct BatchState {
+  Lanes state;  ///< idle, sticking, waiting or sliding
   MotionLanes motion;
   ContactLanes contact;
   TimeLanes time;

@@ -6,6 +6,7 @@ namespace zerocount::batch {
 
 /// The kernels, compiled for one instruction set.
 struct Kernels {
+  int (*list)(const BatchState&, double state, bool due, int* list);
   void (*sample)(BatchState&, LaneList);
   void (*stick_start)(BatchState&, LaneList);
   void (*stick_step)(BatchState&, LaneList);

@@ -1,4 +1,5 @@
 #include "core/batch/kernels.hpp"
+#include "core/batch/list_kernel.hpp"
 #include "core/batch/sample_kernel.hpp"
 #include "core/batch/slide_kernel.hpp"
 #include "core/batch/stick_start_kernel.hpp"
@@ -8,7 +9,8 @@ namespace zerocount::batch {
 
 using Avx2 = Simd<4, 2>;
 
-const Kernels avx2_kernels{sample_kernel<Avx2>,
+const Kernels avx2_kernels{list_kernel<Avx2>,
+                           sample_kernel<Avx2>,
                            stick_start_kernel<Avx2>,
                            stick_step_kernel<Avx2, false>,
                            stick_step_kernel<Simd<4, 1>, true>,

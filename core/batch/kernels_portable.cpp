@@ -1,4 +1,5 @@
 #include "core/batch/kernels.hpp"
+#include "core/batch/list_kernel.hpp"
 #include "core/batch/sample_kernel.hpp"
 #include "core/batch/slide_kernel.hpp"
 #include "core/batch/stick_start_kernel.hpp"
@@ -8,7 +9,8 @@ namespace zerocount::batch {
 
 using Portable = Simd<2, 2>;
 
-const Kernels portable_kernels{sample_kernel<Portable>,
+const Kernels portable_kernels{list_kernel<Portable>,
+                               sample_kernel<Portable>,
                                stick_start_kernel<Portable>,
                                stick_step_kernel<Portable, false>,
                                stick_step_kernel<Simd<2, 1>, true>,

@@ -7,24 +7,14 @@
 
 namespace zerocount::batch {
 
-/// Puts the lanes at a sampling instant into the list, and says how many.
-int LaneWork::list_due_lanes() {
-  int count = 0;
-  for (int lane = 0; lane < lane_count_; ++lane) {
-    list_[count] = lane;
-    count += batch_.time.time_to_stop[lane] == 0.0 && states_[lane] != LaneState::idle ? 1 : 0;
-  }
-  return count;
-}
-
 void LaneWork::take_samples() {
-  const int due = list_due_lanes();
+  const int due = kernels_.list(batch_, any_state, true, list_);
   int count = 0;
   for (int i = 0; i < due; ++i) {
     const int lane = list_[i];
     if (batch_.measures.taken[lane] == batch_.measures.limits.samples[lane]) {
       end_move(lane, trial_of(lane));
-      if (state_of(lane) == LaneState::idle) continue;
+      if (state_of(lane) == idle) continue;
     }
     list_[count++] = lane;
   }
@@ -40,7 +30,7 @@ void LaneWork::take_samples() {
   if (observers_->sample) {
     for (int i = 0; i < count; ++i) {
       const int lane = list_[i];
-      const bool given_up = state_of(lane) == LaneState::idle || batch_.measures.taken[lane] == 0.0;
+      const bool given_up = state_of(lane) == idle || batch_.measures.taken[lane] == 0.0;
       if (!given_up) record_sample(lane, trial_of(lane));
     }
   }

@@ -8,18 +8,8 @@
 
 namespace zerocount::batch {
 
-/// Puts the lanes of a state that are on their way into the list, and says how many.
-int LaneWork::list_lanes(LaneState wanted) {
-  int count = 0;
-  for (int lane = 0; lane < lane_count_; ++lane) {
-    list_[count] = lane;
-    count += batch_.time.time_to_stop[lane] != 0.0 && states_[lane] == wanted ? 1 : 0;
-  }
-  return count;
-}
-
 void LaneWork::move_sticking() {
-  int count = list_lanes(LaneState::sticking);
+  int count = kernels_.list(batch_, sticking, false, list_);
   if (count + waiting_count_ == 0) return;
   kernels_.stick_start(batch_, {list_, count});
   count = prepare_steps(count);
@@ -30,7 +20,7 @@ void LaneWork::move_sticking() {
   if (waiting_count_ == 0 || (waiting_count_ < enough && count > waiting_count_)) return;
   const int with_events = std::exchange(waiting_count_, 0);
   std::sort(waiting_, waiting_ + with_events);
-  for (int i = 0; i < with_events; ++i) state_of(waiting_[i]) = LaneState::sticking;
+  for (int i = 0; i < with_events; ++i) state_of(waiting_[i]) = sticking;
   kernels_.stick_event(batch_, {waiting_, with_events});
   end_sticking_steps();
 }
@@ -48,7 +38,7 @@ int LaneWork::prepare_steps(int count) {
       others = true;
     } else if ((events & slides) != 0) {
       start_slide(batch_, lane, trial);
-      state_of(lane) = LaneState::sliding;
+      state_of(lane) = sliding;
       others = true;
     } else if (batch_.motion.heading[lane] != batch_.motion.direction[lane]) {
       turn(batch_, lane, trial);
@@ -58,7 +48,7 @@ int LaneWork::prepare_steps(int count) {
   int kept = 0;
   for (int i = 0; i < count; ++i) {
     const int lane = list_[i];
-    if (state_of(lane) == LaneState::sticking && batch_.time.time_to_stop[lane] != 0.0) list_[kept++] = lane;
+    if (state_of(lane) == sticking && batch_.time.time_to_stop[lane] != 0.0) list_[kept++] = lane;
   }
   return kept;
 }
@@ -84,7 +74,7 @@ void LaneWork::end_sticking_steps() {
     const int events = batch_.events[lane];
     LaneTrial& trial = trial_of(lane);
     if ((events & meets_event) != 0) {
-      state_of(lane) = LaneState::waiting;
+      state_of(lane) = waiting;
       waiting_[waiting_count_++] = lane;
       continue;
     }
@@ -101,11 +91,11 @@ void LaneWork::end_sticking_steps() {
 }
 
 void LaneWork::move_sliding() {
-  const int sliding = list_lanes(LaneState::sliding);
-  if (sliding == 0) return;
+  const int count = kernels_.list(batch_, sliding, false, list_);
+  if (count == 0) return;
   int fast = 0;
   int slow = 0;
-  for (int i = 0; i < sliding; ++i) {
+  for (int i = 0; i < count; ++i) {
     const int lane = list_[i];
     const bool is_fast = std::abs(batch_.motion.omega[lane]) > batch_.contact.fast_velocity[lane];
     (is_fast ? list_[fast++] : slow_list_[slow++]) = lane;

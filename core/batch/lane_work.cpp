@@ -44,7 +44,7 @@ void LaneWork::run(std::span<const trial::TrialParameters* const> trials,
 /// Gives the lane the next trial, if there is one; what lanes cannot run is run on the way.
 void LaneWork::refill(int lane) {
   LaneTrial& trial = trial_of(lane);
-  state_of(lane) = LaneState::idle;
+  state_of(lane) = idle;
   while (next_trial_ < trials_.size()) {
     const std::size_t number = next_trial_++;
     trial.parameters = trials_[number];

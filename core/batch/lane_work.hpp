@@ -10,13 +10,6 @@
 
 namespace zerocount::batch {
 
-enum class LaneState : unsigned char {
-  idle,      ///< without a trial
-  sticking,  ///< the hook sticks
-  waiting,   ///< for company in an event, the hook sticks
-  sliding    ///< the hook slides
-};
-
 /// The lanes of a BatchEngine, and their way through a batch of trials.
 class LaneWork {
  public:
@@ -38,7 +31,6 @@ class LaneWork {
   void add_outcome(int lane, LaneTrial& trial, bool stopped);
 
   // Sampling instants (lane_samples.cpp).
-  int list_due_lanes();
   void take_samples();
   void record_sample(int lane, const LaneTrial& trial);
   void record_passed();
@@ -48,7 +40,6 @@ class LaneWork {
   void delay_torque(int lane, LaneTrial& trial);
 
   // The way from one to the next (lane_steps.cpp).
-  int list_lanes(LaneState wanted);
   void move_sticking();
   int prepare_steps(int count);
   bool come_to_rest(int lane);
@@ -56,19 +47,18 @@ class LaneWork {
   void move_sliding();
   void end_sliding_steps();
 
-  LaneState moving_state(int lane) const {
-    return batch_.motion.slide_direction[lane] == 0.0 ? LaneState::sticking : LaneState::sliding;
+  double moving_state(int lane) const {
+    return batch_.motion.slide_direction[lane] == 0.0 ? sticking : sliding;
   }
-  LaneState& state_of(int lane) { return states_[lane]; }
+  double& state_of(int lane) { return batch_.state[lane]; }
   LaneTrial& trial_of(int lane) { return lanes_[static_cast<std::size_t>(lane)]; }
 
   const Kernels& kernels_;
   int lane_count_;
   std::vector<LaneTrial> lanes_;
   BatchState batch_{};
-  LaneState states_[max_lanes]{};
   PassedSamples passed_[max_lanes]{};
-  int list_[max_lanes + 1]{};  ///< of lanes; one more, because a list is made by writing before counting
+  int list_[max_lanes]{};  ///< of lanes
   int slow_list_[max_lanes]{};
   int waiting_[max_lanes]{};  ///< lanes with an event in their step
   int waiting_count_{0};

@@ -19,8 +19,9 @@ void sample_kernel(BatchState& batch, LaneList list) {
     const LaneGroup<P> at(list, first, 1);
     next = first + at.used();
     const P extension = at.load(m.extension);
-    const Mask sliding = to_mask(at.load(m.slide_direction));
-    const P theta = select(sliding, at.load(m.theta), at.load(m.hook) + at.load(m.elongation) + extension);
+    const Mask hook_slides = to_mask(at.load(m.slide_direction));
+    const P theta =
+        select(hook_slides, at.load(m.theta), at.load(m.hook) + at.load(m.elongation) + extension);
     const P resolution = at.load(l.resolution);
     const Mask unreadable = ~(abs(theta / resolution) < P(0x1p50));
     const P count = loop::ideal_count(theta, resolution, at.load(l.phase));
@@ -67,7 +68,7 @@ void sample_kernel(BatchState& batch, LaneList list) {
     at.store(q.change, change);
 
     // Up to the last sample of the move no one is needed where the torque stays.
-    const P left = select(steady & ~sliding, max(limits.samples - taken - one, one), one);
+    const P left = select(steady & ~hook_slides, max(limits.samples - taken - one, one), one);
     at.store(time.samples_to_stop, left);
     at.store(time.time_to_stop, left * at.load(time.sample_time));
     at.store(time.steps, zero);

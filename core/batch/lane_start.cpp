@@ -12,9 +12,14 @@
 namespace zerocount::batch {
 namespace {
 
-/// Truncation error allowed per torque step, over that of the reference: 1e-8 count. See README.md for the
-/// global error.
-constexpr double relaxed = 1e3;
+/// Truncation error (rad) allowed per torque step, so that the global error stays below 1e-7 count. While the
+/// counts are those of the reference, so is the torque, and an error decays as the rotor's own oscillation
+/// does, by exp(−γT) a step, γ = c/2J: the errors of all steps add up to that of one over 1 − exp(−γT).
+/// Never below the tolerance of the reference.
+double step_tolerance(const trial::TrialParameters& p, double resolution) {
+  const double decay = p.plant.presliding_damping / (2.0 * p.plant.inertia * p.controller.sample_rate);
+  return std::max(-1e-7 * std::expm1(-decay) * resolution, trial::motion_tolerance(resolution).elongation);
+}
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -43,15 +48,14 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
 }
 
 void start_time(TimeLanes& time, int lane, const trial::TrialParameters& p, double resolution) {
-  const motion::MotionTolerance tolerance = trial::motion_tolerance(resolution);
   time.time_to_stop[lane] = 0.0;
   time.samples_to_stop[lane] = 1.0;
   time.sample_rate[lane] = p.controller.sample_rate;
   time.sample_time[lane] = 1.0 / p.controller.sample_rate;
   time.next_step[lane] = time.sample_time[lane];
   time.steps[lane] = 0.0;
-  time.tolerance[lane] = relaxed * tolerance.elongation;
-  time.rest[lane] = tolerance.rest;
+  time.tolerance[lane] = step_tolerance(p, resolution);
+  time.rest[lane] = trial::motion_tolerance(resolution).rest;
   time.per_count[lane] = 1.0 / resolution;
 }
 
@@ -74,7 +78,7 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
   start_loop(batch.loop, lane, p);
   const double resolution = batch.loop.resolution[lane];
   start_time(batch.time, lane, p, resolution);
-  trial.rest_tolerance = batch.time.tolerance[lane];
+  trial.rest_tolerance = trial::motion_tolerance(resolution).elongation;
   trial.plant.emplace(p.plant, p.friction, trial::plant_start(p), trial::motion_tolerance(resolution));
   batch.contact.per_inertia[lane] = 1.0 / p.plant.inertia;
   batch.contact.damping[lane] = p.plant.presliding_damping;

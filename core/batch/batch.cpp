@@ -1,7 +1,10 @@
 #include "core/batch/batch.hpp"
 
+#include <type_traits>
+
 #include "core/batch/lane_work.hpp"
 #include "core/friction/law.hpp"
+#include "core/loop/control_chain.hpp"
 #include "core/loop/controller.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/measurement.hpp"
@@ -13,6 +16,18 @@ constexpr int max_delay = 64;
 
 // Features that lanes support. Each switch lists all enumerators and each structured binding all members, so
 // that the compiler demands a decision for one that is added later.
+
+bool lanes_know(friction::FrictionModel model) {
+  switch (model) {
+    case friction::FrictionModel::presliding:
+    case friction::FrictionModel::spring:
+      return true;
+    case friction::FrictionModel::coulomb:
+    case friction::FrictionModel::none:
+      break;
+  }
+  return false;
+}
 
 bool lanes_know(loop::ReferenceShape shape) {
   switch (shape) {
@@ -41,6 +56,9 @@ bool lanes_know(const loop::AmplifierParameters& amplifier) {
 }
 
 bool lanes_know(const loop::ControllerParameters& controller) {
+  static_assert(
+      std::is_same_v<loop::ControlChain, loop::BlockChain<loop::Pid>>,
+      "sample_kernel has the PID law alone: another block needs its law there, or a condition here");
   const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse] = controller;
   return delay <= max_delay && lanes_know(encoder) && !loop::has_coarse_phase(controller);
 }
@@ -56,7 +74,7 @@ bool runs_in_lanes(const trial::TrialParameters& p) {
   const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial, verdict, randomness] =
       p;
   [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping] = plant;
-  return friction::traits_of(friction.model).runs_in_lanes && !loop::has_errors(encoder.fine_errors) &&
+  return lanes_know(friction.model) && !loop::has_errors(encoder.fine_errors) &&
          !loop::has_errors(encoder.coarse_errors) && !loop::has_errors(dac) && lanes_know(amplifier) &&
          lanes_know(controller) && lanes_know(command) && trial::samples_of_move(p, 0) > 0;
 }

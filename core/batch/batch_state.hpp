@@ -100,34 +100,34 @@ struct alignas(64) LoopLanes {
 /// The measures of the move so far, and what else is known of it.
 struct alignas(64) MeasureLanes : trial::RunningMeasures<Lanes> {
   trial::MeasureLimits<Lanes> limits;
-  Lanes last_half;      ///< first sample of the last half
-  Lanes in_jerk;        ///< a jerk lasts
-  Lanes change;         ///< of the count with the last sample
-  Lanes first_error;    ///< |e_0|, counts
-  Lanes largest_error;  ///< beyond |e_0|, with which the move is ended, counts; infinite: never
-  Lanes theta;          ///< at the last sample, rad
-  Lanes extension;      ///< at the last sample, rad
+  Lanes last_half;    ///< first sample of the last half
+  Lanes in_jerk;      ///< a jerk lasts
+  Lanes change;       ///< of the count with the last sample
+  Lanes first_error;  ///< |e_0|, counts
+  Lanes max_error;    ///< beyond |e_0|, with which the move is ended, counts; infinite: never
+  Lanes theta;        ///< at the last sample, rad
+  Lanes extension;    ///< at the last sample, rad
 };
 
 /// Events of a lane that a kernel reports: a sum of these.
 enum LaneEvent : int {
   no_event = 0,
-  may_rest = 1,
-  slides = 2,
-  ends_creep = 4,
-  turns = 8,
-  reversal = 16,
-  closure = 32,
-  creep_sets_in = 64,
-  creep_ends = 128,
-  breaks_away = 256,
-  velocity_zero = 512,
-  beyond_kernel = 1024,  ///< the reference has to take it to the next stop
-  jerk_changes = 4096,
-  diverges = 16384,
-  meets_event = 32768,   ///< an event other than a reversal lies in the step
-  delayed = 8192,        ///< the decided torque has to wait
-  count_changes = 65536  ///< in the last half of the move
+  may_rest = 1 << 0,
+  slides = 1 << 1,
+  ends_creep = 1 << 2,
+  turns = 1 << 3,
+  reversal = 1 << 4,
+  closure = 1 << 5,
+  creep_sets_in = 1 << 6,
+  creep_ends = 1 << 7,
+  breaks_away = 1 << 8,
+  velocity_zero = 1 << 9,
+  beyond_kernel = 1 << 10,  ///< the scalar plant runs the lane up to the next stop
+  jerk_changes = 1 << 11,
+  diverges = 1 << 12,
+  meets_event = 1 << 13,   ///< an event other than a reversal lies in the step
+  delayed = 1 << 14,       ///< the decided torque has to wait
+  count_changes = 1 << 15  ///< in the last half of the move
 };
 
 /// A step that went over sampling instants at which the count and the torque stay: for whoever records them.
@@ -145,9 +145,8 @@ struct PassedSamples {
 inline constexpr double any_state = -1.0;  ///< in a query: all but idle
 inline constexpr double idle = 0.0;        ///< without a trial
 inline constexpr double sticking = 1.0;    ///< the hook sticks
-inline constexpr double waiting =
-    2.0;  ///< the hook sticks; waits for other lanes with an event in their step
-inline constexpr double sliding = 3.0;  ///< the hook slides
+inline constexpr double waiting = 2.0;     ///< waits until enough lanes have an event; the hook sticks
+inline constexpr double sliding = 3.0;     ///< the hook slides
 
 struct BatchState {
   Lanes state;  ///< idle, sticking, waiting or sliding

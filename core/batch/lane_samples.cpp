@@ -87,12 +87,12 @@ void LaneWork::follow_last_half(int lane, LaneTrial& trial) {
 
 void LaneWork::track_jerk(int lane, LaneTrial& trial) {
   const auto k = static_cast<std::int64_t>(batch_.measures.taken[lane]) - 1;
-  if (trial.jerks.add(k, static_cast<std::int64_t>(batch_.loop.error[lane]))) tell_jerk(trial);
+  if (trial.jerks.add(k, static_cast<std::int64_t>(batch_.loop.error[lane]))) report_jerk(trial);
   batch_.measures.in_jerk[lane] = trial.jerks.lasts() ? 1.0 : 0.0;
 }
 
-void LaneWork::tell_jerk(LaneTrial& trial) {
-  ++trial.told_jerks;
+void LaneWork::report_jerk(LaneTrial& trial) {
+  ++trial.reported_jerks;
   if (observers_->jerk) observers_->jerk(trial.number, trial.jerks.last());
 }
 

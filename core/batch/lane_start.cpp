@@ -69,7 +69,7 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
   trial.outcome = &outcome;
   trial.move = 0;
   trial.first_sample = 0;
-  trial.told_jerks = 0;
+  trial.reported_jerks = 0;
   trial.breakaway_spring_torque = 0.0;
   trial.waiting.assign(static_cast<std::size_t>(p.controller.delay), 0.0);
   trial.oldest_waiting = 0;
@@ -98,7 +98,7 @@ void start_move(BatchState& batch, int lane, LaneTrial& trial) {
   q.last_half[lane] = static_cast<double>(trial::first_of_last_half(timing.samples));
   trial::for_each_measure([lane](Lanes& measure) { measure[lane] = 0.0; }, q);
   for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension}) (*of)[lane] = 0.0;
-  q.largest_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
+  q.max_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
   trial.breakaways = 0;
   trial.slid_at_start = batch.motion.slide_direction[lane] != 0.0;
   trial.deepest = static_cast<std::int64_t>(trial.plant->spring().depth());

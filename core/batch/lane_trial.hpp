@@ -35,9 +35,9 @@ struct LaneTrial {
   bool slid_at_start{false};   ///< of this move
   std::int64_t deepest{0};     ///< in this move
 
-  trial::Jerks jerks;          ///< of this move
-  std::int64_t told_jerks{0};  ///< of the trial
-  trial::LastHalf last_half;   ///< of this move
+  trial::Jerks jerks;              ///< of this move
+  std::int64_t reported_jerks{0};  ///< of the trial
+  trial::LastHalf last_half;       ///< of this move
 
   std::vector<double> waiting;  ///< decided torques on their way through the delay, N m
   std::size_t oldest_waiting{0};

@@ -63,17 +63,19 @@ void LaneWork::refill(int lane) {
 }
 
 /// The whole trial by run_trial. Of its jerks and samples, the first so many have been told already.
-void LaneWork::run_scalar(const LaneTrial& trial, std::int64_t told_jerks, std::int64_t told_samples) {
+void LaneWork::run_scalar(const LaneTrial& trial, std::int64_t reported_jerks,
+                          std::int64_t reported_samples) {
   trial::TrialObservers single;
   std::int64_t jerks = 0;
   if (observers_->jerk) {
     single.jerk = [&](const trial::Jerk& jerk) {
-      if (jerks++ >= told_jerks) observers_->jerk(trial.number, jerk);
+      if (jerks++ >= reported_jerks) observers_->jerk(trial.number, jerk);
     };
   }
   if (observers_->sample) {
     single.sample = [&](const trial::SampleRecord& r) {
-      if (r.k >= told_samples) observers_->sample({trial.number, r.k, r.count, r.code, r.theta, r.xp, r.xh});
+      if (r.k >= reported_samples)
+        observers_->sample({trial.number, r.k, r.count, r.code, r.theta, r.xp, r.xh});
     };
   }
   *trial.outcome = trial::run_trial(*trial.parameters, single);
@@ -83,7 +85,7 @@ void LaneWork::run_scalar(const LaneTrial& trial, std::int64_t told_jerks, std::
 /// it.
 void LaneWork::fall_back_to_scalar(int lane) {
   const LaneTrial& trial = trial_of(lane);
-  run_scalar(trial, trial.told_jerks,
+  run_scalar(trial, trial.reported_jerks,
              trial.first_sample + static_cast<std::int64_t>(batch_.measures.taken[lane]));
   end_trial(lane);
 }
@@ -94,7 +96,7 @@ void LaneWork::end_trial(int lane) {
 }
 
 void LaneWork::add_outcome(int lane, LaneTrial& trial, bool stopped) {
-  if (trial.jerks.end(static_cast<std::int64_t>(batch_.measures.taken[lane]))) tell_jerk(trial);
+  if (trial.jerks.end(static_cast<std::int64_t>(batch_.measures.taken[lane]))) report_jerk(trial);
   trial.outcome->moves.push_back(end_of_move(batch_, lane, trial, stopped));
 }
 

@@ -23,7 +23,7 @@ class LaneWork {
   // Trials come and go (lane_work.cpp).
   void fill_spare_lane();
   void refill(int lane);
-  void run_scalar(const LaneTrial& trial, std::int64_t told_jerks, std::int64_t told_samples);
+  void run_scalar(const LaneTrial& trial, std::int64_t reported_jerks, std::int64_t reported_samples);
   void fall_back_to_scalar(int lane);
   void end_trial(int lane);
   void end_move(int lane, LaneTrial& trial);
@@ -36,7 +36,7 @@ class LaneWork {
   void record_passed();
   void follow_last_half(int lane, LaneTrial& trial);
   void track_jerk(int lane, LaneTrial& trial);
-  void tell_jerk(LaneTrial& trial);
+  void report_jerk(LaneTrial& trial);
   void delay_torque(int lane, LaneTrial& trial);
 
   // The way from one to the next (lane_steps.cpp).

@@ -57,7 +57,7 @@ void sample_kernel(BatchState& batch, LaneList list) {
     const P taken = measures.taken;
     const P size = abs(error);
     const P first_error = select(taken == zero, size, at.load(q.first_error));
-    const Mask lost = size > at.load(q.largest_error) + first_error;
+    const Mask error_diverges = size > at.load(q.max_error) + first_error;
     const Mask dwelt = to_mask(measures.arrived);
     trial::measure_error(measures, limits, error);
     trial::measure_torque(measures, torque, code != wanted);
@@ -67,10 +67,10 @@ void sample_kernel(BatchState& batch, LaneList list) {
     at.store(q.extension, extension);
     at.store(q.change, change);
 
-    // Up to the last sample of the move no one is needed where the torque stays.
-    const P left = select(steady & ~hook_slides, max(limits.samples - taken - one, one), one);
-    at.store(time.samples_to_stop, left);
-    at.store(time.time_to_stop, left * at.load(time.sample_time));
+    // If the torque is steady, the next stop is the last sample of the move.
+    const P remaining = select(steady & ~hook_slides, max(limits.samples - taken - one, one), one);
+    at.store(time.samples_to_stop, remaining);
+    at.store(time.time_to_stop, remaining * at.load(time.sample_time));
     at.store(time.steps, zero);
     const Mask away = dwelt & (error != zero);
     const Mask back = to_mask(at.load(q.in_jerk));
@@ -78,7 +78,7 @@ void sample_kernel(BatchState& batch, LaneList list) {
     at.add_events_to(batch, events_where<P>(unreadable, beyond_kernel) +
                                 events_where<P>(~unreadable & (away | back), jerk_changes) +
                                 events_where<P>(~unreadable & changes, count_changes) +
-                                events_where<P>(lost, diverges) +
+                                events_where<P>(error_diverges, diverges) +
                                 events_where<P>(to_mask(at.load(l.delay)), delayed));
   }
 }

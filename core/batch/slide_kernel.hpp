@@ -23,7 +23,7 @@ void slide_kernel(BatchState& batch, LaneList list) {
   for (int first = 0, next = 0; first < list.count; first = next) {
     const LaneGroup<P> at(list, first);
     next = first + at.used();
-    const P until = at.load(time.time_to_stop);
+    const P time_to_stop = at.load(time.time_to_stop);
     const P omega = at.load(m.omega);
     const P direction = at.load(m.slide_direction);
     const P coulomb = at.load(c.coulomb);
@@ -38,18 +38,18 @@ void slide_kernel(BatchState& batch, LaneList list) {
     const P stribeck_velocity = one / sqrt(per_velocity_squared);
     const P speed = abs(omega);
     P lightness_start = zero;
-    P h = until;
+    P h = time_to_stop;
     if constexpr (Fast) {
       const P above = speed - P(6.5) * stribeck_velocity;
       const P slowing = max(breakaway - direction * torque + damping * speed, zero) * per_inertia;
-      h = select(slowing * until > above, above / slowing, until);
+      h = select(slowing * time_to_stop > above, above / slowing, time_to_stop);
     } else {
       lightness_start = exp(-per_velocity_squared * omega * omega);
       // (ω/ωs)² may change by some 4.
       const P acceleration = abs(driving - stribeck * lightness_start - damping * omega) * per_inertia;
       const P changing = acceleration * (speed + P(2.0) * stribeck_velocity) * per_velocity_squared;
-      h = min(min(at.load(time.next_step), P(4.0) / changing), until);
-      h = select((h < until) & (until < P(1.4) * h), until * P(0.5), h);
+      h = min(min(at.load(time.next_step), P(4.0) / changing), time_to_stop);
+      h = select((h < time_to_stop) & (time_to_stop < P(1.4) * h), time_to_stop * P(0.5), h);
     }
     const P force_scale = h * h * per_inertia;
     const P damping_scale = damping * h * per_inertia;
@@ -102,13 +102,13 @@ void slide_kernel(BatchState& batch, LaneList list) {
       x = select(halts, root_between(velocity, batch_order, velocity[0], velocity_end, one, seeks), one);
 
     const Mask done = ~too_long & ~beyond;
-    const Mask stops_here = ~halts & ~(h < until);
-    const P time_to_stop_then = select(stops_here, zero, until - x * h);
+    const Mask stops_here = ~halts & ~(h < time_to_stop);
+    const P time_to_stop_then = select(stops_here, zero, time_to_stop - x * h);
     const P factor = P(0.9) * rough_power(allowed / left_out, 1.0 / batch_order);
     const P shorter = select(inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));
     const P longer = h * min(max(factor, P(0.3)), P(4.0));
     at.store(time.next_step, select(too_long, shorter, select(done, longer, h)));
-    at.store(time.time_to_stop, select(done, time_to_stop_then, until));
+    at.store(time.time_to_stop, select(done, time_to_stop_then, time_to_stop));
     at.store(time.steps, at.load(time.steps) + one);
     at.store(m.theta, select(done, value_of(theta, batch_order, x), theta[0]));
     at.store(m.omega, select(done, select(halts, zero, value_of(velocity, batch_order, x) / h), omega));

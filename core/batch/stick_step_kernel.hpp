@@ -4,7 +4,7 @@
 
 namespace zerocount::batch {
 
-/// The samples on the way, at which nobody looks: their count has to be that of both ends.
+/// Sampling instants within a step. They are not sampled, so the count there must be that of both ends.
 template <class P>
 struct StepTiming {
   using Mask = typename P::Mask;

@@ -10,14 +10,13 @@ namespace zerocount::friction {
 /// Amonton–Coulomb friction with a static level: the rotor stands, θ constant, while |u| ≤ Fs = breakaway. It
 /// slides towards sgn(u) from the instant at which |u| passes Fs, as Slide has it, until ω = 0; there the
 /// contact is new, with the parameters of that place.
-class CoulombFriction : public WithoutSpring {
+class CoulombFriction : public WithoutCreepAndReversals {
  public:
   static constexpr std::string_view word = "coulomb";
   static constexpr std::array<ContactField, 3> contact_parameters{&FrictionParameters::breakaway,
                                                                   &FrictionParameters::coulomb_ratio,
                                                                   &FrictionParameters::stribeck_velocity};
   static constexpr bool has_presliding_damping = false;
-  static constexpr bool runs_in_lanes = false;
 
   /// It slides at the start wherever velocity ≠ 0: nothing else could give way to it.
   CoulombFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,

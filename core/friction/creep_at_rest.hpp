@@ -8,7 +8,7 @@
 
 namespace zerocount::friction {
 
-/// The motion of a rotor that only creep moves, under a constant torque u.
+/// Quasi-static creep of the rotor under a constant torque u.
 ///
 /// With s = sgn(σ), let S = |σ|, U = s·u, w = s·ω and p = dxh/dt ≥ 0. The
 /// oscillation of the rotor has ended: p decays within about 1/α, far more slowly than the rotor oscillates,

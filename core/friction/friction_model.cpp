@@ -6,8 +6,14 @@ namespace zerocount::friction {
 namespace {
 
 static_assert(FrictionLaws::traits.size() == static_cast<std::size_t>(FrictionModel::none) + 1);
-static_assert(FrictionLaws::traits[static_cast<std::size_t>(FrictionModel::coulomb)].word ==
-              CoulombFriction::word);
+template <class Law>
+constexpr bool is_law_of(FrictionModel model) {
+  return FrictionLaws::traits[static_cast<std::size_t>(model)].word == Law::word;
+}
+static_assert(is_law_of<PreslidingFriction>(FrictionModel::presliding) &&
+              is_law_of<SpringFriction>(FrictionModel::spring) &&
+              is_law_of<CoulombFriction>(FrictionModel::coulomb) &&
+              is_law_of<NoFriction>(FrictionModel::none));
 
 }  // namespace
 

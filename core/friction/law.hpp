@@ -34,7 +34,6 @@ concept FrictionLaw = std::constructible_from<Law, const motion::PlantParameters
   { Law::word } -> std::convertible_to<std::string_view>;                             // of friction.model
   { Law::contact_parameters } -> std::convertible_to<std::span<const ContactField>>;  // that it uses
   { Law::has_presliding_damping } -> std::convertible_to<bool>;  // J·dω/dt = u − c·ω − … at some time
-  { Law::runs_in_lanes } -> std::convertible_to<bool>;           // of the batch engine
   { now.theta() } -> std::same_as<double>;                       // rad
   { now.omega() } -> std::same_as<double>;                       // rad/s
   { now.creep() } -> std::convertible_to<CreepState>;
@@ -45,8 +44,8 @@ concept FrictionLaw = std::constructible_from<Law, const motion::PlantParameters
   law.forget_deepest();
 };
 
-/// Base of the laws without creep and memory.
-struct WithoutSpring {
+/// Base of laws without creep and without a stack of reversal points.
+struct WithoutCreepAndReversals {
   static CreepState creep() { return {}; }
   static std::int64_t depth() { return 0; }
   static std::int64_t deepest() { return 0; }
@@ -58,7 +57,6 @@ struct LawTraits {
   std::string_view word;
   std::span<const ContactField> contact_parameters;
   bool has_presliding_damping;
-  bool runs_in_lanes;
 };
 
 /// Whether the law has this parameter of the contact.
@@ -69,7 +67,7 @@ constexpr bool uses(const LawTraits& law, ContactField field) {
 
 template <FrictionLaw Law>
 constexpr LawTraits traits_of() {
-  return {Law::word, Law::contact_parameters, Law::has_presliding_damping, Law::runs_in_lanes};
+  return {Law::word, Law::contact_parameters, Law::has_presliding_damping};
 }
 
 }  // namespace zerocount::friction

@@ -9,12 +9,11 @@ namespace zerocount::friction {
 
 /// An air bearing: J·dω/dt = u − c·ω and nothing else, by free_motion(). There is no contact; the rotor
 /// always slides, and no hook can break away.
-class NoFriction : public WithoutSpring {
+class NoFriction : public WithoutCreepAndReversals {
  public:
   static constexpr std::string_view word = "none";
   static constexpr std::array<ContactField, 0> contact_parameters{};
   static constexpr bool has_presliding_damping = true;
-  static constexpr bool runs_in_lanes = false;
 
   NoFriction(const motion::PlantParameters& plant, const FrictionAlongRotor&, const motion::PlantStart& start,
              const motion::MotionTolerance&)

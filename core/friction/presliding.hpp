@@ -65,7 +65,6 @@ class PreslidingFriction {
                                                                   &FrictionParameters::lambda,
                                                                   &FrictionParameters::n};
   static constexpr bool has_presliding_damping = true;
-  static constexpr bool runs_in_lanes = true;
 
   PreslidingFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
                      const motion::PlantStart& start, motion::MotionTolerance tolerance);
@@ -126,9 +125,9 @@ class PreslidingFriction {
     double acceleration;
   };
 
-  /// Deviation of the motion from that of a rotor that only creep moves.
+  /// Deviation of the motion from quasi-static creep.
   struct Excess {
-    CreepAtRest creep;  ///< the motion of such a rotor
+    CreepAtRest creep;  ///< quasi-static creep under the same torque
     double torque;      ///< δσ, N m
     double velocity;    ///< δω, rad/s
     double amplitude;   ///< A, rad

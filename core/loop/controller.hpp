@@ -26,11 +26,9 @@ TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest
 /// from its own encoder. Errors and counts are fine ones; a coarse encoder's count is taken times
 /// fine/coarse.
 ///
-/// A chain that comes into force at sample k goes on from sample k−1 as if it had been in force there with an
-/// integral equal to the torque that was: I := torque in force, and then the sample is one like any other,
-/// with e_{k−1} and count_{k−1} of the chain's own encoder. So no part of its torque is left from the time
-/// before but the torque itself, and what it adds to it is ki·(e_k + e_{k−1}) + kp·e_k −
-/// kd·(count_k − count_{k−1}).
+/// On a change of phase at sample k the new chain sets I to the torque in force. Its previous error and
+/// count, e_{k−1} and count_{k−1}, are those of its own encoder. The torque therefore changes only by ki·(e_k
+/// + e_{k−1}) + kp·e_k − kd·(count_k − count_{k−1}).
 class Controller {
  public:
   /// @param fine_per_coarse counts of the fine encoder in one of the coarse encoder.

@@ -24,7 +24,7 @@ Drive::Drive(const DacParameters& dac, const AmplifierParameters& amplifier, int
       trial_(randomness.trial),
       delay_(delay),
       rate_(2.0 * std::numbers::pi * std::min(amplifier.bandwidth, highest_bandwidth)),
-      left_of_step_(std::exp(-rate_ * sample_time)) {}
+      decay_per_sample_(std::exp(-rate_ * sample_time)) {}
 
 double Drive::converted(std::int64_t k, std::int64_t code) const {
   const double torque = torque_with_errors(dac_, code);
@@ -34,7 +34,7 @@ double Drive::converted(std::int64_t k, std::int64_t code) const {
 }
 
 void Drive::follow(double input) {
-  double lag = (course_.now - course_.settled) * left_of_step_;
+  double lag = (course_.now - course_.settled) * decay_per_sample_;
   // A lag that is denormal rounds to itself for ever, and slows all arithmetic with it.
   if (std::abs(lag) < std::numeric_limits<double>::min()) lag = 0.0;
   course_ = {course_.settled + lag, input, rate_};

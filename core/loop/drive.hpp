@@ -83,7 +83,7 @@ class Drive {
   std::uint64_t trial_;
   TorqueDelay delay_;
   double rate_;                    // 2πf
-  double left_of_step_;            // exp(−2πf·T)
+  double decay_per_sample_;        // exp(−2πf·T)
   motion::TorqueCourse course_{};  // since the last t_k
 };
 

@@ -14,9 +14,8 @@ namespace zerocount::loop {
 /// - coarse → fine at a sample that ends D = max(1, round(fine_dwell·sample_rate)) successive samples, all of
 ///   the coarse phase, with |e| ≤ fine_within and |count_k − count_{k−1}| ≤ fine_rate.
 ///
-/// The sample of a change is already one of the new phase, and there is at most one change a sample. The
-/// control comes as if from a fine phase: it begins in the coarse one where |e_0| > coarse_beyond, which is
-/// no change.
+/// The sample of a change belongs to the new phase, and there is at most one change a sample. The initial
+/// phase is fine, or coarse if |e_0| > coarse_beyond; that does not count as a change.
 class PhaseSwitch {
  public:
   /// @param sample_rate Hz.

@@ -8,7 +8,7 @@
 namespace zerocount::motion {
 namespace {
 
-constexpr double most_exponent_growth = 6.0;
+constexpr double max_exponent_growth = 6.0;
 constexpr double negligible_exponent = -40.0;  // exp(−40) = 4e-18
 
 }  // namespace
@@ -29,7 +29,7 @@ double step_within(const numerics::Series& position, const numerics::Series& vel
     if (!(excess > 1.0) || t == 0.0) break;
     t *= std::clamp(0.9 * std::pow(excess, -1.0 / static_cast<double>(numerics::series_order)), 0.01, 0.9);
   }
-  const double highest = std::max(exponent[0] + most_exponent_growth, negligible_exponent);
+  const double highest = std::max(exponent[0] + max_exponent_growth, negligible_exponent);
   while (exponent[0] + numerics::growth_bound(exponent, t) > highest && t > 0.0) t *= 0.7;
   return t;
 }

@@ -9,12 +9,12 @@
 namespace zerocount::numerics {
 namespace {
 
-constexpr std::size_t most_coefficients = 16;
+constexpr std::size_t max_coefficients = 16;
 constexpr int deepest_subdivision = 40;
 
 /// A polynomial over [low, high] by its Bernstein coefficients: it lies in their convex hull.
 struct BernsteinPiece {
-  std::array<double, most_coefficients> coefficients{};
+  std::array<double, max_coefficients> coefficients{};
   std::size_t count{0};
   double low{0.0};
   double high{0.0};

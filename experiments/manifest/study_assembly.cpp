@@ -193,7 +193,7 @@ study::DrawnMean mean_of(const ProfileRequest& request, const study::Study& stud
   study::DrawnMean mean{*request.form.mean, study.design, {}};
   mean.randomness.key = designs::random_key(study.seed, profile_mean_name(parameter.name));
   if (study.design == study::Design::sobol) {
-    const std::size_t dimension = parameters::first_sobol_dimension_of_means + parameter.sobol_dimension;
+    const std::size_t dimension = parameters::sobol_dimension_of_mean(parameter.sobol_dimension);
     mean.randomness.directions = designs::sobol_directions({&dimension, 1}).front();
   }
   return mean;

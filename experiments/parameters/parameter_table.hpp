@@ -49,8 +49,10 @@ constexpr std::size_t max_listed_values = 3000;
 constexpr std::size_t first_sobol_dimension_of_moves = 64;
 constexpr std::size_t first_sobol_dimension_beyond_moves = first_sobol_dimension_of_moves + max_listed_values;
 
-/// Sobol dimension of the mean of a profile: this number + the dimension of its parameter.
-constexpr std::size_t first_sobol_dimension_of_means = 3600;
+/// Sobol dimension of the drawn mean of a profile, by the dimension of its parameter, which is not listed.
+constexpr std::size_t sobol_dimension_of_mean(std::size_t of_parameter) {
+  return of_parameter < first_sobol_dimension_of_moves ? 3600 + of_parameter : 256 + of_parameter;
+}
 
 /// Row of the parameter with this dotted path.
 std::optional<std::size_t> find_parameter(std::string_view name);

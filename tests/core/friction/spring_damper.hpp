@@ -8,13 +8,12 @@ namespace zerocount {
 
 /// A friction law that only the tests know: a linear spring with viscous damping, F = k·θ + d·ω. It counts
 /// where ω changes sign, located in time.
-class SpringDamper : public friction::WithoutSpring {
+class SpringDamper : public friction::WithoutCreepAndReversals {
  public:
   static constexpr std::string_view word = "spring_damper";
   static constexpr std::array<friction::ContactField, 1> contact_parameters{
       &friction::FrictionParameters::k1};               // k
   static constexpr bool has_presliding_damping = true;  // d
-  static constexpr bool runs_in_lanes = false;
 
   struct Expansion {
     numerics::Series position{};  // θ

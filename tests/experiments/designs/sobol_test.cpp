@@ -1,5 +1,6 @@
 #include "experiments/designs/sobol.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -94,7 +95,9 @@ TEST(Sobol, EveryParameterHasItsOwnDimensionAndTheListsShareTheirs) {
     EXPECT_TRUE(parameter.sobol_dimension < parameters::first_sobol_dimension_of_moves ||
                 parameter.sobol_dimension >= parameters::first_sobol_dimension_beyond_moves)
         << parameter.name;
-    EXPECT_LT(parameter.sobol_dimension, sobol_dimension_limit()) << parameter.name;
+    const std::size_t of_mean = parameters::sobol_dimension_of_mean(parameter.sobol_dimension);
+    EXPECT_TRUE(dimensions.insert(of_mean).second) << parameter.name;
+    EXPECT_LT(std::max(parameter.sobol_dimension, of_mean), sobol_dimension_limit()) << parameter.name;
   }
   EXPECT_EQ(parameters::first_sobol_dimension_beyond_moves, 3064u);
 }

@@ -45,7 +45,7 @@ bool runs_in_lanes(const trial::TrialParameters& parameters);
 /// Runs trials as run_trial does, many at a time in the lanes of vectors (see core/batch/README.md).
 ///
 /// The outcome of a trial depends on its parameters alone, neither on the other trials nor on the settings.
-/// While the hook sticks, counts and codes equal those of run_trial, and θ differs by less than 3e-8 count.
+/// While the hook sticks, counts and codes equal those of run_trial, and θ differs by less than 1e-7 count.
 class BatchEngine {
  public:
   explicit BatchEngine(const BatchSettings& settings = {});

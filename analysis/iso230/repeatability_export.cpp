@@ -1,12 +1,11 @@
-#include "analysis/iso230/repeatability_export.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
 
-#include "analysis/iso230/repeatability_layout.hpp"
+#include "analysis/iso230/repeatability_columns.hpp"
+#include "analysis/iso230/repeatability_file.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/reading/csv.hpp"
 

@@ -13,7 +13,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/iso230/repeatability_export.hpp"
 #include "analysis/iso230/repeatability_trial.hpp"
 #include "analysis/summary/study_summary.hpp"
 #include "analysis/summary/summary.hpp"

@@ -70,6 +70,6 @@ struct IdentificationOptions {
 /// @throws Failure (bad_data) if a record is given twice, the torque reverses less than twice, a single
 /// reading is an outlier, the model does not explain the records, or the rotor's natural frequency is
 /// implausible and the units are not trusted.
-Identification identify(const std::vector<TestRecord>& records, const IdentificationOptions& options = {});
+Identification identify(std::vector<TestRecord> records, const IdentificationOptions& options = {});
 
 }  // namespace zerocount::identification

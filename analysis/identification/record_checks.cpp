@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/record_parts.hpp"
 #include "analysis/statistics/median.hpp"
 #include "core/failure/failure.hpp"
 

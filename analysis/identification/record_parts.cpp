@@ -1,8 +1,8 @@
-#include "analysis/identification/record_parts.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
+
+#include "analysis/identification/test_record.hpp"
 
 namespace zerocount::identification {
 namespace {

@@ -115,9 +115,10 @@ Figure success_change(const comparison::StudyComparison& comparison,
   if (comparison.points.size() > max_bars)
     caption += fmt::format("Shown are the {} of {} points with the worst verdicts. ", max_bars,
                            comparison.points.size());
-  Figure figure = figure_of("success-change", "success-change", "Success against the baseline", caption);
-  set_rows(figure, data.rows.size(), 24);
-  figure.data.push_back(std::move(data));
+  const std::size_t bars = data.rows.size();
+  Figure figure = figure_of("success-change", "success-change", "Success against the baseline", caption,
+                            {std::move(data)});
+  set_rows(figure, bars, 24);
   return figure;
 }
 

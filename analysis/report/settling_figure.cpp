@@ -116,7 +116,6 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   if (arriving < std::ssize(points))
     caption +=
         fmt::format("At {} of the {} points no move arrived. ", std::ssize(points) - arriving, points.size());
-  Figure figure = figure_of("settling-time", "settling-time", "Settling time", caption);
   FigureData data{"steps",
                   {{"label", "point", ""},
                    {"time", "settled within", "s"},
@@ -134,6 +133,7 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
     add_curve(data, label_of(reported, point), settling_times(reported, point), summary.moves,
               band_of(reported, summary), end);
   }
+  Figure figure = figure_of("settling-time", "settling-time", "Settling time", caption, {std::move(data)});
   ordered_json& x = figure.specification["encoding"]["x"];
   if (start > 0.0 && end > 12.0 * start) {  // otherwise a few late arrivals would compress all others
     x["scale"]["type"] = "symlog";
@@ -143,7 +143,6 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
     figure.caption += "The time axis is linear near zero and logarithmic beyond.";
   }
   if (shown.size() == 1) figure.specification["encoding"]["color"]["legend"] = nullptr;
-  figure.data.push_back(std::move(data));
   return figure;
 }
 

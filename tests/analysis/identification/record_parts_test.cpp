@@ -1,5 +1,5 @@
 // Branches, holds and ring-downs, as the torque shows them.
-#include "analysis/identification/record_parts.hpp"
+#include "analysis/identification/test_record.hpp"
 
 #include <gtest/gtest.h>
 

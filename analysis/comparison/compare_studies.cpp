@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/manifest_differences.hpp"
-#include "analysis/comparison/margins_file.hpp"
 #include "analysis/comparison/matching.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/comparison/false_discovery.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/statistics/normal.hpp"
 

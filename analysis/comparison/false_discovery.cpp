@@ -1,8 +1,8 @@
-#include "analysis/comparison/false_discovery.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+
+#include "analysis/comparison/measure_comparison.hpp"
 
 namespace zerocount::comparison {
 

@@ -7,8 +7,8 @@
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
-#include "analysis/identification/fit_refusals.hpp"
 #include "analysis/identification/reading_replicates.hpp"
+#include "analysis/identification/residual_checks.hpp"
 #include "analysis/identification/starting_point.hpp"
 #include "core/failure/failure.hpp"
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "analysis/identification/confidence_interval.hpp"
-#include "analysis/identification/fit_refusals.hpp"
 #include "analysis/identification/reading_replicates.hpp"
 #include "analysis/identification/residual_checks.hpp"
 #include "analysis/statistics/unknown.hpp"

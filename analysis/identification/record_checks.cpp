@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/median.hpp"
+#include "analysis/statistics/quantile.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::identification {

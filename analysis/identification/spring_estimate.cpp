@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "analysis/identification/starting_point.hpp"
-#include "analysis/statistics/median.hpp"
+#include "analysis/statistics/quantile.hpp"
 
 namespace zerocount::identification {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "analysis/iso230/repeatability_statistics.hpp"
-#include "analysis/measures/summary_section.hpp"
+#include "analysis/measures/point_columns.hpp"
 
 /// How a summary tells of the repeatability of a study with a sequence of moves.
 namespace zerocount::iso230 {

@@ -3,8 +3,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/measures/theory_prediction.hpp"
@@ -43,5 +46,13 @@ std::vector<layout::PointColumn> prediction_columns(std::span<const TheoryPredic
 /// @throws Failure (bad_data), with `file` in the message, where a column is missing or holds no proportions.
 std::vector<TheoryPrediction> predictions_of(std::span<const layout::PointColumn> columns,
                                              std::int64_t trials, const std::filesystem::path& file);
+
+/// A part of a summary that only some studies have, made apart from the rest.
+struct SummarySection {
+  std::string key;                           ///< its name in the JSON of each point
+  std::vector<nlohmann::ordered_json> json;  ///< [point]
+  std::vector<layout::PointColumn> columns;  ///< of the CSV: a value per point
+  std::string text;                          ///< below the table, whole lines
+};
 
 }  // namespace zerocount::measures

@@ -13,7 +13,6 @@
 #include "analysis/sensitivity/partial_rank_correlation.hpp"
 #include "analysis/sensitivity/rank_correlation.hpp"
 #include "analysis/sensitivity/saltelli_indices.hpp"
-#include "analysis/sensitivity/used_trials.hpp"
 #include "analysis/statistics/moments.hpp"
 
 namespace zerocount::sensitivity {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "analysis/statistics/histogram.hpp"
 #include "analysis/statistics/proportion.hpp"
@@ -44,6 +47,13 @@ Quantile quantile(const Histogram<Value>& histogram, double probability,
   const RankBounds bounds = quantile_rank_bounds(histogram.size, probability, confidence);
   return {order_statistic(histogram, quantile_rank(histogram.size, probability)),
           order_statistic(histogram, bounds.low), order_statistic(histogram, bounds.high)};
+}
+
+/// The upper median: the value of rank ⌊n/2⌋ + 1 of n ≥ 1 values.
+inline double upper_median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 }  // namespace zerocount::statistics

@@ -1,8 +1,7 @@
-#include "analysis/summary/stopping_section.hpp"
-
 #include <fmt/format.h>
 
 #include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::summary {

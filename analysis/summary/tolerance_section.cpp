@@ -1,5 +1,3 @@
-#include "analysis/summary/tolerance_section.hpp"
-
 #include <algorithm>
 #include <cstddef>
 
@@ -7,6 +5,7 @@
 
 #include "analysis/measures/statistic_fields.hpp"
 #include "analysis/statistics/tolerance.hpp"
+#include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::summary {

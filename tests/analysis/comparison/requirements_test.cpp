@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/comparison/margins_file.hpp"
+#include "analysis/comparison/gate_rules.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::testing {

@@ -1,5 +1,3 @@
-#include "analysis/comparison/compare_studies.hpp"
-
 #include <algorithm>
 #include <iterator>
 #include <system_error>
@@ -8,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/manifest_differences.hpp"
 #include "analysis/comparison/matching.hpp"

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/iso230/repeatability_fields.hpp"
-
 namespace zerocount::iso230 {
 namespace {
 

@@ -2,11 +2,14 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "analysis/iso230/repeatability.hpp"
 #include "analysis/iso230/repeatability_statistics.hpp"
+#include "analysis/iso230/repeatability_trial.hpp"
 #include "results/layout/layout.hpp"
 
 /// The columns of the tables of the group /repeatability of a results file: of values for every source in the
@@ -51,5 +54,27 @@ layout::Table trial_table_of_targets();
 layout::Table point_table_of_axis();
 /// /repeatability/point_target: point_target_columns(), [point, target].
 layout::Table point_table_of_targets();
+
+/// What the deviations are measured by.
+struct DeviationSource {
+  std::string_view name;       ///< "true" or "encoder"
+  std::string_view unit;       ///< of the deviations, and of all values made of them
+  std::string_view long_name;  ///< ends the long_name of a value
+  Repeatability TrialRepeatability::*values;
+};
+
+/// The true position, then the encoder.
+std::span<const DeviationSource> deviation_sources();
+
+template <typename Values>
+struct RepeatabilityField {
+  std::string_view name;
+  std::string_view symbol;  ///< of the standard
+  std::string_view long_name;
+  double Values::*value;
+};
+
+std::span<const RepeatabilityField<AxisRepeatability>> axis_fields();
+std::span<const RepeatabilityField<TargetRepeatability>> target_fields();
 
 }  // namespace zerocount::iso230

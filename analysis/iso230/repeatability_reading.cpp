@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "analysis/iso230/repeatability_columns.hpp"
-#include "analysis/iso230/repeatability_fields.hpp"
 #include "analysis/iso230/repeatability_file.hpp"
 #include "results/layout/table_io.hpp"
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "analysis/iso230/repeatability_columns.hpp"
-#include "analysis/iso230/repeatability_fields.hpp"
 #include "analysis/text/report_json.hpp"
 
 namespace zerocount::iso230 {

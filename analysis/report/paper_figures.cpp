@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/report_figures.hpp"
-#include "analysis/report/sweep_numbers.hpp"
+#include "analysis/report/reported_study.hpp"
 
 namespace zerocount::report {
 namespace {

@@ -1,5 +1,3 @@
-#include "analysis/summary/study_summary.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +10,7 @@
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/summary/study_statistics.hpp"
+#include "analysis/summary/summary.hpp"
 #include "analysis/summary/summary_parts.hpp"
 #include "analysis/summary/undecided.hpp"
 #include "core/failure/failure.hpp"

@@ -10,10 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/rig_plan.hpp"
 #include "analysis/statistics/rig_statistics.hpp"
 #include "analysis/statistics/sample_size.hpp"
-#include "analysis/summary/study_summary.hpp"
+#include "analysis/summary/summary.hpp"
 #include "analysis/text/text.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"

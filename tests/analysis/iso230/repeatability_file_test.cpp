@@ -14,7 +14,6 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/iso230/repeatability_trial.hpp"
-#include "analysis/summary/study_summary.hpp"
 #include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"

@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/summary/study_summary.hpp"
 #include "analysis/summary/summary.hpp"
 #include "tests/analysis/iso230/sequence_studies.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -12,7 +12,6 @@
 #include "analysis/comparison/matching.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
-#include "analysis/comparison/requirements.hpp"
 #include "core/failure/failure.hpp"
 #include "results/reading/first_difference.hpp"
 

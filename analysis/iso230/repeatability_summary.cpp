@@ -1,5 +1,3 @@
-#include "analysis/iso230/repeatability_summary.hpp"
-
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -7,7 +5,8 @@
 #include <fmt/format.h>
 
 #include "analysis/iso230/repeatability_columns.hpp"
-#include "analysis/text/report_json.hpp"
+#include "analysis/iso230/repeatability_statistics.hpp"
+#include "analysis/text/report_field.hpp"
 
 namespace zerocount::iso230 {
 namespace {

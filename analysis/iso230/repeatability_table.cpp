@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "analysis/iso230/repeatability_columns.hpp"
-#include "analysis/iso230/repeatability_summary.hpp"
+#include "analysis/iso230/repeatability_statistics.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/tolerance.hpp"
 #include "analysis/text/text.hpp"

@@ -5,8 +5,7 @@
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/comparison/gate_rules.hpp"
-#include "analysis/report/escaping.hpp"
-#include "analysis/report/html_table.hpp"
+#include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/text/text.hpp"
 

@@ -52,7 +52,7 @@ using SampleColumn = ColumnOf<trial::SampleRecord>;
 using Sample = const trial::SampleRecord&;
 const SampleColumn time_column{{"time", "time", "s"}, [](Sample s) { return datum(s.t); }};
 const SampleColumn target_column{{"target", "target", "count"}, [](Sample s) { return s.target; }};
-const SampleColumn position_column{{"count", "position", "count"}, [](Sample s) { return s.count; }};
+const SampleColumn count_column{{"count", "position", "count"}, [](Sample s) { return s.count; }};
 const SampleColumn torque_column{{"torque", "torque", "N m"}, [](Sample s) { return datum(s.torque); }};
 const SampleColumn motor_torque_column{{"torque", "torque", "N m"},
                                        [](Sample s) { return datum(s.drive_torque); }};
@@ -65,7 +65,7 @@ Figure step_responses(const std::vector<ReplayedTrial>& replayed) {
       "step-responses", "paper-fig7", "Moves to different targets (Fig. 7 of the paper)",
       "Position over time, one trial for each target, from rest. In the paper all ten moves settle at their "
       "target within 300 samples of 0.5 ms. Every curve should end as a horizontal line at its target.",
-      {data_of("samples", samples, {target_column, time_column, position_column})});
+      {data_of("samples", samples, {target_column, time_column, count_column})});
 }
 
 Figure jerks_in_time(const ReplayedTrial& trial) {
@@ -76,7 +76,7 @@ Figure jerks_in_time(const ReplayedTrial& trial) {
           "the position repeatedly leaves the target by one count, always in the direction of the holding "
           "torque, and returns at once. The rate of these jerks decreases as the contact hardens.",
           trial.result.row),
-      {data_of("samples", trial.samples, {time_column, position_column, torque_column})});
+      {data_of("samples", trial.samples, {time_column, count_column, torque_column})});
 }
 
 /// The ends of the torque levels. Levels that end at the same point share a row.

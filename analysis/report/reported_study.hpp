@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/measures/visit_trials.hpp"
+#include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/summary.hpp"
 #include "core/trial/outcome.hpp"

@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/report/escaping.hpp"
-#include "analysis/report/html_table.hpp"
+#include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/report/reported_study.hpp"
 #include "analysis/statistics/moments.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/report/escaping.hpp"
+#include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/statistics/tolerance.hpp"

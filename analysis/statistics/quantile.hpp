@@ -10,6 +10,21 @@
 
 namespace zerocount::statistics {
 
+/// The smallest number from `low` on, below `end`, for which `holds`, by bisection; `end` if there is none.
+/// `holds` must be monotonic: false, then true.
+template <typename Predicate>
+std::int64_t first_where(std::int64_t low, std::int64_t end, const Predicate& holds) {
+  while (low < end) {
+    const std::int64_t middle = low + (end - low) / 2;
+    if (holds(middle)) {
+      end = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return end;
+}
+
 /// Rank of the sample quantile: ⌈n·p⌉, at least 1; 0 if n is 0. `probability` p in (0, 1).
 ///
 /// A product n·p that is just above a whole number because of rounding is taken as that number.

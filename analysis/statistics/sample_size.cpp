@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/rig_statistics.hpp"
 #include "core/failure/failure.hpp"
 
@@ -37,15 +38,7 @@ std::int64_t least(std::int64_t low, std::int64_t limit, const char* what, const
     low = high + 1;
     high = std::min(limit, 2 * high);
   }
-  while (low < high) {
-    const std::int64_t middle = low + (high - low) / 2;
-    if (holds(middle)) {
-      high = middle;
-    } else {
-      low = middle + 1;
-    }
-  }
-  return high;
+  return first_where(low, high, holds);
 }
 
 /// Half the length of the Clopper–Pearson interval of n·rate successes of n, as a continuous function of n.

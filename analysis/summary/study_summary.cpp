@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/iso230/repeatability_summary.hpp"
+#include "analysis/iso230/repeatability_statistics.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/summary/study_statistics.hpp"

@@ -1,6 +1,4 @@
 // Absolute requirements, judged by the bounds of one file.
-#include "analysis/comparison/requirements.hpp"
-
 #include <cmath>
 #include <limits>
 #include <random>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/comparison/gate_rules.hpp"
+#include "analysis/comparison/measure_comparison.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::testing {

@@ -19,15 +19,12 @@ constexpr std::int64_t max_steps = 160;  ///< of a curve
 /// independent clusters (trials or rigs) of M dependent moves each. (Dvoretzky, Kiefer and Wolfowitz 1956
 /// with the constant of Massart 1990, for each of the M moves at the level α/M; the mean of M functions that
 /// are each within the band is so too.)
-double band(std::int64_t clusters, std::int64_t moves) {
+double band_of(const ReportedStudy& reported, const measures::PointSummary& point) {
+  const std::int64_t clusters = reported.study.rigs > 0 ? reported.study.rigs : point.trials;
+  const std::int64_t moves = point.moves / clusters;
   const double alpha = 1.0 - statistics::summary_confidence;
   return std::sqrt(std::log(2.0 * static_cast<double>(moves) / alpha) /
                    (2.0 * static_cast<double>(clusters)));
-}
-
-double band_of(const ReportedStudy& reported, const measures::PointSummary& point) {
-  const std::int64_t clusters = reported.study.rigs > 0 ? reported.study.rigs : point.trials;
-  return band(clusters, point.moves / clusters);
 }
 
 statistics::Histogram<double> settling_times(const ReportedStudy& reported, std::int64_t point) {

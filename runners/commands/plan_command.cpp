@@ -165,14 +165,12 @@ Json rig_plans_json(const std::vector<statistics::RigPlan>& plans) {
 }
 
 std::string rig_plans_text(const std::vector<statistics::RigPlan>& plans) {
-  std::vector<text::TextColumn> columns{
-      {"rigs", true, {}}, {"trials on each", true, {}}, {"trials", true, {}}};
+  std::vector<std::vector<std::string>> cells{{"rigs", "trials on each", "trials"}};
   for (const statistics::RigPlan& plan : plans) {
-    columns[0].cells.push_back(std::to_string(plan.rigs));
-    columns[1].cells.push_back(std::to_string(plan.trials_per_rig));
-    columns[2].cells.push_back(std::to_string(plan.rigs * plan.trials_per_rig));
+    cells.push_back({std::to_string(plan.rigs), std::to_string(plan.trials_per_rig),
+                     std::to_string(plan.rigs * plan.trials_per_rig)});
   }
-  return text::aligned_table(columns);
+  return text::aligned_table(cells, {true, true, true});
 }
 
 Json plan_json(const PlanRequest& request) {

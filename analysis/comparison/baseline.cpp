@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/comparison/compare_studies.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/comparison_report.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"

@@ -1,5 +1,3 @@
-#include "analysis/comparison/compare_studies.hpp"
-
 #include <algorithm>
 #include <iterator>
 #include <system_error>
@@ -8,12 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/manifest_differences.hpp"
-#include "analysis/comparison/margins_file.hpp"
 #include "analysis/comparison/matching.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
-#include "analysis/comparison/requirements.hpp"
 #include "core/failure/failure.hpp"
 #include "results/reading/first_difference.hpp"
 

@@ -1,14 +1,17 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/comparison/gate_rules.hpp"
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "results/layout/header.hpp"
+#include "results/reading/study_file.hpp"
 
 /// The result of comparing a results file with a baseline. README.md of this folder describes the method.
 namespace zerocount::comparison {
@@ -111,5 +114,17 @@ struct StudyComparison {
   GateVerdict verdict{GateVerdict::inconclusive};  ///< never not_measured
   std::vector<std::string> notes;                  ///< what else the reader should know, a line each
 };
+
+/// Compares a results file with a baseline: finds what the two have in common, matches their design points,
+/// tests every measure at every point, controls the false discoveries over all of them, and gives verdicts.
+/// @throws Failure (bad_data) where points cannot be matched, one file has targets and the other torque
+/// levels, or a file is damaged.
+StudyComparison compare_studies(const reading::StudyFile& baseline, const reading::StudyFile& current,
+                                const GateRules& rules = {});
+
+/// The same of two files, with the rules of the file `margins`, where one is given.
+/// @throws Failure as compare_studies and read_gate_rules, and as StudyFile
+StudyComparison compare_files(const std::filesystem::path& baseline, const std::filesystem::path& current,
+                              const std::optional<std::filesystem::path>& margins = std::nullopt);
 
 }  // namespace zerocount::comparison

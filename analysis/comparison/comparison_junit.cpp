@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "analysis/comparison/comparison_report.hpp"
-#include "analysis/comparison/comparison_rows.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::comparison {

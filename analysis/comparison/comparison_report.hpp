@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "analysis/comparison/comparison.hpp"
 
@@ -51,5 +52,26 @@ std::string comparison_junit(const StudyComparison& comparison);
 
 /// A summary for a pull request or a job's page.
 std::string comparison_markdown(const StudyComparison& comparison);
+
+/// One judgement as the cells of a table.
+struct ComparisonRow {
+  std::string point;
+  std::string measure;
+  std::string baseline;
+  std::string current;
+  std::string worse_by;  ///< the effect
+  std::string bounds;
+  std::string margin;  ///< or the limit of a requirement
+  std::string p;       ///< adjusted
+  std::string verdict;
+  std::string note;
+  bool noteworthy{false};  ///< it did not simply pass
+};
+
+/// The measures and requirements of all points, in order.
+std::vector<ComparisonRow> comparison_rows(const StudyComparison& comparison);
+
+/// What was compared with what, as names and values.
+std::vector<std::pair<std::string, std::string>> comparison_facts(const StudyComparison& comparison);
 
 }  // namespace zerocount::comparison

@@ -1,4 +1,3 @@
-#include "analysis/comparison/comparison_rows.hpp"
 
 #include <cmath>
 #include <utility>

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include "analysis/comparison/comparison_report.hpp"
-#include "analysis/comparison/comparison_rows.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::comparison {

@@ -1,5 +1,3 @@
-#include "analysis/comparison/margins_file.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/comparison/gate_rules.hpp"
 #include "core/numerics/interval.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/yaml/nearest_name.hpp"

@@ -34,4 +34,31 @@ std::int64_t decide(std::span<PointComparison> points, const GateRules& rules);
 /// Of several verdicts: regression before inconclusive before passed; not_measured where all are.
 GateVerdict worst_of(std::span<const GateVerdict> verdicts);
 
+/// Adjusted p-values that control the false discovery rate whatever the dependence between the tests: with
+/// p_(1) ≤ … ≤ p_(m) and H_m = 1 + 1/2 + … + 1/m,
+///
+///   q_(i) = min over j ≥ i of min(1, m·H_m·p_(j)/j).
+///
+/// Rejecting where q ≤ α has an expected proportion of false rejections of at most α. Where every null
+/// hypothesis is true, that is the probability of any rejection at all. Source: Benjamini and Yekutieli,
+/// Annals of Statistics 29 (2001), 1165, Theorem 1.3.
+///
+/// @param p in [0, 1], any order; @return in the same order.
+std::vector<double> benjamini_yekutieli(std::span<const double> p);
+
+/// Judges a requirement at one point by one-sided bounds: it passes where the bound against the limit, at
+/// `confidence`, meets it; it fails where the other bound, at `failing_confidence`, contradicts it; otherwise
+/// it is inconclusive.
+///
+/// Proportions have Clopper–Pearson bounds. A quantile of the settling time of a trial (that of its slowest
+/// move; infinite if a move did not arrive) is judged as the proportion of trials that settle within the
+/// limit L: q_p ≤ L holds if that proportion is at least p. Its bounds are those of this proportion. The mean
+/// of the jerks has the bounds of cautious_bounds().
+RequirementResult judge_requirement(const Requirement& requirement, const PointTrials& trials,
+                                    double confidence, double failing_confidence);
+
+/// The confidence with which each of `count` requirements must be contradicted, so that with this confidence
+/// none of those that are met fails (Bonferroni): 1 − (1 − confidence)/count.
+double failing_confidence(double confidence, std::int64_t count);
+
 }  // namespace zerocount::comparison

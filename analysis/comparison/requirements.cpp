@@ -1,10 +1,9 @@
-#include "analysis/comparison/requirements.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include "analysis/comparison/mean_tests.hpp"
+#include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
 

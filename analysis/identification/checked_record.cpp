@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/record_checks.hpp"
+#include "analysis/identification/raw_series.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::identification {

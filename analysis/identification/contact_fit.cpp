@@ -7,8 +7,8 @@
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
-#include "analysis/identification/fit_refusals.hpp"
 #include "analysis/identification/reading_replicates.hpp"
+#include "analysis/identification/residual_checks.hpp"
 #include "analysis/identification/starting_point.hpp"
 #include "core/failure/failure.hpp"
 
@@ -36,12 +36,11 @@ Observations all_readings(std::span<const TestRecord> records) {
   return observations;
 }
 
-FitSetting setting_for(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                       const std::vector<KnownParameter>& known) {
+FitSetting setting_for(std::span<const TestRecord> records, const std::vector<KnownParameter>& known) {
   FitSetting setting;
   setting.free.fill(true);
   setting.creep_torque = creep_torque_for(records, known);
-  setting.prior = starting_point(records, parts, setting.creep_torque);
+  setting.prior = starting_point(records, setting.creep_torque);
   for (const auto& [coordinate, value] : known) {
     setting.free[coordinate] = false;
     const double logarithm = std::log(value);
@@ -101,8 +100,7 @@ bool are_explained(std::span<const TestRecord> records, const FitPoint& point, c
 
 /// The rough fit, to all readings with equal weights: from the starting point, or from others if that
 /// explains too little.
-FitPoint fit_roughly(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                     const FitSetting& setting) {
+FitPoint fit_roughly(std::span<const TestRecord> records, const FitSetting& setting) {
   const Observations observations = all_readings(records);
   FitPoint start{setting.prior, Eigen::VectorXd(records.size())};
   for (std::size_t r = 0; r < records.size(); ++r) {
@@ -117,8 +115,7 @@ FitPoint fit_roughly(std::span<const TestRecord> records, std::span<const Record
   // A few steps from each of the other starting points; then the best of them are continued.
   std::vector<FitResult> tried;
   rough.max_steps = 4;
-  for (const ContactPoint& other :
-       other_starting_points(records, parts, setting.prior, setting.creep_torque)) {
+  for (const ContactPoint& other : other_starting_points(records, setting.prior, setting.creep_torque)) {
     for (std::size_t j = 0; j < coordinate_count; ++j) {
       if (setting.free[j]) start.contact[j] = rough.prior[j] = other[j];
     }
@@ -193,11 +190,10 @@ double creep_torque_for(std::span<const TestRecord> records, const std::vector<K
   return 0.7 * largest;
 }
 
-ContactFit fit_contact(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                       const std::vector<KnownParameter>& known) {
+ContactFit fit_contact(std::span<const TestRecord> records, const std::vector<KnownParameter>& known) {
   ContactFit fit;
-  fit.setting = setting_for(records, parts, known);
-  const FitPoint point = fit_roughly(records, parts, fit.setting);
+  fit.setting = setting_for(records, known);
+  const FitPoint point = fit_roughly(records, fit.setting);
   for (std::size_t j = 0; j < coordinate_count; ++j) {
     if (fit.setting.free[j]) fit.setting.prior[j] = point.contact[j];
   }

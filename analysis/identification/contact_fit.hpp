@@ -1,10 +1,10 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "analysis/identification/joint_fit.hpp"
-#include "analysis/identification/record_parts.hpp"
 
 namespace zerocount::identification {
 
@@ -34,12 +34,16 @@ double creep_torque_for(std::span<const TestRecord> records, const std::vector<K
 /// updated observations until the fit no longer changes.
 /// @throws Failure (bad_data) if a single reading is an outlier, the model does not explain a record, or the
 /// fit ends at a rotor that cannot be simulated.
-ContactFit fit_contact(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                       const std::vector<KnownParameter>& known);
+ContactFit fit_contact(std::span<const TestRecord> records, const std::vector<KnownParameter>& known);
 
 /// Repeats the fit from other values of β and keeps the fit with the smallest spread of residuals. A spring
 /// that softens within a count or two has little influence on the rough fit, which may end far away.
 /// @returns whether `fit` changed.
 bool improve_softening(std::span<const TestRecord> records, ContactFit& fit);
+
+/// The reason why the records do not determine a coordinate, derived from their parts: a clause that
+/// completes "because …".
+std::string missing_information(std::span<const TestRecord> records, const ContactFit& fit,
+                                Coordinate coordinate);
 
 }  // namespace zerocount::identification

@@ -61,8 +61,7 @@ Eigen::VectorXd creep_extension(const TestRecord& record, const CreepEstimate& c
   return extension;
 }
 
-CreepEstimate estimate_creep(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                             double creep_torque) {
+CreepEstimate estimate_creep(std::span<const TestRecord> records, double creep_torque) {
   std::vector<Eigen::VectorXd> angles;
   double longest = 0.0;
   for (const TestRecord& record : records) {
@@ -77,7 +76,7 @@ CreepEstimate estimate_creep(std::span<const TestRecord> records, std::span<cons
       HoldSums sums;
       for (std::size_t r = 0; r < records.size(); ++r) {
         const Eigen::VectorXd law = creep_extension(records[r], tried, creep_torque);
-        for (const TorqueHold& hold : parts[r].holds) {
+        for (const TorqueHold& hold : records[r].parts.holds) {
           add_hold(hold, records[r].sample_time, law, angles[r], sums);
         }
       }

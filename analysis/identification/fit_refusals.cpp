@@ -1,5 +1,3 @@
-#include "analysis/identification/fit_refusals.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/identification/residual_checks.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::identification {

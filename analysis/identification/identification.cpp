@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include "analysis/identification/confidence_interval.hpp"
-#include "analysis/identification/fit_refusals.hpp"
-#include "analysis/identification/missing_information.hpp"
 #include "analysis/identification/reading_replicates.hpp"
 #include "analysis/identification/residual_checks.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -30,10 +28,10 @@ bool is_known(const IdentificationOptions& options, Coordinate coordinate) {
                      [&](const KnownParameter& known) { return known.coordinate == coordinate; });
 }
 
-void check_reversals(std::span<const RecordParts> parts, const IdentificationOptions& options) {
+void check_reversals(std::span<const TestRecord> records, const IdentificationOptions& options) {
   if (is_known(options, log_k1) && is_known(options, log_k2) && is_known(options, log_beta)) return;
   std::size_t reversals = 0;
-  for (const RecordParts& of_record : parts) reversals += of_record.reversals();
+  for (const TestRecord& record : records) reversals += record.parts.reversals();
   if (reversals >= min_reversals) return;
   throw Failure(ExitCode::bad_data,
                 fmt::format("too few reversals: the torque turns {} (swings below 2 % of its range do not "
@@ -63,18 +61,17 @@ void check_different(std::span<const TestRecord> records) {
   }
 }
 
-RecordSummary summary_of(const TestRecord& record, const RecordParts& parts, const ContactFit& fit,
-                         std::size_t number) {
+RecordSummary summary_of(const TestRecord& record, const ContactFit& fit, std::size_t number) {
   RecordSummary summary;
   summary.name = record.name;
   summary.samples = sample_count(record);
   summary.duration = static_cast<double>(summary.samples) * record.sample_time;
   summary.counted = record.counted;
   summary.unit = record.unit;
-  summary.branches = parts.branches.size();
-  summary.reversals = parts.reversals();
-  summary.holds = parts.holds.size();
-  summary.ring_downs = parts.ring_downs();
+  summary.branches = record.parts.branches.size();
+  summary.reversals = record.parts.reversals();
+  summary.holds = record.parts.holds.size();
+  summary.ring_downs = record.parts.ring_downs();
   summary.misfit = fit.misfit[number];
   summary.noise = fit.noise[number];
   return summary;
@@ -122,7 +119,6 @@ ParameterEstimate given(const FittedQuantity& quantity, const IdentificationOpti
 /// What the estimate of a quantity comes from.
 struct Estimation {
   std::span<const TestRecord> records;
-  std::span<const RecordParts> parts;
   const ContactFit& fit;
   const ReadingReplicates& replicates;
   const IdentificationOptions& options;
@@ -147,7 +143,7 @@ struct Estimation {
     ParameterEstimate parameter =
         parameter_of(quantity, EstimateStatus::not_identifiable,
                      {statistics::unknown, statistics::unknown, statistics::unknown, statistics::unknown});
-    parameter.reason = missing_information(records, parts, fit, quantity.coordinates.back());
+    parameter.reason = missing_information(records, fit, quantity.coordinates.back());
     return parameter;
   }
 };
@@ -184,13 +180,11 @@ std::vector<Identification::Correlation> strong_correlations(const std::vector<F
 
 }  // namespace
 
-Identification identify(const std::vector<TestRecord>& records, const IdentificationOptions& options) {
+Identification identify(std::vector<TestRecord> records, const IdentificationOptions& options) {
   check_different(records);
-  std::vector<RecordParts> parts;
-  parts.reserve(records.size());
-  for (const TestRecord& record : records) parts.push_back(parts_of(record));
-  check_reversals(parts, options);
-  ContactFit fit = fit_contact(records, parts, options.known);
+  for (TestRecord& record : records) record.parts = parts_of(record);
+  check_reversals(records, options);
+  ContactFit fit = fit_contact(records, options.known);
   ReadingReplicates replicates;
   Identification result;
   const auto check = [&] {
@@ -202,10 +196,10 @@ Identification identify(const std::vector<TestRecord>& records, const Identifica
   if (!result.checks.passed && improve_softening(records, fit)) check();
   refuse_gross_misfit(records, fit, result.checks);
   for (std::size_t r = 0; r < records.size(); ++r) {
-    result.records.push_back(summary_of(records[r], parts[r], fit, r));
+    result.records.push_back(summary_of(records[r], fit, r));
   }
   const std::vector<FittedQuantity> quantities = fitted_quantities(fit.model.point, fit.setting.creep_torque);
-  const Estimation estimation{records, parts, fit, replicates, options, result.checks.widening};
+  const Estimation estimation{records, fit, replicates, options, result.checks.widening};
   for (const FittedQuantity& quantity : quantities) {
     result.parameters.push_back(estimation.estimate(quantity));
   }

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "analysis/identification/identification_report.hpp"
+#include "analysis/identification/identification.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::identification {

@@ -1,7 +1,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/identification_report.hpp"
+#include "analysis/identification/identification.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::identification {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/identification_report.hpp"
+#include "analysis/identification/identification.hpp"
 
 namespace zerocount::identification {
 namespace {

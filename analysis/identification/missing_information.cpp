@@ -1,9 +1,9 @@
-#include "analysis/identification/missing_information.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
+
+#include "analysis/identification/contact_fit.hpp"
 
 namespace zerocount::identification {
 namespace {
@@ -14,11 +14,11 @@ struct CreepingHold {
   double creep{0.0};   ///< fitted travel from a quarter of the hold to its end, in units of the readings
 };
 
-std::vector<CreepingHold> creeping_holds(std::span<const RecordParts> parts, const ContactFit& fit) {
+std::vector<CreepingHold> creeping_holds(std::span<const TestRecord> records, const ContactFit& fit) {
   std::vector<CreepingHold> holds;
-  for (std::size_t r = 0; r < parts.size(); ++r) {
+  for (std::size_t r = 0; r < records.size(); ++r) {
     const Eigen::VectorXd& path = fit.model.motions[r].path;
-    for (const TorqueHold& hold : parts[r].holds) {
+    for (const TorqueHold& hold : records[r].parts.holds) {
       const std::size_t settled = hold.first + (hold.last - hold.first) / 4;
       const double creep =
           path[static_cast<Eigen::Index>(hold.last)] - path[static_cast<Eigen::Index>(settled)];
@@ -36,8 +36,9 @@ std::string of_spring(const ContactFit& fit, std::span<const TestRecord> records
       softening);
 }
 
-std::string of_ring_down(std::span<const RecordParts> parts) {
-  if (std::none_of(parts.begin(), parts.end(), [](const RecordParts& one) { return one.ring_downs() > 0; })) {
+std::string of_ring_down(std::span<const TestRecord> records) {
+  if (std::none_of(records.begin(), records.end(),
+                   [](const TestRecord& record) { return record.parts.ring_downs() > 0; })) {
     return "there is no ring-down: the torque never steps (by 5 % of its range within 8 samples) and then "
            "stays";
   }
@@ -71,8 +72,8 @@ std::string of_creep(const std::vector<CreepingHold>& holds, Coordinate coordina
 
 }  // namespace
 
-std::string missing_information(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                                const ContactFit& fit, Coordinate coordinate) {
+std::string missing_information(std::span<const TestRecord> records, const ContactFit& fit,
+                                Coordinate coordinate) {
   switch (coordinate) {
     case log_k1:
     case log_k2:
@@ -80,13 +81,13 @@ std::string missing_information(std::span<const TestRecord> records, std::span<c
       return of_spring(fit, records);
     case log_damping:
     case log_inertia:
-      return of_ring_down(parts);
+      return of_ring_down(records);
     case log_alpha:
     case log_limit:
     case creep_exponent:
       break;
   }
-  return of_creep(creeping_holds(parts, fit), coordinate);
+  return of_creep(creeping_holds(records, fit), coordinate);
 }
 
 }  // namespace zerocount::identification

@@ -1,5 +1,3 @@
-#include "analysis/identification/record_checks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -7,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/record_parts.hpp"
-#include "analysis/statistics/median.hpp"
+#include "analysis/identification/raw_series.hpp"
+#include "analysis/statistics/quantile.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::identification {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/statistics/median.hpp"
+#include "analysis/statistics/quantile.hpp"
 
 namespace zerocount::identification {
 namespace {

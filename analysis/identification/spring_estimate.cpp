@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "analysis/identification/starting_point.hpp"
-#include "analysis/statistics/median.hpp"
+#include "analysis/statistics/quantile.hpp"
 
 namespace zerocount::identification {
 namespace {
@@ -64,7 +64,7 @@ double softening_travel(const Chord& chord, const Line& line, double proportion,
 
 /// Estimate without a slow branch: from the softest step, or from the ratio of the largest torque and angle,
 /// with assumed values of β and k2.
-SpringEstimate secant_estimate(std::span<const TestRecord> records, std::span<const RecordParts> parts) {
+SpringEstimate secant_estimate(std::span<const TestRecord> records) {
   constexpr double softened = 20.0;  // β times the travel
   constexpr double offset = 0.05;    // of the torque
   SpringEstimate estimate{std::numeric_limits<double>::infinity(), 0.0, 0.0};
@@ -73,7 +73,7 @@ SpringEstimate secant_estimate(std::span<const TestRecord> records, std::span<co
     estimate = {torque / travel, offset * torque, softened / travel};
   };
   for (std::size_t r = 0; r < records.size(); ++r) {
-    for (const TorqueHold& hold : parts[r].holds) {
+    for (const TorqueHold& hold : records[r].parts.holds) {
       if (hold.rings_down) take(std::abs(hold.torque - hold.from), first_swing(records[r], hold).travel);
     }
   }
@@ -87,15 +87,15 @@ SpringEstimate secant_estimate(std::span<const TestRecord> records, std::span<co
 
 }  // namespace
 
-SpringEstimate estimate_spring(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                               const CreepEstimate& creep, double creep_torque) {
+SpringEstimate estimate_spring(std::span<const TestRecord> records, const CreepEstimate& creep,
+                               double creep_torque) {
   std::vector<double> slopes, offsets, rates;
   for (std::size_t r = 0; r < records.size(); ++r) {
     const Eigen::VectorXd angle =
         measured_angle(records[r]) - creep_extension(records[r], creep, creep_torque);
     const bool virgin = records[r].start.preload == 0.0 && records[r].start.history.empty();
-    for (std::size_t b = 0; b < parts[r].branches.size(); ++b) {
-      const LoadingBranch& branch = parts[r].branches[b];
+    for (std::size_t b = 0; b < records[r].parts.branches.size(); ++b) {
+      const LoadingBranch& branch = records[r].parts.branches[b];
       if (!branch.slow) continue;
       const Chord chord = chord_of(records[r], branch, angle, virgin && b == 0);
       const double travel = chord.travel.back();
@@ -108,7 +108,7 @@ SpringEstimate estimate_spring(std::span<const TestRecord> records, std::span<co
       rates.push_back(1.0 / softening_travel(chord, line, proportion, 0.5 * records[r].unit));
     }
   }
-  if (slopes.empty()) return secant_estimate(records, parts);
+  if (slopes.empty()) return secant_estimate(records);
   SpringEstimate estimate;
   estimate.k1 = statistics::upper_median(slopes);
   estimate.offset =

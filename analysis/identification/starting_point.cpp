@@ -17,10 +17,10 @@ struct RingDown {
   TorqueHold hold;
 };
 
-RingDown largest_ring_down(std::span<const TestRecord> records, std::span<const RecordParts> parts) {
+RingDown largest_ring_down(std::span<const TestRecord> records) {
   RingDown largest;
   for (std::size_t r = 0; r < records.size(); ++r) {
-    for (const TorqueHold& hold : parts[r].holds) {
+    for (const TorqueHold& hold : records[r].parts.holds) {
       if (!hold.rings_down) continue;
       const bool larger = largest.record == nullptr || std::abs(hold.torque - hold.from) >
                                                            std::abs(largest.hold.torque - largest.hold.from);
@@ -94,19 +94,19 @@ ChosenRecords all_of(std::span<const TestRecord> records) {
 }
 
 /// The records with a ring-down.
-ChosenRecords ringing_records(std::span<const TestRecord> records, std::span<const RecordParts> parts) {
+ChosenRecords ringing_records(std::span<const TestRecord> records) {
   ChosenRecords ringing;
   for (std::size_t r = 0; r < records.size(); ++r) {
-    if (parts[r].ring_downs() > 0) ringing.push_back(&records[r]);
+    if (records[r].parts.ring_downs() > 0) ringing.push_back(&records[r]);
   }
   return ringing;
 }
 
 /// Searches J and c around those of the point, with the records that have a ring-down. Without a ring-down it
 /// searches a wider range with all records, because the response to DAC steps may show the inertia.
-ContactPoint with_best_ringing(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                               const ContactPoint& point, double creep_torque) {
-  const ChosenRecords ringing = ringing_records(records, parts);
+ContactPoint with_best_ringing(std::span<const TestRecord> records, const ContactPoint& point,
+                               double creep_torque) {
+  const ChosenRecords ringing = ringing_records(records);
   if (!ringing.empty()) {
     return best_of(ringing, point, creep_torque,
                    changes_of({0.4, 0.63, 1.0, 1.6, 2.5}, {0.2, 0.45, 1.0, 2.2}));
@@ -117,11 +117,11 @@ ContactPoint with_best_ringing(std::span<const TestRecord> records, std::span<co
 }
 
 /// Estimates the spring, J and c for a given creep law.
-ContactPoint point_with_creep(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                              const CreepEstimate& creep, double creep_torque) {
-  const SpringEstimate spring = estimate_spring(records, parts, creep, creep_torque);
+ContactPoint point_with_creep(std::span<const TestRecord> records, const CreepEstimate& creep,
+                              double creep_torque) {
+  const SpringEstimate spring = estimate_spring(records, creep, creep_torque);
   ContactParameters contact;
-  contact.plant = estimate_ring_down(records, parts, spring.k1);
+  contact.plant = estimate_ring_down(records, spring.k1);
   contact.friction.k1 = spring.k1;
   contact.friction.k2 = spring.offset * spring.beta;
   contact.friction.beta = spring.beta;
@@ -146,9 +146,8 @@ FirstSwing first_swing(const TestRecord& record, const TorqueHold& ring_down) {
   return {static_cast<std::size_t>(peak + 1), travel, travel > 0.0 ? swing[peak] / travel - 1.0 : 0.0};
 }
 
-motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records,
-                                           std::span<const RecordParts> parts, double k1) {
-  const RingDown ring = largest_ring_down(records, parts);
+motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records, double k1) {
+  const RingDown ring = largest_ring_down(records);
   const double sample_time = records.front().sample_time;
   // Without a ring-down: an oscillation too fast for the sampling, with a third of the critical damping.
   double period = 4.0 * sample_time;
@@ -169,38 +168,36 @@ motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records,
   return plant;
 }
 
-ContactPoint starting_point(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                            double creep_torque) {
-  CreepEstimate creep = estimate_creep(records, parts, creep_torque);
+ContactPoint starting_point(std::span<const TestRecord> records, double creep_torque) {
+  CreepEstimate creep = estimate_creep(records, creep_torque);
   const bool seen = creep.limit > 0.0;
   // No hold shows creep. Search its limit as a fraction of the spring's travel, starting with a small one.
-  const double travel = seen ? 0.0 : creep_torque / estimate_spring(records, parts, creep, creep_torque).k1;
+  const double travel = seen ? 0.0 : creep_torque / estimate_spring(records, creep, creep_torque).k1;
   if (!seen) creep.limit = 1e-3 * travel;
-  ContactPoint point = point_with_creep(records, parts, creep, creep_torque);
-  if (seen) return with_best_ringing(records, parts, point, creep_torque);
+  ContactPoint point = point_with_creep(records, creep, creep_torque);
+  if (seen) return with_best_ringing(records, point, creep_torque);
 
   double least = misfit(all_of(records), point, creep_torque);
   for (const double proportion : {0.1, 0.2, 0.3, 0.45, 0.7, 1.0, 1.5, 2.2, 3.3}) {
     creep.limit = proportion * travel;
-    const ContactPoint tried = point_with_creep(records, parts, creep, creep_torque);
+    const ContactPoint tried = point_with_creep(records, creep, creep_torque);
     const double left = misfit(all_of(records), tried, creep_torque);
     if (left >= least) continue;
     least = left;
     point = tried;
   }
-  return with_best_ringing(records, parts, point, creep_torque);
+  return with_best_ringing(records, point, creep_torque);
 }
 
 std::vector<ContactPoint> other_starting_points(std::span<const TestRecord> records,
-                                                std::span<const RecordParts> parts, const ContactPoint& start,
-                                                double creep_torque) {
+                                                const ContactPoint& start, double creep_torque) {
   std::vector<ContactPoint> others;
   for (const double rate : {0.1, 1.0, 5.0, 20.0, 80.0}) {
     for (const double offset : {0.3, 1.0}) {
       ContactPoint point = start;
       point[log_beta] += std::log(rate);
       point[log_k2] += std::log(rate * offset);
-      others.push_back(with_best_ringing(records, parts, point, creep_torque));
+      others.push_back(with_best_ringing(records, point, creep_torque));
     }
   }
   return others;

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "analysis/identification/contact_coordinates.hpp"
-#include "analysis/identification/record_parts.hpp"
 #include "analysis/identification/test_record.hpp"
 
 namespace zerocount::identification {
@@ -21,8 +20,7 @@ struct CreepEstimate {
 
 /// Fits the creep law to the holds by least squares, over a grid of α and n. At constant torque only creep
 /// moves the rotor, and the law is linear in its limit.
-CreepEstimate estimate_creep(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                             double creep_torque);
+CreepEstimate estimate_creep(std::span<const TestRecord> records, double creep_torque);
 
 /// Creep extension xp (rad) at every sample, if the spring torque always equals the applied torque.
 Eigen::VectorXd creep_extension(const TestRecord& record, const CreepEstimate& creep, double creep_torque);
@@ -36,8 +34,8 @@ struct SpringEstimate {
 
 /// Median over the branches. k1 is the slope of the last 40 % of the travel, k2/β the intercept of that line
 /// at the reversal, and 1/β the travel after which 63 % of the intercept are reached.
-SpringEstimate estimate_spring(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                               const CreepEstimate& creep, double creep_torque);
+SpringEstimate estimate_spring(std::span<const TestRecord> records, const CreepEstimate& creep,
+                               double creep_torque);
 
 /// The first oscillation after a step of the torque.
 struct FirstSwing {
@@ -49,18 +47,15 @@ struct FirstSwing {
 FirstSwing first_swing(const TestRecord& record, const TorqueHold& ring_down);
 
 /// J and c from the first oscillation after the largest step, for a linear spring of stiffness k1.
-motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records,
-                                           std::span<const RecordParts> parts, double k1);
+motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records, double k1);
 
 /// Starting point of the joint fit: the estimates above, with β, J and c from a coarse grid search around
 /// them (sum of squares over all readings).
-ContactPoint starting_point(std::span<const TestRecord> records, std::span<const RecordParts> parts,
-                            double creep_torque);
+ContactPoint starting_point(std::span<const TestRecord> records, double creep_torque);
 
 /// Alternative starting points: springs with much larger or smaller β and with other values of k2/β, each
 /// with its best J and c of the grid.
 std::vector<ContactPoint> other_starting_points(std::span<const TestRecord> records,
-                                                std::span<const RecordParts> parts, const ContactPoint& start,
-                                                double creep_torque);
+                                                const ContactPoint& start, double creep_torque);
 
 }  // namespace zerocount::identification

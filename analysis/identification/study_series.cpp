@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "analysis/identification/raw_series.hpp"
+#include "analysis/statistics/quantile.hpp"
 #include "core/failure/failure.hpp"
 #include "core/trial/random_history.hpp"
 #include "experiments/study/study.hpp"
@@ -13,17 +14,8 @@ namespace {
 /// Index of the first sample of global row `row` in the trace, which is ordered by trial; the size of the
 /// trace if there is none.
 std::int64_t first_record(const reading::StudyFile& file, std::int64_t row) {
-  std::int64_t low = 0;
-  std::int64_t high = file.trace_count();
-  while (low < high) {
-    const std::int64_t middle = low + (high - low) / 2;
-    if (file.trace_at(middle, 1).front().trial < row) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low;
+  return statistics::first_where(0, file.trace_count(),
+                                 [&](std::int64_t at) { return file.trace_at(at, 1).front().trial >= row; });
 }
 
 std::vector<layout::TraceRecord> records_of(const reading::StudyFile& file, std::int64_t row) {

@@ -1,6 +1,6 @@
-#include "analysis/iso230/repeatability_fields.hpp"
-
 #include <array>
+
+#include "analysis/iso230/repeatability_columns.hpp"
 
 namespace zerocount::iso230 {
 

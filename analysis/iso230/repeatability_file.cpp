@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "analysis/iso230/repeatability_fields.hpp"
-#include "analysis/iso230/repeatability_layout.hpp"
-#include "analysis/statistics/unknown.hpp"
+#include "analysis/iso230/repeatability_columns.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
+#include "results/reading/csv.hpp"
 
 namespace zerocount::iso230 {
 namespace {
@@ -40,42 +39,10 @@ layout::TableIo open_outcomes(const hdf5::Group& root) {
   return layout::TableIo::open(root, table);
 }
 
-/// The values of some trials: a vector for each numeric column of the two tables of trials.
-struct TrialValues {
-  std::vector<std::uint8_t> evaluated;
-  std::vector<std::vector<double>> axis;
-  std::vector<std::vector<double>> targets;  ///< [column], [trial][target] flattened
-
-  void add(const std::optional<TrialRepeatability>& trial, std::span<const double> positions) {
-    evaluated.push_back(trial.has_value() ? 1 : 0);
-    std::size_t column = 0;
-    for (const DeviationSource& source : deviation_sources()) {
-      for (const auto& field : axis_fields()) {
-        axis[column++].push_back(trial ? ((*trial).*source.values).axis.*field.value : statistics::unknown);
-      }
-    }
-    targets.front().insert(targets.front().end(), positions.begin(), positions.end());
-    column = 1;
-    for (const DeviationSource& source : deviation_sources()) {
-      for (const auto& field : target_fields()) {
-        for (std::size_t target = 0; target < positions.size(); ++target) {
-          const double value =
-              trial ? ((*trial).*source.values).targets[target].*field.value : statistics::unknown;
-          targets[column].push_back(value);
-        }
-        ++column;
-      }
-    }
-  }
-};
-
-/// The values of the trials of these rows.
-TrialValues evaluate(const study::Study& study, const hdf5::Group& root, const layout::TableIo& outcomes,
-                     std::int64_t first, std::int64_t count) {
-  const std::size_t sources = deviation_sources().size();
-  TrialValues values;
-  values.axis.resize(sources * axis_fields().size());
-  values.targets.resize(1 + sources * target_fields().size());
+/// The trials of these rows.
+std::vector<SequenceTrial> evaluate(const study::Study& study, const hdf5::Group& root,
+                                    const layout::TableIo& outcomes, std::int64_t first, std::int64_t count) {
+  std::vector<SequenceTrial> trials;
   const std::vector<trial::MoveOutcome> moves =
       layout::read_records(outcomes, measured_fields(), first, count);
   for (std::int64_t row = first; row < first + count; ++row) {
@@ -85,101 +52,121 @@ TrialValues evaluate(const study::Study& study, const hdf5::Group& root, const l
     const std::span<const trial::MoveOutcome> trial =
         std::span(moves).subspan(begin, static_cast<std::size_t>(outcomes.width()));
     try {
-      values.add(trial_repeatability(study.sequence, parameters, trial),
-                 listed_targets(study.sequence, parameters));
+      trials.push_back({listed_targets(study.sequence, parameters),
+                        trial_repeatability(study.sequence, parameters, trial)});
     } catch (const Failure& failure) {
       throw Failure(failure.code(), fmt::format("{}: trial {}: {}", root.file_name(), row, failure.what()));
     }
   }
-  return values;
+  return trials;
 }
 
-void write_trials(hdf5::File& file, const study::Study& study, const SequenceShape& shape) {
+/// Writes the columns to those of the table from `first_column` on, for `rows` from row `first` on.
+template <typename Row>
+void write_columns(layout::TableIo& io, std::size_t first_column, const RepeatabilityColumns<Row>& columns,
+                   std::int64_t first, const std::vector<Row>& rows) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    std::vector<double> values;
+    for (const Row& row : rows) {
+      for (std::size_t target = 0; target < static_cast<std::size_t>(io.width()); ++target)
+        values.push_back(columns[i].value(row, target));
+    }
+    io.column(first_column + i).write(first, std::ssize(rows), values.data());
+  }
+}
+
+layout::TableIo create_table(hdf5::File& file, const study::Study& study, const layout::Table& table,
+                             std::int64_t rows, std::int64_t width) {
+  layout::TableIo io = layout::TableIo::create(file, layout::on_axis(table, study.units.axis), rows, width);
+  io.number_rows(0);
+  return io;
+}
+
+void write_trials(hdf5::File& file, const study::Study& study) {
   const std::int64_t rows = study::trial_count(study);
   const layout::TableIo outcomes = open_outcomes(file);
   if (outcomes.rows() != rows) outcomes.row_scale().fail("it is not of all trials of the study");
-  layout::TableIo axis =
-      layout::TableIo::create(file, layout::on_axis(trial_table_of_axis(), study.units.axis), rows, 1);
-  layout::TableIo targets = layout::TableIo::create(
-      file, layout::on_axis(trial_table_of_targets(), study.units.axis), rows, shape.targets);
-  axis.number_rows(0);
-  targets.number_rows(0);
+  layout::TableIo axis = create_table(file, study, trial_table_of_axis(), rows, 1);
+  layout::TableIo targets =
+      create_table(file, study, trial_table_of_targets(), rows, shape_of(study.sequence).targets);
   const std::int64_t at_once = layout::chunk_rows(outcomes.width());
   for (std::int64_t first = 0; first < rows; first += at_once) {
-    const std::int64_t count = std::min(at_once, rows - first);
-    const TrialValues values = evaluate(study, file, outcomes, first, count);
-    axis.column(0).write(first, count, values.evaluated.data());
-    for (std::size_t i = 0; i < values.axis.size(); ++i) {
-      axis.column(1 + i).write(first, count, values.axis[i].data());
-    }
-    for (std::size_t i = 0; i < values.targets.size(); ++i) {
-      targets.column(i).write(first, count, values.targets[i].data());
+    const std::vector<SequenceTrial> trials =
+        evaluate(study, file, outcomes, first, std::min(at_once, rows - first));
+    std::vector<std::uint8_t> evaluated;
+    for (const SequenceTrial& trial : trials) evaluated.push_back(trial.values.has_value() ? 1 : 0);
+    axis.column(0).write(first, std::ssize(trials), evaluated.data());
+    write_columns(axis, 1, trial_axis_columns(), first, trials);
+    write_columns(targets, 0, trial_target_columns(), first, trials);
+  }
+}
+
+void write_points(hdf5::File& file, const study::Study& study, const RepeatabilitySummary& summary) {
+  const std::int64_t rows = std::ssize(summary.points);
+  layout::TableIo axis = create_table(file, study, point_table_of_axis(), rows, 1);
+  write_columns(axis, 0, point_axis_columns(), 0, summary.points);
+  layout::TableIo targets = create_table(file, study, point_table_of_targets(), rows, summary.shape.targets);
+  write_columns(targets, 0, point_target_columns(), 0, summary.points);
+}
+
+/// Rows [first, first + rows) of a column of numbers or flags, [row][second] flattened.
+std::vector<double> read_values(const layout::TableIo& io, std::size_t column, std::int64_t first,
+                                std::int64_t rows) {
+  const auto size = static_cast<std::size_t>(rows * io.width());
+  std::vector<double> values(size);
+  if (io.column(column).element() == hdf5::Element::float64) {
+    io.column(column).read(first, rows, values.data());
+    return values;
+  }
+  std::vector<std::uint8_t> flags(size);
+  io.column(column).read(first, rows, flags.data());
+  std::copy(flags.begin(), flags.end(), values.begin());
+  return values;
+}
+
+void export_table(const hdf5::Group& root, const layout::Table& table, reading::CsvFile& csv) {
+  const layout::TableIo io = layout::TableIo::open(root, table);
+  csv.add(table.rows.name);
+  if (table.second) csv.add(table.second->name);
+  for (const layout::Column& column : table.columns) {
+    std::string name = column.name;
+    std::replace(name.begin(), name.end(), '/', '_');
+    csv.add(reading::head_with_unit(name, column.unit));
+  }
+  csv.end_row();
+  for (std::int64_t first = 0; first < io.rows(); first += layout::chunk_rows(io.width())) {
+    const std::int64_t rows = std::min(layout::chunk_rows(io.width()), io.rows() - first);
+    std::vector<std::vector<double>> columns;
+    for (std::size_t i = 0; i < table.columns.size(); ++i) columns.push_back(read_values(io, i, first, rows));
+    for (std::int64_t i = 0; i < rows * io.width(); ++i) {
+      csv.add(first + i / io.width());
+      if (table.second) csv.add(i % io.width());
+      for (const std::vector<double>& values : columns) csv.add(values[static_cast<std::size_t>(i)]);
+      csv.end_row();
     }
   }
 }
 
-/// Writes a column of a table of points: `value(point, target)`; of a table without targets, target 0.
-template <typename Value>
-void write_column(layout::TableIo& io, std::size_t column, std::span<const PointRepeatability> points,
-                  const Value& value) {
-  std::vector<double> values;
-  for (const PointRepeatability& point : points) {
-    for (std::size_t target = 0; target < static_cast<std::size_t>(io.width()); ++target) {
-      values.push_back(value(point, target));
-    }
-  }
-  io.column(column).write(0, io.rows(), values.data());
-}
-
-void write_points_of_axis(hdf5::File& file, const RepeatabilitySummary& summary) {
-  const std::vector<PointRepeatability>& points = summary.points;
-  layout::TableIo io = layout::TableIo::create(file, layout::on_axis(point_table_of_axis(), summary.axis),
-                                               std::ssize(points), 1);
-  io.number_rows(0);
-  std::size_t column = 0;
-  for (const text::ReportField<PointRepeatability>& field : point_repeatability_fields()) {
-    write_column(io, column++, points,
-                 [&](const PointRepeatability& p, std::size_t) { return field.value(p); });
-  }
-  for (std::size_t source = 0; source < deviation_sources().size(); ++source) {
-    for (std::size_t field = 0; field < axis_fields().size(); ++field) {
-      for (const ValueStatisticField& statistic : value_statistic_fields()) {
-        write_column(io, column++, points, [&](const PointRepeatability& p, std::size_t) {
-          return statistic.value(p.sources[source].axis[field]);
-        });
-      }
-    }
-  }
-}
-
-void write_points_of_targets(hdf5::File& file, const RepeatabilitySummary& summary) {
-  const std::vector<PointRepeatability>& points = summary.points;
-  layout::TableIo io = layout::TableIo::create(file, layout::on_axis(point_table_of_targets(), summary.axis),
-                                               std::ssize(points), summary.shape.targets);
-  io.number_rows(0);
-  std::size_t column = 0;
-  using P = const PointRepeatability&;
-  write_column(io, column++, points, [](P p, std::size_t target) { return p.positions[target].min; });
-  write_column(io, column++, points, [](P p, std::size_t target) { return p.positions[target].max; });
-  for (std::size_t source = 0; source < deviation_sources().size(); ++source) {
-    for (std::size_t field = 0; field < target_fields().size(); ++field) {
-      for (const ValueStatisticField& statistic : value_statistic_fields()) {
-        if (!statistic.of_targets) continue;
-        write_column(io, column++, points, [&](P p, std::size_t target) {
-          return statistic.value(p.sources[source].targets[target][field]);
-        });
-      }
-    }
-  }
+reading::ExportedTable exported(const char* name, layout::Table table) {
+  return {name, [table = std::move(table)](const reading::StudyFile& file, reading::CsvFile& csv) {
+            export_table(hdf5::File::open_to_read(file.path()), table, csv);
+          }};
 }
 
 }  // namespace
 
 void write_repeatability(hdf5::File& file, const study::Study& study) {
-  write_trials(file, study, shape_of(study.sequence));
-  const RepeatabilitySummary summary = read_repeatability(file, study);
-  write_points_of_axis(file, summary);
-  write_points_of_targets(file, summary);
+  write_trials(file, study);
+  write_points(file, study, read_repeatability(file, study));
+}
+
+std::vector<reading::ExportedTable> repeatability_exports(const reading::StudyFile& file) {
+  if (!hdf5::File::open_to_read(file.path()).contains("repeatability")) return {};
+  const parameters::AxisKind axis = file.axis();
+  return {exported("repeatability_trials.csv", layout::on_axis(trial_table_of_axis(), axis)),
+          exported("repeatability_trial_targets.csv", layout::on_axis(trial_table_of_targets(), axis)),
+          exported("repeatability_points.csv", layout::on_axis(point_table_of_axis(), axis)),
+          exported("repeatability_point_targets.csv", layout::on_axis(point_table_of_targets(), axis))};
 }
 
 }  // namespace zerocount::iso230

@@ -3,6 +3,7 @@
 #include "analysis/iso230/repeatability_statistics.hpp"
 #include "experiments/study/study.hpp"
 #include "results/hdf5/hdf5.hpp"
+#include "results/reading/export.hpp"
 #include "results/reading/study_file.hpp"
 
 /// The group /repeatability of a results file, described in results/README.md.
@@ -24,5 +25,10 @@ RepeatabilitySummary read_repeatability(const hdf5::Group& root, const study::St
 /// As read_repeatability, of a complete results file.
 RepeatabilitySummary study_repeatability(const reading::StudyFile& file, const study::Study& study,
                                          double confidence = statistics::summary_confidence);
+
+/// The tables of the group as CSV: repeatability_trials.csv, repeatability_trial_targets.csv (a row per trial
+/// and target), repeatability_points.csv and repeatability_point_targets.csv. Columns have the paths of the
+/// datasets in their table, with _ for / and the unit in brackets. None where the file has no such group.
+std::vector<reading::ExportedTable> repeatability_exports(const reading::StudyFile& file);
 
 }  // namespace zerocount::iso230

@@ -4,9 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/iso230/repeatability_fields.hpp"
+#include "analysis/iso230/repeatability_columns.hpp"
 #include "analysis/iso230/repeatability_file.hpp"
-#include "analysis/iso230/repeatability_layout.hpp"
 #include "results/layout/table_io.hpp"
 
 namespace zerocount::iso230 {

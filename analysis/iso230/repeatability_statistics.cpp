@@ -8,7 +8,6 @@
 #include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::iso230 {
-namespace {}  // namespace
 
 ValueStatistics statistics_of(std::vector<double> values, double confidence) {
   std::erase_if(values, [](double value) { return std::isnan(value); });

@@ -1,13 +1,12 @@
-#include "analysis/iso230/repeatability_summary.hpp"
-
 #include <cstddef>
 #include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "analysis/iso230/repeatability_fields.hpp"
-#include "analysis/text/report_json.hpp"
+#include "analysis/iso230/repeatability_columns.hpp"
+#include "analysis/iso230/repeatability_statistics.hpp"
+#include "analysis/text/report_field.hpp"
 
 namespace zerocount::iso230 {
 namespace {
@@ -52,52 +51,26 @@ Json point_json(const PointRepeatability& point, parameters::AxisKind axis) {
   return json;
 }
 
-/// The columns of one kind of value. `values(point)` are their statistics at a point.
-template <typename Values, typename ValuesAt>
-void add_columns(std::vector<layout::PointColumn>& columns, std::span<const PointRepeatability> points,
-                 std::span<const RepeatabilityField<Values>> fields, const std::string& prefix,
-                 const DeviationSource& source, const ValuesAt& values, bool of_targets) {
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    for (const ValueStatisticField& statistic : value_statistic_fields()) {
-      if (of_targets && !statistic.of_targets) continue;
-      layout::PointColumn column{
-          fmt::format("{}_{}_{}", prefix, fields[i].name, statistic.name),
-          std::string(source.unit),
-          fmt::format("{} {}, {}", statistic.long_name, fields[i].long_name, source.long_name),
-          {}};
-      for (const PointRepeatability& point : points)
-        column.values.push_back(statistic.value(values(point)[i]));
-      columns.push_back(std::move(column));
-    }
-  }
-}
-
 std::vector<layout::PointColumn> section_columns(const RepeatabilitySummary& summary) {
-  using Point = const PointRepeatability&;
   std::vector<layout::PointColumn> columns;
-  for (const text::ReportField<PointRepeatability>& field : point_repeatability_fields()) {
-    layout::PointColumn column{"repeatability_" + field.name, field.unit, field.long_name, {}};
-    for (Point point : summary.points) column.values.push_back(field.value(point));
-    columns.push_back(std::move(column));
-  }
-  for (std::size_t i = 0; i < deviation_sources().size(); ++i) {
-    const DeviationSource& source = deviation_sources()[i];
-    const std::string prefix = fmt::format("repeatability_{}", source.name);
-    add_columns(
-        columns, summary.points, axis_fields(), prefix, source,
-        [i](Point point) { return std::span(point.sources[i].axis); }, false);
-    for (std::size_t target = 0; target < static_cast<std::size_t>(summary.shape.targets); ++target) {
-      add_columns(
-          columns, summary.points, target_fields(), fmt::format("{}_target_{}", prefix, target), source,
-          [i, target](Point point) { return std::span(point.sources[i].targets[target]); }, true);
+  const auto add = [&](const std::string& prefix, const auto& all, std::string_view source,
+                       std::size_t target) {
+    for (const RepeatabilityColumn<PointRepeatability>& column : all) {
+      if (column.source != source) continue;
+      layout::PointColumn& added = columns.emplace_back(layout::on_axis(
+          layout::PointColumn{prefix + column.name, std::string(column.unit), column.long_name, {}},
+          summary.axis));
+      for (const PointRepeatability& point : summary.points)
+        added.values.push_back(column.value(point, target));
     }
+  };
+  add("repeatability_", point_axis_columns(), "", 0);
+  for (const DeviationSource& source : deviation_sources()) {
+    const std::string prefix = fmt::format("repeatability_{}_", source.name);
+    add(prefix, point_axis_columns(), source.name, 0);
+    for (std::size_t target = 0; target < static_cast<std::size_t>(summary.shape.targets); ++target)
+      add(fmt::format("{}target_{}_", prefix, target), point_target_columns(), source.name, target);
   }
-  return columns;
-}
-
-std::vector<layout::PointColumn> on_axis(std::vector<layout::PointColumn> columns,
-                                         parameters::AxisKind axis) {
-  for (layout::PointColumn& column : columns) column = zerocount::layout::on_axis(std::move(column), axis);
   return columns;
 }
 
@@ -107,7 +80,7 @@ measures::SummarySection repeatability_section(const RepeatabilitySummary& summa
                                                const std::vector<std::string>& labels) {
   measures::SummarySection section{.key = "repeatability",
                                    .json = {},
-                                   .columns = on_axis(section_columns(summary), summary.axis),
+                                   .columns = section_columns(summary),
                                    .text = repeatability_tables(summary, labels)};
   for (const PointRepeatability& point : summary.points)
     section.json.push_back(point_json(point, summary.axis));

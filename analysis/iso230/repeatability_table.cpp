@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/iso230/repeatability_fields.hpp"
-#include "analysis/iso230/repeatability_summary.hpp"
+#include "analysis/iso230/repeatability_columns.hpp"
+#include "analysis/iso230/repeatability_statistics.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/tolerance.hpp"
 #include "analysis/text/text.hpp"

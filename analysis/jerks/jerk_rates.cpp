@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/statistics/poisson_bounds.hpp"
+#include "analysis/statistics/mean_bounds.hpp"
 
 namespace zerocount::jerks {
 namespace {

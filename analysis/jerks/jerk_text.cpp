@@ -13,22 +13,15 @@ std::string bounds_text(const statistics::ConfidenceInterval& bounds) {
 }
 
 std::string rate_table(const std::vector<JerkRate>& rates, const std::string& level) {
-  std::vector<text::TextColumn> columns{{"since arrival (s)", true, {}}, {"moves", true, {}},
-                                        {"watched (s)", true, {}},       {"jerks", true, {}},
-                                        {"rate (1/s)", true, {}},        {level + " bounds", true, {}},
-                                        {"dispersion", true, {}}};
+  std::vector<std::vector<std::string>> cells{
+      {"since arrival (s)", "moves", "watched (s)", "jerks", "rate (1/s)", level + " bounds", "dispersion"}};
   for (const JerkRate& rate : rates) {
-    const std::string cells[] = {
-        fmt::format("{} to {}", text::short_number(rate.from), text::short_number(rate.to)),
-        std::to_string(rate.moves),
-        text::short_number(rate.exposure),
-        std::to_string(rate.jerks),
-        text::short_number(rate.rate),
-        bounds_text(rate.bounds),
-        text::short_number(rate.dispersion)};
-    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].cells.push_back(cells[i]);
+    cells.push_back({fmt::format("{} to {}", text::short_number(rate.from), text::short_number(rate.to)),
+                     std::to_string(rate.moves), text::short_number(rate.exposure),
+                     std::to_string(rate.jerks), text::short_number(rate.rate), bounds_text(rate.bounds),
+                     text::short_number(rate.dispersion)});
   }
-  return text::aligned_table(columns);
+  return text::aligned_table(cells, std::vector<bool>(cells.front().size(), true));
 }
 
 std::string proportion_text(const statistics::ClusteredProportion& proportion) {

@@ -1,5 +1,3 @@
-#include "analysis/measures/measure_accumulator.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -8,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/measures/point_accumulator.hpp"
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/mean_bounds.hpp"

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/measures/statistic_fields.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "core/failure/failure.hpp"
 

@@ -3,11 +3,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/measures/theory_prediction.hpp"
+#include "analysis/text/report_field.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 
@@ -43,5 +47,31 @@ std::vector<layout::PointColumn> prediction_columns(std::span<const TheoryPredic
 /// @throws Failure (bad_data), with `file` in the message, where a column is missing or holds no proportions.
 std::vector<TheoryPrediction> predictions_of(std::span<const layout::PointColumn> columns,
                                              std::int64_t trials, const std::filesystem::path& file);
+
+/// A part of a summary that only some studies have, made apart from the rest.
+struct SummarySection {
+  std::string key;                           ///< its name in the JSON of each point
+  std::vector<nlohmann::ordered_json> json;  ///< [point]
+  std::vector<layout::PointColumn> columns;  ///< of the CSV: a value per point
+  std::string text;                          ///< below the table, whole lines
+};
+
+/// One number of PointSummary as it is reported.
+using StatisticField = text::ReportField<PointSummary>;
+
+/// Those of a study with these features, in the order of the report: what only some studies have comes last.
+std::vector<StatisticField> statistic_fields(const study::StudyFeatures& features = {},
+                                             const layout::MeasureTable& measures = layout::measure_table());
+
+/// The bounds of means, which are in summaries only: the results file does not hold them.
+std::vector<StatisticField> mean_bound_fields(const layout::MeasureTable& measures = layout::measure_table());
+
+/// What is reported of a torque level, in the order of the report.
+using LevelField = text::ReportField<LevelStatistics>;
+std::vector<LevelField> level_fields(const layout::MeasureTable& measures = layout::measure_table());
+
+/// The qualities by which trials are counted in a study with these features, in the order of the report.
+std::vector<const layout::Measure*> counted_qualities(const study::StudyFeatures& features,
+                                                      const layout::MeasureTable& measures);
 
 }  // namespace zerocount::measures

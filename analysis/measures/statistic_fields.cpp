@@ -1,9 +1,9 @@
-#include "analysis/measures/statistic_fields.hpp"
-
 #include <algorithm>
 #include <iterator>
 
 #include <fmt/format.h>
+
+#include "analysis/measures/point_columns.hpp"
 
 namespace zerocount::measures {
 namespace {

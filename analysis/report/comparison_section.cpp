@@ -5,8 +5,7 @@
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/comparison/gate_rules.hpp"
-#include "analysis/report/escaping.hpp"
-#include "analysis/report/html_table.hpp"
+#include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/text/text.hpp"
 
@@ -115,9 +114,10 @@ Figure success_change(const comparison::StudyComparison& comparison,
   if (comparison.points.size() > max_bars)
     caption += fmt::format("Shown are the {} of {} points with the worst verdicts. ", max_bars,
                            comparison.points.size());
-  Figure figure = figure_of("success-change", "success-change", "Success against the baseline", caption);
-  set_rows(figure, data.rows.size(), 24);
-  figure.data.push_back(std::move(data));
+  const std::size_t bars = data.rows.size();
+  Figure figure = figure_of("success-change", "success-change", "Success against the baseline", caption,
+                            {std::move(data)});
+  set_rows(figure, bars, 24);
   return figure;
 }
 

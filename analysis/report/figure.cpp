@@ -45,11 +45,11 @@ void reword_title(std::string& title, parameters::AxisKind axis) {
 
 }  // namespace
 
-Figure figure_of(std::string_view specification, std::string name, std::string title, std::string caption) {
-  Figure figure{std::move(name), std::move(title), std::move(caption), {}, {}};
-  figure.specification =
-      nlohmann::ordered_json::parse(embedded_file(fmt::format("{}.vl.json", specification)));
-  return figure;
+Figure figure_of(std::string_view specification, std::string name, std::string title, std::string caption,
+                 std::vector<FigureData> data) {
+  return {std::move(name), std::move(title), std::move(caption),
+          nlohmann::ordered_json::parse(embedded_file(fmt::format("{}.vl.json", specification))),
+          std::move(data)};
 }
 
 void call_bounds_too_narrow(Figure& figure, const std::string& why) {

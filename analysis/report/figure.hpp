@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -25,6 +27,26 @@ struct FigureData {
   std::vector<nlohmann::ordered_json> rows{};  ///< [row] an array with one value per column
 };
 
+/// A column of a dataset with a row for each subject, and its value of a subject.
+template <class Subject>
+struct ColumnOf {
+  FigureColumn column;
+  std::function<nlohmann::ordered_json(const Subject&)> value;
+};
+
+/// A dataset with a row for each of `subjects`.
+template <class Subject>
+FigureData data_of(std::string name, const std::vector<Subject>& subjects,
+                   const std::vector<ColumnOf<Subject>>& columns) {
+  FigureData data{std::move(name), {}};
+  for (const ColumnOf<Subject>& one : columns) data.columns.push_back(one.column);
+  for (const Subject& subject : subjects) {
+    nlohmann::ordered_json& row = data.rows.emplace_back(nlohmann::ordered_json::array());
+    for (const ColumnOf<Subject>& one : columns) row.push_back(one.value(subject));
+  }
+  return data;
+}
+
 /// A figure: a Vega-Lite specification, its data, title and caption.
 struct Figure {
   std::string name;  ///< for `plot`, and its anchor in the page
@@ -34,8 +56,9 @@ struct Figure {
   std::vector<FigureData> data;  ///< the first one is also shown as a table
 };
 
-/// A figure without data, with the embedded specification `specification`.vl.json.
-Figure figure_of(std::string_view specification, std::string name, std::string title, std::string caption);
+/// A figure with the embedded specification `specification`.vl.json.
+Figure figure_of(std::string_view specification, std::string name, std::string title, std::string caption,
+                 std::vector<FigureData> data);
 
 /// Marks all bounds in the data table and the tooltips as too narrow, and adds `why` to the caption. No
 /// effect on a figure without bounds.

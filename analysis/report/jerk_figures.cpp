@@ -105,36 +105,34 @@ Figure raster(const ReportedStudy& reported, std::int64_t point) {
     caption += fmt::format("Of each move at most {} jerks are shown; {} later ones are omitted. ",
                            max_jerks_of_a_row, left_out);
   }
-  Figure figure = figure_of("jerk-raster", "jerk-raster", "Jerks of single moves", caption);
+  Figure figure =
+      figure_of("jerk-raster", "jerk-raster", "Jerks of single moves", caption, {std::move(data)});
   set_rows(figure, std::max<std::size_t>(moves.shown.size(), 12), 6);
-  figure.data.push_back(std::move(data));
   return figure;
 }
 
 std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point) {
   const jerks::JerkStatistics jerks = jerks::jerk_statistics(reported.file, reported.study, point);
   if (jerks.rates.size() < 2) return std::nullopt;
-  FigureData data{"rates",
-                  {{"from", "time since arrival from", "s"},
-                   {"to", "to", "s"},
-                   {"rate", "jerk rate", "1/s"},
-                   {"low", "lower 95 % bound", "1/s"},
-                   {"high", "upper 95 % bound", "1/s"},
-                   {"jerks", "jerks", "1"},
-                   {"moves", "moves", "1"},
-                   {"exposure", "exposure", "s"}}};
-  for (const jerks::JerkRate& part : jerks.rates) {
-    data.rows.push_back(
-        ordered_json::array({datum(part.from), datum(part.to), datum(part.rate), datum(part.bounds.low),
-                             datum(part.bounds.high), part.jerks, part.moves, datum(part.exposure)}));
-  }
+  using Rate = const jerks::JerkRate&;
+  FigureData data = data_of<jerks::JerkRate>(
+      "rates", jerks.rates,
+      {{{"from", "time since arrival from", "s"}, [](Rate r) { return datum(r.from); }},
+       {{"to", "to", "s"}, [](Rate r) { return datum(r.to); }},
+       {{"rate", "jerk rate", "1/s"}, [](Rate r) { return datum(r.rate); }},
+       {{"low", "lower 95 % bound", "1/s"}, [](Rate r) { return datum(r.bounds.low); }},
+       {{"high", "upper 95 % bound", "1/s"}, [](Rate r) { return datum(r.bounds.high); }},
+       {{"jerks", "jerks", "1"}, [](Rate r) { return r.jerks; }},
+       {{"moves", "moves", "1"}, [](Rate r) { return r.moves; }},
+       {{"exposure", "exposure", "s"}, [](Rate r) { return datum(r.exposure); }}});
   Figure figure =
       figure_of("jerk-rate", "jerk-rate", "Rate of jerks",
                 fmt::format("Number of jerks per second after arrival at point {}, over all moves that "
                             "arrived (line), against the time since arrival. A decreasing rate shows creep "
                             "that ends as the contact hardens. The boxes are 95 % bounds of the rate in each "
                             "range of time (Garwood, widened if trials differ), for each range separately.",
-                            label_of(reported, point)));
+                            label_of(reported, point)),
+                {std::move(data)});
   ordered_json& x = figure.specification["encoding"]["x"];
   const double first = jerks.rates.front().from > 0.0 ? jerks.rates.front().from : jerks.rates.front().to;
   x["axis"]["values"] = round_numbers(jerks.rates.front().from, jerks.rates.back().to, first);
@@ -142,7 +140,6 @@ std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point) {
     x["scale"]["type"] = "symlog";
     x["scale"]["constant"] = first;
   }
-  figure.data.push_back(std::move(data));
   return figure;
 }
 

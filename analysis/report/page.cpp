@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/embedded_files.hpp"
-#include "analysis/report/escaping.hpp"
+#include "analysis/report/html.hpp"
 
 namespace zerocount::report {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/report_figures.hpp"
-#include "analysis/report/sweep_numbers.hpp"
+#include "analysis/report/reported_study.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -48,99 +48,85 @@ SampleTrial typical_trial(const ReportedStudy& reported) {
   return typical;
 }
 
+using SampleColumn = ColumnOf<trial::SampleRecord>;
+using Sample = const trial::SampleRecord&;
+const SampleColumn time_column{{"time", "time", "s"}, [](Sample s) { return datum(s.t); }};
+const SampleColumn target_column{{"target", "target", "count"}, [](Sample s) { return s.target; }};
+const SampleColumn count_column{{"count", "position", "count"}, [](Sample s) { return s.count; }};
+const SampleColumn torque_column{{"torque", "torque", "N m"}, [](Sample s) { return datum(s.torque); }};
+const SampleColumn motor_torque_column{{"torque", "torque", "N m"},
+                                       [](Sample s) { return datum(s.drive_torque); }};
+
 Figure step_responses(const std::vector<ReplayedTrial>& replayed) {
-  Figure figure = figure_of(
+  std::vector<trial::SampleRecord> samples;
+  for (const ReplayedTrial& trial : replayed)
+    samples.insert(samples.end(), trial.samples.begin(), trial.samples.end());
+  return figure_of(
       "step-responses", "paper-fig7", "Moves to different targets (Fig. 7 of the paper)",
       "Position over time, one trial for each target, from rest. In the paper all ten moves settle at their "
-      "target within 300 samples of 0.5 ms. Every curve should end as a horizontal line at its target.");
-  FigureData data{"samples",
-                  {{"target", "target", "count"}, {"time", "time", "s"}, {"count", "position", "count"}}};
-  for (const ReplayedTrial& trial : replayed) {
-    for (const trial::SampleRecord& sample : trial.samples)
-      data.rows.push_back(ordered_json::array({sample.target, datum(sample.t), sample.count}));
-  }
-  figure.data.push_back(std::move(data));
-  return figure;
+      "target within 300 samples of 0.5 ms. Every curve should end as a horizontal line at its target.",
+      {data_of("samples", samples, {target_column, time_column, count_column})});
 }
 
 Figure jerks_in_time(const ReplayedTrial& trial) {
-  Figure figure = figure_of(
+  return figure_of(
       "jerks-in-time", "paper-fig8", "Jerks by creep (Fig. 8 of the paper)",
       fmt::format(
           "Position and torque over time of trial {}, which has the median number of jerks. After the move "
           "the position repeatedly leaves the target by one count, always in the direction of the holding "
           "torque, and returns at once. The rate of these jerks decreases as the contact hardens.",
-          trial.result.row));
-  FigureData data{"samples",
-                  {{"time", "time", "s"}, {"count", "position", "count"}, {"torque", "torque", "N m"}}};
-  for (const trial::SampleRecord& sample : trial.samples)
-    data.rows.push_back(ordered_json::array({datum(sample.t), sample.count, datum(sample.torque)}));
-  figure.data.push_back(std::move(data));
-  return figure;
-}
-
-std::string level_name(std::size_t level) {
-  return fmt::format("{}", level + 1);
+          trial.result.row),
+      {data_of("samples", trial.samples, {time_column, count_column, torque_column})});
 }
 
 /// The ends of the torque levels. Levels that end at the same point share a row.
-FigureData level_ends(const ReplayedTrial& trial, const char* field, const char* title, bool creep) {
+/// @param field and @param title of the column of places
+FigureData level_ends(const ReplayedTrial& trial, const char* field, const char* title,
+                      double trial::MoveOutcome::*place) {
   FigureData data{"levels", {{"levels", "levels", ""}, {field, title, "µrad"}, {"torque", "torque", "N m"}}};
+  const std::vector<trial::MoveOutcome>& levels = trial.result.outcome.moves;
   double reach = 0.0;
-  for (const trial::MoveOutcome& move : trial.result.outcome.moves)
-    reach = std::max(reach, std::abs(1e6 * (creep ? move.creep : move.final_position)));
-  for (std::size_t i = 0; i < trial.result.outcome.moves.size(); ++i) {
-    const trial::MoveOutcome& move = trial.result.outcome.moves[i];
-    const double place = 1e6 * (creep ? move.creep : move.final_position);
-    bool shared = false;
-    for (ordered_json& row : data.rows) {
-      if (std::abs(row[1].get<double>() - place) > 0.01 * reach ||
-          std::abs(row[2].get<double>() - move.holding_torque) > 1e-6) {
-        continue;
-      }
-      row[0] = row[0].get<std::string>() + ", " + level_name(i);
-      shared = true;
-      break;
+  for (const trial::MoveOutcome& level : levels) reach = std::max(reach, std::abs(1e6 * (level.*place)));
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const double end = 1e6 * (levels[i].*place);
+    const std::string name = fmt::format("{}", i + 1);
+    const auto shared = std::find_if(data.rows.begin(), data.rows.end(), [&](const ordered_json& row) {
+      return std::abs(row[1].get<double>() - end) <= 0.01 * reach &&
+             std::abs(row[2].get<double>() - levels[i].holding_torque) <= 1e-6;
+    });
+    if (shared == data.rows.end()) {
+      data.rows.push_back(ordered_json::array({name, datum(end), datum(levels[i].holding_torque)}));
+    } else {
+      (*shared)[0] = (*shared)[0].get<std::string>() + ", " + name;
     }
-    if (!shared)
-      data.rows.push_back(ordered_json::array({level_name(i), datum(place), datum(move.holding_torque)}));
   }
   return data;
 }
 
 Figure hysteresis(const ReplayedTrial& trial) {
-  Figure figure = figure_of("hysteresis", "paper-fig4", "Torque over angle (Fig. 4 of the paper)",
-                            fmt::format("Torque over rotor angle of trial {}, loaded and unloaded. Each "
-                                        "number marks the end of a torque level, in "
-                                        "their order. The spring has hysteresis with return-point memory: "
-                                        "loops between the same torques have the same "
-                                        "width, and a closed loop has no further influence, so levels of "
-                                        "equal torque end at the same point.",
-                                        trial.result.row));
-  FigureData data{"samples",
-                  {{"time", "time", "s"}, {"angle", "rotor angle", "µrad"}, {"torque", "torque", "N m"}}};
-  for (const trial::SampleRecord& sample : trial.samples)
-    data.rows.push_back(
-        ordered_json::array({datum(sample.t), datum(1e6 * sample.theta), datum(sample.drive_torque)}));
-  figure.data = {std::move(data), level_ends(trial, "angle", "rotor angle", false)};
-  return figure;
+  const SampleColumn angle{{"angle", "rotor angle", "µrad"}, [](Sample s) { return datum(1e6 * s.theta); }};
+  return figure_of("hysteresis", "paper-fig4", "Torque over angle (Fig. 4 of the paper)",
+                   fmt::format("Torque over rotor angle of trial {}, loaded and unloaded. Each number marks "
+                               "the end of a torque level, in their order. The spring has hysteresis with "
+                               "return-point memory: loops between the same torques have the same width, and "
+                               "a closed loop has no further influence, so levels of equal torque end at the "
+                               "same point.",
+                               trial.result.row),
+                   {data_of("samples", trial.samples, {time_column, angle, motor_torque_column}),
+                    level_ends(trial, "angle", "rotor angle", &trial::MoveOutcome::final_position)});
 }
 
 Figure plastic_extension(const ReplayedTrial& trial) {
-  Figure figure = figure_of(
+  const SampleColumn extension{{"extension", "plastic extension", "µrad"},
+                               [](Sample s) { return datum(1e6 * s.xp); }};
+  return figure_of(
       "creep", "paper-fig6", "Torque over plastic extension (Fig. 6 of the paper)",
       fmt::format("Torque over plastic (creep) extension of trial {}. Each number marks the end of a torque "
                   "level, in their order. At constant torque the contact creeps along a horizontal line "
                   "until it has hardened. A repeated or smaller torque of either sign adds no extension.",
-                  trial.result.row));
-  FigureData data{
-      "samples",
-      {{"time", "time", "s"}, {"extension", "plastic extension", "µrad"}, {"torque", "torque", "N m"}}};
-  for (const trial::SampleRecord& sample : trial.samples)
-    data.rows.push_back(
-        ordered_json::array({datum(sample.t), datum(1e6 * sample.xp), datum(sample.drive_torque)}));
-  figure.data = {std::move(data), level_ends(trial, "extension", "plastic extension", true)};
-  return figure;
+                  trial.result.row),
+      {data_of("samples", trial.samples, {time_column, extension, motor_torque_column}),
+       level_ends(trial, "extension", "plastic extension", &trial::MoveOutcome::creep)});
 }
 
 /// Whether the contact of the first trial creeps.

@@ -4,9 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/measures/statistic_fields.hpp"
-#include "analysis/report/escaping.hpp"
-#include "analysis/report/html_table.hpp"
+#include "analysis/measures/point_columns.hpp"
+#include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/tolerance.hpp"
 #include "analysis/summary/summary_parts.hpp"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/embedded_files.hpp"
-#include "analysis/report/escaping.hpp"
+#include "analysis/report/html.hpp"
 #include "analysis/report/report_figures.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "core/failure/failure.hpp"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/confidence_sequence.hpp"
-#include "analysis/summary/study_summary.hpp"
+#include "analysis/summary/summary.hpp"
 #include "results/layout/header.hpp"
 
 namespace zerocount::report {

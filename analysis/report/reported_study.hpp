@@ -1,11 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "analysis/measures/visit_trials.hpp"
+#include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/summary.hpp"
 #include "core/trial/outcome.hpp"
@@ -64,5 +65,22 @@ std::string axis_title(const study::SweepAxis& axis);
 
 /// A proportion as a percentage with enough digits to differ from 100 %; only 1 is "100 %".
 std::string proportion_text(double proportion);
+
+/// The distinct values of an axis, sorted.
+std::vector<double> values_of(const study::SweepAxis& axis);
+
+/// Points that differ only in the axes `along`.
+struct PointGroup {
+  std::string label;                 ///< the values of the other axes; empty without other axes
+  std::vector<std::int64_t> points;  ///< increasing
+};
+
+/// All points divided into such groups, in the order of their first points.
+std::vector<PointGroup> groups_along(const ReportedStudy& reported, const std::vector<std::size_t>& along);
+
+/// Indices of the sweep's axes that are numbers at every point and have at least `min_values` values
+/// while all others are constant (this excludes keys set by cases). The axis with the most values comes
+/// first.
+std::vector<std::size_t> numeric_axes(const ReportedStudy& reported, std::size_t min_values);
 
 }  // namespace zerocount::report

@@ -184,14 +184,14 @@ Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile&
   Figure figure = figure_of(
       "rotor", fmt::format("rotor-{}", profile.name),
       fmt::format("{} along the rotor{}", parameter, failures.empty() ? "" : ", and the trials that failed"),
-      caption);
+      caption, {std::move(trials), profile_data(profile), sector_data(sectors)});
   figure.specification["vconcat"][0]["layer"][0]["encoding"]["y"]["title"] =
       profile.unit == "1" ? parameter : fmt::format("{} ({})", parameter, profile.unit);
   figure.specification["vconcat"][1]["encoding"]["x"]["scale"]["domain"] = {0.0, period};
-  if (trials.rows.empty()) figure.specification["vconcat"][0]["layer"].erase(1);
-  figure.data = {std::move(trials), profile_data(profile), sector_data(sectors)};
-  if (figure.data.front().rows.empty())
+  if (failures.empty()) {
+    figure.specification["vconcat"][0]["layer"].erase(1);
     std::rotate(figure.data.begin(), figure.data.begin() + 2, figure.data.end());
+  }
   return figure;
 }
 

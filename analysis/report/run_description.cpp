@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/report/escaping.hpp"
-#include "analysis/report/html_table.hpp"
+#include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
-#include "analysis/report/sweep_numbers.hpp"
+#include "analysis/report/reported_study.hpp"
 #include "analysis/statistics/moments.hpp"
 #include "analysis/text/text.hpp"
 #include "results/layout/table_io.hpp"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/report/escaping.hpp"
+#include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/sensitivity/sensitivity.hpp"
 
@@ -52,10 +52,9 @@ Figure figure_for(const sensitivity::OutputSensitivity& output, const std::strin
     caption += fmt::format("Shown are {} of {}. ", shown, output.factors.size());
   for (const std::string& note : output.notes) caption += note + (note.ends_with('.') ? " " : ". ");
   Figure figure = figure_of("sensitivity", "sensitivity-" + output.output,
-                            "Sensitivity of " + label_text(output.output), caption);
+                            "Sensitivity of " + label_text(output.output), caption, {std::move(data)});
   if (!total) figure.specification["encoding"]["color"]["legend"] = nullptr;
   set_rows(figure, shown, 28);
-  figure.data.push_back(std::move(data));
   return figure;
 }
 

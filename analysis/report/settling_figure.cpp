@@ -19,15 +19,12 @@ constexpr std::int64_t max_steps = 160;  ///< of a curve
 /// independent clusters (trials or rigs) of M dependent moves each. (Dvoretzky, Kiefer and Wolfowitz 1956
 /// with the constant of Massart 1990, for each of the M moves at the level α/M; the mean of M functions that
 /// are each within the band is so too.)
-double band(std::int64_t clusters, std::int64_t moves) {
+double band_of(const ReportedStudy& reported, const measures::PointSummary& point) {
+  const std::int64_t clusters = reported.study.rigs > 0 ? reported.study.rigs : point.trials;
+  const std::int64_t moves = point.moves / clusters;
   const double alpha = 1.0 - statistics::summary_confidence;
   return std::sqrt(std::log(2.0 * static_cast<double>(moves) / alpha) /
                    (2.0 * static_cast<double>(clusters)));
-}
-
-double band_of(const ReportedStudy& reported, const measures::PointSummary& point) {
-  const std::int64_t clusters = reported.study.rigs > 0 ? reported.study.rigs : point.trials;
-  return band(clusters, point.moves / clusters);
 }
 
 statistics::Histogram<double> settling_times(const ReportedStudy& reported, std::int64_t point) {
@@ -116,7 +113,6 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
   if (arriving < std::ssize(points))
     caption +=
         fmt::format("At {} of the {} points no move arrived. ", std::ssize(points) - arriving, points.size());
-  Figure figure = figure_of("settling-time", "settling-time", "Settling time", caption);
   FigureData data{"steps",
                   {{"label", "point", ""},
                    {"time", "settled within", "s"},
@@ -134,6 +130,7 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
     add_curve(data, label_of(reported, point), settling_times(reported, point), summary.moves,
               band_of(reported, summary), end);
   }
+  Figure figure = figure_of("settling-time", "settling-time", "Settling time", caption, {std::move(data)});
   ordered_json& x = figure.specification["encoding"]["x"];
   if (start > 0.0 && end > 12.0 * start) {  // otherwise a few late arrivals would compress all others
     x["scale"]["type"] = "symlog";
@@ -143,7 +140,6 @@ std::optional<Figure> settling_figure(const ReportedStudy& reported) {
     figure.caption += "The time axis is linear near zero and logarithmic beyond.";
   }
   if (shown.size() == 1) figure.specification["encoding"]["color"]["legend"] = nullptr;
-  figure.data.push_back(std::move(data));
   return figure;
 }
 

@@ -6,7 +6,7 @@
 
 #include "analysis/report/criterion_curves.hpp"
 #include "analysis/report/report_figures.hpp"
-#include "analysis/report/sweep_numbers.hpp"
+#include "analysis/report/reported_study.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -123,17 +123,17 @@ Figure map_of(const ReportedStudy& reported, const PointGroup& group, std::size_
         "stability of every trial; above the dashed line of (7) it predicts instability of every trial. The "
         "success rate should decrease between them.";
   }
-  Figure figure = figure_of(
-      "stability-map", number == 0 ? "stability-map" : fmt::format("stability-map-{}", number + 1),
-      group.label.empty() ? "Stability map" : fmt::format("Stability map: {}", group.label), caption);
+  Figure figure =
+      figure_of("stability-map", number == 0 ? "stability-map" : fmt::format("stability-map-{}", number + 1),
+                group.label.empty() ? "Stability map" : fmt::format("Stability map: {}", group.label),
+                caption, {cells_of(reported, group, x, y), std::move(curves)});
   ordered_json& encoding = figure.specification["layer"][0]["encoding"];
   set_axis(encoding["x"], x, CellEdges(x));
   set_axis(encoding["y"], y, CellEdges(y));
-  if (curves.rows.empty()) {
+  if (figure.data.back().rows.empty()) {
     ordered_json& layers = figure.specification["layer"];
     layers.erase(layers.begin() + 1, layers.end());
   }
-  figure.data = {cells_of(reported, group, x, y), std::move(curves)};
   return figure;
 }
 

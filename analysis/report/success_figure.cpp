@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/report_figures.hpp"
-#include "analysis/report/sweep_numbers.hpp"
+#include "analysis/report/reported_study.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -63,17 +63,17 @@ Figure line_per_point(const ReportedStudy& reported) {
     caption += fmt::format("Shown are {} of {} points, evenly spaced from the best to the worst. ",
                            shown.size(), reported.summary.points.size());
   }
-  Figure figure = figure_of("success", "success", "Success at each point", caption + bounds_note(reported));
   FigureData data{"points", common_columns()};
   double lowest = 1.0;
   for (const std::int64_t point : shown) {
     data.rows.push_back(row_of(reported, point));
     lowest = std::min(lowest, bounds_of(reported, point).low);
   }
+  Figure figure = figure_of("success", "success", "Success at each point", caption + bounds_note(reported),
+                            {std::move(data)});
   const double from = lowest > 0.9 ? std::floor(lowest * 100.0) / 100.0 : 0.0;
   figure.specification["layer"][0]["encoding"]["x"]["scale"]["domain"] = {from, 1};
-  set_rows(figure, data.rows.size(), 24);
-  figure.data.push_back(std::move(data));
+  set_rows(figure, shown.size(), 24);
   return figure;
 }
 
@@ -85,8 +85,6 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
   if (std::ssize(groups) > max_series) {
     caption += fmt::format("Shown are {} of {} lines, evenly spaced. ", max_series, groups.size());
   }
-  Figure figure = figure_of("success-along", "success", fmt::format("Success over {}", swept.name),
-                            caption + bounds_note(reported));
   FigureData data{"points", common_columns()};
   data.columns.push_back({"x", swept.name, swept.unit});
   data.columns.push_back({"series", "", ""});
@@ -98,13 +96,14 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
       data.rows.push_back(std::move(row));
     }
   }
+  Figure figure = figure_of("success-along", "success", fmt::format("Success over {}", swept.name),
+                            caption + bounds_note(reported), {std::move(data)});
   ordered_json& encoding = figure.specification["encoding"];
   encoding["x"]["title"] = axis_title(swept);
   set_number_format(encoding["x"]["axis"], values_of(swept).back());
   if (spaced_by_ratio(values_of(swept))) encoding["x"]["scale"]["type"] = "log";
   encoding["x"]["scale"]["domain"] = {values_of(swept).front(), values_of(swept).back()};
   if (groups.size() == 1) encoding["color"]["legend"] = nullptr;
-  figure.data.push_back(std::move(data));
   return figure;
 }
 

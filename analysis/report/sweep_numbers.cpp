@@ -1,10 +1,9 @@
-#include "analysis/report/sweep_numbers.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "analysis/report/reported_study.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::report {

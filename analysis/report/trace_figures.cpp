@@ -134,18 +134,14 @@ Figure trace_figure(const ReportedStudy& reported, const SampleTrial& trial, con
       "are thinned, but all extremes are shown.",
       trial.index, label_of(reported, trial.point),
       replayed.result.outcome.moves.size() == 1 ? settled : "the first move " + settled, ending_of(outcome));
-  Figure figure = figure_of("trace", "trace-" + trial.name, trial.title, caption);
-  FigureData data{"samples",
-                  {{"time", "time", "s"},
-                   {"error", "error", "count"},
-                   {"torque", "torque", "N m"},
-                   {"target", "target", "count"}}};
-  for (const trial::SampleRecord& sample : replayed.samples) {
-    data.rows.push_back(
-        ordered_json::array({datum(sample.t, 9), sample.error, datum(sample.torque), sample.target}));
-  }
-  figure.data.push_back(std::move(data));
-  return figure;
+  using Sample = const trial::SampleRecord&;
+  return figure_of(
+      "trace", "trace-" + trial.name, trial.title, caption,
+      {data_of<trial::SampleRecord>("samples", replayed.samples,
+                                    {{{"time", "time", "s"}, [](Sample s) { return datum(s.t, 9); }},
+                                     {{"error", "error", "count"}, [](Sample s) { return s.error; }},
+                                     {{"torque", "torque", "N m"}, [](Sample s) { return datum(s.torque); }},
+                                     {{"target", "target", "count"}, [](Sample s) { return s.target; }}})});
 }
 
 }  // namespace zerocount::report

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/report/escaping.hpp"
+#include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/statistics/tolerance.hpp"
@@ -116,11 +116,6 @@ void add_undecided(std::vector<std::string>& lines, const ReportedStudy& reporte
   if (most - points.begin() != best) add(most - points.begin());
 }
 
-/// ", 3 undecided" for trials; empty for 0.
-std::string undecided_text(std::int64_t undecided) {
-  return undecided == 0 ? "" : fmt::format(", {} undecided", undecided);
-}
-
 /// Adds the differences between rigs at the best point.
 void add_rigs(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const statistics::RigStatistics& rigs = point_of(reported, best).rigs;
@@ -207,7 +202,8 @@ struct DecidedPoints {
   void add_to(std::vector<std::string>& lines, std::string_view statement) const {
     if (points == 0) return;
     lines.push_back(fmt::format("{} in every trial of {} point{}; {} there were stable{}.", statement, points,
-                                points == 1 ? "" : "s", of_all(stable, trials), undecided_text(undecided)));
+                                points == 1 ? "" : "s", of_all(stable, trials),
+                                undecided == 0 ? "" : fmt::format(", {} undecided", undecided)));
   }
 };
 

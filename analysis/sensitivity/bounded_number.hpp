@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::sensitivity {
@@ -20,6 +23,14 @@ inline bool excludes_zero(const BoundedNumber& number) {
 /// becomes 0 or 1 and the bound on the other side moves with it (below 0 by as much, above 1 in proportion).
 /// So bounds never exclude all that is possible nor shrink to a point, and cover no less often than those
 /// given.
-BoundedNumber held_share(BoundedNumber number);
+inline BoundedNumber held_share(BoundedNumber number) {
+  if (std::isnan(number.value)) return {};
+  number.low = std::min(number.low, number.value);
+  number.high = std::max(number.high, number.value);
+  if (number.value > 1.0) number.low /= number.value;
+  if (number.value < 0.0) number.high -= number.value;
+  return {std::clamp(number.value, 0.0, 1.0), std::clamp(number.low, 0.0, 1.0),
+          std::clamp(number.high, 0.0, 1.0)};
+}
 
 }  // namespace zerocount::sensitivity

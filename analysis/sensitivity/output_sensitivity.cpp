@@ -10,10 +10,8 @@
 
 #include "analysis/sensitivity/given_data_index.hpp"
 #include "analysis/sensitivity/logistic_fit.hpp"
-#include "analysis/sensitivity/partial_rank_correlation.hpp"
 #include "analysis/sensitivity/rank_correlation.hpp"
 #include "analysis/sensitivity/saltelli_indices.hpp"
-#include "analysis/sensitivity/used_trials.hpp"
 #include "analysis/statistics/moments.hpp"
 
 namespace zerocount::sensitivity {

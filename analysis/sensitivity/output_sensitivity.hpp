@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "analysis/sensitivity/saltelli_indices.hpp"
 #include "analysis/sensitivity/sensitivity.hpp"
 #include "analysis/sensitivity/trial_outputs.hpp"
 #include "core/random/random_numbers.hpp"
@@ -34,5 +37,24 @@ OutputSensitivity output_sensitivity(const PointInputs& inputs, const Sensitivit
 /// One sentence on which factors matter. @param from_saltelli they have total indices.
 std::string sensitivity_conclusion(const OutputSensitivity& sensitivity, bool from_saltelli,
                                    double confidence);
+
+/// The trials of a point from which the sensitivity of an output comes: those that have a value, of a
+/// saltelli design those whose whole row has.
+struct UsedTrials {
+  std::vector<std::size_t> row_starts;   ///< of the rows of a saltelli design
+  std::vector<std::size_t> independent;  ///< all, or those of A and B of a saltelli design
+  std::int64_t left_out{0};              ///< without a value, or in a row with one such
+  std::int64_t of_rigs{0};               ///< not looked at, because they share a rig with one that was
+};
+
+/// @param values [trial], NaN where there is none.
+UsedTrials used_trials(const PointInputs& point, const std::vector<double>& values);
+
+/// The values at these places.
+std::vector<double> picked(const std::vector<double>& values, const std::vector<std::size_t>& places);
+
+/// The rows used.
+SaltelliSample saltelli_sample(const PointInputs& point, const std::vector<double>& values,
+                               const UsedTrials& used);
 
 }  // namespace zerocount::sensitivity

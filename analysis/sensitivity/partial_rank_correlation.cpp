@@ -1,4 +1,3 @@
-#include "analysis/sensitivity/partial_rank_correlation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "analysis/measures/trial_value.hpp"
-#include "analysis/measures/visit_trials.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 

@@ -1,8 +1,7 @@
-#include "analysis/sensitivity/used_trials.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/sensitivity/output_sensitivity.hpp"
 #include "experiments/designs/saltelli.hpp"
 
 namespace zerocount::sensitivity {

@@ -8,8 +8,8 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
+#include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/normal.hpp"
-#include "analysis/statistics/poisson_bounds.hpp"
 #include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::statistics {

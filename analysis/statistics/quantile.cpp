@@ -3,30 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <boost/math/distributions/binomial.hpp>
 
 namespace zerocount::statistics {
-namespace {
-
-/// Smallest k in [0, end) with holds(k), by bisection; `end` if there is none. `holds` must be monotonic:
-/// false, then true.
-template <typename Predicate>
-std::int64_t first_where(std::int64_t end, const Predicate& holds) {
-  std::int64_t low = 0;
-  while (low < end) {
-    const std::int64_t middle = std::midpoint(low, end);
-    if (holds(middle)) {
-      end = middle;
-    } else {
-      low = middle + 1;
-    }
-  }
-  return end;
-}
-
-}  // namespace
 
 std::int64_t quantile_rank(std::int64_t observations, double probability) {
   require_open_unit("quantile's probability", probability);
@@ -48,9 +28,9 @@ RankBounds quantile_rank_bounds(std::int64_t observations, double probability, d
     return boost::math::cdf(boost::math::complement(below, static_cast<double>(k)));
   };
   // low − 1 is the last k with P(B ≤ k) ≤ tail, so low is the first k with P(B ≤ k) > tail.
-  const std::int64_t low = first_where(n, [&](std::int64_t k) { return at_most(k) > tail; });
+  const std::int64_t low = first_where(0, n, [&](std::int64_t k) { return at_most(k) > tail; });
   // high − 1 is the first k with P(B > k) ≤ tail.
-  const std::int64_t high = 1 + first_where(n, [&](std::int64_t k) { return more_than(k) <= tail; });
+  const std::int64_t high = 1 + first_where(0, n, [&](std::int64_t k) { return more_than(k) <= tail; });
   return {low, high};
 }
 

@@ -1,11 +1,29 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "analysis/statistics/histogram.hpp"
 #include "analysis/statistics/proportion.hpp"
 
 namespace zerocount::statistics {
+
+/// The smallest number from `low` on, below `end`, for which `holds`, by bisection; `end` if there is none.
+/// `holds` must be monotonic: false, then true.
+template <typename Predicate>
+std::int64_t first_where(std::int64_t low, std::int64_t end, const Predicate& holds) {
+  while (low < end) {
+    const std::int64_t middle = low + (end - low) / 2;
+    if (holds(middle)) {
+      end = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return end;
+}
 
 /// Rank of the sample quantile: ⌈n·p⌉, at least 1; 0 if n is 0. `probability` p in (0, 1).
 ///
@@ -44,6 +62,13 @@ Quantile quantile(const Histogram<Value>& histogram, double probability,
   const RankBounds bounds = quantile_rank_bounds(histogram.size, probability, confidence);
   return {order_statistic(histogram, quantile_rank(histogram.size, probability)),
           order_statistic(histogram, bounds.low), order_statistic(histogram, bounds.high)};
+}
+
+/// The upper median: the value of rank ⌊n/2⌋ + 1 of n ≥ 1 values.
+inline double upper_median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 }  // namespace zerocount::statistics

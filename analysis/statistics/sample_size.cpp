@@ -1,12 +1,15 @@
 #include "analysis/statistics/sample_size.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <fmt/format.h>
 
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/quantile.hpp"
+#include "analysis/statistics/rig_statistics.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::statistics {
@@ -14,9 +17,16 @@ namespace {
 
 constexpr std::int64_t max_trials = 1'000'000'000'000;
 constexpr std::int64_t max_failures = 1'000'000'000;
+constexpr std::int64_t max_rigs = 1'000'000'000;
 
 [[noreturn]] void too_many(const char* what) {
   throw Failure(ExitCode::bad_input, fmt::format("{} would need more than {} trials", what, max_trials));
+}
+
+void require_halfwidth(double halfwidth) {
+  if (halfwidth > 0.0 && halfwidth < 0.5) return;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("a half-width of {}; expected a number between 0 and 0.5", halfwidth));
 }
 
 /// The smallest number from `low` on with holds(number). `holds` must be monotonic: false, then true.
@@ -28,15 +38,7 @@ std::int64_t least(std::int64_t low, std::int64_t limit, const char* what, const
     low = high + 1;
     high = std::min(limit, 2 * high);
   }
-  while (low < high) {
-    const std::int64_t middle = low + (high - low) / 2;
-    if (holds(middle)) {
-      high = middle;
-    } else {
-      low = middle + 1;
-    }
-  }
-  return high;
+  return first_where(low, high, holds);
 }
 
 /// Half the length of the Clopper–Pearson interval of n·rate successes of n, as a continuous function of n.
@@ -47,6 +49,29 @@ double halfwidth_of(double n, double rate, double confidence) {
   const double low = boost::math::ibeta_inv(successes, failures + 1.0, tail);
   const double high = boost::math::ibetac_inv(successes + 1.0, failures, tail);
   return 0.5 * (high - low);
+}
+
+/// Expected sums over rigs whose success probabilities have the standard deviation `rig_sd`.
+ClusterSums expected_sums(double rate, double rig_sd, double rigs, double trials) {
+  const double of_trials = rate * (1.0 - rate) - rig_sd * rig_sd;
+  const double variance = trials * trials * rig_sd * rig_sd + trials * of_trials;  // of a rig's successes
+  const double n = rigs * trials;
+  ClusterSums sums;
+  sums.clusters = std::llround(rigs);
+  sums.events = std::llround(n);
+  sums.hits = std::llround(n * rate);
+  const double p = static_cast<double>(sums.hits) / static_cast<double>(sums.events);
+  sums.events_squared = rigs * trials * trials;
+  sums.hits_by_events = static_cast<double>(sums.hits) * trials;
+  sums.hits_squared = (rigs - 1.0) * variance + rigs * trials * trials * p * p;
+  return sums;
+}
+
+double halfwidth_of(double rate, double rig_sd, std::int64_t rigs, std::int64_t trials, double confidence) {
+  const ClusterSums sums =
+      expected_sums(rate, rig_sd, static_cast<double>(rigs), static_cast<double>(trials));
+  const ConfidenceInterval bounds = clustered_proportion(sums, confidence).korn_graubard;
+  return 0.5 * (bounds.high - bounds.low);
 }
 
 }  // namespace
@@ -86,15 +111,63 @@ ClaimPlan plan_with_power(double success, double confidence, double true_success
 }
 
 std::int64_t trials_for_halfwidth(double halfwidth, double confidence, double rate) {
-  if (!(halfwidth > 0.0 && halfwidth < 0.5)) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("a half-width of {}; expected a number between 0 and 0.5", halfwidth));
-  }
+  require_halfwidth(halfwidth);
   require_confidence(confidence);
   require_open_unit("success rate", rate);
   return least(1, max_trials, "the half-width", [&](std::int64_t trials) {
     return halfwidth_of(static_cast<double>(trials), rate, confidence) <= halfwidth;
   });
+}
+
+std::int64_t rigs_for_halfwidth(double halfwidth, double confidence, double rate, double rig_sd,
+                                std::int64_t trials_per_rig) {
+  require_confidence(confidence);
+  require_open_unit("success rate", rate);
+  require_halfwidth(halfwidth);
+  if (!(rig_sd >= 0.0 && rig_sd * rig_sd <= rate * (1.0 - rate))) {
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("a standard deviation of {} between rigs; with a success rate of {} it is from 0 "
+                    "to {:.4g}",
+                    rig_sd, rate, std::sqrt(rate * (1.0 - rate))));
+  }
+  const auto narrow = [&](std::int64_t rigs) {
+    return halfwidth_of(rate, rig_sd, rigs, trials_per_rig, confidence) <= halfwidth;
+  };
+  std::int64_t few = 1;
+  std::int64_t enough = 2;
+  while (!narrow(enough)) {
+    few = enough;
+    enough *= 2;
+    if (enough > max_rigs) {
+      throw Failure(ExitCode::bad_input,
+                    fmt::format("the half-width would need more than {} rigs", max_rigs));
+    }
+  }
+  while (enough - few > 1) {
+    const std::int64_t middle = few + (enough - few) / 2;
+    (narrow(middle) ? enough : few) = middle;
+  }
+  return enough;
+}
+
+RigPlan plan_tolerance(double content, double success, double confidence, std::int64_t rigs) {
+  require_confidence(confidence);
+  require_open_unit("proportion of rigs", content);
+  require_open_unit("success rate", success);
+  const std::int64_t fewest = min_rigs_for_tolerance(content, confidence);
+  if (rigs == 0) rigs = fewest + (fewest + 1) / 2;
+  if (rigs < fewest) {
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{} rigs cannot show something of {:.6g} % of all rigs with {:.6g} % confidence; "
+                    "expected {} or more",
+                    rigs, 100.0 * content, 100.0 * confidence, fewest));
+  }
+  const double allowance = tolerance_allowance(rigs, content, confidence);
+  // Without a failure in m trials the bound is allowance^(1/m).
+  return {rigs, std::max<std::int64_t>(
+                    1, static_cast<std::int64_t>(std::ceil(std::log(allowance) / std::log(success) - 1e-9)))};
 }
 
 }  // namespace zerocount::statistics

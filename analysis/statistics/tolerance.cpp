@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/text/text.hpp"
 
@@ -35,17 +36,9 @@ std::int64_t tolerance_rank(std::int64_t observations, double content, double co
   require_confidence(confidence);
   require_open_unit("content", content);
   const boost::math::binomial_distribution<double> within(static_cast<double>(observations), content);
-  std::int64_t low = 1;
-  std::int64_t high = observations + 1;
-  while (low < high) {
-    const std::int64_t rank = low + (high - low) / 2;
-    if (boost::math::cdf(within, static_cast<double>(rank - 1)) >= confidence) {
-      high = rank;
-    } else {
-      low = rank + 1;
-    }
-  }
-  return low;
+  return first_where(1, observations + 1, [&](std::int64_t rank) {
+    return boost::math::cdf(within, static_cast<double>(rank - 1)) >= confidence;
+  });
 }
 
 SuccessClaim success_claim(std::int64_t successes, std::int64_t trials, double confidence) {

@@ -1,8 +1,7 @@
-#include "analysis/summary/stopping_section.hpp"
-
 #include <fmt/format.h>
 
 #include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::summary {
@@ -59,22 +58,20 @@ measures::SummarySection stopping_section(std::span<const measures::PointSummary
                                           const study::StoppingRule& rule, double confidence) {
   const std::vector<statistics::ConfidenceInterval> bounds = bounds_of(points, confidence);
   const std::vector<statistics::ConfidenceInterval> judged = bounds_of(points, rule.confidence);
-  layout::PointColumn low{"stopped_success_rate_low",
-                          "1",
-                          "lower bound of the success rate that holds however often one looks",
-                          {}};
-  layout::PointColumn high{"stopped_success_rate_high",
-                           "1",
-                           "upper bound of the success rate that holds however often one looks",
-                           {}};
+  const auto column = [](const std::string& side, const std::string& bound) {
+    return layout::PointColumn{"stopped_success_rate_" + side,
+                               "1",
+                               bound + " bound of the success rate that holds however often one looks",
+                               {}};
+  };
   const std::int64_t rigs = points.empty() ? 0 : points.front().rigs.n;
   measures::SummarySection section{.key = "stopped",
                                    .json = {},
-                                   .columns = {},
+                                   .columns = {column("low", "lower"), column("high", "upper")},
                                    .text = text_of(bounds, judged, labels, rule, rigs, confidence)};
   for (std::size_t i = 0; i < bounds.size(); ++i) {
-    low.values.push_back(bounds[i].low);
-    high.values.push_back(bounds[i].high);
+    section.columns[0].values.push_back(bounds[i].low);
+    section.columns[1].values.push_back(bounds[i].high);
     section.json.push_back({{"success_rate_low", bounds[i].low},
                             {"success_rate_high", bounds[i].high},
                             {"confidence", confidence},
@@ -84,7 +81,6 @@ measures::SummarySection stopping_section(std::span<const measures::PointSummary
                             {"reached", halfwidth(judged[i]) <= rule.success_rate_halfwidth}});
     if (rigs > 0) section.json.back()["of_rigs"] = rigs;
   }
-  section.columns = {std::move(low), std::move(high)};
   return section;
 }
 

@@ -11,7 +11,7 @@
 
 #include "analysis/iso230/repeatability_file.hpp"
 #include "analysis/measures/point_columns.hpp"
-#include "analysis/measures/visit_trials.hpp"
+#include "analysis/measures/trial_value.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"

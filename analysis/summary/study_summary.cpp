@@ -1,5 +1,3 @@
-#include "analysis/summary/study_summary.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -8,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "analysis/iso230/repeatability_summary.hpp"
+#include "analysis/iso230/repeatability_statistics.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/unknown.hpp"
-#include "analysis/summary/stopping_section.hpp"
 #include "analysis/summary/study_statistics.hpp"
-#include "analysis/summary/tolerance_section.hpp"
+#include "analysis/summary/summary.hpp"
+#include "analysis/summary/summary_parts.hpp"
 #include "analysis/summary/undecided.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/manifest_keys.hpp"

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "analysis/measures/point_columns.hpp"
-#include "analysis/measures/statistic_fields.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/summary.hpp"
 #include "results/reading/csv.hpp"

@@ -3,10 +3,10 @@
 #include <string>
 #include <utility>
 
-#include "analysis/measures/statistic_fields.hpp"
+#include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/summary_parts.hpp"
-#include "analysis/text/report_json.hpp"
+#include "analysis/text/report_field.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::summary {

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/measures/statistic_fields.hpp"
+#include "analysis/measures/point_columns.hpp"
 #include "analysis/summary/summary_parts.hpp"
-#include "analysis/text/report_json.hpp"
+#include "analysis/text/report_field.hpp"
 
 namespace zerocount::summary {
 namespace {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "analysis/measures/point_statistics.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/text/text.hpp"
+#include "experiments/study/study.hpp"
 
 /// Parts of the summary of a study, which summary_table, summary_json and summary_csv put together.
 namespace zerocount::summary {
@@ -39,5 +42,34 @@ std::vector<std::string> observations(const StudySummary& summary);
 
 /// The levels of a point: an array of objects with the names of level_fields(), by group.
 nlohmann::ordered_json levels_json(const measures::PointSummary& point);
+
+/// The section "stopped" of the summary of a study that decided itself how many trials it took (`stop`): the
+/// bounds of the success rate that hold although it looked after every block.
+///
+/// With rigs they are bounds of the mean over the rigs of the study, whose trials the rule is about: every
+/// rig has run equally many at each look, and the product of the likelihood ratios of trials with different
+/// probabilities pᵢ is no larger on average than that of trials which all have their mean (the geometric mean
+/// is not above the arithmetic). How far other rigs differ, more trials on these do not tell.
+///
+/// Its JSON is {"success_rate_low", "success_rate_high", "confidence", "halfwidth", "halfwidth_asked",
+/// "halfwidth_confidence", "reached", with rigs "of_rigs"}: what the rule asked for, at its own confidence,
+/// and what was reached. Its columns are stopped_success_rate_low and stopped_success_rate_high; its text is
+/// a table.
+/// @param labels [point]
+/// @param confidence of the bounds
+measures::SummarySection stopping_section(std::span<const measures::PointSummary> points,
+                                          const std::vector<std::string>& labels,
+                                          const study::StoppingRule& rule, double confidence);
+
+/// The section "assurance" of a summary: what the trials of each point show of all axes that the manifest
+/// describes, as tolerance statements.
+///
+/// Its JSON is {"success_at_least", "failure_at_most", "rule_of_three" (null where there was a failure),
+/// "settling_time": [{"content", "within"}], "statement"}; its columns are success_at_least,
+/// failure_at_most, settling_within_95, _99 and _99_9, and mean_bound_fields(); its text is a sentence for
+/// each point.
+/// @param labels [point]
+measures::SummarySection tolerance_section(std::span<const measures::PointSummary> points,
+                                           const std::vector<std::string>& labels);
 
 }  // namespace zerocount::summary

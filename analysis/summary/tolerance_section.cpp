@@ -1,12 +1,11 @@
-#include "analysis/summary/tolerance_section.hpp"
-
 #include <algorithm>
 #include <cstddef>
 
 #include <fmt/format.h>
 
-#include "analysis/measures/statistic_fields.hpp"
+#include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/tolerance.hpp"
+#include "analysis/summary/summary_parts.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::summary {

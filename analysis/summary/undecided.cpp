@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/measures/visit_trials.hpp"
+#include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/text/text.hpp"

@@ -1,11 +1,10 @@
-#include "results/layout/build_info.hpp"
-
 #include <chrono>
 #include <fstream>
 #include <string_view>
 
 #include <fmt/chrono.h>
 
+#include "results/layout/header.hpp"
 #include "zerocount_git_commit.hpp"
 
 namespace zerocount::layout {

@@ -1,4 +1,3 @@
-#include "results/layout/statistic_io.hpp"
 
 #include <stdexcept>
 #include <utility>

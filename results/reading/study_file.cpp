@@ -9,7 +9,7 @@
 
 #include "core/failure/failure.hpp"
 #include "results/layout/measure_table.hpp"
-#include "results/layout/statistic_io.hpp"
+#include "results/layout/table_io.hpp"
 #include "results/reading/validation.hpp"
 
 namespace zerocount::reading {

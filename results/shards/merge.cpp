@@ -8,7 +8,6 @@
 
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
-#include "results/layout/statistic_io.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/shards/concatenate.hpp"
 #include "results/shards/rig_tables.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/study/study.hpp"
-#include "results/layout/build_info.hpp"
+#include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/reading/study_file.hpp"

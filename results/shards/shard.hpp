@@ -11,7 +11,6 @@
 #include "experiments/study/study.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/hdf5/written_values.hpp"
-#include "results/layout/build_info.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/row_range.hpp"

@@ -106,16 +106,10 @@ struct PointTheory {
 
 /// A gain of the trapezoidal rule (N m/count) in the unit of the manifest.
 double as_given(const parameters::StudyUnits& units, const trial::TrialParameters& p, double ki) {
-  switch (units.gains) {
-    case parameters::GainUnits::count:
-      break;
-    case parameters::GainUnits::si: {
-      loop::ControllerParameters controller = p.controller;
-      controller.ki = ki;
-      return theory::analogue_gains(controller, p.encoder).ki;
-    }
-  }
-  return ki;
+  if (units.gains == parameters::GainUnits::count) return ki;
+  loop::ControllerParameters controller = p.controller;
+  controller.ki = ki;
+  return theory::analogue_gains(controller, p.encoder).ki;
 }
 
 theory::LinearDrive drive_of(const trial::TrialParameters& p) {
@@ -362,6 +356,11 @@ std::string describe_beyond(const PointTheory& theory) {
   return out;
 }
 
+/// "    (6) stable below              1 … 2 N m/count".
+std::string range_line(std::string_view name, const Range& range, std::string_view unit) {
+  return fmt::format("    {:<29} {} {}", name, text(range), unit);
+}
+
 /// Verdict of the sampled loop on the integral gain.
 std::string sampled_verdict(const PointTheory& theory) {
   if (theory.ki.high < theory.sampled_below.low) return "stable";
@@ -369,13 +368,11 @@ std::string sampled_verdict(const PointTheory& theory) {
 }
 
 std::string describe_outside(const PointTheory& theory) {
-  std::string out = fmt::format("    the criteria do not apply: {}\n", theory.outside);
+  const std::string out = fmt::format("    the criteria do not apply: {}\n", theory.outside);
   if (!theory.free) return out;
-  out += fmt::format("    ki                            {} {}: sampled loop {}\n", text(theory.ki),
-                     theory.gain_unit, sampled_verdict(theory));
-  out +=
-      fmt::format("    sampled loop, below           {} {}\n", text(theory.sampled_below), theory.gain_unit);
-  return out + slowness_line(theory);
+  return out + range_line("ki", theory.ki, theory.gain_unit) + ": sampled loop " + sampled_verdict(theory) +
+         "\n" + range_line("sampled loop, below", theory.sampled_below, theory.gain_unit) + "\n" +
+         slowness_line(theory);
 }
 
 /// Verdict of the criteria (6) and (7) and of the sampled loop on the integral gain.
@@ -390,11 +387,10 @@ std::string describe(const PointTheory& theory) {
   if (!theory.outside.empty()) return describe_outside(theory);
   std::string out;
   const std::string& unit = theory.gain_unit;
-  out += fmt::format("    ki                            {} {}: {}\n", text(theory.ki), unit,
-                     gain_verdict(theory));
-  out += fmt::format("    (6) stable below              {} {}\n", text(theory.stable_below), unit);
-  out += fmt::format("    sampled loop at k1, below     {} {}\n", text(theory.sampled_below), unit);
-  out += fmt::format("    (7) unstable above            {} {}\n", text(theory.unstable_above), unit);
+  out += range_line("ki", theory.ki, unit) + ": " + gain_verdict(theory) + "\n";
+  out += range_line("(6) stable below", theory.stable_below, unit) + "\n";
+  out += range_line("sampled loop at k1, below", theory.sampled_below, unit) + "\n";
+  out += range_line("(7) unstable above", theory.unstable_above, unit) + "\n";
   out += fmt::format("    DAC: resolution {} {}, must be below k1·Δx = {} {}{}: {}\n",
                      text(theory.dac_resolution), theory.torque_unit, text(theory.dac_bound),
                      theory.torque_unit, theory.coarse_feedback ? " with the Δx of the coarse encoder" : "",

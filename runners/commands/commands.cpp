@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "results/layout/build_info.hpp"
+#include "results/layout/header.hpp"
 #include "runners/command_line/output_place.hpp"
 
 namespace zerocount::commands {

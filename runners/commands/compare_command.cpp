@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/comparison/compare_studies.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/comparison_report.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "runners/command_line/output_place.hpp"

@@ -11,7 +11,6 @@
 #include <fmt/ranges.h>
 
 #include "analysis/identification/identification.hpp"
-#include "analysis/identification/identification_report.hpp"
 #include "analysis/identification/raw_series.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"

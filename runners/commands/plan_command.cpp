@@ -10,10 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/rig_plan.hpp"
 #include "analysis/statistics/rig_statistics.hpp"
 #include "analysis/statistics/sample_size.hpp"
-#include "analysis/summary/study_summary.hpp"
+#include "analysis/summary/summary.hpp"
 #include "analysis/text/text.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"
@@ -166,14 +165,12 @@ Json rig_plans_json(const std::vector<statistics::RigPlan>& plans) {
 }
 
 std::string rig_plans_text(const std::vector<statistics::RigPlan>& plans) {
-  std::vector<text::TextColumn> columns{
-      {"rigs", true, {}}, {"trials on each", true, {}}, {"trials", true, {}}};
+  std::vector<std::vector<std::string>> cells{{"rigs", "trials on each", "trials"}};
   for (const statistics::RigPlan& plan : plans) {
-    columns[0].cells.push_back(std::to_string(plan.rigs));
-    columns[1].cells.push_back(std::to_string(plan.trials_per_rig));
-    columns[2].cells.push_back(std::to_string(plan.rigs * plan.trials_per_rig));
+    cells.push_back({std::to_string(plan.rigs), std::to_string(plan.trials_per_rig),
+                     std::to_string(plan.rigs * plan.trials_per_rig)});
   }
-  return text::aligned_table(columns);
+  return text::aligned_table(cells, {true, true, true});
 }
 
 Json plan_json(const PlanRequest& request) {

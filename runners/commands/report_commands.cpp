@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/comparison/compare_studies.hpp"
-#include "analysis/comparison/margins_file.hpp"
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/comparison/gate_rules.hpp"
 #include "analysis/report/report.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/yaml/text_file.hpp"

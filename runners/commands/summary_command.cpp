@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/summary/study_summary.hpp"
 #include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"

@@ -10,7 +10,7 @@
 
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
-#include "results/layout/build_info.hpp"
+#include "results/layout/header.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/study_run/study_differences.hpp"
 

@@ -1,7 +1,7 @@
 // The executable `benchmarks`: see README.md in this folder.
 #include <benchmark/benchmark.h>
 
-#include "results/layout/build_info.hpp"
+#include "results/layout/header.hpp"
 #include "tests/benchmarks/registration.hpp"
 
 namespace {

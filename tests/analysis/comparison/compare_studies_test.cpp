@@ -1,6 +1,4 @@
 // Two results files: what they have in common, which points belong together, and what comes of it.
-#include "analysis/comparison/compare_studies.hpp"
-
 #include <cstdlib>
 #include <functional>
 
@@ -8,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/matching.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"

@@ -1,8 +1,7 @@
 // The YAML file of margins and requirements, and what it says of mistakes.
-#include "analysis/comparison/margins_file.hpp"
-
 #include <gtest/gtest.h>
 
+#include "analysis/comparison/gate_rules.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,13 +1,12 @@
 // Absolute requirements, judged by the bounds of one file.
-#include "analysis/comparison/requirements.hpp"
-
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "analysis/comparison/margins_file.hpp"
+#include "analysis/comparison/gate_rules.hpp"
+#include "analysis/comparison/measure_comparison.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::testing {

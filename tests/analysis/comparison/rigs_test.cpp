@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "analysis/comparison/measure_comparison.hpp"
-#include "analysis/comparison/requirements.hpp"
 
 namespace zerocount::comparison {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/comparison/false_discovery.hpp"
 #include "analysis/comparison/mean_tests.hpp"
+#include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/proportion_tests.hpp"
 #include "analysis/comparison/rank_tests.hpp"
 

@@ -1,7 +1,5 @@
 // What is printed: the fragment parses as part of a manifest and has the intervals; JSON has the very
 // doubles.
-#include "analysis/identification/identification_report.hpp"
-
 #include <cmath>
 #include <limits>
 #include <random>
@@ -9,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/identification/identification.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/manifest/load_study.hpp"

@@ -1,8 +1,7 @@
 // Branches, holds and ring-downs, as the torque shows them.
-#include "analysis/identification/record_parts.hpp"
-
 #include <gtest/gtest.h>
 
+#include "analysis/identification/test_record.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 
 namespace zerocount::testing {

@@ -13,9 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/iso230/repeatability_export.hpp"
 #include "analysis/iso230/repeatability_trial.hpp"
-#include "analysis/summary/study_summary.hpp"
 #include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"

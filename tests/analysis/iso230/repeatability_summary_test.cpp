@@ -1,5 +1,3 @@
-#include "analysis/iso230/repeatability_summary.hpp"
-
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -9,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/summary/study_summary.hpp"
+#include "analysis/iso230/repeatability_statistics.hpp"
 #include "analysis/summary/summary.hpp"
 #include "tests/analysis/iso230/sequence_studies.hpp"
 #include "tests/support/temporary_folder.hpp"

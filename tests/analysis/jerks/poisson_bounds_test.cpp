@@ -1,9 +1,8 @@
-#include "analysis/statistics/poisson_bounds.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "analysis/statistics/mean_bounds.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::jerks {

@@ -5,7 +5,6 @@
 
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/measures/point_columns.hpp"
-#include "analysis/measures/statistic_fields.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "core/failure/failure.hpp"

@@ -1,9 +1,9 @@
-#include "analysis/report/escaping.hpp"
-
 #include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "analysis/report/html.hpp"
 
 namespace zerocount::report {
 namespace {

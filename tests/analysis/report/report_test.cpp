@@ -9,10 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/comparison/compare_studies.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/report/report_figures.hpp"
 #include "analysis/summary/study_statistics.hpp"
-#include "analysis/summary/study_summary.hpp"
+#include "analysis/summary/summary.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "tests/analysis/report/run_studies.hpp"
 #include "tests/analysis/study_files.hpp"

@@ -13,7 +13,6 @@
 
 #include "analysis/sensitivity/given_data_index.hpp"
 #include "analysis/sensitivity/logistic_fit.hpp"
-#include "analysis/sensitivity/partial_rank_correlation.hpp"
 #include "analysis/sensitivity/rank_correlation.hpp"
 #include "core/random/variates.hpp"
 #include "experiments/designs/random_key.hpp"

@@ -11,7 +11,6 @@
 #include "analysis/sensitivity/given_data_index.hpp"
 #include "analysis/sensitivity/logistic_fit.hpp"
 #include "analysis/sensitivity/pair_difference.hpp"
-#include "analysis/sensitivity/partial_rank_correlation.hpp"
 #include "analysis/sensitivity/rank_correlation.hpp"
 #include "analysis/sensitivity/saltelli_indices.hpp"
 #include "core/failure/failure.hpp"

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "analysis/statistics/mean_bounds.hpp"
-#include "analysis/statistics/poisson_bounds.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::statistics {

@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "analysis/statistics/tolerance.hpp"
-#include "analysis/statistics/trial_clusters.hpp"
 #include "results/reading/csv.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,4 +1,3 @@
-#include "analysis/statistics/rig_plan.hpp"
 
 #include <cmath>
 #include <vector>

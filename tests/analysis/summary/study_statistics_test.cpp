@@ -11,7 +11,6 @@
 
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/measures/point_columns.hpp"
-#include "analysis/summary/study_summary.hpp"
 #include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"

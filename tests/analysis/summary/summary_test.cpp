@@ -13,7 +13,6 @@
 
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/measures/point_columns.hpp"
-#include "analysis/measures/statistic_fields.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::summary {

@@ -1,5 +1,3 @@
-#include "analysis/summary/tolerance_section.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -10,6 +8,7 @@
 
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/statistics/tolerance.hpp"
+#include "analysis/summary/summary_parts.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::summary {

@@ -1,8 +1,8 @@
-#include "results/layout/build_info.hpp"
-
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "results/layout/header.hpp"
 
 namespace zerocount::layout {
 namespace {

@@ -8,8 +8,6 @@
 #include "results/layout/fields.hpp"
 
 namespace zerocount::measures {
-namespace {}  // namespace
-
 double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move) {
   if (!trial::was_run(move) || (measure.values.needs_motion && move.outcome == trial::Outcome::nonfinite))
     return statistics::unknown;

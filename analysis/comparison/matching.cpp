@@ -14,10 +14,10 @@
 namespace zerocount::comparison {
 namespace {
 
-constexpr std::size_t most_named = 8;
+constexpr std::size_t max_named = 8;
 
 std::string some_of(const std::vector<std::string>& names) {
-  const std::size_t shown = std::min(names.size(), most_named);
+  const std::size_t shown = std::min(names.size(), max_named);
   const std::string text =
       fmt::format("'{}'", fmt::join(names.begin(), names.begin() + std::ptrdiff_t(shown), "', '"));
   return names.size() > shown ? fmt::format("{} and {} more", text, names.size() - shown) : text;

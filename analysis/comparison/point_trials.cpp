@@ -78,17 +78,18 @@ std::vector<double> means_by_rig(std::span<const double> values, std::int64_t ri
   return means;
 }
 
-std::vector<double> largest_of_moves(const PointTrials& trials, const GateMeasure& measure) {
+std::vector<double> worst_of_moves(const PointTrials& trials, const GateMeasure& measure) {
   const std::vector<double>& values = trials.of(measure);
-  std::vector<double> largest;
+  const double to_worse = measure.measure->gate->worse == layout::Worse::more ? 1.0 : -1.0;
+  std::vector<double> worst;
   for (auto move = values.begin(); move != values.end(); move += trials.moves) {
-    double most = 0.0;
+    double most = -std::numeric_limits<double>::infinity();
     std::for_each(move, move + trials.moves, [&](double value) {
-      most = std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(most, value);
+      most = std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(most, to_worse * value);
     });
-    largest.push_back(most);
+    worst.push_back(to_worse * most);
   }
-  return largest;
+  return worst;
 }
 
 }  // namespace zerocount::comparison

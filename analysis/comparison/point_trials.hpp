@@ -44,7 +44,7 @@ PointTrials first_trials(const PointTrials& all, std::int64_t trials);
 
 /// For each trial the mean over its moves with a value; with rigs, the mean of these over each rig. Trials
 /// and rigs without a value are left out. For settling_time this is the mean settling time of the moves, not
-/// the settling time of the trial (largest_of_moves()).
+/// the settling time of the trial (worst_of_moves()).
 std::vector<double> trial_means(const PointTrials& trials, const GateMeasure& measure);
 
 /// Mean over the trials of each rig, ignoring NaN; rigs without a value are left out. Without rigs the values
@@ -52,8 +52,8 @@ std::vector<double> trial_means(const PointTrials& trials, const GateMeasure& me
 /// @param values [trial]
 std::vector<double> means_by_rig(std::span<const double> values, std::int64_t rigs);
 
-/// The largest value of the moves of each trial, [trial]; infinite if a move has no value. For settling_time
-/// this is the settling time of the trial.
-std::vector<double> largest_of_moves(const PointTrials& trials, const GateMeasure& measure);
+/// The worst value of the moves of each trial, [trial]; infinitely bad if a move has no value. For
+/// settling_time this is the settling time of the trial.
+std::vector<double> worst_of_moves(const PointTrials& trials, const GateMeasure& measure);
 
 }  // namespace zerocount::comparison

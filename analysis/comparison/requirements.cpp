@@ -163,7 +163,7 @@ RequirementResult judge_requirement(const Requirement& requirement, const PointT
       judge_quality(result, trials.of(quantity.measure), trials.rigs, confidence, failing_confidence);
       break;
     case RequirementKind::quantile:
-      judge_quantile(result, largest_of_moves(trials, quantity.measure), trials.rigs, quantity.probability,
+      judge_quantile(result, worst_of_moves(trials, quantity.measure), trials.rigs, quantity.probability,
                      confidence, failing_confidence);
       break;
     case RequirementKind::mean:

@@ -11,7 +11,7 @@ constexpr std::array exponents{1.0, 1.5, 2.0, 2.5, 3.0, 4.0};
 constexpr int rates = 14;  // number of values of α tried, by factors of 2 from the smallest
 
 /// Time (s) at the beginning of a hold in which the rotor may oscillate; at most a quarter of the hold.
-constexpr double swinging_time = 0.05;
+constexpr double oscillation_time = 0.05;
 
 /// Sums over the samples of the holds, each about its own mean. x: the law with a limit of 1 rad; y:
 /// measured.
@@ -24,7 +24,7 @@ struct HoldSums {
 void add_hold(const TorqueHold& hold, double sample_time, const Eigen::VectorXd& law,
               const Eigen::VectorXd& angle, HoldSums& sums) {
   const auto samples = static_cast<Eigen::Index>(hold.last - hold.first + 1);
-  const auto skipped = std::min(samples / 4, static_cast<Eigen::Index>(swinging_time / sample_time));
+  const auto skipped = std::min(samples / 4, static_cast<Eigen::Index>(oscillation_time / sample_time));
   const auto x = law.segment(static_cast<Eigen::Index>(hold.first) + skipped, samples - skipped).array();
   const auto y = angle.segment(static_cast<Eigen::Index>(hold.first) + skipped, samples - skipped).array();
   const double x_mean = x.mean();

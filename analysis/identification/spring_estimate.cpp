@@ -74,7 +74,7 @@ SpringEstimate secant_estimate(std::span<const TestRecord> records) {
   };
   for (std::size_t r = 0; r < records.size(); ++r) {
     for (const TorqueHold& hold : records[r].parts.holds) {
-      if (hold.rings_down) take(std::abs(hold.torque - hold.from), first_swing(records[r], hold).travel);
+      if (hold.rings_down) take(std::abs(hold.torque - hold.from), first_overshoot(records[r], hold).travel);
     }
   }
   if (std::isfinite(estimate.k1)) return estimate;

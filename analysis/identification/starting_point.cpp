@@ -133,17 +133,17 @@ ContactPoint point_with_creep(std::span<const TestRecord> records, const CreepEs
 
 }  // namespace
 
-FirstSwing first_swing(const TestRecord& record, const TorqueHold& ring_down) {
+FirstOvershoot first_overshoot(const TestRecord& record, const TorqueHold& ring_down) {
   const Eigen::VectorXd angle = measured_angle(record);
   const double sign = ring_down.torque > ring_down.from ? 1.0 : -1.0;
   const auto first = static_cast<Eigen::Index>(ring_down.first);
   const auto samples = static_cast<Eigen::Index>(ring_down.last) - first + 1;
-  const Eigen::VectorXd swing = sign * (angle.segment(first, samples).array() - angle[first]);
+  const Eigen::VectorXd motion = sign * (angle.segment(first, samples).array() - angle[first]);
   Eigen::Index peak = 0;
-  while (peak + 1 < swing.size() && swing[peak + 1] >= swing[peak]) ++peak;
-  const Eigen::Index settled = std::min(6 * (peak + 1), swing.size() - 1);
-  const double travel = swing[settled];
-  return {static_cast<std::size_t>(peak + 1), travel, travel > 0.0 ? swing[peak] / travel - 1.0 : 0.0};
+  while (peak + 1 < motion.size() && motion[peak + 1] >= motion[peak]) ++peak;
+  const Eigen::Index settled = std::min(6 * (peak + 1), motion.size() - 1);
+  const double travel = motion[settled];
+  return {static_cast<std::size_t>(peak + 1), travel, travel > 0.0 ? motion[peak] / travel - 1.0 : 0.0};
 }
 
 motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records, double k1) {
@@ -153,10 +153,10 @@ motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records, 
   double period = 4.0 * sample_time;
   double damping_ratio = 0.33;
   if (ring.record != nullptr) {
-    const FirstSwing swing = first_swing(*ring.record, ring.hold);
-    period = 2.0 * ring.record->sample_time * static_cast<double>(swing.peak);
-    if (swing.overshoot > 0.0 && swing.overshoot < 1.0) {
-      const double decay = -std::log(swing.overshoot);
+    const FirstOvershoot motion = first_overshoot(*ring.record, ring.hold);
+    period = 2.0 * ring.record->sample_time * static_cast<double>(motion.peak);
+    if (motion.overshoot > 0.0 && motion.overshoot < 1.0) {
+      const double decay = -std::log(motion.overshoot);
       damping_ratio = decay / std::hypot(std::numbers::pi, decay);
     }
   }

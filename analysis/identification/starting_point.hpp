@@ -38,13 +38,13 @@ SpringEstimate estimate_spring(std::span<const TestRecord> records, const CreepE
                                double creep_torque);
 
 /// The first oscillation after a step of the torque.
-struct FirstSwing {
+struct FirstOvershoot {
   std::size_t peak{0};    ///< samples from the step to the first peak
   double travel{0.0};     ///< from the start to the settled position, in the direction of the step, rad
   double overshoot{0.0};  ///< as a fraction of the travel
 };
 
-FirstSwing first_swing(const TestRecord& record, const TorqueHold& ring_down);
+FirstOvershoot first_overshoot(const TestRecord& record, const TorqueHold& ring_down);
 
 /// J and c from the first oscillation after the largest step, for a linear spring of stiffness k1.
 motion::PlantParameters estimate_ring_down(std::span<const TestRecord> records, double k1);

@@ -32,8 +32,8 @@ struct BootstrapDraws {
 struct StatisticsOptions {
   double confidence{statistics::summary_confidence};
   std::optional<BootstrapDraws> bootstrap{};  ///< none: the bounds of means are left open
-  /// Whether the trials went on until their outcomes were known well enough: claims about all axes need
-  /// bounds that allow for it then.
+  /// Whether the outcomes decided the number of trials: the bounds of claims about all axes must then hold at
+  /// any stopping time.
   bool stopped_by_outcomes{false};
 };
 

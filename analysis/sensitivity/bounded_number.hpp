@@ -23,7 +23,7 @@ inline bool excludes_zero(const BoundedNumber& number) {
 /// becomes 0 or 1 and the bound on the other side moves with it (below 0 by as much, above 1 in proportion).
 /// So bounds never exclude all that is possible nor shrink to a point, and cover no less often than those
 /// given.
-inline BoundedNumber held_share(BoundedNumber number) {
+inline BoundedNumber clamped_index(BoundedNumber number) {
   if (std::isnan(number.value)) return {};
   number.low = std::min(number.low, number.value);
   number.high = std::max(number.high, number.value);

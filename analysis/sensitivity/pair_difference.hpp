@@ -72,7 +72,7 @@ inline BoundedNumber yes_no_difference(const AnswerPairs& pairs, double confiden
 /// probability −ln(δ)/N with the confidence 1 − δ, δ = (1 − confidence)/2 (Poisson; at 95 % 3.7/N), and
 /// changes the output as much as independent trials that differ do on average. They have the mean square
 /// difference 2V, so the proportion is −ln(δ)/m, m the number of rows in which A and B differ; 1 at most.
-inline double unseen_share(std::span<const double> a, std::span<const double> b, double confidence) {
+inline double unseen_index(std::span<const double> a, std::span<const double> b, double confidence) {
   double different = 0.0;
   for (std::size_t r = 0; r < a.size(); ++r) different += a[r] != b[r] ? 1.0 : 0.0;
   const double events = -std::log(0.5 * (1.0 - confidence));

@@ -129,18 +129,18 @@ BoundedNumber rest_of(const BoundedNumber& difference) {
 // The wider of the bounds by resampling and those without a control variate.
 BoundedNumber yes_no_first_order(const BoundedNumber& resampled, const BoundedNumber& difference) {
   if (std::isnan(difference.value)) return {};
-  const BoundedNumber held = held_share(resampled);
-  const BoundedNumber rest = held_share(rest_of(difference));
+  const BoundedNumber held = clamped_index(resampled);
+  const BoundedNumber rest = clamped_index(rest_of(difference));
   return {held.value, std::fmin(held.low, rest.low), std::fmax(held.high, rest.high)};
 }
 
 BoundedNumber number_total(const BoundedNumber& resampled, double unseen, double confidence) {
-  BoundedNumber total = held_share(with_unseen(resampled, unseen));
+  BoundedNumber total = clamped_index(with_unseen(resampled, unseen));
   // A factor without influence changes no row. A resampled bound of 0 says that few rows differ; at the least
   // it is the bound of a Poisson mean of which one event is seen.
   const double of_one_event = -std::log1p(-0.5 * (1.0 - confidence)) * total.value;
   total.low = std::fmin(std::fmax(std::fmin(resampled.low, 1.0), of_one_event), total.value);
-  if (resampled.value > 1.0) total.low = std::fmin(total.low, held_share(resampled).low);
+  if (resampled.value > 1.0) total.low = std::fmin(total.low, clamped_index(resampled).low);
   return total;
 }
 
@@ -168,17 +168,17 @@ BoundedNumber without_bounds(const BoundedNumber& number) {
 // From bounds by resampling to such as hold where few rows differ, too: resampling hardly ever meets those.
 void widen_bounds(const SaltelliSample& sample, double confidence, std::vector<SobolIndices>& indices) {
   const bool yes_or_no = is_yes_or_no(sample);
-  const double unseen = unseen_share(sample.a, sample.b, confidence);
+  const double unseen = unseen_index(sample.a, sample.b, confidence);
   const bool too_few = trials_behind_variance(sample, mean_of(sample)) < min_behind_variance;
   for (std::size_t j = 0; j < sample.c.size(); ++j) {
     auto& [first_order, total] = indices[j];
     const std::vector<double>& c = sample.c[j];
     if (yes_or_no) {
-      total = held_share(yes_no_difference(answer_pairs(sample.a, c), confidence));
+      total = clamped_index(yes_no_difference(answer_pairs(sample.a, c), confidence));
       first_order = yes_no_first_order(first_order, yes_no_difference(answer_pairs(sample.b, c), confidence));
     } else {
       total = number_total(total, unseen, confidence);
-      first_order = held_share(with_unseen(first_order, unseen));
+      first_order = clamped_index(with_unseen(first_order, unseen));
     }
     if (!yes_or_no && too_few) {
       total = without_bounds(total);

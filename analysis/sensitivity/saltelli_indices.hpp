@@ -37,12 +37,12 @@ std::int64_t bootstrap_replicates(double confidence);
 /// expectation is 0 because A and B are independent: with λ_j = 0 it is best where the factor is nearly all,
 /// with λ_j = 1 that of Saltelli et al. (2010, table 2 (b)), best where it is nearly nothing. λ_j is the
 /// regression coefficient of b·c_j − S_j(b² + c_j²)/2 on a·b, all less their means (Glynn & Szechtman 2002),
-/// of the sample given. S_j is 0 where c_j is a. Values and bounds are held in [0, 1] (held_share).
+/// of the sample given. S_j is 0 where c_j is a. Values and bounds are held in [0, 1] (clamped_index).
 ///
 /// For an output that is 0 or 1 throughout, the bounds of T_j are those of yes_no_difference. Those of S_j
 /// are the wider of the percentiles and 1 less yes_no_difference of B and C_j. For any other output they are
 /// percentiles of these numbers over samples of N rows that are drawn anew from the rows, with replacement
-/// (Archer, Saltelli & Sobol' 1997), with unseen_share; of more than 4096 rows, 4096 groups of neighbouring
+/// (Archer, Saltelli & Sobol' 1997), with unseen_index; of more than 4096 rows, 4096 groups of neighbouring
 /// ones are drawn. The upper bound of S_j is not above that of T_j, and the lower one of T_j is 0 only where
 /// no row differs. NaN where A and B have no variance or there are fewer than two rows, and for a factor
 /// where A and C_j have none.

@@ -60,7 +60,7 @@ void complete_points(StudySummary& summary, const study::Study& study,
 }
 
 /// The statement counts independent trials.
-void add_assurance(StudySummary& summary) {
+void add_tolerance_statement(StudySummary& summary) {
   if (summary.features.open_loop || summary.features.dependent_trials) return;
   summary.sections.push_back(tolerance_section(summary.points, summary.labels));
 }
@@ -104,7 +104,7 @@ class FinishedTrials {
     for (std::size_t point = 0; point < summary.points.size(); ++point)
       summary.predictions.push_back(
           point_prediction(study_, static_cast<std::int64_t>(point), counts_[point]));
-    add_assurance(summary);
+    add_tolerance_statement(summary);
     summary.unfinished = UnfinishedStudy{count_, study::trial_count(study_), study::point_count(study_)};
     return summary;
   }
@@ -144,7 +144,7 @@ StudySummary summarise(const reading::StudyFile& file, double confidence, bool b
   if (study.stop) {
     summary.sections.push_back(stopping_section(summary.points, summary.labels, *study.stop, confidence));
   }
-  add_assurance(summary);
+  add_tolerance_statement(summary);
   return summary;
 }
 

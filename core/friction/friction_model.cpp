@@ -21,7 +21,7 @@ const LawTraits& traits_of(FrictionModel model) {
   return FrictionLaws::traits.at(static_cast<std::size_t>(model));
 }
 
-std::vector<std::string_view> friction_model_words() {
+std::vector<std::string_view> friction_model_labels() {
   std::vector<std::string_view> words;
   words.reserve(FrictionLaws::traits.size());
   for (const LawTraits& law : FrictionLaws::traits) words.push_back(law.word);

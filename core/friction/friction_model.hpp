@@ -19,7 +19,7 @@ enum class FrictionModel {
 const LawTraits& traits_of(FrictionModel model);
 
 /// Values of friction.model in a manifest, in the order of FrictionModel.
-std::vector<std::string_view> friction_model_words();
+std::vector<std::string_view> friction_model_labels();
 
 // Derived from the contact parameters that the law uses:
 

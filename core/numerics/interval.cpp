@@ -45,7 +45,7 @@ std::string notation(const Interval& interval) {
                      interval.high_included ? ']' : ')');
 }
 
-std::string in_words(const Interval& interval) {
+std::string range_text(const Interval& interval) {
   std::string words;
   if (std::isfinite(interval.low)) {
     words = fmt::format("{} {}", interval.low_included ? "at least" : "greater than", interval.low);

@@ -29,6 +29,6 @@ bool contains(const Interval& outer, const Interval& inner);
 std::string notation(const Interval& interval);
 
 /// In words, for messages: "greater than 0 and at most 1"; "any finite number" where there is no limit.
-std::string in_words(const Interval& interval);
+std::string range_text(const Interval& interval);
 
 }  // namespace zerocount::numerics

@@ -18,7 +18,7 @@ constexpr std::string_view profile_name = "profile";
 
 std::string expected_of(const parameters::Parameter& parameter, const parameters::StudyUnits& units) {
   if (parameters::has_labels(parameter)) return fmt::format("one of {}", fmt::join(parameter.labels, ", "));
-  const std::string words = numerics::in_words(parameters::range_of(parameter, units));
+  const std::string words = numerics::range_text(parameters::range_of(parameter, units));
   const std::string noun =
       parameter.kind == parameters::ParameterKind::whole_number ? "whole numbers" : "numbers";
   return words.rfind("any", 0) == 0 ? "finite " + noun + " only" : noun + " " + words + " only";

@@ -30,7 +30,7 @@ std::vector<Parameter> friction_rows() {
                "friction of the bearing: before it slides a spring and creep, the spring alone, or no "
                "motion at "
                "all; none is an air bearing",
-               assumed, friction::friction_model_words(), [](auto& p) { return &p.friction.model; }),
+               assumed, friction::friction_model_labels(), [](auto& p) { return &p.friction.model; }),
       friction<&P::k1>(real_row("friction.k1", 0, "N m/rad",
                                 "lowest tangent stiffness of the friction spring", "paper, section 4",
                                 numerics::above(0))),

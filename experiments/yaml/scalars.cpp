@@ -142,7 +142,7 @@ void add_wrong_type(const Field& field, const std::string& expected, Problems& p
 
 std::optional<double> read_real(const Field& field, const numerics::Interval& range, Problems& problems) {
   const YamlNode& node = *field.node;
-  const std::string allowed = numerics::in_words(range);
+  const std::string allowed = numerics::range_text(range);
   const std::string expected = allowed.rfind("any", 0) == 0 ? allowed : "a number " + allowed;
   double number = 0.0;
   const std::errc error =

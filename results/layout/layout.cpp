@@ -8,7 +8,7 @@
 namespace zerocount::layout {
 namespace {
 
-std::vector<FlagMeaning> mode_words() {
+std::vector<FlagMeaning> mode_labels() {
   return {{static_cast<int>(trial::HookMode::stick), "stick"},
           {static_cast<int>(trial::HookMode::slide), "slide"}};
 }
@@ -81,7 +81,7 @@ std::vector<RecordField<TraceRecord>> trace_fields(const study::StudyFeatures& f
       field<T>("xp", "rad", "plastic extension", &T::xp),
       field<T>("xh", "rad", "hardening", &T::xh),
       field<T>("depth", "1", "reversal points on the stack", &T::depth),
-      field<T>("mode", "1", "whether the hook sticks or slides", &T::mode, {}, mode_words())};
+      field<T>("mode", "1", "whether the hook sticks or slides", &T::mode, {}, mode_labels())};
   if (features.travel)
     fields.push_back(field<T>("reference", "count", "position that the control follows", &T::reference));
   if (features.phases) {

@@ -226,7 +226,7 @@ std::vector<layout::JerkRecord> StudyFile::jerks(layout::RowRange range) const {
   return jerks_at(first, first_jerk_from(range.end()) - first);
 }
 
-void StudyFile::require_sound_values() const {
+void StudyFile::require_valid_values() const {
   const std::int64_t at_once = layout::chunk_rows(moves());
   for (std::int64_t first = rows().first; first < rows().end(); first += at_once)
     outcomes({first, std::min(at_once, rows().end() - first)});

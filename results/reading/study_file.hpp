@@ -85,7 +85,7 @@ class StudyFile {
 
   /// Reads all outcomes and jerks in blocks, for the checks that this makes of them: for a file that is kept
   /// without being used at once.
-  void require_sound_values() const;
+  void require_valid_values() const;
 
   std::int64_t jerk_count() const { return jerks_.rows(); }
   /// By position in the table.

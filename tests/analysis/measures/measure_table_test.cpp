@@ -142,6 +142,17 @@ TEST_F(AddedMeasure, IsJudgedByTheGate) {
   }
 }
 
+TEST_F(AddedMeasure, OfATrialIsThatOfItsWorstMove) {
+  const comparison::PointTrials read =
+      comparison::read_point_trials(reading::StudyFile(path, reading::Require::complete, table), 0);
+  const std::vector<double> worst = comparison::worst_of_moves(read, comparison::gate_measures(table).back());
+  ASSERT_EQ(worst.size(), trials.size());
+  for (std::size_t i = 0; i < worst.size(); ++i) {
+    const std::vector<trial::MoveOutcome>& moves = trials[i].outcome.moves;
+    EXPECT_EQ(worst[i], std::min(torque_reserve(moves[0]), torque_reserve(moves[1])));
+  }
+}
+
 TEST(AddedQuality, IsJudgedByTheTrialsThatHaveItWhereMoreIsWorse) {
   layout::MeasureTable table = layout::measure_table();
   for (layout::Measure& measure : table) {

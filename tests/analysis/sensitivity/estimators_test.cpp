@@ -99,7 +99,7 @@ TEST(YesNoDifference, IsHalfTheMeanSquareDifferenceOverTheVariance) {
 
 TEST(HeldShare, MovesTheBoundsWithTheEstimate) {
   const auto expect = [](const BoundedNumber& number, double value, double low, double high) {
-    const BoundedNumber held = held_share(number);
+    const BoundedNumber held = clamped_index(number);
     EXPECT_NEAR(held.value, value, 1e-12);
     EXPECT_NEAR(held.low, low, 1e-12);
     EXPECT_NEAR(held.high, high, 1e-12);
@@ -108,7 +108,7 @@ TEST(HeldShare, MovesTheBoundsWithTheEstimate) {
   expect({0.1, -0.1, 0.3}, 0.1, 0.0, 0.3);
   expect({-0.2, -0.3, -0.1}, 0.0, 0.0, 0.1);
   expect({1.25, 1.125, 1.5}, 1.0, 0.9, 1.0);
-  EXPECT_TRUE(std::isnan(held_share({std::nan(""), 0.0, 1.0}).high));
+  EXPECT_TRUE(std::isnan(clamped_index({std::nan(""), 0.0, 1.0}).high));
 }
 
 TEST(SaltelliIndices, AOneFactorFunctionIsAllItsOwn) {

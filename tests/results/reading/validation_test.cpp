@@ -23,7 +23,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Everything that a file can be asked for.
 void read_all(const fs::path& path) {
   const reading::StudyFile file(path);
-  file.require_sound_values();
+  file.require_valid_values();
 }
 
 /// Files with a checksum trailer and checksums that are right, and values that cannot be.

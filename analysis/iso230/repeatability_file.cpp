@@ -94,6 +94,7 @@ void write_trials(hdf5::File& file, const study::Study& study) {
     const std::vector<SequenceTrial> trials =
         evaluate(study, file, outcomes, first, std::min(at_once, rows - first));
     std::vector<std::uint8_t> evaluated;
+    evaluated.reserve(trials.size());
     for (const SequenceTrial& trial : trials) evaluated.push_back(trial.values.has_value() ? 1 : 0);
     axis.column(0).write(first, std::ssize(trials), evaluated.data());
     write_columns(axis, 1, trial_axis_columns(), first, trials);

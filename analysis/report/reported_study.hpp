@@ -9,7 +9,6 @@
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/summary.hpp"
-#include "core/trial/outcome.hpp"
 #include "experiments/study/study.hpp"
 #include "results/reading/study_file.hpp"
 

@@ -1,7 +1,6 @@
 #include "analysis/statistics/clustered_proportion.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/beta.hpp>

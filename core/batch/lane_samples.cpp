@@ -1,5 +1,4 @@
 // The sampling instants of the lanes.
-#include <algorithm>
 #include <cmath>
 
 #include "core/batch/lane_work.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #ifdef __AVX512F__
@@ -187,7 +188,7 @@ struct Simd {
 
   /// Writes the lanes of `mask`.
   ZEROCOUNT_ALWAYS_INLINE void store(double* to, const Mask& mask) const {
-    for (int i = 0; i < Chains; ++i) Vector::store(to + i * Width, mask.part[i], part[i]);
+    for (int i = 0; i < Chains; ++i) Vector::store(to + std::ptrdiff_t{i} * Width, mask.part[i], part[i]);
   }
   /// a where `mask`, else b.
   friend ZEROCOUNT_ALWAYS_INLINE Simd select(const Mask& mask, const Simd& a, const Simd& b) {

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 
 namespace zerocount::manifest {

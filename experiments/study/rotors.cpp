@@ -1,7 +1,6 @@
 #include "experiments/study/rotors.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "experiments/designs/random_key.hpp"

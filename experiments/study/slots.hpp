@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
 
 namespace zerocount::study {

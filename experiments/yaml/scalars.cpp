@@ -1,9 +1,7 @@
 #include "experiments/yaml/scalars.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cmath>
 #include <regex>
 
 #include <boost/algorithm/string/case_conv.hpp>

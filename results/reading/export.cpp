@@ -5,8 +5,6 @@
 #include <deque>
 #include <functional>
 #include <string>
-#include <type_traits>
-#include <variant>
 
 #include <fmt/format.h>
 

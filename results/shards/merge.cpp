@@ -1,6 +1,5 @@
 #include "results/shards/merge.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 

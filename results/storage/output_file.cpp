@@ -4,7 +4,6 @@
 #include <span>
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include "core/failure/failure.hpp"

@@ -368,7 +368,7 @@ std::string sampled_verdict(const PointTheory& theory) {
 }
 
 std::string describe_outside(const PointTheory& theory) {
-  const std::string out = fmt::format("    the criteria do not apply: {}\n", theory.outside);
+  std::string out = fmt::format("    the criteria do not apply: {}\n", theory.outside);
   if (!theory.free) return out;
   return out + range_line("ki", theory.ki, theory.gain_unit) + ": sampled loop " + sampled_verdict(theory) +
          "\n" + range_line("sampled loop, below", theory.sampled_below, theory.gain_unit) + "\n" +

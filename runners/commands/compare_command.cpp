@@ -6,8 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/comparison_report.hpp"
 #include "experiments/yaml/text_file.hpp"

@@ -1,5 +1,3 @@
-#include <cstdint>
-#include <limits>
 #include <string>
 
 #include <fmt/format.h>

@@ -1,7 +1,5 @@
 #include "runners/study_run/existing_output.hpp"
 
-#include <algorithm>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>

@@ -22,8 +22,26 @@ void show_branch(BatchState& batch, int lane, const friction::HystereticSpring& 
   m.branch_end[lane] = spring.branch_end().value_or(none);
 }
 
-void show_contact(BatchState& batch, int lane, const friction::FrictionParameters& contact) {
+/// Rate (1/s) at which an error of the motion decays, at least: that of the slower mode of J·q″ + c·q′ + k1·q
+/// = 0, because k1 is the least stiffness of the spring.
+double error_decay(const ContactLanes& c, int lane, double k1) {
+  const double gamma = 0.5 * c.damping[lane] * c.per_inertia[lane];
+  const double discriminant = gamma * gamma - k1 * c.per_inertia[lane];
+  return discriminant > 0.0 ? k1 * c.per_inertia[lane] / (gamma + std::sqrt(discriminant)) : gamma;
+}
+
+/// Truncation error (rad) allowed per torque step, so that the errors of all steps add up to about 1e-7
+/// count: to that of one step over 1 − exp(−decay·T). While the counts are those of the reference, so is the
+/// torque, and the loop does not amplify them. Never below the tolerance of the reference, `reference` (rad).
+double step_tolerance(const BatchState& batch, int lane, double k1, double reference) {
+  const double decay = error_decay(batch.contact, lane, k1) * batch.time.sample_time[lane];
+  return std::max(-1e-7 * std::expm1(-decay) * batch.loop.resolution[lane], reference);
+}
+
+void show_contact(BatchState& batch, int lane, const friction::FrictionParameters& contact,
+                  double reference_tolerance) {
   ContactLanes& c = batch.contact;
+  batch.time.tolerance[lane] = step_tolerance(batch, lane, contact.k1, reference_tolerance);
   c.k1[lane] = contact.k1;
   c.stiffest[lane] = contact.k1 + contact.k2;
   batch.time.longest_step[lane] = 1.0 / std::sqrt(c.stiffest[lane] * c.per_inertia[lane]);
@@ -82,7 +100,7 @@ void store_motion(BatchState& batch, int lane, LaneTrial& trial) {
   m.rest_torque[lane] = std::numeric_limits<double>::quiet_NaN();
   trial.breakaway_spring_torque = motion.breakaway_spring_torque;
   show_branch(batch, lane, trial.plant->spring());
-  show_contact(batch, lane, trial.plant->contact());
+  show_contact(batch, lane, trial.plant->contact(), trial.elongation_tolerance);
   remember_depth(trial);
 }
 
@@ -105,7 +123,7 @@ void end_creep(BatchState& batch, int lane, LaneTrial& trial) {
   MotionLanes& m = batch.motion;
   m.creeping[lane] = 0.0;
   m.creep_onset[lane] =
-      friction::creep_onset_after_end(trial.plant->contact(), m.hardening[lane] + trial.rest_tolerance,
+      friction::creep_onset_after_end(trial.plant->contact(), m.hardening[lane] + trial.elongation_tolerance,
                                       m.spring_torque[lane], m.elongation[lane]);
 }
 

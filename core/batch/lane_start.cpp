@@ -12,15 +12,6 @@
 namespace zerocount::batch {
 namespace {
 
-/// Truncation error (rad) allowed per torque step, so that the global error stays below 1e-7 count. While the
-/// counts are those of the reference, so is the torque, and an error decays as the rotor's own oscillation
-/// does, by exp(−γT) a step, γ = c/2J: the errors of all steps add up to that of one over 1 − exp(−γT).
-/// Never below the tolerance of the reference.
-double step_tolerance(const trial::TrialParameters& p, double resolution) {
-  const double decay = p.plant.presliding_damping / (2.0 * p.plant.inertia * p.controller.sample_rate);
-  return std::max(-1e-7 * std::expm1(-decay) * resolution, trial::motion_tolerance(resolution).elongation);
-}
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
@@ -54,7 +45,6 @@ void start_time(TimeLanes& time, int lane, const trial::TrialParameters& p, doub
   time.sample_time[lane] = 1.0 / p.controller.sample_rate;
   time.next_step[lane] = time.sample_time[lane];
   time.steps[lane] = 0.0;
-  time.tolerance[lane] = step_tolerance(p, resolution);
   time.rest[lane] = trial::motion_tolerance(resolution).rest;
   time.per_count[lane] = 1.0 / resolution;
 }
@@ -78,7 +68,7 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
   start_loop(batch.loop, lane, p);
   const double resolution = batch.loop.resolution[lane];
   start_time(batch.time, lane, p, resolution);
-  trial.rest_tolerance = trial::motion_tolerance(resolution).elongation;
+  trial.elongation_tolerance = trial::motion_tolerance(resolution).elongation;
   trial.plant.emplace(p.plant, p.friction, trial::plant_start(p), trial::motion_tolerance(resolution));
   batch.contact.per_inertia[lane] = 1.0 / p.plant.inertia;
   batch.contact.damping[lane] = p.plant.presliding_damping;

@@ -28,7 +28,7 @@ struct LaneTrial {
   /// The contact. Its spring always remembers the reversals of the lane; the rest of it is that of the lane
   /// only between load() and store().
   std::optional<LanePlant> plant;
-  double rest_tolerance{0.0};           ///< MotionTolerance::elongation, rad
+  double elongation_tolerance{0.0};     ///< MotionTolerance::elongation, rad
   double breakaway_spring_torque{0.0};  ///< σb of the slide, N m
 
   std::int64_t breakaways{0};  ///< in this move

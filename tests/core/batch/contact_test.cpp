@@ -127,6 +127,21 @@ TEST(BatchContact, MayBeWithoutCreep) {
   }
 }
 
+/// From hardly damped, where an error lasts for thousands of samples, to overdamped, where it dies out as
+/// slowly as the elongation relaxes.
+TEST(BatchContact, MayBeDampedAtAnyRate) {
+  std::vector<trial::TrialParameters> trials;
+  for (std::uint64_t i = 0; i < 180; ++i) {
+    constexpr TrialKind kinds[] = {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away};
+    trials.push_back(trial_for_lanes(kinds[i % 3], 97000 + i));
+    trial::TrialParameters& p = trials.back();
+    const friction::FrictionParameters& f = p.friction.uniform;
+    const double damping_ratio = std::exp(-6.0 + 0.06 * static_cast<double>(i));  // to 115
+    p.plant.presliding_damping = 2.0 * damping_ratio * std::sqrt((f.k1 + f.k2) * p.plant.inertia);
+  }
+  expect_agreement_in_lanes(trials, "damping");
+}
+
 trial::TrialParameters creeping_trial(std::uint64_t index, double alpha) {
   trial::TrialParameters p = trial_for_lanes(TrialKind::calm, 94000 + index);
   friction::FrictionParameters& f = p.friction.uniform;

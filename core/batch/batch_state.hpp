@@ -49,6 +49,7 @@ struct alignas(64) MotionLanes {
 
 /// Parameters of the motion, constant throughout a contact.
 struct alignas(64) ContactLanes {
+  Lanes inertia;               ///< J, kg m²
   Lanes per_inertia;           ///< 1/J
   Lanes damping;               ///< c
   Lanes sliding_damping;       ///< cs
@@ -56,6 +57,7 @@ struct alignas(64) ContactLanes {
   Lanes stiffest;              ///< k1 + k2, N m/rad
   Lanes alpha;                 ///< 1/s
   Lanes per_lambda;            ///< 1/λ
+  Lanes creep_acceleration;    ///< 8αc/k1: what creep may add to dxs/dt, by dxp/dt
   Lanes creep_exponent;        ///< n
   Lanes breakaway;             ///< Fs, N m
   Lanes coulomb;               ///< Fc, N m

@@ -6,6 +6,7 @@
 #include "core/batch/lane_trial.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/encoder.hpp"
+#include "core/loop/control_block.hpp"
 #include "core/trial/move_measures.hpp"
 #include "core/trial/rig.hpp"
 
@@ -70,6 +71,7 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
   start_time(batch.time, lane, p, resolution);
   trial.elongation_tolerance = trial::motion_tolerance(resolution).elongation;
   trial.plant.emplace(p.plant, p.friction, trial::plant_start(p), trial::motion_tolerance(resolution));
+  batch.contact.inertia[lane] = p.plant.inertia;
   batch.contact.per_inertia[lane] = 1.0 / p.plant.inertia;
   batch.contact.damping[lane] = p.plant.presliding_damping;
   batch.contact.sliding_damping[lane] = p.plant.sliding_damping;

@@ -16,20 +16,18 @@ ZEROCOUNT_ALWAYS_INLINE P value_of(const P* c, int order, const P& x) {
   return value;
 }
 
-/// Four polynomials at x, of which each goes as value_of has it.
+/// Three polynomials at x, of which each goes as value_of has it.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void values_of(const P* a, const P* b, const P* c, const P* d, int order, const P& x,
-                                       P (&value)[4]) {
+ZEROCOUNT_ALWAYS_INLINE void values_of(const P* a, const P* b, const P* c, int order, const P& x,
+                                       P (&value)[3]) {
   value[0] = a[order];
   value[1] = b[order];
   value[2] = c[order];
-  value[3] = d[order];
 #pragma GCC unroll 1
   for (int k = order - 1; k >= 0; --k) {
     value[0] = value[0] * x + a[k];
     value[1] = value[1] * x + b[k];
     value[2] = value[2] * x + c[k];
-    value[3] = value[3] * x + d[k];
   }
 }
 
@@ -69,54 +67,93 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask cannot_turn(const P& at_start, const P&
   return (min(abs(at_start), abs(at_end)) > curvature * P(0.125)) | (abs(slope) > curvature);
 }
 
-/// The root of a polynomial between 0 and `end`, where it has the sign other than `at_start`'s: from the
-/// secant's by Newton's iteration, and by bisection where that leaves the bracket or shrinks slowly. Each
-/// lane stays as soon as it has arrived, so that it does not matter how long others take. Only the lanes of
-/// `wanted` count.
+/// A polynomial and its derivative at x.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start, const P& at_end,
-                                       const P& end, const typename P::Mask& wanted) {
-  constexpr int max_steps = 60;
-  P low(0.0);
-  P high = end;
-  P x = end * (at_start / (at_start - at_end));
-  P last_change = end;
-  typename P::Mask open = wanted;
-  for (int step = 0; step < max_steps; ++step) {
-    // The even and the odd powers apart, and their derivatives: four chains of additions in place of two.
-    const P square = x * x;
-    P even(0.0);
-    P odd(0.0);
-    P even_slope(0.0);
-    P odd_slope(0.0);
+struct ValueAndSlope {
+  P value;
+  P slope;
+};
+
+/// The even and the odd powers apart, and their derivatives: four chains of additions in place of two.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE ValueAndSlope<P> value_and_slope(const P* c, int order, const P& x) {
+  const P square = x * x;
+  const int highest_even = order - order % 2;
+  P even = c[highest_even];
+  P odd = order % 2 == 0 ? c[order - 1] : c[order];
+  P even_slope(0.0);
+  P odd_slope(0.0);
+  if (order % 2 != 0) {
+    odd_slope = odd;
+    odd = odd * square + c[order - 2];
+  }
 #pragma GCC unroll 1
-    for (int k = order; k >= 1; k -= 2) {
-      const int even_power = order % 2 == 0 ? k : k - 1;
-      const int odd_power = order % 2 == 0 ? k - 1 : k;
-      even_slope = even_slope * square + even;
-      odd_slope = odd_slope * square + odd;
-      even = even * square + c[even_power];
-      odd = odd * square + c[odd_power];
-    }
-    if (order % 2 == 0) {
-      even_slope = even_slope * square + even;
-      even = even * square + c[0];
-    }
-    const P value = even + x * odd;
-    const P slope = odd + P(2.0) * x * (even_slope + x * odd_slope);
-    const typename P::Mask before = (value > P(0.0)) == (at_start > P(0.0));
+  for (int k = highest_even - 2; k >= 2; k -= 2) {
+    even_slope = even_slope * square + even;
+    odd_slope = odd_slope * square + odd;
+    even = even * square + c[k];
+    odd = odd * square + c[k - 1];
+  }
+  even_slope = even_slope * square + even;
+  even = even * square + c[0];
+  return {even + x * odd, odd + P(2.0) * x * (even_slope + x * odd_slope)};
+}
+
+/// Bracketed Newton iteration of the lanes of a vector. Each lane stays as soon as it has arrived, so that it
+/// does not matter how long others take.
+template <class P>
+struct NewtonSearch {
+  using Mask = typename P::Mask;
+  P low;
+  P high;
+  P x;
+  P last_change;
+  Mask open;  ///< lanes that have not arrived
+
+  /// One step to `newton`, or by bisection where that leaves the bracket or shrinks slowly. @param before the
+  /// root is ahead. @param close change below which the step squared is none.
+  ZEROCOUNT_ALWAYS_INLINE void step(const P& newton, const Mask& before, const P& close) {
     low = select(before, x, low);
     high = select(before, high, x);
-    const P newton = x - value / slope;
-    const typename P::Mask good =
-        (newton >= low) & (newton <= high) & (abs(newton - x) <= P(0.5) * last_change);
+    const Mask good = (newton >= low) & (newton <= high) & (abs(newton - x) <= P(0.5) * last_change);
     const P next = select(good, newton, (low + high) * P(0.5));
     last_change = abs(next - x);
     x = select(open, next, x);
-    open = open & (last_change > P(1e-8) * end);  // squared by the step that has just been made
-    if (!open.any()) break;
+    // The error of a Newton step is about the square of the step.
+    open = open & (last_change > select(good, close, P(1e-9) * close));
   }
-  return x;
+};
+
+constexpr int max_newton_steps = 60;
+
+/// The root of a polynomial between 0 and `end`, where it has the sign other than `at_start`'s: from the
+/// secant's. Only the lanes of `wanted` count.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start, const P& at_end,
+                                       const P& end, const typename P::Mask& wanted) {
+  NewtonSearch<P> search{P(0.0), end, end * (at_start / (at_start - at_end)), end, wanted};
+  for (int step = 0; step < max_newton_steps && search.open.any(); ++step) {
+    const ValueAndSlope<P> at = value_and_slope(c, order, search.x);
+    search.step(search.x - at.value / at.slope, (at.value > P(0.0)) == (at_start > P(0.0)), P(1e-8) * end);
+  }
+  return search.x;
+}
+
+/// The zero of a polynomial on (0, 1), or where it is zero at 0 (`from_zero`) its next one, that of the
+/// polynomial by x. Its position enters the motion by its square: at a reversal the velocity is zero.
+/// @param at_start the value at 0, or the slope where that is zero. @param at_end the value at 1.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P next_zero(const P* c, int order, const P& at_start, const P& at_end,
+                                    const typename P::Mask& from_zero, const typename P::Mask& wanted) {
+  NewtonSearch<P> search{P(0.0), P(1.0), at_start / (at_start - at_end), P(1.0), wanted};
+  for (int step = 0; step < max_newton_steps && search.open.any(); ++step) {
+    const P x = search.x;
+    const ValueAndSlope<P> at = value_and_slope(c, order, x);
+    const P by_x = x * at.slope;
+    const P newton = x - x * at.value / select(from_zero, by_x - at.value, by_x);
+    search.step(newton, (at.value > P(0.0)) == (at_start > P(0.0)), P(1e-5));
+  }
+  return search.x;
 }
 
 }  // namespace zerocount::batch

@@ -17,17 +17,23 @@ template <class P>
 ZEROCOUNT_ALWAYS_INLINE EventsPassed<P> events_passed(const BatchState& batch, const LaneGroup<P>& at,
                                                       const StickStep<P>& step) {
   const P zero(0.0);
-  const StickLaw<P>& law = step.law;
-  P creep_limit = law.creep_limit * step.torque * step.torque;
-  const typename P::Mask other_powers = step.creeping & (law.creep_exponent != P(2.0));
-  if (other_powers.any()) {
-    const P power = pow(abs(step.torque), law.creep_exponent);
-    creep_limit = select(other_powers, law.creep_limit * power, creep_limit);
-  }
-  const P creep_left = step.torque_sign * (creep_limit - law.creep_recovery * step.growth);
+  const P creep_left = step.torque_sign * step.creep;
   return {step.direction * (step.elongation - at.load(batch.motion.branch_end)) >= zero,
           step.creeping & (~(creep_left > zero) | (step.torque_sign * step.torque <= zero)),
           ~step.creeping & (abs(step.torque) >= at.load(batch.motion.creep_onset))};
+}
+
+/// Coefficient k of the hook's torque, N m.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P hook_coefficient(const StickStep<P>& step, int k) {
+  const StickSeries<P>& s = step.series;
+  return step.torque_scale * s.pull[k] + step.per_step * s.velocity[k];
+}
+
+/// σ + c·ω at the end of the step, N m.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P hook_torque_at_end(const StickStep<P>& step) {
+  return step.torque + step.per_step * step.velocity;
 }
 
 /// Whether the hook's torque may reach the breakaway torque between the ends of the step, of which the larger
@@ -35,9 +41,7 @@ ZEROCOUNT_ALWAYS_INLINE EventsPassed<P> events_passed(const BatchState& batch, c
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_slip_within(const StickStep<P>& step, const P& at_ends) {
   P hook[batch_order + 1];
-  for (int k = 0; k <= batch_order; ++k) {
-    hook[k] = step.series.torque[k] + step.per_step * step.series.velocity[k];
-  }
+  for (int k = 0; k <= batch_order; ++k) hook[k] = hook_coefficient(step, k);
   const P bend = curvature_bound(hook, batch_order);
   return (at_ends + bend * P(0.125) >= step.breakaway) & ~(abs(hook[1]) > bend);
 }
@@ -47,7 +51,7 @@ template <class P>
 ZEROCOUNT_ALWAYS_INLINE void see_events(const BatchState& batch, const LaneGroup<P>& at, StickStep<P>& step) {
   using Mask = typename P::Mask;
   const EventsPassed<P> passed = events_passed(batch, at, step);
-  const P hook_max = max(abs(step.hook_torque), abs(step.torque + step.per_step * step.velocity));
+  const P hook_max = max(abs(step.hook_torque), abs(hook_torque_at_end(step)));
   Mask slips = hook_max >= step.breakaway;
   const Mask near = ~step.too_long & (hook_max > P(0.5) * step.breakaway);
   if ((near & step.here).any()) slips = slips | (near & may_slip_within(step, hook_max));
@@ -76,12 +80,13 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const LaneGroup
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
   const P zero(0.0);
-  const P hook_sign = sign(step.torque + step.per_step * step.velocity);
+  const P hook_sign = sign(hook_torque_at_end(step));
   const P start_sign = sign(step.torque);
   P f[batch_order + 1];
   for (int k = 0; k <= batch_order; ++k) {
-    const P of_hook = hook_sign * (s.torque[k] + step.per_step * s.velocity[k]);
-    f[k] = sought.choose(of_hook, s.elongation[k], start_sign * s.torque[k], step.torque_sign * s.creep[k]);
+    const P creep = k < batch_order ? step.torque_sign * creep_coefficient(s, k) : zero;
+    f[k] = sought.choose(hook_sign * hook_coefficient(step, k), s.elongation[k],
+                         start_sign * (step.torque_scale * s.pull[k]), creep);
   }
   f[0] = f[0] - sought.choose(step.breakaway, at.load(batch.motion.branch_end),
                               at.load(batch.motion.creep_onset), zero);
@@ -90,7 +95,7 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const LaneGroup
   const Mask crosses = sought.open & sought.stop & (step.torque_sign * step.torque <= zero);
   if (crosses.any()) {
     P torque_left[batch_order + 1];
-    for (int k = 0; k <= batch_order; ++k) torque_left[k] = step.torque_sign * s.torque[k];
+    for (int k = 0; k <= batch_order; ++k) torque_left[k] = step.torque_sign * (step.torque_scale * s.pull[k]);
     const P crossing = root_between(torque_left, batch_order, torque_left[0], step.torque_sign * step.torque,
                                     step.x, crosses);
     last = select(crosses, crossing, step.x);
@@ -103,10 +108,13 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const LaneGroup
   step.x = select(sought.open, found, step.x);
   step.event = select(sought.open, sought.choose(P(breaks_away), P(closure), P(creep_sets_in), P(creep_ends)),
                       step.event);
-  step.torque = value_of(s.torque, batch_order, step.x);
-  step.elongation = value_of(s.elongation, batch_order, step.x);
+  P value[3];
+  values_of(s.pull, s.elongation, s.growth, batch_order, step.x, value);
+  step.torque = value[0] * step.torque_scale;
+  step.elongation = value[1];
+  step.growth = value[2];
   step.velocity = value_of(s.velocity, batch_order, step.x);
-  step.growth = value_of(s.growth, batch_order, step.x);
+  see_creep(step, value[0]);
 }
 
 /// Finds the first event of each lane, and ends its step there.
@@ -119,7 +127,7 @@ ZEROCOUNT_ALWAYS_INLINE void find_first_event(const BatchState& batch, const Lan
   // One at a time; the next round sees whether another is earlier still.
   for (int round = 0; round < 4; ++round) {
     const EventsPassed<P> passed = events_passed(batch, at, step);
-    const P hook_torque = step.torque + step.per_step * step.velocity;
+    const P hook_torque = hook_torque_at_end(step);
     const Mask loose = (abs(hook_torque) >= step.breakaway) & (step.event != P(breaks_away));
     const Mask closes = passed.closes & (step.event != P(closure));
     const Mask starts = passed.starts & (step.event != P(creep_sets_in));
@@ -134,7 +142,7 @@ ZEROCOUNT_ALWAYS_INLINE void find_first_event(const BatchState& batch, const Lan
     go_back_to(batch, at, sought, step);
   }
   // Between the ends the hook's torque may have been larger.
-  const P hook_at_end = step.torque + step.per_step * step.velocity;
+  const P hook_at_end = hook_torque_at_end(step);
   const P hook_max = max(abs(step.hook_torque), abs(hook_at_end));
   const Mask near = (step.event != P(breaks_away)) & (hook_max > P(0.5) * step.breakaway);
   if ((near & ~step.too_long).any()) {

@@ -84,11 +84,11 @@ ZEROCOUNT_ALWAYS_INLINE void store_motion_of(BatchState& batch, const LaneGroup<
   const StickSeries<P>& s = step.series;
   const P end = select(step.event == P(closure), at.load(m.branch_end), step.elongation);
   at.store(m.elongation, select(done, end, s.elongation[0]));
-  at.store(m.omega, select(done, step.velocity / step.h, at.load(m.omega)));
+  at.store(m.omega, select(done, step.velocity * step.per_length, at.load(m.omega)));
   at.store(m.extension, select(done, t.extension, at.load(m.extension)));
   at.store(m.hardening, select(done, step.torque_sign * step.growth, at.load(m.hardening)));
   at.store(m.turning, select(done, to_number<P>(step.event == P(reversal)), to_number<P>(step.turning)));
-  at.store(m.spring_torque, select(done, step.torque, s.torque[0]));
+  at.store(m.spring_torque, select(done, step.torque, at.load(m.spring_torque)));
 }
 
 /// The measures of `passed` samples with the error 0.

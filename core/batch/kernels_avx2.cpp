@@ -7,13 +7,13 @@
 
 namespace zerocount::batch {
 
-using Avx2 = Simd<4, 2>;
+using Avx2 = Vectors<4, 2>;
 
-const Kernels avx2_kernels{list_kernel<Avx2>,
+const Kernels avx2_kernels{list_kernel<Simd<4, 1>>,
                            sample_kernel<Avx2>,
                            stick_start_kernel<Avx2>,
                            stick_step_kernel<Avx2, false>,
-                           stick_step_kernel<Simd<4, 1>, true>,
+                           stick_step_kernel<Vectors<4, 1>, true>,
                            slide_kernel<Avx2, true>,
                            slide_kernel<Avx2, false>};
 

@@ -7,11 +7,14 @@
 
 namespace zerocount::batch {
 
-using Avx512 = Simd<8, 2>;
+using Avx512 = Vectors<8, 2>;
 
-const Kernels avx512_kernels{
-    list_kernel<Simd<8, 1>>,          sample_kernel<Simd<8, 1>>,           stick_start_kernel<Simd<8, 1>>,
-    stick_step_kernel<Avx512, false>, stick_step_kernel<Simd<8, 1>, true>, slide_kernel<Avx512, true>,
-    slide_kernel<Avx512, false>};
+const Kernels avx512_kernels{list_kernel<Simd<8, 1>>,
+                             sample_kernel<Avx512>,
+                             stick_start_kernel<Avx512>,
+                             stick_step_kernel<Avx512, false>,
+                             stick_step_kernel<Avx512, true>,
+                             slide_kernel<Avx512, true>,
+                             slide_kernel<Avx512, false>};
 
 }  // namespace zerocount::batch

@@ -7,13 +7,13 @@
 
 namespace zerocount::batch {
 
-using Portable = Simd<2, 2>;
+using Portable = Vectors<2, 2>;
 
-const Kernels portable_kernels{list_kernel<Portable>,
+const Kernels portable_kernels{list_kernel<Simd<2, 1>>,
                                sample_kernel<Portable>,
                                stick_start_kernel<Portable>,
                                stick_step_kernel<Portable, false>,
-                               stick_step_kernel<Simd<2, 1>, true>,
+                               stick_step_kernel<Vectors<2, 1>, true>,
                                slide_kernel<Portable, true>,
                                slide_kernel<Portable, false>};
 

@@ -5,64 +5,46 @@
 
 namespace zerocount::batch {
 
-/// The lanes of one pack. Where enough of a list's next lanes lie side by side the pack is that stretch of
-/// the batch state, with some of its lanes not taking part; otherwise they are collected from wherever they
-/// are.
+/// Neighbouring lanes of the batch state, as many as a vector has, of which some take part.
 template <class P>
-class LaneGroup {
+class LaneStretch {
  public:
-  /// The lanes from number `first` of the list on, as many as go into one pack.
-  ZEROCOUNT_ALWAYS_INLINE LaneGroup(const LaneList& list, int first,
-                                    int least_side_by_side = P::lanes / 2 > 1 ? P::lanes / 2 : 1) {
-    base_ = list.lanes[first] / P::lanes * P::lanes;
-    used_ = 0;
-    unsigned side_by_side = 0;
-    while (first + used_ < list.count && list.lanes[first + used_] < base_ + P::lanes) {
-      side_by_side |= 1U << (list.lanes[first + used_] - base_);
-      ++used_;
-    }
-    stretch_ = used_ >= least_side_by_side;
-    if (stretch_) {
-      taking_part_ = side_by_side;
-      for (int i = 0; i < P::lanes; ++i) lane_[i] = base_ + i;
-    } else {
-      const int rest = list.count - first;
-      used_ = rest < P::lanes ? rest : P::lanes;
-      taking_part_ = (1U << used_) - 1U;
-      for (int i = 0; i < P::lanes; ++i) lane_[i] = i < used_ ? list.lanes[first + i] : spare_lane;
-    }
-  }
-
-  /// Number of lanes of the list in this group.
-  ZEROCOUNT_ALWAYS_INLINE int used() const { return used_; }
+  using Vector = P;
+  LaneStretch(int base, unsigned taking_part) : base_(base), taking_part_(taking_part) {}
 
   ZEROCOUNT_ALWAYS_INLINE typename P::Mask taking_part() const { return P::Mask::of_bits(taking_part_); }
-
+  ZEROCOUNT_ALWAYS_INLINE int lane(int i) const { return base_ + i; }
   ZEROCOUNT_ALWAYS_INLINE P load(const double* of) const {
     P r;
-    if (stretch_) {
-      __builtin_memcpy(&r, of + base_, sizeof r);
-    } else {
-      gather(of, r);
-    }
+    __builtin_memcpy(&r, of + base_, sizeof r);
     return r;
   }
-
   ZEROCOUNT_ALWAYS_INLINE void store(double* to, const P& value) const {
-    if (stretch_) {
-      value.store(to + base_, taking_part());
-    } else {
-      scatter(to, value);
-    }
+    value.store(to + base_, taking_part());
   }
 
-  /// Adds the lanes whose `events` are not 0 to the batch state.
-  ZEROCOUNT_ALWAYS_INLINE void add_events_to(BatchState& batch, const P& events) const {
-    const typename P::Mask noted = (events != P(0.0)) & taking_part();
-    if (noted.any()) append_events(batch, events, noted.bits());
+ private:
+  int base_;
+  unsigned taking_part_;  ///< one bit a lane of the vector
+};
+
+/// Lanes collected from wherever they are, filled up with the spare lane.
+template <class P>
+class LaneCollection {
+ public:
+  using Vector = P;
+  LaneCollection(const int* lanes, int count) : taking_part_((1U << count) - 1U) {
+    for (int i = 0; i < P::lanes; ++i) lane_[i] = i < count ? lanes[i] : spare_lane;
   }
 
+  ZEROCOUNT_ALWAYS_INLINE typename P::Mask taking_part() const { return P::Mask::of_bits(taking_part_); }
   ZEROCOUNT_ALWAYS_INLINE int lane(int i) const { return lane_[i]; }
+  ZEROCOUNT_ALWAYS_INLINE P load(const double* of) const {
+    P r;
+    gather(of, r);
+    return r;
+  }
+  ZEROCOUNT_ALWAYS_INLINE void store(double* to, const P& value) const { scatter(to, value); }
 
  private:
   // Not inlined: the code of dozens of them would push the kernel out of the instruction cache.
@@ -90,33 +72,121 @@ class LaneGroup {
     for (int i = 0; i < P::lanes; ++i) to[lane_[i]] = value[i];
   }
 
-  __attribute__((noinline)) void append_events(BatchState& batch, const P& events, unsigned noted) const {
-    double value[P::lanes];
-    __builtin_memcpy(value, &events, sizeof value);
-    for (; noted != 0; noted &= noted - 1) {
-      const int i = __builtin_ctz(noted);
-      batch.events[lane_[i]] = static_cast<int>(value[i]);
-      batch.event_lanes[batch.event_count++] = lane_[i];
-    }
-  }
-
-  int base_;
-  int used_;
-  bool stretch_;
-  unsigned taking_part_;  ///< one bit a lane of the pack
+  unsigned taking_part_;  ///< one bit a lane of the vector
   int lane_[P::lanes];
 };
 
-/// For for_each_measure: between lanes and packs.
-template <class P>
-struct LoadEach {
-  const LaneGroup<P>& at;
-  ZEROCOUNT_ALWAYS_INLINE void operator()(P& to, const double* from) const { to = at.load(from); }
+/// The lanes of a list that lie in the stretch of `width` lanes of its lane number `first`.
+struct Neighbours {
+  int base;        ///< first lane of the stretch
+  unsigned lanes;  ///< one bit a lane
+  int count;
 };
-template <class P>
+
+ZEROCOUNT_ALWAYS_INLINE Neighbours neighbours(const LaneList& list, int first, int width) {
+  Neighbours n{list.lanes[first] / width * width, 0, 0};
+  while (first + n.count < list.count && list.lanes[first + n.count] < n.base + width) {
+    n.lanes |= 1U << (list.lanes[first + n.count] - n.base);
+    ++n.count;
+  }
+  return n;
+}
+
+/// The vectors that a kernel works on: of one chain of operations, and of `Chains` chains where it has enough
+/// lanes.
+template <int Width, int Chains>
+struct Vectors {
+  using Wide = Simd<Width, Chains>;
+  using Narrow = Simd<Width, 1>;
+};
+
+/// Passes the lanes of the list to `work`, as LaneStretch. A stretch of which one half takes part goes as
+/// half.
+template <class V, class Work>
+ZEROCOUNT_ALWAYS_INLINE void for_each_stretch(const LaneList& list, Work work) {
+  using Wide = typename V::Wide;
+  using Narrow = typename V::Narrow;
+  static_assert(Wide::lanes == 2 * Narrow::lanes);
+  for (int first = 0; first < list.count;) {
+    const Neighbours n = neighbours(list, first, Wide::lanes);
+    const unsigned upper = n.lanes >> Narrow::lanes;
+    const unsigned lower = n.lanes - (upper << Narrow::lanes);
+    if (lower != 0 && upper != 0) {
+      work(LaneStretch<Wide>(n.base, n.lanes));
+    } else if (lower != 0) {
+      work(LaneStretch<Narrow>(n.base, lower));
+    } else {
+      work(LaneStretch<Narrow>(n.base + Narrow::lanes, upper));
+    }
+    first += n.count;
+  }
+}
+
+/// Passes the lanes of the list to `work`: where half of a stretch or more takes part, as LaneStretch,
+/// otherwise as LaneCollection; the last few as narrow ones.
+template <class V, class Work>
+ZEROCOUNT_ALWAYS_INLINE void for_each_vector(const LaneList& list, Work work) {
+  using Wide = typename V::Wide;
+  using Narrow = typename V::Narrow;
+  for (int first = 0; first < list.count;) {
+    const int rest = list.count - first;
+    const Neighbours n = neighbours(list, first, Wide::lanes);
+    if (n.count >= Narrow::lanes) {
+      work(LaneStretch<Wide>(n.base, n.lanes));
+      first += n.count;
+    } else if (rest > Narrow::lanes) {
+      const int count = rest < Wide::lanes ? rest : Wide::lanes;
+      work(LaneCollection<Wide>(list.lanes + first, count));
+      first += count;
+    } else {
+      const Neighbours few = neighbours(list, first, Narrow::lanes);
+      if (2 * few.count >= Narrow::lanes) {
+        work(LaneStretch<Narrow>(few.base, few.lanes));
+        first += few.count;
+      } else {
+        work(LaneCollection<Narrow>(list.lanes + first, rest));
+        first += rest;
+      }
+    }
+  }
+}
+
+template <class P, class At>
+__attribute__((noinline)) void append_events(BatchState& batch, const At& at, const P& events,
+                                             unsigned noted) {
+  double value[P::lanes];
+  __builtin_memcpy(value, &events, sizeof value);
+  for (; noted != 0; noted &= noted - 1) {
+    const int i = __builtin_ctz(noted);
+    const int lane = at.lane(i);
+    batch.events[lane] = static_cast<int>(value[i]);
+    batch.event_lanes[batch.event_count++] = lane;
+  }
+}
+
+/// Adds the lanes whose `events` are not 0 to the batch state.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void add_events(BatchState& batch, const At& at, const P& events) {
+  const typename P::Mask noted = (events != P(0.0)) & at.taking_part();
+  if (noted.any()) append_events(batch, at, events, noted.bits());
+}
+
+/// For for_each_measure: between lanes and packs.
+template <class At>
+struct LoadEach {
+  const At& at;
+  template <class P>
+  ZEROCOUNT_ALWAYS_INLINE void operator()(P& to, const double* from) const {
+    to = at.load(from);
+  }
+};
+template <class At>
 struct StoreEach {
-  const LaneGroup<P>& at;
-  ZEROCOUNT_ALWAYS_INLINE void operator()(double* to, const P& from) const { at.store(to, from); }
+  const At& at;
+  template <class P>
+  ZEROCOUNT_ALWAYS_INLINE void operator()(double* to, const P& from) const {
+    at.store(to, from);
+  }
 };
 
 /// A mask as 0 or 1, and back.

@@ -16,7 +16,7 @@ void LaneWork::move_sticking() {
   kernels_.stick_step(batch_, {list_, count});
   end_sticking_steps();
   // Few lanes at a time meet an event: they wait until there are enough of them, or nothing else to do.
-  constexpr int enough = 8;
+  constexpr int enough = 16;
   if (waiting_count_ == 0 || (waiting_count_ < enough && count > waiting_count_)) return;
   const int with_events = std::exchange(waiting_count_, 0);
   std::sort(waiting_, waiting_ + with_events);

@@ -2,6 +2,9 @@
 #include "core/batch/lane_work.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <utility>
 
 #include "core/trial/divergence.hpp"
 #include "core/trial/trial.hpp"
@@ -34,7 +37,9 @@ void LaneWork::run(std::span<const trial::TrialParameters* const> trials,
   running_ = 0;
   batch_.passed = observers.sample ? passed_ : nullptr;
   for (int lane = 0; lane < lane_count_; ++lane) refill(lane);
+  used_lanes_ = lane_count_;
   while (running_ > 0) {
+    close_gaps();
     take_samples();
     move_sticking();
     move_sliding();
@@ -60,6 +65,34 @@ void LaneWork::refill(int lane) {
     }
     run_scalar(trial, 0, 0);
   }
+}
+
+/// Moves trials from the last lanes to idle ones, once no trials are left to fill those. The kernels are
+/// faster on lanes that lie side by side: they find more of them in one cache line.
+void LaneWork::close_gaps() {
+  if (running_ == used_lanes_ || next_trial_ < trials_.size()) return;
+  int gap = 0;
+  while (used_lanes_ > running_) {
+    const int last = used_lanes_ - 1;
+    if (state_of(last) != idle) {
+      while (state_of(gap) != idle) ++gap;
+      move_lane(last, gap);
+    }
+    used_lanes_ = last;
+  }
+}
+
+void LaneWork::move_lane(int from, int to) {
+  char* const rows = reinterpret_cast<char*>(&batch_);
+  constexpr std::size_t row_bytes = sizeof(Lanes);
+  static_assert(offsetof(BatchState, events) % row_bytes == 0);
+  for (std::size_t row = 0; row < offsetof(BatchState, events); row += row_bytes) {
+    std::memcpy(rows + row + to * sizeof(double), rows + row + from * sizeof(double), sizeof(double));
+  }
+  batch_.events[to] = batch_.events[from];
+  std::swap(trial_of(to), trial_of(from));
+  std::replace(waiting_, waiting_ + waiting_count_, from, to);
+  state_of(from) = idle;
 }
 
 /// The whole trial by run_trial. Of its jerks and samples, the first so many have been told already.

@@ -23,6 +23,8 @@ class LaneWork {
   // Trials come and go (lane_work.cpp).
   void fill_spare_lane();
   void refill(int lane);
+  void close_gaps();
+  void move_lane(int from, int to);
   void run_scalar(const LaneTrial& trial, std::int64_t reported_jerks, std::int64_t reported_samples);
   void fall_back_to_scalar(int lane);
   void end_trial(int lane);
@@ -67,6 +69,7 @@ class LaneWork {
   std::span<trial::TrialOutcome> outcomes_;
   const BatchObservers* observers_{nullptr};
   std::size_t next_trial_{0};
+  int used_lanes_{0};  ///< all lanes from this on are idle
   int running_{0};
 };
 

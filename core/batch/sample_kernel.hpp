@@ -5,82 +5,84 @@
 
 namespace zerocount::batch {
 
-/// One sampling instant of each lane: encoder, control, converter, measures. Reports jerk_changes and
-/// count_changes, and beyond_kernel where the encoder could not count θ.
-template <class P>
-void sample_kernel(BatchState& batch, LaneList list) {
+template <class At>
+__attribute__((noinline)) void sample(BatchState& batch, const At& at) {
+  using P = typename At::Vector;
   using Mask = typename P::Mask;
   MotionLanes& m = batch.motion;
   LoopLanes& l = batch.loop;
   MeasureLanes& q = batch.measures;
   TimeLanes& time = batch.time;
+  const P extension = at.load(m.extension);
+  const Mask hook_slides = to_mask(at.load(m.slide_direction));
+  const P theta = select(hook_slides, at.load(m.theta), at.load(m.hook) + at.load(m.elongation) + extension);
+  const P resolution = at.load(l.resolution);
+  const Mask unreadable = ~(abs(theta / resolution) < P(0x1p50));
+  const P count = loop::ideal_count(theta, resolution, at.load(l.phase));
+  const P last_count = select(to_mask(at.load(l.counted)), at.load(l.count), count);
+  const P last_error = at.load(l.error);
+  const P error = at.load(l.target) - count;
+  const P change = count - last_count;
+
+  const loop::PidConstants<P> gains{at.load(l.kp), at.load(l.ki), at.load(l.kd), at.load(l.lowest_integral),
+                                    at.load(l.highest_integral)};
+  loop::PidState<P> pid{at.load(l.integral), last_error, last_count};
+  const P dac_resolution = at.load(l.dac_resolution);
+  const P wanted = loop::wanted_code(loop::pid_step(gains, pid, error, count), dac_resolution);
+  const P code = loop::clipped_code(wanted, at.load(l.lowest_code), at.load(l.highest_code));
+  const P torque = code * dac_resolution;
+
+  at.store(l.integral, pid.integral);
+  at.store(l.error, error);
+  at.store(l.count, count);
+  at.store(l.counted, P(1.0));
+  at.store(l.decided, torque);
+  at.store(l.code, code);
+  at.store(m.torque, torque);
+  const Mask steady = (error == P(0.0)) & (last_error == P(0.0)) & (change == P(0.0));
+  at.store(l.steady, to_number<P>(steady));
+
+  const P zero(0.0);
+  const P one(1.0);
+  trial::RunningMeasures<P> measures;
+  trial::for_each_measure(LoadEach<At>{at}, measures, q);
+  const trial::MeasureLimits<P> limits{at.load(q.limits.samples), at.load(q.limits.dwell),
+                                       at.load(q.limits.window)};
+  const P taken = measures.taken;
+  const P size = abs(error);
+  const P first_error = select(taken == zero, size, at.load(q.first_error));
+  const Mask error_diverges = size > at.load(q.max_error) + first_error;
+  const Mask dwelt = to_mask(measures.arrived);
+  trial::measure_error(measures, limits, error);
+  trial::measure_torque(measures, torque, code != wanted);
+  trial::for_each_measure(StoreEach<At>{at}, q, measures);
+  at.store(q.first_error, first_error);
+  at.store(q.theta, theta);
+  at.store(q.extension, extension);
+  at.store(q.change, change);
+
+  // If the torque is steady, the next stop is the last sample of the move.
+  const P remaining = select(steady & ~hook_slides, max(limits.samples - taken - one, one), one);
+  at.store(time.samples_to_stop, remaining);
+  at.store(time.time_to_stop, remaining * at.load(time.sample_time));
+  at.store(time.steps, zero);
+  const Mask away = dwelt & (error != zero);
+  const Mask back = to_mask(at.load(q.in_jerk));
+  const Mask changes = (change != zero) & (taken >= at.load(q.last_half));
+  add_events(batch, at,
+             events_where<P>(unreadable, beyond_kernel) +
+                 events_where<P>(~unreadable & (away | back), jerk_changes) +
+                 events_where<P>(~unreadable & changes, count_changes) +
+                 events_where<P>(error_diverges, diverges) +
+                 events_where<P>(to_mask(at.load(l.delay)), delayed));
+}
+
+/// One sampling instant of each lane: encoder, control, converter, measures. Reports jerk_changes and
+/// count_changes, and beyond_kernel where the encoder could not count θ.
+template <class V>
+void sample_kernel(BatchState& batch, LaneList list) {
   batch.event_count = 0;
-  for (int first = 0, next = 0; first < list.count; first = next) {
-    const LaneGroup<P> at(list, first, 1);
-    next = first + at.used();
-    const P extension = at.load(m.extension);
-    const Mask hook_slides = to_mask(at.load(m.slide_direction));
-    const P theta =
-        select(hook_slides, at.load(m.theta), at.load(m.hook) + at.load(m.elongation) + extension);
-    const P resolution = at.load(l.resolution);
-    const Mask unreadable = ~(abs(theta / resolution) < P(0x1p50));
-    const P count = loop::ideal_count(theta, resolution, at.load(l.phase));
-    const P last_count = select(to_mask(at.load(l.counted)), at.load(l.count), count);
-    const P last_error = at.load(l.error);
-    const P error = at.load(l.target) - count;
-    const P change = count - last_count;
-
-    const loop::PidConstants<P> gains{at.load(l.kp), at.load(l.ki), at.load(l.kd), at.load(l.lowest_integral),
-                                      at.load(l.highest_integral)};
-    loop::PidState<P> pid{at.load(l.integral), last_error, last_count};
-    const P dac_resolution = at.load(l.dac_resolution);
-    const P wanted = loop::wanted_code(loop::pid_step(gains, pid, error, count), dac_resolution);
-    const P code = loop::clipped_code(wanted, at.load(l.lowest_code), at.load(l.highest_code));
-    const P torque = code * dac_resolution;
-
-    at.store(l.integral, pid.integral);
-    at.store(l.error, error);
-    at.store(l.count, count);
-    at.store(l.counted, P(1.0));
-    at.store(l.decided, torque);
-    at.store(l.code, code);
-    at.store(m.torque, torque);
-    const Mask steady = (error == P(0.0)) & (last_error == P(0.0)) & (change == P(0.0));
-    at.store(l.steady, to_number<P>(steady));
-
-    const P zero(0.0);
-    const P one(1.0);
-    trial::RunningMeasures<P> measures;
-    trial::for_each_measure(LoadEach<P>{at}, measures, q);
-    const trial::MeasureLimits<P> limits{at.load(q.limits.samples), at.load(q.limits.dwell),
-                                         at.load(q.limits.window)};
-    const P taken = measures.taken;
-    const P size = abs(error);
-    const P first_error = select(taken == zero, size, at.load(q.first_error));
-    const Mask error_diverges = size > at.load(q.max_error) + first_error;
-    const Mask dwelt = to_mask(measures.arrived);
-    trial::measure_error(measures, limits, error);
-    trial::measure_torque(measures, torque, code != wanted);
-    trial::for_each_measure(StoreEach<P>{at}, q, measures);
-    at.store(q.first_error, first_error);
-    at.store(q.theta, theta);
-    at.store(q.extension, extension);
-    at.store(q.change, change);
-
-    // If the torque is steady, the next stop is the last sample of the move.
-    const P remaining = select(steady & ~hook_slides, max(limits.samples - taken - one, one), one);
-    at.store(time.samples_to_stop, remaining);
-    at.store(time.time_to_stop, remaining * at.load(time.sample_time));
-    at.store(time.steps, zero);
-    const Mask away = dwelt & (error != zero);
-    const Mask back = to_mask(at.load(q.in_jerk));
-    const Mask changes = (change != zero) & (taken >= at.load(q.last_half));
-    at.add_events_to(batch, events_where<P>(unreadable, beyond_kernel) +
-                                events_where<P>(~unreadable & (away | back), jerk_changes) +
-                                events_where<P>(~unreadable & changes, count_changes) +
-                                events_where<P>(error_diverges, diverges) +
-                                events_where<P>(to_mask(at.load(l.delay)), delayed));
-  }
+  for_each_stretch<V>(list, [&](const auto& at) { sample(batch, at); });
 }
 
 }  // namespace zerocount::batch

@@ -139,13 +139,35 @@ ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start,
   return search.x;
 }
 
+/// About where next_zero will be: the zero of the polynomial of degree 4 that has the same first terms and
+/// the same value at 1.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P rough_zero(const P* c, const P& at_end, const typename P::Mask& from_zero) {
+  const P c0 = select(from_zero, c[1], c[0]);
+  const P c1 = select(from_zero, c[2], c[1]);
+  const P c2 = select(from_zero, c[3], c[2]);
+  const P c3 = select(from_zero, c[4], c[3]);
+  const P c4 = at_end - (((c0 + c1) + c2) + c3);
+  const P secant = c0 / (c0 - at_end);
+  P x = secant;
+  for (int step = 0; step < 2; ++step) {
+    const P cubic = c4 * x + c3;
+    const P square = cubic * x + c2;
+    const P linear = square * x + c1;
+    const P value = linear * x + c0;
+    const P slope = ((c4 * x + cubic) * x + square) * x + linear;
+    x = x - value / slope;
+  }
+  return select((x > P(0.0)) & (x < P(1.0)), x, secant);
+}
+
 /// The zero of a polynomial on (0, 1), or where it is zero at 0 (`from_zero`) its next one, that of the
 /// polynomial by x. Its position enters the motion by its square: at a reversal the velocity is zero.
 /// @param at_start the value at 0, or the slope where that is zero. @param at_end the value at 1.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P next_zero(const P* c, int order, const P& at_start, const P& at_end,
                                     const typename P::Mask& from_zero, const typename P::Mask& wanted) {
-  NewtonSearch<P> search{P(0.0), P(1.0), at_start / (at_start - at_end), P(1.0), wanted};
+  NewtonSearch<P> search{P(0.0), P(1.0), rough_zero(c, at_end, from_zero), P(1.0), wanted};
   for (int step = 0; step < max_newton_steps && search.open.any(); ++step) {
     const P x = search.x;
     const ValueAndSlope<P> at = value_and_slope(c, order, x);

@@ -13,8 +13,8 @@ struct EventsPassed {
   Mask starts;  ///< creep has set in
 };
 
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE EventsPassed<P> events_passed(const BatchState& batch, const LaneGroup<P>& at,
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE EventsPassed<P> events_passed(const BatchState& batch, const At& at,
                                                       const StickStep<P>& step) {
   const P zero(0.0);
   const P creep_left = step.torque_sign * step.creep;
@@ -47,8 +47,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_slip_within(const StickStep<P>& ste
 }
 
 /// Marks the lanes whose steps have an event other than a reversal, without looking for it.
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE void see_events(const BatchState& batch, const LaneGroup<P>& at, StickStep<P>& step) {
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void see_events(const BatchState& batch, const At& at, StickStep<P>& step) {
   using Mask = typename P::Mask;
   const EventsPassed<P> passed = events_passed(batch, at, step);
   const P hook_max = max(abs(step.hook_torque), abs(hook_torque_at_end(step)));
@@ -74,9 +74,9 @@ struct SoughtEvent {
 };
 
 /// Moves the end of the step to where the events are that its end lies beyond.
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const LaneGroup<P>& at,
-                                        const SoughtEvent<P>& sought, StickStep<P>& step) {
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const At& at, const SoughtEvent<P>& sought,
+                                        StickStep<P>& step) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
   const P zero(0.0);
@@ -95,7 +95,8 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const LaneGroup
   const Mask crosses = sought.open & sought.stop & (step.torque_sign * step.torque <= zero);
   if (crosses.any()) {
     P torque_left[batch_order + 1];
-    for (int k = 0; k <= batch_order; ++k) torque_left[k] = step.torque_sign * (step.torque_scale * s.pull[k]);
+    for (int k = 0; k <= batch_order; ++k)
+      torque_left[k] = step.torque_sign * (step.torque_scale * s.pull[k]);
     const P crossing = root_between(torque_left, batch_order, torque_left[0], step.torque_sign * step.torque,
                                     step.x, crosses);
     last = select(crosses, crossing, step.x);
@@ -118,9 +119,8 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const LaneGroup
 }
 
 /// Finds the first event of each lane, and ends its step there.
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE void find_first_event(const BatchState& batch, const LaneGroup<P>& at,
-                                              StickStep<P>& step) {
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void find_first_event(const BatchState& batch, const At& at, StickStep<P>& step) {
   using Mask = typename P::Mask;
   step.meets = nowhere<P>();
   step.beyond = abs(step.hook_torque) >= step.breakaway;

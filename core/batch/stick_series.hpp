@@ -37,14 +37,14 @@ struct StickLaw {
 template <class P>
 struct StickStart {
   using Mask = typename P::Mask;
-  P elongation;    ///< xs, rad
-  P growth;        ///< xh·sgn(σ), rad
-  P velocity;      ///< ω·h, rad
-  P pull;          ///< σ·h²/J, rad
-  P softness;      ///< exp(−y) of the branch
-  P torque;        ///< σ, N m
-  Mask turning;    ///< dxs/dt is zero
-  Mask creeping;   ///< of the lanes that take part
+  P elongation;   ///< xs, rad
+  P growth;       ///< xh·sgn(σ), rad
+  P velocity;     ///< ω·h, rad
+  P pull;         ///< σ·h²/J, rad
+  P softness;     ///< exp(−y) of the branch
+  P torque;       ///< σ, N m
+  Mask turning;   ///< dxs/dt is zero
+  Mask creeping;  ///< of the lanes that take part
 };
 
 /// The series, two orders at a time: the products of both share most of their factors, and what limits this

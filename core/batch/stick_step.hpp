@@ -10,12 +10,12 @@ template <class P>
 struct StickStep {
   using Mask = typename P::Mask;
 
-  Mask here;        ///< the lanes that take part
-  P h;              ///< length, s
-  P per_length;     ///< 1/h, 1/s
-  P time_to_stop;   ///< left to the next stop, s
-  P longest_step;   ///< 1/ωn, s
-  P torque_scale;   ///< J/h²: σ by the series' pull
+  Mask here;       ///< the lanes that take part
+  P h;             ///< length, s
+  P per_length;    ///< 1/h, 1/s
+  P time_to_stop;  ///< left to the next stop, s
+  P longest_step;  ///< 1/ωn, s
+  P torque_scale;  ///< J/h²: σ by the series' pull
 
   // The start.
   Mask turning;  ///< dxs/dt is zero
@@ -54,8 +54,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask nowhere() {
 }
 
 /// The step that is thought to be good, at most to the next stop.
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const LaneGroup<P>& at, StickStep<P>& step) {
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const At& at, StickStep<P>& step) {
   const TimeLanes& time = batch.time;
   step.here = at.taking_part();
   step.time_to_stop = at.load(time.time_to_stop);
@@ -69,9 +69,8 @@ ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const LaneGroup
   step.per_length = P(1.0) / step.h;
 }
 
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const LaneGroup<P>& at,
-                                         StickStep<P>& step) {
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, StickStep<P>& step) {
   const MotionLanes& m = batch.motion;
   const ContactLanes& c = batch.contact;
   const P zero(0.0);
@@ -127,8 +126,8 @@ ZEROCOUNT_ALWAYS_INLINE void see_creep(StickStep<P>& step, const P& pull) {
 }
 
 /// Inwards along a virgin curve the exponential grows, and must not by many e-folds.
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const BatchState& batch, const LaneGroup<P>& at,
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const BatchState& batch, const At& at,
                                                         const StickStep<P>& step) {
   const MotionLanes& m = batch.motion;
   const P branch_sign = at.load(m.branch_sign);
@@ -142,9 +141,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const BatchState& batch,
 
 /// The truncation error allowed in this step. An oscillation of less than 5e-6 count is followed to 2e-6 of
 /// its amplitude.
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const LaneGroup<P>& at,
-                                        const StickStep<P>& step) {
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, const StickStep<P>& step) {
   const TimeLanes& time = batch.time;
   const StickSeries<P>& s = step.series;
   const P ratio = step.longest_step * step.per_length;
@@ -155,8 +153,8 @@ ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const LaneGroup
 
 /// Whether dxs/dt, which has the same sign at both ends, may be zero between them: where it is as small as
 /// the contribution of creep, that may bring it through zero and back.
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_turn_twice(const BatchState& batch, const LaneGroup<P>& at,
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_turn_twice(const BatchState& batch, const At& at,
                                                         const StickStep<P>& step, const P& rate_start) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
@@ -171,9 +169,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_turn_twice(const BatchState& batch,
 }
 
 /// Finds the reversal, if there is one, and whether the step is short enough for the series to tell.
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const LaneGroup<P>& at,
-                                           StickStep<P>& step) {
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at, StickStep<P>& step) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
   // Where dxs/dt is zero at the start, its next zero is that of (dxs/dt)/t.
@@ -190,8 +187,8 @@ ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const LaneGr
   step.left_out = step.last_terms;
   step.allowed_at_x = step.allowed;
   if (seeks.any()) {
-    step.x = select(
-        seeks, next_zero(s.rate, batch_order, rate_start, step.rate_end, step.turning, seeks), P(1.0));
+    step.x =
+        select(seeks, next_zero(s.rate, batch_order, rate_start, step.rate_end, step.turning, seeks), P(1.0));
     const P square = step.x * step.x;
     const P fourth = square * square;
     // x to the power of the order − 1

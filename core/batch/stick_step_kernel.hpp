@@ -16,8 +16,8 @@ struct StepTiming {
   Mask counts;             ///< another count may come on the way: the step is not made
 };
 
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE StepTiming<P> timing_of(const BatchState& batch, const LaneGroup<P>& at,
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE StepTiming<P> timing_of(const BatchState& batch, const At& at,
                                                 const StickStep<P>& step) {
   using Mask = typename P::Mask;
   const TimeLanes& time = batch.time;
@@ -46,8 +46,8 @@ ZEROCOUNT_ALWAYS_INLINE StepTiming<P> timing_of(const BatchState& batch, const L
   return t;
 }
 
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const LaneGroup<P>& at, const StickStep<P>& step,
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const StickStep<P>& step,
                                         const StepTiming<P>& t, const typename P::Mask& done) {
   TimeLanes& time = batch.time;
   const P zero(0.0);
@@ -76,10 +76,9 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const LaneGroup<P>& a
   at.store(time.steps, at.load(time.steps) + select(step.meets, zero, one));
 }
 
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE void store_motion_of(BatchState& batch, const LaneGroup<P>& at,
-                                             const StickStep<P>& step, const StepTiming<P>& t,
-                                             const typename P::Mask& done) {
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void store_motion_of(BatchState& batch, const At& at, const StickStep<P>& step,
+                                             const StepTiming<P>& t, const typename P::Mask& done) {
   MotionLanes& m = batch.motion;
   const StickSeries<P>& s = step.series;
   const P end = select(step.event == P(closure), at.load(m.branch_end), step.elongation);
@@ -92,19 +91,19 @@ ZEROCOUNT_ALWAYS_INLINE void store_motion_of(BatchState& batch, const LaneGroup<
 }
 
 /// The measures of `passed` samples with the error 0.
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE void store_measures(BatchState& batch, const LaneGroup<P>& at, const P& passed) {
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void store_measures(BatchState& batch, const At& at, const P& passed) {
   MeasureLanes& q = batch.measures;
   trial::ArrivalMeasures<P> arrival;
-  trial::for_each_of_arrival(LoadEach<P>{at}, arrival, q);
+  trial::for_each_of_arrival(LoadEach<At>{at}, arrival, q);
   trial::measure_zeros(arrival, at.load(q.limits.dwell), passed);
-  trial::for_each_of_arrival(StoreEach<P>{at}, q, arrival);
+  trial::for_each_of_arrival(StoreEach<At>{at}, q, arrival);
 }
 
 /// For whoever records the samples that were passed.
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const LaneGroup<P>& at,
-                                           const StickStep<P>& step, const P& passed) {
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, const StickStep<P>& step,
+                                           const P& passed) {
   constexpr int width = sizeof(passed.part[0]) / sizeof(double);
   for (unsigned lanes = ((passed > P(0.0)) & step.here).bits(); lanes != 0; lanes &= lanes - 1) {
     const int i = __builtin_ctz(lanes);
@@ -123,40 +122,43 @@ ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const LaneGroup<P>
   }
 }
 
+template <bool Events, class At>
+__attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
+  using P = typename At::Vector;
+  const P zero(0.0);
+  StickStep<P> step;
+  begin_step(batch, at, step);
+  expand_step(batch, at, step);
+  find_reversal(batch, at, step);
+  evaluate_end(step);
+  step.event = events_where<P>(step.reverses, reversal);
+  if constexpr (Events) {
+    find_first_event(batch, at, step);
+  } else {
+    see_events(batch, at, step);
+  }
+  const StepTiming<P> timing = timing_of(batch, at, step);
+  const typename P::Mask done = ~step.too_long & ~step.beyond & ~timing.counts & ~step.meets;
+  const P passed = select(done, timing.passed, zero);
+  store_time(batch, at, step, timing, done);
+  store_motion_of(batch, at, step, timing, done);
+  store_measures(batch, at, passed);
+  const typename P::Mask lost = step.beyond | (at.load(batch.time.steps) > P(max_steps_to_stop));
+  add_events(batch, at,
+             select(done, step.event, zero) + events_where<P>(step.meets, meets_event) +
+                 events_where<P>(lost, beyond_kernel));
+  if (batch.passed != nullptr) record_passed(batch, at, step, passed);
+}
+
 /// One step of each lane whose hook sticks and that stick_start_kernel and its events have prepared: to the
 /// next stop, to the first event, or as far as the series carry. Reports what happened at its end; nothing of
 /// a lane changes but its next step where the step was too long. A step with events other than a reversal is
 /// not made but reported as meets_event, unless `Events`.
-template <class P, bool Events>
+template <class V, bool Events>
 void stick_step_kernel(BatchState& batch, LaneList list) {
   batch.event_count = 0;
   batch.passed_count = 0;
-  const P zero(0.0);
-  for (int first = 0, next = 0; first < list.count; first = next) {
-    const LaneGroup<P> at(list, first);
-    next = first + at.used();
-    StickStep<P> step;
-    begin_step(batch, at, step);
-    expand_step(batch, at, step);
-    find_reversal(batch, at, step);
-    evaluate_end(step);
-    step.event = events_where<P>(step.reverses, reversal);
-    if constexpr (Events) {
-      find_first_event(batch, at, step);
-    } else {
-      see_events(batch, at, step);
-    }
-    const StepTiming<P> timing = timing_of(batch, at, step);
-    const typename P::Mask done = ~step.too_long & ~step.beyond & ~timing.counts & ~step.meets;
-    const P passed = select(done, timing.passed, zero);
-    store_time(batch, at, step, timing, done);
-    store_motion_of(batch, at, step, timing, done);
-    store_measures(batch, at, passed);
-    const typename P::Mask lost = step.beyond | (at.load(batch.time.steps) > P(max_steps_to_stop));
-    at.add_events_to(batch, select(done, step.event, zero) + events_where<P>(step.meets, meets_event) +
-                                events_where<P>(lost, beyond_kernel));
-    if (batch.passed != nullptr) record_passed(batch, at, step, passed);
-  }
+  for_each_vector<V>(list, [&](const auto& at) { step_of<Events>(batch, at); });
 }
 
 }  // namespace zerocount::batch

@@ -101,8 +101,12 @@ void store_motion(BatchState& batch, int lane, LaneTrial& trial) {
   m.rest_torque[lane] = std::numeric_limits<double>::quiet_NaN();
   trial.breakaway_spring_torque = motion.breakaway_spring_torque;
   show_branch(batch, lane, trial.plant->spring());
-  show_contact(batch, lane, trial.plant->contact(), trial.elongation_tolerance);
   remember_depth(trial);
+}
+
+void store_contact(BatchState& batch, int lane, LaneTrial& trial) {
+  store_motion(batch, lane, trial);
+  show_contact(batch, lane, trial.plant->contact(), trial.elongation_tolerance);
 }
 
 void turn(BatchState& batch, int lane, LaneTrial& trial) {
@@ -136,13 +140,13 @@ void start_slide(BatchState& batch, int lane, LaneTrial& trial) {
                             : batch.motion.torque[lane] - batch.motion.spring_torque[lane];
   trial.plant->break_away(motion < 0.0 ? -1.0 : 1.0);
   ++trial.breakaways;
-  store_motion(batch, lane, trial);
+  store_contact(batch, lane, trial);
 }
 
 void end_slide(BatchState& batch, int lane, LaneTrial& trial) {
   load_motion(batch, lane, trial);
   trial.plant->re_stick();
-  store_motion(batch, lane, trial);
+  store_contact(batch, lane, trial);
 }
 
 bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial) {
@@ -153,7 +157,7 @@ bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial) {
   trial.plant->advance(motion::constant_torque(batch.motion.torque[lane]), batch.time.time_to_stop[lane]);
   trial.breakaways += trial.plant->breakaways() - before;
   trial.deepest = std::max(trial.deepest, trial.plant->deepest());
-  store_motion(batch, lane, trial);
+  store_contact(batch, lane, trial);
   if (trial.plant->rest()) batch.motion.rest_torque[lane] = batch.motion.torque[lane];
   batch.time.time_to_stop[lane] = 0.0;
   return trial.plant->finite();

@@ -99,6 +99,7 @@ bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& pas
   }
   std::optional<LanePlant> before;
   if (passed) before = plant;
+  std::optional<LanePlant> here;
 
   const double most = time.samples_to_stop[lane];
   const double sample_time = time.sample_time[lane];
@@ -107,19 +108,27 @@ bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& pas
   // Sample i, counted from 1: as far as the count stays, and the sample after that as the encoder sees it.
   double i = 0.0;
   double to_next = to_first;
-  do {
-    double ahead = std::clamp(samples_within_count(batch, lane, plant, to_next), 1.0, most - i);
-    const auto theta_after = [&](double samples) {
-      return plant.theta_at_rest(to_next + (samples - 1.0) * sample_time);
+  bool edge_is_next = false;
+  bool same = true;
+  while (same && i < most) {
+    double ahead = 1.0;
+    if (!edge_is_next) ahead = std::clamp(samples_within_count(batch, lane, plant, to_next), 1.0, most - i);
+    if (ahead > 1.0) here = plant;
+    const auto go_ahead = [&] {
+      plant.advance(motion::constant_torque(torque), to_next + (ahead - 1.0) * sample_time);
+      return count_at(batch, lane, plant.theta()) == count;
     };
+    same = go_ahead();
     // The edge may be nearer than thought.
-    for (double back = 1.0; ahead > 1.0 && count_at(batch, lane, theta_after(ahead)) != count; back *= 2.0) {
+    for (double back = 1.0; ahead > 1.0 && !same; back *= 2.0) {
       ahead = std::max(1.0, ahead - back);
+      plant = *here;
+      same = go_ahead();
     }
-    plant.advance(motion::constant_torque(torque), to_next + (ahead - 1.0) * sample_time);
+    edge_is_next = ahead > 1.0;
     i += ahead;
     to_next = sample_time;
-  } while (i < most && count_at(batch, lane, plant.theta()) == count);
+  }
   for (double j = 1.0; passed && j < i; j += 1.0) {
     before->advance(motion::constant_torque(torque), j == 1.0 ? to_first : sample_time);
     passed(j, before->theta(), before->creep());

@@ -75,7 +75,7 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
   batch.contact.per_inertia[lane] = 1.0 / p.plant.inertia;
   batch.contact.damping[lane] = p.plant.presliding_damping;
   batch.contact.sliding_damping[lane] = p.plant.sliding_damping;
-  store_motion(batch, lane, trial);
+  store_contact(batch, lane, trial);
   start_move(batch, lane, trial);
 }
 

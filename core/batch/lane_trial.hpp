@@ -47,6 +47,8 @@ struct LaneTrial {
 // The lane's motion from the batch state into its plant and back. The spring's branch goes with it.
 void load_motion(const BatchState& batch, int lane, LaneTrial& trial);
 void store_motion(BatchState& batch, int lane, LaneTrial& trial);
+/// The same where the contact may be another one.
+void store_contact(BatchState& batch, int lane, LaneTrial& trial);
 
 // Changes of the contact, as PreslidingFriction makes them.
 void turn(BatchState& batch, int lane, LaneTrial& trial);

@@ -23,11 +23,11 @@ double travel_at(const SpringBranch& branch, double torque) {
   const double stiffest = branch.k1 + branch.softening_torque * branch.softening_rate;
   double travel = std::max(torque / stiffest, (torque - branch.softening_torque) / branch.k1);
   for (;;) {
-    const double softness = std::exp(-branch.softening_rate * travel);
-    const double missing =
-        torque - branch.k1 * travel + branch.softening_torque * std::expm1(-branch.softening_rate * travel);
-    const double next =
-        travel + missing / (branch.k1 + branch.softening_torque * branch.softening_rate * softness);
+    const double softened = -std::expm1(-branch.softening_rate * travel);
+    const double missing = torque - branch.k1 * travel - branch.softening_torque * softened;
+    const double stiffness =
+        branch.k1 + branch.softening_torque * branch.softening_rate * (1.0 - softened);
+    const double next = travel + missing / stiffness;
     if (!(next > travel)) return travel;
     travel = next;
   }

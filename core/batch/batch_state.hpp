@@ -34,6 +34,7 @@ struct alignas(64) MotionLanes {
   Lanes branch_sign;              ///< s
   Lanes branch_softening_torque;  ///< N m
   Lanes branch_softening_rate;    ///< 1/rad
+  Lanes branch_softening_length;  ///< its reciprocal, rad
   Lanes branch_end;               ///< where the branch ends ahead, rad; ±infinity where it does not
   Lanes direction;                ///< of the elongation: −1, 0, 1
   Lanes heading;                  ///< the direction that it takes now

@@ -17,6 +17,7 @@ void show_branch(BatchState& batch, int lane, const friction::HystereticSpring& 
   m.branch_sign[lane] = branch.sign;
   m.branch_softening_torque[lane] = branch.softening_torque;
   m.branch_softening_rate[lane] = branch.softening_rate;
+  m.branch_softening_length[lane] = 1.0 / branch.softening_rate;
   m.direction[lane] = spring.direction();
   const double none = std::copysign(std::numeric_limits<double>::infinity(), spring.direction());
   m.branch_end[lane] = spring.branch_end().value_or(none);

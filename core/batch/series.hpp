@@ -16,21 +16,6 @@ ZEROCOUNT_ALWAYS_INLINE P value_of(const P* c, int order, const P& x) {
   return value;
 }
 
-/// Three polynomials at x, of which each goes as value_of has it.
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE void values_of(const P* a, const P* b, const P* c, int order, const P& x,
-                                       P (&value)[3]) {
-  value[0] = a[order];
-  value[1] = b[order];
-  value[2] = c[order];
-#pragma GCC unroll 1
-  for (int k = order - 1; k >= 0; --k) {
-    value[0] = value[0] * x + a[k];
-    value[1] = value[1] * x + b[k];
-    value[2] = value[2] * x + c[k];
-  }
-}
-
 /// The polynomial at x = 1; bitwise equal to value_of(c, order, 1).
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P sum_of(const P* c, int order) {
@@ -46,15 +31,6 @@ ZEROCOUNT_ALWAYS_INLINE P curvature_bound(const P* c, int order) {
   P sum = abs(c[order]) * P(static_cast<double>(order * (order - 1)));
 #pragma GCC unroll 1
   for (int k = order - 1; k >= 2; --k) sum = sum + abs(c[k]) * P(static_cast<double>(k * (k - 1)));
-  return sum;
-}
-
-/// Σ |c[k]|, k ≥ 1, which the polynomial does not move farther on [0, 1].
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE P reach_bound(const P* c, int order) {
-  P sum = abs(c[order]);
-#pragma GCC unroll 1
-  for (int k = order - 1; k >= 1; --k) sum = sum + abs(c[k]);
   return sum;
 }
 

@@ -4,6 +4,12 @@
 
 namespace zerocount::batch {
 
+/// xs at the end of the step, rad.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P elongation_end(const StickStep<P>& step) {
+  return step.elongation_start + step.elongation_change;
+}
+
 /// Events whose threshold the end of a step lies beyond.
 template <class P>
 struct EventsPassed {
@@ -18,7 +24,7 @@ ZEROCOUNT_ALWAYS_INLINE EventsPassed<P> events_passed(const BatchState& batch, c
                                                       const StickStep<P>& step) {
   const P zero(0.0);
   const P creep_left = step.torque_sign * step.creep;
-  return {step.direction * (step.elongation - at.load(batch.motion.branch_end)) >= zero,
+  return {step.direction * (elongation_end(step) - at.load(batch.motion.branch_end)) >= zero,
           step.creeping & (~(creep_left > zero) | (step.torque_sign * step.torque <= zero)),
           ~step.creeping & (abs(step.torque) >= at.load(batch.motion.creep_onset))};
 }
@@ -26,8 +32,7 @@ ZEROCOUNT_ALWAYS_INLINE EventsPassed<P> events_passed(const BatchState& batch, c
 /// Coefficient k of the hook's torque, N m.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P hook_coefficient(const StickStep<P>& step, int k) {
-  const StickSeries<P>& s = step.series;
-  return step.torque_scale * s.pull[k] + step.per_step * s.velocity[k];
+  return torque_coefficient(step, k) + step.per_step * velocity_coefficient(step, k);
 }
 
 /// σ + c·ω at the end of the step, N m.
@@ -82,21 +87,22 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const At& at, c
   const P zero(0.0);
   const P hook_sign = sign(hook_torque_at_end(step));
   const P start_sign = sign(step.torque);
+  const P thresholds = sought.choose(step.breakaway, at.load(batch.motion.branch_end) - step.elongation_start,
+                                     at.load(batch.motion.creep_onset), zero);
   P f[batch_order + 1];
   for (int k = 0; k <= batch_order; ++k) {
-    const P creep = k < batch_order ? step.torque_sign * creep_coefficient(s, k) : zero;
-    f[k] = sought.choose(hook_sign * hook_coefficient(step, k), s.elongation[k],
-                         start_sign * (step.torque_scale * s.pull[k]), creep);
+    const P elongation = k == 0 ? zero : elongation_coefficient(step, k);
+    const P creep = k == batch_order ? zero : P(static_cast<double>(k + 1)) * s.growth[k + 1];
+    f[k] = sought.choose(hook_sign * hook_coefficient(step, k), elongation,
+                         start_sign * torque_coefficient(step, k), step.torque_sign * step.length * creep);
   }
-  f[0] = f[0] - sought.choose(step.breakaway, at.load(batch.motion.branch_end),
-                              at.load(batch.motion.creep_onset), zero);
+  f[0] = f[0] - thresholds;
   // Creep ends before σ is zero, beyond which the series of its rate, in σ², would rise again.
   P last = step.x;
   const Mask crosses = sought.open & sought.stop & (step.torque_sign * step.torque <= zero);
   if (crosses.any()) {
     P torque_left[batch_order + 1];
-    for (int k = 0; k <= batch_order; ++k)
-      torque_left[k] = step.torque_sign * (step.torque_scale * s.pull[k]);
+    for (int k = 0; k <= batch_order; ++k) torque_left[k] = step.torque_sign * torque_coefficient(step, k);
     const P crossing = root_between(torque_left, batch_order, torque_left[0], step.torque_sign * step.torque,
                                     step.x, crosses);
     last = select(crosses, crossing, step.x);
@@ -106,16 +112,13 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const At& at, c
   const P found =
       select(bracketed, root_between(f, batch_order, f[0], f_end, last, sought.open & bracketed), last);
   step.beyond = step.beyond | (sought.open & ~bracketed & ~crosses & (f_end != zero));
-  step.x = select(sought.open, found, step.x);
   step.event = select(sought.open, sought.choose(P(breaks_away), P(closure), P(creep_sets_in), P(creep_ends)),
                       step.event);
-  P value[3];
-  values_of(s.pull, s.elongation, s.growth, batch_order, step.x, value);
-  step.torque = value[0] * step.torque_scale;
-  step.elongation = value[1];
-  step.growth = value[2];
-  step.velocity = value_of(s.velocity, batch_order, step.x);
-  see_creep(step, value[0]);
+  end_at(found, sought.open, step);
+  see_creep(step);
+  P velocity[batch_order + 1];
+  for (int k = 0; k <= batch_order; ++k) velocity[k] = velocity_coefficient(step, k);
+  step.velocity = select(sought.open, value_of(velocity, batch_order, step.x), step.velocity);
 }
 
 /// Finds the first event of each lane, and ends its step there.

@@ -12,13 +12,17 @@ struct StickStep {
 
   Mask here;       ///< the lanes that take part
   P h;             ///< length, s
-  P per_length;    ///< 1/h, 1/s
+  P per_h;         ///< 1/h, 1/s
   P time_to_stop;  ///< left to the next stop, s
   P longest_step;  ///< 1/ωn, s
-  P torque_scale;  ///< J/h²: σ by the series' pull
+  P length;        ///< unit of the series' lengths: −s/(softening rate), rad
+  P torque_unit;   ///< of their pull: J/h²·length, N m
 
   // The start.
-  Mask turning;  ///< dxs/dt is zero
+  P elongation_start;  ///< xs, rad
+  P growth_start;      ///< xh·sgn(σ), rad
+  P creep_limit;       ///< ±α·h/λ, by |σ|ⁿ; 0 where creep is off
+  Mask turning;        ///< dxs/dt is zero
   Mask creeping;
   P torque_sign;  ///< of σ
   P direction;    ///< of the elongation
@@ -37,20 +41,44 @@ struct StickStep {
   P allowed;       ///< limit of last_terms, rad
   P left_out;      ///< last_terms at x
   P allowed_at_x;  ///< `allowed` for the part of the step up to x, rad
-  P rate_end;      ///< of dxs/dt·h at the whole step, rad
+  P rate_start;    ///< dxs/dt·h, or where that is zero its slope, by the softening length
+  P rate_end;      ///< dxs/dt·h after the whole step, by the softening length
 
   // The step that is taken.
   P x;         ///< the fraction of the full step that is used
   P event;     ///< LaneEvent at the end of it
   Mask meets;  ///< it has an event that this kernel does not look for
   Mask beyond;
-  P torque, elongation, growth;  ///< σ, xs and xh·sgn(σ) at its end
-  P creep, velocity;             ///< dxp/dt·h and ω·h at its end
+  P torque;             ///< σ at its end, N m
+  P elongation_change;  ///< of xs, rad
+  P growth_change;      ///< of xp, rad
+  P creep;              ///< sgn(σ)·dxp/dt·h at its end, rad
+  P velocity;           ///< ω·h at its end, rad
 };
 
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask nowhere() {
   return P(1.0) < P(0.0);
+}
+
+/// Coefficient k of ω·h, rad.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P velocity_coefficient(const StickStep<P>& step, int k) {
+  const StickSeries<P>& s = step.series;
+  if (k == batch_order) return step.length * s.rate[k];
+  return step.length * (s.rate[k] + P(static_cast<double>(k + 1)) * s.growth[k + 1]);
+}
+
+/// Coefficient k ≥ 1 of xs, rad.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P elongation_coefficient(const StickStep<P>& step, int k) {
+  return step.length * step.series.rate[k - 1] * P(numerics::reciprocal.of[k]);
+}
+
+/// Coefficient k of σ, N m.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P torque_coefficient(const StickStep<P>& step, int k) {
+  return step.torque_unit * step.series.pull[k];
 }
 
 /// The step that is thought to be good, at most to the next stop.
@@ -66,7 +94,7 @@ ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const At& at, S
   const P longest = step.longest_step * select(step.turning, P(4.5), P(3.0));
   const P h = min(min(at.load(time.next_step), step.time_to_stop), longest);
   step.h = select((h < step.time_to_stop) & (step.time_to_stop < P(1.4) * h), step.time_to_stop * P(0.5), h);
-  step.per_length = P(1.0) / step.h;
+  step.per_h = P(1.0) / step.h;
 }
 
 template <class P, class At>
@@ -82,26 +110,30 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, 
   step.torque_sign = select(torque < zero, P(-1.0), P(1.0));
   step.creeping = to_mask(at.load(m.creeping));
   step.direction = at.load(m.direction);
-  step.torque_scale = at.load(c.inertia) * (step.per_length * step.per_length);
+  const P exponent = -branch_sign * at.load(m.branch_softening_rate);
+  step.length = -branch_sign * at.load(m.branch_softening_length);
+  step.torque_unit = at.load(c.inertia) * (step.per_h * step.per_h) * step.length;
 
   StickLaw<P>& law = step.law;
-  const P by_torque = h * h * per_inertia;
+  const P acceleration = h * h * per_inertia;
+  const P pull = exponent * acceleration;
   law.damping = damping * h * per_inertia;
-  law.applied = by_torque * at.load(m.torque);
-  law.stiffness = by_torque * at.load(c.k1);
-  law.softening = by_torque * (branch_sign * at.load(m.branch_softening_torque));
-  law.exponent = -branch_sign * at.load(m.branch_softening_rate);
+  law.applied = pull * at.load(m.torque);
+  law.stiffness = acceleration * at.load(c.k1);
+  law.softening = pull * (branch_sign * at.load(m.branch_softening_torque));
   law.creep_recovery = select(step.creeping, at.load(c.alpha) * h, zero);
   law.creep_exponent = at.load(c.creep_exponent);
-  const P creep_limit = step.torque_sign * law.creep_recovery * at.load(c.per_lambda);
-  const P squared_scale = step.torque_scale * step.torque_scale;
-  law.creep_limit = creep_limit * select(law.creep_exponent == P(2.0), squared_scale, P(1.0));
+  step.creep_limit = step.torque_sign * law.creep_recovery * at.load(c.per_lambda);
+  const P square_unit = step.torque_unit * step.torque_unit;
+  law.creep_limit = exponent * step.creep_limit * select(law.creep_exponent == P(2.0), square_unit, P(1.0));
 
+  step.elongation_start = at.load(m.elongation);
+  step.growth_start = step.torque_sign * at.load(m.hardening);
+  const P velocity = at.load(m.omega) * h;
   StickStart<P> start;
-  start.elongation = at.load(m.elongation);
-  start.growth = step.torque_sign * at.load(m.hardening);
-  start.velocity = at.load(m.omega) * h;
-  start.pull = by_torque * torque;
+  start.growth = exponent * step.growth_start;
+  start.velocity = exponent * velocity;
+  start.pull = pull * torque;
   start.softness = at.load(m.softness);
   start.torque = torque;
   start.turning = step.turning;
@@ -109,20 +141,8 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, 
   expand(law, start, step.series);
 
   step.breakaway = at.load(c.breakaway);
-  step.per_step = damping * step.per_length;
-  step.hook_torque = torque + step.per_step * start.velocity;
-}
-
-/// The rate of creep at the end of the step, by its law.
-/// @param pull σ·h²/J there, rad.
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE void see_creep(StickStep<P>& step, const P& pull) {
-  P power = pull * pull;
-  const typename P::Mask other_powers = step.creeping & (step.law.creep_exponent != P(2.0));
-  if (other_powers.any()) {
-    power = select(other_powers, pow(abs(step.torque), step.law.creep_exponent), power);
-  }
-  step.creep = step.law.creep_limit * power - step.law.creep_recovery * step.growth;
+  step.per_step = damping * step.per_h;
+  step.hook_torque = torque + step.per_step * velocity;
 }
 
 /// Inwards along a virgin curve the exponential grows, and must not by many e-folds.
@@ -133,9 +153,13 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const BatchState& batch,
   const P branch_sign = at.load(m.branch_sign);
   const typename P::Mask inwards = step.direction * branch_sign < P(0.0);
   if (!(inwards & step.here).any()) return nowhere<P>();
+  P growth = abs(step.series.rate[0]);
+#pragma GCC unroll 1
+  for (int k = 1; k < batch_order; ++k) {
+    growth = growth + abs(step.series.rate[k]) * P(numerics::reciprocal.of[k + 1]);
+  }
   const P softening_rate = at.load(m.branch_softening_rate);
-  const P growth = softening_rate * reach_bound(step.series.elongation, batch_order);
-  const P travelled = branch_sign * (step.series.elongation[0] - at.load(m.branch_elongation));
+  const P travelled = branch_sign * (step.elongation_start - at.load(m.branch_elongation));
   return inwards & (growth > P(6.0)) & (softening_rate * travelled - growth < P(40.0));
 }
 
@@ -145,8 +169,8 @@ template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, const StickStep<P>& step) {
   const TimeLanes& time = batch.time;
   const StickSeries<P>& s = step.series;
-  const P ratio = step.longest_step * step.per_length;
-  const P amplitude = max(abs(s.rate[0]), abs(s.rate[1]) * ratio) * ratio;
+  const P ratio = step.longest_step * step.per_h;
+  const P amplitude = abs(step.length) * (max(abs(s.rate[0]), abs(s.rate[1]) * ratio) * ratio);
   const P scale = min(max(amplitude * at.load(time.per_count) * P(2e5), P(1e-3)), P(1.0));
   return at.load(time.tolerance) * scale * (step.h * at.load(time.sample_rate));
 }
@@ -155,11 +179,12 @@ ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, c
 /// the contribution of creep, that may bring it through zero and back.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_turn_twice(const BatchState& batch, const At& at,
-                                                        const StickStep<P>& step, const P& rate_start) {
+                                                        const StickStep<P>& step) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
-  const P creep_velocity = at.load(batch.contact.creep_acceleration) * abs(creep_coefficient(s, 0));
-  const Mask small = min(abs(rate_start), abs(step.rate_end)) <= creep_velocity;
+  // Order 1 of the growth is order 0 of its rate.
+  const P creep_velocity = at.load(batch.contact.creep_acceleration) * abs(s.growth[1]);
+  const Mask small = min(abs(step.rate_start), abs(step.rate_end)) <= creep_velocity;
   const Mask unsure = step.here & ~step.reverses & small;
   if (!unsure.any()) return unsure;
   P g[batch_order + 1];
@@ -175,20 +200,19 @@ ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at
   const StickSeries<P>& s = step.series;
   // Where dxs/dt is zero at the start, its next zero is that of (dxs/dt)/t.
   step.rate_end = sum_of(s.rate, batch_order);
-  const P rate_start = select(step.turning, s.rate[1], s.rate[0]);
-  step.reverses = rate_start * step.rate_end < P(0.0);
-  step.last_terms = (abs(s.elongation[batch_order - 1]) + abs(s.velocity[batch_order - 1])) +
-                    (abs(s.elongation[batch_order]) + abs(s.velocity[batch_order]));
+  step.rate_start = select(step.turning, s.rate[1], s.rate[0]);
+  step.reverses = step.rate_start * step.rate_end < P(0.0);
+  step.last_terms = abs(step.length) * s.last_terms;
   step.allowed = allowed_error(batch, at, step);
-  step.too_long = grows_too_much(batch, at, step) | may_turn_twice(batch, at, step, rate_start);
+  step.too_long = grows_too_much(batch, at, step) | may_turn_twice(batch, at, step);
   const Mask seeks = step.here & step.reverses & ~step.too_long;
   step.x = P(1.0);
   // With a reversal the series has to be accurate up to there only.
   step.left_out = step.last_terms;
   step.allowed_at_x = step.allowed;
   if (seeks.any()) {
-    step.x =
-        select(seeks, next_zero(s.rate, batch_order, rate_start, step.rate_end, step.turning, seeks), P(1.0));
+    step.x = select(
+        seeks, next_zero(s.rate, batch_order, step.rate_start, step.rate_end, step.turning, seeks), P(1.0));
     const P square = step.x * step.x;
     const P fourth = square * square;
     // x to the power of the order − 1
@@ -201,26 +225,48 @@ ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at
   step.too_long = step.too_long | step.inexact;
 }
 
+/// Puts the end of the step to `x` in the lanes of `where`, but for its velocity.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE void end_at(const P& x, const typename P::Mask& where, StickStep<P>& step) {
+  const StickSeries<P>& s = step.series;
+  P pull = s.pull[batch_order];
+  P elongation = s.rate[batch_order - 1] * P(numerics::reciprocal.of[batch_order]);
+  P growth = s.growth[batch_order];
+#pragma GCC unroll 1
+  for (int k = batch_order - 1; k >= 1; --k) {
+    pull = pull * x + s.pull[k];
+    elongation = elongation * x + s.rate[k - 1] * P(numerics::reciprocal.of[k]);
+    growth = growth * x + s.growth[k];
+  }
+  step.x = select(where, x, step.x);
+  step.torque = select(where, step.torque_unit * (pull * x + s.pull[0]), step.torque);
+  step.elongation_change = select(where, step.length * (elongation * x), step.elongation_change);
+  step.growth_change = select(where, step.length * (growth * x), step.growth_change);
+}
+
+/// The rate of creep at the end of the step, by its law.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE void see_creep(StickStep<P>& step) {
+  const StickLaw<P>& law = step.law;
+  P power = step.torque * step.torque;
+  const typename P::Mask other_powers = step.creeping & (step.law.creep_exponent != P(2.0));
+  if (other_powers.any()) {
+    power = select(other_powers, pow(abs(step.torque), step.law.creep_exponent), power);
+  }
+  step.creep = step.creep_limit * power - step.law.creep_recovery * (step.growth_start + step.growth_change);
+}
+
 /// The motion at the end of the part that is used.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void evaluate_end(StickStep<P>& step) {
   const StickSeries<P>& s = step.series;
-  P pull;
-  if (step.reverses_too.any()) {
-    P value[3];
-    values_of(s.pull, s.elongation, s.growth, batch_order, step.x, value);
-    pull = value[0];
-    step.elongation = value[1];
-    step.growth = value[2];
-  } else {
-    pull = sum_of(s.pull, batch_order);
-    step.elongation = sum_of(s.elongation, batch_order);
-    step.growth = sum_of(s.growth, batch_order);
-  }
-  step.torque = pull * step.torque_scale;
-  see_creep(step, pull);
+  step.torque = step.torque_unit * s.pull_end;
+  step.elongation_change = step.length * s.elongation_change;
+  step.growth_change = step.length * s.growth_change;
+  if (step.reverses_too.any()) end_at(step.x, step.reverses_too, step);
+  see_creep(step);
   // At a reversal only creep moves the rotor.
-  step.velocity = select(step.reverses_too, step.creep, sum_of(s.velocity, batch_order));
+  step.velocity = select(step.reverses_too, step.creep, step.length * s.velocity_end);
 }
 
 }  // namespace zerocount::batch

@@ -12,6 +12,7 @@ struct StepTiming {
   P time_to_stop_then;     ///< left to the next stop at its end, s
   P samples_to_stop_then;  ///< samples up to and with that of the stop
   P passed;                ///< samples within the step
+  P elongation;            ///< xs at its end, rad
   P extension;             ///< xp at its end, rad
   Mask counts;             ///< another count may come on the way: the step is not made
 };
@@ -21,7 +22,6 @@ ZEROCOUNT_ALWAYS_INLINE StepTiming<P> timing_of(const BatchState& batch, const A
                                                 const StickStep<P>& step) {
   using Mask = typename P::Mask;
   const TimeLanes& time = batch.time;
-  const StickSeries<P>& s = step.series;
   const P zero(0.0);
   const P one(1.0);
   StepTiming<P> t;
@@ -32,14 +32,15 @@ ZEROCOUNT_ALWAYS_INLINE StepTiming<P> timing_of(const BatchState& batch, const A
       select(stops_here, one, max(-floor(P(1e-9) - t.time_to_stop_then * at.load(time.sample_rate)), one));
   t.passed = t.samples_to_stop - t.samples_to_stop_then;
   const P extension = at.load(batch.motion.extension);
-  t.extension = extension + (step.growth - s.growth[0]);
+  t.extension = extension + step.growth_change;
+  t.elongation = step.elongation_start + step.elongation_change;
   const P hook = at.load(batch.motion.hook);
   const P per_count = at.load(time.per_count);
   const P phase = at.load(batch.loop.phase);
   const P count = at.load(batch.loop.count);
-  const P start = s.elongation[0];
-  const P lowest = (hook + min(start, step.elongation) + min(extension, t.extension)) * per_count + phase;
-  const P highest = (hook + max(start, step.elongation) + max(extension, t.extension)) * per_count + phase;
+  const P start = step.elongation_start;
+  const P lowest = (hook + min(start, t.elongation) + min(extension, t.extension)) * per_count + phase;
+  const P highest = (hook + max(start, t.elongation) + max(extension, t.extension)) * per_count + phase;
   // Clear of the edges, where rounding has a say.
   const Mask same_count = (lowest - count > P(1e-9)) & (highest - count < P(1.0 - 1e-9));
   t.counts = (t.passed > zero) & ~same_count & ~step.too_long & ~step.beyond & ~step.meets;
@@ -57,8 +58,9 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const S
   const P shorter = select(step.inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));
   // A motion that accelerates will need shorter steps. (A displacement lost in rounding gives no
   // information.)
-  const P moved = abs(step.elongation - step.series.elongation[0]);
-  const P slower = select(step.reverses | (moved == zero), one, min(one, moved / abs(step.rate_end)));
+  const P moved = abs(step.elongation_change);
+  const P slower =
+      select(step.reverses | (moved == zero), one, min(one, moved / abs(step.length * step.rate_end)));
   // From one reversal to the next it takes about as long as from the one before.
   const P half_oscillation =
       select(step.turning & step.reverses & (P(4.0) * step.left_out <= step.allowed_at_x),
@@ -80,12 +82,12 @@ template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void store_motion_of(BatchState& batch, const At& at, const StickStep<P>& step,
                                              const StepTiming<P>& t, const typename P::Mask& done) {
   MotionLanes& m = batch.motion;
-  const StickSeries<P>& s = step.series;
-  const P end = select(step.event == P(closure), at.load(m.branch_end), step.elongation);
-  at.store(m.elongation, select(done, end, s.elongation[0]));
-  at.store(m.omega, select(done, step.velocity * step.per_length, at.load(m.omega)));
+  const P end = select(step.event == P(closure), at.load(m.branch_end), t.elongation);
+  at.store(m.elongation, select(done, end, step.elongation_start));
+  at.store(m.omega, select(done, step.velocity * step.per_h, at.load(m.omega)));
   at.store(m.extension, select(done, t.extension, at.load(m.extension)));
-  at.store(m.hardening, select(done, step.torque_sign * step.growth, at.load(m.hardening)));
+  at.store(m.hardening,
+           select(done, step.torque_sign * (step.growth_start + step.growth_change), at.load(m.hardening)));
   at.store(m.turning, select(done, to_number<P>(step.event == P(reversal)), to_number<P>(step.turning)));
   at.store(m.spring_torque, select(done, step.torque, at.load(m.spring_torque)));
 }
@@ -115,9 +117,10 @@ ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, cons
     record.time_to_stop = step.time_to_stop.part[p][j];
     record.step = step.h.part[p][j];
     record.end = step.x.part[p][j];
+    record.elongation[0] = step.elongation_start.part[p][j];
+    for (int k = 1; k <= batch_order; ++k) record.elongation[k] = elongation_coefficient(step, k).part[p][j];
     for (int k = 0; k <= batch_order; ++k) {
-      record.elongation[k] = step.series.elongation[k].part[p][j];
-      record.growth[k] = step.series.growth[k].part[p][j];
+      record.growth[k] = (step.length * step.series.growth[k]).part[p][j];
     }
   }
 }

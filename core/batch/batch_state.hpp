@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/batch/lane_set.hpp"
 #include "core/trial/running_measures.hpp"
 
 /// The trials that a batch engine has in work, one a lane: plain arrays, one quantity each, so that a kernel
@@ -8,7 +9,6 @@
 /// Included by the kernels: see lanes.hpp for what must not be in here.
 namespace zerocount::batch {
 
-inline constexpr int max_lanes = 128;
 /// One slot more, which fills up packs; what is in it is never looked at. Rounded up to a cache line.
 inline constexpr int lane_slots = max_lanes + 8;
 inline constexpr int spare_lane = max_lanes;
@@ -144,15 +144,7 @@ struct PassedSamples {
   double growth[batch_order + 1];      ///< of xp, likewise
 };
 
-// States of a lane (BatchState::state).
-inline constexpr double any_state = -1.0;  ///< in a query: all but idle
-inline constexpr double idle = 0.0;        ///< without a trial
-inline constexpr double sticking = 1.0;    ///< the hook sticks
-inline constexpr double waiting = 2.0;     ///< waits until enough lanes have an event; the hook sticks
-inline constexpr double sliding = 3.0;     ///< the hook slides
-
 struct BatchState {
-  Lanes state;  ///< idle, sticking, waiting or sliding
   MotionLanes motion;
   ContactLanes contact;
   TimeLanes time;
@@ -165,12 +157,6 @@ struct BatchState {
 
   PassedSamples* passed;  ///< where to put them; null where nobody records
   int passed_count;       ///< at most one a lane and kernel call
-};
-
-/// Some lanes, in ascending order.
-struct LaneList {
-  const int* lanes;
-  int count;
 };
 
 }  // namespace zerocount::batch

@@ -6,13 +6,13 @@ namespace zerocount::batch {
 
 /// The kernels, compiled for one instruction set.
 struct Kernels {
-  int (*list)(const BatchState&, double state, bool due, int* list);
-  void (*sample)(BatchState&, LaneList);
-  void (*stick_start)(BatchState&, LaneList);
-  void (*stick_step)(BatchState&, LaneList);
-  void (*stick_event)(BatchState&, LaneList);  ///< a step that may have events
-  void (*slide_fast)(BatchState&, LaneList);
-  void (*slide_slow)(BatchState&, LaneList);
+  LaneSet (*lanes_at_stop)(const BatchState&);
+  void (*sample)(BatchState&, const LaneSet&);
+  void (*stick_start)(BatchState&, const LaneSet&);
+  void (*stick_step)(BatchState&, const LaneSet&);
+  void (*stick_event)(BatchState&, const LaneSet&);  ///< a step that may have events
+  void (*slide_fast)(BatchState&, const LaneSet&);
+  void (*slide_slow)(BatchState&, const LaneSet&);
 };
 
 extern const Kernels portable_kernels;

@@ -1,5 +1,5 @@
 #include "core/batch/kernels.hpp"
-#include "core/batch/list_kernel.hpp"
+#include "core/batch/lanes_at_stop_kernel.hpp"
 #include "core/batch/sample_kernel.hpp"
 #include "core/batch/slide_kernel.hpp"
 #include "core/batch/stick_start_kernel.hpp"
@@ -9,7 +9,7 @@ namespace zerocount::batch {
 
 using Avx2 = Vectors<4, 2>;
 
-const Kernels avx2_kernels{list_kernel<Simd<4, 1>>,
+const Kernels avx2_kernels{lanes_at_stop_kernel<Simd<4, 1>>,
                            sample_kernel<Avx2>,
                            stick_start_kernel<Avx2>,
                            stick_step_kernel<Avx2, false>,

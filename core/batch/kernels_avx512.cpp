@@ -1,5 +1,5 @@
 #include "core/batch/kernels.hpp"
-#include "core/batch/list_kernel.hpp"
+#include "core/batch/lanes_at_stop_kernel.hpp"
 #include "core/batch/sample_kernel.hpp"
 #include "core/batch/slide_kernel.hpp"
 #include "core/batch/stick_start_kernel.hpp"
@@ -9,12 +9,9 @@ namespace zerocount::batch {
 
 using Avx512 = Vectors<8, 2>;
 
-const Kernels avx512_kernels{list_kernel<Simd<8, 1>>,
-                             sample_kernel<Avx512>,
-                             stick_start_kernel<Avx512>,
-                             stick_step_kernel<Avx512, false>,
-                             stick_step_kernel<Avx512, true>,
-                             slide_kernel<Avx512, true>,
+const Kernels avx512_kernels{lanes_at_stop_kernel<Simd<8, 1>>, sample_kernel<Avx512>,
+                             stick_start_kernel<Avx512>,       stick_step_kernel<Avx512, false>,
+                             stick_step_kernel<Avx512, true>,  slide_kernel<Avx512, true>,
                              slide_kernel<Avx512, false>};
 
 }  // namespace zerocount::batch

@@ -1,5 +1,5 @@
 #include "core/batch/kernels.hpp"
-#include "core/batch/list_kernel.hpp"
+#include "core/batch/lanes_at_stop_kernel.hpp"
 #include "core/batch/sample_kernel.hpp"
 #include "core/batch/slide_kernel.hpp"
 #include "core/batch/stick_start_kernel.hpp"
@@ -9,12 +9,9 @@ namespace zerocount::batch {
 
 using Portable = Vectors<2, 2>;
 
-const Kernels portable_kernels{list_kernel<Simd<2, 1>>,
-                               sample_kernel<Portable>,
-                               stick_start_kernel<Portable>,
-                               stick_step_kernel<Portable, false>,
-                               stick_step_kernel<Vectors<2, 1>, true>,
-                               slide_kernel<Portable, true>,
+const Kernels portable_kernels{lanes_at_stop_kernel<Simd<2, 1>>,       sample_kernel<Portable>,
+                               stick_start_kernel<Portable>,           stick_step_kernel<Portable, false>,
+                               stick_step_kernel<Vectors<2, 1>, true>, slide_kernel<Portable, true>,
                                slide_kernel<Portable, false>};
 
 }  // namespace zerocount::batch

@@ -28,13 +28,19 @@ class LaneStretch {
   unsigned taking_part_;  ///< one bit a lane of the vector
 };
 
-/// Lanes collected from wherever they are, filled up with the spare lane.
+/// Lanes collected from wherever they are, filled up with the spare lane. Takes them out of the set.
 template <class P>
 class LaneCollection {
  public:
   using Vector = P;
-  LaneCollection(const int* lanes, int count) : taking_part_((1U << count) - 1U) {
-    for (int i = 0; i < P::lanes; ++i) lane_[i] = i < count ? lanes[i] : spare_lane;
+  explicit LaneCollection(LaneSet& lanes) : taking_part_(0) {
+    for (int i = 0; i < P::lanes; ++i) {
+      lane_[i] = spare_lane;
+      if (lanes.empty()) continue;
+      lane_[i] = lanes.first();
+      lanes.erase(lane_[i]);
+      taking_part_ |= 1U << i;
+    }
   }
 
   ZEROCOUNT_ALWAYS_INLINE typename P::Mask taking_part() const { return P::Mask::of_bits(taking_part_); }
@@ -76,22 +82,6 @@ class LaneCollection {
   int lane_[P::lanes];
 };
 
-/// The lanes of a list that lie in the stretch of `width` lanes of its lane number `first`.
-struct Neighbours {
-  int base;        ///< first lane of the stretch
-  unsigned lanes;  ///< one bit a lane
-  int count;
-};
-
-ZEROCOUNT_ALWAYS_INLINE Neighbours neighbours(const LaneList& list, int first, int width) {
-  Neighbours n{list.lanes[first] / width * width, 0, 0};
-  while (first + n.count < list.count && list.lanes[first + n.count] < n.base + width) {
-    n.lanes |= 1U << (list.lanes[first + n.count] - n.base);
-    ++n.count;
-  }
-  return n;
-}
-
 /// The vectors that a kernel works on: of one chain of operations, and of `Chains` chains where it has enough
 /// lanes.
 template <int Width, int Chains>
@@ -100,55 +90,44 @@ struct Vectors {
   using Narrow = Simd<Width, 1>;
 };
 
-/// Passes the lanes of the list to `work`, as LaneStretch. A stretch of which one half takes part goes as
-/// half.
+/// Passes the lanes to `work`, as LaneStretch. A stretch of which one half takes part goes as half.
 template <class V, class Work>
-ZEROCOUNT_ALWAYS_INLINE void for_each_stretch(const LaneList& list, Work work) {
+ZEROCOUNT_ALWAYS_INLINE void for_each_stretch(const LaneSet& lanes, Work work) {
   using Wide = typename V::Wide;
   using Narrow = typename V::Narrow;
   static_assert(Wide::lanes == 2 * Narrow::lanes);
-  for (int first = 0; first < list.count;) {
-    const Neighbours n = neighbours(list, first, Wide::lanes);
-    const unsigned upper = n.lanes >> Narrow::lanes;
-    const unsigned lower = n.lanes - (upper << Narrow::lanes);
+  for (int base = 0; base < max_lanes; base += Wide::lanes) {
+    const unsigned lower = lanes.stretch(base, Narrow::lanes);
+    const unsigned upper = lanes.stretch(base + Narrow::lanes, Narrow::lanes);
     if (lower != 0 && upper != 0) {
-      work(LaneStretch<Wide>(n.base, n.lanes));
+      work(LaneStretch<Wide>(base, lower | upper << Narrow::lanes));
     } else if (lower != 0) {
-      work(LaneStretch<Narrow>(n.base, lower));
-    } else {
-      work(LaneStretch<Narrow>(n.base + Narrow::lanes, upper));
+      work(LaneStretch<Narrow>(base, lower));
+    } else if (upper != 0) {
+      work(LaneStretch<Narrow>(base + Narrow::lanes, upper));
     }
-    first += n.count;
   }
 }
 
-/// Passes the lanes of the list to `work`: where half of a stretch or more takes part, as LaneStretch,
-/// otherwise as LaneCollection; the last few as narrow ones.
+/// Passes the lanes to `work`: where half of a stretch or more takes part, as LaneStretch, otherwise as
+/// LaneCollection; the last few as narrow ones.
 template <class V, class Work>
-ZEROCOUNT_ALWAYS_INLINE void for_each_vector(const LaneList& list, Work work) {
+ZEROCOUNT_ALWAYS_INLINE void for_each_vector(LaneSet lanes, Work work) {
   using Wide = typename V::Wide;
   using Narrow = typename V::Narrow;
-  for (int first = 0; first < list.count;) {
-    const int rest = list.count - first;
-    const Neighbours n = neighbours(list, first, Wide::lanes);
-    if (n.count >= Narrow::lanes) {
-      work(LaneStretch<Wide>(n.base, n.lanes));
-      first += n.count;
-    } else if (rest > Narrow::lanes) {
-      const int count = rest < Wide::lanes ? rest : Wide::lanes;
-      work(LaneCollection<Wide>(list.lanes + first, count));
-      first += count;
-    } else {
-      const Neighbours few = neighbours(list, first, Narrow::lanes);
-      if (2 * few.count >= Narrow::lanes) {
-        work(LaneStretch<Narrow>(few.base, few.lanes));
-        first += few.count;
-      } else {
-        work(LaneCollection<Narrow>(list.lanes + first, rest));
-        first += rest;
-      }
+  const auto dense = [&]<class P>(int base) {
+    const unsigned here = lanes.stretch(base, P::lanes);
+    const bool enough = 2 * __builtin_popcount(here) >= P::lanes;
+    if (enough) {
+      work(LaneStretch<P>(base, here));
+      lanes.erase_stretch(base, here);
     }
-  }
+  };
+  for (int base = 0; base < max_lanes; base += Wide::lanes) dense.template operator()<Wide>(base);
+  while (lanes.count() > Narrow::lanes) work(LaneCollection<Wide>(lanes));
+  if (lanes.empty()) return;
+  dense.template operator()<Narrow>(lanes.first() / Narrow::lanes * Narrow::lanes);
+  if (!lanes.empty()) work(LaneCollection<Narrow>(lanes));
 }
 
 template <class P, class At>

@@ -7,18 +7,13 @@
 namespace zerocount::batch {
 
 void LaneWork::take_samples() {
-  const int due = kernels_.list(batch_, any_state, true, list_);
-  int count = 0;
-  for (int i = 0; i < due; ++i) {
-    const int lane = list_[i];
-    if (batch_.measures.taken[lane] == batch_.measures.limits.samples[lane]) {
-      end_move(lane, trial_of(lane));
-      if (state_of(lane) == idle) continue;
-    }
-    list_[count++] = lane;
-  }
-  if (count == 0) return;
-  kernels_.sample(batch_, {list_, count});
+  const LaneSet at_stop = kernels_.lanes_at_stop(batch_).in_both(active_);
+  for_each_lane(at_stop, [&](int lane) {
+    if (batch_.measures.taken[lane] == batch_.measures.limits.samples[lane]) end_move(lane, trial_of(lane));
+  });
+  const LaneSet due = at_stop.in_both(active_);
+  if (due.empty()) return;
+  kernels_.sample(batch_, due);
   for (int i = 0; i < batch_.event_count; ++i) {
     const int lane = batch_.event_lanes[i];
     if ((batch_.events[lane] & beyond_kernel) == 0) continue;
@@ -27,11 +22,10 @@ void LaneWork::take_samples() {
     fall_back_to_scalar(lane);
   }
   if (observers_->sample) {
-    for (int i = 0; i < count; ++i) {
-      const int lane = list_[i];
-      const bool given_up = state_of(lane) == idle || batch_.measures.taken[lane] == 0.0;
+    for_each_lane(due.in_both(active_), [&](int lane) {
+      const bool given_up = batch_.measures.taken[lane] == 0.0;
       if (!given_up) record_sample(lane, trial_of(lane));
-    }
+    });
   }
   for (int i = 0; i < batch_.event_count; ++i) {
     const int lane = batch_.event_lanes[i];

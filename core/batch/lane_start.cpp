@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "core/batch/lane_trial.hpp"
+#include "core/loop/control_block.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/encoder.hpp"
-#include "core/loop/control_block.hpp"
 #include "core/trial/move_measures.hpp"
 #include "core/trial/rig.hpp"
 

@@ -9,48 +9,39 @@
 namespace zerocount::batch {
 
 void LaneWork::move_sticking() {
-  int count = kernels_.list(batch_, sticking, false, list_);
-  if (count + waiting_count_ == 0) return;
-  kernels_.stick_start(batch_, {list_, count});
-  count = prepare_steps(count);
-  kernels_.stick_step(batch_, {list_, count});
+  LaneSet lanes = sticking_.without(kernels_.lanes_at_stop(batch_));
+  if (lanes.empty() && waiting_.empty()) return;
+  kernels_.stick_start(batch_, lanes);
+  prepare_steps(lanes);
+  kernels_.stick_step(batch_, lanes);
   end_sticking_steps();
   // Few lanes at a time meet an event: they wait until there are enough of them, or nothing else to do.
   constexpr int enough = 16;
-  if (waiting_count_ == 0 || (waiting_count_ < enough && count > waiting_count_)) return;
-  const int with_events = std::exchange(waiting_count_, 0);
-  std::sort(waiting_, waiting_ + with_events);
-  for (int i = 0; i < with_events; ++i) state_of(waiting_[i]) = sticking;
-  kernels_.stick_event(batch_, {waiting_, with_events});
+  const int count = waiting_.count();
+  if (count == 0 || (count < enough && lanes.count() > count)) return;
+  const LaneSet with_events = std::exchange(waiting_, {});
+  for_each_lane(with_events, [&](int lane) { sticking_.insert(lane); });
+  kernels_.stick_event(batch_, with_events);
   end_sticking_steps();
 }
 
-/// Handles the events at the start of a step. Keeps in the list, of `count` lanes, those that still take the
-/// step. @returns their number.
-int LaneWork::prepare_steps(int count) {
-  bool others = false;
+/// Handles the events at the start of a step. Takes out of the set the lanes that do not take the step.
+void LaneWork::prepare_steps(LaneSet& lanes) {
   for (int i = 0; i < batch_.event_count; ++i) {
     const int lane = batch_.event_lanes[i];
     const int events = batch_.events[lane];
     LaneTrial& trial = trial_of(lane);
     if ((events & ends_creep) != 0) end_creep(batch_, lane, trial);
     if ((events & may_rest) != 0 && come_to_rest(lane)) {
-      others = true;
+      lanes.erase(lane);
     } else if ((events & slides) != 0) {
       start_slide(batch_, lane, trial);
-      state_of(lane) = sliding;
-      others = true;
+      set_moving(lane);
+      lanes.erase(lane);
     } else if (batch_.motion.heading[lane] != batch_.motion.direction[lane]) {
       turn(batch_, lane, trial);
     }
   }
-  if (!others) return count;
-  int kept = 0;
-  for (int i = 0; i < count; ++i) {
-    const int lane = list_[i];
-    if (state_of(lane) == sticking && batch_.time.time_to_stop[lane] != 0.0) list_[kept++] = lane;
-  }
-  return kept;
 }
 
 /// @returns whether the lane was at rest, and has gone on to a sampling instant.
@@ -74,8 +65,8 @@ void LaneWork::end_sticking_steps() {
     const int events = batch_.events[lane];
     LaneTrial& trial = trial_of(lane);
     if ((events & meets_event) != 0) {
-      state_of(lane) = waiting;
-      waiting_[waiting_count_++] = lane;
+      sticking_.erase(lane);
+      waiting_.insert(lane);
       continue;
     }
     if ((events & closure) != 0) close_loop(batch_, lane, trial);
@@ -86,23 +77,20 @@ void LaneWork::end_sticking_steps() {
       fall_back_to_scalar(lane);
       continue;
     }
-    state_of(lane) = moving_state(lane);
+    set_moving(lane);
   }
 }
 
 void LaneWork::move_sliding() {
-  const int count = kernels_.list(batch_, sliding, false, list_);
-  if (count == 0) return;
-  int fast = 0;
-  int slow = 0;
-  for (int i = 0; i < count; ++i) {
-    const int lane = list_[i];
-    const bool is_fast = std::abs(batch_.motion.omega[lane]) > batch_.contact.fast_velocity[lane];
-    (is_fast ? list_[fast++] : slow_list_[slow++]) = lane;
-  }
-  kernels_.slide_fast(batch_, {list_, fast});
+  const LaneSet lanes = sliding_.without(kernels_.lanes_at_stop(batch_));
+  if (lanes.empty()) return;
+  LaneSet fast;
+  for_each_lane(lanes, [&](int lane) {
+    if (std::abs(batch_.motion.omega[lane]) > batch_.contact.fast_velocity[lane]) fast.insert(lane);
+  });
+  kernels_.slide_fast(batch_, fast);
   end_sliding_steps();
-  kernels_.slide_slow(batch_, {slow_list_, slow});
+  kernels_.slide_slow(batch_, lanes.without(fast));
   end_sliding_steps();
 }
 
@@ -116,7 +104,7 @@ void LaneWork::end_sliding_steps() {
       fall_back_to_scalar(lane);
       continue;
     }
-    state_of(lane) = moving_state(lane);
+    set_moving(lane);
   }
 }
 

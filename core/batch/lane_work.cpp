@@ -34,11 +34,10 @@ void LaneWork::run(std::span<const trial::TrialParameters* const> trials,
   outcomes_ = outcomes;
   observers_ = &observers;
   next_trial_ = 0;
-  running_ = 0;
   batch_.passed = observers.sample ? passed_ : nullptr;
   for (int lane = 0; lane < lane_count_; ++lane) refill(lane);
   used_lanes_ = lane_count_;
-  while (running_ > 0) {
+  while (!active_.empty()) {
     close_gaps();
     take_samples();
     move_sticking();
@@ -49,7 +48,7 @@ void LaneWork::run(std::span<const trial::TrialParameters* const> trials,
 /// Gives the lane the next trial, if there is one; what lanes cannot run is run on the way.
 void LaneWork::refill(int lane) {
   LaneTrial& trial = trial_of(lane);
-  state_of(lane) = idle;
+  for (LaneSet* of : {&active_, &sticking_, &waiting_, &sliding_}) of->erase(lane);
   while (next_trial_ < trials_.size()) {
     const std::size_t number = next_trial_++;
     trial.parameters = trials_[number];
@@ -59,26 +58,33 @@ void LaneWork::refill(int lane) {
       outcomes_[number].moves.clear();
       outcomes_[number].moves.reserve(trials_[number]->command.targets.size());
       start_trial(batch_, lane, trial, number, *trials_[number], outcomes_[number]);
-      state_of(lane) = moving_state(lane);
-      ++running_;
+      active_.insert(lane);
+      set_moving(lane);
       return;
     }
     run_scalar(trial, 0, 0);
   }
 }
 
+/// Puts the lane, which has a trial, to those that stick or that slide.
+void LaneWork::set_moving(int lane) {
+  const bool slides = batch_.motion.slide_direction[lane] != 0.0;
+  waiting_.erase(lane);
+  (slides ? sticking_ : sliding_).erase(lane);
+  (slides ? sliding_ : sticking_).insert(lane);
+}
+
 /// Moves trials from the last lanes to idle ones, once no trials are left to fill those. The kernels are
 /// faster on lanes that lie side by side: they find more of them in one cache line.
 void LaneWork::close_gaps() {
-  if (running_ == used_lanes_ || next_trial_ < trials_.size()) return;
+  const int running = active_.count();
+  if (running == used_lanes_ || next_trial_ < trials_.size()) return;
   int gap = 0;
-  while (used_lanes_ > running_) {
+  for (; used_lanes_ > running; --used_lanes_) {
     const int last = used_lanes_ - 1;
-    if (state_of(last) != idle) {
-      while (state_of(gap) != idle) ++gap;
-      move_lane(last, gap);
-    }
-    used_lanes_ = last;
+    if (is_idle(last)) continue;
+    while (!is_idle(gap)) ++gap;
+    move_lane(last, gap);
   }
 }
 
@@ -91,8 +97,10 @@ void LaneWork::move_lane(int from, int to) {
   }
   batch_.events[to] = batch_.events[from];
   std::swap(trial_of(to), trial_of(from));
-  std::replace(waiting_, waiting_ + waiting_count_, from, to);
-  state_of(from) = idle;
+  for (LaneSet* of : {&active_, &sticking_, &waiting_, &sliding_}) {
+    if (of->contains(from)) of->insert(to);
+    of->erase(from);
+  }
 }
 
 /// The whole trial by run_trial. Of its jerks and samples, the first so many have been told already.
@@ -124,7 +132,6 @@ void LaneWork::fall_back_to_scalar(int lane) {
 }
 
 void LaneWork::end_trial(int lane) {
-  --running_;
   refill(lane);
 }
 

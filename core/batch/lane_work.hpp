@@ -43,16 +43,14 @@ class LaneWork {
 
   // The way from one to the next (lane_steps.cpp).
   void move_sticking();
-  int prepare_steps(int count);
+  void prepare_steps(LaneSet& lanes);
   bool come_to_rest(int lane);
   void end_sticking_steps();
   void move_sliding();
   void end_sliding_steps();
 
-  double moving_state(int lane) const {
-    return batch_.motion.slide_direction[lane] == 0.0 ? sticking : sliding;
-  }
-  double& state_of(int lane) { return batch_.state[lane]; }
+  void set_moving(int lane);
+  bool is_idle(int lane) const { return !active_.contains(lane); }
   LaneTrial& trial_of(int lane) { return lanes_[static_cast<std::size_t>(lane)]; }
 
   const Kernels& kernels_;
@@ -60,17 +58,16 @@ class LaneWork {
   std::vector<LaneTrial> lanes_;
   BatchState batch_{};
   PassedSamples passed_[max_lanes]{};
-  int list_[max_lanes]{};  ///< of lanes
-  int slow_list_[max_lanes]{};
-  int waiting_[max_lanes]{};  ///< lanes with an event in their step
-  int waiting_count_{0};
+  LaneSet active_;    ///< lanes with a trial: the three below together
+  LaneSet sticking_;  ///< the hook sticks
+  LaneSet waiting_;   ///< it sticks; they wait until enough lanes have an event in their step
+  LaneSet sliding_;   ///< the hook slides
 
   std::span<const trial::TrialParameters* const> trials_;
   std::span<trial::TrialOutcome> outcomes_;
   const BatchObservers* observers_{nullptr};
   std::size_t next_trial_{0};
   int used_lanes_{0};  ///< all lanes from this on are idle
-  int running_{0};
 };
 
 }  // namespace zerocount::batch

@@ -80,9 +80,9 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
 /// One sampling instant of each lane: encoder, control, converter, measures. Reports jerk_changes and
 /// count_changes, and beyond_kernel where the encoder could not count θ.
 template <class V>
-void sample_kernel(BatchState& batch, LaneList list) {
+void sample_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
-  for_each_stretch<V>(list, [&](const auto& at) { sample(batch, at); });
+  for_each_stretch<V>(lanes, [&](const auto& at) { sample(batch, at); });
 }
 
 }  // namespace zerocount::batch

@@ -114,9 +114,9 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
 /// Far above the Stribeck velocity, where (ω/ωs)² > 64, friction is that of Coulomb to the last bit; those
 /// lanes go apart, with `Fast`, and step until (ω/ωs)² is down to 42: exp(−42) = 6e-19.
 template <class V, bool Fast>
-void slide_kernel(BatchState& batch, LaneList list) {
+void slide_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
-  for_each_vector<V>(list, [&](const auto& at) { slide<Fast>(batch, at); });
+  for_each_vector<V>(lanes, [&](const auto& at) { slide<Fast>(batch, at); });
 }
 
 }  // namespace zerocount::batch

@@ -89,9 +89,9 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
 /// Prepares the step of a lane whose hook sticks: evaluates the branch, and reports may_rest alone, or
 /// slides, or any of ends_creep and turns. See PreslidingFriction::stick.
 template <class V>
-void stick_start_kernel(BatchState& batch, LaneList list) {
+void stick_start_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
-  for_each_stretch<V>(list, [&](const auto& at) { start_step(batch, at); });
+  for_each_stretch<V>(lanes, [&](const auto& at) { start_step(batch, at); });
 }
 
 }  // namespace zerocount::batch

@@ -158,10 +158,10 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
 /// a lane changes but its next step where the step was too long. A step with events other than a reversal is
 /// not made but reported as meets_event, unless `Events`.
 template <class V, bool Events>
-void stick_step_kernel(BatchState& batch, LaneList list) {
+void stick_step_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
   batch.passed_count = 0;
-  for_each_vector<V>(list, [&](const auto& at) { step_of<Events>(batch, at); });
+  for_each_vector<V>(lanes, [&](const auto& at) { step_of<Events>(batch, at); });
 }
 
 }  // namespace zerocount::batch

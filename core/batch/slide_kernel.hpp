@@ -39,7 +39,11 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
     // (ω/ωs)² may change by some 4.
     const P acceleration = abs(driving - stribeck * lightness_start - damping * omega) * per_inertia;
     const P changing = acceleration * (speed + P(2.0) * stribeck_velocity) * per_velocity_squared;
-    h = min(min(at.load(time.next_step), P(4.0) / changing), time_to_stop);
+    // Far above the Stribeck velocity it may change by more, because there its exponential is next to
+    // nothing.
+    const P far = per_velocity_squared * omega * omega;
+    const P most = max(P(4.0), P(0.5) * (far - P(23.0)));
+    h = min(min(at.load(time.next_step), most / changing), time_to_stop);
     h = select((h < time_to_stop) & (time_to_stop < P(1.4) * h), time_to_stop * P(0.5), h);
   }
   const P force_scale = h * h * per_inertia;
@@ -80,7 +84,7 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
     P growth = max(exponent[batch_order - 1], zero);
 #pragma GCC unroll 1
     for (int k = batch_order - 2; k >= 1; --k) growth = growth + max(exponent[k], zero);
-    const Mask grows = growth > max(P(6.0), P(-40.0) - exponent[0]);
+    const Mask grows = growth > max(P(6.0), P(-23.0) - exponent[0]);
     const P curvature = curvature_bound(velocity, batch_order);
     unfit = grows | (~halts & ~cannot_turn(velocity[0], velocity_end, velocity[1], curvature));
   }

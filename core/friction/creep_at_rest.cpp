@@ -11,6 +11,7 @@ constexpr double slow = 0.1;  // α over the rates at which the rotor's own moti
 /// Each round leaves less than some 1e-2 of the error: the terms that follow from others are small beside
 /// the leading ones, c·p in S and α·p in dp/dt.
 constexpr int rounds = 10;
+constexpr int rounds_of_error = 3;  // of which two digits are enough
 
 /// p₀, from p = α·(S(p)ⁿ/λ − xh), by Newton's iteration from its value for S = U.
 double rate_at_hardening(const CreepAtRest& rest, const FrictionParameters& contact, double hardening) {
@@ -40,11 +41,12 @@ std::optional<CreepAtRest> creep_at_rest(const motion::PlantParameters& plant,
   const double per_torque_squared = per_torque * (contact.n - 1.0) / r.balance;
   r.g1 = alpha;
   r.s1 = damping;
+  const double per_stiffness = 1.0 / stiffness;
   double last_g1 = 0.0;
   for (int round = 0; round < rounds && (round < 3 || last_g1 != r.g1); ++round) {
     last_g1 = r.g1;
-    r.w1 = 1.0 + r.g1 * r.s1 / stiffness;
-    r.w2 = (r.g2 * r.s1 + 2.0 * r.g1 * r.s2) / stiffness;
+    r.w1 = 1.0 + r.g1 * r.s1 * per_stiffness;
+    r.w2 = (r.g2 * r.s1 + 2.0 * r.g1 * r.s2) * per_stiffness;
     r.s1 = (damping - inertia * r.g1) * r.w1;
     r.s2 = damping * r.w2 - inertia * (r.g2 * r.w1 + 2.0 * r.g1 * r.w2);
     r.g1 = alpha - per_torque * r.g1 * r.s1;
@@ -66,11 +68,12 @@ double error_of_creep_at_rest(const CreepAtRest& rest, const motion::PlantParame
   const double second = 2.0 * r.g1 * r.s2 + r.g2 * r.s1;
   const double curved = (n - 1.0) / r.balance * (r.s1 * second + r.s2 * first) -
                         0.5 * (n - 1.0) * (n - 2.0) * r.s1 * r.s1 / (r.balance * r.balance) * first;
+  const double per_stiffness = 1.0 / stiffness;
   double s3 = 0.0;
   double g3 = 0.0;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < rounds_of_error; ++round) {
     const double third = 3.0 * r.g1 * s3 + 2.0 * r.g2 * r.s2 + g3 * r.s1;
-    const double w3 = third / stiffness;
+    const double w3 = third * per_stiffness;
     s3 = plant.presliding_damping * w3 - plant.inertia * (3.0 * r.g1 * w3 + 2.0 * r.g2 * r.w2 + g3 * r.w1);
     g3 = -per_torque * (third - curved);
   }

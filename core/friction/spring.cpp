@@ -73,17 +73,6 @@ void HystereticSpring::start_preloaded(double torque) {
   select_branch();
 }
 
-std::optional<double> HystereticSpring::branch_end() const {
-  if (stack_.size() >= 2) return stack_[stack_.size() - 2].elongation;
-  if (stack_.size() == 1) {
-    const double peak = stack_.front().elongation;
-    if (direction_ * peak <= 0.0) return -peak;
-    return std::nullopt;
-  }
-  if (direction_ * elongation_ < 0.0) return 0.0;
-  return std::nullopt;
-}
-
 void HystereticSpring::set_direction(int direction) {
   if (direction != direction_) set_direction(direction, elongation_, torque());
 }

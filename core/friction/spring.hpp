@@ -55,7 +55,16 @@ class HystereticSpring {
   /// The elongation ahead (rad) at which the present branch ends: where the minor loop closes, where −xr of
   /// the only reversal point is reached, or the origin of a virgin curve run inwards. None on an outward
   /// virgin curve.
-  std::optional<double> branch_end() const;
+  std::optional<double> branch_end() const {
+    if (stack_.size() >= 2) return stack_[stack_.size() - 2].elongation;
+    if (stack_.size() == 1) {
+      const double peak = stack_.front().elongation;
+      if (direction_ * peak <= 0.0) return -peak;
+    } else if (direction_ * elongation_ < 0.0) {
+      return 0.0;
+    }
+    return std::nullopt;
+  }
 
   /// Sets the direction of motion; a change of it makes the present elongation a reversal point.
   void set_direction(int direction);

@@ -58,7 +58,7 @@ std::string log_entry(const layout::FileHeader& header, const std::string& sha25
   return entry;
 }
 
-/// What the log says already, which more can be put after.
+/// The present text of the log, to which more can be appended.
 /// @throws Failure (bad_data) where it is no log.
 std::string log_so_far(const fs::path& path) {
   std::string log = bytes_of(path);

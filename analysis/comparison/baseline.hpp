@@ -6,7 +6,7 @@
 
 namespace zerocount::comparison {
 
-/// What became of a baseline.
+/// The result of a change of a baseline.
 struct BaselineUpdate {
   bool changed{true};      ///< false where it was this file already
   std::string comparison;  ///< with the baseline that was replaced, a sentence; empty where there was none

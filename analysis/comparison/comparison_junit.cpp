@@ -14,7 +14,7 @@ std::string xml(std::string_view text) {
   return text::escaped_markup(text::printable(text));
 }
 
-/// What the case holds beside its name.
+/// The contents of the case beside its name.
 std::string element_of(std::string_view verdict, const std::string& message) {
   if (verdict == word_of(GateVerdict::regression)) {
     return fmt::format("<failure type=\"regression\" message=\"{}\"/>", xml(message));

@@ -71,7 +71,7 @@ struct ComparisonRow {
 /// The measures and requirements of all points, in order.
 std::vector<ComparisonRow> comparison_rows(const StudyComparison& comparison);
 
-/// What was compared with what, as names and values.
+/// Names and values that describe the two compared files.
 std::vector<std::pair<std::string, std::string>> comparison_facts(const StudyComparison& comparison);
 
 }  // namespace zerocount::comparison

@@ -116,7 +116,7 @@ ParameterEstimate given(const FittedQuantity& quantity, const IdentificationOpti
   return parameter_of(quantity, EstimateStatus::known, {value, 0.0, value, value});
 }
 
-/// What the estimate of a quantity comes from.
+/// The source of the estimate of a quantity.
 struct Estimation {
   std::span<const TestRecord> records;
   const ContactFit& fit;

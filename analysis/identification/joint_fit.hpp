@@ -69,7 +69,7 @@ struct NormalEquations {
   std::size_t observations{0};  ///< in the sum
 };
 
-/// Of all observations and the prior at the model.
+/// The residuals of all observations and of the prior at the model.
 NormalEquations normal_equations(const FittedModel& model, const Observations& observations,
                                  const FitSetting& setting);
 

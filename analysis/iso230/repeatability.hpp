@@ -40,7 +40,7 @@ struct TargetDeviations {
   std::vector<double> negative;  ///< [cycle], x_ij↓
 };
 
-/// What the standard says of one target, in the unit of the deviations; NaN where it is not defined.
+/// The quantities of the standard for one target, in the unit of the deviations; NaN where it is not defined.
 struct TargetRepeatability {
   double mean_positive{statistics::unknown};           ///< x̄i↑
   double mean_negative{statistics::unknown};           ///< x̄i↓
@@ -53,8 +53,8 @@ struct TargetRepeatability {
   double repeatability{statistics::unknown};           ///< Ri
 };
 
-/// What the standard says of the axis, in the unit of the deviations; NaN where it is not defined, which is
-/// so where it is not for one of the targets.
+/// The quantities of the standard for the axis, in the unit of the deviations; NaN where it is not defined,
+/// which is so where it is not for one of the targets.
 struct AxisRepeatability {
   double reversal{statistics::unknown};                ///< B
   double mean_reversal{statistics::unknown};           ///< B̄, signed

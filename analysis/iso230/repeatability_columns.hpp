@@ -55,7 +55,7 @@ layout::Table point_table_of_axis();
 /// /repeatability/point_target: point_target_columns(), [point, target].
 layout::Table point_table_of_targets();
 
-/// What the deviations are measured by.
+/// The scale by which the deviations are measured.
 struct DeviationSource {
   std::string_view name;       ///< "true" or "encoder"
   std::string_view unit;       ///< of the deviations, and of all values made of them

@@ -18,7 +18,7 @@
 namespace zerocount::iso230 {
 namespace {
 
-/// What is read of the outcomes.
+/// The columns of the outcomes that are read.
 const std::vector<layout::RecordField<trial::MoveOutcome>>& measured_fields() {
   static const std::vector<layout::RecordField<trial::MoveOutcome>> fields = [] {
     std::vector<layout::RecordField<trial::MoveOutcome>> kept;

@@ -39,7 +39,7 @@ struct SourceRepeatability {
   std::vector<std::vector<ValueStatistics>> targets;  ///< [target][target_fields()]
 };
 
-/// What is reported of a design point of a study with a sequence of moves.
+/// The statistics of a design point of a study with a sequence of moves.
 struct PointRepeatability {
   std::int64_t trials{0};
   std::int64_t evaluated{0};  ///< trials whose motion was never lost: those that have values
@@ -55,7 +55,7 @@ struct PointRepeatability {
 /// The numbers of a point that are neither of the axis nor of a target.
 const std::vector<text::ReportField<PointRepeatability>>& point_repeatability_fields();
 
-/// What the summary of a study with a sequence says of it.
+/// The repeatability part of the summary of a study with a sequence.
 struct RepeatabilitySummary {
   double confidence{statistics::summary_confidence};  ///< of all bounds
   SequenceShape shape;

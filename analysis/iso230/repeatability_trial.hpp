@@ -12,7 +12,7 @@
 
 namespace zerocount::iso230 {
 
-/// What a sequence of moves measures.
+/// The measurements of a sequence of moves.
 struct SequenceShape {
   std::int64_t targets{0};  ///< in its list
   std::int64_t cycles{0};   ///< fewest approaches of a target from a side from which any is approached

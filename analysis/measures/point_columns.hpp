@@ -66,7 +66,7 @@ std::vector<StatisticField> statistic_fields(const study::StudyFeatures& feature
 /// The bounds of means, which are in summaries only: the results file does not hold them.
 std::vector<StatisticField> mean_bound_fields(const layout::MeasureTable& measures = layout::measure_table());
 
-/// What is reported of a torque level, in the order of the report.
+/// The statistics reported of a torque level, in the order of the report.
 using LevelField = text::ReportField<LevelStatistics>;
 std::vector<LevelField> level_fields(const layout::MeasureTable& measures = layout::measure_table());
 

@@ -30,7 +30,7 @@ std::vector<StatisticField> outcome_count_fields() {
   };
 }
 
-/// What is reported of the jerks themselves, not of a measure of a move.
+/// Statistics of the jerks themselves, not of a measure of a move.
 std::vector<StatisticField> jerk_statistic_fields() {
   return {
       {"jerk_interval", "n", "1", "intervals between the onsets of successive jerks of a move", true,

@@ -61,7 +61,7 @@ bool any_undecided(const UndecidedMoves& moves);
 /// else there is to say of undecided moves; empty where there are none.
 std::string undecided_sentence(const UndecidedMoves& moves);
 
-/// What undecided moves mean.
+/// A sentence for the reader of a table: the meaning of undecided moves.
 inline constexpr std::string_view undecided_meaning =
     "Such moves are undecided: neither stable nor shown unstable. A longer hold decides those whose error "
     "was still falling";

@@ -18,7 +18,7 @@ struct InputValues {
   std::vector<double> values;  ///< [trial of the point]
 };
 
-/// What the trials of a design point were run with.
+/// The inputs of the trials of a design point.
 struct PointInputs {
   study::Design design{study::Design::monte_carlo};
   std::vector<std::string> factors;  ///< of the design saltelli, in its order; otherwise empty
@@ -26,9 +26,9 @@ struct PointInputs {
   std::int64_t rigs{0};  ///< that the trials run on, the first ones each on another; 0: no trials share a rig
 };
 
-/// What drives one output. Of a saltelli design the indices come from whole rows, all else from the trials of
-/// A and B, which are independent. Of a study with rigs they come from the first trial of every rig, because
-/// the others are not independent of it. Trials without a value are left out, with their rows.
+/// Sensitivity of one output. Of a saltelli design the indices come from whole rows, all else from the trials
+/// of A and B, which are independent. Of a study with rigs they come from the first trial of every rig,
+/// because the others are not independent of it. Trials without a value are left out, with their rows.
 /// @param bootstrap where the rows are drawn anew from.
 OutputSensitivity output_sensitivity(const PointInputs& inputs, const SensitivityOutput& output,
                                      const TrialOutputs& trials, double confidence,

@@ -51,7 +51,7 @@ struct FactorLeftOut {
   std::string reason;
 };
 
-/// What drives one output of the trials at one design point.
+/// Sensitivity of one output of the trials at one design point.
 struct OutputSensitivity {
   std::string output;  ///< as sensitivity_outputs() has it
   std::string unit;
@@ -73,7 +73,7 @@ struct PointSensitivity {
   std::vector<OutputSensitivity> outputs;
 };
 
-/// What drives the trials of a study.
+/// Sensitivity of the trials of a study.
 struct StudySensitivity {
   std::string name;           ///< of the study
   bool from_saltelli{false};  ///< its design is saltelli, and the factors have total indices
@@ -95,7 +95,7 @@ struct SensitivityOutput {
 std::vector<SensitivityOutput> sensitivity_outputs(
     const layout::MeasureTable& measures = layout::measure_table());
 
-/// What to ask of a file.
+/// The request for a file.
 struct SensitivityQuestion {
   std::vector<std::int64_t> points{};  ///< empty: all
   std::vector<std::string> outputs{};  ///< of sensitivity_outputs(); empty: success and settling_time

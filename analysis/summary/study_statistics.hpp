@@ -52,7 +52,7 @@ std::vector<measures::PointSummary> study_statistics(const reading::StudyFile& f
                                                      double confidence = statistics::summary_confidence,
                                                      bool bootstrap = false);
 
-/// What the criteria (6) and (7) say of the first `trials` of a point, from the parameters of each.
+/// The criteria (6) and (7) for the first `trials` of a point, from the parameters of each.
 measures::TheoryPrediction point_prediction(const study::Study& study, std::int64_t point,
                                             std::int64_t trials);
 

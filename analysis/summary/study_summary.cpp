@@ -36,7 +36,7 @@ double hold_of(const study::Study& study, std::int64_t point) {
   return hold;
 }
 
-/// What the study says of itself.
+/// The properties of the study as a whole.
 StudySummary summary_of(const study::Study& study, double confidence) {
   StudySummary summary;
   summary.name = study.name;

@@ -25,7 +25,7 @@ struct UnfinishedStudy {
   std::int64_t points{0};    ///< of the study, with trials or without
 };
 
-/// What a summary says of a study. Vectors by point have the length of `points`.
+/// The summary of a study. Vectors by point have the length of `points`.
 struct StudySummary {
   std::string name;                                   ///< of the study
   std::vector<std::string> labels;                    ///< [point]
@@ -49,7 +49,7 @@ struct StudySummary {
 /// functions below call it.
 void require_consistent(const StudySummary& summary);
 
-/// What was observed on the real rig at `point`; empty where nothing was.
+/// The observations on the real rig at `point`; empty where there are none.
 std::string observed_at(const StudySummary& summary, std::int64_t point);
 
 /// "unfinished: of the 12000 of 50000 trials that the run has finished so far; 3 of 5 points have none yet";

@@ -11,7 +11,7 @@
 namespace zerocount::summary {
 namespace {
 
-/// What a line is of: a point, or one of its levels.
+/// The subject of a line: a point, or one of its levels.
 struct CsvSubject {
   std::size_t point{0};
   std::size_t level{0};

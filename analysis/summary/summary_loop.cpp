@@ -102,7 +102,7 @@ void add_measures(std::vector<text::TextColumn>& columns, const StudySummary& su
   }
 }
 
-/// What the columns mean of the measures that `belongs` picks.
+/// The meaning of the columns of the measures that `belongs` picks.
 std::string legend_of(const StudySummary& summary, bool (*belongs)(const layout::Measure&)) {
   std::string legend;
   for (const layout::Measure* measure : shown_measures(summary)) {

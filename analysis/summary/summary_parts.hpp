@@ -21,23 +21,23 @@ std::string bounds_head(const StudySummary& summary);
 /// @param time s; NaN if not reached
 std::string settling_text(const measures::PointSummary& point, double time);
 
-/// What tells the points apart: their labels, and a column for each swept parameter with its unit in the
-/// head, where these are few. In a grid, whose labels only repeat the swept values, the number of the point
-/// takes the place of the label.
+/// The columns that tell the points apart: their labels, and a column for each swept parameter with its unit
+/// in the head, where these are few. In a grid, whose labels only repeat the swept values, the number of the
+/// point takes the place of the label.
 std::vector<text::TextColumn> sweep_columns(const StudySummary& summary);
 
 /// The table of a study with targets, and what its columns mean.
 std::vector<text::TextColumn> loop_columns(const StudySummary& summary);
 std::string loop_legend(const StudySummary& summary);
 
-/// What the design of the study means for the bounds, one line or two.
+/// The effect of the study's design on the bounds, one line or two.
 std::string design_line(const StudySummary& summary);
 
 /// The table of an open-loop study, a row per point and level, and what its columns mean.
 std::vector<text::TextColumn> level_columns(const StudySummary& summary);
 std::string level_legend();
 
-/// What was observed on the real rig, [point]; empty where nothing was at any point.
+/// The observations on the real rig, [point]; empty where there are none at any point.
 std::vector<std::string> observations(const StudySummary& summary);
 
 /// The levels of a point: an array of objects with the names of level_fields(), by group.

@@ -4,12 +4,12 @@
 #include "core/trial/running_measures.hpp"
 
 /// The trials that a batch engine has in work, one a lane: plain arrays, one quantity each, so that a kernel
-/// takes the same quantity of many lanes at once. Truths are 0 or 1, whole numbers are exact doubles.
+/// takes the same quantity of many lanes at once. Flags are 0 or 1, whole numbers are exact doubles.
 ///
 /// Included by the kernels: see lanes.hpp for what must not be in here.
 namespace zerocount::batch {
 
-/// One slot more, which fills up packs; what is in it is never looked at. Rounded up to a cache line.
+/// One slot more, which fills up vectors; its contents are never read. Rounded up to a cache line.
 inline constexpr int lane_slots = max_lanes + 8;
 inline constexpr int spare_lane = max_lanes;
 
@@ -100,7 +100,7 @@ struct alignas(64) LoopLanes {
   Lanes delay;     ///< samples between deciding a torque and applying it
 };
 
-/// The measures of the move so far, and what else is known of it.
+/// The measures of the move so far, and other state of it.
 struct alignas(64) MeasureLanes : trial::RunningMeasures<Lanes> {
   trial::MeasureLimits<Lanes> limits;
   Lanes last_half;    ///< first sample of the last half

@@ -177,10 +177,10 @@ template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask to_mask(const P& number) {
   return number != P(0.0);
 }
-/// `note` where true.
+/// `event` where true.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE P events_where(const typename P::Mask& mask, LaneEvent note) {
-  return select(mask, P(static_cast<double>(note)), P(0.0));
+ZEROCOUNT_ALWAYS_INLINE P events_where(const typename P::Mask& mask, LaneEvent event) {
+  return select(mask, P(static_cast<double>(event)), P(0.0));
 }
 
 }  // namespace zerocount::batch

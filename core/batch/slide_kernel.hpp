@@ -112,7 +112,7 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
 }
 
 /// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series carry.
-/// Reports velocity_zero, at_stop, and beyond_kernel where the slide begins at ω = 0. See
+/// Reports velocity_zero, and beyond_kernel where the slide begins at ω = 0. See
 /// PreslidingFriction::slide.
 ///
 /// Far above the Stribeck velocity, where (ω/ωs)² > 64, friction is that of Coulomb to the last bit; those

@@ -7,7 +7,7 @@
 
 namespace zerocount {
 
-/// What the process tells its caller: the one list of exit codes.
+/// The exit codes of the process: the one list of them.
 enum class ExitCode : int {
   success = 0,
   regression = 1,

@@ -72,9 +72,9 @@ struct SequenceMove {
   std::int64_t cycle{0};    ///< from 0
 };
 
-/// What a study can use of the loop, at any point and in any trial: decides which optional columns its tables
-/// have. Found from the limits of the parameters, so that studies which differ only in their seed have the
-/// same columns.
+/// The features of the loop that a study can use, at any point and in any trial: decides which optional
+/// columns its tables have. Found from the limits of the parameters, so that studies which differ only in
+/// their seed have the same columns.
 struct StudyFeatures {
   parameters::AxisKind axis{parameters::AxisKind::rotary};  ///< whose units the tables have
   bool open_loop{false};                                    ///< torque levels in place of targets

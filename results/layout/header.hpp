@@ -35,7 +35,7 @@ bool is_dirty(const Provenance& provenance);
 
 enum class FileKind { study, shard };
 
-/// What a results file says of itself: the attributes of its root, and the manifest.
+/// The description of a results file: the attributes of its root, and the manifest.
 struct FileHeader {
   FileKind kind{FileKind::study};
   std::int64_t version{format_version};  ///< of the layout

@@ -33,7 +33,7 @@ struct FlagMeaning {
 /// The outcomes of a move.
 std::vector<FlagMeaning> outcome_labels();
 
-/// What stands for an outcome in files of this version: before version 3 `oscillating` was any move that
+/// The code of an outcome in files of this version: before version 3 `oscillating` was any move that
 /// ended beyond one count.
 trial::Outcome outcome_in_version(std::int64_t version, trial::Outcome outcome);
 
@@ -157,7 +157,7 @@ Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn
 Table profile_table(const std::string& name, const std::string& unit);
 /// The rotors of all rigs: [rig, theta].
 Table rotor_table(const std::string& name, const std::string& unit);
-/// What differs between the rigs: [rig].
+/// The inputs that differ between the rigs: [rig].
 Table rig_table(const std::vector<study::InputColumn>& inputs);
 /// Successes of the rigs at the design points: [point, rig]. In the group of rig_table, whose scale it
 /// proportions.

@@ -15,7 +15,7 @@
 /// measure comes from its row.
 namespace zerocount::layout {
 
-/// What becomes of a measure in files without its column.
+/// The treatment of a measure in files without its column.
 struct FileHistory {
   std::int64_t since{1};  ///< first version of the layout that has it
   double before{0.0};     ///< value in files of earlier versions; NaN where it is not known
@@ -81,7 +81,7 @@ struct StatisticText {
   std::string_view name{};  ///< where it is not that of the statistic
 };
 
-/// What is reported of a measure.
+/// The statistics reported of a measure.
 struct ReportedStatistics {
   std::string_view group{};            ///< of the JSON; empty: the statistics stand at the top
   std::vector<StatisticText> texts{};  ///< in any order

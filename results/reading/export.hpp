@@ -16,7 +16,7 @@ struct ExportedTable {
   std::function<void(const StudyFile&, CsvFile&)> write;  ///< all its rows
 };
 
-/// What becomes of files that have the names of tables already.
+/// The treatment of files that have the names of tables already.
 enum class ExistingFiles { refuse, replace };
 
 /// Writes the tables of a results file as CSV into `directory`, which is made if need be: points.csv,

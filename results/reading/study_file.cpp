@@ -30,7 +30,7 @@ layout::FileHeader read_required(const hdf5::File& file, const std::filesystem::
   return header;
 }
 
-/// What is in the group `input` of /trial or /rig.
+/// The datasets of the group `input` of /trial or /rig.
 std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table) {
   std::vector<study::InputColumn> inputs;
   if (!table.contains("input")) return inputs;

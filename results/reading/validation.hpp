@@ -9,9 +9,9 @@
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
 
-/// What the values of a results file can be, whatever its study: a file whose checksum trailer and checksums
-/// are right may still have been made by something else than this program. Every function throws Failure
-/// (bad_data) with the path, the dataset, the row and what was expected.
+/// The ranges of the values of a results file, whatever its study: a file whose checksum trailer and
+/// checksums are right may still have been made by something else than this program. Every function throws
+/// Failure (bad_data) with the path, the dataset, the row and what was expected.
 namespace zerocount::reading {
 
 /// The numbers by which rows belong together: point and index of a trial are those of its place, and

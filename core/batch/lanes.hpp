@@ -247,17 +247,17 @@ struct Simd {
     for (int i = 0; i < Chains; ++i) r.part[i] = (Real)(((Bits)shifted.part[i] + 1023) << 52);
     return r;
   }
-  /// 2 to the power log₂(a)·fraction, within 7 %, for positive normal a: its bits, taken as a number, are
-  /// about its logarithm.
-  friend ZEROCOUNT_ALWAYS_INLINE Simd rough_power(const Simd& a, double fraction) {
+  /// (a/b) to the power `fraction`, within 15 %, for positive a and b: the bits of a number, taken as one,
+  /// are about its logarithm.
+  friend ZEROCOUNT_ALWAYS_INLINE Simd rough_power(const Simd& a, const Simd& b, double fraction) {
     const Simd shift(0x1.8p52);
     Simd r;
     for (int i = 0; i < Chains; ++i) {
       // The upper 32 bits are enough, and are exact as a double.
-      const Bits upper = ((Bits)a.part[i] >> 32);
+      const Bits upper = ((Bits)a.part[i] >> 32) - ((Bits)b.part[i] >> 32);
       const Real logarithm = (Real)(upper + (Bits)shift.part[i]) - shift.part[i];
       constexpr double of_one = 1072693248.0;  // upper bits of 1.0
-      const Real power = (logarithm - of_one) * fraction + of_one;
+      const Real power = logarithm * fraction + of_one;
       r.part[i] = (Real)((Bits)(power + shift.part[i]) << 32);
     }
     return r;

@@ -98,7 +98,7 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   const Mask done = ~too_long & ~beyond;
   const Mask stops_here = ~halts & ~(h < time_to_stop);
   const P time_to_stop_then = select(stops_here, zero, time_to_stop - x * h);
-  const P factor = P(0.9) * rough_power(allowed / left_out, 1.0 / batch_order);
+  const P factor = P(0.9) * rough_power(allowed, left_out, 1.0 / batch_order);
   const P shorter = select(inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));
   const P longer = h * min(max(factor, P(0.3)), P(4.0));
   at.store(time.next_step, select(too_long, shorter, select(done, longer, h)));

@@ -54,13 +54,13 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const S
   const P zero(0.0);
   const P one(1.0);
   const P h = step.h;
-  const P factor = P(0.9) * rough_power(step.allowed / step.last_terms, 1.0 / batch_order);
+  const P factor = P(0.9) * rough_power(step.allowed, step.last_terms, 1.0 / batch_order);
   const P shorter = select(step.inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));
   // A motion that accelerates will need shorter steps. (A displacement lost in rounding gives no
   // information.)
   const P moved = abs(step.elongation_change);
-  const P slower =
-      select(step.reverses | (moved == zero), one, min(one, moved / abs(step.length * step.rate_end)));
+  const P slower = select(step.reverses | (moved == zero), one,
+                          min(one, rough_power(moved, abs(step.length * step.rate_end), 1.0)));
   // From one reversal to the next it takes about as long as from the one before.
   const P half_oscillation =
       select(step.turning & step.reverses & (P(4.0) * step.left_out <= step.allowed_at_x),
@@ -147,9 +147,9 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
   store_motion_of(batch, at, step, timing, done);
   store_measures(batch, at, passed);
   const typename P::Mask lost = step.beyond | (at.load(batch.time.steps) > P(max_steps_to_stop));
+  const P event = select(done & (step.event != P(reversal)), step.event, zero);
   add_events(batch, at,
-             select(done, step.event, zero) + events_where<P>(step.meets, meets_event) +
-                 events_where<P>(lost, beyond_kernel));
+             event + events_where<P>(step.meets, meets_event) + events_where<P>(lost, beyond_kernel));
   if (batch.passed != nullptr) record_passed(batch, at, step, passed);
 }
 

@@ -150,7 +150,7 @@ ZEROCOUNT_ALWAYS_INLINE void add_events(BatchState& batch, const At& at, const P
   if (noted.any()) append_events(batch, at, events, noted.bits());
 }
 
-/// For for_each_measure: between lanes and packs.
+/// For for_each_measure: between lanes and vectors.
 template <class At>
 struct LoadEach {
   const At& at;

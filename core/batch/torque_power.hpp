@@ -3,7 +3,7 @@
 #include "core/batch/series.hpp"
 
 /// |σ|ⁿ of the creep law in lanes. Exponents other than 2 cost a call of the C library for each lane of a
-/// pack that has one; the others in it keep the bits that they have without.
+/// vector that has one; the others in it keep the bits that they have without.
 namespace zerocount::batch {
 
 template <class P>

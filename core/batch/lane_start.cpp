@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/batch/lane_trial.hpp"
-#include "core/loop/control_block.hpp"
+#include "core/loop/controller.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/trial/move_measures.hpp"

@@ -6,6 +6,7 @@
 
 #include "core/loop/controller.hpp"
 #include "experiments/distributions/random_field.hpp"
+#include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/slots.hpp"
 
 namespace zerocount::study {

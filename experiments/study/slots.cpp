@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "experiments/parameters/parameter_table.hpp"
+
 namespace zerocount::study {
 namespace {
 

@@ -1,0 +1,108 @@
+#include "results/hdf5/chunk_filters.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <new>
+
+#include <zlib.h>
+
+namespace zerocount::hdf5 {
+namespace {
+
+constexpr std::size_t checksum_size = 4;
+
+/// Fletcher-32 of big-endian 16-bit words; a last single byte is the high byte of a word.
+std::uint32_t fletcher32(std::span<const std::byte> bytes) {
+  constexpr std::size_t words_without_overflow = 360;
+  const auto fold = [](std::uint32_t sum) { return (sum & 0xffffU) + (sum >> 16U); };
+  std::uint32_t sum1 = 0;
+  std::uint32_t sum2 = 0;
+  const auto add = [&](std::byte high, std::byte low) {
+    sum1 += std::to_integer<std::uint32_t>(high) << 8U | std::to_integer<std::uint32_t>(low);
+    sum2 += sum1;
+  };
+  while (bytes.size() > 1) {
+    const std::size_t size = std::min(bytes.size() / 2, words_without_overflow) * 2;
+    for (std::size_t i = 0; i < size; i += 2) add(bytes[i], bytes[i + 1]);
+    sum1 = fold(sum1);
+    sum2 = fold(sum2);
+    bytes = bytes.subspan(size);
+  }
+  if (!bytes.empty()) {
+    add(bytes[0], std::byte{0});
+    sum1 = fold(sum1);
+    sum2 = fold(sum2);
+  }
+  return fold(sum2) << 16U | fold(sum1);
+}
+
+std::vector<std::byte> shuffle(std::size_t element_size, std::span<const std::byte> elements) {
+  const std::size_t count = elements.size() / element_size;
+  std::vector<std::byte> shuffled(elements.size());
+  for (std::size_t byte = 0; byte < element_size; ++byte) {
+    std::byte* const to = shuffled.data() + byte * count;
+    for (std::size_t i = 0; i < count; ++i) to[i] = elements[i * element_size + byte];
+  }
+  return shuffled;
+}
+
+void unshuffle(std::size_t element_size, std::span<const std::byte> shuffled, std::span<std::byte> elements) {
+  const std::size_t count = elements.size() / element_size;
+  for (std::size_t byte = 0; byte < element_size; ++byte) {
+    const std::byte* const from = shuffled.data() + byte * count;
+    for (std::size_t i = 0; i < count; ++i) elements[i * element_size + byte] = from[i];
+  }
+}
+
+std::vector<std::byte> deflate(std::span<const std::byte> bytes, int level) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::vector<std::byte> stream(size + checksum_size);
+  if (compress2(reinterpret_cast<Bytef*>(stream.data()), &size,
+                reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()),
+                level) != Z_OK) {
+    throw std::bad_alloc();  // the buffer is large enough and the level valid: only memory can be missing
+  }
+  stream.resize(size);
+  return stream;
+}
+
+bool inflate(std::span<const std::byte> stream, std::span<std::byte> bytes) {
+  auto size = static_cast<uLongf>(bytes.size());
+  return uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
+                    reinterpret_cast<const Bytef*>(stream.data()),
+                    static_cast<uLong>(stream.size())) == Z_OK &&
+         size == bytes.size();
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_chunk(const ChunkFilters& filters, std::span<const std::byte> elements) {
+  std::vector<std::byte> stored(elements.begin(), elements.end());
+  if (filters.deflate_level)
+    stored = deflate(shuffle(filters.element_size, elements), *filters.deflate_level);
+  const std::uint32_t checksum = fletcher32(stored);
+  for (const unsigned shift : {0U, 8U, 16U, 24U})
+    stored.push_back(static_cast<std::byte>(checksum >> shift & 0xffU));
+  return stored;
+}
+
+bool decode_chunk(const ChunkFilters& filters, std::span<const std::byte> stored,
+                  std::span<std::byte> elements) {
+  if (stored.size() < checksum_size) return false;
+  const std::span<const std::byte> bytes = stored.first(stored.size() - checksum_size);
+  std::uint32_t checksum = 0;
+  for (const std::byte byte : {stored.end()[-1], stored.end()[-2], stored.end()[-3], stored.end()[-4]})
+    checksum = checksum << 8U | std::to_integer<std::uint32_t>(byte);
+  if (checksum != fletcher32(bytes)) return false;
+  if (filters.deflate_level) {
+    std::vector<std::byte> shuffled(elements.size());
+    if (!inflate(bytes, shuffled)) return false;
+    unshuffle(filters.element_size, shuffled, elements);
+    return true;
+  }
+  if (bytes.size() != elements.size()) return false;
+  std::copy(bytes.begin(), bytes.end(), elements.begin());
+  return true;
+}
+
+}  // namespace zerocount::hdf5

@@ -76,24 +76,33 @@ bool inflate(std::span<const std::byte> stream, std::span<std::byte> bytes) {
 
 }  // namespace
 
-std::vector<std::byte> encode_chunk(const ChunkFilters& filters, std::span<const std::byte> elements) {
+std::optional<std::vector<std::byte>> encode_chunk(const ChunkFilters& filters,
+                                                   std::span<const std::byte> elements) {
   std::vector<std::byte> stored(elements.begin(), elements.end());
   if (filters.deflate_level)
     stored = deflate(shuffle(filters.element_size, elements), *filters.deflate_level);
   const std::uint32_t checksum = fletcher32(stored);
   for (const unsigned shift : {0U, 8U, 16U, 24U})
     stored.push_back(static_cast<std::byte>(checksum >> shift & 0xffU));
+  std::vector<std::byte> decoded(elements.size());
+  if (!decode_chunk(filters, stored, decoded) ||
+      !std::equal(decoded.begin(), decoded.end(), elements.begin()))
+    return std::nullopt;
   return stored;
+}
+
+bool has_valid_checksum(std::span<const std::byte> stored) {
+  if (stored.size() < checksum_size) return false;
+  std::uint32_t checksum = 0;
+  for (const std::byte byte : {stored.end()[-1], stored.end()[-2], stored.end()[-3], stored.end()[-4]})
+    checksum = checksum << 8U | std::to_integer<std::uint32_t>(byte);
+  return checksum == fletcher32(stored.first(stored.size() - checksum_size));
 }
 
 bool decode_chunk(const ChunkFilters& filters, std::span<const std::byte> stored,
                   std::span<std::byte> elements) {
-  if (stored.size() < checksum_size) return false;
+  if (!has_valid_checksum(stored)) return false;
   const std::span<const std::byte> bytes = stored.first(stored.size() - checksum_size);
-  std::uint32_t checksum = 0;
-  for (const std::byte byte : {stored.end()[-1], stored.end()[-2], stored.end()[-3], stored.end()[-4]})
-    checksum = checksum << 8U | std::to_integer<std::uint32_t>(byte);
-  if (checksum != fletcher32(bytes)) return false;
   if (filters.deflate_level) {
     std::vector<std::byte> shuffled(elements.size());
     if (!inflate(bytes, shuffled)) return false;

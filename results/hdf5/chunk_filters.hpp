@@ -22,8 +22,13 @@ struct ChunkFilters {
   bool operator==(const ChunkFilters&) const = default;
 };
 
-/// The bytes that the file stores for a chunk with these elements.
-std::vector<std::byte> encode_chunk(const ChunkFilters& filters, std::span<const std::byte> elements);
+/// The bytes that the file stores for a chunk with these elements. None if they do not decode to the elements,
+/// which only a faulty machine can cause.
+std::optional<std::vector<std::byte>> encode_chunk(const ChunkFilters& filters,
+                                                   std::span<const std::byte> elements);
+
+/// Whether stored bytes agree with their checksum.
+bool has_valid_checksum(std::span<const std::byte> stored);
 
 /// Restores the elements of a chunk. False if the stored bytes are damaged: the checksum is wrong, or they do
 /// not decode to `elements.size()` bytes.

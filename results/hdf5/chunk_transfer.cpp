@@ -23,9 +23,7 @@ struct ChunkJob {
   std::int64_t offset;  ///< first row, from the first row of the request
   std::int64_t rows;
   ChunkShape shape;
-  std::vector<std::byte> elements{};
   std::vector<std::byte> stored{};
-  std::size_t digest{0};  ///< of its elements
   bool damaged{false};
 };
 
@@ -58,11 +56,6 @@ std::size_t bytes_in(const ChunkJob& job) {
   return static_cast<std::size_t>(job.rows) * job.shape.row_size;
 }
 
-void encode(ChunkJob& job, std::span<const std::byte> chunk) {
-  job.digest = digest_of(chunk.data(), bytes_in(job));
-  job.stored = encode_chunk(job.shape.filters, chunk);
-}
-
 /// Runs fetch, work and store on every chunk: work on several at a time; fetch and store, which call the
 /// library, on one at a time and in order.
 template <class Fetch, class Work, class Store>
@@ -87,7 +80,6 @@ void run_jobs(std::vector<ChunkJob>& jobs, const Fetch& fetch, const Work& work,
   const auto third_stage = [&](ChunkJob* job) {
     const std::lock_guard lock(library);
     store(*job);
-    job->elements = {};
     job->stored = {};
   };
   const auto pipeline = [&] {
@@ -146,11 +138,11 @@ std::vector<std::byte> Dataset::stored_chunk(std::int64_t first) const {
   return stored;
 }
 
-void Dataset::store_chunk(const WrittenRows& rows, std::span<const std::byte> stored) {
+void Dataset::store_chunk(std::int64_t first, std::span<const std::byte> stored) {
   std::vector<Size> place(extent().size(), 0);
-  place[0] = static_cast<Size>(rows.first);
+  place[0] = static_cast<Size>(first);
   require(H5Dwrite_chunk(id(), H5P_DEFAULT, 0, place.data(), stored.size(), stored.data()), "its values");
-  written().rows.push_back(rows);
+  written().chunks.push_back({first, digest_of(stored.data(), stored.size())});
 }
 
 void write_rows(std::span<const RowsToWrite> all) {
@@ -161,18 +153,21 @@ void write_rows(std::span<const RowsToWrite> all) {
     if (chunks.empty()) all[i].dataset->write_by_library(all[i].first, all[i].rows, all[i].data);
     append(jobs, std::move(chunks));
   }
-  const auto work = [&](ChunkJob& job) {
+  const auto encode = [&](ChunkJob& job) {
     const auto* const data = static_cast<const std::byte*>(all[job.request].data) +
                              static_cast<std::size_t>(job.offset) * job.shape.row_size;
     std::vector<std::byte> elements = chunk_of(job);
     std::copy_n(data, bytes_in(job), elements.begin());
-    encode(job, elements);
+    std::optional<std::vector<std::byte>> stored = encode_chunk(job.shape.filters, elements);
+    job.damaged = !stored;
+    if (stored) job.stored = std::move(*stored);
   };
-  const auto store = [&](ChunkJob& job) {
+  const auto store = [&](const ChunkJob& job) {
     const RowsToWrite& request = all[job.request];
-    request.dataset->store_chunk({request.first + job.offset, job.rows, job.digest}, job.stored);
+    if (job.damaged) request.dataset->fail("its values do not decode to what was encoded");
+    request.dataset->store_chunk(request.first + job.offset, job.stored);
   };
-  run_jobs(jobs, [](ChunkJob&) {}, work, store);
+  run_jobs(jobs, [](ChunkJob&) {}, encode, store);
 }
 
 void read_rows(std::span<const RowsToRead> all) {
@@ -212,27 +207,19 @@ bool have_same_chunks(const RowsToCopy& copy) {
 }
 
 void copy_rows(std::span<const RowsToCopy> all) {
-  std::vector<ChunkJob> jobs;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    append(jobs, whole_chunks(*all[i].dataset, i, all[i].first, all[i].rows));
-  const auto fetch = [&](ChunkJob& job) {
-    const RowsToCopy& request = all[job.request];
-    job.stored = request.source->stored_chunk(request.source_first + job.offset);
-    job.elements = chunk_of(job);
-    if (job.stored.empty())
-      request.source->read_by_library(request.source_first + job.offset, job.rows, job.elements.data());
-  };
-  const auto work = [](ChunkJob& job) {
-    if (job.stored.empty()) return encode(job, job.elements);
-    job.damaged = !decode_chunk(job.shape.filters, job.stored, job.elements);
-    job.digest = digest_of(job.elements.data(), bytes_in(job));
-  };
-  const auto store = [&](ChunkJob& job) {
-    const RowsToCopy& request = all[job.request];
-    if (job.damaged) request.source->fail(unreadable_values);
-    request.dataset->store_chunk({request.first + job.offset, job.rows, job.digest}, job.stored);
-  };
-  run_jobs(jobs, fetch, work, store);
+  for (const RowsToCopy& copy : all) {
+    for (const ChunkJob& chunk : whole_chunks(*copy.source, 0, copy.source_first, copy.rows)) {
+      const std::vector<std::byte> stored = copy.source->stored_chunk(copy.source_first + chunk.offset);
+      if (stored.empty()) {
+        std::vector<std::byte> elements = chunk_of(chunk);
+        copy.source->read(copy.source_first + chunk.offset, chunk.rows, elements.data());
+        copy.dataset->write(copy.first + chunk.offset, chunk.rows, elements.data());
+        continue;
+      }
+      if (!has_valid_checksum(stored)) copy.source->fail(unreadable_values);
+      copy.dataset->store_chunk(copy.first + chunk.offset, stored);
+    }
+  }
 }
 
 }  // namespace zerocount::hdf5

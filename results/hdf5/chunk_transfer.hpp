@@ -39,7 +39,7 @@ struct RowsToCopy {
 /// Whether both datasets store the rows in whole chunks of the same size and with the same filters.
 bool have_same_chunks(const RowsToCopy& copy);
 
-/// Copies the chunks as they are stored, after checking that they decode.
+/// Copies the chunks as they are stored, after checking their checksums.
 /// @param all have_same_chunks() of each
 void copy_rows(std::span<const RowsToCopy> all);
 

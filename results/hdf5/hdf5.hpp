@@ -156,6 +156,7 @@ class Dataset : public Object {
   friend void write_rows(std::span<const RowsToWrite> all);
   friend void read_rows(std::span<const RowsToRead> all);
   friend void copy_rows(std::span<const RowsToCopy> all);
+  friend void compare_chunks(const Dataset& dataset, std::span<const WrittenChunk> written);
   Dataset(Handle handle, std::shared_ptr<Origin> origin, std::string path);
   Element stored_element() const;
   struct Selection {
@@ -169,7 +170,7 @@ class Dataset : public Object {
 
   /// Stored bytes of the chunk that begins at this row.
   std::vector<std::byte> stored_chunk(std::int64_t first) const;
-  void store_chunk(const WrittenRows& rows, std::span<const std::byte> stored);
+  void store_chunk(std::int64_t first, std::span<const std::byte> stored);
 
   Element element_;
 };

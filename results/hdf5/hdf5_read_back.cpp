@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <variant>
@@ -6,13 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "results/hdf5/chunk_transfer.hpp"
 #include "results/hdf5/hdf5_detail.hpp"
 
 namespace zerocount::hdf5 {
 namespace {
-
-constexpr std::size_t chunks_at_once = 64;  ///< what many tasks need; at most 8 MB
 
 AttributeValue read_attribute(const Object& object, const std::string& name, const AttributeValue& like) {
   if (std::holds_alternative<std::string>(like)) return object.text(name);
@@ -30,21 +26,27 @@ void compare_attributes(const Object& object, const WrittenObject& written) {
 void compare_rows(const Dataset& dataset, const std::vector<WrittenRows>& written) {
   if (written.empty()) return;
   const std::size_t width = row_size(dataset.element(), dataset.extent());
-  for (std::size_t first = 0; first < written.size(); first += chunks_at_once) {
-    const auto part = std::span(written).subspan(first, std::min(chunks_at_once, written.size() - first));
-    std::vector<std::vector<std::byte>> bytes;
-    std::vector<RowsToRead> all;
-    for (const WrittenRows& rows : part) {
-      bytes.emplace_back(static_cast<std::size_t>(rows.rows) * width);
-      all.push_back({&dataset, rows.first, rows.rows, bytes.back().data()});
-    }
-    read_rows(all);
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      if (digest_of(bytes[i].data(), bytes[i].size()) == part[i].digest) continue;
-      dataset.fail(fmt::format("rows {} to {} differ", part[i].first, part[i].first + part[i].rows - 1));
+  std::vector<std::byte> bytes;
+  for (const WrittenRows& rows : written) {
+    bytes.resize(static_cast<std::size_t>(rows.rows) * width);
+    dataset.read(rows.first, rows.rows, bytes.data());
+    if (digest_of(bytes.data(), bytes.size()) != rows.digest) {
+      dataset.fail(fmt::format("rows {} to {} differ", rows.first, rows.first + rows.rows - 1));
     }
   }
 }
+
+}  // namespace
+
+void compare_chunks(const Dataset& dataset, std::span<const WrittenChunk> written) {
+  for (const WrittenChunk& chunk : written) {
+    const std::vector<std::byte> stored = dataset.stored_chunk(chunk.first);
+    if (digest_of(stored.data(), stored.size()) != chunk.digest)
+      dataset.fail(fmt::format("the rows from {} on differ", chunk.first));
+  }
+}
+
+namespace {
 
 void compare_scales(const Group& root, const Dataset& dataset, const WrittenObject& written) {
   if (written.is_scale && !dataset.is_scale()) dataset.fail("it is no axis any more");
@@ -58,6 +60,7 @@ void compare_scales(const Group& root, const Dataset& dataset, const WrittenObje
 void compare_dataset(const Group& root, const Dataset& dataset, const WrittenObject& written) {
   compare_attributes(dataset, written);
   compare_rows(dataset, written.rows);
+  compare_chunks(dataset, written.chunks);
   if (!written.texts.empty() && dataset.read_texts() != written.texts) dataset.fail("its texts differ");
   compare_scales(root, dataset, written);
 }

@@ -24,6 +24,9 @@ double samples_per_trial(const study::Study& study);
 /// Memory of a result, bytes.
 std::size_t bytes_of(const shards::TrialResult& result);
 
+/// Number of threads where `asked` were asked for; 0: all that the machine has.
+int threads_to_use(int asked);
+
 /// Estimate of the peak memory of run_trials over the whole study, bytes.
 /// @param bytes_of_trial mean of bytes_of(), without traces @param record_bytes bytes of all traces
 /// @param threads 0: all cores

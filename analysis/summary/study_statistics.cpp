@@ -165,20 +165,25 @@ measures::TheoryPrediction point_prediction(const study::Study& study, std::int6
                                       std::plus{});
 }
 
-std::vector<measures::TheoryPrediction> study_predictions(const study::Study& study) {
-  std::vector<measures::TheoryPrediction> predictions;
-  predictions.reserve(study.point_labels.size());
-  for (std::int64_t point = 0; point < study::point_count(study); ++point)
-    predictions.push_back(point_prediction(study, point, study.trials));
+std::vector<measures::TheoryPrediction> study_predictions(
+    const study::Study& study, std::span<const measures::TheoryPrediction> known) {
+  std::vector<measures::TheoryPrediction> predictions(known.begin(), known.end());
+  predictions.resize(static_cast<std::size_t>(study::point_count(study)));
+  for (std::size_t point = 0; point < predictions.size(); ++point) {
+    if (predictions[point].trials != study.trials)
+      predictions[point] = point_prediction(study, static_cast<std::int64_t>(point), study.trials);
+  }
   return predictions;
 }
 
-layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study) {
+layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study,
+                                           std::span<const measures::TheoryPrediction> predictions) {
   const std::vector<measures::PointSummary> points = study_statistics(file, study);
   layout::StoredStatistics stored;
   stored.points = measures::point_columns(points, study.features, file.table());
-  const std::vector<layout::PointColumn> predictions = measures::prediction_columns(study_predictions(study));
-  stored.points.insert(stored.points.end(), predictions.begin(), predictions.end());
+  const std::vector<layout::PointColumn> predicted =
+      measures::prediction_columns(study_predictions(study, predictions));
+  stored.points.insert(stored.points.end(), predicted.begin(), predicted.end());
   if (study.open_loop) {
     stored.tables.push_back(measures::level_table(points, file.table()));
   }

@@ -184,9 +184,9 @@ double peak_memory(const study::Study& study, double bytes_of_trial, double reco
          bytes_of_trial * std::min(in_work + 2.0 * waiting, 3.0 * static_cast<double>(rows));
 }
 
-std::vector<shards::ShardInfo> run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
-                                          const std::filesystem::path& directory, const RunSettings& settings,
-                                          std::stop_token stop) {
+FinishedTrials run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
+                          const std::filesystem::path& directory, const RunSettings& settings,
+                          std::stop_token stop) {
   namespace tbb = oneapi::tbb;
   const int threads = threads_to_use(settings.threads);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
@@ -221,14 +221,20 @@ std::vector<shards::ShardInfo> run_trials(const study::Study& study, std::span<c
   };
   tbb::task_arena(threads).execute(pipeline);
   writer.flush();
-  return writer.written();
+  FinishedTrials finished{writer.written(), {}};
+  finished.predictions.resize(static_cast<std::size_t>(study::point_count(study)));
+  for (const TrialRunner& runner : runners) {
+    for (std::size_t point = 0; point < finished.predictions.size(); ++point)
+      finished.predictions[point] = finished.predictions[point] + runner.predictions()[point];
+  }
+  return finished;
 }
 
 void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
               const std::filesystem::path& output, layout::RowRange rows,
-              const shards::Renumbering& renumber) {
+              std::span<const measures::TheoryPrediction> predictions, const shards::Renumbering& renumber) {
   const auto statistics = [&](const reading::StudyFile& file) {
-    return summary::stored_statistics(file, study);
+    return summary::stored_statistics(file, study, predictions);
   };
   shards::merge_shards(shards, study, output, rows, statistics, layout::current_provenance(), renumber);
 }

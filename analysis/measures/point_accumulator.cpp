@@ -50,9 +50,8 @@ void require_kind(const trial::MoveOutcome& move, bool open_loop) {
 std::vector<MeasureStatistics> statistics_of(const std::vector<MeasureAccumulator>& measures,
                                              const StatisticsOptions& options) {
   std::vector<MeasureStatistics> statistics(measures.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, measures.size(), [&](std::size_t i) {
-    statistics[i] = measures[i].statistics(options);
-  });
+  oneapi::tbb::parallel_for(std::size_t{0}, measures.size(),
+                            [&](std::size_t i) { statistics[i] = measures[i].statistics(options); });
   return statistics;
 }
 

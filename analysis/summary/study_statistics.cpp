@@ -119,8 +119,8 @@ void StudyAccumulator::add(const reading::StudyFile& file, layout::RowRange rows
   for (layout::RowRange block{rows.first, 0}; block.first < rows.end(); block.first = block.end()) {
     // Blocks of the file's chunks, cut at the end of a point.
     const std::int64_t in_file = block.first - file.rows().first;
-    block.count = std::min({at_once - in_file % at_once, study_.trials - block.first % study_.trials,
-                            rows.end() - block.first});
+    block.count = std::min(
+        {at_once - in_file % at_once, study_.trials - block.first % study_.trials, rows.end() - block.first});
     while (!point_ || std::ssize(points_) < block.first / study_.trials) begin_point(kind, file.table());
     add_trials(*point_, file, block, jerks);
   }
@@ -165,8 +165,8 @@ measures::TheoryPrediction point_prediction(const study::Study& study, std::int6
                                       std::plus{});
 }
 
-std::vector<measures::TheoryPrediction> study_predictions(
-    const study::Study& study, std::span<const measures::TheoryPrediction> known) {
+std::vector<measures::TheoryPrediction> study_predictions(const study::Study& study,
+                                                          std::span<const measures::TheoryPrediction> known) {
   std::vector<measures::TheoryPrediction> predictions(known.begin(), known.end());
   predictions.resize(static_cast<std::size_t>(study::point_count(study)));
   for (std::size_t point = 0; point < predictions.size(); ++point) {

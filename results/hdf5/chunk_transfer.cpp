@@ -133,7 +133,8 @@ std::vector<std::byte> Dataset::stored_chunk(std::int64_t first) const {
   std::vector<std::byte> stored(size);
   std::uint32_t skipped_filters = 0;
   if (size > 0)
-    require(H5Dread_chunk(id(), H5P_DEFAULT, place.data(), &skipped_filters, stored.data()), unreadable_values);
+    require(H5Dread_chunk(id(), H5P_DEFAULT, place.data(), &skipped_filters, stored.data()),
+            unreadable_values);
   if (skipped_filters != 0) stored.clear();
   return stored;
 }
@@ -167,7 +168,8 @@ void write_rows(std::span<const RowsToWrite> all) {
     if (job.damaged) request.dataset->fail("its values do not decode to what was encoded");
     request.dataset->store_chunk(request.first + job.offset, job.stored);
   };
-  run_jobs(jobs, [](ChunkJob&) {}, encode, store);
+  run_jobs(
+      jobs, [](ChunkJob&) {}, encode, store);
 }
 
 void read_rows(std::span<const RowsToRead> all) {

@@ -154,8 +154,9 @@ void run_rows(const RunRequest& request, study_run::ExistingUse existing, const 
 
 ExitCode run(const command_line::Arguments& arguments) {
   const RunRequest request = run_request(arguments);
-  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
-                                          static_cast<std::size_t>(study_run::threads_to_use(request.threads)));
+  const oneapi::tbb::global_control limit(
+      oneapi::tbb::global_control::max_allowed_parallelism,
+      static_cast<std::size_t>(study_run::threads_to_use(request.threads)));
   print_warnings(request.study);
   const study_run::InterruptionWatch interruption;
   const storage::OutputLock lock(request.output);

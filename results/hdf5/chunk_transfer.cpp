@@ -61,7 +61,14 @@ std::size_t bytes_in(const ChunkJob& job) {
 template <class Fetch, class Work, class Store>
 void run_jobs(std::vector<ChunkJob>& jobs, const Fetch& fetch, const Work& work, const Store& store) {
   namespace tbb = oneapi::tbb;
-  if (jobs.empty()) return;
+  if (jobs.size() < 2) {
+    for (ChunkJob& job : jobs) {
+      fetch(job);
+      work(job);
+      store(job);
+    }
+    return;
+  }
   std::mutex library;
   std::size_t next = 0;
   const auto first_stage = [&](tbb::flow_control& control) -> ChunkJob* {

@@ -83,13 +83,9 @@ class ShardWriter {
     for (const shards::TrialResult& result : block) bytes_ += bytes_of(result);
     waiting_.insert(waiting_.end(), std::make_move_iterator(block.begin()),
                     std::make_move_iterator(block.end()));
-    const bool full = waiting_.size() >= max_trials_per_shard || bytes_ >= max_bytes_per_shard;
+    if (waiting_.size() < max_trials_per_shard && bytes_ < max_bytes_per_shard && !waited_enough()) return;
     const std::size_t in_chunks = trials_in_chunks();
-    if (in_chunks > 0 && (full || waited() >= 1.0)) {
-      write(in_chunks);
-    } else if (full || waited() >= 2.0) {
-      flush();
-    }
+    write(in_chunks > 0 ? in_chunks : waiting_.size());
   }
 
   void flush() {
@@ -103,11 +99,10 @@ class ShardWriter {
   std::filesystem::path directory_;
   layout::Provenance provenance_;
 
-  /// Age of the oldest trial that waits, as a multiple of the age at which a shard is written.
-  double waited() const {
+  bool waited_enough() const {
     const Clock::time_point now = Clock::now();
     const std::chrono::duration<double> proportion = 0.1 * (now - run_begun_);
-    return (now - begun_) / std::clamp(proportion, shortest_wait, longest_wait);
+    return now - begun_ >= std::clamp(proportion, shortest_wait, longest_wait);
   }
 
   /// Number of the waiting trials up to the end of the last whole chunk of a whole study.

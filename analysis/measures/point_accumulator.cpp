@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "core/failure/failure.hpp"
 #include "core/numerics/sign.hpp"
@@ -48,9 +49,9 @@ void require_kind(const trial::MoveOutcome& move, bool open_loop) {
 
 std::vector<MeasureStatistics> statistics_of(const std::vector<MeasureAccumulator>& measures,
                                              const StatisticsOptions& options) {
-  std::vector<MeasureStatistics> statistics;
-  statistics.reserve(measures.size());
-  for (const MeasureAccumulator& measure : measures) statistics.push_back(measure.statistics(options));
+  std::vector<MeasureStatistics> statistics(measures.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, measures.size(),
+                            [&](std::size_t i) { statistics[i] = measures[i].statistics(options); });
   return statistics;
 }
 
@@ -82,34 +83,46 @@ PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTa
 }
 
 void PointAccumulator::add(const trial::TrialOutcome& trial, std::span<const trial::Jerk> jerks) {
-  require_move_count(trial.moves.size(), counted_.trials, counted_.by_move.size());
-  add_moves(trial.moves);
+  add_counts(trial.moves, jerks);
+  for (MeasureAccumulator& measure : measures_) measure.add(trial.moves);
+}
+
+void PointAccumulator::add_measures(std::span<const trial::MoveOutcome> moves, std::size_t moves_of_trial) {
+  oneapi::tbb::parallel_for(std::size_t{0}, measures_.size(), [&](std::size_t i) {
+    for (std::size_t first = 0; first < moves.size(); first += moves_of_trial)
+      measures_[i].add(moves.subspan(first, moves_of_trial));
+  });
+}
+
+void PointAccumulator::add_counts(std::span<const trial::MoveOutcome> moves,
+                                  std::span<const trial::Jerk> jerks) {
+  require_move_count(moves.size(), counted_.trials, counted_.by_move.size());
+  add_moves(moves);
   std::size_t next = 0;
-  for (std::size_t move = 0; move < trial.moves.size(); ++move) {
+  for (std::size_t move = 0; move < moves.size(); ++move) {
     const std::size_t first = next;
     while (next < jerks.size() && jerks[next].move == static_cast<std::int64_t>(move)) ++next;
-    add_jerks(trial.moves[move], jerks.subspan(first, next - first));
+    add_jerks(moves[move], jerks.subspan(first, next - first));
   }
   if (next != jerks.size()) {
     throw Failure(
         ExitCode::bad_data,
         fmt::format("jerk {} of a trial is of move {}; expected jerks in order of their moves, 0 to {}", next,
-                    jerks[next].move, trial.moves.size() - 1));
+                    jerks[next].move, moves.size() - 1));
   }
   jerks_ += std::ssize(jerks);
   ++counted_.trials;
 }
 
-void PointAccumulator::add_moves(const std::vector<trial::MoveOutcome>& moves) {
+void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
   counted_.by_move.resize(moves.size());
   for (std::size_t i = 0; i < moves.size(); ++i) {
     require_kind(moves[i], kind_.open_loop);
     ++(counted_.by_move[i].*counter_of(moves[i].outcome));
-    if (kind_.open_loop) add_level(i, std::span(moves).subspan(i, 1));
+    if (kind_.open_loop) add_level(i, moves.subspan(i, 1));
   }
   counted_.moves += std::ssize(moves);
   ++(counted_.outcomes.*counter_of(trial::worst_outcome(moves)));
-  for (MeasureAccumulator& measure : measures_) measure.add(moves);
   if (kind_.open_loop) return;
   if (kind_.rigs > 0) add_to_rig(moves);
   add_trial_settling_time(moves);
@@ -129,7 +142,7 @@ void PointAccumulator::add_level(std::size_t level, std::span<const trial::MoveO
   }
 }
 
-void PointAccumulator::add_to_rig(const std::vector<trial::MoveOutcome>& moves) {
+void PointAccumulator::add_to_rig(std::span<const trial::MoveOutcome> moves) {
   const auto number = static_cast<std::size_t>(counted_.trials % kind_.rigs);
   if (number >= rigs_.size()) rigs_.resize(number + 1);
   statistics::RigTrials& rig = rigs_[number];
@@ -143,7 +156,7 @@ void PointAccumulator::add_to_rig(const std::vector<trial::MoveOutcome>& moves) 
 
 /// The settling time of a trial is that of its slowest move. It is censored if a move did not arrive, or was
 /// not run because a move before it diverged.
-void PointAccumulator::add_trial_settling_time(const std::vector<trial::MoveOutcome>& moves) {
+void PointAccumulator::add_trial_settling_time(std::span<const trial::MoveOutcome> moves) {
   values_.clear();
   if (std::all_of(moves.begin(), moves.end(),
                   [](const trial::MoveOutcome& m) { return trial::was_run(m) && m.arrived; })) {

@@ -87,15 +87,20 @@ class PointAccumulator {
   /// its jerks are out of order or not those that its outcome counts, or its moves are not of the kind.
   void add(const trial::TrialOutcome& trial, std::span<const trial::Jerk> jerks);
 
+  /// The two parts of add(), which may run at the same time: the measures, of many trials with
+  /// `moves_of_trial` moves each, in parallel tasks; and the rest, of one trial.
+  void add_measures(std::span<const trial::MoveOutcome> moves, std::size_t moves_of_trial);
+  void add_counts(std::span<const trial::MoveOutcome> moves, std::span<const trial::Jerk> jerks);
+
   /// The statistics of the trials added so far.
   /// @throws Failure (bad_input) for a confidence outside (0, 1).
   PointSummary statistics(const StatisticsOptions& options = {}) const;
 
  private:
-  void add_moves(const std::vector<trial::MoveOutcome>& moves);
+  void add_moves(std::span<const trial::MoveOutcome> moves);
   void add_level(std::size_t level, std::span<const trial::MoveOutcome> move);
-  void add_to_rig(const std::vector<trial::MoveOutcome>& moves);
-  void add_trial_settling_time(const std::vector<trial::MoveOutcome>& moves);
+  void add_to_rig(std::span<const trial::MoveOutcome> moves);
+  void add_trial_settling_time(std::span<const trial::MoveOutcome> moves);
   void add_jerks(const trial::MoveOutcome& move, std::span<const trial::Jerk> jerks);
   statistics::SuccessClaim claim(const PointSummary& point, const StatisticsOptions& options) const;
 

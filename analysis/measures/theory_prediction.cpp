@@ -29,6 +29,10 @@ void TheoryPrediction::add(const TrialPrediction& trial) {
   outside += !trial.applies;
 }
 
+TheoryPrediction TheoryPrediction::operator+(const TheoryPrediction& other) const {
+  return {trials + other.trials, stable + other.stable, unstable + other.unstable, outside + other.outside};
+}
+
 std::int64_t predicted_trials(const TheoryPrediction& prediction) {
   return prediction.outside == prediction.trials ? 0 : prediction.trials;
 }

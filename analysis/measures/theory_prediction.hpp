@@ -32,6 +32,7 @@ struct TheoryPrediction {
   std::int64_t outside{0};   ///< trials to which the criteria do not apply
 
   void add(const TrialPrediction& trial);
+  TheoryPrediction operator+(const TheoryPrediction& other) const;
 };
 
 /// The denominator of the proportions: all trials, or 0 if the criteria apply to none.

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/parallel_reduce.h>
 
 #include "analysis/iso230/repeatability_file.hpp"
 #include "analysis/measures/point_columns.hpp"
@@ -20,6 +24,7 @@ namespace zerocount::summary {
 namespace {
 
 constexpr std::int64_t jerks_at_once = 65536;
+constexpr std::int64_t trials_of_task = 1024;
 
 [[noreturn]] void fail(const reading::StudyFile& file, const std::string& what) {
   throw Failure(ExitCode::bad_data, fmt::format("{}: {}", file.path().string(), what));
@@ -67,15 +72,30 @@ class JerkStream {
 };
 
 void add_trial(measures::PointAccumulator& point, const reading::StudyFile& file, std::int64_t row,
-               const trial::TrialOutcome& trial, JerkStream& jerk_stream) {
+               std::span<const trial::MoveOutcome> moves, JerkStream& jerk_stream) {
   std::int64_t count = 0;
-  for (const trial::MoveOutcome& move : trial.moves) count += move.jerk_count;
+  for (const trial::MoveOutcome& move : moves) count += move.jerk_count;
   const std::span<const trial::Jerk> jerks = jerk_stream.take(row, count);
   try {
-    point.add(trial, jerks);
+    point.add_counts(moves, jerks);
   } catch (const Failure& failure) {
     fail(file, fmt::format("trial {}: {}", row, failure.what()));
   }
+}
+
+/// Adds the trials `rows` of the file, all of one design point.
+void add_trials(measures::PointAccumulator& point, const reading::StudyFile& file, layout::RowRange rows,
+                JerkStream& jerks) {
+  const std::vector<trial::MoveOutcome> moves = file.outcomes(rows);
+  const auto moves_of_trial = static_cast<std::size_t>(file.moves());
+  oneapi::tbb::parallel_invoke([&] { point.add_measures(moves, moves_of_trial); },
+                               [&] {
+                                 std::span<const trial::MoveOutcome> rest(moves);
+                                 for (std::int64_t row = rows.first; row < rows.end(); ++row) {
+                                   add_trial(point, file, row, rest.first(moves_of_trial), jerks);
+                                   rest = rest.subspan(moves_of_trial);
+                                 }
+                               });
 }
 
 void require_all_trials(const reading::StudyFile& file) {
@@ -95,12 +115,15 @@ StudyAccumulator::StudyAccumulator(const study::Study& study, double confidence,
 void StudyAccumulator::add(const reading::StudyFile& file, layout::RowRange rows) {
   const measures::MoveKind kind{study_.open_loop, file.header().version, study_.rigs};
   JerkStream jerks(file, rows);
-  trial::TrialOutcome trial;
-  measures::visit_trials(file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-    while (!point_ || std::ssize(points_) < row / study_.trials) begin_point(kind, file.table());
-    trial.moves.assign(moves.begin(), moves.end());
-    add_trial(*point_, file, row, trial, jerks);
-  });
+  const std::int64_t at_once = layout::chunk_rows(file.moves());
+  for (layout::RowRange block{rows.first, 0}; block.first < rows.end(); block.first = block.end()) {
+    // Blocks of the file's chunks, cut at the end of a point.
+    const std::int64_t in_file = block.first - file.rows().first;
+    block.count = std::min(
+        {at_once - in_file % at_once, study_.trials - block.first % study_.trials, rows.end() - block.first});
+    while (!point_ || std::ssize(points_) < block.first / study_.trials) begin_point(kind, file.table());
+    add_trials(*point_, file, block, jerks);
+  }
   if (!jerks.at_end()) fail(file, "jerks are recorded beyond those that the trials counted");
 }
 
@@ -132,26 +155,35 @@ std::vector<measures::PointSummary> study_statistics(const reading::StudyFile& f
 
 measures::TheoryPrediction point_prediction(const study::Study& study, std::int64_t point,
                                             std::int64_t trials) {
-  measures::TheoryPrediction prediction;
-  for (std::int64_t index = 0; index < trials; ++index)
-    prediction.add(measures::predict(study::study_trial(study, point, index).parameters));
-  return prediction;
+  using Range = oneapi::tbb::blocked_range<std::int64_t>;
+  const auto add = [&](const Range& indices, measures::TheoryPrediction prediction) {
+    for (std::int64_t index = indices.begin(); index < indices.end(); ++index)
+      prediction.add(measures::predict(study::study_trial(study, point, index).parameters));
+    return prediction;
+  };
+  return oneapi::tbb::parallel_reduce(Range(0, trials, trials_of_task), measures::TheoryPrediction{}, add,
+                                      std::plus{});
 }
 
-std::vector<measures::TheoryPrediction> study_predictions(const study::Study& study) {
-  std::vector<measures::TheoryPrediction> predictions;
-  predictions.reserve(study.point_labels.size());
-  for (std::int64_t point = 0; point < study::point_count(study); ++point)
-    predictions.push_back(point_prediction(study, point, study.trials));
+std::vector<measures::TheoryPrediction> study_predictions(const study::Study& study,
+                                                          std::span<const measures::TheoryPrediction> known) {
+  std::vector<measures::TheoryPrediction> predictions(known.begin(), known.end());
+  predictions.resize(static_cast<std::size_t>(study::point_count(study)));
+  for (std::size_t point = 0; point < predictions.size(); ++point) {
+    if (predictions[point].trials != study.trials)
+      predictions[point] = point_prediction(study, static_cast<std::int64_t>(point), study.trials);
+  }
   return predictions;
 }
 
-layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study) {
+layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study,
+                                           std::span<const measures::TheoryPrediction> predictions) {
   const std::vector<measures::PointSummary> points = study_statistics(file, study);
   layout::StoredStatistics stored;
   stored.points = measures::point_columns(points, study.features, file.table());
-  const std::vector<layout::PointColumn> predictions = measures::prediction_columns(study_predictions(study));
-  stored.points.insert(stored.points.end(), predictions.begin(), predictions.end());
+  const std::vector<layout::PointColumn> predicted =
+      measures::prediction_columns(study_predictions(study, predictions));
+  stored.points.insert(stored.points.end(), predicted.begin(), predicted.end());
   if (study.open_loop) {
     stored.tables.push_back(measures::level_table(points, file.table()));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "analysis/measures/point_accumulator.hpp"
@@ -57,11 +58,14 @@ measures::TheoryPrediction point_prediction(const study::Study& study, std::int6
                                             std::int64_t trials);
 
 /// The same of all trials of every point, [point].
-std::vector<measures::TheoryPrediction> study_predictions(const study::Study& study);
+/// @param known [point] what is known already; it is used where it is of all trials of the point.
+std::vector<measures::TheoryPrediction> study_predictions(
+    const study::Study& study, std::span<const measures::TheoryPrediction> known = {});
 
 /// Everything that the results file stores of its statistics: point_columns, prediction_columns, and the
 /// levels of an open-loop study. All bounds have 95 %.
-/// @param file holds all trials of `study`.
-layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study);
+/// @param file holds all trials of `study`. @param predictions see study_predictions
+layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const study::Study& study,
+                                           std::span<const measures::TheoryPrediction> predictions = {});
 
 }  // namespace zerocount::summary

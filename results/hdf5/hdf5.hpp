@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/failure/failure.hpp"
+#include "results/hdf5/chunk_filters.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/hdf5/written_values.hpp"
 
@@ -115,15 +117,31 @@ struct Storage {
   Compression compression{Compression::deflate};
 };
 
+struct RowsToWrite;
+struct RowsToRead;
+struct RowsToCopy;
+
+/// Chunks of whole rows.
+struct ChunkShape {
+  std::int64_t rows{0};
+  std::size_t row_size{0};  ///< bytes of the elements of a row
+  ChunkFilters filters;
+
+  bool operator==(const ChunkShape&) const = default;
+};
+
 class Dataset : public Object {
  public:
   Element element() const { return element_; }
   std::vector<Size> extent() const;
 
   /// Rows [first, first + rows) of the first dimension, whole in the others; `data` holds elements of type
-  /// element().
+  /// element(). For several datasets at a time: chunk_transfer.hpp.
   void write(std::int64_t first, std::int64_t rows, const void* data);
   void read(std::int64_t first, std::int64_t rows, void* data) const;
+
+  /// None if the chunks have a part of the rows, or filters other than those of chunk_filters.hpp.
+  std::optional<ChunkShape> chunk_shape() const;
 
   void write_texts(std::span<const std::string> texts);
   std::vector<std::string> read_texts() const;
@@ -135,13 +153,24 @@ class Dataset : public Object {
 
  private:
   friend class Group;
+  friend void write_rows(std::span<const RowsToWrite> all);
+  friend void read_rows(std::span<const RowsToRead> all);
+  friend void copy_rows(std::span<const RowsToCopy> all);
+  friend void compare_chunks(const Dataset& dataset, std::span<const WrittenChunk> written);
   Dataset(Handle handle, std::shared_ptr<Origin> origin, std::string path);
   Element stored_element() const;
   struct Selection {
     Handle file;
     Handle memory;
   };
+  void require_rows(std::int64_t first, std::int64_t rows) const;
   Selection select(std::int64_t first, std::int64_t rows) const;
+  void write_by_library(std::int64_t first, std::int64_t rows, const void* data);
+  void read_by_library(std::int64_t first, std::int64_t rows, void* data) const;
+
+  /// Stored bytes of the chunk that begins at this row.
+  std::vector<std::byte> stored_chunk(std::int64_t first) const;
+  void store_chunk(std::int64_t first, std::span<const std::byte> stored);
 
   Element element_;
 };

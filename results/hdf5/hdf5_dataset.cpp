@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "results/hdf5/chunk_transfer.hpp"
 #include "results/hdf5/hdf5_detail.hpp"
 
 namespace zerocount::hdf5 {
@@ -28,13 +29,17 @@ std::vector<Size> Dataset::extent() const {
   return extent;
 }
 
-Dataset::Selection Dataset::select(std::int64_t first, std::int64_t rows) const {
-  std::vector<Size> count = extent();
+void Dataset::require_rows(std::int64_t first, std::int64_t rows) const {
+  const std::vector<Size> count = extent();
   if (count.empty() || first < 0 || rows < 0 ||
       static_cast<Size>(first) + static_cast<Size>(rows) > count[0]) {
     fail(fmt::format("it has {} rows; rows {} to {} were expected", count.empty() ? 0 : count[0], first,
                      first + rows));
   }
+}
+
+Dataset::Selection Dataset::select(std::int64_t first, std::int64_t rows) const {
+  std::vector<Size> count = extent();
   count[0] = static_cast<Size>(rows);
   std::vector<Size> start(count.size(), 0);
   start[0] = static_cast<Size>(first);
@@ -48,6 +53,14 @@ Dataset::Selection Dataset::select(std::int64_t first, std::int64_t rows) const 
 }
 
 void Dataset::write(std::int64_t first, std::int64_t rows, const void* data) {
+  write_rows({{RowsToWrite{this, first, rows, data}}});
+}
+
+void Dataset::read(std::int64_t first, std::int64_t rows, void* data) const {
+  read_rows({{RowsToRead{this, first, rows, data}}});
+}
+
+void Dataset::write_by_library(std::int64_t first, std::int64_t rows, const void* data) {
   const Selection selection = select(first, rows);
   require(H5Dwrite(id(), types_of(element_).memory, selection.memory.get(), selection.file.get(), H5P_DEFAULT,
                    data),
@@ -56,11 +69,11 @@ void Dataset::write(std::int64_t first, std::int64_t rows, const void* data) {
   written().rows.push_back({first, rows, digest_of(data, size)});
 }
 
-void Dataset::read(std::int64_t first, std::int64_t rows, void* data) const {
+void Dataset::read_by_library(std::int64_t first, std::int64_t rows, void* data) const {
   const Selection selection = select(first, rows);
   require(H5Dread(id(), types_of(element_).memory, selection.memory.get(), selection.file.get(), H5P_DEFAULT,
                   data),
-          "its values cannot be read or their checksum is wrong");
+          unreadable_values);
 }
 
 void Dataset::write_texts(std::span<const std::string> texts) {

@@ -54,6 +54,8 @@ Handle text_type();
 /// Properties of a new file, group or dataset: creation order tracked, no times.
 Handle creation_properties(Id kind);
 
+inline constexpr std::string_view unreadable_values = "its values cannot be read or their checksum is wrong";
+
 /// Bytes of a row of a dataset with this extent: its first dimension counts the rows.
 std::size_t row_size(Element element, std::span<const Size> extent);
 

@@ -1,4 +1,5 @@
 #include <cstddef>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -35,6 +36,18 @@ void compare_rows(const Dataset& dataset, const std::vector<WrittenRows>& writte
   }
 }
 
+}  // namespace
+
+void compare_chunks(const Dataset& dataset, std::span<const WrittenChunk> written) {
+  for (const WrittenChunk& chunk : written) {
+    const std::vector<std::byte> stored = dataset.stored_chunk(chunk.first);
+    if (digest_of(stored.data(), stored.size()) != chunk.digest)
+      dataset.fail(fmt::format("the rows from {} on differ", chunk.first));
+  }
+}
+
+namespace {
+
 void compare_scales(const Group& root, const Dataset& dataset, const WrittenObject& written) {
   if (written.is_scale && !dataset.is_scale()) dataset.fail("it is no axis any more");
   for (const auto& [dimension, path] : written.scales) {
@@ -47,6 +60,7 @@ void compare_scales(const Group& root, const Dataset& dataset, const WrittenObje
 void compare_dataset(const Group& root, const Dataset& dataset, const WrittenObject& written) {
   compare_attributes(dataset, written);
   compare_rows(dataset, written.rows);
+  compare_chunks(dataset, written.chunks);
   if (!written.texts.empty() && dataset.read_texts() != written.texts) dataset.fail("its texts differ");
   compare_scales(root, dataset, written);
 }

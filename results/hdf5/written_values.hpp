@@ -20,10 +20,17 @@ struct WrittenRows {
   std::size_t digest{0};  ///< of the bytes of their elements
 };
 
+/// A chunk of a dataset whose filters we have applied.
+struct WrittenChunk {
+  std::int64_t first{0};  ///< its first row
+  std::size_t digest{0};  ///< of the stored bytes
+};
+
 /// A group or a dataset.
 struct WrittenObject {
   std::map<std::string, AttributeValue> attributes;
   std::vector<WrittenRows> rows;
+  std::vector<WrittenChunk> chunks;
   std::vector<std::string> texts;  ///< all elements of a dataset of texts
   bool is_scale{false};
   std::vector<std::pair<unsigned, std::string>> scales;  ///< dimension, and the path of its scale

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "results/hdf5/chunk_transfer.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/fields.hpp"
 #include "results/layout/layout.hpp"
@@ -71,9 +73,18 @@ std::vector<Value> read_column(const TableIo& io, std::size_t index) {
 template <class Record>
 void write_records(TableIo& io, const std::vector<RecordField<Record>>& fields, std::int64_t first,
                    std::span<const Record> records) {
-  const std::int64_t rows = static_cast<std::int64_t>(records.size()) / io.width();
-  for (std::size_t index = 0; index < fields.size(); ++index) {
-    io.column(index).write(first, rows, gather(fields[index], records).data());
+  const auto chunk = static_cast<std::size_t>(chunk_rows(io.width()) * io.width());
+  for (; !records.empty(); records = records.subspan(std::min(chunk, records.size()))) {
+    const std::span<const Record> part = records.first(std::min(chunk, records.size()));
+    const std::int64_t rows = std::ssize(part) / io.width();
+    std::vector<std::vector<std::byte>> bytes;
+    std::vector<hdf5::RowsToWrite> columns;
+    for (std::size_t index = 0; index < fields.size(); ++index) {
+      bytes.push_back(gather(fields[index], part));
+      columns.push_back({&io.column(index), first, rows, bytes.back().data()});
+    }
+    hdf5::write_rows(columns);
+    first += rows;
   }
 }
 
@@ -81,11 +92,15 @@ template <class Record>
 std::vector<Record> read_records(const TableIo& io, const std::vector<RecordField<Record>>& fields,
                                  std::int64_t first, std::int64_t rows) {
   std::vector<Record> records(static_cast<std::size_t>(rows * io.width()));
+  std::vector<std::vector<std::byte>> bytes;
+  std::vector<hdf5::RowsToRead> columns;
   for (std::size_t index = 0; index < fields.size(); ++index) {
-    std::vector<std::byte> bytes(records.size() * hdf5::size_of(fields[index].column.element));
-    io.column(index).read(first, rows, bytes.data());
-    scatter(fields[index], bytes, std::span(records));
+    bytes.emplace_back(records.size() * hdf5::size_of(fields[index].column.element));
+    columns.push_back({&io.column(index), first, rows, bytes.back().data()});
   }
+  hdf5::read_rows(columns);
+  for (std::size_t index = 0; index < fields.size(); ++index)
+    scatter(fields[index], bytes[index], std::span(records));
   return records;
 }
 

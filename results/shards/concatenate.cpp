@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "results/hdf5/chunk_transfer.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/layout/table_io.hpp"
 
@@ -36,20 +39,74 @@ std::vector<Source> find_sources(const layout::Table& table, std::span<const Sha
 /// The bytes of some rows, by column.
 using Block = std::vector<std::vector<std::byte>>;
 
-/// Reads the rows of `wanted` that `source` holds into `block`.
-void read_overlap(const layout::Table& table, const Source& source, layout::RowRange wanted,
-                  std::int64_t width, Block& block) {
-  const std::int64_t first = std::max(source.rows.first, wanted.first);
-  const std::int64_t count = std::min(source.rows.end(), wanted.end()) - first;
-  if (count <= 0) return;
-  const hdf5::File file = hdf5::File::open_to_read(source.path);
-  const layout::TableIo io = layout::TableIo::open(file, table);
-  for (std::size_t index = 0; index < table.columns.size(); ++index) {
-    const auto offset = static_cast<std::size_t>((first - wanted.first) * width) *
-                        hdf5::size_of(table.columns[index].element);
-    io.column(index).read(first - source.rows.first, count, block[index].data() + offset);
+/// The tables of the shards. The last one read stays open, because the next rows are mostly in it, too.
+class Sources {
+ public:
+  Sources(const layout::Table& table, std::vector<Source> sources)
+      : table_(table), sources_(std::move(sources)) {}
+
+  std::int64_t rows() const { return sources_.empty() ? 0 : sources_.back().rows.end(); }
+
+  /// Copies the rows `wanted` of these columns to `out` as they are stored. False if that is not possible,
+  /// because they are not whole chunks of one shard.
+  bool copy_chunks(layout::RowRange wanted, layout::TableIo& out) {
+    const std::size_t index = index_of(wanted.first);
+    const Source& source = sources_[index];
+    if (wanted.end() > source.rows.end()) return false;
+    const layout::TableIo& io = open(index);
+    std::vector<hdf5::RowsToCopy> columns;
+    for (std::size_t column = 0; column < table_.columns.size(); ++column) {
+      columns.push_back({&out.column(column), wanted.first, wanted.count, &io.column(column),
+                         wanted.first - source.rows.first});
+    }
+    if (!std::all_of(columns.begin(), columns.end(), hdf5::have_same_chunks)) return false;
+    hdf5::copy_rows(columns);
+    return true;
   }
-}
+
+  void read(layout::RowRange wanted, std::int64_t width, Block& block) {
+    for (std::size_t index = index_of(wanted.first);
+         index < sources_.size() && sources_[index].rows.first < wanted.end(); ++index) {
+      const Source& source = sources_[index];
+      const std::int64_t first = std::max(source.rows.first, wanted.first);
+      const std::int64_t count = std::min(source.rows.end(), wanted.end()) - first;
+      if (count <= 0) continue;
+      const layout::TableIo& io = open(index);
+      std::vector<hdf5::RowsToRead> columns;
+      for (std::size_t column = 0; column < table_.columns.size(); ++column) {
+        const auto offset = static_cast<std::size_t>((first - wanted.first) * width) *
+                            hdf5::size_of(table_.columns[column].element);
+        columns.push_back(
+            {&io.column(column), first - source.rows.first, count, block[column].data() + offset});
+      }
+      hdf5::read_rows(columns);
+    }
+  }
+
+ private:
+  /// Of the source with this row.
+  std::size_t index_of(std::int64_t row) {
+    while (sources_[next_].rows.end() <= row) ++next_;
+    return next_;
+  }
+
+  const layout::TableIo& open(std::size_t index) {
+    if (open_ != index) {
+      io_.reset();
+      file_.emplace(hdf5::File::open_to_read(sources_[index].path));
+      io_.emplace(layout::TableIo::open(*file_, table_));
+      open_ = index;
+    }
+    return *io_;
+  }
+
+  const layout::Table& table_;
+  std::vector<Source> sources_;
+  std::size_t next_{0};  ///< index of the first source whose rows are needed
+  std::optional<std::size_t> open_;
+  std::optional<hdf5::File> file_;
+  std::optional<layout::TableIo> io_;
+};
 
 void renumber_trials(const layout::Table& table, const Renumbering& renumber, Block& block) {
   for (std::size_t index = 0; index < table.columns.size(); ++index) {
@@ -67,27 +124,24 @@ void renumber_trials(const layout::Table& table, const Renumbering& renumber, Bl
 
 void concatenate(hdf5::File& file, const layout::Table& table, std::span<const ShardInfo> shards,
                  std::int64_t width, std::int64_t first_number, const Renumbering& renumber) {
-  const std::vector<Source> sources = find_sources(table, shards, width);
-  const std::int64_t rows = sources.empty() ? 0 : sources.back().rows.end();
+  Sources sources(table, find_sources(table, shards, width));
+  const std::int64_t rows = sources.rows();
   layout::TableIo out = layout::TableIo::create(file, table, rows, width);
   out.number_rows(first_number);
   Block block(table.columns.size());
-  std::size_t next = 0;
   for (layout::RowRange wanted; wanted.first < rows; wanted.first = wanted.end()) {
     wanted.count = std::min(layout::chunk_rows(width), rows - wanted.first);
+    if (!renumber && sources.copy_chunks(wanted, out)) continue;
     for (std::size_t index = 0; index < block.size(); ++index) {
       block[index].resize(static_cast<std::size_t>(wanted.count * width) *
                           hdf5::size_of(table.columns[index].element));
     }
-    while (sources[next].rows.end() <= wanted.first) ++next;
-    for (std::size_t source = next; source < sources.size() && sources[source].rows.first < wanted.end();
-         ++source) {
-      read_overlap(table, sources[source], wanted, width, block);
-    }
+    sources.read(wanted, width, block);
     if (renumber) renumber_trials(table, renumber, block);
-    for (std::size_t index = 0; index < block.size(); ++index) {
-      out.column(index).write(wanted.first, wanted.count, block[index].data());
-    }
+    std::vector<hdf5::RowsToWrite> columns;
+    for (std::size_t index = 0; index < block.size(); ++index)
+      columns.push_back({&out.column(index), wanted.first, wanted.count, block[index].data()});
+    hdf5::write_rows(columns);
   }
 }
 

@@ -15,7 +15,8 @@ using Renumbering = std::function<std::int64_t(std::int64_t row)>;
 
 /// Creates `table` in `file` and fills it with the rows of that table in the shards, in their order.
 ///
-/// Copies blocks of one chunk per column, so that memory is bounded and the order of writing does not depend
+/// Copies chunks as they are stored where a shard has the same chunks. Otherwise copies blocks of one chunk
+/// per column, so that memory is bounded and the order of writing does not depend
 /// on how the rows are divided among the shards.
 /// @param width        size of the second dimension, 1 if the table has none
 /// @param first_number first value of the scale of the rows

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
 
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
@@ -132,7 +133,7 @@ void run_rows(const RunRequest& request, study_run::ExistingUse existing, const 
   study_run::RunSettings settings;
   settings.threads = request.threads;
   settings.finished = [&](std::int64_t trials) { progress.update(done += trials); };
-  const std::vector<shards::ShardInfo> written =
+  const study_run::FinishedTrials finished =
       study_run::run_trials(request.study, missing, directory, settings, stop);
   progress.finish(done);
 
@@ -143,16 +144,19 @@ void run_rows(const RunRequest& request, study_run::ExistingUse existing, const 
                     wanted.count, directory.string()));
   }
   std::vector<shards::ShardInfo> shards = std::move(earlier.usable);
-  shards.insert(shards.end(), written.begin(), written.end());
+  shards.insert(shards.end(), finished.shards.begin(), finished.shards.end());
   shards::sort_by_rows(shards);
-  study_run::assemble(shards, request.study, request.output, wanted);
-  for (const shards::ShardInfo& shard : written) earlier.all.push_back(shard.path);
+  study_run::assemble(shards, request.study, request.output, wanted, finished.predictions);
+  for (const shards::ShardInfo& shard : finished.shards) earlier.all.push_back(shard.path);
   study_run::remove_shards(directory, earlier.all);
   if (!request.quiet) fmt::print(stderr, "wrote {}\n", request.output.string());
 }
 
 ExitCode run(const command_line::Arguments& arguments) {
   const RunRequest request = run_request(arguments);
+  const oneapi::tbb::global_control limit(
+      oneapi::tbb::global_control::max_allowed_parallelism,
+      static_cast<std::size_t>(study_run::threads_to_use(request.threads)));
   print_warnings(request.study);
   const study_run::InterruptionWatch interruption;
   const storage::OutputLock lock(request.output);

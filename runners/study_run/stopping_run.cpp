@@ -115,7 +115,7 @@ void assemble_decided(const std::vector<shards::ShardInfo>& shards, const study:
   for (const shards::ShardInfo& shard : shards) {
     renumbered.push_back({shard.path, {renumber(shard.rows.first), shard.rows.count}});
   }
-  assemble(renumbered, decided, output, layout::all_rows(decided), renumber);
+  assemble(renumbered, decided, output, layout::all_rows(decided), {}, renumber);
 }
 
 }  // namespace
@@ -142,7 +142,8 @@ ExitCode run_until_sure(const study::Study& study, const fs::path& output,
     trials = std::min(trials + study.stop->block, study.trials);
     const std::vector<layout::RowRange> ranges = missing(study, shards, trials);
     const std::int64_t before = done;
-    for (shards::ShardInfo& shard : run_trials(study, ranges, directory, run, stop)) {
+    FinishedTrials finished = run_trials(study, ranges, directory, run, stop);
+    for (shards::ShardInfo& shard : finished.shards) {
       successes.add(shard);
       shards.push_back(std::move(shard));
     }

@@ -14,6 +14,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "analysis/summary/study_statistics.hpp"
+#include "results/layout/table_io.hpp"
 #include "results/shards/merge.hpp"
 #include "runners/study_run/trial_runner.hpp"
 
@@ -65,6 +66,9 @@ class BlockSource {
 };
 
 /// Collects finished trials in order of rows and writes them as shards.
+///
+/// A shard ends at the end of a chunk of the results file if it can: the file then takes over its compressed
+/// chunks. The other shards are not compressed, because their values are compressed again for the file.
 class ShardWriter {
  public:
   using Clock = std::chrono::steady_clock;
@@ -79,16 +83,13 @@ class ShardWriter {
     for (const shards::TrialResult& result : block) bytes_ += bytes_of(result);
     waiting_.insert(waiting_.end(), std::make_move_iterator(block.begin()),
                     std::make_move_iterator(block.end()));
-    if (waiting_.size() >= max_trials_per_shard || bytes_ >= max_bytes_per_shard || waited_enough()) flush();
+    if (waiting_.size() < max_trials_per_shard && bytes_ < max_bytes_per_shard && !waited_enough()) return;
+    const std::size_t in_chunks = trials_in_chunks();
+    write(in_chunks > 0 ? in_chunks : waiting_.size());
   }
 
   void flush() {
-    if (waiting_.empty()) return;
-    const layout::RowRange rows{waiting_.front().row, static_cast<std::int64_t>(waiting_.size())};
-    written_.push_back({shards::shard_path(directory_, rows), rows});
-    shards::write_shard(written_.back().path, study_, rows.first, waiting_, provenance_);
-    waiting_.clear();
-    bytes_ = 0;
+    if (!waiting_.empty()) write(waiting_.size());
   }
 
   const std::vector<shards::ShardInfo>& written() const { return written_; }
@@ -97,10 +98,32 @@ class ShardWriter {
   const study::Study& study_;
   std::filesystem::path directory_;
   layout::Provenance provenance_;
+
   bool waited_enough() const {
     const Clock::time_point now = Clock::now();
     const std::chrono::duration<double> proportion = 0.1 * (now - run_begun_);
     return now - begun_ >= std::clamp(proportion, shortest_wait, longest_wait);
+  }
+
+  /// Number of the waiting trials up to the end of the last whole chunk of a whole study.
+  std::size_t trials_in_chunks() const {
+    const std::int64_t first = waiting_.front().row;
+    const std::int64_t end = first + std::ssize(waiting_);
+    return static_cast<std::size_t>(std::max<std::int64_t>(end - end % layout::chunk_elements - first, 0));
+  }
+
+  /// Writes the first `count` of the waiting trials.
+  void write(std::size_t count) {
+    const std::span<const shards::TrialResult> trials = std::span(waiting_).first(count);
+    const layout::RowRange rows{trials.front().row, std::ssize(trials)};
+    const bool in_chunks = rows.first % layout::chunk_elements == 0 && trials_in_chunks() > 0;
+    written_.push_back({shards::shard_path(directory_, rows), rows});
+    shards::write_shard(written_.back().path, study_, rows.first, trials, provenance_,
+                        in_chunks ? hdf5::Compression::deflate : hdf5::Compression::none);
+    waiting_.erase(waiting_.begin(), waiting_.begin() + std::ssize(trials));
+    bytes_ = 0;
+    for (const shards::TrialResult& trial : waiting_) bytes_ += bytes_of(trial);
+    begun_ = Clock::now();
   }
 
   std::vector<shards::TrialResult> waiting_;
@@ -120,11 +143,11 @@ std::int64_t block_size_of(const study::Study& study, std::int64_t rows, int thr
                     std::min(limits.trials, std::max<std::int64_t>(proportion, 256)));
 }
 
+}  // namespace
+
 int threads_to_use(int asked) {
   return asked > 0 ? asked : oneapi::tbb::info::default_concurrency();
 }
-
-}  // namespace
 
 std::size_t bytes_of(const shards::TrialResult& result) {
   return sizeof result + result.inputs.size() * sizeof(double) +
@@ -156,9 +179,9 @@ double peak_memory(const study::Study& study, double bytes_of_trial, double reco
          bytes_of_trial * std::min(in_work + 2.0 * waiting, 3.0 * static_cast<double>(rows));
 }
 
-std::vector<shards::ShardInfo> run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
-                                          const std::filesystem::path& directory, const RunSettings& settings,
-                                          std::stop_token stop) {
+FinishedTrials run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
+                          const std::filesystem::path& directory, const RunSettings& settings,
+                          std::stop_token stop) {
   namespace tbb = oneapi::tbb;
   const int threads = threads_to_use(settings.threads);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
@@ -193,14 +216,20 @@ std::vector<shards::ShardInfo> run_trials(const study::Study& study, std::span<c
   };
   tbb::task_arena(threads).execute(pipeline);
   writer.flush();
-  return writer.written();
+  FinishedTrials finished{writer.written(), {}};
+  finished.predictions.resize(static_cast<std::size_t>(study::point_count(study)));
+  for (const TrialRunner& runner : runners) {
+    for (std::size_t point = 0; point < finished.predictions.size(); ++point)
+      finished.predictions[point] = finished.predictions[point] + runner.predictions()[point];
+  }
+  return finished;
 }
 
 void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
               const std::filesystem::path& output, layout::RowRange rows,
-              const shards::Renumbering& renumber) {
+              std::span<const measures::TheoryPrediction> predictions, const shards::Renumbering& renumber) {
   const auto statistics = [&](const reading::StudyFile& file) {
-    return summary::stored_statistics(file, study);
+    return summary::stored_statistics(file, study, predictions);
   };
   shards::merge_shards(shards, study, output, rows, statistics, layout::current_provenance(), renumber);
 }

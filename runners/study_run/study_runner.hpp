@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "analysis/measures/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/shards/concatenate.hpp"
@@ -24,6 +25,9 @@ double samples_per_trial(const study::Study& study);
 /// Memory of a result, bytes.
 std::size_t bytes_of(const shards::TrialResult& result);
 
+/// Number of threads where `asked` were asked for; 0: all that the machine has.
+int threads_to_use(int asked);
+
 /// Estimate of the peak memory of run_trials over the whole study, bytes.
 /// @param bytes_of_trial mean of bytes_of(), without traces @param record_bytes bytes of all traces
 /// @param threads 0: all cores
@@ -35,21 +39,27 @@ struct RunSettings {
       finished{};  ///< called by the writer with every block of finished trials
 };
 
+struct FinishedTrials {
+  std::vector<shards::ShardInfo> shards;                ///< those written, in order of rows
+  std::vector<measures::TheoryPrediction> predictions;  ///< [point] for these trials
+};
+
 /// Runs the trials of `ranges` and writes them as shards into `directory`.
 ///
 /// Blocks of trials run in parallel. The writer collects them one at a time, in order of rows. A shard is
 /// written when it is large enough or old enough, which bounds the memory and the loss by a crash. If `stop`
 /// is requested, no new block starts, and the finished trials are written.
-/// @returns the written shards, in order of rows
-std::vector<shards::ShardInfo> run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
-                                          const std::filesystem::path& directory, const RunSettings& settings,
-                                          std::stop_token stop);
+FinishedTrials run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
+                          const std::filesystem::path& directory, const RunSettings& settings,
+                          std::stop_token stop);
 
 /// Joins shards into the results file `output`. A file with the whole study gets the statistics of all design
 /// points.
+/// @param predictions see summary::stored_statistics
 /// @throws Failure; see merge_shards.
 void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
               const std::filesystem::path& output, layout::RowRange rows,
+              std::span<const measures::TheoryPrediction> predictions = {},
               const shards::Renumbering& renumber = {});
 
 }  // namespace zerocount::study_run

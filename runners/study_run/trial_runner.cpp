@@ -17,10 +17,7 @@ study::StudyTrial trial_of_row(const study::Study& study, std::int64_t row) {
   return study::study_trial(study, row / study.trials, row % study.trials);
 }
 
-}  // namespace
-
-shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row) {
-  study::StudyTrial trial = trial_of_row(study, row);
+shards::TrialResult run_reference(const study::Study& study, std::int64_t row, study::StudyTrial trial) {
   shards::TrialResult result;
   result.row = row;
   result.inputs = std::move(trial.inputs);
@@ -33,8 +30,21 @@ shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row)
   return result;
 }
 
-TrialRunner::TrialRunner(const study::Study& study) : study_(&study) {
+}  // namespace
+
+shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row) {
+  return run_reference(study, row, trial_of_row(study, row));
+}
+
+TrialRunner::TrialRunner(const study::Study& study)
+    : study_(&study), predictions_(static_cast<std::size_t>(study::point_count(study))) {
   if (study.engine == study::Engine::batch) engine_ = std::make_unique<batch::BatchEngine>();
+}
+
+study::StudyTrial TrialRunner::next_trial(std::int64_t row) {
+  study::StudyTrial trial = trial_of_row(*study_, row);
+  predictions_[static_cast<std::size_t>(row / study_->trials)].add(measures::predict(trial.parameters));
+  return trial;
 }
 
 std::vector<shards::TrialResult> TrialRunner::run(layout::RowRange rows) {
@@ -42,7 +52,7 @@ std::vector<shards::TrialResult> TrialRunner::run(layout::RowRange rows) {
   std::vector<shards::TrialResult> results;
   results.reserve(static_cast<std::size_t>(rows.count));
   for (std::int64_t row = rows.first; row < rows.end(); ++row)
-    results.push_back(run_study_trial(*study_, row));
+    results.push_back(run_reference(*study_, row, next_trial(row)));
   return results;
 }
 
@@ -55,11 +65,11 @@ std::vector<shards::TrialResult> TrialRunner::run_in_lanes(layout::RowRange rows
   for (std::size_t i = 0; i < results.size(); ++i) {
     const std::int64_t row = rows.first + static_cast<std::int64_t>(i);
     if (retained(*study_, row % study_->trials)) {
-      results[i] = run_study_trial(*study_, row);
+      results[i] = run_reference(*study_, row, next_trial(row));
       continue;
     }
     results[i].row = row;
-    trials.push_back(trial_of_row(*study_, row));
+    trials.push_back(next_trial(row));
     results[i].inputs = std::move(trials.back().inputs);
     places.push_back(i);
   }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "analysis/measures/theory_prediction.hpp"
 #include "core/batch/batch.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
@@ -19,11 +20,16 @@ class TrialRunner {
   /// @returns one result per row, in order
   std::vector<shards::TrialResult> run(layout::RowRange rows);
 
+  /// [point] what the criteria predict of the trials run so far.
+  const std::vector<measures::TheoryPrediction>& predictions() const { return predictions_; }
+
  private:
+  study::StudyTrial next_trial(std::int64_t row);
   std::vector<shards::TrialResult> run_in_lanes(layout::RowRange rows);
 
   const study::Study* study_;
   std::unique_ptr<batch::BatchEngine> engine_;
+  std::vector<measures::TheoryPrediction> predictions_;
 };
 
 }  // namespace zerocount::study_run

@@ -111,6 +111,20 @@ void expect_same_datasets(const std::filesystem::path& one, const std::filesyste
   }
 }
 
+std::optional<std::string> elements_of(const std::filesystem::path& path, const std::string& name) {
+  const hid_t file = open_file(path, H5F_ACC_RDONLY);
+  const hid_t dataset = checked(H5Dopen2(file, name.c_str(), H5P_DEFAULT));
+  const hid_t space = H5Dget_space(dataset);
+  const hid_t type = H5Dget_type(dataset);
+  std::string elements(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)) * H5Tget_size(type),
+                       '\0');
+  const bool readable = H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, elements.data()) >= 0;
+  H5Tclose(type);
+  H5Sclose(space);
+  H5Fclose(file);
+  return readable ? std::optional(elements) : std::nullopt;
+}
+
 std::set<std::string> attribute_names(const std::filesystem::path& path) {
   const hid_t file = open_file(path, H5F_ACC_RDONLY);
   std::set<std::string> names;

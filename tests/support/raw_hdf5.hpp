@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -15,6 +16,9 @@ std::map<std::string, std::string> stored_datasets(const std::filesystem::path& 
 
 /// Expects the same stored datasets in both files.
 void expect_same_datasets(const std::filesystem::path& one, const std::filesystem::path& other);
+
+/// The elements of a dataset of numbers, read with the library alone; none if it refuses.
+std::optional<std::string> elements_of(const std::filesystem::path& path, const std::string& dataset);
 
 /// Names of the attributes of the root group.
 std::set<std::string> attribute_names(const std::filesystem::path& path);

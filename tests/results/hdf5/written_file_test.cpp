@@ -90,6 +90,8 @@ TEST(WrittenFile, IsRefusedWhereAnythingDiffers) {
   refused("/labels: its texts differ", [](auto& values) { values["/labels"].texts[1] = "three"; });
   refused("/numbers/value: rows 10000 to 19999 differ",
           [](auto& values) { values["/numbers/value"].rows[1].digest ^= 1; });
+  refused("/numbers/row: the rows from 16384 on differ",
+          [](auto& values) { values["/numbers/row"].chunks[1].digest ^= 1; });
   refused("/numbers/value: its axis /labels is missing",
           [](auto& values) { values["/numbers/value"].scales.emplace_back(0, "/labels"); });
   refused("/labels: it is no axis", [](auto& values) { values["/labels"].is_scale = true; });

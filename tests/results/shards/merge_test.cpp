@@ -71,6 +71,39 @@ TEST(Merge, KeepsEverythingOfEveryTrial) {
   EXPECT_EQ(record, file.trace_count());
 }
 
+/// Shards whose chunks are those of the file, which takes them over as they are stored, and other shards.
+TEST(Merge, StoresTheSameBytesWhetherChunksAreCopiedOrEncoded) {
+  const TemporaryFolder directory;
+  const study::Study study = sample_study(2, 10000, 1);
+  const auto shards_of = [&](const std::string& name, std::vector<std::int64_t> ends,
+                             hdf5::Compression compression) {
+    fs::create_directories(directory / name);
+    std::vector<shards::ShardInfo> shards;
+    std::int64_t first = 0;
+    for (const std::int64_t end : ends) {
+      const layout::RowRange rows{first, end - first};
+      shards.push_back({shards::shard_path(directory / name, rows), rows});
+      shards::write_shard(shards.back().path, study, first, sample_results(study, rows), sample_provenance(),
+                          compression);
+      first = end;
+    }
+    return shards;
+  };
+  const auto copied = shards_of("copied", {layout::chunk_elements, 20000}, hdf5::Compression::deflate);
+  const auto whole = shards_of("whole", {20000}, hdf5::Compression::deflate);
+  const auto encoded = shards_of("encoded", {5000, 17000, 20000}, hdf5::Compression::none);
+  const fs::path expected = merged(directory / "encoded.h5", study, encoded);
+  expect_same_datasets(merged(directory / "copied.h5", study, copied), expected);
+  expect_same_datasets(merged(directory / "whole.h5", study, whole), expected);
+
+  std::string bytes = read_bytes(copied[0].path);
+  bytes[chunk_address(copied[0].path, "outcome/settling_time") + 100] ^= 1;
+  write_bytes(copied[0].path, bytes);
+  expect_failure(ExitCode::bad_data, "settling_time: its values cannot be read or their checksum is wrong",
+                 [&] { merged(directory / "damaged.h5", study, copied); });
+  EXPECT_FALSE(fs::exists(directory / "damaged.h5"));
+}
+
 TEST(Merge, HasNoColumnForWhatTheStudyDoesNotUse) {
   const TemporaryFolder directory;
   study::Study study = sample_study();

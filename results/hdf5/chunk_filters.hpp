@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+/// The filters of a chunk, as the HDF5 library applies them. The library is not thread-safe; these functions
+/// may run on many threads at a time.
+///
+/// On the way to the file, a chunk of n elements of s bytes passes through (HDF5 file format specification,
+/// IV.A.2.l, "Data Storage - Filter Pipeline"):
+///  1. shuffle: byte b of element i moves to position b·n + i;
+///  2. deflate: a zlib stream;
+///  3. Fletcher-32: the checksum of these bytes is appended, 4 bytes, little-endian.
+namespace zerocount::hdf5 {
+
+struct ChunkFilters {
+  std::size_t element_size{1};
+  std::optional<int> deflate_level;  ///< none: neither shuffle nor deflate
+
+  bool operator==(const ChunkFilters&) const = default;
+};
+
+/// The bytes that the file stores for a chunk with these elements. None if they do not decode to the
+/// elements, which only a faulty machine can cause.
+std::optional<std::vector<std::byte>> encode_chunk(const ChunkFilters& filters,
+                                                   std::span<const std::byte> elements);
+
+/// Whether stored bytes agree with their checksum.
+bool has_valid_checksum(std::span<const std::byte> stored);
+
+/// Restores the elements of a chunk. False if the stored bytes are damaged: the checksum is wrong, or they do
+/// not decode to `elements.size()` bytes.
+bool decode_chunk(const ChunkFilters& filters, std::span<const std::byte> stored,
+                  std::span<std::byte> elements);
+
+}  // namespace zerocount::hdf5

@@ -99,7 +99,6 @@ bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& pas
   }
   std::optional<LanePlant> before;
   if (passed) before = plant;
-  std::optional<LanePlant> here;
 
   const double most = time.samples_to_stop[lane];
   const double sample_time = time.sample_time[lane];
@@ -109,22 +108,19 @@ bool rest(BatchState& batch, int lane, LaneTrial& trial, const PassedSample& pas
   double i = 0.0;
   double to_next = to_first;
   bool edge_is_next = false;
+  const auto stays_within = [&](double samples) {
+    return count_at(batch, lane, plant.theta_at_rest(to_next + (samples - 1.0) * sample_time)) == count;
+  };
   bool same = true;
   while (same && i < most) {
     double ahead = 1.0;
     if (!edge_is_next) ahead = std::clamp(samples_within_count(batch, lane, plant, to_next), 1.0, most - i);
-    if (ahead > 1.0) here = plant;
-    const auto go_ahead = [&] {
-      plant.advance(motion::constant_torque(torque), to_next + (ahead - 1.0) * sample_time);
-      return count_at(batch, lane, plant.theta()) == count;
-    };
-    same = go_ahead();
     // The edge may be nearer than thought.
-    for (double back = 1.0; ahead > 1.0 && !same; back *= 2.0) {
+    for (double back = 1.0; ahead > 1.0 && !stays_within(ahead); back *= 2.0) {
       ahead = std::max(1.0, ahead - back);
-      plant = *here;
-      same = go_ahead();
     }
+    plant.advance(motion::constant_torque(torque), to_next + (ahead - 1.0) * sample_time);
+    same = count_at(batch, lane, plant.theta()) == count;
     edge_is_next = ahead > 1.0;
     i += ahead;
     to_next = sample_time;

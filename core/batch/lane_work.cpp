@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 #include "core/trial/divergence.hpp"
@@ -14,7 +15,7 @@ namespace zerocount::batch {
 LaneWork::LaneWork(const BatchSettings& settings)
     : kernels_(kernels_of(settings.instructions)),
       lane_count_(std::clamp(settings.lanes, 1, max_lanes)),
-      lanes_(static_cast<std::size_t>(lane_count_)) {
+      trials_in_work_(static_cast<std::size_t>(lane_count_)) {
   fill_spare_lane();
 }
 
@@ -35,6 +36,8 @@ void LaneWork::run(std::span<const trial::TrialParameters* const> trials,
   observers_ = &observers;
   next_trial_ = 0;
   batch_.passed = observers.sample ? passed_ : nullptr;
+  // The same trials in the same lanes need no other memory than last time.
+  std::iota(trial_index_, trial_index_ + lane_count_, std::size_t{0});
   for (int lane = 0; lane < lane_count_; ++lane) refill(lane);
   used_lanes_ = lane_count_;
   while (!active_.empty()) {
@@ -96,7 +99,7 @@ void LaneWork::move_lane(int from, int to) {
     std::memcpy(rows + row + to * sizeof(double), rows + row + from * sizeof(double), sizeof(double));
   }
   batch_.events[to] = batch_.events[from];
-  std::swap(trial_of(to), trial_of(from));
+  std::swap(trial_index_[to], trial_index_[from]);
   for (LaneSet* of : {&active_, &sticking_, &waiting_, &sliding_}) {
     if (of->contains(from)) of->insert(to);
     of->erase(from);

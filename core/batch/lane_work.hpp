@@ -51,11 +51,12 @@ class LaneWork {
 
   void set_moving(int lane);
   bool is_idle(int lane) const { return !active_.contains(lane); }
-  LaneTrial& trial_of(int lane) { return lanes_[static_cast<std::size_t>(lane)]; }
+  LaneTrial& trial_of(int lane) { return trials_in_work_[trial_index_[lane]]; }
 
   const Kernels& kernels_;
   int lane_count_;
-  std::vector<LaneTrial> lanes_;
+  std::vector<LaneTrial> trials_in_work_;
+  std::size_t trial_index_[max_lanes]{};  ///< which of them a lane has
   BatchState batch_{};
   PassedSamples passed_[max_lanes]{};
   LaneSet active_;    ///< lanes with a trial: the three below together

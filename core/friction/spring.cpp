@@ -25,8 +25,7 @@ double travel_at(const SpringBranch& branch, double torque) {
   for (;;) {
     const double softened = -std::expm1(-branch.softening_rate * travel);
     const double missing = torque - branch.k1 * travel - branch.softening_torque * softened;
-    const double stiffness =
-        branch.k1 + branch.softening_torque * branch.softening_rate * (1.0 - softened);
+    const double stiffness = branch.k1 + branch.softening_torque * branch.softening_rate * (1.0 - softened);
     const double next = travel + missing / stiffness;
     if (!(next > travel)) return travel;
     travel = next;

@@ -94,6 +94,18 @@ void register_runner_benchmarks(BenchmarkRun& run) {
     register_timing(fmt::format("length/{}", samples), transient(samples_per_run / samples, {hold}),
                     time_run_on_one_thread);
   }
+  for (const int target : {1, 3, 10, 30, 100}) {
+    register_timing(fmt::format("target/{}", target),
+                    transient(trials_per_run, {fmt::format("command.targets.0={}", target)}),
+                    time_run_on_one_thread);
+  }
+  for (const int percent : {25, 50, 100, 150, 200, 250}) {
+    constexpr double gain_of_study = 3.85e-5;  // N m/count
+    register_timing(
+        fmt::format("gain/{}", percent),
+        transient(trials_per_run, {fmt::format("controller.ki={}", gain_of_study * percent / 100.0)}),
+        time_run_on_one_thread);
+  }
   for (const std::int64_t trials : {10, 100, 1000, 10000}) {
     register_timing(fmt::format("trials/{}", trials), transient(trials, {}), time_run_on_one_thread);
   }

@@ -30,6 +30,8 @@ SCALING = {
     "draw": "drawing its parameters",
     "threads": "threads (W1), wall time",
     "length": "samples of a trial (W1)",
+    "target": "counts of the move (W1)",
+    "gain": "integral gain (W1), % of the study's",
     "trials": "number of trials (W1)",
     "random": "random parameters (W1)",
     "drawing": "drawing so many random parameters (W1)",

@@ -26,7 +26,7 @@ struct CvodeSettings {
 /// What CVODE integrates: the system behind its callbacks.
 class CvodeSystem {
  public:
-  CvodeSystem(const TrialParameters& parameters, const CvodeSettings& settings)
+  CvodeSystem(const trial::TrialParameters& parameters, const CvodeSettings& settings)
       : contact_(parameters, settings.rest), settings_(settings) {}
 
   const PeerContact& contact() const { return contact_; }

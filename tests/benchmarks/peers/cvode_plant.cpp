@@ -17,7 +17,7 @@ constexpr double no_longest_step = 0.0;  // as CVODE has it
 
 }  // namespace
 
-CvodePlant::CvodePlant(const TrialParameters& p, CvodeMemory& memory)
+CvodePlant::CvodePlant(const trial::TrialParameters& p, CvodeMemory& memory)
     : system_(p, memory.settings()), memory_(memory), now_(contact().start()) {
   require_success(CVodeSetUserData(memory_.cvode(), &system_), "CVodeSetUserData");
   restart();

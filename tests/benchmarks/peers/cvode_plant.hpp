@@ -8,7 +8,7 @@ namespace zerocount::testing {
 class CvodePlant {
  public:
   /// @param parameters, memory must outlive the plant, and the memory serve no other meanwhile.
-  CvodePlant(const TrialParameters& parameters, CvodeMemory& memory);
+  CvodePlant(const trial::TrialParameters& parameters, CvodeMemory& memory);
 
   /// Applies the torque (N m) from now on.
   void set_torque(double torque);

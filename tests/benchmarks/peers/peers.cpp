@@ -51,12 +51,12 @@ Peer odeint_peer(const std::string& name, const OdeintSettings& settings) {
 #ifdef ZEROCOUNT_HAS_CVODE
 Peer cvode_peer(const std::string& name, const CvodeSettings& settings) {
   const auto memory = std::make_shared<CvodeMemory>(settings);
-  const auto run = [memory](const TrialParameters& p) {
+  const auto run = [memory](const trial::TrialParameters& p) {
     require_plain(p);
     CvodePlant plant(p, *memory);
     return peer_outcome(p, plant);
   };
-  const auto record = [memory](const TrialParameters& p) {
+  const auto record = [memory](const trial::TrialParameters& p) {
     require_plain(p);
     CvodePlant plant(p, *memory);
     return peer_records(p, plant);

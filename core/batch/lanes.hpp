@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#ifdef __AVX512F__
+#ifdef __SSE2__
 #include <immintrin.h>
 #endif
 
@@ -39,6 +39,12 @@ struct VectorOf {
   }
   /// One bit a lane.
   static ZEROCOUNT_ALWAYS_INLINE unsigned bits(Mask mask) {
+#ifdef __AVX__
+    if constexpr (Width == 4) return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask));
+#endif
+#ifdef __SSE2__
+    if constexpr (Width == 2) return static_cast<unsigned>(_mm_movemask_pd((__m128d)mask));
+#endif
     std::int64_t lane[Width];
     __builtin_memcpy(lane, &mask, sizeof lane);
     unsigned bits = 0;
@@ -47,10 +53,10 @@ struct VectorOf {
   }
   static ZEROCOUNT_ALWAYS_INLINE Mask of_bits(unsigned bits) {
     std::int64_t lane[Width];
-    for (int j = 0; j < Width; ++j) lane[j] = -static_cast<std::int64_t>(bits >> j & 1U);
-    Mask mask;
-    __builtin_memcpy(&mask, lane, sizeof mask);
-    return mask;
+    for (int j = 0; j < Width; ++j) lane[j] = std::int64_t{1} << j;
+    Bits bit;
+    __builtin_memcpy(&bit, lane, sizeof bit);
+    return (bit & static_cast<std::int64_t>(bits)) == bit;
   }
 };
 

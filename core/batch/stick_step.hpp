@@ -163,16 +163,18 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const BatchState& batch,
   return inwards & (growth > P(6.0)) & (softening_rate * travelled - growth < P(40.0));
 }
 
-/// The truncation error allowed in this step. An oscillation of less than 5e-6 count is followed to 2e-6 of
-/// its amplitude.
+/// The truncation error allowed in this step, rad: that of its part of a torque step, of which each may have
+/// the lane's tolerance, or so small a part of the amplitude of a small oscillation.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, const StickStep<P>& step) {
+  constexpr double of_amplitude = 4e-6;
   const TimeLanes& time = batch.time;
   const StickSeries<P>& s = step.series;
   const P ratio = step.longest_step * step.per_h;
   const P amplitude = abs(step.length) * (max(abs(s.rate[0]), abs(s.rate[1]) * ratio) * ratio);
-  const P scale = min(max(amplitude * at.load(time.per_count) * P(2e5), P(1e-3)), P(1.0));
-  return at.load(time.tolerance) * scale * (step.h * at.load(time.sample_rate));
+  const P least = P(0.1) * at.load(time.rest);
+  const P relative = P(of_amplitude) * max(amplitude, least);
+  return min(at.load(time.tolerance), relative) * (step.h * at.load(time.sample_rate));
 }
 
 /// Whether dxs/dt, which has the same sign at both ends, may be zero between them: where it is as small as

@@ -54,7 +54,7 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const S
   const P zero(0.0);
   const P one(1.0);
   const P h = step.h;
-  const P factor = P(0.86) * rough_power(step.allowed, step.last_terms, 1.0 / batch_order);
+  const P factor = P(0.85) * rough_power(step.allowed, step.last_terms, 1.0 / batch_order);
   const P shorter = select(step.inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));
   // A motion that accelerates will need shorter steps. (A displacement lost in rounding gives no
   // information.)

@@ -144,12 +144,16 @@ struct PassedSamples {
   double growth[batch_order + 1];      ///< of xp, likewise
 };
 
-struct BatchState {
+/// All numbers of the lanes: an array a quantity, one after the other.
+struct LaneNumbers {
   MotionLanes motion;
   ContactLanes contact;
   TimeLanes time;
   LoopLanes loop;
   MeasureLanes measures;
+};
+
+struct BatchState : LaneNumbers {
   int events[lane_slots];
 
   int event_lanes[max_lanes];  ///< lanes with events of the last kernel

@@ -92,11 +92,12 @@ void LaneWork::close_gaps() {
 }
 
 void LaneWork::move_lane(int from, int to) {
-  char* const rows = reinterpret_cast<char*>(&batch_);
-  constexpr std::size_t row_bytes = sizeof(Lanes);
-  static_assert(offsetof(BatchState, events) % row_bytes == 0);
-  for (std::size_t row = 0; row < offsetof(BatchState, events); row += row_bytes) {
-    std::memcpy(rows + row + to * sizeof(double), rows + row + from * sizeof(double), sizeof(double));
+  constexpr std::size_t quantities = sizeof(LaneNumbers) / sizeof(Lanes);
+  static_assert(quantities * sizeof(Lanes) == sizeof(LaneNumbers));
+  auto* const numbers = reinterpret_cast<std::byte*>(static_cast<LaneNumbers*>(&batch_));
+  for (std::size_t i = 0; i < quantities; ++i) {
+    std::byte* const lanes = numbers + i * sizeof(Lanes);
+    std::memcpy(lanes + to * sizeof(double), lanes + from * sizeof(double), sizeof(double));
   }
   batch_.events[to] = batch_.events[from];
   std::swap(trial_index_[to], trial_index_[from]);

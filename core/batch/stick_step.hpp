@@ -249,7 +249,6 @@ ZEROCOUNT_ALWAYS_INLINE void end_at(const P& x, const typename P::Mask& where, S
 /// The rate of creep at the end of the step, by its law.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void see_creep(StickStep<P>& step) {
-  const StickLaw<P>& law = step.law;
   P power = step.torque * step.torque;
   const typename P::Mask other_powers = step.creeping & (step.law.creep_exponent != P(2.0));
   if (other_powers.any()) {

@@ -47,6 +47,13 @@ void require_kind(const trial::MoveOutcome& move, bool open_loop) {
                                               : "a move with a torque level; expected one with a target");
 }
 
+void add_trials(MeasureAccumulator& measure, std::span<const trial::MoveOutcome> moves,
+                std::size_t moves_of_trial) {
+  for (std::size_t first = 0; first < moves.size(); first += moves_of_trial) {
+    measure.add(moves.subspan(first, moves_of_trial));
+  }
+}
+
 std::vector<MeasureStatistics> statistics_of(const std::vector<MeasureAccumulator>& measures,
                                              const StatisticsOptions& options) {
   std::vector<MeasureStatistics> statistics(measures.size());
@@ -88,10 +95,13 @@ void PointAccumulator::add(const trial::TrialOutcome& trial, std::span<const tri
 }
 
 void PointAccumulator::add_measures(std::span<const trial::MoveOutcome> moves, std::size_t moves_of_trial) {
-  oneapi::tbb::parallel_for(std::size_t{0}, measures_.size(), [&](std::size_t i) {
-    for (std::size_t first = 0; first < moves.size(); first += moves_of_trial)
-      measures_[i].add(moves.subspan(first, moves_of_trial));
-  });
+  for (MeasureAccumulator& measure : measures_) add_trials(measure, moves, moves_of_trial);
+}
+
+void PointAccumulator::add_measures_in_tasks(std::span<const trial::MoveOutcome> moves,
+                                             std::size_t moves_of_trial) {
+  oneapi::tbb::parallel_for(std::size_t{0}, measures_.size(),
+                            [&](std::size_t i) { add_trials(measures_[i], moves, moves_of_trial); });
 }
 
 void PointAccumulator::add_counts(std::span<const trial::MoveOutcome> moves,

@@ -88,8 +88,9 @@ class PointAccumulator {
   void add(const trial::TrialOutcome& trial, std::span<const trial::Jerk> jerks);
 
   /// The two parts of add(), which may run at the same time: the measures, of many trials with
-  /// `moves_of_trial` moves each, in parallel tasks; and the rest, of one trial.
+  /// `moves_of_trial` moves each; and the rest, of one trial.
   void add_measures(std::span<const trial::MoveOutcome> moves, std::size_t moves_of_trial);
+  void add_measures_in_tasks(std::span<const trial::MoveOutcome> moves, std::size_t moves_of_trial);
   void add_counts(std::span<const trial::MoveOutcome> moves, std::span<const trial::Jerk> jerks);
 
   /// The statistics of the trials added so far.

@@ -83,19 +83,23 @@ void add_trial(measures::PointAccumulator& point, const reading::StudyFile& file
   }
 }
 
-/// Adds the trials `rows` of the file, all of one design point.
+/// Adds the trials `rows` of the file, all of one design point, with these moves.
 void add_trials(measures::PointAccumulator& point, const reading::StudyFile& file, layout::RowRange rows,
-                JerkStream& jerks) {
-  const std::vector<trial::MoveOutcome> moves = file.outcomes(rows);
+                std::span<const trial::MoveOutcome> moves, JerkStream& jerks) {
   const auto moves_of_trial = static_cast<std::size_t>(file.moves());
-  oneapi::tbb::parallel_invoke([&] { point.add_measures(moves, moves_of_trial); },
-                               [&] {
-                                 std::span<const trial::MoveOutcome> rest(moves);
-                                 for (std::int64_t row = rows.first; row < rows.end(); ++row) {
-                                   add_trial(point, file, row, rest.first(moves_of_trial), jerks);
-                                   rest = rest.subspan(moves_of_trial);
-                                 }
-                               });
+  const auto add_counts = [&] {
+    std::span<const trial::MoveOutcome> rest = moves;
+    for (std::int64_t row = rows.first; row < rows.end(); ++row) {
+      add_trial(point, file, row, rest.first(moves_of_trial), jerks);
+      rest = rest.subspan(moves_of_trial);
+    }
+  };
+  if (rows.count < trials_of_task) {  // tasks would take longer
+    add_counts();
+    point.add_measures(moves, moves_of_trial);
+  } else {
+    oneapi::tbb::parallel_invoke(add_counts, [&] { point.add_measures_in_tasks(moves, moves_of_trial); });
+  }
 }
 
 void require_all_trials(const reading::StudyFile& file) {
@@ -117,12 +121,18 @@ void StudyAccumulator::add(const reading::StudyFile& file, layout::RowRange rows
   JerkStream jerks(file, rows);
   const std::int64_t at_once = layout::chunk_rows(file.moves());
   for (layout::RowRange block{rows.first, 0}; block.first < rows.end(); block.first = block.end()) {
-    // Blocks of the file's chunks, cut at the end of a point.
     const std::int64_t in_file = block.first - file.rows().first;
-    block.count = std::min(
-        {at_once - in_file % at_once, study_.trials - block.first % study_.trials, rows.end() - block.first});
-    while (!point_ || std::ssize(points_) < block.first / study_.trials) begin_point(kind, file.table());
-    add_trials(*point_, file, block, jerks);
+    block.count = std::min(at_once - in_file % at_once, rows.end() - block.first);
+    const std::vector<trial::MoveOutcome> moves = file.outcomes(block);
+    std::span<const trial::MoveOutcome> rest(moves);
+    for (layout::RowRange of_point{block.first, 0}; of_point.first < block.end();
+         of_point.first = of_point.end()) {
+      of_point.count = std::min(study_.trials - of_point.first % study_.trials, block.end() - of_point.first);
+      while (!point_ || std::ssize(points_) < of_point.first / study_.trials) begin_point(kind, file.table());
+      const auto count = static_cast<std::size_t>(of_point.count * file.moves());
+      add_trials(*point_, file, of_point, rest.first(count), jerks);
+      rest = rest.subspan(count);
+    }
   }
   if (!jerks.at_end()) fail(file, "jerks are recorded beyond those that the trials counted");
 }

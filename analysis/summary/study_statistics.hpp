@@ -58,7 +58,7 @@ measures::TheoryPrediction point_prediction(const study::Study& study, std::int6
                                             std::int64_t trials);
 
 /// The same of all trials of every point, [point].
-/// @param known [point] what is known already; it is used where it is of all trials of the point.
+/// @param known [point] predictions counted before; those that do not cover all trials are computed again
 std::vector<measures::TheoryPrediction> study_predictions(
     const study::Study& study, std::span<const measures::TheoryPrediction> known = {});
 

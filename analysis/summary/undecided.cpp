@@ -37,7 +37,7 @@ double decay_time_constant(std::int64_t midway_error, std::int64_t final_error, 
          std::log(static_cast<double>(std::abs(midway_error)) / static_cast<double>(std::abs(final_error)));
 }
 
-/// The addition of a longer hold to the way of a move: the move before it arrives too, so that this one has
+/// The additional travel of a move with a longer hold: the move before it arrives too, so that this one has
 /// all of its step to go. ln of the step over the error it started with, at least 0. Under a profiled
 /// reference the error does not start with the step.
 double log_of_longer_way(const trial::TrialParameters& parameters, std::size_t number,

@@ -9,7 +9,7 @@
 /// Included by the kernels: see lanes.hpp for what must not be in here.
 namespace zerocount::batch {
 
-/// One slot more, which fills up vectors; its contents are never read. Rounded up to a cache line.
+/// One slot more, which fills up vectors; its contents affect no other lane. Rounded up to a cache line.
 inline constexpr int lane_slots = max_lanes + 8;
 inline constexpr int spare_lane = max_lanes;
 
@@ -58,7 +58,7 @@ struct alignas(64) ContactLanes {
   Lanes stiffest;              ///< k1 + k2, N m/rad
   Lanes alpha;                 ///< 1/s
   Lanes per_lambda;            ///< 1/λ
-  Lanes creep_acceleration;    ///< 8αc/k1: what creep may add to dxs/dt, by dxp/dt
+  Lanes max_creep_ratio;       ///< 8αc/k1: bound of the part of dxs/dt that creep causes, by dxp/dt
   Lanes creep_exponent;        ///< n
   Lanes breakaway;             ///< Fs, N m
   Lanes coulomb;               ///< Fc, N m
@@ -119,7 +119,7 @@ enum LaneEvent : int {
   slides = 1 << 1,
   ends_creep = 1 << 2,
   turns = 1 << 3,
-  reversal = 1 << 4,
+  reversal = 1 << 4,  ///< within the step kernel only: MotionLanes::turning tells it to the others
   closure = 1 << 5,
   creep_sets_in = 1 << 6,
   creep_ends = 1 << 7,

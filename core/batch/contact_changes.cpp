@@ -47,7 +47,7 @@ void show_contact(BatchState& batch, int lane, const friction::FrictionParameter
   c.stiffest[lane] = contact.k1 + contact.k2;
   batch.time.longest_step[lane] = 1.0 / std::sqrt(c.stiffest[lane] * c.per_inertia[lane]);
   c.alpha[lane] = contact.alpha;
-  c.creep_acceleration[lane] = 8.0 * contact.alpha * c.damping[lane] / contact.k1;
+  c.max_creep_ratio[lane] = 8.0 * contact.alpha * c.damping[lane] / contact.k1;
   c.per_lambda[lane] = 1.0 / contact.lambda;
   c.creep_exponent[lane] = contact.n;
   c.breakaway[lane] = contact.breakaway;

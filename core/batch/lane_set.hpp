@@ -10,6 +10,7 @@ inline constexpr int max_lanes = 128;
 
 /// A set of lanes, one bit each. Included by the kernels: see lanes.hpp for what must not be in here.
 struct LaneSet {
+  static_assert(max_lanes == 128);
   std::uint64_t words[max_lanes / 64]{};
 
   ZEROCOUNT_ALWAYS_INLINE bool contains(int lane) const {

@@ -47,7 +47,7 @@ struct LaneTrial {
 // The lane's motion from the batch state into its plant and back. The spring's branch goes with it.
 void load_motion(const BatchState& batch, int lane, LaneTrial& trial);
 void store_motion(BatchState& batch, int lane, LaneTrial& trial);
-/// The same where the contact may be another one.
+/// The same with the parameters of the contact, which a slide or a scalar step may have changed.
 void store_contact(BatchState& batch, int lane, LaneTrial& trial);
 
 // Changes of the contact, as PreslidingFriction makes them.

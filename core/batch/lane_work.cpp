@@ -99,7 +99,6 @@ void LaneWork::move_lane(int from, int to) {
     std::byte* const lanes = numbers + i * sizeof(Lanes);
     std::memcpy(lanes + to * sizeof(double), lanes + from * sizeof(double), sizeof(double));
   }
-  batch_.events[to] = batch_.events[from];
   std::swap(trial_index_[to], trial_index_[from]);
   for (LaneSet* of : {&active_, &sticking_, &waiting_, &sliding_}) {
     if (of->contains(from)) of->insert(to);
@@ -132,10 +131,6 @@ void LaneWork::fall_back_to_scalar(int lane) {
   const LaneTrial& trial = trial_of(lane);
   run_scalar(trial, trial.reported_jerks,
              trial.first_sample + static_cast<std::int64_t>(batch_.measures.taken[lane]));
-  end_trial(lane);
-}
-
-void LaneWork::end_trial(int lane) {
   refill(lane);
 }
 
@@ -148,7 +143,7 @@ void LaneWork::end_move(int lane, LaneTrial& trial) {
   add_outcome(lane, trial, false);
   ++trial.move;
   if (trial.move == trial.parameters->command.targets.size()) {
-    end_trial(lane);
+    refill(lane);
     return;
   }
   trial.first_sample += static_cast<std::int64_t>(batch_.measures.taken[lane]);
@@ -158,7 +153,7 @@ void LaneWork::end_move(int lane, LaneTrial& trial) {
 void LaneWork::stop_diverged(int lane, LaneTrial& trial) {
   add_outcome(lane, trial, true);
   trial.outcome->moves.resize(trial.parameters->command.targets.size(), trial::move_not_run());
-  end_trial(lane);
+  refill(lane);
 }
 
 }  // namespace zerocount::batch

@@ -27,7 +27,6 @@ class LaneWork {
   void move_lane(int from, int to);
   void run_scalar(const LaneTrial& trial, std::int64_t reported_jerks, std::int64_t reported_samples);
   void fall_back_to_scalar(int lane);
-  void end_trial(int lane);
   void end_move(int lane, LaneTrial& trial);
   void stop_diverged(int lane, LaneTrial& trial);
   void add_outcome(int lane, LaneTrial& trial, bool stopped);

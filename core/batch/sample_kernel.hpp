@@ -5,6 +5,7 @@
 
 namespace zerocount::batch {
 
+/// The sampling instant of one vector; see sample_kernel.
 template <class At>
 __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   using P = typename At::Vector;
@@ -77,8 +78,8 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
                  events_where<P>(to_mask(at.load(l.delay)), delayed));
 }
 
-/// One sampling instant of each lane: encoder, control, converter, measures. Reports jerk_changes and
-/// count_changes, and beyond_kernel where the encoder could not count θ.
+/// One sampling instant of each lane: encoder, control, converter, measures. Reports jerk_changes,
+/// count_changes, diverges and delayed, and beyond_kernel where the encoder could not count θ.
 template <class V>
 void sample_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;

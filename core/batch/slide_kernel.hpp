@@ -5,6 +5,7 @@
 
 namespace zerocount::batch {
 
+/// The step of one vector; see slide_kernel.
 template <bool Fast, class At>
 __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   using P = typename At::Vector;

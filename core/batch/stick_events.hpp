@@ -53,7 +53,7 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_slip_within(const StickStep<P>& ste
 
 /// Marks the lanes whose steps have an event other than a reversal, without looking for it.
 template <class P, class At>
-ZEROCOUNT_ALWAYS_INLINE void see_events(const BatchState& batch, const At& at, StickStep<P>& step) {
+ZEROCOUNT_ALWAYS_INLINE void mark_events(const BatchState& batch, const At& at, StickStep<P>& step) {
   using Mask = typename P::Mask;
   const EventsPassed<P> passed = events_passed(batch, at, step);
   const P hook_max = max(abs(step.hook_torque), abs(hook_torque_at_end(step)));
@@ -115,7 +115,7 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const At& at, c
   step.event = select(sought.open, sought.choose(P(breaks_away), P(closure), P(creep_sets_in), P(creep_ends)),
                       step.event);
   end_at(found, sought.open, step);
-  see_creep(step);
+  evaluate_creep(step);
   P velocity[batch_order + 1];
   for (int k = 0; k <= batch_order; ++k) velocity[k] = velocity_coefficient(step, k);
   step.velocity = select(sought.open, value_of(velocity, batch_order, step.x), step.velocity);

@@ -51,8 +51,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask other_powers(const StickLaw<P>& law, co
   return start.creeping & (law.creep_exponent != P(2.0));
 }
 
-/// The series, two orders at a time: the products of both share most of their factors. What limits this loop
-/// is how fast they come from memory and go there, so nothing is kept that follows from the rest. Rolled up,
+/// The series, two orders at a time: the products of both share most of their factors. Memory
+/// limits this loop, so it stores only what cannot be derived from the rest. Rolled up,
 /// because the code of it all would not fit the instruction cache.
 /// @tparam AnyPower some lane creeps with an exponent other than 2.
 template <bool AnyPower, class P>

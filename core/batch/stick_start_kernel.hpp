@@ -6,6 +6,7 @@
 
 namespace zerocount::batch {
 
+/// The start of a step of one vector; see stick_start_kernel.
 template <class At>
 __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   using P = typename At::Vector;

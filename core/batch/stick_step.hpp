@@ -185,7 +185,7 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_turn_twice(const BatchState& batch,
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
   // Order 1 of the growth is order 0 of its rate.
-  const P creep_velocity = at.load(batch.contact.creep_acceleration) * abs(s.growth[1]);
+  const P creep_velocity = at.load(batch.contact.max_creep_ratio) * abs(s.growth[1]);
   const Mask small = min(abs(step.rate_start), abs(step.rate_end)) <= creep_velocity;
   const Mask unsure = step.here & ~step.reverses & small;
   if (!unsure.any()) return unsure;
@@ -248,7 +248,7 @@ ZEROCOUNT_ALWAYS_INLINE void end_at(const P& x, const typename P::Mask& where, S
 
 /// The rate of creep at the end of the step, by its law.
 template <class P>
-ZEROCOUNT_ALWAYS_INLINE void see_creep(StickStep<P>& step) {
+ZEROCOUNT_ALWAYS_INLINE void evaluate_creep(StickStep<P>& step) {
   P power = step.torque * step.torque;
   const typename P::Mask other_powers = step.creeping & (step.law.creep_exponent != P(2.0));
   if (other_powers.any()) {
@@ -265,7 +265,7 @@ ZEROCOUNT_ALWAYS_INLINE void evaluate_end(StickStep<P>& step) {
   step.elongation_change = step.length * s.elongation_change;
   step.growth_change = step.length * s.growth_change;
   if (step.reverses_too.any()) end_at(step.x, step.reverses_too, step);
-  see_creep(step);
+  evaluate_creep(step);
   // At a reversal only creep moves the rotor.
   step.velocity = select(step.reverses_too, step.creep, step.length * s.velocity_end);
 }

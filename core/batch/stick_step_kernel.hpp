@@ -125,6 +125,7 @@ ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, cons
   }
 }
 
+/// The step of one vector; see stick_step_kernel. Not inlined: a function of its own for each kind of vector.
 template <bool Events, class At>
 __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
   using P = typename At::Vector;
@@ -138,7 +139,7 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
   if constexpr (Events) {
     find_first_event(batch, at, step);
   } else {
-    see_events(batch, at, step);
+    mark_events(batch, at, step);
   }
   const StepTiming<P> timing = timing_of(batch, at, step);
   const typename P::Mask done = ~step.too_long & ~step.beyond & ~timing.counts & ~step.meets;
@@ -154,9 +155,9 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
 }
 
 /// One step of each lane whose hook sticks and that stick_start_kernel and its events have prepared: to the
-/// next stop, to the first event, or as far as the series carry. Reports what happened at its end; nothing of
-/// a lane changes but its next step where the step was too long. A step with events other than a reversal is
-/// not made but reported as meets_event, unless `Events`.
+/// next stop, to the first event, or as far as the series carry. Reports events other than a reversal;
+/// nothing of a lane changes but its next step where the step was too long. A step with events other than a
+/// reversal is not made but reported as meets_event, unless `Events`.
 template <class V, bool Events>
 void stick_step_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;

@@ -7,7 +7,7 @@
 
 namespace zerocount {
 
-/// The exit codes of the process: the one list of them.
+/// The exit codes of the process.
 enum class ExitCode : int {
   success = 0,
   regression = 1,

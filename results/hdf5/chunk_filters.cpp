@@ -61,7 +61,7 @@ void unshuffle(std::size_t element_size, std::span<const std::byte> shuffled, st
 /// Pearson's χ² of the frequencies of the 256 values: 255 ± 23 for random bytes. Bytes that repeat or are not
 /// uniform give more. Bytes that count up give less.
 bool is_noise(std::span<const std::byte> bytes) {
-  constexpr std::size_t min_size = 4096;  // at least 16 of each value
+  constexpr std::size_t min_size = 4096;  // 16 of each value on average
   if (bytes.size() < min_size) return false;
   std::array<std::uint32_t, 256> counts{};
   for (const std::byte byte : bytes) ++counts[std::to_integer<std::size_t>(byte)];
@@ -75,12 +75,11 @@ bool is_noise(std::span<const std::byte> bytes) {
 /// One zlib stream of parts of `part` bytes each. Noise is stored as it is, which is faster to write and to
 /// read.
 std::vector<std::byte> deflate(std::span<std::byte> bytes, std::size_t part, int level) {
-  constexpr std::size_t size_of_change = 64;  // of the blocks that begin where the level changes
+  constexpr std::size_t bytes_of_change = 64;  // of the blocks that begin where the level changes
+  const std::size_t parts = bytes.size() / std::max<std::size_t>(part, 1);
+  std::vector<std::byte> result(compressBound(static_cast<uLong>(bytes.size())) + parts * bytes_of_change);
   z_stream stream{};
   if (deflateInit(&stream, level) != Z_OK) throw std::bad_alloc();
-  const std::size_t parts = bytes.size() / std::max<std::size_t>(part, 1);
-  std::vector<std::byte> result(deflateBound(&stream, static_cast<uLong>(bytes.size())) +
-                                parts * size_of_change);
   stream.next_out = reinterpret_cast<Bytef*>(result.data());
   stream.avail_out = static_cast<uInt>(result.size());
   int status = Z_OK;
@@ -111,10 +110,12 @@ bool inflate(std::span<const std::byte> stream, std::span<std::byte> bytes) {
 
 std::optional<std::vector<std::byte>> encode_chunk(const ChunkFilters& filters,
                                                    std::span<const std::byte> elements) {
-  std::vector<std::byte> stored(elements.begin(), elements.end());
+  std::vector<std::byte> stored;
   if (filters.deflate_level) {
     stored = shuffle(filters.element_size, elements);
     stored = deflate(stored, stored.size() / filters.element_size, *filters.deflate_level);
+  } else {
+    stored.assign(elements.begin(), elements.end());
   }
   const std::uint32_t checksum = fletcher32(stored);
   for (const unsigned shift : {0U, 8U, 16U, 24U})

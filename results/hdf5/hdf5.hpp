@@ -140,7 +140,8 @@ class Dataset : public Object {
   void write(std::int64_t first, std::int64_t rows, const void* data);
   void read(std::int64_t first, std::int64_t rows, void* data) const;
 
-  /// None if the chunks have a part of the rows, or filters other than those of chunk_filters.hpp.
+  /// None if the dataset has no chunks, a chunk does not span whole rows, it holds texts, its filters are not
+  /// those of chunk_filters.hpp, or the machine is not little-endian.
   std::optional<ChunkShape> chunk_shape() const;
 
   void write_texts(std::span<const std::string> texts);

@@ -92,6 +92,7 @@ class Sources {
 
   const layout::TableIo& open(std::size_t index) {
     if (open_ != index) {
+      open_.reset();
       io_.reset();
       file_.emplace(hdf5::File::open_to_read(sources_[index].path));
       io_.emplace(layout::TableIo::open(*file_, table_));

@@ -36,7 +36,7 @@ std::filesystem::path shard_path(const std::filesystem::path& directory, layout:
 void finish_results(const std::filesystem::path& path, const hdf5::WrittenValues& written);
 
 /// Shards are read once and then removed: compressing them takes longer than it saves, unless the results
-/// file takes over the compressed chunks (see concatenate).
+/// file can take over compressed chunks (see concatenate).
 inline constexpr hdf5::Compression shard_compression = hdf5::Compression::none;
 
 /// Writes the results of the rows first_row, first_row + 1, … as one shard. `path` appears when the shard is

@@ -68,7 +68,9 @@ class BlockSource {
 /// Collects finished trials in order of rows and writes them as shards.
 ///
 /// A shard ends at the end of a chunk of the results file if it can: the file then takes over its compressed
-/// chunks. The other shards are not compressed, because their values are compressed again for the file.
+/// chunks, of all tables with a row a trial whose chunks begin where the shard does. The other shards are not
+/// compressed, because their values are compressed again for the file. Trials left after such a shard may
+/// wait twice as long.
 class ShardWriter {
  public:
   using Clock = std::chrono::steady_clock;

@@ -91,7 +91,7 @@ PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTa
 
 void PointAccumulator::add(const trial::TrialOutcome& trial, std::span<const trial::Jerk> jerks) {
   add_counts(trial.moves, jerks);
-  for (MeasureAccumulator& measure : measures_) measure.add(trial.moves);
+  add_measures(trial.moves, trial.moves.size());
 }
 
 void PointAccumulator::add_measures(std::span<const trial::MoveOutcome> moves, std::size_t moves_of_trial) {

@@ -25,20 +25,29 @@ bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutc
 double value_of_trial(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves,
                       const std::function<double()>& late = {});
 
+/// Calls visit(block, outcomes) for the trials of these global rows in order. A block ends where a chunk of
+/// the file does. `outcomes` is a span of the outcomes of its moves, [trial, move].
+template <class Visit>
+void visit_blocks(const reading::StudyFile& file, layout::RowRange rows, const Visit& visit) {
+  const std::int64_t chunk = layout::chunk_rows(file.moves());
+  for (layout::RowRange block{rows.first, 0}; block.first < rows.end(); block.first = block.end()) {
+    const std::int64_t in_file = block.first - file.rows().first;
+    block.count = std::min(chunk - in_file % chunk, rows.end() - block.first);
+    const std::vector<trial::MoveOutcome> outcomes = file.outcomes(block);
+    visit(block, std::span(outcomes));
+  }
+}
+
 /// Calls visit(row, moves) for the trials of these global rows in order, reading the file in blocks. `moves`
 /// is a span of the outcomes of the trial's moves.
 template <class Visit>
 void visit_trials(const reading::StudyFile& file, layout::RowRange rows, const Visit& visit) {
-  const std::int64_t moves = file.moves();
-  const std::int64_t at_once = layout::chunk_rows(moves);
-  for (std::int64_t first = rows.first; first < rows.end(); first += at_once) {
-    const layout::RowRange block{first, std::min(at_once, rows.end() - first)};
-    const std::vector<trial::MoveOutcome> outcomes = file.outcomes(block);
-    for (std::int64_t row = block.first; row < block.end(); ++row) {
-      visit(row, std::span(outcomes).subspan(static_cast<std::size_t>((row - block.first) * moves),
-                                             static_cast<std::size_t>(moves)));
+  const auto moves = static_cast<std::size_t>(file.moves());
+  visit_blocks(file, rows, [&](layout::RowRange block, std::span<const trial::MoveOutcome> rest) {
+    for (std::int64_t row = block.first; row < block.end(); ++row, rest = rest.subspan(moves)) {
+      visit(row, rest.first(moves));
     }
-  }
+  });
 }
 
 }  // namespace zerocount::measures

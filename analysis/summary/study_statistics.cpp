@@ -16,6 +16,7 @@
 
 #include "analysis/iso230/repeatability_file.hpp"
 #include "analysis/measures/point_columns.hpp"
+#include "analysis/measures/trial_value.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
@@ -119,12 +120,8 @@ StudyAccumulator::StudyAccumulator(const study::Study& study, double confidence,
 void StudyAccumulator::add(const reading::StudyFile& file, layout::RowRange rows) {
   const measures::MoveKind kind{study_.open_loop, file.header().version, study_.rigs};
   JerkStream jerks(file, rows);
-  const std::int64_t at_once = layout::chunk_rows(file.moves());
-  for (layout::RowRange block{rows.first, 0}; block.first < rows.end(); block.first = block.end()) {
-    const std::int64_t in_file = block.first - file.rows().first;
-    block.count = std::min(at_once - in_file % at_once, rows.end() - block.first);
-    const std::vector<trial::MoveOutcome> moves = file.outcomes(block);
-    std::span<const trial::MoveOutcome> rest(moves);
+  using Outcomes = std::span<const trial::MoveOutcome>;
+  measures::visit_blocks(file, rows, [&](layout::RowRange block, Outcomes rest) {
     for (layout::RowRange of_point{block.first, 0}; of_point.first < block.end();
          of_point.first = of_point.end()) {
       of_point.count = std::min(study_.trials - of_point.first % study_.trials, block.end() - of_point.first);
@@ -133,7 +130,7 @@ void StudyAccumulator::add(const reading::StudyFile& file, layout::RowRange rows
       add_trials(*point_, file, of_point, rest.first(count), jerks);
       rest = rest.subspan(count);
     }
-  }
+  });
   if (!jerks.at_end()) fail(file, "jerks are recorded beyond those that the trials counted");
 }
 

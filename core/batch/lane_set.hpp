@@ -22,7 +22,7 @@ struct LaneSet {
   ZEROCOUNT_ALWAYS_INLINE int count() const {
     return __builtin_popcountll(words[0]) + __builtin_popcountll(words[1]);
   }
-  /// Of a set that is not empty.
+  /// The lowest lane. The set must not be empty.
   ZEROCOUNT_ALWAYS_INLINE int first() const {
     return words[0] != 0 ? __builtin_ctzll(words[0]) : 64 + __builtin_ctzll(words[1]);
   }

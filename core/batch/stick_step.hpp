@@ -177,8 +177,8 @@ ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, c
   return min(at.load(time.tolerance), relative) * (step.h * at.load(time.sample_rate));
 }
 
-/// Whether dxs/dt, which has the same sign at both ends, may be zero between them: where it is as small as
-/// the contribution of creep, that may bring it through zero and back.
+/// The lanes in which dxs/dt may be zero within the step though it has the same sign at both ends. Creep may
+/// bring it through zero and back where it is as small as the contribution of creep.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_turn_twice(const BatchState& batch, const At& at,
                                                         const StickStep<P>& step) {

@@ -5,7 +5,8 @@
 /// The measures of a move that change with every sample, for double and for the vectors of the batch engine.
 namespace zerocount::trial {
 
-/// Whether a move has arrived, as far as it is known. Flags are 0 or 1, and whole numbers exact.
+/// The measures of the arrival at the target, up to the present sample. Flags are 0 or 1, whole numbers
+/// exact.
 /// @tparam Number double, a vector, or an array with the numbers of many lanes.
 template <class Number>
 struct ArrivalMeasures {

@@ -55,8 +55,8 @@ void unshuffle(std::size_t element_size, std::span<const std::byte> shuffled, st
   }
 }
 
-/// Whether the bytes look like independent random bytes, as the low bytes of random numbers do. No coder can
-/// shorten these.
+/// Whether the frequencies of the byte values are those of independent random bytes, as in the low bytes of
+/// random numbers. No coder can shorten these.
 ///
 /// Pearson's χ² of the frequencies of the 256 values: 255 ± 23 for random bytes. Bytes that repeat or are not
 /// uniform give more. Bytes that count up give less.

@@ -22,8 +22,8 @@ struct ChunkFilters {
   bool operator==(const ChunkFilters&) const = default;
 };
 
-/// The bytes that the file stores for a chunk with these elements. None if they do not decode to the
-/// elements, which only a faulty machine can cause.
+/// The bytes that the file stores for a chunk with these elements. None if zlib fails, or if they do
+/// not decode to the elements.
 std::optional<std::vector<std::byte>> encode_chunk(const ChunkFilters& filters,
                                                    std::span<const std::byte> elements);
 

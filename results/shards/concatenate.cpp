@@ -84,7 +84,7 @@ class Sources {
   }
 
  private:
-  /// Of the source with this row.
+  /// Index of the source that holds this row.
   std::size_t index_of(std::int64_t row) {
     while (sources_[next_].rows.end() <= row) ++next_;
     return next_;

@@ -24,6 +24,9 @@ bool lanes_know(friction::FrictionModel model) {
       return true;
     case friction::FrictionModel::coulomb:
     case friction::FrictionModel::none:
+    case friction::FrictionModel::dahl:
+    case friction::FrictionModel::lugre:
+    case friction::FrictionModel::gms:
       break;
   }
   return false;

@@ -13,7 +13,11 @@ class NoFriction : public WithoutCreepAndReversals {
  public:
   static constexpr std::string_view word = "none";
   static constexpr std::array<ContactField, 0> contact_parameters{};
+  static constexpr bool has_presliding_motion = false;
   static constexpr bool has_presliding_damping = true;
+  static constexpr bool has_sliding_damping = false;
+  static constexpr bool remembers_loading = false;
+  static constexpr Breakaway breakaway = Breakaway::never;
 
   NoFriction(const motion::PlantParameters& plant, const FrictionAlongRotor&, const motion::PlantStart& start,
              const motion::MotionTolerance&)

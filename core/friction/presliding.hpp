@@ -64,7 +64,11 @@ class PreslidingFriction {
                                                                   &FrictionParameters::alpha,
                                                                   &FrictionParameters::lambda,
                                                                   &FrictionParameters::n};
+  static constexpr bool has_presliding_motion = true;
   static constexpr bool has_presliding_damping = true;
+  static constexpr bool has_sliding_damping = true;
+  static constexpr bool remembers_loading = true;
+  static constexpr Breakaway breakaway = Breakaway::of_hook;
 
   PreslidingFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
                      const motion::PlantStart& start, motion::MotionTolerance tolerance);

@@ -8,10 +8,9 @@ SlidingSeries Slide::start() const {
   SlidingSeries series;
   series.position[0] = theta;
   series.omega[0] = omega;
-  const double coulomb = contact.coulomb_ratio * contact.breakaway;
-  series.coulomb = direction * coulomb;
-  series.stribeck = direction * (contact.breakaway - coulomb);
-  series.per_velocity_squared = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
+  series.curve = stribeck_curve(contact);
+  series.curve.coulomb *= direction;
+  series.curve.excess *= direction;
   return series;
 }
 

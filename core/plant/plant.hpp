@@ -75,8 +75,7 @@ class PlantOf {
   PlantOf(const motion::PlantParameters& plant, const friction::FrictionAlongRotor& friction,
           const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
       : plant_(makers.at(static_cast<std::size_t>(friction.model))(plant, friction, start, tolerance)),
-        has_hook_(friction::uses(Laws::traits.at(static_cast<std::size_t>(friction.model)),
-                                 &friction::FrictionParameters::breakaway)) {}
+        breakaway_(Laws::traits.at(static_cast<std::size_t>(friction.model)).breakaway) {}
 
   /// Applies the torque for `duration` (s).
   void advance(const motion::TorqueCourse& torque, double duration) {
@@ -103,8 +102,8 @@ class PlantOf {
   bool finite() const {
     return std::visit([](const auto& plant) { return plant.finite(); }, plant_);
   }
-  /// Whether sliding is that of a hook which had to break away.
-  bool has_hook() const { return has_hook_; }
+  /// How the law begins to slide.
+  friction::Breakaway breakaway() const { return breakaway_; }
   /// Since the start.
   std::int64_t breakaways() const {
     return std::visit([](const auto& plant) { return plant.breakaways(); }, plant_);
@@ -133,7 +132,7 @@ class PlantOf {
   (std::make_index_sequence<std::variant_size_v<AnyPlant>>{});
 
   AnyPlant plant_;
-  bool has_hook_;
+  friction::Breakaway breakaway_;
 };
 
 using Plant = PlantOf<friction::FrictionLaws>;

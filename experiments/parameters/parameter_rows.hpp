@@ -12,7 +12,7 @@
 namespace zerocount::parameters {
 
 // The rows of the table of parameters, by section. Each has a Sobol dimension of its own, so that a new row
-// does not change the draws of the others. The next free one is beyond_moves(9).
+// does not change the draws of the others. The next free one is beyond_moves(12).
 
 std::vector<Parameter> plant_rows();
 std::vector<Parameter> friction_rows();

@@ -26,11 +26,11 @@ std::vector<Parameter> plant_rows() {
 std::vector<Parameter> friction_rows() {
   using P = friction::FrictionParameters;
   return {
-      word_row("friction.model", beyond_moves(0),
-               "friction of the bearing: before it slides a spring and creep, the spring alone, or no "
-               "motion at "
-               "all; none is an air bearing",
-               assumed, friction::friction_model_labels(), [](auto& p) { return &p.friction.model; }),
+      word_row(
+          "friction.model", beyond_moves(0),
+          "friction of the bearing: before it slides a spring and creep, the spring alone, or no "
+          "motion at all; none is an air bearing; the models of Dahl, LuGre, and generalised Maxwell-slip",
+          assumed, friction::friction_model_labels(), [](auto& p) { return &p.friction.model; }),
       friction<&P::k1>(real_row("friction.k1", 0, "N m/rad",
                                 "lowest tangent stiffness of the friction spring", "paper, section 4",
                                 numerics::above(0))),
@@ -55,6 +55,16 @@ std::vector<Parameter> friction_rows() {
       friction<&P::stribeck_velocity>(real_row(
           "friction.stribeck_velocity", 8, "rad/s",
           "velocity over which sliding friction falls to the Coulomb level", assumed, numerics::above(0))),
+      friction<&P::sigma0>(real_row("friction.sigma0", beyond_moves(9), "N m/rad",
+                                    "stiffness of the bristles of dahl and lugre",
+                                    "assumed (k1 + k2 of the paper)", numerics::above(0))),
+      friction<&P::sigma1>(real_row("friction.sigma1", beyond_moves(10), "N m s/rad",
+                                    "damping of the bristles of lugre", "assumed (the paper's c)",
+                                    numerics::at_least(0))),
+      friction<&P::gms_attraction>(
+          real_row("friction.gms.attraction", beyond_moves(11), "N m/s",
+                   "rate at which the torque of a slipping element of gms goes to its level", assumed,
+                   numerics::above(0))),
   };
 }
 

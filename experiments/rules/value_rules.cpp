@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/friction/law.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 
 namespace zerocount::rules {
@@ -64,8 +65,8 @@ std::vector<ValueRule> rules_of_the_start(const std::string& torque_unit) {
        false,
        [](Limits l, Limits) -> Faults {
          const auto model = static_cast<friction::FrictionModel>(static_cast<int>(l[2].low));
-         const bool slides =
-             l[1].low == static_cast<double>(trial::InitialMode::slide) && friction::has_breakaway(model);
+         const bool slides = l[1].low == static_cast<double>(trial::InitialMode::slide) &&
+                             friction::traits_of(model).breakaway != friction::Breakaway::never;
          if (!slides || !l[0].can_be_zero) return {};
          return {{"the velocity can be 0 where the hook slides at the start",
                   "a velocity that is never 0 with initial.mode: slide"}};

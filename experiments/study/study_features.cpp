@@ -44,6 +44,9 @@ bool causes_hunting(const ValueLimits& model) {
     case friction::FrictionModel::presliding:
     case friction::FrictionModel::spring:
     case friction::FrictionModel::none:
+    case friction::FrictionModel::dahl:
+    case friction::FrictionModel::lugre:
+    case friction::FrictionModel::gms:
       break;
   }
   return false;

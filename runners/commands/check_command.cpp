@@ -160,9 +160,13 @@ std::string_view why_outside(const trial::TrialParameters& first) {
     case friction::FrictionModel::coulomb:
       return "friction.model coulomb has no spring before it slides";
     case friction::FrictionModel::none:
+      return "friction.model none has no spring, which criteria (6) and (7) are about";
+    case friction::FrictionModel::dahl:
+    case friction::FrictionModel::lugre:
+    case friction::FrictionModel::gms:
       break;
   }
-  return "friction.model none has no spring, which criteria (6) and (7) are about";
+  return "the spring of this friction.model yields by degrees, from its full stiffness to none, not to k1";
 }
 
 void add_sliding(SlidingPhase& phase, const trial::TrialParameters& p) {

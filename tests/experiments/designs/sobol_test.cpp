@@ -177,6 +177,9 @@ TEST(Sobol, TheDimensionsAreFixed) {
       {"verdict.stop", 3070},
       {"encoder.resolution", 3071},
       {"encoder.coarse_resolution", 3072},
+      {"friction.sigma0", 3073},
+      {"friction.sigma1", 3074},
+      {"friction.gms.attraction", 3075},
   };
   std::size_t checked = 0;
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {

@@ -116,7 +116,7 @@ TEST(Sections, SweepsAndOverridesAreToldTheNearestDottedName) {
 TEST(Sections, WordsAreThoseOfTheTable) {
   EXPECT_EQ(refusal_of(minimal_manifest("friction: {model: coulumb}")),
             "m.yaml:6:19: friction.model: 'coulumb' is none of its words; expected one of presliding, "
-            "spring, coulomb, none");
+            "spring, coulomb, none, dahl, lugre, gms");
   EXPECT_EQ(refusal_of(minimal_manifest("initial: {mode: {choice: [0, 1]}}")),
             "m.yaml:6:17: initial.mode: '{choice: [0, 1]}' is none of its words; expected one of stick, "
             "slide");

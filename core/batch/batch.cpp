@@ -21,11 +21,11 @@ bool lanes_know(friction::FrictionModel model) {
   switch (model) {
     case friction::FrictionModel::presliding:
     case friction::FrictionModel::spring:
-      return true;
-    case friction::FrictionModel::coulomb:
     case friction::FrictionModel::none:
     case friction::FrictionModel::dahl:
     case friction::FrictionModel::lugre:
+      return true;
+    case friction::FrictionModel::coulomb:
     case friction::FrictionModel::gms:
       break;
   }

@@ -21,13 +21,13 @@ using Lanes = double[lane_slots];
 
 /// The contact while the hook sticks, and the rotor.
 struct alignas(64) MotionLanes {
-  Lanes elongation;  ///< xs, rad
+  Lanes elongation;  ///< xs, or z of a bristle, rad
   Lanes omega;       ///< ω, rad/s
   Lanes extension;   ///< xp, rad
   Lanes hardening;   ///< xh, rad
   Lanes torque;      ///< u of the motor, N m
   Lanes hook;        ///< rad
-  Lanes theta;       ///< θ while the hook slides, rad
+  Lanes theta;       ///< θ while the hook slides, and of laws without a hook, rad
 
   Lanes branch_elongation;        ///< xr, rad
   Lanes branch_torque;            ///< σr, N m
@@ -41,8 +41,9 @@ struct alignas(64) MotionLanes {
   Lanes turning;                  ///< dxs/dt is zero at this instant
   Lanes creeping;                 ///< the creep law is on
   Lanes creep_onset;              ///< |σ| at which it sets in, N m
-  Lanes slide_direction;          ///< −1, 1; 0 while the hook sticks
-  Lanes rest_torque;              ///< under which the lane's plant has come to rest, N m; NaN: it has not
+  Lanes slide_direction;  ///< −1, 1; 0 while the hook sticks; 1 for laws without a hook, which move θ itself
+  Lanes gradual_slide;    ///< the bristle slides at this instant
+  Lanes rest_torque;      ///< under which the lane's plant has come to rest, N m; NaN: it has not
 
   Lanes spring_torque;  ///< σ at the start of the step, N m
   Lanes softness;       ///< exp(−y) of the branch at the start of the step
@@ -53,7 +54,7 @@ struct alignas(64) ContactLanes {
   Lanes inertia;               ///< J, kg m²
   Lanes per_inertia;           ///< 1/J
   Lanes damping;               ///< c
-  Lanes sliding_damping;       ///< cs
+  Lanes sliding_damping;       ///< cs, or d of a bristle
   Lanes k1;                    ///< N m/rad
   Lanes stiffest;              ///< k1 + k2, N m/rad
   Lanes alpha;                 ///< 1/s
@@ -65,6 +66,16 @@ struct alignas(64) ContactLanes {
   Lanes per_velocity_squared;  ///< 1/ωs²
   Lanes fast_velocity;         ///< 8ωs, rad/s: beyond it friction is that of Coulomb
   Lanes max_oscillation;       ///< that may count as rest at a reversal, rad
+  Lanes bristle_stiffness;     ///< σ0
+  Lanes bristle_damping;       ///< σ1
+};
+
+/// The motion without friction over one sample: θ ← θ + travel·ω + push·u, ω ← decay·ω + gain·u.
+struct alignas(64) FreeLanes {
+  Lanes travel;  ///< s
+  Lanes push;    ///< rad/(N m)
+  Lanes decay;   ///< dimensionless
+  Lanes gain;    ///< rad/(N m s)
 };
 
 /// The time of a lane, and its steps.
@@ -110,6 +121,7 @@ struct alignas(64) MeasureLanes : trial::RunningMeasures<Lanes> {
   Lanes max_error;    ///< beyond |e_0|, with which the move is ended, counts; infinite: never
   Lanes theta;        ///< at the last sample, rad
   Lanes extension;    ///< at the last sample, rad
+  Lanes slid;         ///< a bristle slid at a sampling instant of the move
 };
 
 /// Events of a lane that a kernel reports: a sum of these.
@@ -148,6 +160,7 @@ struct PassedSamples {
 struct LaneNumbers {
   MotionLanes motion;
   ContactLanes contact;
+  FreeLanes free;
   TimeLanes time;
   LoopLanes loop;
   MeasureLanes measures;

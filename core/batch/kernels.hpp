@@ -13,6 +13,10 @@ struct Kernels {
   void (*stick_event)(BatchState&, const LaneSet&);  ///< a step that may have events
   void (*slide_fast)(BatchState&, const LaneSet&);
   void (*slide_slow)(BatchState&, const LaneSet&);
+  LaneSet (*bristle_rest)(BatchState&, const LaneSet&);
+  void (*bristle_fast)(BatchState&, const LaneSet&);
+  void (*bristle_slow)(BatchState&, const LaneSet&);
+  void (*free)(BatchState&, const LaneSet&);
 };
 
 extern const Kernels portable_kernels;

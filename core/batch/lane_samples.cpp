@@ -13,6 +13,7 @@ void LaneWork::take_samples() {
   });
   const LaneSet due = at_stop.in_both(active_);
   if (due.empty()) return;
+  note_gradual_slides(due);
   kernels_.sample(batch_, due);
   for (int i = 0; i < batch_.event_count; ++i) {
     const int lane = batch_.event_lanes[i];
@@ -36,6 +37,12 @@ void LaneWork::take_samples() {
     if ((events & delayed) != 0) delay_torque(lane, trial);
     if ((events & diverges) != 0) stop_diverged(lane, trial);
   }
+}
+
+void LaneWork::note_gradual_slides(const LaneSet& due) {
+  for_each_lane(due.in_both(bristles_), [&](int lane) {
+    if (batch_.motion.gradual_slide[lane] != 0.0) batch_.measures.slid[lane] = 1.0;
+  });
 }
 
 void LaneWork::record_sample(int lane, const LaneTrial& trial) {

@@ -4,6 +4,9 @@
 #include <limits>
 
 #include "core/batch/lane_trial.hpp"
+#include "core/friction/dahl.hpp"
+#include "core/friction/free_motion.hpp"
+#include "core/friction/lugre.hpp"
 #include "core/loop/controller.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/encoder.hpp"
@@ -50,6 +53,88 @@ void start_time(TimeLanes& time, int lane, const trial::TrialParameters& p, doub
   time.per_count[lane] = 1.0 / resolution;
 }
 
+LaneMotion lane_motion(friction::FrictionModel model) {
+  switch (model) {
+    case friction::FrictionModel::none:
+      return LaneMotion::free;
+    case friction::FrictionModel::dahl:
+    case friction::FrictionModel::lugre:
+      return LaneMotion::bristle;
+    case friction::FrictionModel::presliding:
+    case friction::FrictionModel::spring:
+    case friction::FrictionModel::coulomb:
+    case friction::FrictionModel::gms:
+      break;
+  }
+  return LaneMotion::contact;
+}
+
+/// θ itself moves, and the count is looked at in each sample, as while a hook slides.
+void start_without_hook(BatchState& batch, int lane, double velocity) {
+  MotionLanes& m = batch.motion;
+  m.slide_direction[lane] = 1.0;
+  m.theta[lane] = 0.0;
+  m.omega[lane] = velocity;
+  m.extension[lane] = 0.0;
+  m.hardening[lane] = 0.0;
+}
+
+void start_bristle(BatchState& batch, int lane, const friction::Bristle& bristle, double resolution) {
+  const friction::BristleParameters& p = bristle.parameters();
+  start_without_hook(batch, lane, bristle.omega());
+  batch.motion.elongation[lane] = bristle.deflection();
+  batch.motion.gradual_slide[lane] = bristle.sliding() ? 1.0 : 0.0;
+  ContactLanes& c = batch.contact;
+  c.bristle_stiffness[lane] = p.stiffness;
+  c.bristle_damping[lane] = p.bristle_damping;
+  c.sliding_damping[lane] = p.damping;
+  c.coulomb[lane] = p.level.coulomb;
+  c.breakaway[lane] = p.level.coulomb + p.level.excess;
+  const bool constant = p.level.excess == 0.0;
+  c.per_velocity_squared[lane] = constant ? 1.0 : p.level.per_velocity_squared;
+  c.fast_velocity[lane] = constant ? -1.0 : 8.0 / std::sqrt(p.level.per_velocity_squared);
+  constexpr double step_error = 1e-10;  // of a torque step, counts
+  batch.time.tolerance[lane] = step_error * resolution;
+}
+
+void start_free(BatchState& batch, int lane, const trial::TrialParameters& p, double sample_time) {
+  start_without_hook(batch, lane, p.initial.velocity);
+  const friction::FreeMotion by_velocity =
+      friction::free_motion(p.plant, {0.0, 1.0}, motion::constant_torque(0.0), sample_time);
+  const friction::FreeMotion by_torque =
+      friction::free_motion(p.plant, {}, motion::constant_torque(1.0), sample_time);
+  batch.free.travel[lane] = by_velocity.theta;
+  batch.free.decay[lane] = by_velocity.omega;
+  batch.free.push[lane] = by_torque.theta;
+  batch.free.gain[lane] = by_torque.omega;
+}
+
+void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resolution) {
+  const trial::TrialParameters& p = *trial.parameters;
+  const motion::MotionTolerance tolerance = trial::motion_tolerance(resolution);
+  trial.motion = lane_motion(p.friction.model);
+  switch (trial.motion) {
+    case LaneMotion::contact:
+      trial.plant.emplace(p.plant, p.friction, trial::plant_start(p), tolerance);
+      store_contact(batch, lane, trial);
+      return;
+    case LaneMotion::bristle:
+      if (p.friction.model == friction::FrictionModel::dahl) {
+        start_bristle(batch, lane,
+                      friction::DahlFriction(p.plant, p.friction, trial::plant_start(p), tolerance),
+                      resolution);
+      } else {
+        start_bristle(batch, lane,
+                      friction::LuGreFriction(p.plant, p.friction, trial::plant_start(p), tolerance),
+                      resolution);
+      }
+      return;
+    case LaneMotion::free:
+      start_free(batch, lane, p, batch.time.sample_time[lane]);
+      return;
+  }
+}
+
 }  // namespace
 
 void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,
@@ -70,12 +155,11 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
   const double resolution = batch.loop.resolution[lane];
   start_time(batch.time, lane, p, resolution);
   trial.elongation_tolerance = trial::motion_tolerance(resolution).elongation;
-  trial.plant.emplace(p.plant, p.friction, trial::plant_start(p), trial::motion_tolerance(resolution));
   batch.contact.inertia[lane] = p.plant.inertia;
   batch.contact.per_inertia[lane] = 1.0 / p.plant.inertia;
   batch.contact.damping[lane] = p.plant.presliding_damping;
   batch.contact.sliding_damping[lane] = p.plant.sliding_damping;
-  store_contact(batch, lane, trial);
+  start_motion(batch, lane, trial, resolution);
   start_move(batch, lane, trial);
 }
 
@@ -89,11 +173,13 @@ void start_move(BatchState& batch, int lane, LaneTrial& trial) {
   q.limits.window[lane] = static_cast<double>(timing.window);
   q.last_half[lane] = static_cast<double>(trial::first_of_last_half(timing.samples));
   trial::for_each_measure([lane](Lanes& measure) { measure[lane] = 0.0; }, q);
-  for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension}) (*of)[lane] = 0.0;
+  for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension, &q.slid})
+    (*of)[lane] = 0.0;
   q.max_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
   trial.breakaways = 0;
-  trial.slid_at_start = batch.motion.slide_direction[lane] != 0.0;
-  trial.deepest = static_cast<std::int64_t>(trial.plant->spring().depth());
+  const bool has_contact = trial.motion == LaneMotion::contact;
+  trial.slid_at_start = has_contact && batch.motion.slide_direction[lane] != 0.0;
+  trial.deepest = has_contact ? static_cast<std::int64_t>(trial.plant->spring().depth()) : 0;
   trial.jerks = trial::Jerks(static_cast<std::int64_t>(trial.move), timing.sample_time);
   trial.last_half.start(timing.samples);
 }
@@ -109,7 +195,7 @@ trial::MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& tri
               false,
               q.theta[lane],
               q.extension[lane]};
-  end.broke_away = trial.slid_at_start || trial.breakaways > 0;
+  end.broke_away = trial.slid_at_start || trial.breakaways > 0 || q.slid[lane] != 0.0;
   end.reversal_depth = trial.deepest;
   end.stopped = stopped;
   trial.last_half.finish(end.last.count);

@@ -71,6 +71,7 @@ class Bristle : public WithoutCreepAndReversals {
   bool sliding() const;
   static std::int64_t breakaways() { return 0; }
   double deflection() const { return deflection_; }  ///< z, rad
+  const BristleParameters& parameters() const { return parameters_; }
 
  protected:
   /// At rest with z = 0, or where `start.sliding` and it moves, with the z of steady sliding, sgn(ω)·g(ω)/σ0.

@@ -2,27 +2,23 @@
 
 #include "core/batch/lane_group.hpp"
 #include "core/batch/series.hpp"
+#include "core/friction/bristle_formulas.hpp"
 
 namespace zerocount::batch {
 
-/// Which lanes are at rest under their torque, by the rest rule of friction::Bristle.
+/// Which lanes are at rest under their torque.
 template <class P, class At>
-ZEROCOUNT_ALWAYS_INLINE typename P::Mask bristle_rests(const BatchState& batch, const At& at) {
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask rests_on_bristle(const BatchState& batch, const At& at) {
   const MotionLanes& m = batch.motion;
   const ContactLanes& c = batch.contact;
-  const P one(1.0);
   const P omega = at.load(m.omega);
   const P torque = at.load(m.torque);
-  const P excursion_of_bristle = at.load(m.elongation) - torque / at.load(c.bristle_stiffness);
-  const P inertia = at.load(c.inertia);
-  const P margin = one - abs(torque) / at.load(c.breakaway);
-  const P damping = at.load(c.bristle_damping) * margin + at.load(c.sliding_damping);
-  const P frequency = sqrt(at.load(c.bristle_stiffness) / inertia);
-  const P excursion = abs(excursion_of_bristle) + abs(omega) * (one / frequency + inertia / damping);
-  const typename P::Mask small =
-      P(4.0) * excursion * (one + inertia * frequency / damping) < at.load(batch.time.rest) * margin;
-  const typename P::Mask balanced = (omega == P(0.0)) & (excursion_of_bristle == P(0.0));
-  return ((margin > P(0.0)) & (damping > P(0.0)) & small) | balanced;
+  const P deflection = at.load(m.elongation);
+  const P stiffness = at.load(c.bristle_stiffness);
+  const typename P::Mask balanced = (omega == P(0.0)) & (deflection == torque / stiffness);
+  return balanced | friction::bristle_rests(deflection, omega, torque, stiffness, at.load(c.bristle_damping),
+                                            at.load(c.sliding_damping), at.load(c.breakaway),
+                                            at.load(c.inertia), at.load(batch.time.rest));
 }
 
 /// Takes the lanes that are at rest to their next stop. @returns the others.
@@ -33,7 +29,7 @@ LaneSet bristle_rest_kernel(BatchState& batch, const LaneSet& lanes) {
   for (int base = 0; base < max_lanes; base += P::lanes) {
     const unsigned here = lanes.stretch(base, P::lanes);
     if (here == 0) continue;
-    const typename P::Mask rests = bristle_rests<P>(batch, LaneStretch<P>(base, here));
+    const typename P::Mask rests = rests_on_bristle<P>(batch, LaneStretch<P>(base, here));
     const unsigned resting = rests.bits() & here;
     if (resting == 0) continue;
     moving.erase_stretch(base, resting);
@@ -93,6 +89,8 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   const P force_scale = h * h * per_inertia;
   const P damping_scale = h * per_inertia;
   const P per_step_squared = per_velocity_squared / (h * h);
+  const P end_of_bristle = direction * coulomb / stiffness;
+  const Mask saturated = friction::is_at_end(deflection, end_of_bristle, coulomb, at.load(c.inertia), omega);
   const P towards = direction * stiffness;
   const P per_coulomb = one / coulomb;
 
@@ -106,7 +104,7 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   P level[batch_order + 1];
   travel[0] = zero;
   velocity[0] = omega * h;
-  bend[0] = deflection;
+  bend[0] = Fast ? select(saturated, end_of_bristle, deflection) : deflection;
   decay[0] = decay_start;
 #pragma GCC unroll 1
   for (int k = 0; k < batch_order; ++k) {
@@ -124,7 +122,8 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
       level[k] = excess * decay[k] + (k == 0 ? coulomb : zero);
       ratio[k] = numerics::quotient_coefficient(product, level, ratio, k);
     }
-    const P rate = velocity[k] - towards * ratio[k];
+    P rate = velocity[k] - towards * ratio[k];
+    if constexpr (Fast) rate = select(saturated, zero, rate);
     const P per_order = P(numerics::reciprocal.of[k + 1]);
     const P force = (k == 0 ? torque : zero) - stiffness * bend[k];
     travel[k + 1] = velocity[k] * per_order;

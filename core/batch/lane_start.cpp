@@ -92,9 +92,8 @@ void start_bristle(BatchState& batch, int lane, const friction::Bristle& bristle
   c.breakaway[lane] = p.level.coulomb + p.level.excess;
   const bool constant = p.level.excess == 0.0;
   c.per_velocity_squared[lane] = constant ? 1.0 : p.level.per_velocity_squared;
-  c.fast_velocity[lane] = constant ? -1.0 : 8.0 / std::sqrt(p.level.per_velocity_squared);
-  constexpr double step_error = 1e-10;  // of a torque step, counts
-  batch.time.tolerance[lane] = step_error * resolution;
+  c.fast_velocity[lane] = constant ? -1.0 : p.fast;
+  batch.time.tolerance[lane] = trial::motion_tolerance(resolution).elongation;
 }
 
 void start_free(BatchState& batch, int lane, const trial::TrialParameters& p, double sample_time) {

@@ -2,9 +2,16 @@
 
 #include <cmath>
 
+#include "core/friction/bristle_formulas.hpp"
 #include "core/numerics/sign.hpp"
 
 namespace zerocount::friction {
+
+BristleParameters bristle_parameters(double stiffness, double bristle_damping, double damping,
+                                     const StribeckCurve& level) {
+  const double velocity = level.excess != 0.0 ? 1.0 / std::sqrt(level.per_velocity_squared) : 0.0;
+  return {stiffness, bristle_damping, damping, level, 8.0 * velocity, 6.5 * velocity};
+}
 
 BristleSeries BristleMotion::start() const {
   BristleSeries s;
@@ -15,7 +22,9 @@ BristleSeries BristleMotion::start() const {
 }
 
 double BristleMotion::expand(BristleSeries& s, std::size_t k, double torque) const {
-  const auto& [stiffness, bristle_damping, damping, curve] = parameters;
+  const auto& [stiffness, bristle_damping, damping, curve, fast, slow] = parameters;
+  s.position[k + 1] = s.omega[k] * numerics::reciprocal[k + 1];
+  if (saturated) return torque - stiffness * s.deflection[k] - damping * s.omega[k];
   if (curve.excess != 0.0) s.level[k] = curve.excess * s.StribeckSeries::expand(curve, s.omega, k);
   if (k == 0) s.level[0] += curve.coulomb;
   double product = 0.0;
@@ -23,7 +32,6 @@ double BristleMotion::expand(BristleSeries& s, std::size_t k, double torque) con
   s.ratio[k] = numerics::quotient_coefficient(product, s.level.data(), s.ratio.data(), k);
   const double rate = s.omega[k] - direction * stiffness * s.ratio[k];  // of z
   s.deflection[k + 1] = rate * numerics::reciprocal[k + 1];
-  s.position[k + 1] = s.omega[k] * numerics::reciprocal[k + 1];
   return torque - stiffness * s.deflection[k] - bristle_damping * rate - damping * s.omega[k];
 }
 
@@ -31,6 +39,11 @@ motion::NextEvent<BristleMotion::Event> BristleMotion::first_event(const Bristle
                                                                    double step) const {
   motion::NextEvent<Event> next{step};
   next.offer(motion::next_sign_change(series.omega, next.time), Event::velocity_zero);
+  if (saturated && parameters.slow > 0.0) {
+    numerics::Series above = series.omega;
+    above[0] -= direction * parameters.slow;
+    next.offer(motion::next_sign_change(above, next.time), Event::slow_again);
+  }
   return next;
 }
 
@@ -64,14 +77,19 @@ double Bristle::direction_under(const motion::TorqueCourse& torque) const {
   return motion::is_constant(torque) ? 0.0 : numerics::sign_of(torque.settled - torque.now);
 }
 
+/// Whether the bristle is where it stays while the rotor is fast; sets it there.
+bool Bristle::saturates(double direction) {
+  if (!(std::abs(omega_) > parameters_.fast)) return false;
+  const double end = direction * parameters_.level.coulomb / parameters_.stiffness;
+  if (!is_at_end(deflection_, end, parameters_.level.coulomb, inertia_, omega_)) return false;
+  deflection_ = end;
+  return true;
+}
+
 bool Bristle::rests_under(double torque) const {
-  const double margin = 1.0 - std::abs(torque) / (parameters_.level.coulomb + parameters_.level.excess);
-  const double damping = parameters_.bristle_damping * margin + parameters_.damping;
-  if (margin <= 0.0 || damping <= 0.0) return false;
-  const double frequency = std::sqrt(parameters_.stiffness / inertia_);
-  const double excursion = std::abs(deflection_ - torque / parameters_.stiffness) +
-                           std::abs(omega_) * (1.0 / frequency + inertia_ / damping);
-  return 4.0 * excursion * (1.0 + inertia_ * frequency / damping) < tolerance_.rest * margin;
+  return bristle_rests(deflection_, omega_, torque, parameters_.stiffness, parameters_.bristle_damping,
+                       parameters_.damping, parameters_.level.coulomb + parameters_.level.excess, inertia_,
+                       tolerance_.rest);
 }
 
 double Bristle::step(const motion::TorqueCourse& torque, double duration) {
@@ -85,7 +103,7 @@ double Bristle::step(const motion::TorqueCourse& torque, double duration) {
     deflection_ = torque.now / parameters_.stiffness;
     return duration;
   }
-  BristleMotion motion{parameters_, direction, theta_, omega_, deflection_};
+  BristleMotion motion{parameters_, direction, saturates(direction), theta_, omega_, deflection_};
   return motion::taylor_step(motion, inertia_, torque, tolerance_.elongation, duration).time;
 }
 

@@ -14,7 +14,13 @@ struct BristleParameters {
   double bristle_damping;  ///< σ1, N m s/rad
   double damping;          ///< d, of the rotor, N m s/rad
   StribeckCurve level;     ///< g
+  double fast;             ///< |ω| beyond which g(ω) = Fc to the last bit, rad/s; 0 where g is constant
+  double slow;  ///< |ω| above which it is so still to 6e-19 of Fs − Fc, rad/s; 0 where g is constant
 };
+
+/// @param fast, slow of BristleParameters: 8·ωs and 6.5·ωs, with exp(−64) = 2e-28 and exp(−42) = 6e-19.
+BristleParameters bristle_parameters(double stiffness, double bristle_damping, double damping,
+                                     const StribeckCurve& level);
 
 /// Taylor series in time of a bristle and its rotor.
 struct BristleSeries : StribeckSeries {
@@ -29,34 +35,35 @@ struct BristleSeries : StribeckSeries {
 ///
 ///   dz/dt = ω − σ0·s·ω·z/g(ω),   J·dω/dt = u − σ0·z − σ1·dz/dt − d·ω,   dθ/dt = ω.
 ///
-/// It ends where ω comes to 0.
+/// It ends where ω comes to 0. Where g is constant the bristle comes to z = s·g/σ0 within rounding, and stays
+/// there: it is then *saturated*, J·dω/dt = u − s·g − d·ω, until |ω| comes down to `slow`. Without this the
+/// bristle's time constant g/(σ0·|ω|) would limit the steps of a fast rotor.
 struct BristleMotion {
   using Expansion = BristleSeries;
-  enum class Event { none, velocity_zero };
+  enum class Event { none, velocity_zero, slow_again };
 
   const BristleParameters& parameters;
-  double direction;    ///< s, −1 or 1
+  double direction;  ///< s, −1 or 1
+  bool saturated;
   double& theta;       ///< rad
   double& omega;       ///< rad/s
   double& deflection;  ///< z, rad
 
   BristleSeries start() const;
   double expand(BristleSeries& s, std::size_t k, double torque) const;
+  /// An error of z is one of ω later on: z is as accurate as θ.
+  static double step_of_state(const BristleSeries& series, double tolerance, double duration) {
+    return motion::step_within(series.deflection, series.omega, series.exponent, tolerance, duration);
+  }
   motion::NextEvent<Event> first_event(const BristleSeries& series, double step) const;
   void go_to(const BristleSeries& series, const motion::NextEvent<Event>& next);
 };
 
 /// Base of the laws of Dahl and LuGre: one elastic bristle that stands for all asperities.
 ///
-/// Rest rule. Let ε = MotionTolerance::rest, ωn² = σ0/J, u constant, m = 1 − |u|/g(0) > 0 and b = σ1·m + d.
-/// In the direction of u the bristle yields with the stiffness σ0·m and the damping b, and a small
-/// oscillation about z = u/σ0 decays by exp(−π·b/(2·√2·J·ωn)) or more in half a period. Where a bound of all
-/// further travel,
-///
-///   4·(|z − u/σ0| + |ω|/ωn + J·|ω|/b)·(1 + J·ωn/b)/m,
-///
-/// is below ε, the rotor stands from there on with ω = 0 and z = u/σ0, for as long as the torque stays. A
-/// bristle without damping never comes to rest.
+/// Rest rule. Where bristle_rests() bounds all further travel under a constant torque u by
+/// MotionTolerance::rest, the rotor stands from there on with ω = 0 and z = u/σ0, for as long as the torque
+/// stays. A bristle without damping never comes to rest.
 class Bristle : public WithoutCreepAndReversals {
  public:
   static constexpr bool has_presliding_motion = true;
@@ -80,6 +87,7 @@ class Bristle : public WithoutCreepAndReversals {
 
  private:
   double direction_under(const motion::TorqueCourse& torque) const;
+  bool saturates(double direction);
   bool rests_under(double torque) const;
 
   BristleParameters parameters_;

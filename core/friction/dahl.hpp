@@ -25,7 +25,8 @@ class DahlFriction : public Bristle {
  private:
   static BristleParameters constants(const motion::PlantParameters& plant,
                                      const FrictionParameters& contact) {
-    return {contact.sigma0, 0.0, plant.presliding_damping, {stribeck_curve(contact).coulomb, 0.0, 0.0}};
+    return bristle_parameters(contact.sigma0, 0.0, plant.presliding_damping,
+                              {stribeck_curve(contact).coulomb, 0.0, 0.0});
   }
 };
 

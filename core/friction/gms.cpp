@@ -67,6 +67,14 @@ double GmsMotion::expand(GmsSeries& s, std::size_t k, double torque) const {
   return torque - sticking - s.slipping[k] - damping * s.omega[k];
 }
 
+double GmsMotion::step_of_state(const GmsSeries& series, double tolerance, double duration) const {
+  if (slipping_weight == 0.0) return duration;
+  double stiffness = 0.0;
+  for (const GmsState& state : elements) stiffness += state.element.stiffness;
+  return motion::step_within(series.slipping, series.slipping, series.exponent, tolerance * stiffness,
+                             duration);
+}
+
 /// ηi·g(ω) − s·Fi of a sticking element.
 numerics::Series GmsMotion::margin_of(const GmsState& state, const GmsSeries& series) const {
   numerics::Series margin;

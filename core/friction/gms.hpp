@@ -38,8 +38,8 @@ struct GmsSeries : StribeckSeries {
 ///
 /// All slipping elements relax alike. With H = Σηi of them, their torque S = ΣFi obeys dS/dt = C·(s·H − S/g),
 /// and with dE/dt = −C·E/g, E(0) = 1, each is Fi = ηi·S/H + (Fi(0) − ηi·S(0)/H)·E. So the number of series
-/// does not grow with that of the elements. Where g is constant, slipping elements stay at its level, whatever
-/// C is.
+/// does not grow with that of the elements. Where g is constant, slipping elements stay at its level,
+/// whatever C is.
 struct GmsMotion {
   using Expansion = GmsSeries;
   enum class Event { none, slip, velocity_zero };
@@ -60,6 +60,8 @@ struct GmsMotion {
 
   GmsSeries start() const;
   double expand(GmsSeries& s, std::size_t k, double torque) const;
+  /// The slipping torque is as accurate as an elongation of all springs with the accuracy of θ makes it.
+  double step_of_state(const GmsSeries& series, double tolerance, double duration) const;
   void complete(GmsSeries& series) const { expand_level(series, numerics::series_order); }
   motion::NextEvent<Event> first_event(const GmsSeries& series, double step) const;
   void go_to(const GmsSeries& series, const motion::NextEvent<Event>& next);

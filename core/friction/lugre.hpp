@@ -27,7 +27,7 @@ class LuGreFriction : public Bristle {
  private:
   static BristleParameters constants(const motion::PlantParameters& plant,
                                      const FrictionParameters& contact) {
-    return {contact.sigma0, contact.sigma1, plant.sliding_damping, stribeck_curve(contact)};
+    return bristle_parameters(contact.sigma0, contact.sigma1, plant.sliding_damping, stribeck_curve(contact));
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <optional>
@@ -36,6 +37,9 @@ struct NextEvent {
 ///   the
 ///                               state except ω; returns the coefficient k of u − F, N m
 ///   complete(series)            where there is one: makes the coefficients series_order that events need
+///   step_of_state(series, tolerance, duration)   where there is one: step_within() for a state z that errors
+///   of
+///                               the position do not show
 ///   first_event(series, step)   the first event within `step` (s), located in time
 ///   go_to(series, next)         takes the state to next.time, and passes next.event
 template <class Motion>
@@ -85,7 +89,10 @@ double step_within(const numerics::Series& position, const numerics::Series& vel
 template <SmoothMotion Motion>
 NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& series, Motion& motion,
                                              double tolerance, double duration) {
-  const double step = step_within(series.position, series.omega, series.exponent, tolerance, duration);
+  double step = step_within(series.position, series.omega, series.exponent, tolerance, duration);
+  if constexpr (requires { motion.step_of_state(series, tolerance, duration); }) {
+    step = std::min(step, motion.step_of_state(series, tolerance, duration));
+  }
   const NextEvent<typename Motion::Event> next = motion.first_event(series, step);
   motion.go_to(series, next);
   return next;

@@ -44,6 +44,9 @@ TEST(RunsInLanes, IsTrueOfAPlainTrialWithAnyPlainParameters) {
        }},
       {"the spring alone",
        [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::spring; }},
+      {"no friction", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::none; }},
+      {"dahl", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::dahl; }},
+      {"lugre", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::lugre; }},
       {"another exponent", [](trial::TrialParameters& p) { p.friction.uniform.n = 1.5; }},
       {"an exponent along the rotor",
        [&](trial::TrialParameters& p) {
@@ -81,7 +84,7 @@ TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
       {"noise of the converter", [](trial::TrialParameters& p) { p.dac.noise = 1e-4; }},
       {"amplifier", [](trial::TrialParameters& p) { p.amplifier.bandwidth = 500.0; }},
       {"coulomb", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::coulomb; }},
-      {"no friction", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::none; }},
+      {"gms", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::gms; }},
   };
   std::vector<trial::TrialParameters> trials;
   for (const Change& change : changes) {

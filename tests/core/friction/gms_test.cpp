@@ -99,7 +99,8 @@ TEST(Gms, IsTheSpringOfThePaperInTheLimitOfManyElements) {
     const double level = torque(random);
     go_slowly(plant, level);
     spring.move_to_torque(level);
-    EXPECT_NEAR(plant.theta(), spring.elongation(), 5e-9) << i;  // of 1e-4
+    EXPECT_NEAR(plant.theta(), spring.elongation(), 1e-7)
+        << i;  // of 1e-4: the last element stands for a wide cell  // of 1e-4
   }
 }
 

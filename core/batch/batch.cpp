@@ -1,6 +1,5 @@
 #include "core/batch/batch.hpp"
 
-#include <cmath>
 #include <type_traits>
 
 #include "core/batch/lane_work.hpp"
@@ -56,11 +55,20 @@ bool lanes_know(const loop::AmplifierParameters& amplifier) {
   return bandwidth == 0.0;
 }
 
+bool lanes_know(loop::ControlStructure structure) {
+  switch (structure) {
+    case loop::ControlStructure::pid:
+    case loop::ControlStructure::cascade:
+      return true;
+  }
+  return false;
+}
+
 /// The feed-forward is of no account: in lanes the reference is a step.
 bool lanes_know(const loop::ControlBlocks& blocks) {
-  const auto& [structure, cascade, deadband, zone, leak, cutoff, filters, feedforward, observer] = blocks;
-  return structure == loop::ControlStructure::pid && deadband.enter < 0.0 && std::isinf(zone) &&
-         std::isinf(leak) && std::isinf(cutoff) && filters.empty() && observer.bandwidth == 0.0;
+  [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, cutoff, filters, feedforward,
+                                observer] = blocks;
+  return filters.size() <= max_lane_filters && lanes_know(structure);
 }
 
 bool lanes_know(const loop::ControllerParameters& controller) {

@@ -9,12 +9,9 @@ namespace zerocount::batch {
 
 using Avx2 = Vectors<4, 2>;
 
-const Kernels avx2_kernels{lanes_at_stop_kernel<Simd<4, 1>>,
-                           sample_kernel<Avx2>,
-                           stick_start_kernel<Avx2>,
-                           stick_step_kernel<Avx2, false>,
-                           stick_step_kernel<Vectors<4, 1>, true>,
-                           slide_kernel<Avx2, true>,
-                           slide_kernel<Avx2, false>};
+const Kernels avx2_kernels{lanes_at_stop_kernel<Simd<4, 1>>, sample_kernel<Avx2, false>,
+                           sample_kernel<Avx2, true>,        stick_start_kernel<Avx2>,
+                           stick_step_kernel<Avx2, false>,   stick_step_kernel<Vectors<4, 1>, true>,
+                           slide_kernel<Avx2, true>,         slide_kernel<Avx2, false>};
 
 }  // namespace zerocount::batch

@@ -9,9 +9,9 @@ namespace zerocount::batch {
 
 using Portable = Vectors<2, 2>;
 
-const Kernels portable_kernels{lanes_at_stop_kernel<Simd<2, 1>>,       sample_kernel<Portable>,
-                               stick_start_kernel<Portable>,           stick_step_kernel<Portable, false>,
-                               stick_step_kernel<Vectors<2, 1>, true>, slide_kernel<Portable, true>,
-                               slide_kernel<Portable, false>};
+const Kernels portable_kernels{lanes_at_stop_kernel<Simd<2, 1>>,   sample_kernel<Portable, false>,
+                               sample_kernel<Portable, true>,      stick_start_kernel<Portable>,
+                               stick_step_kernel<Portable, false>, stick_step_kernel<Vectors<2, 1>, true>,
+                               slide_kernel<Portable, true>,       slide_kernel<Portable, false>};
 
 }  // namespace zerocount::batch

@@ -51,7 +51,7 @@ void LaneWork::run(std::span<const trial::TrialParameters* const> trials,
 /// Gives the lane the next trial, if there is one; what lanes cannot run is run on the way.
 void LaneWork::refill(int lane) {
   LaneTrial& trial = trial_of(lane);
-  for (LaneSet* of : {&active_, &sticking_, &waiting_, &sliding_}) of->erase(lane);
+  for (LaneSet* of : {&active_, &sticking_, &waiting_, &sliding_, &with_blocks_}) of->erase(lane);
   while (next_trial_ < trials_.size()) {
     const std::size_t number = next_trial_++;
     trial.parameters = trials_[number];
@@ -62,6 +62,7 @@ void LaneWork::refill(int lane) {
       outcomes_[number].moves.reserve(trials_[number]->command.targets.size());
       start_trial(batch_, lane, trial, number, *trials_[number], outcomes_[number]);
       active_.insert(lane);
+      if (has_blocks(*trials_[number])) with_blocks_.insert(lane);
       set_moving(lane);
       return;
     }
@@ -100,7 +101,7 @@ void LaneWork::move_lane(int from, int to) {
     std::memcpy(lanes + to * sizeof(double), lanes + from * sizeof(double), sizeof(double));
   }
   std::swap(trial_index_[to], trial_index_[from]);
-  for (LaneSet* of : {&active_, &sticking_, &waiting_, &sliding_}) {
+  for (LaneSet* of : {&active_, &sticking_, &waiting_, &sliding_, &with_blocks_}) {
     if (of->contains(from)) of->insert(to);
     of->erase(from);
   }

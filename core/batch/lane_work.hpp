@@ -33,6 +33,7 @@ class LaneWork {
 
   // Sampling instants (lane_samples.cpp).
   void take_samples();
+  void sample(void (*kernel)(BatchState&, const LaneSet&), const LaneSet& due);
   void record_sample(int lane, const LaneTrial& trial);
   void record_passed();
   void follow_last_half(int lane, LaneTrial& trial);
@@ -58,10 +59,11 @@ class LaneWork {
   std::size_t trial_index_[max_lanes]{};  ///< which of them a lane has
   BatchState batch_{};
   PassedSamples passed_[max_lanes]{};
-  LaneSet active_;    ///< lanes with a trial: the three below together
-  LaneSet sticking_;  ///< the hook sticks
-  LaneSet waiting_;   ///< it sticks; they wait until enough lanes have an event in their step
-  LaneSet sliding_;   ///< the hook slides
+  LaneSet active_;       ///< lanes with a trial: the three below together
+  LaneSet sticking_;     ///< the hook sticks
+  LaneSet waiting_;      ///< it sticks; they wait until enough lanes have an event in their step
+  LaneSet sliding_;      ///< the hook slides
+  LaneSet with_blocks_;  ///< of the active ones, those whose controller has blocks
 
   std::span<const trial::TrialParameters* const> trials_;
   std::span<trial::TrialOutcome> outcomes_;

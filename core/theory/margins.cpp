@@ -90,7 +90,9 @@ StabilityMargins stability_margins(const HeldPlant& plant, const loop::LinearCha
 
   StabilityMargins margins{{none, none}, {none, none}};
   const auto add_gain = [&](Complex value, double angle) {
-    if (!(value.real() < 0.0)) return;
+    // At half the sample rate a loop whose gain is 0 there has one of the size of rounding.
+    constexpr double rounding = 1e-12;
+    if (!(value.real() < -rounding)) return;
     const double factor = 1.0 / std::abs(value);
     const bool nearer = std::abs(std::log(factor)) < std::abs(std::log(margins.gain.value));
     if (std::isnan(margins.gain.value) || nearer) margins.gain = {factor, frequency(angle)};

@@ -142,7 +142,7 @@ std::vector<ValueRule> rules_of_blocks(std::string_view enter, std::string_view 
       {{bandwidth, "controller.sample_rate"},
        false,
        [](Limits l, Limits) -> Faults {
-         if (l[0].high < 0.5 * l[1].low) return {};
+         if (l[0].high == 0.0 || l[0].high < 0.5 * l[1].low) return {};
          return {{fmt::format("{} Hz can be half the sample rate, {} Hz, or more", l[0].high, l[1].low),
                   "a bandwidth below half of controller.sample_rate"}};
        }},

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <cstdint>
 #include <iostream>
-#include <limits>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "core/trial/trial.hpp"
+#include "tests/core/loop/controller_json.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 
 namespace zerocount {
@@ -61,66 +61,12 @@ class RandomTrials {
   RandomBlocks draw_{1905};
 };
 
-Json limit(double value) {
-  return value < 0.0 || value == std::numeric_limits<double>::infinity() ? Json() : Json(value);
-}
-
-Json filter_json(const loop::Filter& f) {
-  switch (f.kind) {
-    case loop::FilterKind::lowpass:
-      return {{"lowpass", {{"frequency", f.frequency}, {"damping", f.damping}}}};
-    case loop::FilterKind::notch:
-      return {{"notch", {{"frequency", f.frequency}, {"damping", f.damping}, {"depth", f.depth}}}};
-    case loop::FilterKind::lead:
-      return {{"lead", {{"frequency", f.frequency}, {"ratio", f.ratio}}}};
-    case loop::FilterKind::biquad:
-      break;
-  }
-  return {{"biquad", {{"b", f.b}, {"a", f.a}}}};
-}
-
-void add_blocks(Json& to, const loop::ControlBlocks& b) {
-  to["structure"] = b.structure == loop::ControlStructure::cascade ? "cascade" : "pid";
-  to["cascade"] = {{"kv", b.cascade.kv}, {"kp", b.cascade.kp}, {"ki", b.cascade.ki}};
-  to["deadband"] = {{"enter", limit(b.deadband.enter)}, {"leave", limit(b.deadband.leave)}};
-  to["integrator_zone"] = limit(b.integrator_zone);
-  to["integrator_leak"] = limit(b.integrator_leak);
-  to["derivative_cutoff"] = limit(b.derivative_cutoff);
-  to["filters"] = Json::array();
-  for (const loop::Filter& f : b.filters) to["filters"].push_back(filter_json(f));
-  to["feedforward"] = {{"velocity", b.feedforward.velocity},
-                       {"acceleration", b.feedforward.acceleration},
-                       {"friction", b.feedforward.friction}};
-  to["observer"] = {{"bandwidth", b.observer.bandwidth}, {"inertia", b.observer.inertia}};
-}
-
 Json parameters_json(const trial::TrialParameters& p) {
-  const auto encoder = [](loop::EncoderChoice choice) {
-    return choice == loop::EncoderChoice::fine ? "fine" : "coarse";
-  };
-  const loop::ControllerParameters& c = p.controller;
-  Json controller{{"sample_rate", c.sample_rate},
-                  {"kp", c.kp},
-                  {"ki", c.ki},
-                  {"kd", c.kd},
-                  {"anti_windup", c.anti_windup == loop::AntiWindup::clamp ? "clamp" : "none"},
-                  {"encoder", encoder(c.encoder)}};
-  add_blocks(controller, c.blocks);
-  Json coarse{{"kp", c.coarse.kp},
-              {"ki", c.coarse.ki},
-              {"kd", c.coarse.kd},
-              {"encoder", encoder(c.coarse.encoder)},
-              {"fine_within", c.coarse.fine_within},
-              {"fine_rate", c.coarse.fine_rate},
-              {"fine_dwell", c.coarse.fine_dwell},
-              {"coarse_beyond", limit(c.coarse.coarse_beyond)}};
-  add_blocks(coarse, c.coarse.blocks);
-  controller["coarse"] = coarse;
   const loop::ReferenceProfile& profile = p.command.profile;
   constexpr const char* shapes[] = {"step", "trapezoidal", "s_curve"};
   return {{"encoder", {{"fine", p.encoder.fine}, {"coarse", p.encoder.coarse}}},
           {"dac", {{"bits", p.dac.bits}, {"resolution", p.dac.resolution}}},
-          {"controller", controller},
+          {"controller", testing::controller_json(p.controller)},
           {"command",
            {{"targets", p.command.targets},
             {"hold", p.command.hold},

@@ -316,12 +316,12 @@ TEST(Reference, ItsVelocityAndAccelerationAreTheRatesOfItsPath) {
     for (int k = 0; k < steps; ++k) {
       const ReferenceMotion now = reference.motion_at(k * h);
       const ReferenceMotion next = reference.motion_at((k + 1) * h);
-      ASSERT_NEAR(now.velocity, velocity, 1e-3 * profile.velocity_limit) << k;
-      ASSERT_NEAR(static_cast<double>(reference.at(k * h)), position / resolution, 0.51 + 0.2) << k;
+      ASSERT_NEAR(now.velocity, velocity, 3.0 * h * profile.acceleration_limit) << k;  // at its jumps
+      ASSERT_NEAR(static_cast<double>(reference.at(k * h)), position / resolution, 0.7) << k;
       position += 0.5 * h * (now.velocity + next.velocity);
       velocity += 0.5 * h * (now.acceleration + next.acceleration);
     }
-    EXPECT_NEAR(position, static_cast<double>(to) * resolution, 1e-6 * std::abs(position));
+    EXPECT_NEAR(position, static_cast<double>(to) * resolution, 1e-4 * std::abs(position));
     const ReferenceMotion at_end = reference.motion_at(reference.duration());
     EXPECT_EQ(at_end.velocity, 0.0);
     EXPECT_EQ(at_end.acceleration, 0.0);

@@ -58,12 +58,30 @@ bool lanes_know(const loop::AmplifierParameters& amplifier) {
   return bandwidth == 0.0;
 }
 
+bool lanes_know(loop::ControlStructure structure) {
+  switch (structure) {
+    case loop::ControlStructure::pid:
+    case loop::ControlStructure::cascade:
+      return true;
+  }
+  return false;
+}
+
+/// The feed-forward is of no account: in lanes the reference is a step.
+bool lanes_know(const loop::ControlBlocks& blocks) {
+  [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, cutoff, filters, feedforward,
+                                observer] = blocks;
+  return filters.size() <= max_lane_filters && lanes_know(structure);
+}
+
 bool lanes_know(const loop::ControllerParameters& controller) {
   static_assert(
-      std::is_same_v<loop::ControlChain, loop::BlockChain<loop::Pid>>,
-      "sample_kernel has the PID law alone: another block needs its law there, or a condition here");
-  const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse] = controller;
-  return delay <= max_delay && lanes_know(encoder) && !loop::has_coarse_phase(controller);
+      std::is_same_v<loop::ControlChain, loop::BlockChain<loop::ControlLaw, loop::Filters, loop::Feedforward,
+                                                          loop::DisturbanceObserver>>,
+      "sample_kernel has these blocks: another one needs its law there, or a condition here");
+  const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks] = controller;
+  return delay <= max_delay && lanes_know(encoder) && lanes_know(blocks) &&
+         !loop::has_coarse_phase(controller);
 }
 
 bool lanes_know(const trial::CommandParameters& command) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/batch/lane_set.hpp"
+#include "core/loop/block_formulas.hpp"
 #include "core/trial/running_measures.hpp"
 
 /// The trials that a batch engine has in work, one a lane: plain arrays, one quantity each, so that a kernel
@@ -111,6 +112,27 @@ struct alignas(64) LoopLanes {
   Lanes delay;     ///< samples between deciding a torque and applying it
 };
 
+inline constexpr int max_lane_filters = 4;
+
+/// The controller's blocks: of a lane whose trial has none, what it had before.
+struct alignas(64) BlockLanes {
+  loop::IntegralConstants<Lanes> integral;
+  Lanes inside;      ///< IntegralState::inside
+  Lanes pole;        ///< of the derivative filter
+  Lanes difference;  ///< d of the last sample, counts
+  Lanes is_cascade;
+  loop::CascadeConstants<Lanes> cascade;
+  Lanes last_velocity_error;  ///< rad/s
+  Lanes filter_count;
+  loop::BiquadConstants<Lanes> filters[max_lane_filters];  ///< beyond filter_count those of the gain 1
+  loop::BiquadState<Lanes> filter_states[max_lane_filters];
+  Lanes observes;
+  loop::ObserverConstants<Lanes> observer;
+  loop::BiquadState<Lanes> observer_state;
+  Lanes first_count;
+  Lanes remembers;  ///< the torque may change while the error stays 0
+};
+
 /// The measures of the move so far, and other state of it.
 struct alignas(64) MeasureLanes : trial::RunningMeasures<Lanes> {
   trial::MeasureLimits<Lanes> limits;
@@ -164,6 +186,7 @@ struct LaneNumbers {
   TimeLanes time;
   LoopLanes loop;
   MeasureLanes measures;
+  BlockLanes blocks;
 };
 
 struct BatchState : LaneNumbers {

@@ -1,7 +1,9 @@
 // The start of a lane's trial and of its moves.
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <vector>
 
 #include "core/batch/lane_trial.hpp"
 #include "core/friction/dahl.hpp"
@@ -40,6 +42,58 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.code[lane] = 0.0;
   l.steady[lane] = 0.0;
   l.delay[lane] = p.controller.delay;
+}
+
+/// The lane's part of each quantity of `to`, in the order of the values.
+template <class... Values>
+void put(int lane, std::initializer_list<Lanes*> to, Values... values) {
+  auto at = to.begin();
+  (((**at++)[lane] = values), ...);
+}
+
+void start_filters(BlockLanes& b, int lane, const loop::ControllerParameters& controller) {
+  const std::vector<loop::Filter>& filters = controller.blocks.filters;
+  b.filter_count[lane] = static_cast<double>(filters.size());
+  for (std::size_t i = 0; i < max_lane_filters; ++i) {
+    const loop::BiquadConstants<double> filter = i < filters.size()
+                                                     ? loop::discretised(filters[i], controller.sample_rate)
+                                                     : loop::BiquadConstants<double>{1.0, 0.0, 0.0, 0.0, 0.0};
+    loop::BiquadConstants<Lanes>& c = b.filters[i];
+    put(lane, {&c.b0, &c.b1, &c.b2, &c.a1, &c.a2}, filter.b0, filter.b1, filter.b2, filter.a1, filter.a2);
+    put(lane, {&b.filter_states[i].s1, &b.filter_states[i].s2}, 0.0, 0.0);
+  }
+}
+
+void start_blocks(BlockLanes& b, int lane, const trial::TrialParameters& p, double resolution) {
+  const loop::ControllerParameters& controller = p.controller;
+  const loop::ControlBlocks& blocks = controller.blocks;
+  const double sample_rate = controller.sample_rate;
+  const loop::IntegralConstants<double> integral = loop::integral_constants(
+      blocks, sample_rate,
+      loop::integral_range(controller.anti_windup, loop::lowest_torque(p.dac), loop::highest_torque(p.dac)));
+  loop::IntegralConstants<Lanes>& i = b.integral;
+  put(lane, {&i.enter, &i.leave, &i.zone, &i.retention, &i.lowest, &i.highest}, integral.enter,
+      integral.leave, integral.zone, integral.retention, integral.lowest, integral.highest);
+  const loop::CascadeConstants<double> cascade =
+      loop::cascade_constants(blocks.cascade, sample_rate, resolution);
+  put(lane, {&b.cascade.kv, &b.cascade.velocity, &b.cascade.kp, &b.cascade.ki}, cascade.kv, cascade.velocity,
+      cascade.kp, cascade.ki);
+  const bool is_cascade = blocks.structure == loop::ControlStructure::cascade;
+  put(lane, {&b.inside, &b.difference, &b.last_velocity_error, &b.is_cascade, &b.pole}, 0.0, 0.0, 0.0,
+      is_cascade ? 1.0 : 0.0, loop::derivative_pole(blocks, sample_rate));
+  start_filters(b, lane, controller);
+  const bool observes = blocks.observer.bandwidth > 0.0;
+  const loop::ObserverConstants<double> observer =
+      loop::observer_constants(blocks.observer, sample_rate, resolution);
+  loop::ObserverConstants<Lanes>& o = b.observer;
+  put(lane, {&o.acceleration, &o.q, &o.a1, &o.a2}, observer.acceleration, observer.q, observer.a1,
+      observer.a2);
+  put(lane, {&b.observes, &b.observer_state.s1, &b.observer_state.s2, &b.first_count}, observes ? 1.0 : 0.0,
+      0.0, 0.0, 0.0);
+  // With an error of 0 and no motion, what may change the torque is memory other than the integral's.
+  const bool remembers =
+      observes || !blocks.filters.empty() || b.pole[lane] != 0.0 || integral.retention != 1.0;
+  b.remembers[lane] = remembers ? 1.0 : 0.0;
 }
 
 void start_time(TimeLanes& time, int lane, const trial::TrialParameters& p, double resolution) {
@@ -136,6 +190,13 @@ void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resoluti
 
 }  // namespace
 
+bool has_blocks(const trial::TrialParameters& parameters) {
+  const loop::ControlBlocks& b = parameters.controller.blocks;
+  return b.structure != loop::ControlStructure::pid || b.deadband.enter >= 0.0 ||
+         std::isfinite(b.integrator_zone) || std::isfinite(b.integrator_leak) ||
+         std::isfinite(b.derivative_cutoff) || !b.filters.empty() || b.observer.bandwidth > 0.0;
+}
+
 void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,
                  const trial::TrialParameters& parameters, trial::TrialOutcome& outcome) {
   const trial::TrialParameters& p = parameters;
@@ -152,6 +213,7 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
 
   start_loop(batch.loop, lane, p);
   const double resolution = batch.loop.resolution[lane];
+  if (has_blocks(p)) start_blocks(batch.blocks, lane, p, resolution);
   start_time(batch.time, lane, p, resolution);
   trial.elongation_tolerance = trial::motion_tolerance(resolution).elongation;
   batch.contact.inertia[lane] = p.plant.inertia;

@@ -70,6 +70,9 @@ inline trial::RunningMeasures<double> measures_of(const MeasureLanes& lanes, int
   return measures;
 }
 
+/// Whether the controller has blocks that act on a step: its lane is sampled with them.
+bool has_blocks(const trial::TrialParameters& parameters);
+
 /// Puts the lane into its trial's start.
 void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,
                  const trial::TrialParameters& parameters, trial::TrialOutcome& outcome);

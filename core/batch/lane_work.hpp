@@ -35,6 +35,7 @@ class LaneWork {
   // Sampling instants (lane_samples.cpp).
   void take_samples();
   void note_gradual_slides(const LaneSet& due);
+  void sample(void (*kernel)(BatchState&, const LaneSet&), const LaneSet& due);
   void record_sample(int lane, const LaneTrial& trial);
   void record_passed();
   void follow_last_half(int lane, LaneTrial& trial);
@@ -54,7 +55,9 @@ class LaneWork {
   void give_up_lost();
 
   void set_moving(int lane);
-  std::array<LaneSet*, 6> sets() { return {&active_, &sticking_, &waiting_, &sliding_, &bristles_, &free_}; }
+  std::array<LaneSet*, 7> sets() {
+    return {&active_, &sticking_, &waiting_, &sliding_, &bristles_, &free_, &with_blocks_};
+  }
   bool is_idle(int lane) const { return !active_.contains(lane); }
   LaneTrial& trial_of(int lane) { return trials_in_work_[trial_index_[lane]]; }
 
@@ -70,6 +73,8 @@ class LaneWork {
   LaneSet sliding_;   ///< the hook slides
   LaneSet bristles_;  ///< friction is that of a bristle
   LaneSet free_;      ///< there is no friction
+
+  LaneSet with_blocks_;  ///< of the active ones, those whose controller has blocks
 
   std::span<const trial::TrialParameters* const> trials_;
   std::span<trial::TrialOutcome> outcomes_;

@@ -12,7 +12,8 @@
 namespace zerocount::theory {
 
 /// The one-sample map x ← M·x of the loop. Its states are those of the driven rotor, of the blocks' transfer
-/// functions (direct form II transposed), and the torques decided and not yet applied.
+/// functions (direct form II transposed; paths of a stage with the same poles share them), and the torques
+/// decided and not yet applied.
 Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& controller, int delay);
 
 /// max |eigenvalue| of the loop's map; below 1 the loop is stable.

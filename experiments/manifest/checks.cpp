@@ -177,9 +177,11 @@ std::optional<yaml::Place> given_place(const Checking& c, std::size_t row) {
 }
 
 bool asks_for_nothing(const Checking& c, std::size_t row) {
-  return !study::holds_somewhere(
-      c.plan(), parameters::parameter_table()[row].name,
-      [](const study::ValueLimits& limits) { return limits.low != 0.0 || limits.high != 0.0; });
+  const parameters::Parameter& parameter = parameters::parameter_table()[row];
+  const double nothing = parameter.none.value_or(0.0);
+  return !study::holds_somewhere(c.plan(), parameter.name, [nothing](const study::ValueLimits& limits) {
+    return limits.low != nothing || limits.high != nothing;
+  });
 }
 
 void check_effects(Checking& c) {

@@ -26,7 +26,7 @@ struct Listing {
 std::string allowed(const parameters::Parameter& parameter, const parameters::StudyUnits& units) {
   if (parameters::has_labels(parameter)) return fmt::format("{}", fmt::join(parameter.labels, " | "));
   return (parameter.kind == parameters::ParameterKind::whole_number ? "whole, " : "") +
-         numerics::notation(parameters::range_of(parameter, units));
+         numerics::notation(parameters::range_of(parameter, units)) + (parameter.none ? " | none" : "");
 }
 
 Listing parameter_listing(const parameters::StudyUnits& units) {

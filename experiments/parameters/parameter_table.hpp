@@ -31,8 +31,10 @@ struct Parameter {
   std::string_view si_meaning{};  ///< likewise
   std::optional<AxisKind> only_on{};  ///< the only kind of axis with this parameter; empty: both kinds
   std::string_view instead{};         ///< the corresponding key on the other kind of axis, for messages
-  bool of_machine{false};             ///< a property of the machine, not of the trial
-  bool listed{false};                 ///< a list of values that defines the moves; a study uses one such list
+  std::optional<double> none{};   ///< the value written as the word "none": what the parameter limits is off
+  std::string_view short_name{};  ///< of the section, where its key alone stands for this parameter
+  bool of_machine{false};         ///< a property of the machine, not of the trial
+  bool listed{false};             ///< a list of values that defines the moves; a study uses one such list
   double (*get)(const trial::TrialParameters&){nullptr};  ///< null if TrialParameters has no field for it
   void (*set)(trial::TrialParameters&, double value){nullptr};  ///< likewise
 };
@@ -54,7 +56,7 @@ constexpr std::size_t sobol_dimension_of_mean(std::size_t of_parameter) {
   return of_parameter < first_sobol_dimension_of_moves ? 3600 + of_parameter : 256 + of_parameter;
 }
 
-/// Row of the parameter with this dotted path.
+/// Row of the parameter with this dotted path, or of which it is the short name.
 std::optional<std::size_t> find_parameter(std::string_view name);
 
 /// Whether the parameter may be omitted.
@@ -89,7 +91,10 @@ bool default_holds(const Parameter& parameter, const StudyUnits& units);
 /// Default value, from the core's structs; for labels the index of the label.
 double default_value(const Parameter& parameter);
 
-/// The default as text for a manifest; "none" without a default.
+/// A number of the parameter as text for a manifest: the word "none" for the value that it stands for.
+std::string number_text(const Parameter& parameter, double number);
+
+/// The default as text for a manifest; "none" without a default too.
 std::string default_text(const Parameter& parameter, const StudyUnits& units = {});
 
 }  // namespace zerocount::parameters

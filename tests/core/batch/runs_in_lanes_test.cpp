@@ -48,6 +48,10 @@ TEST(RunsInLanes, IsTrueOfAPlainTrialWithAnyPlainParameters) {
       {"dahl", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::dahl; }},
       {"lugre", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::lugre; }},
       {"another exponent", [](trial::TrialParameters& p) { p.friction.uniform.n = 1.5; }},
+      {"four filters", [](trial::TrialParameters& p) { p.controller.blocks.filters.resize(4); }},
+      {"a cascade",
+       [](trial::TrialParameters& p) { p.controller.blocks.structure = loop::ControlStructure::cascade; }},
+      {"an observer", [](trial::TrialParameters& p) { p.controller.blocks.observer.bandwidth = 10.0; }},
       {"an exponent along the rotor",
        [&](trial::TrialParameters& p) {
          p.friction.profiled = {{&friction::FrictionParameters::n, exponents}};
@@ -82,6 +86,7 @@ TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
       {"gain error", [](trial::TrialParameters& p) { p.dac.gain_error = 0.01; }},
       {"nonlinearity", [](trial::TrialParameters& p) { p.dac.nonlinearity = 1.0; }},
       {"noise of the converter", [](trial::TrialParameters& p) { p.dac.noise = 1e-4; }},
+      {"five filters", [](trial::TrialParameters& p) { p.controller.blocks.filters.resize(5); }},
       {"amplifier", [](trial::TrialParameters& p) { p.amplifier.bandwidth = 500.0; }},
       {"coulomb", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::coulomb; }},
       {"gms", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::gms; }},

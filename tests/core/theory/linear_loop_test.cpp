@@ -16,7 +16,7 @@
 namespace zerocount::theory {
 namespace {
 
-constexpr loop::ControlStart wide{0.0, {-1e300, 1e300}};
+constexpr loop::ControlStart wide{0.0, {-1e300, 1e300}, 2.0 * std::numbers::pi / 1'620'000};
 
 HeldPlant paper_rig() {
   return hold_plant(300.0, 0.2, 5.54e-4, 2.0 * std::numbers::pi / 1'620'000, 5e-4, {1.1, 400.0});
@@ -68,6 +68,19 @@ TEST(LinearLoop, GrowsAsTheLoopDoesInTime) {
   expect_growth<loop::BlockChain<loop::Pid, LowPass>>(parameters);
   expect_growth<loop::BlockChain<loop::Pid, TorqueFeedback>>(parameters);
   expect_growth<loop::BlockChain<loop::Pid, LowPass, TorqueFeedback>>(parameters);
+}
+
+TEST(LinearLoop, GrowsAsTheLoopDoesInTimeWithEveryBlock) {
+  loop::ControllerParameters parameters{.kp = 1e-4, .ki = 1.4e-4, .kd = 2e-4};
+  parameters.blocks.integrator_leak = 0.05;
+  parameters.blocks.derivative_cutoff = 200.0;
+  parameters.blocks.observer.bandwidth = 30.0;
+  parameters.blocks.filters = {{.kind = loop::FilterKind::lead, .frequency = 300.0},
+                               {.kind = loop::FilterKind::notch, .frequency = 250.0}};
+  expect_growth<loop::ControlChain>(parameters);
+  parameters.blocks.structure = loop::ControlStructure::cascade;
+  parameters.blocks.cascade = {5.0, 0.1, 10.0};
+  expect_growth<loop::ControlChain>(parameters);
 }
 
 }  // namespace

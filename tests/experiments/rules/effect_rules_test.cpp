@@ -120,6 +120,38 @@ INSTANTIATE_TEST_SUITE_P(
                  "least 0 and at most 1000000000000"}));
 
 INSTANTIATE_TEST_SUITE_P(
+    Blocks, EffectRules,
+    testing::Values(
+        IdleCase{"{targets: [1]}", "controller: {structure: cascade, ki: 1.0e-5}",
+                 "m.yaml:6:38: controller.ki: it has no effect: the control is a cascade at every point; "
+                 "expected controller.structure: pid, or the key left out"},
+        IdleCase{"{targets: [1]}", "controller: {cascade: {kv: 10}}",
+                 "m.yaml:6:28: controller.cascade.kv: it has no effect: the control is a cascade at no "
+                 "point; expected controller.structure: cascade, or the key left out"},
+        IdleCase{"{targets: [1]}",
+                 "controller: {ki: 1.0e-5, cascade: {kv: 10}}\n"
+                 "sweep: {grid: {controller.structure: [pid, cascade]}}",
+                 ""},
+        IdleCase{"{targets: [1]}", "controller: {deadband: {leave: 2}}",
+                 "m.yaml:6:32: controller.deadband.leave: it has no effect: there is no deadband at any "
+                 "point; expected controller.deadband.enter too, or the key left out"},
+        IdleCase{"{targets: [1]}", "controller: {observer: {inertia: 1.0e-3}}",
+                 "m.yaml:6:34: controller.observer.inertia: it has no effect: there is no disturbance "
+                 "observer at any point; expected controller.observer.bandwidth above 0, or the key left "
+                 "out"},
+        IdleCase{"{targets: [1]}", "controller: {feedforward: {friction: 0.1}}",
+                 "m.yaml:6:38: controller.feedforward.friction: it has no effect: the reference is a step at "
+                 "every point; expected command.profile.shape: trapezoidal or s_curve, or the key left out"},
+        IdleCase{"{targets: [1], profile: {shape: s_curve}}", "controller: {feedforward: {friction: 0.1}}",
+                 ""},
+        IdleCase{"{targets: [1]}", "controller: {coarse: {deadband: 1}}",
+                 "m.yaml:6:33: controller.coarse.deadband.enter: it has no effect: there is no coarse phase "
+                 "at any point; expected controller.coarse.coarse_beyond below 1e12, or the key left out"},
+        IdleCase{"{torque: {levels: [0.1]}}", "controller: {deadband: 1}",
+                 "m.yaml:6:24: controller.deadband.enter: it has no effect: the loop is open with "
+                 "command.torque; expected command.targets or command.sequence, or the key left out"}));
+
+INSTANTIATE_TEST_SUITE_P(
     Encoders, EffectRules,
     testing::Values(
         IdleCase{"{targets: [1]}", "encoder: {fine_errors: {eccentricity_angle: 1}}",

@@ -130,8 +130,11 @@ std::string description_of(const parameters::Parameter& parameter) {
 }
 
 Json key_schema(const parameters::Parameter& parameter) {
-  Json schema = parameter.listed ? list_of(value_schema(parameter), 1) : value_schema(parameter);
-  if (parameter.listed) schema["maxItems"] = parameters::max_listed_values;
+  Json schema = value_schema(parameter);
+  if (parameter.list) {
+    schema = list_of(std::move(schema), 1);
+    schema["maxItems"] = parameter.list->max_values;
+  }
   schema["description"] = description_of(parameter);
   if (parameter.kind == parameters::ParameterKind::truth) {
     schema["default"] = parameters::default_value(parameter) != 0.0;
@@ -167,10 +170,10 @@ Json sweep_schema() {
     const Json value = value_schema(parameter);
     const Json spaced = {{"anyOf", {list_of(value, 1), spacing_schema()}}};
     const bool numeric = !parameters::has_labels(parameter);
-    const Json whole_value = parameter.listed ? list_of(value, 1) : value;
+    const Json whole_value = parameters::is_list(parameter) ? list_of(value, 1) : value;
     assignments[pattern_of(parameter, false)] = whole_value;
-    grid[pattern_of(parameter, false)] = numeric && !parameter.listed ? spaced : list_of(whole_value, 1);
-    if (parameter.listed) {
+    grid[pattern_of(parameter, false)] = numeric && !parameters::is_list(parameter) ? spaced : list_of(whole_value, 1);
+    if (parameters::is_list(parameter)) {
       assignments[pattern_of(parameter, true)] = value;
       grid[pattern_of(parameter, true)] = spaced;
     }

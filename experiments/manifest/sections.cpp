@@ -8,7 +8,7 @@
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/parameters/unknown_key.hpp"
-#include "experiments/study/slots.hpp"
+#include "experiments/study/study_table.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -22,33 +22,47 @@ struct SectionReading {
   study::StudyPlan& plan() { return reading.plan; }
 };
 
-void read_list(SectionReading& s, const yaml::Field& field) {
-  study::ListedValues& list = s.plan().list;
-  const std::string expected =
-      fmt::format("a list of 1 to {} {}", parameters::max_listed_values, study::listed_noun(list));
+// Gives every row of the study's table a slot.
+void add_slots(SectionReading& s) {
+  const std::size_t slots = s.plan().table.rows.size();
+  s.plan().base.resize(slots, unreadable_value());
+  s.places.base.resize(slots, s.root.node->place);
+  s.places.written.resize(slots, false);
+}
+
+void read_slot(SectionReading& s, const yaml::Field& field, std::size_t slot) {
+  s.plan().base[slot] = read_value(field, slot, s.reading);
+  s.places.base[slot] = field.node->place;
+  s.places.written[slot] = true;
+}
+
+void read_list(SectionReading& s, const yaml::Field& field, std::size_t row) {
+  const parameters::Parameter& list = parameters::parameter_table()[row];
+  const std::size_t max_values = list.list.value().max_values;
+  const std::string expected = fmt::format("a list of 1 to {} {}", max_values, study::noun_of(list));
   if (!yaml::check_list(field, expected, s.problems())) return;
   const std::size_t count = field.node->items.size();
-  if (count < 1 || count > parameters::max_listed_values) {
+  if (count < 1 || count > max_values) {
     s.problems().add(field, fmt::format("a list of {} stands here", count), expected);
     return;
   }
-  list.count = count;
-  s.plan().base.resize(study::slot_count(list));
-  s.places.base.resize(study::slot_count(list));
-  s.places.written.resize(study::slot_count(list));
-  for (std::size_t i = 0; i < count; ++i) {
-    const yaml::Field item = yaml::item_of(field, i);
-    s.plan().base[study::listed_slot(i)] = read_value(item, list.row, s.reading);
-    s.places.base[study::listed_slot(i)] = item.node->place;
-    s.places.written[study::listed_slot(i)] = true;
-  }
+  const study::RowGroup values = study::add_list(s.plan().table, row, count);
+  if (row == s.plan().list.row) s.plan().list = values;
+  add_slots(s);
+  for (std::size_t i = 0; i < count; ++i) read_slot(s, yaml::item_of(field, i), values.first + i);
+}
+
+// A study has a list of moves, of one unreadable value if there is none in the manifest.
+void complete_moves(SectionReading& s) {
+  study::RowGroup& list = s.plan().list;
+  if (list.count > 0) return;
+  list = study::add_list(s.plan().table, list.row, 1);
+  add_slots(s);
 }
 
 void read_parameter(SectionReading& s, const yaml::Field& field, std::size_t row) {
-  if (parameters::parameter_table()[row].listed) return read_list(s, field);
-  s.plan().base[row] = read_value(field, row, s.reading);
-  s.places.base[row] = field.node->place;
-  s.places.written[row] = true;
+  if (parameters::is_list(parameters::parameter_table()[row])) return read_list(s, field, row);
+  read_slot(s, field, row);
 }
 
 // Reads the keys of sections that are not parameters. controller.units is read earlier, before all values.
@@ -93,10 +107,7 @@ void read_section(SectionReading& s, const yaml::Field& section) {
 }
 
 void take_defaults(SectionReading& s) {
-  const std::size_t slots = study::slot_count(s.plan().list);
-  s.plan().base.resize(slots, unreadable_value());
-  s.places.base.resize(slots, s.root.node->place);
-  s.places.written.resize(slots, false);
+  add_slots(s);
   const auto table = parameters::parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
     const bool known =
@@ -146,7 +157,7 @@ void check_form_complete(SectionReading& s, const yaml::Field& command) {
       continue;
     const parameters::Parameter& parameter = parameters::parameter_table()[*row];
     s.problems().add(form->node->place, name, "the key is missing",
-                     parameter.listed ? fmt::format("a list of {}", key)
+                     parameters::is_list(parameter) ? fmt::format("a list of {}", key)
                                       : fmt::format("its value: {}", parameter.meaning));
   }
 }
@@ -177,6 +188,7 @@ void read_sections(const yaml::Field& root, Reading& reading, PlanPlaces& places
     const auto section = is_section(key) ? yaml::find_field(root, key) : std::nullopt;
     if (section) read_section(s, *section);
   }
+  complete_moves(s);
   if (!command) return;
   check_form_complete(s, *command);
   check_sequence_length(s, *command);

@@ -12,7 +12,8 @@
 namespace zerocount::parameters {
 
 // The rows of the table of parameters, by section. Each has a Sobol dimension of its own, so that a new row
-// does not change the draws of the others. The next free one is beyond_moves(9).
+// does not change the draws of the others. The next free one is beyond_moves(9). From beyond_moves(80) on
+// are those of lists, each with as many as it may have values; the next free one of these is beyond_moves(112).
 
 std::vector<Parameter> plant_rows();
 std::vector<Parameter> friction_rows();
@@ -129,9 +130,17 @@ inline Parameter only_on(AxisKind axis, std::string_view instead, Parameter row)
   return row;
 }
 
-/// Marks a row whose value is a list.
-inline Parameter list_of(Parameter row) {
-  row.listed = true;
+/// Makes a row that of a list. `Field` returns a pointer to the field of value `index`.
+template <class Field>
+Parameter list_of(std::size_t max_values, Parameter row, Field) {
+  row.list = {max_values, [](trial::TrialParameters& parameters, std::size_t index, double value) {
+                auto& field = *Field{}(parameters, index);
+                field = static_cast<std::remove_reference_t<decltype(field)>>(value);
+              }};
+  return row;
+}
+inline Parameter list_of(std::size_t max_values, Parameter row, NoField) {
+  row.list = {max_values};
   return row;
 }
 

@@ -48,6 +48,19 @@ std::optional<std::size_t> find_parameter(std::string_view name) {
   return static_cast<std::size_t>(found - table.begin());
 }
 
+Parameter value_row(const Parameter& list, std::size_t index, std::string_view name) {
+  Parameter row = list;
+  row.name = name;
+  row.sobol_dimension += index;
+  row.list.reset();
+  if (const auto set = list.list.value().set) {
+    row.set = [set, index](trial::TrialParameters& parameters, double value) {
+      set(parameters, index, value);
+    };
+  }
+  return row;
+}
+
 double default_value(const Parameter& parameter) {
   return parameter.get(trial::TrialParameters{});
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,14 @@
 namespace zerocount::parameters {
 
 enum class ParameterKind { real, whole_number, enumeration, truth };
+
+/// Of a row whose value in a manifest is a list. Each value of the list is a parameter of its own (see
+/// value_row); the row itself has no value.
+struct ListOfValues {
+  std::size_t max_values{0};
+  void (*set)(trial::TrialParameters&, std::size_t index, double value){
+      nullptr};  ///< null if TrialParameters has no field for it
+};
 
 /// One row of the table of parameters: the complete description of one parameter of a trial.
 struct Parameter {
@@ -32,24 +41,25 @@ struct Parameter {
   std::optional<AxisKind> only_on{};  ///< the only kind of axis with this parameter; empty: both kinds
   std::string_view instead{};         ///< the corresponding key on the other kind of axis, for messages
   bool of_machine{false};             ///< a property of the machine, not of the trial
-  bool listed{false};                 ///< a list of values that defines the moves; a study uses one such list
-  double (*get)(const trial::TrialParameters&){nullptr};  ///< null if TrialParameters has no field for it
-  void (*set)(trial::TrialParameters&, double value){nullptr};  ///< likewise
+  std::optional<ListOfValues> list{};  ///< set if its value is a list
+  std::function<double(const trial::TrialParameters&)> get{};        ///< empty without a default
+  std::function<void(trial::TrialParameters&, double value)> set{};  ///< empty if TrialParameters has no field
 };
 
 /// The table of parameters, in the order of columns and listings. Parsing, validation, the JSON Schema, the
-/// columns of results files and `zerocount parameters` are derived from it.
+/// columns of results files and `zerocount parameters` are derived from it. A study adds the rows that only
+/// its manifest has (study/study_table.hpp).
 std::span<const Parameter> parameter_table();
 
-/// Maximum number of values of a listed parameter.
-constexpr std::size_t max_listed_values = 3000;
+/// Maximum number of values of a list that defines the moves.
+constexpr std::size_t max_moves_values = 3000;
 
-/// Sobol dimension of value i of a listed parameter: this number + i. Other parameters have dimensions below
-/// it, or from first_sobol_dimension_beyond_moves on.
+/// Sobol dimension of value i of a list that defines the moves: this number + i. Other parameters have
+/// dimensions below it, or from first_sobol_dimension_beyond_moves on.
 constexpr std::size_t first_sobol_dimension_of_moves = 64;
-constexpr std::size_t first_sobol_dimension_beyond_moves = first_sobol_dimension_of_moves + max_listed_values;
+constexpr std::size_t first_sobol_dimension_beyond_moves = first_sobol_dimension_of_moves + max_moves_values;
 
-/// Sobol dimension of the drawn mean of a profile, by the dimension of its parameter, which is not listed.
+/// Sobol dimension of the drawn mean of a profile, by the dimension of its parameter, which is no list.
 constexpr std::size_t sobol_dimension_of_mean(std::size_t of_parameter) {
   return of_parameter < first_sobol_dimension_of_moves ? 3600 + of_parameter : 256 + of_parameter;
 }
@@ -61,6 +71,14 @@ std::optional<std::size_t> find_parameter(std::string_view name);
 inline bool has_default(const Parameter& parameter) {
   return parameter.get != nullptr;
 }
+
+/// Whether its value is a list.
+inline bool is_list(const Parameter& parameter) {
+  return parameter.list.has_value();
+}
+
+/// The row of value `index` of a list. @param name its dotted path, "command.targets.0"; must outlive the row
+Parameter value_row(const Parameter& list, std::size_t index, std::string_view name);
 
 /// Whether its values are labels (of an enumeration or a boolean), not numbers.
 inline bool has_labels(const Parameter& parameter) {

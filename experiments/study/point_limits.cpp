@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <variant>
 
 #include "core/loop/controller.hpp"
 #include "experiments/distributions/random_field.hpp"
-#include "experiments/parameters/parameter_table.hpp"
-#include "experiments/study/slots.hpp"
 
 namespace zerocount::study {
 namespace {
@@ -50,9 +49,9 @@ std::vector<std::size_t> slots_named(std::span<const std::string_view> names) {
   return slots;
 }
 
-std::vector<std::size_t> listed_slots(const ListedValues& list) {
-  std::vector<std::size_t> slots;
-  for (std::size_t i = 0; i < list.count; ++i) slots.push_back(listed_slot(i));
+std::vector<std::size_t> slots_of(const RowGroup& group) {
+  std::vector<std::size_t> slots(group.count);
+  std::iota(slots.begin(), slots.end(), group.first);
   return slots;
 }
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/study/slots.hpp"
+#include "experiments/study/study_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::study {
@@ -35,7 +35,7 @@ TEST(PointLimits, EveryCombinationIsVisited) {
                                             "controller.kd"};
   const std::vector<std::size_t> named = slots_named(names);
   for (std::size_t mask = 0; mask < (std::size_t{1} << names.size()); ++mask) {
-    std::vector<std::size_t> slots{listed_slot(1)};
+    std::vector<std::size_t> slots{study.plan->list.first + 1};
     for (std::size_t i = 0; i < named.size(); ++i) {
       if ((mask >> i & 1) != 0) slots.push_back(named[i]);
     }
@@ -71,7 +71,7 @@ TEST(PointLimits, WhatDoesNotMatterIsLeftOut) {
 TEST(PointLimits, AVisitMayEndEarly) {
   const Study study = swept_study();
   std::size_t count = 0;
-  visit_points(*study.plan, listed_slots(study.plan->list), [&](std::size_t) { return ++count < 2; });
+  visit_points(*study.plan, slots_of(study.plan->list), [&](std::size_t) { return ++count < 2; });
   EXPECT_EQ(count, 2u);
 }
 

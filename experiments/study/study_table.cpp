@@ -1,0 +1,78 @@
+#include "experiments/study/study_table.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/format.h>
+
+namespace zerocount::study {
+namespace {
+
+// Whether the path is "name.<number>", the number written without leading zeros.
+bool is_value_of(std::string_view path, std::string_view name) {
+  if (path.size() <= name.size() + 1 || path.substr(0, name.size()) != name || path[name.size()] != '.') {
+    return false;
+  }
+  const std::string_view digits = path.substr(name.size() + 1);
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+  if (error != std::errc{} || end != digits.data() + digits.size()) return false;
+  return digits.size() == 1 || digits.front() != '0';
+}
+
+}  // namespace
+
+RowGroup add_list(StudyTable& table, std::size_t row, std::size_t count) {
+  const RowGroup group{row, table.rows.size(), count};
+  const parameters::Parameter list = table.rows[row];
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string& name = table.names.emplace_back(fmt::format("{}.{}", list.name, i));
+    table.rows.push_back(parameters::value_row(list, i, name));
+  }
+  table.groups.push_back(group);
+  return group;
+}
+
+std::optional<RowGroup> find_list(const StudyTable& table, std::size_t row) {
+  const auto found = std::find_if(table.groups.begin(), table.groups.end(),
+                                  [row](const RowGroup& group) { return group.row == row; });
+  if (found == table.groups.end()) return std::nullopt;
+  return *found;
+}
+
+std::string_view noun_of(const parameters::Parameter& list) {
+  return list.name.substr(list.name.rfind('.') + 1);
+}
+
+std::vector<std::size_t> slots_in_table_order(const StudyTable& table) {
+  std::vector<std::size_t> slots;
+  for (std::size_t row = 0; row < parameters::parameter_table().size(); ++row) {
+    if (!is_list(table.rows[row])) slots.push_back(row);
+    for (const RowGroup& group : table.groups) {
+      for (std::size_t i = 0; group.row == row && i < group.count; ++i) slots.push_back(group.first + i);
+    }
+  }
+  return slots;
+}
+
+std::optional<SlotRange> find_slots(std::string_view path, const StudyTable& table) {
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (table.rows[row].name != path) continue;
+    if (!is_list(table.rows[row])) return SlotRange{row, 1, false};
+    const auto values = find_list(table, row);
+    if (!values) return std::nullopt;
+    return SlotRange{values->first, values->count, true};
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> find_list_row(std::string_view path) {
+  const auto table = parameters::parameter_table();
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    if (!is_list(table[row])) continue;
+    if (path == table[row].name || is_value_of(path, table[row].name)) return row;
+  }
+  return std::nullopt;
+}
+
+}  // namespace zerocount::study

@@ -59,7 +59,7 @@ bool lanes_know(const loop::ControllerParameters& controller) {
   static_assert(
       std::is_same_v<loop::ControlChain, loop::BlockChain<loop::Pid>>,
       "sample_kernel has the PID law alone: another block needs its law there, or a condition here");
-  const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse] = controller;
+  const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks] = controller;
   return delay <= max_delay && lanes_know(encoder) && !loop::has_coarse_phase(controller);
 }
 

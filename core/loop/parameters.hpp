@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 namespace zerocount::loop {
 
@@ -50,6 +52,67 @@ enum class EncoderChoice { fine, coarse };
 /// Phase of a two-phase control. A control without a coarse phase is always in the fine one.
 enum class ControlPhase { fine, coarse };
 
+/// Errors at which the integral stays as it is. Inside from a sample with |e| ≤ enter on, until one with |e|
+/// > max(enter, leave). With negative bounds there is no such zone.
+struct Deadband {
+  double enter{-1.0};  ///< counts
+  double leave{-1.0};  ///< counts; below `enter` it counts as `enter`
+};
+
+enum class FilterKind { lowpass, notch, lead, biquad };
+
+/// One element of the filters (filter.hpp), with the values that its kind uses.
+struct Filter {
+  FilterKind kind{FilterKind::lowpass};
+  double frequency{100.0};           ///< ω0/2π of lowpass, notch and lead, Hz
+  double damping{0.7};               ///< ζ of lowpass and notch, dimensionless
+  double depth{0.1};                 ///< gain of a notch at its frequency, dimensionless
+  double ratio{3.0};                 ///< of a lead: its pole over its zero, dimensionless
+  std::array<double, 3> b{1, 0, 0};  ///< b₀, b₁, b₂ of a biquad
+  std::array<double, 2> a{0, 0};     ///< a₁, a₂ of a biquad
+};
+
+/// Torque from the motion of the reference (feedforward.hpp).
+struct FeedforwardParameters {
+  double velocity{0.0};      ///< N m s/rad
+  double acceleration{0.0};  ///< N m s²/rad
+  double friction{0.0};      ///< N m
+};
+
+/// Disturbance observer (disturbance_observer.hpp).
+struct ObserverParameters {
+  double bandwidth{0.0};    ///< Hz; 0: there is none
+  double inertia{5.54e-4};  ///< Jn, of the observer's model of the rotor, kg m²
+};
+
+enum class ControlStructure {
+  pid,     ///< kp, ki and kd act on the error (pid.hpp)
+  cascade  ///< a position loop around a velocity loop (cascade.hpp)
+};
+
+/// Gains of the cascade.
+struct CascadeGains {
+  double kv{150.0};  ///< of the position loop: velocity command per error, 1/s
+  double kp{0.4};    ///< of the velocity loop, N m s/rad
+  double ki{5.0};    ///< of the velocity loop, N m/rad
+};
+
+/// What a chain of the controller has besides the PID gains. By default nothing of it acts.
+struct ControlBlocks {
+  ControlStructure structure{ControlStructure::pid};
+  CascadeGains cascade{};
+  Deadband deadband{};
+  /// The integral changes only where |e| is not larger, counts.
+  double integrator_zone{std::numeric_limits<double>::infinity()};
+  /// Time constant with which the integral decays, s.
+  double integrator_leak{std::numeric_limits<double>::infinity()};
+  /// Of the low-pass filter on the difference of successive counts, Hz.
+  double derivative_cutoff{std::numeric_limits<double>::infinity()};
+  std::vector<Filter> filters{};  ///< in the order in which they act
+  FeedforwardParameters feedforward{};
+  ObserverParameters observer{};
+};
+
 /// Two-phase (dual mode) control (paper, end of section 2): the gains of the coarse phase, and when it is
 /// left and entered. All counts are fine ones; a phase that is fed back from the coarse encoder has that
 /// one's count times fine/coarse.
@@ -63,9 +126,10 @@ struct CoarsePhaseParameters {
   double fine_dwell{0.01};    ///< time for which both must have held, s
   /// |error| beyond which the coarse phase is entered, counts; by default never.
   double coarse_beyond{std::numeric_limits<double>::infinity()};
+  ControlBlocks blocks{};  ///< of the coarse phase
 };
 
-/// PID control of the count.
+/// Control of the count.
 struct ControllerParameters {
   double sample_rate{2000.0};  ///< 1/T, Hz
   double kp{0.0};              ///< N m/count
@@ -75,6 +139,7 @@ struct ControllerParameters {
   AntiWindup anti_windup{AntiWindup::clamp};
   EncoderChoice encoder{EncoderChoice::fine};  ///< that closes the loop in the fine phase
   CoarsePhaseParameters coarse{};
+  ControlBlocks blocks{};  ///< with a coarse phase those of the fine one
 };
 
 enum class ReferenceShape {

@@ -26,6 +26,12 @@ struct FrictionParameters {
   double stribeck_velocity{0.01};  ///< velocity over which sliding friction falls to the Coulomb level, rad/s
 };
 
+/// An element of the generalised Maxwell-slip model.
+struct GmsElement {
+  double stiffness{0.0};  ///< κ, N m/rad
+  double weight{0.0};     ///< η, part of the level that the element carries, dimensionless; they sum to 1
+};
+
 /// A friction parameter that varies along the rotor.
 struct ProfiledParameter {
   double FrictionParameters::*parameter{nullptr};
@@ -50,6 +56,7 @@ struct FrictionAlongRotor {
   std::vector<ProfiledParameter> profiled;
   FrictionModel model{FrictionModel::presliding};
   std::vector<ContactParameter> per_contact{};
+  std::vector<GmsElement> gms_elements{};
 };
 
 /// The parameters of a contact that forms at the rotor angle `angle` (rad, absolute, from the profile's

@@ -142,7 +142,7 @@ void check_values(Checking& c) {
   Reports warnings;
   for (const rules::ValueRule& rule : rules::value_rules(c.plan())) {
     Reports& reported = rule.warn_only ? warnings : problems;
-    const std::vector<std::size_t> named = study::slots_named(rule.between);
+    const std::vector<std::size_t> named = study::slots_named(c.plan().table, rule.between);
     const std::vector<std::size_t> listed =
         rule.whole_list ? study::slots_of(c.plan().list) : std::vector<std::size_t>{};
     std::vector<std::size_t> involved = named;
@@ -200,9 +200,9 @@ void check_effects(Checking& c) {
   for (const rules::EffectRule& rule : rules::effect_rules(c.plan())) {
     std::optional<bool> has_effect;
     for (std::size_t slot = 0; slot < table.rows.size(); ++slot) {
-      const bool covered =
-          std::any_of(rule.keys.begin(), rule.keys.end(),
-                      [&](std::string_view key) { return is_within(table.rows[slot].name, key); });
+      const bool covered = std::any_of(rule.keys.begin(), rule.keys.end(), [&](std::string_view key) {
+        return is_within(table.rows[slot].name, key);
+      });
       const auto place = covered ? given_place(c, slot) : std::nullopt;
       if (!place || reported_rows.count(reported_row(table, slot)) > 0 ||
           (rule.off_at_zero && asks_for_nothing(c, slot)))

@@ -11,6 +11,7 @@
 #include "experiments/manifest/manifest.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/manifest/sweep.hpp"
+#include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/sequence.hpp"
 
@@ -132,7 +133,7 @@ std::string description_of(const parameters::Parameter& parameter) {
 Json key_schema(const parameters::Parameter& parameter) {
   Json schema = value_schema(parameter);
   if (parameter.list) {
-    schema = list_of(std::move(schema), 1);
+    schema = list_of(std::move(schema), parameter.list->min_values);
     schema["maxItems"] = parameter.list->max_values;
   }
   schema["description"] = description_of(parameter);
@@ -146,6 +147,22 @@ Json key_schema(const parameters::Parameter& parameter) {
   return schema;
 }
 
+// A list of maps, each of one form.
+Json elements_schema(const parameters::ElementList& list) {
+  Json forms = Json::array();
+  for (const parameters::ElementForm& form : list.forms) {
+    Json properties = Json::object();
+    for (const std::string_view key : form.keys) {
+      const auto row = parameters::find_parameter(fmt::format("{}.#.{}", list.path, key));
+      properties[std::string(key)] = key_schema(parameters::parameter_table()[row.value()]);
+    }
+    const std::string name(form.name);
+    forms.push_back(object_of({{name, object_of(std::move(properties), Json(form.keys))}}, {name}));
+    forms.back()["description"] = form.meaning;
+  }
+  return {{"type", "array"}, {"items", {{"oneOf", std::move(forms)}}}, {"maxItems", list.max_elements}};
+}
+
 Json spacing_schema() {
   const Json count{{"type", "integer"}, {"minimum", 2}, {"maximum", max_points}};
   const auto spacing = [&](const Json& end) {
@@ -156,11 +173,13 @@ Json spacing_schema() {
             object_of({{"logspace", spacing(number_in(numerics::above(0)))}}, {"logspace"})}}};
 }
 
-// A dotted path as a regular expression; that of a list's element ends in an index.
-std::string pattern_of(const parameters::Parameter& parameter, bool element) {
+// A dotted path as a regular expression, with indices for #; that of a list's value ends in an index.
+std::string pattern_of(const parameters::Parameter& parameter, bool value) {
+  constexpr std::string_view index = "(0|[1-9][0-9]*)";
   std::string pattern = "^";
-  for (const char c : parameter.name) pattern += c == '.' ? std::string("\\.") : std::string(1, c);
-  return pattern + (element ? "\\.(0|[1-9][0-9]*)$" : "$");
+  for (const char c : parameter.name)
+    pattern += c == '.' ? std::string("\\.") : c == '#' ? std::string(index) : std::string(1, c);
+  return pattern + (value ? fmt::format("\\.{}$", index) : "$");
 }
 
 Json sweep_schema() {
@@ -172,7 +191,8 @@ Json sweep_schema() {
     const bool numeric = !parameters::has_labels(parameter);
     const Json whole_value = parameters::is_list(parameter) ? list_of(value, 1) : value;
     assignments[pattern_of(parameter, false)] = whole_value;
-    grid[pattern_of(parameter, false)] = numeric && !parameters::is_list(parameter) ? spaced : list_of(whole_value, 1);
+    grid[pattern_of(parameter, false)] =
+        numeric && !parameters::is_list(parameter) ? spaced : list_of(whole_value, 1);
     if (parameters::is_list(parameter)) {
       assignments[pattern_of(parameter, true)] = value;
       grid[pattern_of(parameter, true)] = spaced;
@@ -219,6 +239,9 @@ Json general_schemas() {
       {"travel", number_in(numerics::above(0))},
       {"controller.units",
        {{"enum", parameters::gain_unit_labels}, {"default", parameters::gain_unit_labels.front()}}},
+      {"controller.filters", elements_schema(*parameters::find_element_list("controller.filters"))},
+      {"controller.coarse.filters",
+       elements_schema(*parameters::find_element_list("controller.coarse.filters"))},
       {"command.sequence.cycles",
        {{"type", "integer"},
         {"minimum", 1},

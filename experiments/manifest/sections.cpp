@@ -37,12 +37,11 @@ void read_slot(SectionReading& s, const yaml::Field& field, std::size_t slot) {
 }
 
 void read_list(SectionReading& s, const yaml::Field& field, std::size_t row) {
-  const parameters::Parameter& list = parameters::parameter_table()[row];
-  const std::size_t max_values = list.list.value().max_values;
-  const std::string expected = fmt::format("a list of 1 to {} {}", max_values, study::noun_of(list));
+  const parameters::ListOfValues list = s.plan().table.rows[row].list.value();
+  const std::string expected = fmt::format("a list of {}", parameters::length_text(list));
   if (!yaml::check_list(field, expected, s.problems())) return;
   const std::size_t count = field.node->items.size();
-  if (count < 1 || count > max_values) {
+  if (count < list.min_values || count > list.max_values) {
     s.problems().add(field, fmt::format("a list of {} stands here", count), expected);
     return;
   }
@@ -61,8 +60,65 @@ void complete_moves(SectionReading& s) {
 }
 
 void read_parameter(SectionReading& s, const yaml::Field& field, std::size_t row) {
-  if (parameters::is_list(parameters::parameter_table()[row])) return read_list(s, field, row);
+  if (parameters::is_list(s.plan().table.rows[row])) return read_list(s, field, row);
   read_slot(s, field, row);
+}
+
+std::string names_of(std::span<const parameters::ElementForm> forms) {
+  std::vector<std::string_view> names;
+  for (const parameters::ElementForm& form : forms) names.push_back(form.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// The form that an element has. Reports anything else, and returns null.
+const parameters::ElementForm* find_form(SectionReading& s, const yaml::Field& element,
+                                         const parameters::ElementList& list) {
+  const std::string expected = fmt::format("a map with one of {}", names_of(list.forms));
+  if (!yaml::check_map(element, expected, s.problems())) return nullptr;
+  const auto& entries = element.node->entries;
+  if (entries.size() != 1) {
+    s.problems().add(element, fmt::format("a map with {} keys stands here", entries.size()), expected);
+    return nullptr;
+  }
+  const auto form = std::find_if(list.forms.begin(), list.forms.end(),
+                                 [&](const auto& known) { return known.name == entries[0].key; });
+  if (form != list.forms.end()) return &*form;
+  s.problems().add(entries[0].place, yaml::entry_of(element, entries[0]).path,
+                   fmt::format("unknown {}", list.element), expected);
+  return nullptr;
+}
+
+void read_element(SectionReading& s, const yaml::Field& element, std::size_t index,
+                  const parameters::ElementList& list) {
+  const parameters::ElementForm* const form = find_form(s, element, list);
+  if (form == nullptr) return;
+  const yaml::Field map = yaml::entry_of(element, element.node->entries[0]);
+  const std::vector<std::string> keys(form->keys.begin(), form->keys.end());
+  if (!yaml::check_map(map, fmt::format("a map with the keys {}", fmt::join(keys, ", ")), s.problems()))
+    return;
+  parameters::check_keys(map, keys, s.problems());
+  const study::RowGroup rows = study::add_element(s.plan().table, list, index, *form);
+  list.add(s.plan().common, static_cast<std::size_t>(form - list.forms.data()));
+  add_slots(s);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (const auto value = yaml::find_field(map, keys[i])) {
+      read_parameter(s, *value, rows.first + i);
+    } else {
+      s.problems().add(map.node->place, fmt::format("{}.{}", map.path, keys[i]), "the key is missing",
+                       fmt::format("its value: {}", s.plan().table.rows[rows.first + i].meaning));
+    }
+  }
+}
+
+void read_elements(SectionReading& s, const yaml::Field& field, const parameters::ElementList& list) {
+  const std::string expected = fmt::format("a list of at most {} {}s", list.max_elements, list.element);
+  if (!yaml::check_list(field, expected, s.problems())) return;
+  const std::size_t count = field.node->items.size();
+  if (count > list.max_elements) {
+    s.problems().add(field, fmt::format("a list of {} stands here", count), expected);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) read_element(s, yaml::item_of(field, i), i, list);
 }
 
 // Reads the keys of sections that are not parameters. controller.units is read earlier, before all values.
@@ -98,6 +154,8 @@ void read_section(SectionReading& s, const yaml::Field& section) {
       parameters::add_unknown_key(section, entry, known, s.problems());
     } else if (const auto row = parameters::find_parameter(field.path)) {
       read_parameter(s, field, *row);
+    } else if (const parameters::ElementList* const list = parameters::find_element_list(field.path)) {
+      read_elements(s, field, *list);
     } else if (find_general_key(field.path) != nullptr) {
       read_general_key(s, field);
     } else {
@@ -158,7 +216,7 @@ void check_form_complete(SectionReading& s, const yaml::Field& command) {
     const parameters::Parameter& parameter = parameters::parameter_table()[*row];
     s.problems().add(form->node->place, name, "the key is missing",
                      parameters::is_list(parameter) ? fmt::format("a list of {}", key)
-                                      : fmt::format("its value: {}", parameter.meaning));
+                                                    : fmt::format("its value: {}", parameter.meaning));
   }
 }
 

@@ -41,7 +41,7 @@ bool differs_between_contacts(const study::StudyPlan& plan, std::size_t slot) {
 // Only input slots are drawn.
 void derive_randomness(const study::Study& study, study::StudyPlan& plan) {
   std::vector<std::size_t> dimensions;
-  for (const std::uint32_t slot : plan.input_slots) 
+  for (const std::uint32_t slot : plan.input_slots)
     dimensions.push_back(plan.table.rows[slot].sobol_dimension);
   const auto directions = study.design == study::Design::sobol
                               ? designs::sobol_directions(dimensions)
@@ -79,11 +79,18 @@ random::TrialRandomness trial_randomness(std::uint64_t seed) {
           .dac_noise = designs::random_key(seed, "dac.noise/samples")};
 }
 
+std::size_t gms_element_count(const study::StudyTable& table) {
+  const auto stiffness =
+      study::find_list(table, parameters::find_parameter("friction.gms.stiffness").value());
+  return stiffness ? stiffness->count : 0;
+}
+
 // Sets the parameters that are the same in all trials.
 void set_common_parameters(const study::Study& study, study::StudyPlan& plan) {
   plan.common.randomness = trial_randomness(study.seed);
   plan.common.command.targets.resize(plan.open_loop ? 0 : static_cast<std::size_t>(study.moves));
   plan.common.command.torque.levels.resize(plan.open_loop ? plan.list.count : 0);
+  plan.common.friction.gms_elements.resize(gms_element_count(plan.table));
   for (const study::Value& value : plan.base) plan.numbers.push_back(value.number);
   const std::set<std::size_t> inputs(plan.input_slots.begin(), plan.input_slots.end());
   for (const std::size_t slot : study::slots_in_table_order(plan.table)) {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/manifest/spacing.hpp"
@@ -48,8 +49,16 @@ bool check_point_count(const yaml::Field& sweep, std::size_t options, SweepReadi
   return fits;
 }
 
-std::string_view singular(std::string_view noun) {
-  return noun.substr(0, noun.size() - 1);
+// The names of the values that a list of elements or coefficients has, for a path that is none of them.
+std::string names_like(const study::StudyTable& table, std::string_view pattern) {
+  std::vector<std::string_view> names;
+  for (const parameters::Parameter& row : table.rows) {
+    const std::string known = parameters::without_indices(row.name);
+    if (parameters::has_value(row) && known != row.name &&
+        is_within(pattern, known.substr(0, known.find(".#"))))
+      names.push_back(row.name);
+  }
+  return names.empty() ? "" : fmt::format("one of {}", fmt::join(names, ", "));
 }
 
 std::optional<study::SlotRange> find_swept(const yaml::Field& map, const yaml::YamlEntry& entry,
@@ -58,10 +67,16 @@ std::optional<study::SlotRange> find_swept(const yaml::Field& map, const yaml::Y
   if (auto slots = study::find_slots(entry.key, table)) return slots;
   yaml::Problems& problems = state.reading.problems;
   const std::string path = yaml::entry_of(map, entry).path;
-  if (const auto row = study::find_list_row(entry.key)) {
+  const std::string pattern = parameters::without_indices(entry.key);
+  const bool of_element = parameters::find_element_list(pattern.substr(0, pattern.find(".#"))) != nullptr;
+  if (of_element && pattern != entry.key) {
+    const std::string known = names_like(table, pattern);
+    problems.add(entry.place, path, fmt::format("the study has no {}", entry.key),
+                 known.empty() ? "the list in its section of the manifest" : known);
+  } else if (const auto row = study::find_list_row(entry.key)) {
     const parameters::Parameter& list = table.rows[*row];
     if (const auto values = study::find_list(table, *row)) {
-      problems.add(entry.place, path, fmt::format("there is no such {}", singular(study::noun_of(list))),
+      problems.add(entry.place, path, fmt::format("there is no such {}", list.list->singular),
                    fmt::format("an index from 0 to {}", values->count - 1));
     } else {
       problems.add(entry.place, path, fmt::format("the study has no {}", list.name),
@@ -91,7 +106,8 @@ void finish_option(SweptAxis& axis, std::string label) {
 // Noun for the values of a list.
 std::string_view noun_of(const study::SlotRange& list, const SweepReading& state) {
   for (const study::RowGroup& group : state.table().groups) {
-    if (group.first == list.first) return study::noun_of(state.table().rows[group.row]);
+    const parameters::Parameter& row = state.table().rows[group.row];
+    if (group.first == list.first && parameters::is_list(row)) return row.list->plural;
   }
   return "values";
 }
@@ -170,8 +186,7 @@ void read_spaced(const yaml::Field& sweep, const yaml::Field& field, const study
   const std::vector<double> values = spaced_values(*spacing);
   std::vector<std::string> labels = spaced_labels(axis.name, values);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const study::Value value =
-        checked_number(inner, slots.first, values[i], state.reading);
+    const study::Value value = checked_number(inner, slots.first, values[i], state.reading);
     assign(axis, slots.first, value, inner.node->place);
     finish_option(axis, std::move(labels[i]));
     if (std::isnan(value.number)) return;  // one report is enough
@@ -237,9 +252,9 @@ void read_case(const yaml::Field& cases, const yaml::YamlEntry& entry, SweptAxis
     note_slots(axis, *slots);
     for (std::size_t slot = slots->first; slot < slots->first + slots->count; ++slot) {
       if (in_this_case.insert(slot).second) continue;
-      state.reading.problems.add(
-          assignment.place, yaml::entry_of(field, assignment).path,
-          fmt::format("{} is given twice in this case", state.table().rows[slot].name), "one value");
+      state.reading.problems.add(assignment.place, yaml::entry_of(field, assignment).path,
+                                 fmt::format("{} is given twice in this case", state.table().rows[slot].name),
+                                 "one value");
       break;
     }
     read_assignments(yaml::entry_of(field, assignment), *slots, axis, state);

@@ -27,6 +27,7 @@ std::vector<Parameter> make_table() {
   add(encoder_rows(), true);
   add(drive_rows(), true);
   add(controller_rows(), true);
+  add(filter_rows(), true);
   add(command_rows(), false);
   add(initial_rows(), false);
   add(verdict_rows(), false);
@@ -53,12 +54,34 @@ Parameter value_row(const Parameter& list, std::size_t index, std::string_view n
   row.name = name;
   row.sobol_dimension += index;
   row.list.reset();
-  if (const auto set = list.list.value().set) {
+  if (const auto& set = list.list.value().set) {
     row.set = [set, index](trial::TrialParameters& parameters, double value) {
       set(parameters, index, value);
     };
   }
   return row;
+}
+
+Parameter element_row(const Parameter& key, std::size_t index, std::string_view name) {
+  const ElementKey element = key.element.value();
+  Parameter row = key;
+  row.name = name;
+  row.sobol_dimension += index * element.dimensions;
+  row.element.reset();
+  if (row.list) {
+    row.list->set = [set = element.set, index](trial::TrialParameters& parameters, std::size_t i,
+                                               double value) { set(parameters, index, i, value); };
+  } else {
+    row.set = [set = element.set, index](trial::TrialParameters& parameters, double value) {
+      set(parameters, index, 0, value);
+    };
+  }
+  return row;
+}
+
+std::string length_text(const ListOfValues& list) {
+  if (list.min_values == list.max_values) return fmt::format("{} {}", list.max_values, list.plural);
+  return fmt::format("{} to {} {}", list.min_values, list.max_values, list.plural);
 }
 
 double default_value(const Parameter& parameter) {

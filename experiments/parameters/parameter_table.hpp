@@ -19,9 +19,20 @@ enum class ParameterKind { real, whole_number, enumeration, truth };
 /// Of a row whose value in a manifest is a list. Each value of the list is a parameter of its own (see
 /// value_row); the row itself has no value.
 struct ListOfValues {
+  std::size_t min_values{1};
   std::size_t max_values{0};
-  void (*set)(trial::TrialParameters&, std::size_t index, double value){
-      nullptr};  ///< null if TrialParameters has no field for it
+  std::string_view singular;  ///< noun for a value: "target"
+  std::string_view plural;
+  std::function<void(trial::TrialParameters&, std::size_t index, double value)>
+      set{};  ///< empty if TrialParameters has no field for it
+};
+
+/// Of a row "list.#.key" that stands for a key of each element of a list (element_lists.hpp), which is a
+/// parameter of its own (see element_row); the row itself has no value.
+struct ElementKey {
+  std::size_t dimensions{0};  ///< Sobol dimensions of an element
+  /// `index` is that of a value if the key's value is a list, otherwise 0.
+  std::function<void(trial::TrialParameters&, std::size_t element, std::size_t index, double value)> set{};
 };
 
 /// One row of the table of parameters: the complete description of one parameter of a trial.
@@ -38,12 +49,14 @@ struct Parameter {
       nullptr};                   ///< field for a profile; null if profiles are not allowed
   std::string_view si_unit{};     ///< unit of a gain with controller.units: si; empty for other parameters
   std::string_view si_meaning{};  ///< likewise
-  std::optional<AxisKind> only_on{};  ///< the only kind of axis with this parameter; empty: both kinds
-  std::string_view instead{};         ///< the corresponding key on the other kind of axis, for messages
-  bool of_machine{false};             ///< a property of the machine, not of the trial
-  std::optional<ListOfValues> list{};  ///< set if its value is a list
-  std::function<double(const trial::TrialParameters&)> get{};        ///< empty without a default
-  std::function<void(trial::TrialParameters&, double value)> set{};  ///< empty if TrialParameters has no field
+  std::optional<AxisKind> only_on{};    ///< the only kind of axis with this parameter; empty: both kinds
+  std::string_view instead{};           ///< the corresponding key on the other kind of axis, for messages
+  bool of_machine{false};               ///< a property of the machine, not of the trial
+  std::optional<ListOfValues> list{};   ///< set if its value is a list
+  std::optional<ElementKey> element{};  ///< set if it stands for a key of each element of a list
+  std::function<double(const trial::TrialParameters&)> get{};  ///< empty without a default
+  std::function<void(trial::TrialParameters&, double value)>
+      set{};  ///< empty if TrialParameters has no field
 };
 
 /// The table of parameters, in the order of columns and listings. Parsing, validation, the JSON Schema, the
@@ -80,6 +93,14 @@ inline bool is_list(const Parameter& parameter) {
 /// The row of value `index` of a list. @param name its dotted path, "command.targets.0"; must outlive the row
 Parameter value_row(const Parameter& list, std::size_t index, std::string_view name);
 
+/// The row of a key of element `index`. @param name its dotted path, "controller.filters.0.frequency"
+Parameter element_row(const Parameter& key, std::size_t index, std::string_view name);
+
+/// Whether the row itself has a value: it stands for no others.
+inline bool has_value(const Parameter& parameter) {
+  return !parameter.list && !parameter.element;
+}
+
 /// Whether its values are labels (of an enumeration or a boolean), not numbers.
 inline bool has_labels(const Parameter& parameter) {
   return !parameter.labels.empty();
@@ -89,6 +110,9 @@ inline bool has_labels(const Parameter& parameter) {
 inline bool exists_on(const Parameter& parameter, AxisKind axis) {
   return !parameter.only_on || *parameter.only_on == axis;
 }
+
+/// Noun for the length of a list: "1 to 3000 targets", "3 coefficients".
+std::string length_text(const ListOfValues& list);
 
 /// Its unit in a study; "1" if dimensionless.
 std::string unit_of(const Parameter& parameter, const StudyUnits& units);

@@ -39,7 +39,8 @@ std::vector<EffectRule> rules_of_the_command(const study::StudyPlan& plan) {
   const bool open_loop = plan.open_loop;
   return {
       {.keys = {"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
-                "controller.encoder", "controller.coarse", "command.profile", "verdict"},
+                "controller.encoder", "controller.coarse", "controller.filters", "command.profile",
+                "verdict"},
        .has_effect = open_loop ? never : always,
        .what = the_loop_is_open,
        .expected = a_closed_loop},
@@ -86,8 +87,8 @@ EffectRule rule_of_an_error(std::string_view key, std::string_view amplitude) {
 std::vector<EffectRule> rules_of_the_loop() {
   return {
       {.keys = {"controller.coarse.kp", "controller.coarse.ki", "controller.coarse.kd",
-                "controller.coarse.encoder", "controller.coarse.fine_within", "controller.coarse.fine_rate",
-                "controller.coarse.fine_dwell"},
+                "controller.coarse.encoder", "controller.coarse.filters", "controller.coarse.fine_within",
+                "controller.coarse.fine_rate", "controller.coarse.fine_dwell"},
        .depends_on = {"controller.coarse.coarse_beyond"},
        .has_effect = [](Limits l) { return study::can_have_coarse_phase(l[0]); },
        .what = "it has no effect: there is no coarse phase at any point",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -20,6 +21,15 @@ bool is_value_of(std::string_view path, std::string_view name) {
   return digits.size() == 1 || digits.front() != '0';
 }
 
+// Adds the slots of a row: its own, and those of the groups that follow it.
+void append_slots(const StudyTable& table, std::size_t row, std::vector<std::size_t>& slots) {
+  if (parameters::has_value(table.rows[row])) slots.push_back(row);
+  for (const RowGroup& group : table.groups) {
+    for (std::size_t i = 0; group.row == row && i < group.count; ++i)
+      append_slots(table, group.first + i, slots);
+  }
+}
+
 }  // namespace
 
 RowGroup add_list(StudyTable& table, std::size_t row, std::size_t count) {
@@ -33,6 +43,22 @@ RowGroup add_list(StudyTable& table, std::size_t row, std::size_t count) {
   return group;
 }
 
+RowGroup add_element(StudyTable& table, const parameters::ElementList& list, std::size_t index,
+                     const parameters::ElementForm& form) {
+  const auto row_of_key = [&](std::string_view key) {
+    return parameters::find_parameter(fmt::format("{}.#.{}", list.path, key)).value();
+  };
+  const std::size_t first_key = row_of_key(list.forms.front().keys.front());
+  const RowGroup group{first_key, table.rows.size(), form.keys.size()};
+  for (const std::string_view key : form.keys) {
+    const std::string& name = table.names.emplace_back(fmt::format("{}.{}.{}", list.path, index, key));
+    table.rows.push_back(
+        parameters::element_row(parameters::parameter_table()[row_of_key(key)], index, name));
+  }
+  table.groups.push_back(group);
+  return group;
+}
+
 std::optional<RowGroup> find_list(const StudyTable& table, std::size_t row) {
   const auto found = std::find_if(table.groups.begin(), table.groups.end(),
                                   [row](const RowGroup& group) { return group.row == row; });
@@ -40,26 +66,18 @@ std::optional<RowGroup> find_list(const StudyTable& table, std::size_t row) {
   return *found;
 }
 
-std::string_view noun_of(const parameters::Parameter& list) {
-  return list.name.substr(list.name.rfind('.') + 1);
-}
-
 std::vector<std::size_t> slots_in_table_order(const StudyTable& table) {
   std::vector<std::size_t> slots;
-  for (std::size_t row = 0; row < parameters::parameter_table().size(); ++row) {
-    if (!is_list(table.rows[row])) slots.push_back(row);
-    for (const RowGroup& group : table.groups) {
-      for (std::size_t i = 0; group.row == row && i < group.count; ++i) slots.push_back(group.first + i);
-    }
-  }
+  for (std::size_t row = 0; row < parameters::parameter_table().size(); ++row)
+    append_slots(table, row, slots);
   return slots;
 }
 
 std::optional<SlotRange> find_slots(std::string_view path, const StudyTable& table) {
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     if (table.rows[row].name != path) continue;
-    if (!is_list(table.rows[row])) return SlotRange{row, 1, false};
-    const auto values = find_list(table, row);
+    if (parameters::has_value(table.rows[row])) return SlotRange{row, 1, false};
+    const auto values = parameters::is_list(table.rows[row]) ? find_list(table, row) : std::nullopt;
     if (!values) return std::nullopt;
     return SlotRange{values->first, values->count, true};
   }
@@ -69,7 +87,7 @@ std::optional<SlotRange> find_slots(std::string_view path, const StudyTable& tab
 std::optional<std::size_t> find_list_row(std::string_view path) {
   const auto table = parameters::parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
-    if (!is_list(table[row])) continue;
+    if (!parameters::is_list(table[row])) continue;
     if (path == table[row].name || is_value_of(path, table[row].name)) return row;
   }
   return std::nullopt;

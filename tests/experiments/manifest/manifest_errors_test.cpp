@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
              "m.yaml:6:12: friction.kp: unknown key, nearest known: controller.kp; expected one of model, "
              "k1, k2, "
              "beta, "
-             "alpha, lambda, n, breakaway, coulomb_ratio, stribeck_velocity"},
+             "alpha, lambda, n, breakaway, coulomb_ratio, stribeck_velocity, gms"},
         Case{"frictoin: {k1: 1}",
              "m.yaml:6:1: frictoin: unknown key, nearest known: friction; expected one of zerocount, name, "
              "description, axis, travel, seed, trials, rigs, design, independent_points, retain, stop, "

@@ -78,7 +78,7 @@ TEST(Sections, AreMapsInsideMaps) {
 TEST(Sections, UnknownKeysAreToldTheNearestOfTheirMap) {
   EXPECT_EQ(refusal_of(minimal_manifest("controller: {coarse: {fine_witin: 1}}")),
             "m.yaml:6:23: controller.coarse.fine_witin: unknown key, nearest known: fine_within; expected "
-            "one of kp, ki, kd, encoder, fine_within, fine_rate, fine_dwell, coarse_beyond");
+            "one of kp, ki, kd, encoder, fine_within, fine_rate, fine_dwell, coarse_beyond, filters");
   EXPECT_EQ(refusal_of(minimal_manifest("initial: {histroy: {}}")),
             "m.yaml:6:11: initial.histroy: unknown key, nearest known: history; expected one of "
             "encoder_phase, position, hardening, preload, history, velocity, integral, mode");

@@ -33,7 +33,7 @@ TEST(PointLimits, EveryCombinationIsVisited) {
   const Study study = swept_study();
   const std::vector<std::string_view> names{"controller.kp", "dac.bits", "controller.ki", "plant.inertia",
                                             "controller.kd"};
-  const std::vector<std::size_t> named = slots_named(names);
+  const std::vector<std::size_t> named = slots_named(study.plan->table, names);
   for (std::size_t mask = 0; mask < (std::size_t{1} << names.size()); ++mask) {
     std::vector<std::size_t> slots{study.plan->list.first + 1};
     for (std::size_t i = 0; i < named.size(); ++i) {
@@ -56,7 +56,7 @@ TEST(PointLimits, WhatDoesNotMatterIsLeftOut) {
   const Study study = swept_study();
   const auto visits = [&](std::vector<std::string_view> names) {
     std::size_t count = 0;
-    visit_points(*study.plan, slots_named(names), [&](std::size_t) {
+    visit_points(*study.plan, slots_named(study.plan->table, names), [&](std::size_t) {
       ++count;
       return true;
     });
@@ -78,7 +78,7 @@ TEST(PointLimits, AVisitMayEndEarly) {
 ValueLimits limits_of_velocity(const std::string& velocity) {
   const Study study = study_of(minimal_manifest("initial: {velocity: " + velocity + "}\n"));
   const std::vector<std::string_view> name{"initial.velocity"};
-  return limits_at(*study.plan, slots_named(name), 0).front();
+  return limits_at(*study.plan, slots_named(study.plan->table, name), 0).front();
 }
 
 TEST(PointLimits, AreTheSupportAndKnowWhetherItHasZero) {

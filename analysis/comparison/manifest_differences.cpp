@@ -37,7 +37,8 @@ bool gives(const ManifestValues& values, std::string_view parameter) {
 
 void write_default(ManifestValues& values, const parameters::Parameter& parameter, std::int64_t version) {
   if (gives(values, parameter.name)) return;
-  values[std::string(parameter.name)] = fmt::format("{}", parameters::default_value_in(parameter, version));
+  values[std::string(parameter.name)] =
+      parameters::number_text(parameter, parameters::default_value_in(parameter, version));
 }
 
 std::optional<double> number_in(const std::string& text) {

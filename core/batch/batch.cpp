@@ -1,5 +1,6 @@
 #include "core/batch/batch.hpp"
 
+#include <cmath>
 #include <type_traits>
 
 #include "core/batch/lane_work.hpp"
@@ -55,12 +56,21 @@ bool lanes_know(const loop::AmplifierParameters& amplifier) {
   return bandwidth == 0.0;
 }
 
+/// The feed-forward is of no account: in lanes the reference is a step.
+bool lanes_know(const loop::ControlBlocks& blocks) {
+  const auto& [structure, cascade, deadband, zone, leak, cutoff, filters, feedforward, observer] = blocks;
+  return structure == loop::ControlStructure::pid && deadband.enter < 0.0 && std::isinf(zone) &&
+         std::isinf(leak) && std::isinf(cutoff) && filters.empty() && observer.bandwidth == 0.0;
+}
+
 bool lanes_know(const loop::ControllerParameters& controller) {
   static_assert(
-      std::is_same_v<loop::ControlChain, loop::BlockChain<loop::Pid>>,
-      "sample_kernel has the PID law alone: another block needs its law there, or a condition here");
+      std::is_same_v<loop::ControlChain, loop::BlockChain<loop::ControlLaw, loop::Filters, loop::Feedforward,
+                                                          loop::DisturbanceObserver>>,
+      "sample_kernel has these blocks: another one needs its law there, or a condition here");
   const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks] = controller;
-  return delay <= max_delay && lanes_know(encoder) && !loop::has_coarse_phase(controller);
+  return delay <= max_delay && lanes_know(encoder) && lanes_know(blocks) &&
+         !loop::has_coarse_phase(controller);
 }
 
 bool lanes_know(const trial::CommandParameters& command) {

@@ -13,18 +13,26 @@ struct TorqueRange {
   double highest{0.0};
 };
 
+/// Motion of the unrounded reference at a sampling instant.
+struct ReferenceMotion {
+  double velocity{0.0};      ///< ṙ, rad/s
+  double acceleration{0.0};  ///< r̈, rad/s²
+};
+
 /// Inputs of the controller at a sampling instant. Error and count are whole numbers, or those of a coarser
 /// encoder in counts of the fine one.
 struct Feedback {
   double error{0.0};            ///< reference − count, counts
   double count{0.0};            ///< counts
   double torque_in_force{0.0};  ///< decided at the last sample, N m; 0 before the first
+  ReferenceMotion reference{};
 };
 
 /// The controller before its first sample.
 struct ControlStart {
   double integral{0.0};  ///< I, N m
   TorqueRange integral_range{};
+  double resolution{1.0};  ///< Δx, rad per count
 };
 
 /// A block of the controller (README.md): its parameters, its state, and its law from sample to sample.
@@ -33,8 +41,9 @@ concept ControlBlock = std::constructible_from<Block, const ControllerParameters
     requires(Block block, const Block now, const Feedback& feedback, double torque) {
   { block.step(feedback, torque) } -> std::same_as<double>;  // the torque (N m) from that of the block before
   block.observe(feedback);  // a sample at which another chain decides: what the next step has to know of it
-  block.take_over(torque);  // the next step goes on from this torque in force, N m
-  { now.linear() } -> std::same_as<LinearBlock>;  // away from its limits
+  // The next step is to go on from this torque (N m). Gives the torque that it needs from the block before.
+  { block.take_over(torque) } -> std::same_as<double>;
+  { now.linear() } -> std::same_as<LinearChain>;  // its stages, away from its limits; none: it is transparent
 };
 
 }  // namespace zerocount::loop

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <tuple>
 
 #include "core/loop/control_block.hpp"
-#include "core/loop/pid.hpp"
+#include "core/loop/control_law.hpp"
+#include "core/loop/disturbance_observer.hpp"
+#include "core/loop/feedforward.hpp"
+#include "core/loop/filter.hpp"
 
 namespace zerocount::loop {
 
@@ -26,13 +30,17 @@ class BlockChain {
   void observe(const Feedback& now) {
     for_each([&](auto& block) { block.observe(now); });
   }
-  /// The next sample goes on from this torque in force (N m).
-  void take_over(double torque) {
-    for_each([&](auto& block) { block.take_over(torque); });
-  }
+  /// The next sample goes on from this torque in force (N m): from the last block to the first, each says
+  /// what it needs from the one before.
+  void take_over(double torque) { take_over_by<sizeof...(Blocks)>(torque); }
 
   LinearChain linear() const {
-    return std::apply([](const auto&... block) { return LinearChain{block.linear()...}; }, blocks_);
+    LinearChain chain;
+    const auto append = [&](const LinearChain& stages) {
+      chain.insert(chain.end(), stages.begin(), stages.end());
+    };
+    std::apply([&](const auto&... block) { (append(block.linear()), ...); }, blocks_);
+    return chain;
   }
 
   template <class Block>
@@ -46,10 +54,16 @@ class BlockChain {
     std::apply([&](auto&... block) { (visit(block), ...); }, blocks_);
   }
 
+  /// The first `count` blocks.
+  template <std::size_t count>
+  void take_over_by(double torque) {
+    if constexpr (count > 0) take_over_by<count - 1>(std::get<count - 1>(blocks_).take_over(torque));
+  }
+
   List blocks_;
 };
 
 /// The blocks of the controller, in order.
-using ControlChain = BlockChain<Pid>;
+using ControlChain = BlockChain<ControlLaw, Filters, Feedforward, DisturbanceObserver>;
 
 }  // namespace zerocount::loop

@@ -6,7 +6,7 @@
 namespace zerocount::loop {
 ControllerParameters controller_in_phase(ControllerParameters controller, ControlPhase phase) {
   if (!has_coarse_phase(controller)) return controller;
-  const CoarsePhaseParameters coarse = std::exchange(controller.coarse, {});
+  CoarsePhaseParameters coarse = std::exchange(controller.coarse, {});
   switch (phase) {
     case ControlPhase::fine:
       controller.kd = 0.0;
@@ -15,13 +15,14 @@ ControllerParameters controller_in_phase(ControllerParameters controller, Contro
       controller.kp = coarse.kp;
       controller.ki = coarse.ki;
       controller.kd = coarse.kd;
+      controller.blocks = std::move(coarse.blocks);
       break;
   }
   return controller;
 }
 
-LinearChain linear_chain(const ControllerParameters& parameters) {
-  return ControlChain(parameters, {}).linear();
+LinearChain linear_chain(const ControllerParameters& parameters, double resolution) {
+  return ControlChain(parameters, {.resolution = resolution}).linear();
 }
 
 TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest) {
@@ -39,23 +40,28 @@ bool has_coarse_phase(const ControllerParameters& parameters) {
   return parameters.coarse.coarse_beyond < std::numeric_limits<double>::infinity();
 }
 
-Controller::Controller(const ControllerParameters& parameters, double fine_per_coarse, double integral,
-                       double lowest, double highest)
+Controller::Controller(const ControllerParameters& parameters, const CountScale& counts, double integral,
+                       const TorqueRange& dac)
     : two_phases_(has_coarse_phase(parameters)),
       fine_encoder_(parameters.encoder),
       coarse_encoder_(parameters.coarse.encoder),
-      fine_per_coarse_(fine_per_coarse),
+      fine_per_coarse_(counts.fine_per_coarse),
       fine_(controller_in_phase(parameters, ControlPhase::fine),
-            {integral, integral_range(parameters.anti_windup, lowest, highest)}),
+            {integral, integral_range(parameters.anti_windup, dac.lowest, dac.highest), counts.resolution}),
       coarse_(controller_in_phase(parameters, ControlPhase::coarse),
-              {integral, integral_range(parameters.anti_windup, lowest, highest)}),
+              {integral, integral_range(parameters.anti_windup, dac.lowest, dac.highest), counts.resolution}),
       switch_(parameters.coarse, parameters.sample_rate) {}
 
-double Controller::update(std::int64_t reference, const EncoderReading& reading, double torque_in_force) {
-  const Feedback fine = feedback(fine_encoder_, reference, reading, torque_in_force);
+double Controller::update(std::int64_t reference, const EncoderReading& reading, double torque_in_force,
+                          const ReferenceMotion& motion) {
+  const auto feedback = [&](EncoderChoice encoder) -> Feedback {
+    const double count = count_of(encoder, reading);
+    return {static_cast<double>(reference) - count, count, torque_in_force, motion};
+  };
+  const Feedback fine = feedback(fine_encoder_);
   if (!two_phases_) return fine_.step(fine);
 
-  const Feedback coarse = feedback(coarse_encoder_, reference, reading, torque_in_force);
+  const Feedback coarse = feedback(coarse_encoder_);
   const bool changed = switch_.update(fine, coarse);
   const bool in_fine = switch_.phase() == ControlPhase::fine;
   ControlChain& deciding = in_fine ? fine_ : coarse_;
@@ -66,15 +72,12 @@ double Controller::update(std::int64_t reference, const EncoderReading& reading,
 }
 
 double Controller::integral() const {
-  return (phase() == ControlPhase::fine ? fine_ : coarse_).block<Pid>().integral();
+  return (phase() == ControlPhase::fine ? fine_ : coarse_).block<ControlLaw>().integral();
 }
 
-Feedback Controller::feedback(EncoderChoice encoder, std::int64_t reference, const EncoderReading& reading,
-                              double torque_in_force) const {
-  const double count = encoder == EncoderChoice::fine
-                           ? static_cast<double>(reading.fine)
-                           : static_cast<double>(reading.coarse) * fine_per_coarse_;
-  return {static_cast<double>(reference) - count, count, torque_in_force};
+double Controller::count_of(EncoderChoice encoder, const EncoderReading& reading) const {
+  return encoder == EncoderChoice::fine ? static_cast<double>(reading.fine)
+                                        : static_cast<double>(reading.coarse) * fine_per_coarse_;
 }
 
 }  // namespace zerocount::loop

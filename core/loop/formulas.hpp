@@ -12,6 +12,18 @@ ZEROCOUNT_ALWAYS_INLINE Number ideal_count(const Number& theta, const Number& re
   return floor(theta / resolution + phase);
 }
 
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number clamped(const Number& value, const Number& lowest, const Number& highest) {
+  return min(max(value, lowest), highest);
+}
+
+/// I + kp·e − kd·d, N m. @param d the difference of successive counts, filtered or not.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number pid_torque(const Number& integral, const Number& kp, const Number& error,
+                                          const Number& kd, const Number& d) {
+  return integral + kp * error - kd * d;
+}
+
 /// State of the PID law.
 template <class Number>
 struct PidState {
@@ -33,11 +45,10 @@ template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number pid_step(const PidConstants<Number>& c, PidState<Number>& state,
                                         const Number& error, const Number& count) {
   const Number change = count - state.last_count;
-  state.integral = state.integral + c.ki * (error + state.last_error);
-  state.integral = min(max(state.integral, c.lowest), c.highest);
+  state.integral = clamped(state.integral + c.ki * (error + state.last_error), c.lowest, c.highest);
   state.last_error = error;
   state.last_count = count;
-  return state.integral + c.kp * error - c.kd * change;
+  return pid_torque(state.integral, c.kp, error, c.kd, change);
 }
 
 /// The wanted code of the converter: round-half-even(torque/Δu), a whole number.
@@ -50,7 +61,7 @@ ZEROCOUNT_ALWAYS_INLINE Number wanted_code(const Number& torque, const Number& r
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number clipped_code(const Number& wanted, const Number& lowest,
                                             const Number& highest) {
-  return min(max(wanted, lowest), highest);
+  return clamped(wanted, lowest, highest);
 }
 
 }  // namespace zerocount::loop

@@ -70,4 +70,31 @@ double Reference::distance(double t) const {
   return cruised + jerk_ * until_cruise * until_cruise * until_cruise / 6.0;
 }
 
+ReferenceMotion Reference::motion_at(double t) const {
+  const double rounding = 1e-12 * duration_;
+  if (t < 0.0 || t >= duration_ - rounding) return {};
+  const double direction = to_ < from_ ? -1.0 : 1.0;
+  const bool first_half = t < 0.5 * duration_ - rounding;
+  // The second half is the first one backwards: just after is just before.
+  if (first_half) {
+    return {direction * velocity(t), direction * acceleration(t + rounding)};
+  }
+  return {direction * velocity(duration_ - t), -direction * acceleration(duration_ - t - rounding)};
+}
+
+/// ṙ (rad/s) at the time t (s), in the first half, forwards.
+double Reference::velocity(double t) const {
+  if (t < jerk_time_) return 0.5 * jerk_ * t * t;
+  if (t < jerk_time_ + acceleration_time_) return acceleration_ * (t - 0.5 * jerk_time_);
+  const double until_cruise = std::max(0.0, speed_up_time_ - t);
+  return velocity_ - 0.5 * jerk_ * until_cruise * until_cruise;
+}
+
+/// r̈ (rad/s²) likewise.
+double Reference::acceleration(double t) const {
+  if (t < jerk_time_) return jerk_ * t;
+  if (t < jerk_time_ + acceleration_time_) return acceleration_;
+  return jerk_ * std::max(0.0, speed_up_time_ - t);
+}
+
 }  // namespace zerocount::loop

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/loop/control_block.hpp"
 #include "core/loop/parameters.hpp"
 
 namespace zerocount::loop {
@@ -29,12 +30,19 @@ class Reference {
   /// from the end on.
   std::int64_t at(double t) const;
 
+  /// ṙ and r̈ at the time t, before r is rounded to counts; from the end of the move on, and of a step, 0.
+  /// Where the acceleration jumps, its value is that just after, with 1e-12 of the duration allowed for
+  /// rounding.
+  ReferenceMotion motion_at(double t) const;
+
   double duration() const { return duration_; }  ///< s
 
  private:
   void plan_trapezoidal(const ReferenceProfile& limits);
   void plan_s_curve(const ReferenceProfile& limits);
   double distance(double t) const;
+  double velocity(double t) const;
+  double acceleration(double t) const;
 
   std::int64_t from_;
   std::int64_t to_;

@@ -10,24 +10,24 @@ struct TransferFunction {
   std::vector<double> a{1.0};  ///< 1, a₁, …
 };
 
-/// Input signal of a block of the controller at sample k.
+/// Input signal of a stage of the controller at sample k.
 enum class LoopSignal {
-  torque,          ///< from the block before it, N m; 0 for the first
+  torque,          ///< from the stage before it, N m (rad/s within the cascade); 0 for the first
   error,           ///< e_k, counts
   count,           ///< counts
   torque_in_force  ///< decided at sample k − 1, N m
 };
 
-/// From one of a block's inputs to its output.
+/// From one of a stage's inputs to its output.
 struct SignalPath {
   LoopSignal from;
   TransferFunction transfer;
 };
 
-/// A block away from its limits: its output is the sum of its paths.
+/// A stage of the controller away from its limits: its output is the sum of its paths.
 using LinearBlock = std::vector<SignalPath>;
 
-/// The blocks of a controller, in order.
+/// The stages of a block, or of all blocks of a controller, in order.
 using LinearChain = std::vector<LinearBlock>;
 
 }  // namespace zerocount::loop

@@ -26,7 +26,7 @@ double sampled_spectral_radius(double stiffness, const motion::PlantParameters& 
                                const loop::EncoderParameters& encoder,
                                const loop::ControllerParameters& controller, const LinearDrive& drive) {
   return spectral_radius(presliding_plant(stiffness, plant, encoder, controller, drive),
-                         loop::linear_chain(controller), controller.delay);
+                         loop::linear_chain(controller, loop::fine_resolution(encoder)), controller.delay);
 }
 
 double slowest_time_constant(double stiffness, const motion::PlantParameters& plant,
@@ -34,7 +34,8 @@ double slowest_time_constant(double stiffness, const motion::PlantParameters& pl
                              const loop::ControllerParameters& controller, const LinearDrive& drive) {
   const HeldPlant held = presliding_plant(stiffness, plant, encoder, controller, drive);
   const Eigen::VectorXcd eigenvalues =
-      loop_map(held, loop::linear_chain(controller), controller.delay).eigenvalues();
+      loop_map(held, loop::linear_chain(controller, loop::fine_resolution(encoder)), controller.delay)
+          .eigenvalues();
   if (!(eigenvalues.cwiseAbs().maxCoeff() < 1.0)) return std::numeric_limits<double>::infinity();
   double slowest = 0.0;
   for (const auto& z : eigenvalues) {
@@ -50,7 +51,8 @@ double sampled_critical_integral_gain(double stiffness, const motion::PlantParam
   const HeldPlant held = presliding_plant(stiffness, plant, encoder, controller, drive);
   const auto stable = [&](double ki) {
     controller.ki = ki;
-    return spectral_radius(held, loop::linear_chain(controller), controller.delay) < 1.0;
+    return spectral_radius(held, loop::linear_chain(controller, loop::fine_resolution(encoder)),
+                           controller.delay) < 1.0;
   };
   double low = 1e-6 * (stiffness * loop::fine_resolution(encoder) + controller.kp);  // N m/count
   // Without stiffness and kp no integral gain is stable; the eigenvalue 1 of the free rotor may round to

@@ -16,7 +16,7 @@ GainCrossover sliding_crossover(const motion::PlantParameters& plant, const loop
   const double T = sample_time(controller);
   const HeldPlant held =
       hold_plant(0.0, plant.sliding_damping, plant.inertia, loop::fine_resolution(encoder), T, drive);
-  const loop::LinearChain chain = loop::linear_chain(controller);
+  const loop::LinearChain chain = loop::linear_chain(controller, loop::fine_resolution(encoder));
   const auto open_loop_at = [&](double angle) {
     return open_loop(std::polar(1.0, angle), held, chain, controller.delay);
   };

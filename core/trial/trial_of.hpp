@@ -50,8 +50,8 @@ template <class AnyPlant>
 TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& observers) {
   Rig<AnyPlant> rig(p);
   const double resolution = rig.measurement().fine_resolution();
-  loop::Controller controller(p.controller, rig.measurement().fine_per_coarse(), p.initial.integral,
-                              loop::lowest_torque(p.dac), loop::highest_torque(p.dac));
+  loop::Controller controller(p.controller, {rig.measurement().fine_per_coarse(), resolution},
+                              p.initial.integral, {loop::lowest_torque(p.dac), loop::highest_torque(p.dac)});
   TrialOutcome outcome;
   std::int64_t first = 0;
   std::int64_t from = 0;
@@ -65,9 +65,11 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
     const auto decide = [&](std::int64_t i, SampleRecord& record) {
       record.target = target;
       record.error = target - record.count;
-      record.reference = reference.at(static_cast<double>(i) * timing.sample_time);
+      const double t = static_cast<double>(i) * timing.sample_time;
+      record.reference = reference.at(t);
       const loop::EncoderReading reading{record.count, record.coarse_count};
-      rig.drive(controller.update(record.reference, reading, torque_in_force), record);
+      rig.drive(controller.update(record.reference, reading, torque_in_force, reference.motion_at(t)),
+                record);
       record.phase = controller.phase();
       torque_in_force = record.torque;
     };

@@ -178,10 +178,11 @@ std::optional<yaml::Place> given_place(const Checking& c, std::size_t slot) {
 }
 
 bool asks_for_nothing(const Checking& c, std::size_t slot) {
+  const double nothing = c.plan().table.rows[slot].none.value_or(0.0);
   const std::vector<const study::Value*> values = study::values_of(c.plan(), slot);
   return std::all_of(values.begin(), values.end(), [&](const study::Value* value) {
     const study::ValueLimits limits = study::limits_of(c.plan(), *value);
-    return limits.low == 0.0 && limits.high == 0.0;
+    return limits.low == nothing && limits.high == nothing;
   });
 }
 

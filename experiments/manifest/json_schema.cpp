@@ -112,6 +112,7 @@ Json value_schema(const parameters::Parameter& parameter) {
   // The schema does not know controller.units, so a gain may be as large as in SI units.
   limit(number, parameters::range_of(parameter, {.gains = parameters::GainUnits::si}), whole);
   Json forms = Json::array({std::move(number)});
+  if (parameter.none) forms.push_back({{"const", "none"}});
   for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
     if (!whole || form.whole_numbers || form.keys.empty()) forms.push_back(reference(form.name));
   }
@@ -142,7 +143,8 @@ Json key_schema(const parameters::Parameter& parameter) {
   } else if (parameter.kind == parameters::ParameterKind::enumeration) {
     schema["default"] = parameters::default_text(parameter);
   } else if (parameters::has_default(parameter)) {
-    schema["default"] = parameters::default_value(parameter);
+    const double value = parameters::default_value(parameter);
+    schema["default"] = parameter.none && value == *parameter.none ? Json("none") : Json(value);
   }
   return schema;
 }
@@ -174,10 +176,10 @@ Json spacing_schema() {
 }
 
 // A dotted path as a regular expression, with indices for #; that of a list's value ends in an index.
-std::string pattern_of(const parameters::Parameter& parameter, bool value) {
+std::string pattern_of(std::string_view name, bool value) {
   constexpr std::string_view index = "(0|[1-9][0-9]*)";
   std::string pattern = "^";
-  for (const char c : parameter.name)
+  for (const char c : name)
     pattern += c == '.' ? std::string("\\.") : c == '#' ? std::string(index) : std::string(1, c);
   return pattern + (value ? fmt::format("\\.{}$", index) : "$");
 }
@@ -190,12 +192,15 @@ Json sweep_schema() {
     const Json spaced = {{"anyOf", {list_of(value, 1), spacing_schema()}}};
     const bool numeric = !parameters::has_labels(parameter);
     const Json whole_value = parameters::is_list(parameter) ? list_of(value, 1) : value;
-    assignments[pattern_of(parameter, false)] = whole_value;
-    grid[pattern_of(parameter, false)] =
-        numeric && !parameters::is_list(parameter) ? spaced : list_of(whole_value, 1);
+    for (const std::string_view name : {parameter.name, parameter.short_name}) {
+      if (name.empty()) continue;
+      assignments[pattern_of(name, false)] = whole_value;
+      grid[pattern_of(name, false)] =
+          numeric && !parameters::is_list(parameter) ? spaced : list_of(whole_value, 1);
+    }
     if (parameters::is_list(parameter)) {
-      assignments[pattern_of(parameter, true)] = value;
-      grid[pattern_of(parameter, true)] = spaced;
+      assignments[pattern_of(parameter.name, true)] = value;
+      grid[pattern_of(parameter.name, true)] = spaced;
     }
   }
   const auto by_pattern = [](Json patterns) {
@@ -264,13 +269,23 @@ Json one_of_keys(std::span<const std::string_view> keys) {
   return forms;
 }
 
+Json section_schema(const std::string& path);
+
+// A section that may be written in short as the value of one of its parameters.
+Json section_or_value_schema(const std::string& path) {
+  Json section = section_schema(path);
+  const auto row = parameters::find_parameter(path);
+  if (!row) return section;
+  return {{"anyOf", {key_schema(parameters::parameter_table()[*row]), std::move(section)}}};
+}
+
 // The map of the keys below this dotted path.
 Json section_schema(const std::string& path) {
   Json properties = Json::object();
   Json required = Json::array();
   for (const std::string& key : keys_below(path)) {
     const std::string name = fmt::format("{}.{}", path, key);
-    if (const auto row = parameters::find_parameter(name)) {
+    if (const auto row = parameters::find_parameter(name); row && !is_section(name)) {
       const parameters::Parameter& parameter = parameters::parameter_table()[*row];
       properties[key] = key_schema(parameter);
       const bool always = !parameters::has_default(parameter) && !parameter.only_on;
@@ -278,7 +293,7 @@ Json section_schema(const std::string& path) {
     } else if (const GeneralKey* general = find_general_key(name)) {
       properties[key] = general_schema(*general);
     } else {
-      properties[key] = section_schema(name);
+      properties[key] = section_or_value_schema(name);
     }
   }
   Json schema = object_of(std::move(properties), std::move(required));

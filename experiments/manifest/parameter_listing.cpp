@@ -27,7 +27,7 @@ struct Listing {
 std::string allowed(const parameters::Parameter& parameter, const parameters::StudyUnits& units) {
   if (parameters::has_labels(parameter)) return fmt::format("{}", fmt::join(parameter.labels, " | "));
   return (parameter.kind == parameters::ParameterKind::whole_number ? "whole, " : "") +
-         numerics::notation(parameters::range_of(parameter, units));
+         numerics::notation(parameters::range_of(parameter, units)) + (parameter.none ? " | none" : "");
 }
 
 Row parameter_row(const parameters::Parameter& p, const parameters::StudyUnits& units) {

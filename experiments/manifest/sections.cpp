@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/parameters/unknown_key.hpp"
@@ -144,6 +145,18 @@ bool is_form_too_many(SectionReading& s, const yaml::Field& section, const std::
          !is_within(parameters::parameter_table()[s.plan().list.row].name, section.path + "." + key);
 }
 
+// Whether the key of a section stands in short for one of its parameters: its value is a number or a
+// distribution.
+bool is_short_form(const yaml::Field& field) {
+  if (field.node->kind != yaml::YamlNode::Kind::map) return true;
+  return std::any_of(field.node->entries.begin(), field.node->entries.end(),
+                     [](const yaml::YamlEntry& entry) {
+                       const auto forms = distributions::distribution_forms();
+                       return std::any_of(forms.begin(), forms.end(),
+                                          [&](const auto& form) { return form.name == entry.key; });
+                     });
+}
+
 void read_section(SectionReading& s, const yaml::Field& section) {
   if (!yaml::check_map(section, "a map", s.problems())) return;
   const std::vector<std::string> known = keys_below(section.path);
@@ -152,7 +165,8 @@ void read_section(SectionReading& s, const yaml::Field& section) {
     if (is_form_too_many(s, section, entry.key)) continue;
     if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
       parameters::add_unknown_key(section, entry, known, s.problems());
-    } else if (const auto row = parameters::find_parameter(field.path)) {
+    } else if (const auto row = parameters::find_parameter(field.path);
+               row && (!is_section(field.path) || is_short_form(field))) {
       read_parameter(s, field, *row);
     } else if (const parameters::ElementList* const list = parameters::find_element_list(field.path)) {
       read_elements(s, field, *list);

@@ -146,7 +146,7 @@ std::string value_label(const SweptAxis& axis, const study::SlotRange& slots, co
       axis.axis.assignments.back().value.kind != study::Value::Kind::number) {
     return yaml::flow_text(node);
   }
-  return fmt::format("{}", axis.axis.assignments.back().value.number);
+  return parameters::number_text(table.rows[slots.first], axis.axis.assignments.back().value.number);
 }
 
 void read_listed(const yaml::Field& field, const study::SlotRange& slots, SweptAxis& axis,

@@ -46,7 +46,12 @@ study::Value read_enumeration(const yaml::Field& field, const parameters::Parame
   return label ? number_value(static_cast<double>(*label)) : unreadable_value();
 }
 
+bool is_none(const yaml::YamlNode& node) {
+  return node.kind == yaml::YamlNode::Kind::scalar && node.plain && node.text == "none";
+}
+
 study::Value read_number(const yaml::Field& field, const parameters::Parameter& parameter, Reading& reading) {
+  if (parameter.none && is_none(*field.node)) return number_value(*parameter.none);
   yaml::Problems& problems = reading.problems;
   if (parameter.kind == parameters::ParameterKind::whole_number) {
     const auto whole = yaml::read_whole(field, static_cast<std::int64_t>(parameter.range.low),
@@ -89,7 +94,8 @@ study::Value read_drawn(const distributions::DistributionForm& form, const yaml:
           .index = static_cast<std::uint32_t>(reading.plan.distributions.size() - 1)};
 }
 
-study::Value read_profile_value(const yaml::Field& field, std::size_t slot, study::Per per, Reading& reading) {
+study::Value read_profile_value(const yaml::Field& field, std::size_t slot, study::Per per,
+                                Reading& reading) {
   constexpr std::size_t max_profiles = 1000;
   if (!reading.plan.period) {
     return refuse(reading, field, "the profile of a linear axis needs the key travel, its period",

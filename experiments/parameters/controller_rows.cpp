@@ -1,7 +1,75 @@
+#include <iterator>
+#include <utility>
+
 #include "experiments/parameters/parameter_rows.hpp"
 
 namespace zerocount::parameters {
-std::vector<Parameter> controller_rows() {
+namespace {
+
+/// The rows of the blocks of one phase. `Blocks` is a function from TrialParameters to its ControlBlocks.
+/// @param named one of the two names of a row. @param first its Sobol dimension is this number + i.
+template <class Blocks, class Named>
+std::vector<Parameter> block_rows(Blocks /*blocks*/, Named named, std::size_t first) {
+  const auto dimension = [first](std::size_t i) { return beyond_moves(first + i); };
+  const numerics::Interval gain = numerics::closed(0, 1e6);
+  return {
+      word_row(named("controller.structure", "controller.coarse.structure"), dimension(0),
+               "control law: kp, ki and kd on the error, or a velocity loop inside a position loop", assumed,
+               {"pid", "cascade"}, [](auto& p) { return &Blocks{}(p).structure; }),
+      real_row(named("controller.cascade.kv", "controller.coarse.cascade.kv"), dimension(1), "1/s",
+               "cascade: gain of the position loop, velocity command per error", assumed, gain,
+               [](auto& p) { return &Blocks{}(p).cascade.kv; }),
+      real_row(named("controller.cascade.kp", "controller.coarse.cascade.kp"), dimension(2), "N m s/rad",
+               "cascade: proportional gain of the velocity loop", assumed, gain,
+               [](auto& p) { return &Blocks{}(p).cascade.kp; }),
+      real_row(named("controller.cascade.ki", "controller.coarse.cascade.ki"), dimension(3), "N m/rad",
+               "cascade: integral gain of the velocity loop", assumed, gain,
+               [](auto& p) { return &Blocks{}(p).cascade.ki; }),
+      short_for(named("controller.deadband", "controller.coarse.deadband"),
+                none_is(-1, real_row(named("controller.deadband.enter", "controller.coarse.deadband.enter"),
+                                     dimension(4), "count",
+                                     "largest |error| with which the integral stops changing; none (-1 in "
+                                     "numbers): it always changes",
+                                     assumed, numerics::closed(0, max_count),
+                                     [](auto& p) { return &Blocks{}(p).deadband.enter; }))),
+      none_is(-1,
+              real_row(named("controller.deadband.leave", "controller.coarse.deadband.leave"), dimension(5),
+                       "count", "|error| beyond which it changes again; none (-1 in numbers): that of enter",
+                       assumed, numerics::closed(0, max_count),
+                       [](auto& p) { return &Blocks{}(p).deadband.leave; })),
+      or_none(real_row(named("controller.integrator_zone", "controller.coarse.integrator_zone"), dimension(6),
+                       "count", "largest |error| with which the integral changes; none: any", assumed,
+                       numerics::closed(0, max_count)),
+              [](auto& p) { return &Blocks{}(p).integrator_zone; }),
+      or_none(real_row(named("controller.integrator_leak", "controller.coarse.integrator_leak"), dimension(7),
+                       "s", "time constant with which the integral decays; none: it does not", assumed,
+                       numerics::Interval{.low = 0, .high = max_count, .high_included = true}),
+              [](auto& p) { return &Blocks{}(p).integrator_leak; }),
+      or_none(
+          real_row(named("controller.derivative_cutoff", "controller.coarse.derivative_cutoff"), dimension(8),
+                   "Hz",
+                   "cutoff of the low-pass filter on the difference of successive counts; none: no filter",
+                   assumed, numerics::Interval{.low = 0, .high = max_count, .high_included = true}),
+          [](auto& p) { return &Blocks{}(p).derivative_cutoff; }),
+      real_row(named("controller.feedforward.velocity", "controller.coarse.feedforward.velocity"),
+               dimension(9), "N m s/rad", "torque per velocity of the reference", assumed, gain,
+               [](auto& p) { return &Blocks{}(p).feedforward.velocity; }),
+      real_row(named("controller.feedforward.acceleration", "controller.coarse.feedforward.acceleration"),
+               dimension(10), "N m s^2/rad", "torque per acceleration of the reference", assumed, gain,
+               [](auto& p) { return &Blocks{}(p).feedforward.acceleration; }),
+      real_row(named("controller.feedforward.friction", "controller.coarse.feedforward.friction"),
+               dimension(11), "N m", "torque in the direction in which the reference moves", assumed, gain,
+               [](auto& p) { return &Blocks{}(p).feedforward.friction; }),
+      real_row(named("controller.observer.bandwidth", "controller.coarse.observer.bandwidth"), dimension(12),
+               "Hz", "bandwidth of the disturbance observer; 0: there is none", assumed,
+               numerics::at_least(0), [](auto& p) { return &Blocks{}(p).observer.bandwidth; }),
+      real_row(named("controller.observer.inertia", "controller.coarse.observer.inertia"), dimension(13),
+               "kg m^2", "moment of inertia in the model of the disturbance observer", "paper, section 2",
+               numerics::above(0), [](auto& p) { return &Blocks{}(p).observer.inertia; }),
+  };
+}
+
+std::vector<Parameter> rows_of_the_law() {
   constexpr std::string_view integral_alone = "paper, section 4 (integral control alone)";
   return {
       real_row("controller.sample_rate", 20, "Hz", "sampling rate of the loop", "paper, section 4",
@@ -23,7 +91,11 @@ std::vector<Parameter> controller_rows() {
       word_row("controller.encoder", beyond_moves(1),
                "encoder that closes the loop; with a coarse phase, in the fine one", "paper, section 4",
                {"fine", "coarse"}, [](auto& p) { return &p.controller.encoder; }),
+  };
+}
 
+std::vector<Parameter> rows_of_the_coarse_phase() {
+  return {
       in_si(real_row("controller.coarse.kp", 46, "N m/count", "proportional gain of the coarse phase",
                      assumed, numerics::closed(0, 1e6), [](auto& p) { return &p.controller.coarse.kp; }),
             "N m/rad", "proportional gain of the coarse phase"),
@@ -45,11 +117,28 @@ std::vector<Parameter> controller_rows() {
                numerics::at_least(0), [](auto& p) { return &p.controller.coarse.fine_rate; }),
       real_row("controller.coarse.fine_dwell", 51, "s", "time for which both must have held", assumed,
                numerics::at_least(0), [](auto& p) { return &p.controller.coarse.fine_dwell; }),
-      or_never(real_row("controller.coarse.coarse_beyond", 52, "count",
-                        "|error| beyond which the coarse phase is entered; 1e12: there is none", assumed,
-                        numerics::closed(0, max_count)),
-               [](auto& p) { return &p.controller.coarse.coarse_beyond; }),
+      or_none(real_row("controller.coarse.coarse_beyond", 52, "count",
+                       "|error| beyond which the coarse phase is entered; none (or 1e12): there is none",
+                       assumed, numerics::closed(0, max_count)),
+              [](auto& p) { return &p.controller.coarse.coarse_beyond; }),
   };
+}
+
+}  // namespace
+
+std::vector<Parameter> controller_rows() {
+  std::vector<Parameter> rows = rows_of_the_law();
+  const auto add = [&rows](std::vector<Parameter> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(rows));
+  };
+  using Name = std::string_view;
+  add(block_rows(
+      [](auto& p) -> auto& { return p.controller.blocks; }, [](Name one, Name) { return one; }, 32));
+  add(rows_of_the_coarse_phase());
+  add(block_rows(
+      [](auto& p) -> auto& { return p.controller.coarse.blocks; }, [](Name, Name coarse) { return coarse; },
+      64));
+  return rows;
 }
 
 }  // namespace zerocount::parameters

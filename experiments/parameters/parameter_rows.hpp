@@ -12,9 +12,9 @@
 namespace zerocount::parameters {
 
 // The rows of the table of parameters, by section. Each has a Sobol dimension of its own, so that a new row
-// does not change the draws of the others. The next free one is beyond_moves(9). From beyond_moves(80) on
-// are those of lists, each with as many as it may have values; the next free one of these is
-// beyond_moves(192).
+// does not change the draws of the others. The next free one is beyond_moves(9); those from beyond_moves(32)
+// to beyond_moves(79) are for the blocks of the controller. From beyond_moves(80) on are those of lists, each
+// with as many as it may have values; the next free one of these is beyond_moves(192).
 
 std::vector<Parameter> plant_rows();
 std::vector<Parameter> friction_rows();
@@ -57,10 +57,11 @@ Parameter stored_at(Parameter row, Field) {
   return row;
 }
 
-/// As above, for a limit in counts. The value max_count means no limit: it is infinite in the trial's
-/// parameters.
+/// As above, for a limit, written as "none" where there is no limit. In numbers that is max_count, which is
+/// infinite in the trial's parameters.
 template <class Field>
-Parameter or_never(Parameter row, Field) {
+Parameter or_none(Parameter row, Field) {
+  row.none = max_count;
   row.get = [](const trial::TrialParameters& parameters) {
     return std::min(*Field{}(parameters), max_count);
   };
@@ -110,6 +111,18 @@ Parameter truth_row(std::string_view name, std::size_t sobol_dimension, std::str
                     {"false", "true"},
                     sobol_dimension},
                    field);
+}
+
+/// The value written as "none", outside the range of the others.
+inline Parameter none_is(double none, Parameter row) {
+  row.none = none;
+  return row;
+}
+
+/// The key of the section alone stands for this row.
+inline Parameter short_for(std::string_view section, Parameter row) {
+  row.short_name = section;
+  return row;
 }
 
 /// Marks a row as required wherever it has an effect.

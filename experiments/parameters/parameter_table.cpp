@@ -41,10 +41,14 @@ std::span<const Parameter> parameter_table() {
   return table;
 }
 
+bool is_named(const Parameter& parameter, std::string_view path) {
+  return parameter.name == path || (!parameter.short_name.empty() && parameter.short_name == path);
+}
+
 std::optional<std::size_t> find_parameter(std::string_view name) {
   const auto table = parameter_table();
   const auto found =
-      std::find_if(table.begin(), table.end(), [&](const Parameter& p) { return p.name == name; });
+      std::find_if(table.begin(), table.end(), [&](const Parameter& p) { return is_named(p, name); });
   if (found == table.end()) return std::nullopt;
   return static_cast<std::size_t>(found - table.begin());
 }
@@ -108,13 +112,17 @@ bool default_holds(const Parameter& parameter, const StudyUnits& units) {
   return default_value(parameter) == 0.0 || unit_of(parameter, units) == parameter.unit;
 }
 
+std::string number_text(const Parameter& parameter, double number) {
+  return parameter.none && number == *parameter.none ? "none" : fmt::format("{}", number);
+}
+
 std::string default_text(const Parameter& parameter, const StudyUnits& units) {
   if (!default_holds(parameter, units)) return "none";
   const double value = default_value(parameter);
   if (has_labels(parameter)) {
     return std::string(parameter.labels[static_cast<std::size_t>(value)]);
   }
-  return fmt::format("{}", value);
+  return number_text(parameter, value);
 }
 
 }  // namespace zerocount::parameters

@@ -49,9 +49,11 @@ struct Parameter {
       nullptr};                   ///< field for a profile; null if profiles are not allowed
   std::string_view si_unit{};     ///< unit of a gain with controller.units: si; empty for other parameters
   std::string_view si_meaning{};  ///< likewise
-  std::optional<AxisKind> only_on{};    ///< the only kind of axis with this parameter; empty: both kinds
-  std::string_view instead{};           ///< the corresponding key on the other kind of axis, for messages
-  bool of_machine{false};               ///< a property of the machine, not of the trial
+  std::optional<AxisKind> only_on{};  ///< the only kind of axis with this parameter; empty: both kinds
+  std::string_view instead{};         ///< the corresponding key on the other kind of axis, for messages
+  std::optional<double> none{};   ///< the value written as the word "none": what the parameter limits is off
+  std::string_view short_name{};  ///< of the section, where its key alone stands for this parameter
+  bool of_machine{false};         ///< a property of the machine, not of the trial
   std::optional<ListOfValues> list{};   ///< set if its value is a list
   std::optional<ElementKey> element{};  ///< set if it stands for a key of each element of a list
   std::function<double(const trial::TrialParameters&)> get{};  ///< empty without a default
@@ -77,8 +79,11 @@ constexpr std::size_t sobol_dimension_of_mean(std::size_t of_parameter) {
   return of_parameter < first_sobol_dimension_of_moves ? 3600 + of_parameter : 256 + of_parameter;
 }
 
-/// Row of the parameter with this dotted path.
+/// Row of the parameter with this dotted path, or of which it is the short name.
 std::optional<std::size_t> find_parameter(std::string_view name);
+
+/// Whether this dotted path, or the short name, is the parameter's.
+bool is_named(const Parameter& parameter, std::string_view path);
 
 /// Whether the parameter may be omitted.
 inline bool has_default(const Parameter& parameter) {
@@ -131,7 +136,10 @@ bool default_holds(const Parameter& parameter, const StudyUnits& units);
 /// Default value, from the core's structs; for labels the index of the label.
 double default_value(const Parameter& parameter);
 
-/// The default as text for a manifest; "none" without a default.
+/// A number of the parameter as text for a manifest: the word "none" for the value that it stands for.
+std::string number_text(const Parameter& parameter, double number);
+
+/// The default as text for a manifest; "none" without a default too.
 std::string default_text(const Parameter& parameter, const StudyUnits& units = {});
 
 }  // namespace zerocount::parameters

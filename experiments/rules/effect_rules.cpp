@@ -39,8 +39,10 @@ std::vector<EffectRule> rules_of_the_command(const study::StudyPlan& plan) {
   const bool open_loop = plan.open_loop;
   return {
       {.keys = {"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
-                "controller.encoder", "controller.coarse", "controller.filters", "command.profile",
-                "verdict"},
+                "controller.encoder", "controller.coarse", "controller.filters", "controller.structure",
+                "controller.cascade", "controller.deadband", "controller.integrator_zone",
+                "controller.integrator_leak", "controller.derivative_cutoff", "controller.feedforward",
+                "controller.observer", "command.profile", "verdict"},
        .has_effect = open_loop ? never : always,
        .what = the_loop_is_open,
        .expected = a_closed_loop},
@@ -88,7 +90,11 @@ std::vector<EffectRule> rules_of_the_loop() {
   return {
       {.keys = {"controller.coarse.kp", "controller.coarse.ki", "controller.coarse.kd",
                 "controller.coarse.encoder", "controller.coarse.filters", "controller.coarse.fine_within",
-                "controller.coarse.fine_rate", "controller.coarse.fine_dwell"},
+                "controller.coarse.fine_rate", "controller.coarse.fine_dwell", "controller.coarse.structure",
+                "controller.coarse.cascade", "controller.coarse.deadband",
+                "controller.coarse.integrator_zone", "controller.coarse.integrator_leak",
+                "controller.coarse.derivative_cutoff", "controller.coarse.feedforward",
+                "controller.coarse.observer"},
        .depends_on = {"controller.coarse.coarse_beyond"},
        .has_effect = [](Limits l) { return study::can_have_coarse_phase(l[0]); },
        .what = "it has no effect: there is no coarse phase at any point",
@@ -97,6 +103,95 @@ std::vector<EffectRule> rules_of_the_loop() {
       rule_of_an_error("encoder.fine_errors.interpolation_period", "encoder.fine_errors.interpolation"),
       rule_of_an_error("encoder.coarse_errors.eccentricity_angle", "encoder.coarse_errors.eccentricity"),
       rule_of_an_error("encoder.coarse_errors.interpolation_period", "encoder.coarse_errors.interpolation"),
+  };
+}
+
+/// Names of the parameters of one phase's control, on which the effect of others depends.
+struct PhaseNames {
+  std::string_view structure, kp, ki, kd, cascade, cascade_ki;
+  std::string_view deadband, enter, leave, zone, leak, cutoff;
+  std::string_view feedforward, bandwidth, inertia;
+};
+
+constexpr PhaseNames one_phase{"controller.structure",
+                               "controller.kp",
+                               "controller.ki",
+                               "controller.kd",
+                               "controller.cascade",
+                               "controller.cascade.ki",
+                               "controller.deadband",
+                               "controller.deadband.enter",
+                               "controller.deadband.leave",
+                               "controller.integrator_zone",
+                               "controller.integrator_leak",
+                               "controller.derivative_cutoff",
+                               "controller.feedforward",
+                               "controller.observer.bandwidth",
+                               "controller.observer.inertia"};
+constexpr PhaseNames coarse_phase{"controller.coarse.structure",
+                                  "controller.coarse.kp",
+                                  "controller.coarse.ki",
+                                  "controller.coarse.kd",
+                                  "controller.coarse.cascade",
+                                  "controller.coarse.cascade.ki",
+                                  "controller.coarse.deadband",
+                                  "controller.coarse.deadband.enter",
+                                  "controller.coarse.deadband.leave",
+                                  "controller.coarse.integrator_zone",
+                                  "controller.coarse.integrator_leak",
+                                  "controller.coarse.derivative_cutoff",
+                                  "controller.coarse.feedforward",
+                                  "controller.coarse.observer.bandwidth",
+                                  "controller.coarse.observer.inertia"};
+
+// Of the blocks of one phase. A gain of 0 in some point's control law may be what a sweep is about: only
+// warnings.
+std::vector<EffectRule> rules_of_the_blocks(const PhaseNames& of) {
+  const auto is_cascade = [](const study::ValueLimits& structure) {
+    return is_word<loop::ControlStructure::cascade>(structure);
+  };
+  const auto has_integral = [is_cascade](Limits l) {
+    return can_be_positive(is_cascade(l[0]) ? l[2] : l[1]);
+  };
+  return {
+      {.keys = {of.kp, of.ki, of.kd},
+       .depends_on = {of.structure},
+       .has_effect = [is_cascade](Limits l) { return !is_cascade(l[0]); },
+       .what = "it has no effect: the control is a cascade at every point",
+       .expected = fmt::format("{}: pid, or the key left out", of.structure)},
+      {.keys = {of.cascade},
+       .depends_on = {of.structure},
+       .has_effect = [is_cascade](Limits l) { return is_cascade(l[0]); },
+       .what = "it has no effect: the control is a cascade at no point",
+       .expected = fmt::format("{}: cascade, or the key left out", of.structure)},
+      {.keys = {of.leave},
+       .depends_on = {of.enter},
+       .has_effect = [](Limits l) { return l[0].high >= 0.0; },
+       .what = "it has no effect: there is no deadband at any point",
+       .expected = fmt::format("{} too, or the key left out", of.enter)},
+      {.keys = {of.inertia},
+       .depends_on = {of.bandwidth},
+       .has_effect = [](Limits l) { return can_be_positive(l[0]); },
+       .what = "it has no effect: there is no disturbance observer at any point",
+       .expected = fmt::format("{} above 0, or the key left out", of.bandwidth)},
+      {.keys = {of.feedforward},
+       .depends_on = {"command.profile.shape"},
+       .has_effect = [](Limits l) { return !is_word<loop::ReferenceShape::step>(l[0]); },
+       .what = "it has no effect: the reference is a step at every point",
+       .expected = "command.profile.shape: trapezoidal or s_curve, or the key left out",
+       .off_at_zero = true},
+      {.keys = {of.deadband, of.zone},
+       .depends_on = {of.structure, of.ki, of.cascade_ki},
+       .has_effect = has_integral,
+       .what = "it has no effect: there is no integral control at any point",
+       .off_at_zero = true,
+       .warn_only = true},
+      {.keys = {of.cutoff},
+       .depends_on = {of.structure, of.kd},
+       .has_effect = [is_cascade](Limits l) { return is_cascade(l[0]) || can_be_positive(l[1]); },
+       .what = "it has no effect: nothing of the control uses the difference of counts at any point",
+       .off_at_zero = true,
+       .warn_only = true},
   };
 }
 
@@ -216,7 +311,8 @@ std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   rules.push_back(rule_of_the_position(plan));
   rules.push_back(rule_of_the_limit());
   for (const auto& more :
-       {rules_of_the_loop(), rules_of_the_contact(), rules_of_the_model(), rules_of_vanished_terms()}) {
+       {rules_of_the_loop(), rules_of_the_blocks(one_phase), rules_of_the_blocks(coarse_phase),
+        rules_of_the_contact(), rules_of_the_model(), rules_of_vanished_terms()}) {
     rules.insert(rules.end(), more.begin(), more.end());
   }
   return rules;

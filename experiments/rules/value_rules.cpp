@@ -120,6 +120,35 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
   };
 }
 
+/// Rules of the blocks of one phase, by the names of their parameters.
+std::vector<ValueRule> rules_of_blocks(std::string_view enter, std::string_view leave, std::string_view zone,
+                                       std::string_view bandwidth) {
+  return {
+      {{leave, enter},
+       false,
+       [](Limits l, Limits) -> Faults {
+         if (l[0].high < 0.0 || l[0].low >= l[1].high) return {};
+         return {{fmt::format("the deadband can be left at {} counts and entered at {}", l[0].low, l[1].high),
+                  "at least the |error| with which it is entered"}};
+       }},
+      {{zone, enter, leave},
+       false,
+       [zone, enter](Limits l, Limits) -> Faults {
+         if (l[0].high > l[1].low) return {};
+         return {{"the integral never changes: its zone lies inside the deadband",
+                  fmt::format("{} above {}", zone, enter)}};
+       },
+       true},
+      {{bandwidth, "controller.sample_rate"},
+       false,
+       [](Limits l, Limits) -> Faults {
+         if (l[0].high < 0.5 * l[1].low) return {};
+         return {{fmt::format("{} Hz can be half the sample rate, {} Hz, or more", l[0].high, l[1].low),
+                  "a bandwidth below half of controller.sample_rate"}};
+       }},
+  };
+}
+
 }  // namespace
 
 std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
@@ -132,7 +161,13 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
   add(rules_of_the_start(parameters::unit_on(plan.units.axis, "N m")));
   static const parameters::Parameter& kd =
       parameters::parameter_table()[parameters::find_parameter("controller.kd").value()];
-  if (!plan.open_loop) add(rules_of_two_phases(parameters::unit_of(kd, plan.units)));
+  if (!plan.open_loop) {
+    add(rules_of_two_phases(parameters::unit_of(kd, plan.units)));
+    add(rules_of_blocks("controller.deadband.enter", "controller.deadband.leave",
+                        "controller.integrator_zone", "controller.observer.bandwidth"));
+    add(rules_of_blocks("controller.coarse.deadband.enter", "controller.coarse.deadband.leave",
+                        "controller.coarse.integrator_zone", "controller.coarse.observer.bandwidth"));
+  }
   if (plan.sequence) add({no_stop_in_a_sequence()});
   return rules;
 }

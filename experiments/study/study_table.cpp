@@ -75,7 +75,7 @@ std::vector<std::size_t> slots_in_table_order(const StudyTable& table) {
 
 std::optional<SlotRange> find_slots(std::string_view path, const StudyTable& table) {
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    if (table.rows[row].name != path) continue;
+    if (!parameters::is_named(table.rows[row], path)) continue;
     if (parameters::has_value(table.rows[row])) return SlotRange{row, 1, false};
     const auto values = parameters::is_list(table.rows[row]) ? find_list(table, row) : std::nullopt;
     if (!values) return std::nullopt;

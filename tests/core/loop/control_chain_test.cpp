@@ -20,20 +20,6 @@ struct Input {
   double torque;
 };
 
-double signal_of(const Input& input, LoopSignal from) {
-  switch (from) {
-    case LoopSignal::torque:
-      return input.torque;
-    case LoopSignal::error:
-      return input.feedback.error;
-    case LoopSignal::count:
-      return input.feedback.count;
-    case LoopSignal::torque_in_force:
-      break;
-  }
-  return input.feedback.torque_in_force;
-}
-
 /// What comes of the signal by y_k = Σ bᵢ·x_{k−i} − Σ aᵢ·y_{k−i}.
 std::vector<double> filtered(const TransferFunction& transfer, const std::vector<double>& x) {
   std::vector<double> y(x.size(), 0.0);
@@ -44,15 +30,36 @@ std::vector<double> filtered(const TransferFunction& transfer, const std::vector
   return y;
 }
 
-std::vector<double> output_of(const LinearBlock& block, const std::vector<Input>& inputs) {
-  std::vector<double> output(inputs.size(), 0.0);
-  for (const SignalPath& path : block) {
-    std::vector<double> signal;
-    for (const Input& input : inputs) signal.push_back(signal_of(input, path.from));
-    const std::vector<double> part = filtered(path.transfer, signal);
-    for (std::size_t k = 0; k < output.size(); ++k) output[k] += part[k];
+/// The stages on the inputs' signals; that of the first one's torque is the inputs'.
+std::vector<double> output_of(const LinearChain& stages, const std::vector<Input>& inputs) {
+  const auto signal = [&](double (*of)(const Input&)) {
+    std::vector<double> values;
+    for (const Input& input : inputs) values.push_back(of(input));
+    return values;
+  };
+  std::vector<double> torque = signal([](const Input& i) { return i.torque; });
+  const auto input_of = [&](LoopSignal from) {
+    switch (from) {
+      case LoopSignal::torque:
+        return torque;
+      case LoopSignal::error:
+        return signal([](const Input& i) { return i.feedback.error; });
+      case LoopSignal::count:
+        return signal([](const Input& i) { return i.feedback.count; });
+      case LoopSignal::torque_in_force:
+        break;
+    }
+    return signal([](const Input& i) { return i.feedback.torque_in_force; });
+  };
+  for (const LinearBlock& stage : stages) {
+    std::vector<double> output(inputs.size(), 0.0);
+    for (const SignalPath& path : stage) {
+      const std::vector<double> part = filtered(path.transfer, input_of(path.from));
+      for (std::size_t k = 0; k < output.size(); ++k) output[k] += part[k];
+    }
+    torque = output;
   }
-  return output;
+  return torque;
 }
 
 /// From rest: the first sample is zero throughout.
@@ -66,23 +73,64 @@ std::vector<Input> random_inputs(std::mt19937_64& random, std::size_t samples) {
   return inputs;
 }
 
+class RandomControl {
+ public:
+  explicit RandomControl(unsigned seed) : random_(seed) {}
+
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  double log_uniform(double low, double high) { return low * std::pow(high / low, uniform(0.0, 1.0)); }
+  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+  double gain() { return chance(0.2) ? 0.0 : log_uniform(1e-6, 1e-2); }
+
+  Filter filter(double sample_rate) {
+    Filter filter;
+    filter.kind = static_cast<FilterKind>(random_() % 4);
+    filter.frequency = sample_rate * log_uniform(1e-3, 0.49);
+    filter.damping = log_uniform(0.1, 2.0);
+    filter.depth = uniform(0.0, 1.0);
+    filter.ratio = log_uniform(0.2, 10.0);
+    filter.b = {uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)};
+    filter.a[1] = uniform(-0.9, 0.9);
+    filter.a[0] = uniform(-0.95, 0.95) * (1.0 + filter.a[1]);
+    return filter;
+  }
+
+  /// Without deadband and zone, which have no linear form.
+  ControllerParameters control() {
+    ControllerParameters p;
+    p.sample_rate = log_uniform(100.0, 1e5);
+    p.kp = gain();
+    p.ki = gain();
+    p.kd = gain();
+    ControlBlocks& b = p.blocks;
+    if (chance(0.5)) b.structure = ControlStructure::cascade;
+    b.cascade = {log_uniform(1.0, 1e3), log_uniform(1e-2, 1.0), chance(0.2) ? 0.0 : log_uniform(1e-2, 1e2)};
+    if (chance(0.5)) b.integrator_leak = log_uniform(1.0, 1e4) / p.sample_rate;
+    if (chance(0.5)) b.derivative_cutoff = p.sample_rate * log_uniform(1e-3, 0.5);
+    for (std::uint64_t i = random_() % 4; i > 0; --i) b.filters.push_back(filter(p.sample_rate));
+    b.feedforward = {gain(), gain(), gain()};
+    if (chance(0.7)) b.observer = {p.sample_rate * log_uniform(1e-3, 0.3), log_uniform(1e-5, 1e-1)};
+    return p;
+  }
+
+  std::mt19937_64 random_;
+};
+
+constexpr ControlStart at_rest{0.0, {-1e9, 1e9}, 3.9e-6};
+
 template <ControlBlock Block>
-void expect_its_linear_form(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> part(0.0, 1.0);
-  const auto gain = [&] { return part(random) < 0.2 ? 0.0 : 1e-6 * std::pow(1e4, part(random)); };
-  constexpr TorqueRange wide{-1e9, 1e9};
+void expect_its_linear_form(RandomControl& random) {
   for (int i = 0; i < 100; ++i) {
-    ControllerParameters parameters;
-    parameters.kp = gain();
-    parameters.ki = gain();
-    parameters.kd = gain();
-    Block block(parameters, {0.0, wide});
-    const std::vector<Input> inputs = random_inputs(random, 300);
+    const ControllerParameters parameters = random.control();
+    Block block(parameters, at_rest);
+    const std::vector<Input> inputs = random_inputs(random.random_, 300);
     const std::vector<double> expected = output_of(block.linear(), inputs);
     double largest = 0.0;
     for (const double torque : expected) largest = std::max(largest, std::abs(torque));
     for (std::size_t k = 0; k < inputs.size(); ++k) {
-      ASSERT_NEAR(block.step(inputs[k].feedback, inputs[k].torque), expected[k], 1e-12 * largest) << k;
+      ASSERT_NEAR(block.step(inputs[k].feedback, inputs[k].torque), expected[k], 1e-9 * largest) << k;
     }
   }
 }
@@ -92,14 +140,14 @@ struct EachBlock;
 template <class... Blocks>
 struct EachBlock<std::tuple<Blocks...>> {
   static void expect_linear_forms() {
-    std::mt19937_64 random(17);
+    RandomControl random(17);
     (expect_its_linear_form<Blocks>(random), ...);
   }
 };
 
 TEST(ControlChain, TheLinearFormOfEveryBlockIsWhatItDoes) {
   EachBlock<ControlChain::List>::expect_linear_forms();
-  EachBlock<std::tuple<LowPass>>::expect_linear_forms();
+  EachBlock<std::tuple<Pid, Cascade, LowPass>>::expect_linear_forms();
 }
 
 TEST(ControlChain, ABlockOfTheTestsHasTheImpulseResponseOfItsTransferFunction) {

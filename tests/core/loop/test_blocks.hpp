@@ -17,8 +17,8 @@ class LowPass {
     return output_;
   }
   static void observe(const loop::Feedback&) {}
-  void take_over(double torque) { output_ = torque; }
-  static loop::LinearBlock linear() { return {{loop::LoopSignal::torque, {{1.0 - decay}, {1.0, -decay}}}}; }
+  double take_over(double torque) { return output_ = torque; }
+  static loop::LinearChain linear() { return {{{loop::LoopSignal::torque, {{1.0 - decay}, {1.0, -decay}}}}}; }
 
  private:
   double output_{0.0};
@@ -31,9 +31,9 @@ class TorqueFeedback {
 
   static double step(const loop::Feedback& now, double torque) { return torque - 0.25 * now.torque_in_force; }
   static void observe(const loop::Feedback&) {}
-  static void take_over(double) {}
-  static loop::LinearBlock linear() {
-    return {{loop::LoopSignal::torque, {{1.0}}}, {loop::LoopSignal::torque_in_force, {{-0.25}}}};
+  static double take_over(double torque) { return torque; }
+  static loop::LinearChain linear() {
+    return {{{loop::LoopSignal::torque, {{1.0}}}, {loop::LoopSignal::torque_in_force, {{-0.25}}}}};
   }
 };
 

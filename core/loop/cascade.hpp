@@ -1,0 +1,68 @@
+#pragma once
+
+#include "core/loop/count_difference.hpp"
+#include "core/loop/integrator.hpp"
+
+namespace zerocount::loop {
+
+inline CascadeConstants<double> cascade_constants(const CascadeGains& gains, double sample_rate,
+                                                  double resolution) {
+  return {gains.kv * resolution, sample_rate * resolution, gains.kp, 0.5 * gains.ki / sample_rate};
+}
+
+/// The usual cascade of a drive, a proportional position loop around a PI velocity loop:
+///
+///   v*_k = kv·Δx·e_k,   v_k = (Δx/T)·d_k,   w_k = v*_k − v_k                                 (rad/s)
+///   I ← I + (ki·T/2)·(w_k + w_{k−1}),   u = kp·w_k + I                                       (N m)
+///
+///   U(z) = [kp + (ki·T/2)·(1 + z⁻¹)/(1 − z⁻¹)]·[kv·Δx·E(z) − (Δx/T)·D(z)],
+///
+/// with the conditions on I, by the position error e, and its leak by Integrator, and d the difference of
+/// successive counts by CountDifference. Before the first sample w was 0. Source: Groß, Hamann, Wiegärtner,
+/// "Electrical Feed Drives in Automation", Siemens/MCD 2001, chapter 3.
+class Cascade {
+ public:
+  Cascade(const ControllerParameters& parameters, const ControlStart& start)
+      : constants_(cascade_constants(parameters.blocks.cascade, parameters.sample_rate, start.resolution)),
+        integral_(integral_constants(parameters.blocks, parameters.sample_rate, start.integral_range),
+                  start.integral),
+        difference_(derivative_pole(parameters.blocks, parameters.sample_rate)) {}
+
+  double step(const Feedback& now, double /*torque*/ = 0.0) {
+    const double w = velocity_error(constants_, now.error, difference_.step(now.count));
+    const double integral = integral_.add(now.error, constants_.ki * (w + last_velocity_error_));
+    last_velocity_error_ = w;
+    return constants_.kp * w + integral;
+  }
+
+  void observe(const Feedback& now) {
+    last_velocity_error_ = velocity_error(constants_, now.error, difference_.step(now.count));
+    integral_.observe(now.error);
+  }
+
+  /// I := torque. @returns 0: there is no block before.
+  double take_over(double torque) {
+    integral_.set(torque);
+    return 0.0;
+  }
+
+  LinearChain linear() const {
+    const LinearBlock position_loop{{LoopSignal::error, {{constants_.kv}}},
+                                    {LoopSignal::count, difference_.transfer(-constants_.velocity)}};
+    LinearBlock velocity_loop{{LoopSignal::torque, {{constants_.kp}}}};
+    if (constants_.ki != 0.0) {
+      velocity_loop.push_back({LoopSignal::torque, integral_.trapezoid(constants_.ki)});
+    }
+    return {position_loop, velocity_loop};
+  }
+
+  double integral() const { return integral_.value(); }  ///< I, N m
+
+ private:
+  CascadeConstants<double> constants_;
+  Integrator integral_;
+  CountDifference difference_;
+  double last_velocity_error_{0.0};
+};
+
+}  // namespace zerocount::loop

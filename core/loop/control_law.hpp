@@ -1,0 +1,49 @@
+#pragma once
+
+#include <variant>
+
+#include "core/loop/cascade.hpp"
+#include "core/loop/pid.hpp"
+
+namespace zerocount::loop {
+
+/// The control law, the first block of the controller: the PID law or the cascade, by
+/// ControlBlocks::structure.
+class ControlLaw {
+ public:
+  ControlLaw(const ControllerParameters& parameters, const ControlStart& start)
+      : law_(chosen(parameters, start)) {}
+
+  double step(const Feedback& now, double torque) {
+    return std::visit([&](auto& law) { return law.step(now, torque); }, law_);
+  }
+  void observe(const Feedback& now) {
+    std::visit([&](auto& law) { law.observe(now); }, law_);
+  }
+  double take_over(double torque) {
+    return std::visit([&](auto& law) { return law.take_over(torque); }, law_);
+  }
+  LinearChain linear() const {
+    return std::visit([](const auto& law) { return law.linear(); }, law_);
+  }
+  double integral() const {  ///< I, N m
+    return std::visit([](const auto& law) { return law.integral(); }, law_);
+  }
+
+ private:
+  using Law = std::variant<Pid, Cascade>;
+
+  static Law chosen(const ControllerParameters& parameters, const ControlStart& start) {
+    switch (parameters.blocks.structure) {
+      case ControlStructure::cascade:
+        return Cascade(parameters, start);
+      case ControlStructure::pid:
+        break;
+    }
+    return Pid(parameters, start);
+  }
+
+  Law law_;
+};
+
+}  // namespace zerocount::loop

@@ -1,0 +1,253 @@
+"""The whole controller written once more, from its definition in words and with SciPy's filters: what codes it decides from
+the counts that it reads. Parameters are those of a manifest, as maps inside one another, with None for a limit that is off."""
+
+import math
+
+import numpy as np
+from scipy.signal import bilinear, lfilter, lfilter_zi
+
+
+class Motion:
+    """The reference from one target to the next, in rad, as pieces of constant jerk."""
+
+    def __init__(self, profile, start, end, dx):
+        self.start, self.end, self.dx = start, end, dx
+        self.direction = -1.0 if end < start else 1.0
+        self.pieces = []  # (beginning, position, velocity, acceleration, jerk)
+        self.duration = 0.0
+        travel = abs(end - start) * dx
+        if profile["shape"] == "step" or travel == 0.0:
+            return
+        v_max, a_max = profile["velocity_limit"], profile["acceleration_limit"]
+        j_max = profile["jerk_limit"] if profile["shape"] == "s_curve" else math.inf
+
+        def times(v):  # of the jerk, and of the constant acceleration, on the way to the velocity v
+            if math.isinf(j_max):
+                return 0.0, v / a_max
+            if v * j_max >= a_max**2:
+                return a_max / j_max, v / a_max - a_max / j_max
+            return math.sqrt(v / j_max), 0.0
+
+        def covered(v):
+            jerk_time, constant = times(v)
+            return v * (2 * jerk_time + constant)
+
+        v = v_max
+        if covered(v) > travel:
+            low, high = 0.0, v_max
+            for _ in range(200):
+                v = 0.5 * (low + high)
+                low, high = (v, high) if covered(v) < travel else (low, v)
+        jerk_time, constant = times(v)
+        cruise = max(0.0, (travel - covered(v)) / v)
+        a = a_max if math.isinf(j_max) else min(a_max, j_max * jerk_time)
+        up = [(jerk_time, 0.0, j_max), (constant, a, 0.0), (jerk_time, a, -j_max)]
+        down = [(d, -a0 - (j * d if d else 0.0), j) for d, a0, j in reversed(up)]
+        t = x = speed = 0.0
+        for d, a0, j in up + [(cruise, 0.0, 0.0)] + down:
+            if d == 0.0:
+                continue
+            self.pieces.append((t, x, speed, a0, j))
+            x += speed * d + a0 * d**2 / 2 + j * d**3 / 6
+            speed += a0 * d + j * d**2 / 2
+            t += d
+        self.duration = t
+
+    def at(self, t, nearly):
+        """Position in counts, velocity and acceleration just after t."""
+        if t >= self.duration - nearly:
+            return float(self.end), 0.0, 0.0
+        begin, x, v, a, j = [p for p in self.pieces if p[0] <= t + nearly][-1]
+        s = t - begin
+        position = x + v * s + a * s**2 / 2 + j * s**3 / 6
+        velocity = v + a * s + j * s**2 / 2
+        if t == 0.0:
+            velocity = 0.0
+        return (self.start + self.direction * position / self.dx, self.direction * velocity,
+                self.direction * (a + j * s))
+
+
+class Filter:
+    """y = b/a·x, past values 0."""
+
+    def __init__(self, b, a):
+        self.b, self.a = np.asarray(b, float), np.asarray(a, float)
+        self.z = np.zeros(max(len(b), len(a)) - 1)
+
+    def __call__(self, x):
+        y, self.z = lfilter(self.b, self.a, [x], zi=self.z)
+        return y[0]
+
+    def settle(self, y):
+        """The state in which a constant input gives y; returns that input."""
+        gain, pole = self.b.sum(), self.a.sum()
+        self.z = np.zeros_like(self.z)
+        if gain == 0.0 or pole == 0.0:
+            return y
+        x = y * pole / gain
+        if len(self.z):
+            self.z = lfilter_zi(self.b, self.a) * x
+        return x
+
+
+def make_filter(element, T):
+    (kind, p), = element.items()
+    if kind == "biquad":
+        return Filter(p["b"], [1.0, *p["a"]])
+    w = 2 * math.pi * p["frequency"]
+    prewarped = w / (2 * math.tan(w * T / 2))  # SciPy's bilinear transform is s = 2·fs·(z − 1)/(z + 1)
+    if kind == "lowpass":
+        b, a = [w**2], [1, 2 * p["damping"] * w, w**2]
+    elif kind == "notch":
+        b, a = [1, 2 * p["damping"] * p["depth"] * w, w**2], [1, 2 * p["damping"] * w, w**2]
+    else:
+        root = math.sqrt(p["ratio"])
+        b, a = [root / w, 1], [1 / (root * w), 1]
+    return Filter(*bilinear(b, a, prewarped))
+
+
+class Chain:
+    def __init__(self, phase, T, dx, integral, integral_range):
+        self.p, self.T, self.dx = phase, T, dx
+        self.integral, self.range = integral, integral_range
+        self.inside = False
+        self.first = self.last_count = None
+        self.last_e = self.last_w = self.d = self.added = self.estimate = 0.0
+        cutoff = phase["derivative_cutoff"]
+        self.a = 0.0 if cutoff is None else math.exp(-2 * math.pi * cutoff * T)
+        self.filters = [make_filter(element, T) for element in phase["filters"]]
+        observer = phase["observer"]
+        self.observes = observer["bandwidth"] > 0
+        if self.observes:
+            w = 2 * math.pi * observer["bandwidth"]
+            q = [1, math.sqrt(2) * w, w**2]
+            self.accelerates = Filter(*bilinear([observer["inertia"] * w**2, 0, 0], q, 1 / T))
+            self.drives = Filter(*bilinear([w**2], q, 1 / T))
+
+    def watch(self, count, e, in_force, velocity, acceleration):
+        """What goes on at every sample, whichever chain decides. Returns whether the integral may change."""
+        if self.first is None:
+            self.first = self.last_count = count
+        self.d = self.a * self.d + (1 - self.a) * (count - self.last_count)
+        self.last_count = count
+        band = self.p["deadband"]
+        enter = band["enter"]
+        if enter is not None:
+            leave = enter if band["leave"] is None else band["leave"]
+            self.inside = abs(e) <= (leave if self.inside else enter)
+        forward = self.p["feedforward"]
+        self.added = (forward["velocity"] * velocity + forward["acceleration"] * acceleration +
+                      forward["friction"] * np.sign(velocity))
+        if self.observes:
+            self.estimate = self.accelerates((count - self.first) * self.dx) - self.drives(in_force)
+        zone = self.p["integrator_zone"]
+        return not self.inside and (zone is None or abs(e) <= zone)
+
+    def velocity_error(self, e):
+        return self.p["cascade"]["kv"] * self.dx * e - self.d * self.dx / self.T
+
+    def remember(self, e):
+        self.last_e, self.last_w = e, self.velocity_error(e)
+
+    def rest(self, count, e, in_force, velocity, acceleration):
+        self.watch(count, e, in_force, velocity, acceleration)
+        self.remember(e)
+
+    def take_over(self, torque):
+        torque = torque + self.estimate - self.added
+        for each in reversed(self.filters):
+            torque = each.settle(torque)
+        self.integral = torque
+
+    def decide(self, count, e, in_force, velocity, acceleration):
+        changes = self.watch(count, e, in_force, velocity, acceleration)
+        p = self.p
+        cascade = p["structure"] == "cascade"
+        w = self.velocity_error(e)
+        increment = (p["cascade"]["ki"] * self.T / 2 * (w + self.last_w) if cascade else p["ki"] * (e + self.last_e))
+        if changes:
+            tau = p["integrator_leak"]
+            left = 1.0 if tau is None else math.exp(-self.T / tau)
+            self.integral = min(max(left * self.integral + increment, self.range[0]), self.range[1])
+        u = self.integral + (p["cascade"]["kp"] * w if cascade else p["kp"] * e - p["kd"] * self.d)
+        self.remember(e)
+        for each in self.filters:
+            u = each(u)
+        return u + self.added - self.estimate
+
+
+class Controller:
+    def __init__(self, parameters):
+        self.p = parameters
+        c = parameters["controller"]
+        self.T = 1 / c["sample_rate"]
+        self.dx = 2 * math.pi / parameters["encoder"]["fine"]
+        self.fine_per_coarse = parameters["encoder"]["fine"] / parameters["encoder"]["coarse"]
+        bits, self.du = parameters["dac"]["bits"], parameters["dac"]["resolution"]
+        self.low, self.high = -2**(bits - 1), 2**(bits - 1) - 1
+        limits = (self.low * self.du, self.high * self.du) if c["anti_windup"] == "clamp" else (-math.inf, math.inf)
+        integral = parameters["initial"]["integral"]
+        self.beyond = c["coarse"]["coarse_beyond"]
+        fine = dict(c, kd=0.0) if self.beyond is not None else c
+        self.chains = {"fine": Chain(fine, self.T, self.dx, integral, limits),
+                       "coarse": Chain(c["coarse"], self.T, self.dx, integral, limits)}
+        self.phase, self.settled, self.last_coarse, self.in_force = "fine", 0, None, 0.0
+        self.started = False
+
+    def change_phase(self, errors, counts):
+        rule = self.p["controller"]["coarse"]
+        last = counts["coarse"] if self.last_coarse is None else self.last_coarse
+        moved, self.last_coarse = abs(counts["coarse"] - last), counts["coarse"]
+        quiet = abs(errors["coarse"]) <= rule["fine_within"] and moved <= rule["fine_rate"]
+        before = self.settled if self.phase == "coarse" else 0
+        self.settled = before + 1 if quiet else 0
+        if self.phase == "fine":
+            new = "coarse" if abs(errors["fine"]) > self.beyond else "fine"
+        else:
+            dwell = max(1, math.floor(rule["fine_dwell"] / self.T + 0.5))
+            new = "fine" if self.settled >= dwell else "coarse"
+        changed, self.phase = new != self.phase and self.started, new
+        return changed
+
+    def decide(self, reference, velocity, acceleration, fine_count, coarse_count):
+        """The wanted torque."""
+        c = self.p["controller"]
+        of = {"fine": float(fine_count), "coarse": coarse_count * self.fine_per_coarse}
+        counts = {"fine": of[c["encoder"]], "coarse": of[c["coarse"]["encoder"]]}
+        errors = {phase: reference - count for phase, count in counts.items()}
+        changed = self.beyond is not None and self.change_phase(errors, counts)
+        if changed:
+            self.chains[self.phase].take_over(self.in_force)
+        self.started = True
+        for phase, chain in self.chains.items():
+            if phase != self.phase:
+                chain.rest(counts[phase], errors[phase], self.in_force, velocity, acceleration)
+        return self.chains[self.phase].decide(counts[self.phase], errors[self.phase], self.in_force, velocity,
+                                              acceleration)
+
+
+def codes_of(parameters, samples):
+    """For each (target, count, coarse count) of the samples: the code, whether the phase is coarse, and how far, in codes,
+    the wanted torque is from where the code changes."""
+    controller = Controller(parameters)
+    command = parameters["command"]
+    length = math.floor(command["hold"] * parameters["controller"]["sample_rate"] + 0.5)
+    result = []
+    motion = None
+    for k, (target, count, coarse_count) in enumerate(samples):
+        if k % length == 0:
+            start = 0 if k == 0 else command["targets"][k // length - 1]
+            motion = Motion(command["profile"], start, target, controller.dx)
+        t = (k % length) * controller.T
+        position, velocity, acceleration = motion.at(t, 1e-6 * controller.T)
+        # Half a count goes to the end of the move that is nearer in time.
+        nearest = round(position)
+        if abs(abs(position - math.floor(position)) - 0.5) < 1e-6:
+            towards = start if t < motion.duration / 2 else target
+            nearest = math.floor(position) if towards < position else math.ceil(position)
+        wanted = controller.decide(nearest, velocity, acceleration, count, coarse_count) / controller.du
+        code = int(min(max(np.rint(wanted), controller.low), controller.high))
+        controller.in_force = code * controller.du
+        margin = abs(wanted - math.floor(wanted) - 0.5) if controller.low < wanted < controller.high else 0.5
+        result.append((code, controller.phase == "coarse", margin))
+    return result

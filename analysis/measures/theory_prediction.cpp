@@ -8,7 +8,7 @@ namespace zerocount::measures {
 
 TrialPrediction predict(const trial::TrialParameters& parameters) {
   TrialPrediction prediction;
-  if (!parameters.command.torque.levels.empty() || !friction::has_spring(parameters.friction.model)) {
+  if (parameters.controller.user.plugin || !parameters.command.torque.levels.empty() || !friction::has_spring(parameters.friction.model)) {
     prediction.applies = false;
     return prediction;
   }

@@ -120,6 +120,16 @@ Json value_schema(const parameters::Parameter& parameter) {
   return {{"anyOf", std::move(forms)}};
 }
 
+// The name of a plugin's parameter.
+constexpr std::string_view plugin_name = "[a-z][a-z0-9_]*";
+
+// The schema does not know a plugin's parameters: each may be any number.
+parameters::Parameter plugin_value() {
+  parameters::Parameter parameter;
+  parameter.range = numerics::all_numbers();
+  return parameter;
+}
+
 // Meaning and unit on a rotary axis, and the unit on a linear axis if it differs.
 std::string description_of(const parameters::Parameter& parameter) {
   std::string description(parameter.meaning);
@@ -203,6 +213,9 @@ Json sweep_schema() {
       grid[pattern_of(parameter.name, true)] = spaced;
     }
   }
+  const std::string of_plugin = fmt::format("^controller\\.parameters\\.{}$", plugin_name);
+  assignments[of_plugin] = value_schema(plugin_value());
+  grid[of_plugin] = {{"anyOf", {list_of(value_schema(plugin_value()), 1), spacing_schema()}}};
   const auto by_pattern = [](Json patterns) {
     return Json{
         {"type", "object"}, {"patternProperties", std::move(patterns)}, {"additionalProperties", false}};
@@ -244,6 +257,11 @@ Json general_schemas() {
       {"travel", number_in(numerics::above(0))},
       {"controller.units",
        {{"enum", parameters::gain_unit_labels}, {"default", parameters::gain_unit_labels.front()}}},
+      {"controller.plugin", {{"type", "string"}, {"minLength", 1}}},
+      {"controller.parameters",
+       {{"type", "object"},
+        {"patternProperties", {{fmt::format("^{}$", plugin_name), value_schema(plugin_value())}}},
+        {"additionalProperties", false}}},
       {"controller.filters", elements_schema(*parameters::find_element_list("controller.filters"))},
       {"controller.coarse.filters",
        elements_schema(*parameters::find_element_list("controller.coarse.filters"))},

@@ -122,6 +122,42 @@ void read_elements(SectionReading& s, const yaml::Field& field, const parameters
   for (std::size_t i = 0; i < count; ++i) read_element(s, yaml::item_of(field, i), i, list);
 }
 
+void add_plugin_parameters(SectionReading& s) {
+  if (!s.plan().plugin) return;
+  const plugin::PluginDescription& plugin = s.plan().plugin->description;
+  const study::RowGroup rows = study::add_plugin(s.plan().table, plugin);
+  add_slots(s);
+  loop::UserControl& user = s.plan().common.controller.user;
+  user.plugin = s.plan().plugin;
+  for (const plugin::PluginParameter& parameter : plugin.parameters) {
+    s.plan().base[rows.first + user.parameters.size()].number = parameter.default_value;
+    user.parameters.push_back(parameter.default_value);
+  }
+}
+
+void read_plugin_parameters(SectionReading& s, const yaml::Field& map) {
+  if (!s.plan().plugin) {
+    // With a plugin that cannot be used, which is reported, its parameters are not known.
+    const auto controller = yaml::find_field(s.root, "controller");
+    if (!yaml::find_field(*controller, "plugin"))
+      s.problems().add(map, "there is no plugin whose parameters these are",
+                       "controller.plugin, or the key left out");
+    return;
+  }
+  if (!yaml::check_map(map, "a map", s.problems())) return;
+  std::vector<std::string> names;
+  for (const plugin::PluginParameter& parameter : s.plan().plugin->description.parameters)
+    names.push_back(parameter.name);
+  for (const yaml::YamlEntry& entry : map.node->entries) {
+    const yaml::Field field = yaml::entry_of(map, entry);
+    if (std::find(names.begin(), names.end(), entry.key) == names.end()) {
+      parameters::add_unknown_key(map, entry, names, s.problems());
+    } else {
+      read_slot(s, field, study::find_slots(field.path, s.plan().table).value().first);
+    }
+  }
+}
+
 // Reads the keys of sections that are not parameters. controller.units is read earlier, before all values.
 void read_general_key(SectionReading& s, const yaml::Field& field) {
   if (!s.plan().sequence) return;
@@ -170,6 +206,8 @@ void read_section(SectionReading& s, const yaml::Field& section) {
       read_parameter(s, field, *row);
     } else if (const parameters::ElementList* const list = parameters::find_element_list(field.path)) {
       read_elements(s, field, *list);
+    } else if (field.path == "controller.parameters") {
+      read_plugin_parameters(s, field);
     } else if (find_general_key(field.path) != nullptr) {
       read_general_key(s, field);
     } else {
@@ -217,6 +255,14 @@ void choose_form(SectionReading& s, const yaml::Field& command) {
   s.plan().list.row = parameters::find_parameter(list).value();
 }
 
+void check_plugin_closes_the_loop(SectionReading& s) {
+  if (!s.plan().open_loop || !s.plan().plugin) return;
+  const yaml::Field controller = yaml::find_field(s.root, "controller").value();
+  s.problems().add(yaml::find_field(controller, "plugin").value(),
+                   "it has no effect: the loop is open with command.torque",
+                   "command.targets or command.sequence, or the key left out");
+}
+
 // Reports the keys of the form chosen that are missing.
 void check_form_complete(SectionReading& s, const yaml::Field& command) {
   if (!s.plan().open_loop && !s.plan().sequence) return;
@@ -256,11 +302,13 @@ void read_sections(const yaml::Field& root, Reading& reading, PlanPlaces& places
                          "command: {targets: [..]}");
   }
   take_defaults(s);
+  add_plugin_parameters(s);
   for (const std::string& key : keys_below("")) {
     const auto section = is_section(key) ? yaml::find_field(root, key) : std::nullopt;
     if (section) read_section(s, *section);
   }
   complete_moves(s);
+  check_plugin_closes_the_loop(s);
   if (!command) return;
   check_form_complete(s, *command);
   check_sequence_length(s, *command);

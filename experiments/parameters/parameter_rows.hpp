@@ -15,6 +15,7 @@ namespace zerocount::parameters {
 // does not change the draws of the others. The next free one is beyond_moves(9); those from beyond_moves(32)
 // to beyond_moves(79) are for the blocks of the controller. From beyond_moves(80) on are those of lists, each
 // with as many as it may have values; the next free one of these is beyond_moves(192).
+// Those from beyond_moves(317) to beyond_moves(444) are for the parameters of a plugin.
 
 std::vector<Parameter> plant_rows();
 std::vector<Parameter> friction_rows();

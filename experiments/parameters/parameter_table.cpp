@@ -1,6 +1,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -80,6 +81,27 @@ Parameter element_row(const Parameter& key, std::size_t index, std::string_view 
       set(parameters, index, 0, value);
     };
   }
+  return row;
+}
+
+Parameter plugin_row(std::string_view name, std::size_t index, const plugin::PluginParameter& parameter) {
+  constexpr std::size_t first_dimension = 317;  // beyond those of the means of profiles
+  Parameter row{name,
+                parameter.unit,
+                parameter.meaning,
+                "the plugin",
+                ParameterKind::real,
+                {.low = parameter.lowest,
+                 .high = parameter.highest,
+                 .low_included = std::isfinite(parameter.lowest),
+                 .high_included = std::isfinite(parameter.highest)},
+                {},
+                beyond_moves(first_dimension + index)};
+  row.of_machine = true;
+  row.get = [value = parameter.default_value](const trial::TrialParameters&) { return value; };
+  row.set = [index](trial::TrialParameters& parameters, double value) {
+    parameters.controller.user.parameters[index] = value;
+  };
   return row;
 }
 

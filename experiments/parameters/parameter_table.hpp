@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/numerics/interval.hpp"
+#include "core/plugin/controller_plugin.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/parameters/study_units.hpp"
 
@@ -100,6 +101,9 @@ Parameter value_row(const Parameter& list, std::size_t index, std::string_view n
 
 /// The row of a key of element `index`. @param name its dotted path, "controller.filters.0.frequency"
 Parameter element_row(const Parameter& key, std::size_t index, std::string_view name);
+
+/// The row of parameter `index` of the user's controller, which must outlive the row, like `name`.
+Parameter plugin_row(std::string_view name, std::size_t index, const plugin::PluginParameter& parameter);
 
 /// Whether the row itself has a value: it stands for no others.
 inline bool has_value(const Parameter& parameter) {

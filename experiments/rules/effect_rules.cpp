@@ -77,6 +77,17 @@ std::vector<EffectRule> rules_of_the_command(const study::StudyPlan& plan) {
   };
 }
 
+EffectRule rule_of_the_plugin(const study::StudyPlan& plan) {
+  const bool plugin = plan.plugin != nullptr;
+  return {
+      .keys = {"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
+               "controller.structure", "controller.cascade", "controller.deadband",
+               "controller.integrator_zone", "controller.integrator_leak", "controller.derivative_cutoff"},
+      .has_effect = plugin ? never : always,
+      .what = "it has no effect: the controller is a plugin",
+      .expected = "controller.parameters, or the key left out"};
+}
+
 // The other parameters of an encoder error have an effect only if its amplitude is not 0.
 EffectRule rule_of_an_error(std::string_view key, std::string_view amplitude) {
   return {.keys = {key},
@@ -310,6 +321,7 @@ std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   std::vector<EffectRule> rules = rules_of_the_command(plan);
   rules.push_back(rule_of_the_position(plan));
   rules.push_back(rule_of_the_limit());
+  rules.push_back(rule_of_the_plugin(plan));
   for (const auto& more :
        {rules_of_the_loop(), rules_of_the_blocks(one_phase), rules_of_the_blocks(coarse_phase),
         rules_of_the_contact(), rules_of_the_model(), rules_of_vanished_terms()}) {

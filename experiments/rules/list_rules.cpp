@@ -69,6 +69,14 @@ bool is_frequency_of_filter(const parameters::Parameter& row) {
 
 }  // namespace
 
+std::vector<ValueRule> plugin_rules(const study::StudyPlan& plan) {
+  if (!plan.plugin) return {};
+  return {{{"controller.coarse.coarse_beyond"}, false, [](Limits l, Limits) -> Faults {
+             if (!study::can_have_coarse_phase(l[0])) return {};
+             return {{"a plugin has no phases", "none with controller.plugin"}};
+           }}};
+}
+
 std::vector<ValueRule> list_rules(const study::StudyPlan& plan) {
   std::vector<ValueRule> rules = rules_of_gms(plan.table);
   for (const parameters::Parameter& row : plan.table.rows) {

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "experiments/study/point_limits.hpp"
-#include "experiments/study/study_table.hpp"
 #include "experiments/study/study.hpp"
+#include "experiments/study/study_table.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/plugin/controller_plugin.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/parameters/study_units.hpp"
@@ -68,9 +69,10 @@ struct StudyPlan {
   std::optional<double> period{2.0 * std::numbers::pi};
   StudyTable table;
   RowGroup list;  ///< the list that defines the moves: targets, torque levels, or the targets of a sequence
-  bool open_loop{false};                  ///< the list is one of torque levels
-  std::optional<SequenceCycle> sequence;  ///< set if the list belongs to a sequence
-  std::vector<Value> base;                ///< [slot], used unless an axis assigns a value
+  std::shared_ptr<const plugin::ControllerPlugin> plugin;  ///< the user's controller; null: none
+  bool open_loop{false};                                   ///< the list is one of torque levels
+  std::optional<SequenceCycle> sequence;                   ///< set if the list belongs to a sequence
+  std::vector<Value> base;                                 ///< [slot], used unless an axis assigns a value
   std::vector<PlanAxis> axes;  ///< the last axis changes fastest, and takes precedence over the others
   std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;

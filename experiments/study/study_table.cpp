@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <string>
 
 #include <fmt/format.h>
@@ -54,6 +55,23 @@ RowGroup add_element(StudyTable& table, const parameters::ElementList& list, std
     const std::string& name = table.names.emplace_back(fmt::format("{}.{}.{}", list.path, index, key));
     table.rows.push_back(
         parameters::element_row(parameters::parameter_table()[row_of_key(key)], index, name));
+  }
+  table.groups.push_back(group);
+  return group;
+}
+
+RowGroup add_plugin(StudyTable& table, const plugin::PluginDescription& plugin) {
+  const auto of_controller = [](const parameters::Parameter& row) {
+    return row.name.starts_with("controller.");
+  };
+  const auto sections = parameters::parameter_table();
+  const auto last = std::find_if(sections.rbegin(), sections.rend(), of_controller);
+  const RowGroup group{static_cast<std::size_t>(std::distance(last, sections.rend())) - 1, table.rows.size(),
+                       plugin.parameters.size()};
+  for (const plugin::PluginParameter& parameter : plugin.parameters) {
+    const std::string& name =
+        table.names.emplace_back(fmt::format("controller.parameters.{}", parameter.name));
+    table.rows.push_back(parameters::plugin_row(name, table.rows.size() - group.first, parameter));
   }
   table.groups.push_back(group);
   return group;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/plugin/controller_plugin.hpp"
 #include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 
@@ -40,6 +41,9 @@ RowGroup add_list(StudyTable& table, std::size_t row, std::size_t count);
 /// @return the rows in the order of the form's keys
 RowGroup add_element(StudyTable& table, const parameters::ElementList& list, std::size_t index,
                      const parameters::ElementForm& form);
+
+/// Adds the rows of the parameters of the user's controller, which must outlive the table.
+RowGroup add_plugin(StudyTable& table, const plugin::PluginDescription& plugin);
 
 /// The values of a list that the study has. @param row that of the list
 std::optional<RowGroup> find_list(const StudyTable& table, std::size_t row);

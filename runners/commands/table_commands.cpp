@@ -4,6 +4,7 @@
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/plugins/plugin_library.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -12,7 +13,7 @@ ExitCode print_parameters_of_study(const command_line::Arguments& arguments, con
                                    bool text) {
   if (arguments.has("axis") || arguments.has("units"))
     arguments.refuse("the units are those of the manifest; --axis and --units cannot be given with it");
-  const study::Study study = manifest::load_study(manifest, arguments.values("set"));
+  const study::Study study = manifest::load_study(manifest, arguments.values("set"), plugins::plugins_of(manifest));
   fmt::print("{}", text ? manifest::parameters_as_text(study) : manifest::parameters_as_markdown(study));
   return ExitCode::success;
 }

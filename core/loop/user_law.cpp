@@ -7,16 +7,13 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <immintrin.h>
 
 #include "core/failure/failure.hpp"
+#include "core/plugin/arithmetic_mode.hpp"
 #include "core/plugin/controller_plugin.hpp"
 
 namespace zerocount::loop {
 namespace {
-
-/// All bits of MXCSR but the flags of exceptions that occurred: rounding, denormals, masks.
-constexpr unsigned control_bits = ~0x3fu;
 
 constexpr std::align_val_t state_alignment{64};
 
@@ -34,18 +31,12 @@ struct UserLaw::Running {
     return bytes;
   }
 
-  /// Sets the mode of arithmetic back: libraries compiled with -ffast-math, or code that sets it, would
-  /// change all trials that follow on this thread.
-  void restore_mode() const {
-    if (((_mm_getcsr() ^ mode) & control_bits) != 0) _mm_setcsr(mode);
-  }
-
   std::shared_ptr<const plugin::ControllerPlugin> plugin;
   double (*step)(void*, const zerocount_setup*, const zerocount_sample*);
   std::vector<double> parameters;
   zerocount_setup setup;
   State state;
-  unsigned mode{_mm_getcsr()};
+  plugin::ArithmeticMode mode{};
   std::int64_t k{0};
 };
 
@@ -76,7 +67,7 @@ UserLaw::UserLaw(const ControllerParameters& p, const ControlStart& start) {
   std::array<char, 512> message{};
   const int refused =
       plugin.functions->start(running.state.get(), &running.setup, message.data(), message.size());
-  running.restore_mode();
+  running.mode.restore();
   if (refused == 0) return;
   message.back() = '\0';
   throw Failure(ExitCode::bad_input,
@@ -98,7 +89,7 @@ double UserLaw::step(const Feedback& now, double /*torque*/) {
                                 .torque = now.torque_in_force};
   ++running.k;
   const double torque = running.step(running.state.get(), &running.setup, &sample);
-  running.restore_mode();
+  running.mode.restore();
   return torque;
 }
 

@@ -216,7 +216,8 @@ void require_same_plugin(const std::filesystem::path& path, const FileHeader& he
   const std::string there = text_of(header.plugin ? &*header.plugin : nullptr);
   const std::string here = text_of(plugin != nullptr ? &plugin->description : nullptr);
   if (there == here) return;
-  throw ForeignFile(path, fmt::format("its trials were run with {}, and this is {}: they are not mixed", there, here));
+  throw ForeignFile(
+      path, fmt::format("its trials were run with {}, and this is {}: they are not mixed", there, here));
 }
 
 void require_same_study(const std::filesystem::path& path, const FileHeader& header,

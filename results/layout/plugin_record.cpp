@@ -41,8 +41,10 @@ std::optional<plugin::PluginDescription> plugin_from_json(const std::string& tex
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   try {
     const Json json = Json::parse(text);
-    plugin::PluginDescription plugin{json.at("name").get<std::string>(), json.at("version").get<std::string>(),
-                                     json.at("sha256").get<std::string>(), {}};
+    plugin::PluginDescription plugin{json.at("name").get<std::string>(),
+                                     json.at("version").get<std::string>(),
+                                     json.at("sha256").get<std::string>(),
+                                     {}};
     for (const Json& p : json.at("parameters")) {
       plugin.parameters.push_back({p.at("name").get<std::string>(), p.at("unit").get<std::string>(),
                                    p.at("meaning").get<std::string>(), p.at("default").get<double>(),

@@ -7,8 +7,8 @@
 
 namespace zerocount::layout {
 
-/// What a results file records of the user's controller: {"name", "version", "sha256", "parameters": [{"name",
-/// "unit", "meaning", "default", "lowest", "highest"}]}; null is a missing limit.
+/// What a results file records of the user's controller: {"name", "version", "sha256", "parameters":
+/// [{"name", "unit", "meaning", "default", "lowest", "highest"}]}; null is a missing limit.
 std::string plugin_as_json(const plugin::PluginDescription& plugin);
 
 /// Nothing if the text is none of these.

@@ -141,7 +141,8 @@ double hold_of(const trial::TrialParameters& p) {
 /// The theory of a loop without a spring: its sampled bound and time constant.
 void examine_free(const study::Study& study, std::int64_t point, PointTheory& theory) {
   const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
-  theory.free = !first.controller.user.plugin && first.friction.model == friction::FrictionModel::none && first.command.torque.levels.empty();
+  theory.free = !first.controller.user.plugin && first.friction.model == friction::FrictionModel::none &&
+                first.command.torque.levels.empty();
   if (!theory.free) return;
   theory.hold = hold_of(first);
   for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {

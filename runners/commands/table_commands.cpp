@@ -13,7 +13,8 @@ ExitCode print_parameters_of_study(const command_line::Arguments& arguments, con
                                    bool text) {
   if (arguments.has("axis") || arguments.has("units"))
     arguments.refuse("the units are those of the manifest; --axis and --units cannot be given with it");
-  const study::Study study = manifest::load_study(manifest, arguments.values("set"), plugins::plugins_of(manifest));
+  const study::Study study =
+      manifest::load_study(manifest, arguments.values("set"), plugins::plugins_of(manifest));
   fmt::print("{}", text ? manifest::parameters_as_text(study) : manifest::parameters_as_markdown(study));
   return ExitCode::success;
 }

@@ -16,8 +16,8 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/commands/replay.hpp"
-#include "runners/plugins/plugin_library.hpp"
 #include "runners/commands/trace_writer.hpp"
+#include "runners/plugins/plugin_library.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -111,6 +111,12 @@ ExitCode trace(const command_line::Arguments& arguments) {
   const study::Study study =
       file ? layout::recorded_study(file->header(), input, plugin_option(arguments))
            : manifest::load_study(input, arguments.values("set"), plugins::plugins_of(input));
+  if (study.plugin && study.plugin->functions == nullptr) {
+    arguments.refuse(
+        fmt::format("the controller of {} is the plugin {}, which is not loaded from a results file; give "
+                    "its path with --plugin",
+                    input, study.plugin->description.name));
+  }
   const std::int64_t point = command_line::point_option(arguments, study.point_labels).value_or(0);
   const std::int64_t index = trial_option(arguments, study);
   const layout::RowRange row{point * study.trials + index, 1};

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <immintrin.h>
 
 #include "core/failure/failure.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/encoder.hpp"
+#include "core/plugin/arithmetic_mode.hpp"
 #include "core/trial/trial.hpp"
 
 namespace zerocount::plugins {
@@ -84,6 +84,7 @@ class ControllerAlone {
               .initial_integral = p.initial.integral};
     char message[256] = {};
     functions_.start(aligned(state_), &setup_, message, sizeof message);
+    mode_.restore();
   }
   ControllerAlone(const ControllerAlone&) = delete;
   ControllerAlone& operator=(const ControllerAlone&) = delete;
@@ -98,7 +99,9 @@ class ControllerAlone {
                                   .reference = static_cast<double>(record.reference),
                                   .torque = k_ == 0 ? 0.0 : (*inputs_)[k_ - 1].torque};
     ++k_;
-    return functions_.step(aligned(state_), &setup_, &sample);
+    const double torque = functions_.step(aligned(state_), &setup_, &sample);
+    mode_.restore();
+    return torque;
   }
 
   bool done() const { return k_ == inputs_->size(); }
@@ -123,6 +126,7 @@ class ControllerAlone {
   const Samples* inputs_;
   std::vector<std::byte> state_;
   zerocount_setup setup_{};
+  plugin::ArithmeticMode mode_{};
   std::size_t k_{0};
 };
 
@@ -158,10 +162,11 @@ std::vector<std::vector<double>> torques_in_turns(const std::vector<trial::Trial
 }
 
 [[noreturn]] void refuse(const study::Study& study, std::string_view how) {
-  throw Failure(ExitCode::bad_input,
-                fmt::format("the controller {} keeps something outside its state: {}; expected that all that changes "
-                            "is in the state, without pointers into it, and no global or static variables",
-                            study.plugin->description.name, how));
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("the controller {} keeps something outside its state: {}; expected that all that changes "
+                  "is in the state, without pointers into it, and no global or static variables",
+                  study.plugin->description.name, how));
 }
 
 }  // namespace
@@ -175,12 +180,11 @@ void require_no_hidden_state(const study::Study& study) {
     if (!same(samples_of(trials[i]), first[i]))
       refuse(study, "a trial that is run again, in another order, differs");
   }
-  const unsigned mode = _mm_getcsr();
   const auto in_order = torques_in_order(trials, first);
   const auto in_turns = torques_in_turns(trials, first);
-  _mm_setcsr(mode);
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (!std::equal(in_order[i].begin(), in_order[i].end(), in_turns[i].begin(), in_turns[i].end(), same_bits))
+    if (!std::equal(in_order[i].begin(), in_order[i].end(), in_turns[i].begin(), in_turns[i].end(),
+                    same_bits))
       refuse(study, "trials that run in turns, while their states move to other addresses, differ");
   }
 }

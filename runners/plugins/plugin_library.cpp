@@ -7,10 +7,10 @@
 #include <utility>
 
 #include <dlfcn.h>
-#include <immintrin.h>
 #include <fmt/format.h>
 
 #include "core/hash/sha256.hpp"
+#include "core/plugin/arithmetic_mode.hpp"
 #include "experiments/yaml/text_file.hpp"
 
 namespace zerocount::plugins {
@@ -29,12 +29,12 @@ std::optional<std::string> bytes_of(const fs::path& path) {
   return bytes;
 }
 
-/// Loads the library and calls its entry. Libraries compiled with -ffast-math change the mode of arithmetic when
-/// they are loaded.
+/// Loads the library and calls its entry. Libraries compiled with -ffast-math change the mode of arithmetic
+/// when they are loaded.
 std::variant<const zerocount_controller*, PluginFault> entry_of(const fs::path& library) {
-  const unsigned mode = _mm_getcsr();
+  const plugin::ArithmeticMode mode;
   void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-  _mm_setcsr(mode);
+  mode.restore();
   if (handle == nullptr) {
     return PluginFault{fmt::format("{} is not a shared library that this program can load", library.string()),
                        "one for this machine, linked with all that it calls"};
@@ -46,7 +46,7 @@ std::variant<const zerocount_controller*, PluginFault> entry_of(const fs::path& 
                        "a controller by zerocount/controller.h, its entry exported and extern \"C\""};
   }
   const zerocount_controller* const controller = entry();
-  _mm_setcsr(mode);
+  mode.restore();
   return controller;
 }
 
@@ -61,7 +61,8 @@ manifest::LoadedPlugin load_plugin(const fs::path& library) {
   // Without a folder in its path, dlopen would look elsewhere.
   const auto entry = entry_of(fs::absolute(library));
   if (const auto* fault = std::get_if<PluginFault>(&entry)) return *fault;
-  auto checked = plugin::checked_plugin(std::get<const zerocount_controller*>(entry), hash::sha256_hex(*bytes));
+  auto checked =
+      plugin::checked_plugin(std::get<const zerocount_controller*>(entry), hash::sha256_hex(*bytes));
   if (auto* fault = std::get_if<PluginFault>(&checked))
     return PluginFault{fmt::format("{}: {}", library.string(), fault->what), fault->expected};
   return std::make_shared<const plugin::ControllerPlugin>(

@@ -23,6 +23,8 @@ bool has_creep_parameter(const std::vector<Entry>& entries) {
 }
 
 std::string why_not(const trial::TrialParameters& parameters) {
+  if (parameters.controller.user.plugin)
+    return "the controller is a plugin, which this command does not load";
   if (!friction::has_creep(parameters.friction.model) || parameters.friction.uniform.alpha == 0.0)
     return "the friction does not creep";
   if (has_creep_parameter(parameters.friction.profiled)) return "a creep parameter varies along the rotor";

@@ -41,7 +41,7 @@ class CriterionTrials {
     if (!x || !y) return;
     set_x_ = parameters::parameter_table()[*x].set;
     set_y_ = parameters::parameter_table()[*y].set;
-    if (set_x_ == nullptr || set_y_ == nullptr) return;
+    if (!set_x_ || !set_y_) return;
     for (const std::int64_t index : spread_over(study.trials, max_trials)) {
       trial::TrialParameters parameters = study::study_trial_as_given(study, point, index).parameters;
       if (!measures::predict(parameters).applies) continue;
@@ -78,8 +78,8 @@ class CriterionTrials {
   parameters::StudyUnits units_;
   std::vector<trial::TrialParameters> trials_;
   std::vector<Given> given_;  ///< [trial]
-  void (*set_x_)(trial::TrialParameters&, double){nullptr};
-  void (*set_y_)(trial::TrialParameters&, double){nullptr};
+  std::function<void(trial::TrialParameters&, double)> set_x_;
+  std::function<void(trial::TrialParameters&, double)> set_y_;
 };
 
 /// The lowest fraction in [0, 1] at which `excess` changes its sign, if any.

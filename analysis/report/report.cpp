@@ -77,6 +77,14 @@ void put_on_axis(parameters::AxisKind axis, ReportPage& page) {
 }
 
 /// Marks the bounds that assume independent trials: all except those of the sensitivity indices.
+/// Why the report of a study with a plugin shows no trial sample by sample.
+std::string without_traces_html(const plugin::ControllerPlugin& plugin) {
+  return fmt::format(
+      "<p>The trials cannot be run again for this page: the controller is the plugin {} {}, and only the "
+      "commands run, check and trace load plugins.</p>",
+      html_text(plugin.description.name), html_text(plugin.description.version));
+}
+
 void qualify_bounds(const ReportedStudy& reported, ReportPage& page) {
   if (!reported.summary.features.dependent_trials) return;
   for (PageSection& section : page.sections) {
@@ -117,8 +125,12 @@ StudyReport study_report(const reading::StudyFile& file, const ReportOptions& op
   if (std::optional<PageSection> sensitivity = sensitivity_section(reported))
     add(page, std::move(*sensitivity));
   add(page, {"rotor", "Along the rotor", "", rotor_figures(reported)});
-  add(page, {"traces", "Single trials", "", traces(reported, replays)});
-  add(page, {"paper", "The paper's figures", "", figures_of_paper(reported, replays)});
+  if (reported.study.plugin) {
+    add(page, {"traces", "Single trials", without_traces_html(*reported.study.plugin), {}});
+  } else {
+    add(page, {"traces", "Single trials", "", traces(reported, replays)});
+    add(page, {"paper", "The paper's figures", "", figures_of_paper(reported, replays)});
+  }
   add(page, {"run", "What was run", run_html(reported), {}});
   qualify_bounds(reported, page);
   put_on_axis(reported.study.units.axis, page);

@@ -95,6 +95,10 @@ std::vector<HtmlFact> facts_of(const ReportedStudy& reported) {
       {"Compiler, processor", fmt::format("{}; {}", made.compiler, made.cpu)},
       {"SHA-256 of the manifest", header.manifest_sha256},
       {"File", reported.file.path().filename().string()}};
+  if (header.plugin) {
+    facts.push_back({"Controller", fmt::format("plugin {} {}, SHA-256 {}", header.plugin->name,
+                                               header.plugin->version, header.plugin->sha256)});
+  }
   if (!header.overrides.empty())
     facts.insert(facts.begin() + 2,
                  {"Set on the command line", fmt::format("{}", fmt::join(header.overrides, ", "))});

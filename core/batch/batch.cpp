@@ -79,8 +79,8 @@ bool lanes_know(const loop::ControllerParameters& controller) {
       std::is_same_v<loop::ControlChain, loop::BlockChain<loop::ControlLaw, loop::Filters, loop::Feedforward,
                                                           loop::DisturbanceObserver>>,
       "sample_kernel has these blocks: another one needs its law there, or a condition here");
-  const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks] = controller;
-  return delay <= max_delay && lanes_know(encoder) && lanes_know(blocks) &&
+  const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks, user] = controller;
+  return delay <= max_delay && lanes_know(encoder) && lanes_know(blocks) && !user.plugin &&
          !loop::has_coarse_phase(controller);
 }
 

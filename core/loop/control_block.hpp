@@ -17,6 +17,7 @@ struct TorqueRange {
 struct ReferenceMotion {
   double velocity{0.0};      ///< ṙ, rad/s
   double acceleration{0.0};  ///< r̈, rad/s²
+  double position{0.0};      ///< r, counts
 };
 
 /// Inputs of the controller at a sampling instant. Error and count are whole numbers, or those of a coarser
@@ -28,11 +29,18 @@ struct Feedback {
   ReferenceMotion reference{};
 };
 
+/// What the converter can give.
+struct DacScale {
+  TorqueRange range{};     ///< to which anti-windup clamps the integral
+  double resolution{0.0};  ///< Δu, N m
+};
+
 /// The controller before its first sample.
 struct ControlStart {
   double integral{0.0};  ///< I, N m
   TorqueRange integral_range{};
   double resolution{1.0};  ///< Δx, rad per count
+  DacScale dac{};
 };
 
 /// A block of the controller (README.md): its parameters, its state, and its law from sample to sample.

@@ -4,11 +4,12 @@
 
 #include "core/loop/cascade.hpp"
 #include "core/loop/pid.hpp"
+#include "core/loop/user_law.hpp"
 
 namespace zerocount::loop {
 
 /// The control law, the first block of the controller: the PID law or the cascade, by
-/// ControlBlocks::structure.
+/// ControlBlocks::structure; or the user's own.
 class ControlLaw {
  public:
   ControlLaw(const ControllerParameters& parameters, const ControlStart& start)
@@ -31,9 +32,10 @@ class ControlLaw {
   }
 
  private:
-  using Law = std::variant<Pid, Cascade>;
+  using Law = std::variant<Pid, Cascade, UserLaw>;
 
   static Law chosen(const ControllerParameters& parameters, const ControlStart& start) {
+    if (parameters.user.plugin) return UserLaw(parameters, start);
     switch (parameters.blocks.structure) {
       case ControlStructure::cascade:
         return Cascade(parameters, start);

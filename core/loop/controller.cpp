@@ -41,15 +41,17 @@ bool has_coarse_phase(const ControllerParameters& parameters) {
 }
 
 Controller::Controller(const ControllerParameters& parameters, const CountScale& counts, double integral,
-                       const TorqueRange& dac)
+                       const DacScale& dac)
     : two_phases_(has_coarse_phase(parameters)),
       fine_encoder_(parameters.encoder),
       coarse_encoder_(parameters.coarse.encoder),
       fine_per_coarse_(counts.fine_per_coarse),
       fine_(controller_in_phase(parameters, ControlPhase::fine),
-            {integral, integral_range(parameters.anti_windup, dac.lowest, dac.highest), counts.resolution}),
+            {integral, integral_range(parameters.anti_windup, dac.range.lowest, dac.range.highest),
+             counts.resolution, dac}),
       coarse_(controller_in_phase(parameters, ControlPhase::coarse),
-              {integral, integral_range(parameters.anti_windup, dac.lowest, dac.highest), counts.resolution}),
+              {integral, integral_range(parameters.anti_windup, dac.range.lowest, dac.range.highest),
+               counts.resolution, dac}),
       switch_(parameters.coarse, parameters.sample_rate) {}
 
 double Controller::update(std::int64_t reference, const EncoderReading& reading, double torque_in_force,

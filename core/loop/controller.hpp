@@ -39,9 +39,8 @@ struct CountScale {
 class Controller {
  public:
   /// @param integral I before the first sample, N m, in whichever phase that is.
-  /// @param dac the DAC's range, to which anti-windup clamps the integral.
   Controller(const ControllerParameters& parameters, const CountScale& counts, double integral,
-             const TorqueRange& dac);
+             const DacScale& dac);
 
   /// The wanted torque (N m) at this sample.
   /// @param reference in counts of the fine encoder; its motion is that before it is rounded to them.

@@ -20,7 +20,7 @@ class Feedforward {
     return torque + added_;
   }
   void observe(const Feedback& now) {
-    const auto& [velocity, acceleration] = now.reference;
+    const auto& [velocity, acceleration, position] = now.reference;
     added_ = gains_.velocity * velocity + gains_.acceleration * acceleration +
              gains_.friction * numerics::sign_of(velocity);
   }

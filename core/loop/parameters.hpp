@@ -2,8 +2,11 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <vector>
+
+#include "core/plugin/controller_plugin.hpp"
 
 namespace zerocount::loop {
 
@@ -129,6 +132,12 @@ struct CoarsePhaseParameters {
   ControlBlocks blocks{};  ///< of the coarse phase
 };
 
+/// A control law of the user's own in place of kp, ki and kd (user_law.hpp).
+struct UserControl {
+  std::shared_ptr<const plugin::ControllerPlugin> plugin{};  ///< null: there is none
+  std::vector<double> parameters{};                          ///< in the order of its description
+};
+
 /// Control of the count.
 struct ControllerParameters {
   double sample_rate{2000.0};  ///< 1/T, Hz
@@ -140,6 +149,7 @@ struct ControllerParameters {
   EncoderChoice encoder{EncoderChoice::fine};  ///< that closes the loop in the fine phase
   CoarsePhaseParameters coarse{};
   ControlBlocks blocks{};  ///< with a coarse phase those of the fine one
+  UserControl user{};
 };
 
 enum class ReferenceShape {

@@ -57,6 +57,15 @@ std::int64_t Reference::at(double t) const {
   return first_half ? from_ + forwards : to_ - forwards;
 }
 
+double Reference::exact_at(double t) const {
+  if (t >= duration_) return static_cast<double>(to_);
+  if (t <= 0.0) return static_cast<double>(from_);
+  const bool first_half = t < 0.5 * duration_;
+  const double counts = std::min(distance(first_half ? t : duration_ - t) / resolution_, 0.5 * counts_);
+  const double forwards = to_ < from_ ? -counts : counts;
+  return first_half ? static_cast<double>(from_) + forwards : static_cast<double>(to_) - forwards;
+}
+
 /// The angle (rad) covered since the start at the time t (s), in the first half.
 double Reference::distance(double t) const {
   if (t < jerk_time_) return jerk_ * t * t * t / 6.0;

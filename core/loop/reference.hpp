@@ -35,6 +35,9 @@ class Reference {
   /// rounding.
   ReferenceMotion motion_at(double t) const;
 
+  /// The reference (counts) before it is rounded.
+  double exact_at(double t) const;
+
   double duration() const { return duration_; }  ///< s
 
  private:

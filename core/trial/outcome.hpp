@@ -16,7 +16,8 @@ namespace zerocount::trial {
 ///   off_target   max |e_k| > 1, and for every sample k from h = ⌈N/2⌉ to N − 1 sgn e_k = sgn e_h and
 ///                |e_k| ≤ |e_h|: stalled, or still on its way (for N = 1 there is no such sample)
 ///   oscillating  max |e_k| > 1 otherwise, or ended early because it had diverged
-///   nonfinite    the motion left the finite numbers, or could not be followed (see Plant::finite)
+///   nonfinite    the motion left the finite numbers, or could not be followed (see Plant::finite), or the
+///                controller gave no finite torque
 ///   open_loop    the move had a torque level and no target, so there was nothing to judge
 enum class Outcome : std::int8_t {
   zero_count = 0,
@@ -50,10 +51,12 @@ constexpr int severity(Outcome outcome) {
 /// Measures of one move.
 struct MoveOutcome {
   Outcome outcome{Outcome::nonfinite};
-  bool arrived{false};       ///< the error was 0 for the whole dwell
-  bool stable{false};        ///< arrived, and |e| ≤ 1 count from then to the end
-  bool broke_away{false};    ///< the hook slid during the move
-  bool saturated{false};     ///< the DAC clipped
+  bool arrived{false};     ///< the error was 0 for the whole dwell
+  bool stable{false};      ///< arrived, and |e| ≤ 1 count from then to the end
+  bool broke_away{false};  ///< the hook slid during the move
+  bool saturated{false};   ///< the DAC clipped
+  /// The controller gave no finite torque, in this move or one before: the outcome is nonfinite.
+  bool controller_failed{false};
   bool stopped{false};       ///< ended at the sample at which it had diverged, or not run after one that was
   std::int64_t arrival{-1};  ///< first sample of the arrival dwell, from the move's start; −1 if never
   double settling_time{std::numeric_limits<double>::quiet_NaN()};  ///< arrival·T, s; NaN if never

@@ -62,6 +62,12 @@ class Rig {
     record.drive_torque = course_.now;
   }
 
+  /// The same with the controller's torque. If it is not finite the trial ends there.
+  void drive_wanted(double torque, SampleRecord& record) {
+    controller_failed_ = !std::isfinite(torque);
+    drive(controller_failed_ ? 0.0 : torque, record);
+  }
+
   /// Takes the torque (N m) at t_k to the motor as it is, past the converter; completes `record`.
   void drive_exactly(double torque, SampleRecord& record) {
     course_ = drive_.send_exact(torque);
@@ -72,12 +78,14 @@ class Rig {
   /// Lets the plant move until t_{k+1}.
   void hold() { plant_.advance(course_, sample_time_); }
 
-  /// Whether the motion is still finite, and within what the counters can count.
+  /// Whether the controller's torque and the motion are still finite, the motion within what the counters can
+  /// count.
   bool readable() const {
     const double finest = std::min(measurement_.fine_resolution(), measurement_.coarse_resolution());
-    return plant_.finite() && std::abs(plant_.theta()) < max_counts * finest;
+    return !controller_failed_ && plant_.finite() && std::abs(plant_.theta()) < max_counts * finest;
   }
 
+  bool controller_failed() const { return controller_failed_; }  ///< its torque was not finite
   bool clipped() const { return clipped_; }  ///< the converter was out of range at this sample
   const loop::Measurement& measurement() const { return measurement_; }
   AnyPlant& plant() { return plant_; }
@@ -90,6 +98,7 @@ class Rig {
   AnyPlant plant_;
   motion::TorqueCourse course_;
   bool clipped_{false};
+  bool controller_failed_{false};
 };
 
 }  // namespace zerocount::trial

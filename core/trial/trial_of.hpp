@@ -69,7 +69,8 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
   Rig<AnyPlant> rig(p);
   const double resolution = rig.measurement().fine_resolution();
   loop::Controller controller(p.controller, {rig.measurement().fine_per_coarse(), resolution},
-                              p.initial.integral, {loop::lowest_torque(p.dac), loop::highest_torque(p.dac)});
+                              p.initial.integral,
+                              {{loop::lowest_torque(p.dac), loop::highest_torque(p.dac)}, p.dac.resolution});
   TrialOutcome outcome;
   std::int64_t first = 0;
   std::int64_t from = 0;
@@ -86,8 +87,9 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
       const double t = static_cast<double>(i) * timing.sample_time;
       record.reference = reference.at(t);
       const loop::EncoderReading reading{record.count, record.coarse_count};
-      rig.drive(controller.update(record.reference, reading, torque_in_force, reference.motion_at(t)),
-                record);
+      loop::ReferenceMotion motion = reference.motion_at(t);
+      if (p.controller.user.plugin) motion.position = reference.exact_at(t);
+      rig.drive_wanted(controller.update(record.reference, reading, torque_in_force, motion), record);
       record.phase = controller.phase();
       torque_in_force = record.torque;
     };
@@ -95,6 +97,7 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
         run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, observers, decide);
     move.phase_changes = controller.phase_changes() - changes_before;
     move.travel_time = reference.duration();
+    move.controller_failed = rig.controller_failed();
     if (move.outcome != Outcome::nonfinite) {
       move.true_error = true_error(target, move.final_position, resolution, p.initial.encoder_phase);
     }

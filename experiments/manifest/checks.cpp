@@ -11,7 +11,7 @@
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/rules/effect_rules.hpp"
 #include "experiments/rules/value_rules.hpp"
-#include "experiments/study/slots.hpp"
+#include "experiments/study/study_table.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -93,7 +93,7 @@ struct Checking {
 
 void tell(Checking& c, const yaml::Place& place, std::size_t slot, const std::string& what,
           std::string_view expected, bool warn_only) {
-  const std::string path = study::slot_name(slot, c.plan().list);
+  const std::string path(c.plan().table.rows[slot].name);
   if (warn_only) {
     c.reading.warnings.push_back(yaml::at_place(place, path, what));
   } else {
@@ -127,9 +127,10 @@ yaml::Place place_of_fault(const Checking& c, const std::vector<std::size_t>& sl
 
 // The values that a fault involves: its values of the list, the parameters of the rule, and other values of
 // the list that may cause it.
-std::vector<std::size_t> slots_of(const rules::ValueFault& fault, const std::vector<std::size_t>& involved) {
+std::vector<std::size_t> slots_of(const rules::ValueFault& fault, const std::vector<std::size_t>& list,
+                                  const std::vector<std::size_t>& involved) {
   std::vector<std::size_t> slots;
-  for (const std::size_t i : fault.listed) slots.push_back(study::listed_slot(i));
+  for (const std::size_t i : fault.listed) slots.push_back(list[i]);
   slots.insert(slots.end(), involved.begin(), involved.end());
   return slots;
 }
@@ -141,9 +142,9 @@ void check_values(Checking& c) {
   Reports warnings;
   for (const rules::ValueRule& rule : rules::value_rules(c.plan())) {
     Reports& reported = rule.warn_only ? warnings : problems;
-    const std::vector<std::size_t> named = study::slots_named(rule.between);
+    const std::vector<std::size_t> named = study::slots_named(c.plan().table, rule.between);
     const std::vector<std::size_t> listed =
-        rule.whole_list ? study::listed_slots(c.plan().list) : std::vector<std::size_t>{};
+        rule.whole_list ? study::slots_of(c.plan().list) : std::vector<std::size_t>{};
     std::vector<std::size_t> involved = named;
     involved.insert(involved.end(), listed.begin(), listed.end());
     study::visit_points(c.plan(), involved, [&](std::size_t point) {
@@ -152,7 +153,7 @@ void check_values(Checking& c) {
       if (!study::are_readable(all)) return true;  // reported already
       for (const rules::ValueFault& fault :
            rule.find_faults(all.first(named.size()), all.subspan(named.size()))) {
-        const std::vector<std::size_t> slots = slots_of(fault, involved);
+        const std::vector<std::size_t> slots = slots_of(fault, listed, involved);
         if (reported.size() < max_reported && reported.insert({slots.front(), fault.what}).second) {
           tell(c, place_of_fault(c, slots, point), slots.front(), fault.what, fault.expected, rule.warn_only);
         }
@@ -163,41 +164,54 @@ void check_values(Checking& c) {
 }
 
 // Place in the manifest of the parameter's value: outside the sweep, or the first one in it.
-std::optional<yaml::Place> given_place(const Checking& c, std::size_t row) {
-  if (c.places.written[row]) return c.places.base[row];
+std::optional<yaml::Place> given_place(const Checking& c, std::size_t slot) {
+  if (c.places.written[slot]) return c.places.base[slot];
   for (std::size_t a = 0; a < c.plan().axes.size(); ++a) {
     const std::vector<study::Assignment>& assignments = c.plan().axes[a].assignments;
     const auto found =
         std::find_if(assignments.begin(), assignments.end(),
-                     [&](const study::Assignment& assignment) { return assignment.slot == row; });
+                     [&](const study::Assignment& assignment) { return assignment.slot == slot; });
     if (found != assignments.end())
       return c.places.axes[a][static_cast<std::size_t>(found - assignments.begin())];
   }
   return std::nullopt;
 }
 
-bool asks_for_nothing(const Checking& c, std::size_t row) {
-  const parameters::Parameter& parameter = parameters::parameter_table()[row];
-  const double nothing = parameter.none.value_or(0.0);
-  return !study::holds_somewhere(c.plan(), parameter.name, [nothing](const study::ValueLimits& limits) {
-    return limits.low != nothing || limits.high != nothing;
+bool asks_for_nothing(const Checking& c, std::size_t slot) {
+  const double nothing = c.plan().table.rows[slot].none.value_or(0.0);
+  const std::vector<const study::Value*> values = study::values_of(c.plan(), slot);
+  return std::all_of(values.begin(), values.end(), [&](const study::Value* value) {
+    const study::ValueLimits limits = study::limits_of(c.plan(), *value);
+    return limits.low == nothing && limits.high == nothing;
   });
 }
 
+// The row that stands for the slot in reports: the values of a list are reported once.
+std::size_t reported_row(const study::StudyTable& table, std::size_t slot) {
+  for (const study::RowGroup& group : table.groups) {
+    const bool within = slot >= group.first && slot < group.first + group.count;
+    if (within && parameters::is_list(table.rows[group.row])) return group.row;
+  }
+  return slot;
+}
+
 void check_effects(Checking& c) {
-  const auto table = parameters::parameter_table();
+  const study::StudyTable& table = c.plan().table;
   std::set<std::size_t> reported_rows;
   for (const rules::EffectRule& rule : rules::effect_rules(c.plan())) {
     std::optional<bool> has_effect;
-    for (std::size_t row = 0; row < table.size(); ++row) {
-      const bool covered = std::any_of(rule.keys.begin(), rule.keys.end(),
-                                       [&](std::string_view key) { return is_within(table[row].name, key); });
-      const auto place = covered ? given_place(c, row) : std::nullopt;
-      if (!place || reported_rows.count(row) > 0 || (rule.off_at_zero && asks_for_nothing(c, row))) continue;
+    for (std::size_t slot = 0; slot < table.rows.size(); ++slot) {
+      const bool covered = std::any_of(rule.keys.begin(), rule.keys.end(), [&](std::string_view key) {
+        return is_within(table.rows[slot].name, key);
+      });
+      const auto place = covered ? given_place(c, slot) : std::nullopt;
+      if (!place || reported_rows.count(reported_row(table, slot)) > 0 ||
+          (rule.off_at_zero && asks_for_nothing(c, slot)))
+        continue;
       if (!has_effect) has_effect = rules::can_have_effect(c.plan(), rule);
       if (*has_effect) continue;
-      reported_rows.insert(row);
-      tell(c, *place, row, parameters::text_on(c.plan().units.axis, rule.what), rule.expected,
+      reported_rows.insert(reported_row(table, slot));
+      tell(c, *place, slot, parameters::text_on(c.plan().units.axis, rule.what), rule.expected,
            rule.warn_only);
     }
   }

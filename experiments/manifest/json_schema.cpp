@@ -11,6 +11,7 @@
 #include "experiments/manifest/manifest.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/manifest/sweep.hpp"
+#include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/sequence.hpp"
 
@@ -119,6 +120,16 @@ Json value_schema(const parameters::Parameter& parameter) {
   return {{"anyOf", std::move(forms)}};
 }
 
+// The name of a plugin's parameter.
+constexpr std::string_view plugin_name = "[a-z][a-z0-9_]*";
+
+// The schema does not know a plugin's parameters: each may be any number.
+parameters::Parameter plugin_value() {
+  parameters::Parameter parameter;
+  parameter.range = numerics::all_numbers();
+  return parameter;
+}
+
 // Meaning and unit on a rotary axis, and the unit on a linear axis if it differs.
 std::string description_of(const parameters::Parameter& parameter) {
   std::string description(parameter.meaning);
@@ -131,8 +142,11 @@ std::string description_of(const parameters::Parameter& parameter) {
 }
 
 Json key_schema(const parameters::Parameter& parameter) {
-  Json schema = parameter.listed ? list_of(value_schema(parameter), 1) : value_schema(parameter);
-  if (parameter.listed) schema["maxItems"] = parameters::max_listed_values;
+  Json schema = value_schema(parameter);
+  if (parameter.list) {
+    schema = list_of(std::move(schema), parameter.list->min_values);
+    schema["maxItems"] = parameter.list->max_values;
+  }
   schema["description"] = description_of(parameter);
   if (parameter.kind == parameters::ParameterKind::truth) {
     schema["default"] = parameters::default_value(parameter) != 0.0;
@@ -145,6 +159,22 @@ Json key_schema(const parameters::Parameter& parameter) {
   return schema;
 }
 
+// A list of maps, each of one form.
+Json elements_schema(const parameters::ElementList& list) {
+  Json forms = Json::array();
+  for (const parameters::ElementForm& form : list.forms) {
+    Json properties = Json::object();
+    for (const std::string_view key : form.keys) {
+      const auto row = parameters::find_parameter(fmt::format("{}.#.{}", list.path, key));
+      properties[std::string(key)] = key_schema(parameters::parameter_table()[row.value()]);
+    }
+    const std::string name(form.name);
+    forms.push_back(object_of({{name, object_of(std::move(properties), Json(form.keys))}}, {name}));
+    forms.back()["description"] = form.meaning;
+  }
+  return {{"type", "array"}, {"items", {{"oneOf", std::move(forms)}}}, {"maxItems", list.max_elements}};
+}
+
 Json spacing_schema() {
   const Json count{{"type", "integer"}, {"minimum", 2}, {"maximum", max_points}};
   const auto spacing = [&](const Json& end) {
@@ -155,11 +185,13 @@ Json spacing_schema() {
             object_of({{"logspace", spacing(number_in(numerics::above(0)))}}, {"logspace"})}}};
 }
 
-// A dotted path as a regular expression; that of a list's element ends in an index.
-std::string pattern_of(std::string_view name, bool element) {
+// A dotted path as a regular expression, with indices for #; that of a list's value ends in an index.
+std::string pattern_of(std::string_view name, bool value) {
+  constexpr std::string_view index = "(0|[1-9][0-9]*)";
   std::string pattern = "^";
-  for (const char c : name) pattern += c == '.' ? std::string("\\.") : std::string(1, c);
-  return pattern + (element ? "\\.(0|[1-9][0-9]*)$" : "$");
+  for (const char c : name)
+    pattern += c == '.' ? std::string("\\.") : c == '#' ? std::string(index) : std::string(1, c);
+  return pattern + (value ? fmt::format("\\.{}$", index) : "$");
 }
 
 Json sweep_schema() {
@@ -169,17 +201,21 @@ Json sweep_schema() {
     const Json value = value_schema(parameter);
     const Json spaced = {{"anyOf", {list_of(value, 1), spacing_schema()}}};
     const bool numeric = !parameters::has_labels(parameter);
-    const Json whole_value = parameter.listed ? list_of(value, 1) : value;
+    const Json whole_value = parameters::is_list(parameter) ? list_of(value, 1) : value;
     for (const std::string_view name : {parameter.name, parameter.short_name}) {
       if (name.empty()) continue;
       assignments[pattern_of(name, false)] = whole_value;
-      grid[pattern_of(name, false)] = numeric && !parameter.listed ? spaced : list_of(whole_value, 1);
+      grid[pattern_of(name, false)] =
+          numeric && !parameters::is_list(parameter) ? spaced : list_of(whole_value, 1);
     }
-    if (parameter.listed) {
+    if (parameters::is_list(parameter)) {
       assignments[pattern_of(parameter.name, true)] = value;
       grid[pattern_of(parameter.name, true)] = spaced;
     }
   }
+  const std::string of_plugin = fmt::format("^controller\\.parameters\\.{}$", plugin_name);
+  assignments[of_plugin] = value_schema(plugin_value());
+  grid[of_plugin] = {{"anyOf", {list_of(value_schema(plugin_value()), 1), spacing_schema()}}};
   const auto by_pattern = [](Json patterns) {
     return Json{
         {"type", "object"}, {"patternProperties", std::move(patterns)}, {"additionalProperties", false}};
@@ -221,6 +257,14 @@ Json general_schemas() {
       {"travel", number_in(numerics::above(0))},
       {"controller.units",
        {{"enum", parameters::gain_unit_labels}, {"default", parameters::gain_unit_labels.front()}}},
+      {"controller.plugin", {{"type", "string"}, {"minLength", 1}}},
+      {"controller.parameters",
+       {{"type", "object"},
+        {"patternProperties", {{fmt::format("^{}$", plugin_name), value_schema(plugin_value())}}},
+        {"additionalProperties", false}}},
+      {"controller.filters", elements_schema(*parameters::find_element_list("controller.filters"))},
+      {"controller.coarse.filters",
+       elements_schema(*parameters::find_element_list("controller.coarse.filters"))},
       {"command.sequence.cycles",
        {{"type", "integer"},
         {"minimum", 1},

@@ -22,12 +22,14 @@ namespace {
 }
 
 // Text and overrides as one text; neither can contain the separator.
-std::string joined(const std::string& text, const std::vector<std::string>& overrides) {
+std::string joined(const std::string& text, const std::vector<std::string>& overrides,
+                   const plugin::ControllerPlugin* plugin) {
   std::string all = text;
   for (const std::string& override_text : overrides) {
     all += '\0';
     all += override_text;
   }
+  if (plugin != nullptr) all += '\0' + plugin->description.sha256;
   return all;
 }
 
@@ -43,25 +45,26 @@ void require_effect(const study::Study& study, std::string_view source) {
 
 }  // namespace
 
-study::Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides) {
+study::Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides,
+                        const PluginLoader& load) {
   const std::string source = yaml::name_of_text(manifest);
   std::string text = yaml::read_text(manifest, yaml::max_manifest_size, "a manifest");
   if (text.starts_with("\x89HDF")) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: a file in the HDF5 format, such as results; expected a manifest", source));
   }
-  study::Study study = parse_study(std::move(text), source, overrides);
+  study::Study study = parse_study(std::move(text), source, overrides, load);
   require_effect(study, source);
   return study;
 }
 
-study::Study parse_study(std::string text, std::string_view source,
-                         const std::vector<std::string>& overrides) {
-  return parse_study(std::move(text), source, overrides, parameters::newest_version);
+study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
+                         const PluginLoader& load) {
+  return parse_study(std::move(text), source, overrides, parameters::newest_version, load);
 }
 
 study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                         std::int64_t version) {
+                         std::int64_t version, const PluginLoader& load) {
   if (text.size() > yaml::max_manifest_size) refuse_size(source);
   yaml::Problems problems;
   yaml::YamlPointer root = yaml::parse_yaml(text, source, false, problems);
@@ -73,11 +76,11 @@ study::Study parse_study(std::string text, std::string_view source, const std::v
 
   std::deque<std::string> override_sources;
   root = apply_overrides(root, overrides, override_sources, problems);
-  study::Study study = read_manifest(*root, version, problems);
+  study::Study study = read_manifest(*root, version, load, problems);
   problems.raise_if_any();
 
   study.manifest_sha256 = hash::sha256_hex(text);
-  study.study_sha256 = hash::sha256_hex(joined(text, overrides));
+  study.study_sha256 = hash::sha256_hex(joined(text, overrides, study.plugin.get()));
   study.manifest_text = std::move(text);
   study.overrides = overrides;
   return study;

@@ -252,7 +252,8 @@ void read_observed(Manifest& m) {
 
 }  // namespace
 
-study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, yaml::Problems& problems) {
+study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, const PluginLoader& load,
+                           yaml::Problems& problems) {
   auto plan = std::make_shared<study::StudyPlan>();
   Manifest m{.root = {&root, ""}, .reading = {problems, *plan, version}};
   if (root.kind != yaml::YamlNode::Kind::map) {
@@ -266,6 +267,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, yam
   read_numbers(m);
   read_design(m);
   read_study_units(m.root, m.reading);
+  read_plugin(m.root, load, m.reading);
   read_sections(m.root, m.reading, m.places);
   read_axes(m);
   read_retained(m);
@@ -281,6 +283,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, yam
   if (problems.empty()) check_rows(m);
   if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, m.study);
   m.study.warnings = std::move(m.reading.warnings);
+  m.study.plugin = plan->plugin;
   m.study.plan = std::move(plan);
   return std::move(m.study);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "experiments/manifest/plugin_loader.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 
@@ -16,6 +17,8 @@ constexpr std::int64_t max_rigs = std::int64_t{1} << 32;
 /// Converts the manifest `root` to a Study, without its text, overrides and hashes. Errors are added to
 /// `problems`; with errors the study must not be used.
 /// @param version of the results files whose defaults apply
-study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, yaml::Problems& problems);
+/// @param load finds the user's controller
+study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, const PluginLoader& load,
+                           yaml::Problems& problems);
 
 }  // namespace zerocount::manifest

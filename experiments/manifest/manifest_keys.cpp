@@ -34,7 +34,7 @@ std::vector<std::string_view> value_paths() {
 }  // namespace
 
 std::span<const GeneralKey> general_keys() {
-  static constexpr std::array<GeneralKey, 17> keys{{
+  static constexpr std::array<GeneralKey, 21> keys{{
       {"zerocount", "version of the manifest's format: 1", true},
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
@@ -67,6 +67,19 @@ std::span<const GeneralKey> general_keys() {
        "m/rad, "
        "N m/(rad s) and N m s/rad, the same control at any sample rate",
        false},
+      {"controller.plugin",
+       "shared library with a controller of your own (docs/your-own-controller.md); its path from the folder "
+       "of the "
+       "manifest",
+       false},
+      {"controller.parameters", "the parameters of that controller, by the names that it gives them", false},
+      {"controller.filters",
+       "list of filters on the controller's torque, in the order in which they act: {lowpass: {frequency, "
+       "damping}}, {notch: {frequency, damping, depth}}, {lead: {frequency, ratio}}, {biquad: {b: [b0, b1, "
+       "b2], "
+       "a: [a1, a2]}}; their values are the parameters controller.filters.0.frequency ...",
+       false},
+      {"controller.coarse.filters", "the same of the coarse phase", false},
       {"command.sequence.cycles", "how often a sequence goes to its targets (default 5)", false},
       {"command.sequence.approach",
        "from where a sequence goes to its targets: bidirectional (default: from both sides), positive (from "

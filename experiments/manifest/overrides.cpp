@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "experiments/parameters/element_lists.hpp"
+
 namespace zerocount::manifest {
 namespace {
 
@@ -38,6 +40,15 @@ std::optional<std::size_t> list_index(std::string_view text, std::size_t size) {
   return index;
 }
 
+// The map of an element's keys, which its name leaves out: {notch: {frequency: 120}} has the value
+// controller.filters.0.frequency. Null if `map`, at the path `walked`, is no element, or `key` is its form.
+yaml::YamlPointer* keys_of_element(yaml::YamlNode& map, std::string_view walked, std::string_view key) {
+  const std::string pattern = parameters::without_indices(walked);
+  if (!pattern.ends_with(".#") || !parameters::find_element_list(pattern.substr(0, pattern.size() - 2)))
+    return nullptr;
+  return map.entries.size() == 1 && map.entries[0].key != key ? &map.entries[0].value : nullptr;
+}
+
 // A copy of `node` in which the value at the path `rest` is replaced by the override's. Null, after a report,
 // if there is no such path.
 yaml::YamlPointer replaced(const yaml::YamlPointer& node, const Override& change, std::string_view rest,
@@ -61,6 +72,18 @@ yaml::YamlPointer replaced(const yaml::YamlPointer& node, const Override& change
       return nullptr;
     }
     child = &copy->items[*index];
+  } else if (yaml::YamlPointer* const keys = copy->kind == yaml::YamlNode::Kind::map
+                                                 ? keys_of_element(*copy, walked, rest.substr(0, length))
+                                                 : nullptr) {
+    if (!*keys || (*keys)->kind != yaml::YamlNode::Kind::map) return copy;  // reported when it is read
+    const std::string_view key = rest.substr(0, length);
+    if (!yaml::find_entry(**keys, key)) {
+      problems.add(change.place, change.path, fmt::format("{} has no {}", walked, yaml::in_quotes(key)),
+                   "a key that stands in the manifest");
+      return nullptr;
+    }
+    *keys = replaced(*keys, change, rest, problems);
+    return *keys ? copy : nullptr;
   } else if (copy->kind == yaml::YamlNode::Kind::map) {
     length = next_key_length(*copy, walked, rest);
     const std::string_view key = rest.substr(0, length);

@@ -11,6 +11,7 @@
 #include "experiments/manifest/drawn_per.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/study/plan.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -29,17 +30,35 @@ std::string allowed(const parameters::Parameter& parameter, const parameters::St
          numerics::notation(parameters::range_of(parameter, units)) + (parameter.none ? " | none" : "");
 }
 
+Row parameter_row(const parameters::Parameter& p, const parameters::StudyUnits& units) {
+  const std::string meaning =
+      parameters::meaning_of(p, units) + (p.profiled != nullptr ? " [profile allowed]" : "");
+  return {std::string(p.name),
+          parameters::unit_of(p, units),
+          parameters::default_text(p, units),
+          allowed(p, units),
+          parameters::default_holds(p, units) ? std::string(p.source) : "-",
+          meaning};
+}
+
+Listing parameter_listing(std::string title) {
+  return {std::move(title), {"name", "unit", "default", "allowed", "source of the default", "meaning"}, {}};
+}
+
 Listing parameter_listing(const parameters::StudyUnits& units) {
-  Listing listing{"Parameters (left out of a manifest, they take their defaults)",
-                  {"name", "unit", "default", "allowed", "source of the default", "meaning"},
-                  {}};
-  for (const parameters::Parameter& p : parameters::parameter_table()) {
-    if (!parameters::exists_on(p, units.axis)) continue;
-    const std::string meaning =
-        parameters::meaning_of(p, units) + (p.profiled != nullptr ? " [profile allowed]" : "");
-    listing.rows.push_back({std::string(p.name), parameters::unit_of(p, units),
-                            parameters::default_text(p, units), allowed(p, units),
-                            parameters::default_holds(p, units) ? std::string(p.source) : "-", meaning});
+  Listing listing = parameter_listing("Parameters (left out of a manifest, they take their defaults)");
+  for (const parameters::Parameter& parameter : parameters::parameter_table()) {
+    if (parameters::exists_on(parameter, units.axis)) listing.rows.push_back(parameter_row(parameter, units));
+  }
+  return listing;
+}
+
+Listing parameter_listing(const study::Study& study) {
+  Listing listing = parameter_listing(fmt::format("Parameters of the study {}", study.name));
+  const study::StudyTable& table = study.plan->table;
+  for (const std::size_t slot : study::slots_in_table_order(table)) {
+    if (parameters::exists_on(table.rows[slot], study.units.axis))
+      listing.rows.push_back(parameter_row(table.rows[slot], study.units));
   }
   return listing;
 }
@@ -115,6 +134,14 @@ std::string parameters_as_text(const parameters::StudyUnits& units) {
 
 std::string parameters_as_markdown(const parameters::StudyUnits& units) {
   return in_form(as_markdown, units);
+}
+
+std::string parameters_as_text(const study::Study& study) {
+  return as_text(parameter_listing(study));
+}
+
+std::string parameters_as_markdown(const study::Study& study) {
+  return as_markdown(parameter_listing(study));
 }
 
 }  // namespace zerocount::manifest

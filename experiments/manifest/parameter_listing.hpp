@@ -3,6 +3,7 @@
 #include <string>
 
 #include "experiments/parameters/study_units.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::manifest {
 
@@ -12,5 +13,9 @@ std::string parameters_as_text(const parameters::StudyUnits& units = {});
 
 /// The same as Markdown tables.
 std::string parameters_as_markdown(const parameters::StudyUnits& units = {});
+
+/// The parameters of one study: those of the table, and one for each value of the lists in its manifest.
+std::string parameters_as_text(const study::Study& study);
+std::string parameters_as_markdown(const study::Study& study);
 
 }  // namespace zerocount::manifest

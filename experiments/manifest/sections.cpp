@@ -9,7 +9,7 @@
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/parameters/unknown_key.hpp"
-#include "experiments/study/slots.hpp"
+#include "experiments/study/study_table.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -23,33 +23,139 @@ struct SectionReading {
   study::StudyPlan& plan() { return reading.plan; }
 };
 
-void read_list(SectionReading& s, const yaml::Field& field) {
-  study::ListedValues& list = s.plan().list;
-  const std::string expected =
-      fmt::format("a list of 1 to {} {}", parameters::max_listed_values, study::listed_noun(list));
+// Gives every row of the study's table a slot.
+void add_slots(SectionReading& s) {
+  const std::size_t slots = s.plan().table.rows.size();
+  s.plan().base.resize(slots, unreadable_value());
+  s.places.base.resize(slots, s.root.node->place);
+  s.places.written.resize(slots, false);
+}
+
+void read_slot(SectionReading& s, const yaml::Field& field, std::size_t slot) {
+  s.plan().base[slot] = read_value(field, slot, s.reading);
+  s.places.base[slot] = field.node->place;
+  s.places.written[slot] = true;
+}
+
+void read_list(SectionReading& s, const yaml::Field& field, std::size_t row) {
+  const parameters::ListOfValues list = s.plan().table.rows[row].list.value();
+  const std::string expected = fmt::format("a list of {}", parameters::length_text(list));
   if (!yaml::check_list(field, expected, s.problems())) return;
   const std::size_t count = field.node->items.size();
-  if (count < 1 || count > parameters::max_listed_values) {
+  if (count < list.min_values || count > list.max_values) {
     s.problems().add(field, fmt::format("a list of {} stands here", count), expected);
     return;
   }
-  list.count = count;
-  s.plan().base.resize(study::slot_count(list));
-  s.places.base.resize(study::slot_count(list));
-  s.places.written.resize(study::slot_count(list));
-  for (std::size_t i = 0; i < count; ++i) {
-    const yaml::Field item = yaml::item_of(field, i);
-    s.plan().base[study::listed_slot(i)] = read_value(item, list.row, s.reading);
-    s.places.base[study::listed_slot(i)] = item.node->place;
-    s.places.written[study::listed_slot(i)] = true;
-  }
+  const study::RowGroup values = study::add_list(s.plan().table, row, count);
+  if (row == s.plan().list.row) s.plan().list = values;
+  add_slots(s);
+  for (std::size_t i = 0; i < count; ++i) read_slot(s, yaml::item_of(field, i), values.first + i);
+}
+
+// A study has a list of moves, of one unreadable value if there is none in the manifest.
+void complete_moves(SectionReading& s) {
+  study::RowGroup& list = s.plan().list;
+  if (list.count > 0) return;
+  list = study::add_list(s.plan().table, list.row, 1);
+  add_slots(s);
 }
 
 void read_parameter(SectionReading& s, const yaml::Field& field, std::size_t row) {
-  if (parameters::parameter_table()[row].listed) return read_list(s, field);
-  s.plan().base[row] = read_value(field, row, s.reading);
-  s.places.base[row] = field.node->place;
-  s.places.written[row] = true;
+  if (parameters::is_list(s.plan().table.rows[row])) return read_list(s, field, row);
+  read_slot(s, field, row);
+}
+
+std::string names_of(std::span<const parameters::ElementForm> forms) {
+  std::vector<std::string_view> names;
+  for (const parameters::ElementForm& form : forms) names.push_back(form.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// The form that an element has. Reports anything else, and returns null.
+const parameters::ElementForm* find_form(SectionReading& s, const yaml::Field& element,
+                                         const parameters::ElementList& list) {
+  const std::string expected = fmt::format("a map with one of {}", names_of(list.forms));
+  if (!yaml::check_map(element, expected, s.problems())) return nullptr;
+  const auto& entries = element.node->entries;
+  if (entries.size() != 1) {
+    s.problems().add(element, fmt::format("a map with {} keys stands here", entries.size()), expected);
+    return nullptr;
+  }
+  const auto form = std::find_if(list.forms.begin(), list.forms.end(),
+                                 [&](const auto& known) { return known.name == entries[0].key; });
+  if (form != list.forms.end()) return &*form;
+  s.problems().add(entries[0].place, yaml::entry_of(element, entries[0]).path,
+                   fmt::format("unknown {}", list.element), expected);
+  return nullptr;
+}
+
+void read_element(SectionReading& s, const yaml::Field& element, std::size_t index,
+                  const parameters::ElementList& list) {
+  const parameters::ElementForm* const form = find_form(s, element, list);
+  if (form == nullptr) return;
+  const yaml::Field map = yaml::entry_of(element, element.node->entries[0]);
+  const std::vector<std::string> keys(form->keys.begin(), form->keys.end());
+  if (!yaml::check_map(map, fmt::format("a map with the keys {}", fmt::join(keys, ", ")), s.problems()))
+    return;
+  parameters::check_keys(map, keys, s.problems());
+  const study::RowGroup rows = study::add_element(s.plan().table, list, index, *form);
+  list.add(s.plan().common, static_cast<std::size_t>(form - list.forms.data()));
+  add_slots(s);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (const auto value = yaml::find_field(map, keys[i])) {
+      read_parameter(s, *value, rows.first + i);
+    } else {
+      s.problems().add(map.node->place, fmt::format("{}.{}", map.path, keys[i]), "the key is missing",
+                       fmt::format("its value: {}", s.plan().table.rows[rows.first + i].meaning));
+    }
+  }
+}
+
+void read_elements(SectionReading& s, const yaml::Field& field, const parameters::ElementList& list) {
+  const std::string expected = fmt::format("a list of at most {} {}s", list.max_elements, list.element);
+  if (!yaml::check_list(field, expected, s.problems())) return;
+  const std::size_t count = field.node->items.size();
+  if (count > list.max_elements) {
+    s.problems().add(field, fmt::format("a list of {} stands here", count), expected);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) read_element(s, yaml::item_of(field, i), i, list);
+}
+
+void add_plugin_parameters(SectionReading& s) {
+  if (!s.plan().plugin) return;
+  const plugin::PluginDescription& plugin = s.plan().plugin->description;
+  const study::RowGroup rows = study::add_plugin(s.plan().table, plugin);
+  add_slots(s);
+  loop::UserControl& user = s.plan().common.controller.user;
+  user.plugin = s.plan().plugin;
+  for (const plugin::PluginParameter& parameter : plugin.parameters) {
+    s.plan().base[rows.first + user.parameters.size()].number = parameter.default_value;
+    user.parameters.push_back(parameter.default_value);
+  }
+}
+
+void read_plugin_parameters(SectionReading& s, const yaml::Field& map) {
+  if (!s.plan().plugin) {
+    // With a plugin that cannot be used, which is reported, its parameters are not known.
+    const auto controller = yaml::find_field(s.root, "controller");
+    if (!yaml::find_field(*controller, "plugin"))
+      s.problems().add(map, "there is no plugin whose parameters these are",
+                       "controller.plugin, or the key left out");
+    return;
+  }
+  if (!yaml::check_map(map, "a map", s.problems())) return;
+  std::vector<std::string> names;
+  for (const plugin::PluginParameter& parameter : s.plan().plugin->description.parameters)
+    names.push_back(parameter.name);
+  for (const yaml::YamlEntry& entry : map.node->entries) {
+    const yaml::Field field = yaml::entry_of(map, entry);
+    if (std::find(names.begin(), names.end(), entry.key) == names.end()) {
+      parameters::add_unknown_key(map, entry, names, s.problems());
+    } else {
+      read_slot(s, field, study::find_slots(field.path, s.plan().table).value().first);
+    }
+  }
 }
 
 // Reads the keys of sections that are not parameters. controller.units is read earlier, before all values.
@@ -98,6 +204,10 @@ void read_section(SectionReading& s, const yaml::Field& section) {
     } else if (const auto row = parameters::find_parameter(field.path);
                row && (!is_section(field.path) || is_short_form(field))) {
       read_parameter(s, field, *row);
+    } else if (const parameters::ElementList* const list = parameters::find_element_list(field.path)) {
+      read_elements(s, field, *list);
+    } else if (field.path == "controller.parameters") {
+      read_plugin_parameters(s, field);
     } else if (find_general_key(field.path) != nullptr) {
       read_general_key(s, field);
     } else {
@@ -107,10 +217,7 @@ void read_section(SectionReading& s, const yaml::Field& section) {
 }
 
 void take_defaults(SectionReading& s) {
-  const std::size_t slots = study::slot_count(s.plan().list);
-  s.plan().base.resize(slots, unreadable_value());
-  s.places.base.resize(slots, s.root.node->place);
-  s.places.written.resize(slots, false);
+  add_slots(s);
   const auto table = parameters::parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
     const bool known =
@@ -148,6 +255,14 @@ void choose_form(SectionReading& s, const yaml::Field& command) {
   s.plan().list.row = parameters::find_parameter(list).value();
 }
 
+void check_plugin_closes_the_loop(SectionReading& s) {
+  if (!s.plan().open_loop || !s.plan().plugin) return;
+  const yaml::Field controller = yaml::find_field(s.root, "controller").value();
+  s.problems().add(yaml::find_field(controller, "plugin").value(),
+                   "it has no effect: the loop is open with command.torque",
+                   "command.targets or command.sequence, or the key left out");
+}
+
 // Reports the keys of the form chosen that are missing.
 void check_form_complete(SectionReading& s, const yaml::Field& command) {
   if (!s.plan().open_loop && !s.plan().sequence) return;
@@ -160,8 +275,8 @@ void check_form_complete(SectionReading& s, const yaml::Field& command) {
       continue;
     const parameters::Parameter& parameter = parameters::parameter_table()[*row];
     s.problems().add(form->node->place, name, "the key is missing",
-                     parameter.listed ? fmt::format("a list of {}", key)
-                                      : fmt::format("its value: {}", parameter.meaning));
+                     parameters::is_list(parameter) ? fmt::format("a list of {}", key)
+                                                    : fmt::format("its value: {}", parameter.meaning));
   }
 }
 
@@ -187,10 +302,13 @@ void read_sections(const yaml::Field& root, Reading& reading, PlanPlaces& places
                          "command: {targets: [..]}");
   }
   take_defaults(s);
+  add_plugin_parameters(s);
   for (const std::string& key : keys_below("")) {
     const auto section = is_section(key) ? yaml::find_field(root, key) : std::nullopt;
     if (section) read_section(s, *section);
   }
+  complete_moves(s);
+  check_plugin_closes_the_loop(s);
   if (!command) return;
   check_form_complete(s, *command);
   check_sequence_length(s, *command);

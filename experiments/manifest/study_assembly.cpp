@@ -11,7 +11,7 @@
 #include "experiments/designs/random_key.hpp"
 #include "experiments/study/factors.hpp"
 #include "experiments/study/point_limits.hpp"
-#include "experiments/study/slots.hpp"
+#include "experiments/study/study_table.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -41,14 +41,15 @@ bool differs_between_contacts(const study::StudyPlan& plan, std::size_t slot) {
 // Only input slots are drawn.
 void derive_randomness(const study::Study& study, study::StudyPlan& plan) {
   std::vector<std::size_t> dimensions;
-  for (const std::uint32_t slot : plan.input_slots) dimensions.push_back(study::slot_sobol_dimension(slot));
+  for (const std::uint32_t slot : plan.input_slots)
+    dimensions.push_back(plan.table.rows[slot].sobol_dimension);
   const auto directions = study.design == study::Design::sobol
                               ? designs::sobol_directions(dimensions)
                               : std::vector<designs::SobolDirections>(dimensions.size());
   plan.randomness.resize(plan.base.size());
   for (std::size_t i = 0; i < plan.input_slots.size(); ++i) {
     const std::uint32_t slot = plan.input_slots[i];
-    const std::string name = study::slot_name(slot, plan.list);
+    const std::string name(plan.table.rows[slot].name);
     study::SlotRandomness& randomness = plan.randomness[slot];
     randomness = {designs::random_key(study.seed, name), directions[i]};
     if (differs_between_contacts(plan, slot)) {
@@ -78,18 +79,24 @@ random::TrialRandomness trial_randomness(std::uint64_t seed) {
           .dac_noise = designs::random_key(seed, "dac.noise/samples")};
 }
 
+std::size_t gms_element_count(const study::StudyTable& table) {
+  const auto stiffness =
+      study::find_list(table, parameters::find_parameter("friction.gms.stiffness").value());
+  return stiffness ? stiffness->count : 0;
+}
+
 // Sets the parameters that are the same in all trials.
 void set_common_parameters(const study::Study& study, study::StudyPlan& plan) {
   plan.common.randomness = trial_randomness(study.seed);
   plan.common.command.targets.resize(plan.open_loop ? 0 : static_cast<std::size_t>(study.moves));
   plan.common.command.torque.levels.resize(plan.open_loop ? plan.list.count : 0);
+  plan.common.friction.gms_elements.resize(gms_element_count(plan.table));
   for (const study::Value& value : plan.base) plan.numbers.push_back(value.number);
   const std::set<std::size_t> inputs(plan.input_slots.begin(), plan.input_slots.end());
-  for (const std::size_t slot : study::slots_in_table_order(plan.list)) {
-    if (!parameters::exists_on(parameters::parameter_table()[study::row_of_slot(slot, plan.list)],
-                               plan.units.axis))
-      continue;
-    if (inputs.count(slot) == 0) study::set_number(plan, slot, plan.numbers[slot], plan.common);
+  for (const std::size_t slot : study::slots_in_table_order(plan.table)) {
+    const parameters::Parameter& parameter = plan.table.rows[slot];
+    if (!parameters::exists_on(parameter, plan.units.axis) || !parameter.set) continue;
+    if (inputs.count(slot) == 0) parameter.set(plan.common, plan.numbers[slot]);
   }
 }
 
@@ -139,12 +146,11 @@ void add_column(const study::InputColumn& column, const study::InputSource& sour
 }
 
 void list_input_columns(const std::vector<bool>& swept, study::StudyPlan& plan, study::Study& study) {
-  for (const std::size_t slot : study::slots_in_table_order(plan.list)) {
+  for (const std::size_t slot : study::slots_in_table_order(plan.table)) {
     if (plan.base[slot].kind == study::Value::Kind::number && !swept[slot]) continue;
     const auto number = static_cast<std::uint32_t>(slot);
-    const parameters::Parameter& parameter =
-        parameters::parameter_table()[study::row_of_slot(slot, plan.list)];
-    const std::string name = study::slot_name(slot, plan.list);
+    const parameters::Parameter& parameter = plan.table.rows[slot];
+    const std::string name(parameter.name);
     const std::string unit = parameters::unit_of(parameter, plan.units);
     plan.input_slots.push_back(number);
     add_column({name, unit, column_meaning(parameter, plan.units), most_frequent_per(plan, slot)},
@@ -156,12 +162,12 @@ void list_input_columns(const std::vector<bool>& swept, study::StudyPlan& plan, 
   }
 }
 
-// The used profiles of one row, each with the first point that uses it.
-std::map<std::uint32_t, std::size_t> profiles_in_use(const study::StudyPlan& plan, std::size_t row,
+// The used profiles of one slot, each with the first point that uses it.
+std::map<std::uint32_t, std::size_t> profiles_in_use(const study::StudyPlan& plan, std::size_t slot,
                                                      std::size_t points) {
   std::map<std::uint32_t, std::size_t> first_point;
   for (std::size_t point = 0; point < points; ++point) {
-    const study::Value& value = *study::value_at_point(plan, row, point);
+    const study::Value& value = *study::value_at_point(plan, slot, point);
     if (value.kind == study::Value::Kind::profile) first_point.emplace(value.index, point);
   }
   return first_point;
@@ -169,17 +175,17 @@ std::map<std::uint32_t, std::size_t> profiles_in_use(const study::StudyPlan& pla
 
 void list_profiles(const std::vector<ProfileRequest>& requests, const std::vector<bool>& swept,
                    const study::StudyPlan& plan, study::Study& study) {
-  const auto table = parameters::parameter_table();
-  for (std::size_t row = 0; row < table.size(); ++row) {
+  for (const std::size_t slot : study::slots_in_table_order(plan.table)) {
+    const parameters::Parameter& parameter = plan.table.rows[slot];
     const bool asked =
-        std::any_of(requests.begin(), requests.end(), [&](const auto& r) { return r.row == row; });
+        std::any_of(requests.begin(), requests.end(), [&](const auto& r) { return r.slot == slot; });
     if (!asked) continue;
-    const auto used = profiles_in_use(plan, row, swept[row] ? study.point_labels.size() : 1);
+    const auto used = profiles_in_use(plan, slot, swept[slot] ? study.point_labels.size() : 1);
     for (const auto& [index, point] : used) {
       const std::string suffix = used.size() > 1 ? fmt::format("@{}", point) : "";
       const std::shared_ptr<const study::Rotors> rotors = plan.profiles[index];
-      study::RealisedProfile profile{std::string(table[row].name) + suffix,
-                                     parameters::unit_of(table[row], plan.units), rotors->rotor(0)};
+      study::RealisedProfile profile{std::string(parameter.name) + suffix,
+                                     parameters::unit_of(parameter, plan.units), rotors->rotor(0)};
       if (requests[index].per == study::Per::rig) {
         profile.of_rig = [rotors](std::int64_t rig) { return rotors->rotor(rig); };
       }
@@ -188,8 +194,8 @@ void list_profiles(const std::vector<ProfileRequest>& requests, const std::vecto
   }
 }
 
-study::DrawnMean mean_of(const ProfileRequest& request, const study::Study& study) {
-  const parameters::Parameter& parameter = parameters::parameter_table()[request.row];
+study::DrawnMean mean_of(const ProfileRequest& request, const parameters::Parameter& parameter,
+                         const study::Study& study) {
   study::DrawnMean mean{*request.form.mean, study.design, {}};
   mean.randomness.key = designs::random_key(study.seed, profile_mean_name(parameter.name));
   if (study.design == study::Design::sobol) {
@@ -204,12 +210,12 @@ study::DrawnMean mean_of(const ProfileRequest& request, const study::Study& stud
 void realise_profiles(const std::vector<ProfileRequest>& requests, const study::Study& study,
                       study::StudyPlan& plan) {
   for (const ProfileRequest& request : requests) {
-    const std::string_view name = parameters::parameter_table()[request.row].name;
+    const parameters::Parameter& parameter = plan.table.rows[request.slot];
     std::optional<study::DrawnMean> mean;
-    if (request.form.mean) mean = mean_of(request, study);
+    if (request.form.mean) mean = mean_of(request, parameter, study);
     const std::int64_t count = request.per == study::Per::rig ? std::max<std::int64_t>(study.rigs, 1) : 1;
     plan.profiles.push_back(std::make_shared<const study::Rotors>(request.form.description, std::move(mean),
-                                                                  study.seed, name, count));
+                                                                  study.seed, parameter.name, count));
   }
 }
 

@@ -5,11 +5,12 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/manifest/spacing.hpp"
 #include "experiments/parameters/unknown_key.hpp"
-#include "experiments/study/slots.hpp"
+#include "experiments/study/study_table.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -22,15 +23,16 @@ struct SweepReading {
   std::set<std::size_t> in_grid{};   // slots of the grid's axes so far
   std::set<std::size_t> in_cases{};  // slots of the cases
 
-  const study::ListedValues& list() const { return reading.plan.list; }
+  const study::StudyTable& table() const { return reading.plan.table; }
 };
 
-std::vector<std::string> swept_names(const study::ListedValues& list) {
+// The names of the rows, of long lists only the first ones.
+std::vector<std::string> swept_names(const study::StudyTable& table) {
+  constexpr std::size_t max_of_studies = 100;
+  const std::size_t count =
+      std::min(table.rows.size(), parameters::parameter_table().size() + max_of_studies);
   std::vector<std::string> names;
-  for (const parameters::Parameter& parameter : parameters::parameter_table())
-    names.emplace_back(parameter.name);
-  for (std::size_t i = 0; i < std::min<std::size_t>(list.count, 100); ++i)
-    names.push_back(study::slot_name(study::listed_slot(i), list));
+  for (std::size_t row = 0; row < count; ++row) names.emplace_back(table.rows[row].name);
   return names;
 }
 
@@ -47,29 +49,46 @@ bool check_point_count(const yaml::Field& sweep, std::size_t options, SweepReadi
   return fits;
 }
 
-std::string_view singular(std::string_view noun) {
-  return noun.substr(0, noun.size() - 1);
+// The names of the values that a list of elements or coefficients has, for a path that is none of them.
+std::string names_like(const study::StudyTable& table, std::string_view pattern) {
+  std::vector<std::string_view> names;
+  for (const parameters::Parameter& row : table.rows) {
+    const std::string known = parameters::without_indices(row.name);
+    if (parameters::has_value(row) && known != row.name &&
+        is_within(pattern, known.substr(0, known.find(".#"))))
+      names.push_back(row.name);
+  }
+  return names.empty() ? "" : fmt::format("one of {}", fmt::join(names, ", "));
 }
 
 std::optional<study::SlotRange> find_swept(const yaml::Field& map, const yaml::YamlEntry& entry,
                                            SweepReading& state) {
-  const study::ListedValues& list = state.list();
-  if (auto slots = study::find_slots(entry.key, list)) return slots;
+  const study::StudyTable& table = state.table();
+  if (auto slots = study::find_slots(entry.key, table)) return slots;
   yaml::Problems& problems = state.reading.problems;
   const std::string path = yaml::entry_of(map, entry).path;
-  const std::string_view used = parameters::parameter_table()[list.row].name;
-  if (const auto row = study::find_listed_row(entry.key); row && *row != list.row) {
-    problems.add(entry.place, path,
-                 fmt::format("the study has no {}", parameters::parameter_table()[*row].name),
-                 fmt::format("{}, which it has", used));
-  } else if (row) {
-    problems.add(entry.place, path, fmt::format("there is no such {}", singular(study::listed_noun(list))),
-                 fmt::format("an index from 0 to {}", list.count - 1));
+  const std::string pattern = parameters::without_indices(entry.key);
+  const bool of_element = parameters::find_element_list(pattern.substr(0, pattern.find(".#"))) != nullptr;
+  if (of_element && pattern != entry.key) {
+    const std::string known = names_like(table, pattern);
+    problems.add(entry.place, path, fmt::format("the study has no {}", entry.key),
+                 known.empty() ? "the list in its section of the manifest" : known);
+  } else if (const auto row = study::find_list_row(entry.key)) {
+    const parameters::Parameter& list = table.rows[*row];
+    if (const auto values = study::find_list(table, *row)) {
+      problems.add(entry.place, path, fmt::format("there is no such {}", list.list->singular),
+                   fmt::format("an index from 0 to {}", values->count - 1));
+    } else {
+      problems.add(entry.place, path, fmt::format("the study has no {}", list.name),
+                   is_within(list.name, required_section)
+                       ? fmt::format("{}, which it has", table.rows[state.reading.plan.list.row].name)
+                       : "the list in its section of the manifest");
+    }
   } else if (find_general_key(entry.key) != nullptr) {
     problems.add(entry.place, path, "this key is the same at all points",
                  "a dotted path of the table of parameters, such as controller.ki");
   } else {
-    parameters::add_unknown_key(map, entry, swept_names(list), problems);
+    parameters::add_unknown_key(map, entry, swept_names(table), problems);
   }
   return std::nullopt;
 }
@@ -84,15 +103,23 @@ void finish_option(SweptAxis& axis, std::string label) {
   axis.labels.push_back(std::move(label));
 }
 
+// Noun for the values of a list.
+std::string_view noun_of(const study::SlotRange& list, const SweepReading& state) {
+  for (const study::RowGroup& group : state.table().groups) {
+    const parameters::Parameter& row = state.table().rows[group.row];
+    if (group.first == list.first && parameters::is_list(row)) return row.list->plural;
+  }
+  return "values";
+}
+
 // Adds the assignments of `field` to `slots` to the current option.
 void read_assignments(const yaml::Field& field, const study::SlotRange& slots, SweptAxis& axis,
                       SweepReading& state) {
   if (!slots.list) {
-    assign(axis, slots.first, read_value(field, study::row_of_slot(slots.first, state.list()), state.reading),
-           field.node->place);
+    assign(axis, slots.first, read_value(field, slots.first, state.reading), field.node->place);
     return;
   }
-  const std::string_view noun = study::listed_noun(state.list());
+  const std::string_view noun = noun_of(slots, state);
   const std::string expected = fmt::format("a list of {} {}, as at every point", slots.count, noun);
   if (!yaml::check_list(field, expected, state.reading.problems)) return;
   const std::size_t count = field.node->items.size();
@@ -102,8 +129,7 @@ void read_assignments(const yaml::Field& field, const study::SlotRange& slots, S
   }
   for (std::size_t i = 0; i < count; ++i) {
     const yaml::Field item = yaml::item_of(field, i);
-    assign(axis, slots.first + i,
-           read_value(item, study::row_of_slot(slots.first, state.list()), state.reading), item.node->place);
+    assign(axis, slots.first + i, read_value(item, slots.first + i, state.reading), item.node->place);
   }
 }
 
@@ -115,15 +141,12 @@ void note_slots(SweptAxis& axis, const study::SlotRange& slots) {
 
 // The value in an option's label: a number in its shortest form, anything else as in the manifest.
 std::string value_label(const SweptAxis& axis, const study::SlotRange& slots, const yaml::YamlNode& node,
-                        const study::ListedValues& list) {
-  const std::size_t row = study::row_of_slot(slots.first, list);
-  if (slots.list || parameters::has_labels(parameters::parameter_table()[row]) ||
-      axis.axis.assignments.empty() ||
+                        const study::StudyTable& table) {
+  if (slots.list || parameters::has_labels(table.rows[slots.first]) || axis.axis.assignments.empty() ||
       axis.axis.assignments.back().value.kind != study::Value::Kind::number) {
     return yaml::flow_text(node);
   }
-  return parameters::number_text(parameters::parameter_table()[row],
-                                 axis.axis.assignments.back().value.number);
+  return parameters::number_text(table.rows[slots.first], axis.axis.assignments.back().value.number);
 }
 
 void read_listed(const yaml::Field& field, const study::SlotRange& slots, SweptAxis& axis,
@@ -134,7 +157,7 @@ void read_listed(const yaml::Field& field, const study::SlotRange& slots, SweptA
     const std::size_t problems_before = state.reading.problems.size();
     read_assignments(item, slots, axis, state);
     if (state.reading.problems.size() > problems_before) continue;  // an unreadable value equals no other
-    std::string label = fmt::format("{}={}", axis.name, value_label(axis, slots, *item.node, state.list()));
+    std::string label = fmt::format("{}={}", axis.name, value_label(axis, slots, *item.node, state.table()));
     if (!seen.insert(label).second) {
       state.reading.problems.add(
           item, fmt::format("{} stands twice in the list", yaml::in_quotes(yaml::flow_text(*item.node))),
@@ -152,7 +175,7 @@ void read_spaced(const yaml::Field& sweep, const yaml::Field& field, const study
     yaml::add_wrong_type(
         field,
         slots.list
-            ? fmt::format("a list of lists of {}", study::listed_noun(state.list()))
+            ? fmt::format("a list of lists of {}", noun_of(slots, state))
             : "a list of values, {linspace: [first, last, number]} or {logspace: [first, last, number]}",
         state.reading.problems);
     return;
@@ -163,8 +186,7 @@ void read_spaced(const yaml::Field& sweep, const yaml::Field& field, const study
   const std::vector<double> values = spaced_values(*spacing);
   std::vector<std::string> labels = spaced_labels(axis.name, values);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const study::Value value =
-        checked_number(inner, study::row_of_slot(slots.first, state.list()), values[i], state.reading);
+    const study::Value value = checked_number(inner, slots.first, values[i], state.reading);
     assign(axis, slots.first, value, inner.node->place);
     finish_option(axis, std::move(labels[i]));
     if (std::isnan(value.number)) return;  // one report is enough
@@ -179,7 +201,7 @@ bool take_for_grid(const yaml::Field& grid, const yaml::YamlEntry& entry, const 
   for (const std::size_t slot : axis.slots) {
     if (!state.in_grid.insert(slot).second) {
       state.reading.problems.add(entry.place, path,
-                                 fmt::format("{} is swept twice", study::slot_name(slot, state.list())),
+                                 fmt::format("{} is swept twice", state.table().rows[slot].name),
                                  "each parameter in one axis of the grid");
       return false;
     }
@@ -187,7 +209,7 @@ bool take_for_grid(const yaml::Field& grid, const yaml::YamlEntry& entry, const 
       state.reading.warnings.push_back(
           yaml::at_place(entry.place, path,
                          fmt::format("the grid's values replace those that the cases give to {}",
-                                     study::slot_name(slot, state.list()))));
+                                     state.table().rows[slot].name)));
     }
   }
   return true;
@@ -230,9 +252,9 @@ void read_case(const yaml::Field& cases, const yaml::YamlEntry& entry, SweptAxis
     note_slots(axis, *slots);
     for (std::size_t slot = slots->first; slot < slots->first + slots->count; ++slot) {
       if (in_this_case.insert(slot).second) continue;
-      state.reading.problems.add(
-          assignment.place, yaml::entry_of(field, assignment).path,
-          fmt::format("{} is given twice in this case", study::slot_name(slot, state.list())), "one value");
+      state.reading.problems.add(assignment.place, yaml::entry_of(field, assignment).path,
+                                 fmt::format("{} is given twice in this case", state.table().rows[slot].name),
+                                 "one value");
       break;
     }
     read_assignments(yaml::entry_of(field, assignment), *slots, axis, state);

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "experiments/manifest/sweep.hpp"
-#include "experiments/study/slots.hpp"
+#include "experiments/study/study_table.hpp"
 
 namespace zerocount::manifest {
 
@@ -26,9 +26,9 @@ std::vector<std::string> label_points(const std::vector<SweptAxis>& axes) {
 namespace {
 
 study::SweepAxis empty_axis(std::size_t slot, const study::StudyPlan& plan, std::size_t points) {
-  const parameters::Parameter& parameter = parameters::parameter_table()[study::row_of_slot(slot, plan.list)];
+  const parameters::Parameter& parameter = plan.table.rows[slot];
   study::SweepAxis axis;
-  axis.name = study::slot_name(slot, plan.list);
+  axis.name = parameter.name;
   axis.unit = parameters::unit_of(parameter, plan.units);
   axis.meaning = parameters::meaning_of(parameter, plan.units);
   if (parameters::has_labels(parameter)) {
@@ -41,10 +41,9 @@ study::SweepAxis empty_axis(std::size_t slot, const study::StudyPlan& plan, std:
   return axis;
 }
 
-void append_value(study::SweepAxis& axis, std::size_t slot, const study::Value& value) {
+void append_value(study::SweepAxis& axis, const parameters::Parameter& parameter, const study::Value& value) {
   if (axis.kind == study::SweepAxis::Kind::text) {
-    axis.texts.emplace_back(
-        parameters::parameter_table()[slot].labels[static_cast<std::size_t>(value.number)]);
+    axis.texts.emplace_back(parameter.labels[static_cast<std::size_t>(value.number)]);
   } else {
     axis.numbers.push_back(
         value.kind == study::Value::Kind::number ? value.number : std::numeric_limits<double>::quiet_NaN());
@@ -73,7 +72,7 @@ std::vector<study::SweepAxis> describe_axes(const std::vector<SweptAxis>& axes,
       if (!shown.insert(slot).second) continue;  // swept by the cases and by the grid
       study::SweepAxis axis = empty_axis(slot, plan, points);
       for (std::size_t point = 0; point < points; ++point)
-        append_value(axis, slot, *study::value_at_point(plan, slot, point));
+        append_value(axis, plan.table.rows[slot], *study::value_at_point(plan, slot, point));
       described.push_back(std::move(axis));
     }
   }

@@ -94,7 +94,8 @@ study::Value read_drawn(const distributions::DistributionForm& form, const yaml:
           .index = static_cast<std::uint32_t>(reading.plan.distributions.size() - 1)};
 }
 
-study::Value read_profile_value(const yaml::Field& field, std::size_t row, study::Per per, Reading& reading) {
+study::Value read_profile_value(const yaml::Field& field, std::size_t slot, study::Per per,
+                                Reading& reading) {
   constexpr std::size_t max_profiles = 1000;
   if (!reading.plan.period) {
     return refuse(reading, field, "the profile of a linear axis needs the key travel, its period",
@@ -106,7 +107,7 @@ study::Value read_profile_value(const yaml::Field& field, std::size_t row, study
     return refuse(reading, field, "there are too many profiles",
                   fmt::format("at most {} in a study", max_profiles));
   }
-  reading.profiles.push_back({row, *form, per, field.node->place, field.path});
+  reading.profiles.push_back({slot, *form, per, field.node->place, field.path});
   return {.kind = study::Value::Kind::profile,
           .index = static_cast<std::uint32_t>(reading.profiles.size() - 1),
           .per = per};
@@ -119,8 +120,8 @@ const yaml::YamlEntry* form_entry(const yaml::YamlNode& map) {
   return &*std::find_if(map.entries.begin(), map.entries.end(), is_form);
 }
 
-study::Value read_map(const yaml::Field& field, std::size_t row, Reading& reading) {
-  const parameters::Parameter& parameter = parameters::parameter_table()[row];
+study::Value read_map(const yaml::Field& field, std::size_t slot, Reading& reading) {
+  const parameters::Parameter& parameter = reading.plan.table.rows[slot];
   const std::string expected = fmt::format("a map with one of {}, {}; {} may stand beside it",
                                            distributions::distribution_names(), profile_name, per_key);
   const yaml::YamlEntry* entry = form_entry(*field.node);
@@ -140,7 +141,7 @@ study::Value read_map(const yaml::Field& field, std::size_t row, Reading& readin
   if (const auto given = yaml::find_field(field, per_key)) {
     per = read_per(*given, parameter, drawn, reading.has_rigs, reading.problems).value_or(per);
   }
-  if (drawn == Drawn::profile) return read_profile_value(yaml::entry_of(field, *entry), row, per, reading);
+  if (drawn == Drawn::profile) return read_profile_value(yaml::entry_of(field, *entry), slot, per, reading);
   const distributions::DistributionForm* form =
       distributions::find_form(field, *entry, {std::string(profile_name)}, expected, reading.problems);
   if (form == nullptr) return unreadable_value();
@@ -152,7 +153,7 @@ study::Value read_map(const yaml::Field& field, std::size_t row, Reading& readin
 // Whether the parameter stays in its range everywhere on the rotor.
 bool check_rotor(const ProfileRequest& request, const study::Rotors& rotors, std::int64_t rotor,
                  const Reading& reading) {
-  const parameters::Parameter& parameter = parameters::parameter_table()[request.row];
+  const parameters::Parameter& parameter = reading.plan.table.rows[request.slot];
   const parameters::StudyUnits& units = reading.plan.units;
   const std::shared_ptr<const friction::Profile> profile = rotors.rotor(rotor);
   if (numerics::contains(parameter.range, distributions::limits(*profile)))
@@ -186,7 +187,7 @@ void check_profiles(const Reading& reading) {
   for (std::size_t i = 0; i < reading.profiles.size(); ++i) {
     const ProfileRequest& request = reading.profiles[i];
     const study::Rotors& rotors = *reading.plan.profiles[i];
-    if (numerics::contains(parameters::parameter_table()[request.row].range, rotors.bounds())) continue;
+    if (numerics::contains(reading.plan.table.rows[request.slot].range, rotors.bounds())) continue;
     for (std::int64_t rotor = 0; rotor < rotors.count(); ++rotor) {
       if (!check_rotor(request, rotors, rotor, reading)) break;
     }
@@ -197,18 +198,18 @@ study::Value unreadable_value() {
   return number_value(std::numeric_limits<double>::quiet_NaN());
 }
 
-study::Value read_value(const yaml::Field& field, std::size_t row, Reading& reading) {
-  const parameters::Parameter& parameter = parameters::parameter_table()[row];
+study::Value read_value(const yaml::Field& field, std::size_t slot, Reading& reading) {
+  const parameters::Parameter& parameter = reading.plan.table.rows[slot];
   if (!check_exists(field, parameter, reading)) return unreadable_value();
   if (parameter.kind == parameters::ParameterKind::truth) return read_truth_value(field, reading.problems);
   if (parameter.kind == parameters::ParameterKind::enumeration)
     return read_enumeration(field, parameter, reading.problems);
-  if (field.node->kind == yaml::YamlNode::Kind::map) return read_map(field, row, reading);
+  if (field.node->kind == yaml::YamlNode::Kind::map) return read_map(field, slot, reading);
   return read_number(field, parameter, reading);
 }
 
-study::Value checked_number(const yaml::Field& field, std::size_t row, double number, Reading& reading) {
-  const parameters::Parameter& parameter = parameters::parameter_table()[row];
+study::Value checked_number(const yaml::Field& field, std::size_t slot, double number, Reading& reading) {
+  const parameters::Parameter& parameter = reading.plan.table.rows[slot];
   if (!check_exists(field, parameter, reading)) return unreadable_value();
   const bool fits =
       parameter.kind == parameters::ParameterKind::real ||

@@ -12,7 +12,7 @@ namespace zerocount::manifest {
 
 /// A profile in the manifest, to be realised when the seed is known.
 struct ProfileRequest {
-  std::size_t row{0};  ///< of the table of parameters
+  std::size_t slot{0};  ///< in the plan
   distributions::ProfileForm form;
   study::Per per{study::Per::study};  ///< study or rig
   yaml::Place place;                  ///< in the manifest, for messages
@@ -35,11 +35,11 @@ void check_profiles(const Reading& reading);
 /// Represents a value that could not be read: NaN, so that later checks ignore it.
 study::Value unreadable_value();
 
-/// The value of the parameter in row `row`: a number, a label, a distribution or a profile, checked against
+/// The value of the parameter of the slot: a number, a label, a distribution or a profile, checked against
 /// the parameter's range. Reports errors and returns unreadable_value() then.
-study::Value read_value(const yaml::Field& field, std::size_t row, Reading& reading);
+study::Value read_value(const yaml::Field& field, std::size_t slot, Reading& reading);
 
 /// `number` as a value of the parameter, checked likewise; `field` is its source.
-study::Value checked_number(const yaml::Field& field, std::size_t row, double number, Reading& reading);
+study::Value checked_number(const yaml::Field& field, std::size_t slot, double number, Reading& reading);
 
 }  // namespace zerocount::manifest

@@ -13,13 +13,16 @@ namespace zerocount::parameters {
 
 // The rows of the table of parameters, by section. Each has a Sobol dimension of its own, so that a new row
 // does not change the draws of the others. The next free one is beyond_moves(12); those from beyond_moves(32)
-// to beyond_moves(95) are for the blocks of the controller.
+// to beyond_moves(79) are for the blocks of the controller. From beyond_moves(80) on are those of lists, each
+// with as many as it may have values; the next free one of these is beyond_moves(192).
+// Those from beyond_moves(317) to beyond_moves(444) are for the parameters of a plugin.
 
 std::vector<Parameter> plant_rows();
 std::vector<Parameter> friction_rows();
 std::vector<Parameter> encoder_rows();
 std::vector<Parameter> drive_rows();  ///< converter and amplifier
 std::vector<Parameter> controller_rows();
+std::vector<Parameter> filter_rows();
 std::vector<Parameter> command_rows();
 std::vector<Parameter> initial_rows();
 std::vector<Parameter> verdict_rows();
@@ -143,9 +146,21 @@ inline Parameter only_on(AxisKind axis, std::string_view instead, Parameter row)
   return row;
 }
 
-/// Marks a row whose value is a list.
-inline Parameter list_of(Parameter row) {
-  row.listed = true;
+/// Makes a row that of a list, whose values have these nouns. `Field` returns a pointer to the field of value
+/// `index`.
+template <class Field>
+Parameter list_of(std::size_t max_values, std::string_view singular, std::string_view plural, Parameter row,
+                  Field) {
+  row.list = {1, max_values, singular, plural,
+              [](trial::TrialParameters& parameters, std::size_t index, double value) {
+                auto& field = *Field{}(parameters, index);
+                field = static_cast<std::remove_reference_t<decltype(field)>>(value);
+              }};
+  return row;
+}
+inline Parameter list_of(std::size_t max_values, std::string_view singular, std::string_view plural,
+                         Parameter row, NoField) {
+  row.list = {1, max_values, singular, plural, {}};
   return row;
 }
 

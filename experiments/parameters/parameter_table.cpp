@@ -1,6 +1,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -27,6 +28,7 @@ std::vector<Parameter> make_table() {
   add(encoder_rows(), true);
   add(drive_rows(), true);
   add(controller_rows(), true);
+  add(filter_rows(), true);
   add(command_rows(), false);
   add(initial_rows(), false);
   add(verdict_rows(), false);
@@ -40,13 +42,72 @@ std::span<const Parameter> parameter_table() {
   return table;
 }
 
+bool is_named(const Parameter& parameter, std::string_view path) {
+  return parameter.name == path || (!parameter.short_name.empty() && parameter.short_name == path);
+}
+
 std::optional<std::size_t> find_parameter(std::string_view name) {
   const auto table = parameter_table();
-  const auto found = std::find_if(table.begin(), table.end(), [&](const Parameter& p) {
-    return p.name == name || (!p.short_name.empty() && p.short_name == name);
-  });
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const Parameter& p) { return is_named(p, name); });
   if (found == table.end()) return std::nullopt;
   return static_cast<std::size_t>(found - table.begin());
+}
+
+Parameter value_row(const Parameter& list, std::size_t index, std::string_view name) {
+  Parameter row = list;
+  row.name = name;
+  row.sobol_dimension += index;
+  row.list.reset();
+  if (const auto& set = list.list.value().set) {
+    row.set = [set, index](trial::TrialParameters& parameters, double value) {
+      set(parameters, index, value);
+    };
+  }
+  return row;
+}
+
+Parameter element_row(const Parameter& key, std::size_t index, std::string_view name) {
+  const ElementKey element = key.element.value();
+  Parameter row = key;
+  row.name = name;
+  row.sobol_dimension += index * element.dimensions;
+  row.element.reset();
+  if (row.list) {
+    row.list->set = [set = element.set, index](trial::TrialParameters& parameters, std::size_t i,
+                                               double value) { set(parameters, index, i, value); };
+  } else {
+    row.set = [set = element.set, index](trial::TrialParameters& parameters, double value) {
+      set(parameters, index, 0, value);
+    };
+  }
+  return row;
+}
+
+Parameter plugin_row(std::string_view name, std::size_t index, const plugin::PluginParameter& parameter) {
+  constexpr std::size_t first_dimension = 317;  // beyond those of the means of profiles
+  Parameter row{name,
+                parameter.unit,
+                parameter.meaning,
+                "the plugin",
+                ParameterKind::real,
+                {.low = parameter.lowest,
+                 .high = parameter.highest,
+                 .low_included = std::isfinite(parameter.lowest),
+                 .high_included = std::isfinite(parameter.highest)},
+                {},
+                beyond_moves(first_dimension + index)};
+  row.of_machine = true;
+  row.get = [value = parameter.default_value](const trial::TrialParameters&) { return value; };
+  row.set = [index](trial::TrialParameters& parameters, double value) {
+    parameters.controller.user.parameters[index] = value;
+  };
+  return row;
+}
+
+std::string length_text(const ListOfValues& list) {
+  if (list.min_values == list.max_values) return fmt::format("{} {}", list.max_values, list.plural);
+  return fmt::format("{} to {} {}", list.min_values, list.max_values, list.plural);
 }
 
 double default_value(const Parameter& parameter) {

@@ -3,6 +3,8 @@
 namespace zerocount::parameters {
 namespace {
 
+constexpr std::size_t max_gms_elements = 16;
+
 template <double friction::FrictionParameters::*field>
 Parameter friction(Parameter row) {
   row.profiled = field;
@@ -65,6 +67,16 @@ std::vector<Parameter> friction_rows() {
           real_row("friction.gms.attraction", beyond_moves(11), "N m/s",
                    "rate at which the torque of a slipping element of gms goes to its level", assumed,
                    numerics::above(0))),
+      list_of(max_gms_elements, "stiffness", "stiffnesses",
+              real_row("friction.gms.stiffness", beyond_moves(80), "N m/rad",
+                       "stiffness kappa of each element of the generalised Maxwell-slip model", "required",
+                       numerics::above(0)),
+              [](auto& p, std::size_t i) { return &p.friction.gms_elements[i].stiffness; }),
+      list_of(max_gms_elements, "weight", "weights",
+              real_row("friction.gms.weight", beyond_moves(80 + max_gms_elements), "1",
+                       "weight eta of each element: its part of the level, 1 in all", "required",
+                       {.low = 0, .high = 1, .high_included = true}),
+              [](auto& p, std::size_t i) { return &p.friction.gms_elements[i].weight; }),
   };
 }
 

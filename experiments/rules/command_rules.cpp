@@ -10,7 +10,7 @@
 #include "core/loop/reference.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 #include "experiments/rules/value_rules.hpp"
-#include "experiments/study/slots.hpp"
+#include "experiments/study/study_table.hpp"
 
 namespace zerocount::rules {
 namespace {

@@ -41,10 +41,10 @@ std::vector<EffectRule> rules_of_the_command(const study::StudyPlan& plan) {
   const bool open_loop = plan.open_loop;
   return {
       {.keys = {"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
-                "controller.encoder", "controller.coarse", "controller.structure", "controller.cascade",
-                "controller.deadband", "controller.integrator_zone", "controller.integrator_leak",
-                "controller.derivative_cutoff", "controller.feedforward", "controller.observer",
-                "command.profile", "verdict"},
+                "controller.encoder", "controller.coarse", "controller.filters", "controller.structure",
+                "controller.cascade", "controller.deadband", "controller.integrator_zone",
+                "controller.integrator_leak", "controller.derivative_cutoff", "controller.feedforward",
+                "controller.observer", "command.profile", "verdict"},
        .has_effect = open_loop ? never : always,
        .what = the_loop_is_open,
        .expected = a_closed_loop},
@@ -79,6 +79,17 @@ std::vector<EffectRule> rules_of_the_command(const study::StudyPlan& plan) {
   };
 }
 
+EffectRule rule_of_the_plugin(const study::StudyPlan& plan) {
+  const bool plugin = plan.plugin != nullptr;
+  return {
+      .keys = {"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
+               "controller.structure", "controller.cascade", "controller.deadband",
+               "controller.integrator_zone", "controller.integrator_leak", "controller.derivative_cutoff"},
+      .has_effect = plugin ? never : always,
+      .what = "it has no effect: the controller is a plugin",
+      .expected = "controller.parameters, or the key left out"};
+}
+
 // The other parameters of an encoder error have an effect only if its amplitude is not 0.
 EffectRule rule_of_an_error(std::string_view key, std::string_view amplitude) {
   return {.keys = {key},
@@ -91,11 +102,12 @@ EffectRule rule_of_an_error(std::string_view key, std::string_view amplitude) {
 std::vector<EffectRule> rules_of_the_loop() {
   return {
       {.keys = {"controller.coarse.kp", "controller.coarse.ki", "controller.coarse.kd",
-                "controller.coarse.encoder", "controller.coarse.fine_within", "controller.coarse.fine_rate",
-                "controller.coarse.fine_dwell", "controller.coarse.structure", "controller.coarse.cascade",
-                "controller.coarse.deadband", "controller.coarse.integrator_zone",
-                "controller.coarse.integrator_leak", "controller.coarse.derivative_cutoff",
-                "controller.coarse.feedforward", "controller.coarse.observer"},
+                "controller.coarse.encoder", "controller.coarse.filters", "controller.coarse.fine_within",
+                "controller.coarse.fine_rate", "controller.coarse.fine_dwell", "controller.coarse.structure",
+                "controller.coarse.cascade", "controller.coarse.deadband",
+                "controller.coarse.integrator_zone", "controller.coarse.integrator_leak",
+                "controller.coarse.derivative_cutoff", "controller.coarse.feedforward",
+                "controller.coarse.observer"},
        .depends_on = {"controller.coarse.coarse_beyond"},
        .has_effect = [](Limits l) { return study::can_have_coarse_phase(l[0]); },
        .what = "it has no effect: there is no coarse phase at any point",
@@ -317,6 +329,7 @@ std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   std::vector<EffectRule> rules = rules_of_the_command(plan);
   rules.push_back(rule_of_the_position(plan));
   rules.push_back(rule_of_the_limit());
+  rules.push_back(rule_of_the_plugin(plan));
   for (const auto& more :
        {rules_of_the_loop(), rules_of_the_blocks(one_phase), rules_of_the_blocks(coarse_phase),
         rules_of_the_contact(), rules_of_the_model(), rules_of_vanished_terms()}) {

@@ -158,6 +158,8 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
     rules.insert(rules.end(), more.begin(), more.end());
   };
   add(command_rules(plan));
+  add(list_rules(plan));
+  add(plugin_rules(plan));
   add(rules_of_the_start(parameters::unit_on(plan.units.axis, "N m")));
   static const parameters::Parameter& kd =
       parameters::parameter_table()[parameters::find_parameter("controller.kd").value()];

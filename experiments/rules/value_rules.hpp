@@ -33,6 +33,12 @@ struct ValueRule {
 /// torque levels, the range of the converter.
 std::vector<ValueRule> command_rules(const study::StudyPlan& plan);
 
+/// The rules between the values of lists: the elements of the generalised Maxwell-slip model, and filters.
+std::vector<ValueRule> list_rules(const study::StudyPlan& plan);
+
+/// The rules for a study whose controller is a plugin.
+std::vector<ValueRule> plugin_rules(const study::StudyPlan& plan);
+
 /// All rules for a plan of this kind.
 std::vector<ValueRule> value_rules(const study::StudyPlan& plan);
 

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "experiments/study/point_limits.hpp"
-#include "experiments/study/slots.hpp"
 #include "experiments/study/study.hpp"
+#include "experiments/study/study_table.hpp"
 
 namespace zerocount::study {
 namespace {
@@ -35,7 +35,7 @@ bool draws_within_trials(const StudyPlan& plan) {
 
 TrialFactors find_factors(const StudyPlan& plan) {
   TrialFactors factors;
-  for (const std::size_t slot : slots_in_table_order(plan.list)) {
+  for (const std::size_t slot : slots_in_table_order(plan.table)) {
     if (is_drawn_somewhere(plan, slot)) factors.slots.push_back(static_cast<std::uint32_t>(slot));
   }
   factors.within_trial = draws_within_trials(plan);
@@ -45,7 +45,7 @@ TrialFactors find_factors(const StudyPlan& plan) {
 std::vector<std::string> factor_names(const StudyPlan& plan) {
   const TrialFactors factors = find_factors(plan);
   std::vector<std::string> names;
-  for (const std::uint32_t slot : factors.slots) names.push_back(slot_name(slot, plan.list));
+  for (const std::uint32_t slot : factors.slots) names.emplace_back(plan.table.rows[slot].name);
   if (factors.within_trial) names.emplace_back(within_trial_factor);
   return names;
 }

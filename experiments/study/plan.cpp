@@ -1,19 +1,6 @@
 #include "experiments/study/plan.hpp"
 
-#include "experiments/parameters/parameter_table.hpp"
-
 namespace zerocount::study {
-
-void set_number(const StudyPlan& plan, std::size_t slot, double number, trial::TrialParameters& to) {
-  const auto table = parameters::parameter_table();
-  if (slot < table.size()) {
-    if (table[slot].set != nullptr) table[slot].set(to, number);
-  } else if (plan.open_loop) {
-    to.command.torque.levels[slot - table.size()] = number;
-  } else if (!plan.sequence) {
-    to.command.targets[slot - table.size()] = static_cast<std::int64_t>(number);
-  }
-}
 
 std::size_t option_at(const StudyPlan& plan, std::size_t axis, std::size_t point) {
   for (std::size_t faster = plan.axes.size() - 1; faster > axis; --faster)

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/plugin/controller_plugin.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/parameters/study_units.hpp"
@@ -13,18 +14,11 @@
 #include "experiments/study/rotors.hpp"
 #include "experiments/study/sequence.hpp"
 #include "experiments/study/study.hpp"
+#include "experiments/study/study_table.hpp"
 
 namespace zerocount::study {
 
-// The compiled form of a manifest. A slot stores one value of a trial. Slot s below the number of rows
-// belongs to row s of the table of parameters (unused for listed rows). Slot rows + i is value i of the
-// listed parameter that the study uses.
-
-/// The listed parameter of a study: targets, torque levels, or the targets of a sequence.
-struct ListedValues {
-  std::size_t row{0};    ///< of the table of parameters
-  std::size_t count{1};  ///< length of the list
-};
+// The compiled form of a manifest. A slot stores one value of a trial: that of a row of the study's table.
 
 /// The value of one slot in the manifest.
 struct Value {
@@ -73,10 +67,12 @@ struct StudyPlan {
   parameters::StudyUnits units;
   /// Period of profiles: a revolution, rad; on a linear axis the travel, m, if it is given.
   std::optional<double> period{2.0 * std::numbers::pi};
-  ListedValues list;
-  bool open_loop{false};                  ///< the list is one of torque levels
-  std::optional<SequenceCycle> sequence;  ///< set if the list belongs to a sequence
-  std::vector<Value> base;                ///< [slot], used unless an axis assigns a value
+  StudyTable table;
+  RowGroup list;  ///< the list that defines the moves: targets, torque levels, or the targets of a sequence
+  std::shared_ptr<const plugin::ControllerPlugin> plugin;  ///< the user's controller; null: none
+  bool open_loop{false};                                   ///< the list is one of torque levels
+  std::optional<SequenceCycle> sequence;                   ///< set if the list belongs to a sequence
+  std::vector<Value> base;                                 ///< [slot], used unless an axis assigns a value
   std::vector<PlanAxis> axes;  ///< the last axis changes fastest, and takes precedence over the others
   std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
@@ -90,10 +86,6 @@ struct StudyPlan {
   trial::TrialParameters common;           ///< parameters of a trial, without the input slots
   std::vector<double> numbers;             ///< [slot] numbers of the base; undefined for input slots
 };
-
-/// Sets the field of a slot in the trial's parameters. The targets and the overrun of a sequence have no
-/// field: they determine the targets of the moves.
-void set_number(const StudyPlan& plan, std::size_t slot, double number, trial::TrialParameters& to);
 
 /// The option of `axis` at the design point.
 std::size_t option_at(const StudyPlan& plan, std::size_t axis, std::size_t point);

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <variant>
 
 #include "core/loop/controller.hpp"
 #include "experiments/distributions/random_field.hpp"
-#include "experiments/parameters/parameter_table.hpp"
-#include "experiments/study/slots.hpp"
 
 namespace zerocount::study {
 namespace {
@@ -44,15 +43,15 @@ bool can_have_coarse_phase(const ValueLimits& coarse_beyond) {
   return loop::has_coarse_phase(trial.controller);
 }
 
-std::vector<std::size_t> slots_named(std::span<const std::string_view> names) {
+std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const std::string_view> names) {
   std::vector<std::size_t> slots;
-  for (const std::string_view name : names) slots.push_back(parameters::find_parameter(name).value());
+  for (const std::string_view name : names) slots.push_back(find_slots(name, table).value().first);
   return slots;
 }
 
-std::vector<std::size_t> listed_slots(const ListedValues& list) {
-  std::vector<std::size_t> slots;
-  for (std::size_t i = 0; i < list.count; ++i) slots.push_back(listed_slot(i));
+std::vector<std::size_t> slots_of(const RowGroup& group) {
+  std::vector<std::size_t> slots(group.count);
+  std::iota(slots.begin(), slots.end(), group.first);
   return slots;
 }
 
@@ -107,7 +106,7 @@ bool are_readable(std::span<const ValueLimits> limits) {
 
 bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> names,
                      const std::function<bool(std::span<const ValueLimits>)>& holds) {
-  const std::vector<std::size_t> slots = slots_named(names);
+  const std::vector<std::size_t> slots = slots_named(plan.table, names);
   bool found = false;
   visit_points(plan, slots, [&](std::size_t point) {
     found = holds(limits_at(plan, slots, point));

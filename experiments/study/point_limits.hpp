@@ -22,11 +22,11 @@ ValueLimits limits_of(const StudyPlan& plan, const Value& value);
 /// Whether the control has a coarse phase in some trial, from the limits of controller.coarse.coarse_beyond.
 bool can_have_coarse_phase(const ValueLimits& coarse_beyond);
 
-/// Numbers of the slots of these parameters, by their dotted paths.
-std::vector<std::size_t> slots_named(std::span<const std::string_view> names);
+/// The slots of these parameters, by their dotted paths.
+std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const std::string_view> names);
 
-/// The slots of the list.
-std::vector<std::size_t> listed_slots(const ListedValues& list);
+/// The slots of the group.
+std::vector<std::size_t> slots_of(const RowGroup& group);
 
 /// Calls `visit` for one design point of each combination of values of `slots`, until it returns false.
 /// Points that differ only in other slots are skipped.

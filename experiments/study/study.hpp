@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/friction/profile.hpp"
+#include "core/plugin/controller_plugin.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/parameters/study_units.hpp"
 
@@ -85,7 +86,8 @@ struct StudyFeatures {
   /// Moves may end beside their targets by design: no integral control, Coulomb friction, or moves that are
   /// long.
   bool final_error{false};
-  bool stopping{false};  ///< a trial is ended where a move diverges
+  bool own_controller{false};  ///< the controller is a plugin
+  bool stopping{false};        ///< a trial is ended where a move diverges
   /// The design is saltelli: the trials of a row share most of their numbers, and bounds for independent
   /// trials are too narrow.
   bool dependent_trials{false};
@@ -127,7 +129,9 @@ struct Study {
   std::string manifest_text;           ///< exact bytes of the manifest
   std::string manifest_sha256;         ///< of manifest_text, lower-case hexadecimal
   std::vector<std::string> overrides;  ///< "key=value", as given with --set, in order
-  std::string study_sha256;            ///< of manifest_text and overrides: equal hashes mean the same trials
+  /// The user's controller, which runs the trials if it is loaded; null: there is none.
+  std::shared_ptr<const plugin::ControllerPlugin> plugin;
+  std::string study_sha256;  ///< of manifest_text, overrides and plugin: equal hashes mean the same trials
 
   std::vector<std::string> point_labels;  ///< [point]
   std::vector<SweepAxis> axes;

@@ -89,7 +89,8 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
       closed_loop && holds_somewhere(plan, "controller.coarse.coarse_beyond", can_have_coarse_phase);
   features.drive_torque = has_uneven_drive(plan);
   features.encoder_errors = has_encoder_errors(plan);
-  features.final_error = features.travel || features.phases ||
+  features.own_controller = plan.plugin != nullptr;
+  features.final_error = features.own_controller || features.travel || features.phases ||
                          holds_somewhere(plan, "controller.ki", has_zero) ||
                          holds_somewhere(plan, "friction.model", causes_hunting);
   features.stopping = closed_loop && holds_somewhere(plan, "verdict.stop", can_be_positive);

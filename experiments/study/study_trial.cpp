@@ -62,7 +62,7 @@ friction::ContactParameter contact_parameter(const TrialDraws& draws, std::uint3
       draws.study.design == Design::saltelli ? source_trial(draws, slot) : draws.index;
   const std::shared_ptr<const StudyPlan> plan = draws.study.plan;  // the trial may outlive the study
   const std::size_t index = value.index;
-  return {parameters::parameter_table()[slot].profiled,
+  return {draws.plan().table.rows[slot].profiled,
           [plan, index](double u) { return distributions::quantile(plan->distributions[index], u); },
           {.key = randomness.contacts, .stream = draws.stream},
           trial};
@@ -86,7 +86,7 @@ std::uint64_t numbers_within_trial(const Study& study, std::uint64_t index) {
 
 void set_sequence_targets(const Study& study, const std::vector<double>& numbers, StudyTrial& trial) {
   static const std::size_t overrun = parameters::find_parameter("command.sequence.overrun").value();
-  const std::span<const double> targets = std::span(numbers).subspan(parameters::parameter_table().size());
+  const std::span<const double> targets = std::span(numbers).subspan(study.plan->list.first);
   for (std::size_t move = 0; move < study.sequence.size(); ++move) {
     trial.parameters.command.targets[move] =
         static_cast<std::int64_t>(sequence_position(study.sequence[move], targets, numbers[overrun]));
@@ -118,7 +118,8 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
   trial.parameters.randomness.stream = draws.stream;
   const auto set = [&](std::size_t slot, double number) {
     numbers[slot] = number;
-    set_number(plan, slot, number, trial.parameters);
+    // Without a field are the targets and the overrun of a sequence, which determine those of the moves.
+    if (const auto& set_field = plan.table.rows[slot].set) set_field(trial.parameters, number);
   };
   for (const std::uint32_t slot : plan.input_slots) {
     const Value& value = *values[slot];
@@ -139,7 +140,7 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
     const std::shared_ptr<const friction::Profile> profile =
         plan.profiles[value.index]->rotor(static_cast<std::int64_t>(rotor_of(draws, value)));
     set(slot, friction::value_at(*profile, trial.parameters.initial.position));
-    trial.parameters.friction.profiled.push_back({parameters::parameter_table()[slot].profiled, profile});
+    trial.parameters.friction.profiled.push_back({plan.table.rows[slot].profiled, profile});
   }
   if (plan.sequence) set_sequence_targets(study, numbers, trial);
   trial.inputs.reserve(plan.inputs.size());

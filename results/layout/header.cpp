@@ -10,6 +10,7 @@
 
 #include "core/hash/sha256.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "results/layout/plugin_record.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_descriptor.hpp"
@@ -43,6 +44,22 @@ void write_manifest(hdf5::File& file, const std::string& text) {
   dataset.write_texts(std::vector<std::string>{storable(file, text)});
   dataset.set_text("units", "1");
   dataset.set_text("long_name", "exact text of the manifest");
+}
+
+void write_plugin(hdf5::File& file, const plugin::PluginDescription& plugin) {
+  hdf5::Dataset dataset = file.create_dataset("controller_plugin", {hdf5::Element::text, {}, {}, false});
+  dataset.write_texts(std::vector<std::string>{storable(file, plugin_as_json(plugin))});
+  dataset.set_text("units", "1");
+  dataset.set_text("long_name", "the user's controller, as JSON: name, version, SHA-256, parameters");
+}
+
+std::optional<plugin::PluginDescription> read_plugin(const hdf5::File& file) {
+  if (!file.contains("controller_plugin")) return std::nullopt;
+  const std::vector<std::string> texts = file.open_dataset("controller_plugin").read_texts();
+  std::optional<plugin::PluginDescription> plugin;
+  if (texts.size() == 1) plugin = plugin_from_json(texts.front());
+  if (!plugin) file.fail("the description of its controller cannot be read");
+  return plugin;
 }
 
 FileKind read_kind(const hdf5::File& file) {
@@ -120,7 +137,8 @@ FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, 
           study.manifest_text,
           study.overrides,
           study.manifest_sha256,
-          study.study_sha256};
+          study.study_sha256,
+          study.plugin ? std::optional(study.plugin->description) : std::nullopt};
 }
 
 void write_header(hdf5::File& file, const FileHeader& header) {
@@ -143,6 +161,7 @@ void write_header(hdf5::File& file, const FileHeader& header) {
   file.set_integer("complete", header.complete ? 1 : 0);
   write_manifest(file, header.manifest);
   write_overrides(file, header.overrides);
+  if (header.plugin) write_plugin(file, *header.plugin);
 }
 
 void mark_finished(hdf5::File& file) {
@@ -169,21 +188,42 @@ FileHeader read_header(const hdf5::File& file) {
   if (manifest.size() != 1) file.fail("the manifest is not a single text");
   header.manifest = manifest.front();
   header.overrides = file.open_dataset("overrides").read_texts();
+  header.plugin = read_plugin(file);
   check_numbers(file, header);
   if (hash::sha256_hex(header.manifest) != header.manifest_sha256)
     file.fail("the checksum of the manifest is wrong");
   return header;
 }
 
-study::Study recorded_study(const FileHeader& header, const std::filesystem::path& path) {
-  study::Study study =
-      manifest::parse_study(header.manifest, path.string() + ":/manifest", header.overrides, header.version);
+study::Study recorded_study(const FileHeader& header, const std::filesystem::path& path,
+                            std::shared_ptr<const plugin::ControllerPlugin> plugin) {
+  if (plugin) require_same_plugin(path, header, plugin.get());
+  if (!plugin && header.plugin)
+    plugin = std::make_shared<const plugin::ControllerPlugin>(plugin::ControllerPlugin{*header.plugin});
+  study::Study study = manifest::parse_study(header.manifest, path.string() + ":/manifest", header.overrides,
+                                             header.version, manifest::known_plugin(std::move(plugin)));
   study.engine = header.engine;
   return study;
 }
 
+void require_same_plugin(const std::filesystem::path& path, const FileHeader& header,
+                         const plugin::ControllerPlugin* plugin) {
+  const auto text_of = [](const plugin::PluginDescription* description) {
+    return description == nullptr ? std::string("the built-in controller")
+                                  : fmt::format("the plugin {} {} with SHA-256 {}", description->name,
+                                                description->version, description->sha256);
+  };
+  const std::string there = text_of(header.plugin ? &*header.plugin : nullptr);
+  const std::string here = text_of(plugin != nullptr ? &plugin->description : nullptr);
+  if (there == here) return;
+  throw ForeignFile(
+      path, fmt::format("its trials were run with {}, and this is {}: they are not mixed", there, here));
+}
+
 void require_same_study(const std::filesystem::path& path, const FileHeader& header,
                         const study::Study& study) {
+  if (header.manifest_sha256 == study.manifest_sha256 && header.overrides == study.overrides)
+    require_same_plugin(path, header, study.plugin.get());
   if (header.study_sha256 != study.study_sha256) {
     throw ForeignFile(path, fmt::format("of another study: '{}' with other contents or overrides, not '{}'",
                                         header.name, study.name));

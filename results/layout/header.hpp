@@ -52,6 +52,7 @@ struct FileHeader {
   std::vector<std::string> overrides;
   std::string manifest_sha256;
   std::string study_sha256;
+  std::optional<plugin::PluginDescription> plugin;  ///< the user's controller, if there is one
 };
 
 /// A file that is sound as far as it was read, but is not for this use: another format or a newer version of
@@ -80,8 +81,14 @@ FileHeader read_header(const hdf5::File& file);
 
 /// The study whose trials the file `path` holds: its manifest with its overrides, the defaults of its format
 /// version and its engine. Whoever needs the study of a results file takes it from here.
-/// @throws Failure (bad_input) as parse_study does.
-study::Study recorded_study(const FileHeader& header, const std::filesystem::path& path);
+/// @param plugin the user's controller; null: as recorded, so that no trials can be run
+/// @throws Failure (bad_input) as parse_study does; see also require_same_plugin.
+study::Study recorded_study(const FileHeader& header, const std::filesystem::path& path,
+                            std::shared_ptr<const plugin::ControllerPlugin> plugin = nullptr);
+
+/// @throws ForeignFile unless the trials of the file were run by this controller. @param plugin null: none
+void require_same_plugin(const std::filesystem::path& path, const FileHeader& header,
+                         const plugin::ControllerPlugin* plugin);
 
 /// @throws ForeignFile unless `header`, of the file `path`, is of this study, by this build of the program
 /// (see same_build) and the study's engine, and of the current version of the layout.

@@ -270,6 +270,17 @@ MeasureTable all_measures() {
                    {{"stopped", count, CellText::proportion_of_trials}},
                    "stopped: proportion of trials that were ended where a move had diverged; they count as "
                    "oscillating, and what is\nmeasured of their moves is up to there\n"}},
+      {.field = field<M>("controller_failed", "1",
+                         "the controller gave no finite torque, in this move or one before: it is nonfinite",
+                         &M::controller_failed),
+       .file = {.only_with = &study::StudyFeatures::own_controller},
+       .of_trial = OfTrial::any,
+       .point = {"", {{{count}, "trials that the controller ended by giving no finite torque"}}},
+       .summary =
+           {&study::StudyFeatures::own_controller,
+            {{"controller failed", count, CellText::proportion_of_trials}},
+            "controller failed: proportion of trials that the controller ended by giving no finite torque; "
+            "they count as nonfinite\n"}},
   };
 }
 

@@ -21,6 +21,8 @@
 #include "experiments/study/low_end.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/plugins/hidden_state.hpp"
+#include "runners/plugins/plugin_library.hpp"
 #include "runners/study_run/cost.hpp"
 #include "runners/study_run/progress.hpp"
 #include "runners/study_run/study_size.hpp"
@@ -183,7 +185,8 @@ double hold_of(const trial::TrialParameters& p) {
 /// The theory of a loop without a spring: its sampled bound and time constant.
 void examine_free(const study::Study& study, std::int64_t point, PointTheory& theory) {
   const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
-  theory.free = first.friction.model == friction::FrictionModel::none && first.command.torque.levels.empty();
+  theory.free = !first.controller.user.plugin && first.friction.model == friction::FrictionModel::none &&
+                first.command.torque.levels.empty();
   if (!theory.free) return;
   theory.hold = hold_of(first);
   for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {
@@ -196,6 +199,7 @@ void examine_free(const study::Study& study, std::int64_t point, PointTheory& th
 
 /// Form of the command and friction model are the same in all trials of a point.
 std::string_view why_outside(const trial::TrialParameters& first) {
+  if (first.controller.user.plugin) return "the controller is a plugin, whose transfer function is not known";
   if (!first.command.torque.levels.empty()) return "the loop is open";
   switch (first.friction.model) {
     case friction::FrictionModel::presliding:
@@ -531,7 +535,10 @@ void warn_of_slowness(std::int64_t point, const std::string& label, const PointT
 }
 
 ExitCode check(const command_line::Arguments& arguments) {
-  const study::Study study = manifest::load_study(arguments.operands()[0], arguments.values("set"));
+  const std::string& manifest = arguments.operands()[0];
+  const study::Study study =
+      manifest::load_study(manifest, arguments.values("set"), plugins::plugins_of(manifest));
+  plugins::require_no_hidden_state(study);
   print_warnings(study);
   print_plan(study);
   fmt::print("\nTheory, over the first {} trials of each point, each with the friction it starts on:\n",

@@ -16,6 +16,8 @@
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/plugins/hidden_state.hpp"
+#include "runners/plugins/plugin_library.hpp"
 #include "runners/study_run/earlier_shards.hpp"
 #include "runners/study_run/existing_output.hpp"
 #include "runners/study_run/extension.hpp"
@@ -75,13 +77,21 @@ struct RunRequest {
   bool force{false};
 };
 
+/// The engine that is asked for. A plugin decides one torque at a time.
+study::Engine engine_of(const command_line::Arguments& arguments, const study::Study& study) {
+  const bool batch = arguments.one_of("engine", {"batch", "reference"}) == "batch";
+  if (!study.plugin) return batch ? study::Engine::batch : study::Engine::reference;
+  if (batch && arguments.has("engine"))
+    arguments.refuse("option '--engine': a controller that is a plugin runs on the reference engine only");
+  return study::Engine::reference;
+}
+
 RunRequest run_request(const command_line::Arguments& arguments) {
   RunRequest request;
   request.output = command_line::output_place(arguments);
-  request.study = manifest::load_study(arguments.operands()[0], arguments.values("set"));
-  request.study.engine = arguments.one_of("engine", {"batch", "reference"}) == "batch"
-                             ? study::Engine::batch
-                             : study::Engine::reference;
+  const std::string& manifest = arguments.operands()[0];
+  request.study = manifest::load_study(manifest, arguments.values("set"), plugins::plugins_of(manifest));
+  request.study.engine = engine_of(arguments, request.study);
   const std::optional<std::string> part = arguments.value("shard");
   request.wanted = part ? part_of(arguments, *part, request.study) : layout::all_rows(request.study);
   if (request.study.stop && part) {
@@ -158,6 +168,11 @@ ExitCode run(const command_line::Arguments& arguments) {
       oneapi::tbb::global_control::max_allowed_parallelism,
       static_cast<std::size_t>(study_run::threads_to_use(request.threads)));
   print_warnings(request.study);
+  if (request.study.plugin && !request.quiet) {
+    fmt::print(stderr, "the controller is the plugin {} {}: the trials run on the reference engine\n",
+               request.study.plugin->description.name, request.study.plugin->description.version);
+  }
+  plugins::require_no_hidden_state(request.study);
   const study_run::InterruptionWatch interruption;
   const storage::OutputLock lock(request.output);
   const study_run::ExistingUse existing =

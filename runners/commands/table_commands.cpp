@@ -1,14 +1,29 @@
 #include <fmt/format.h>
 
 #include "experiments/manifest/json_schema.hpp"
+#include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/plugins/plugin_library.hpp"
 
 namespace zerocount::commands {
 namespace {
 
+ExitCode print_parameters_of_study(const command_line::Arguments& arguments, const std::string& manifest,
+                                   bool text) {
+  if (arguments.has("axis") || arguments.has("units"))
+    arguments.refuse("the units are those of the manifest; --axis and --units cannot be given with it");
+  const study::Study study =
+      manifest::load_study(manifest, arguments.values("set"), plugins::plugins_of(manifest));
+  fmt::print("{}", text ? manifest::parameters_as_text(study) : manifest::parameters_as_markdown(study));
+  return ExitCode::success;
+}
+
 ExitCode print_parameters(const command_line::Arguments& arguments) {
   const std::string format = arguments.one_of("format", {"text", "markdown"});
+  if (const auto manifest = arguments.value("manifest"))
+    return print_parameters_of_study(arguments, *manifest, format == "text");
+  if (arguments.has("set")) arguments.refuse("--set changes a manifest; expected --manifest FILE with it");
   parameters::StudyUnits units;
   if (arguments.one_of("axis", {"rotary", "linear"}) == "linear") units.axis = parameters::AxisKind::linear;
   if (arguments.one_of("units", {"count", "si"}) == "si") units.gains = parameters::GainUnits::si;
@@ -25,18 +40,21 @@ ExitCode print_schema(const command_line::Arguments&) {
 }  // namespace
 
 Command parameters_command() {
-  return {{"parameters",
-           "",
-           {{"format", "FORMAT", "text (default) or markdown"},
-            {"axis", "AXIS", "rotary (default) or linear: units on this kind of axis"},
-            {"units", "UNITS", "count (default) or si: unit of the gains (controller.units)"}},
-           0,
-           0},
-          "list every parameter: unit, default, range, source",
-          "Every physical value of a manifest is a number or a distribution. Missing values have the\n"
-          "default, unless it is in other units: on a linear axis most values must be given, and with\n"
-          "--units si the integral gain.\n",
-          print_parameters};
+  return {
+      {"parameters",
+       "",
+       {{"format", "FORMAT", "text (default) or markdown"},
+        {"manifest", "FILE", "list the parameters of this study, with those of the lists in its manifest"},
+        {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true},
+        {"axis", "AXIS", "rotary (default) or linear: units on this kind of axis"},
+        {"units", "UNITS", "count (default) or si: unit of the gains (controller.units)"}},
+       0,
+       0},
+      "list every parameter: unit, default, range, source",
+      "Every physical value of a manifest is a number or a distribution. Missing values have the\n"
+      "default, unless it is in other units: on a linear axis most values must be given, and with\n"
+      "--units si the integral gain.\n",
+      print_parameters};
 }
 
 Command schema_command() {

@@ -17,6 +17,7 @@
 #include "runners/commands/commands.hpp"
 #include "runners/commands/replay.hpp"
 #include "runners/commands/trace_writer.hpp"
+#include "runners/plugins/plugin_library.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -52,6 +53,16 @@ std::int64_t trial_option(const command_line::Arguments& arguments, const study:
                                  study.trials - 1));
   }
   return value;
+}
+
+/// The user's controller for the trials of a results file; null if none is given.
+std::shared_ptr<const plugin::ControllerPlugin> plugin_option(const command_line::Arguments& arguments) {
+  const std::optional<std::string> path = arguments.value("plugin");
+  if (!path) return nullptr;
+  const manifest::LoadedPlugin loaded = plugins::load_plugin(*path);
+  if (const auto* fault = std::get_if<plugin::PluginFault>(&loaded))
+    arguments.refuse(fmt::format("option '--plugin': {}; expected {}", fault->what, fault->expected));
+  return std::get<std::shared_ptr<const plugin::ControllerPlugin>>(loaded);
 }
 
 /// Runs the trial, writes its samples, and returns the rest of its result.
@@ -94,8 +105,18 @@ ExitCode trace(const command_line::Arguments& arguments) {
   if (file && arguments.has("set"))
     arguments.refuse("option '--set' goes with a manifest, not with a results file");
 
-  const study::Study study = file ? layout::recorded_study(file->header(), input)
-                                  : manifest::load_study(input, arguments.values("set"));
+  if (!file && arguments.has("plugin"))
+    arguments.refuse("option '--plugin' goes with a results file; a manifest names its plugin");
+
+  const study::Study study =
+      file ? layout::recorded_study(file->header(), input, plugin_option(arguments))
+           : manifest::load_study(input, arguments.values("set"), plugins::plugins_of(input));
+  if (study.plugin && study.plugin->functions == nullptr) {
+    arguments.refuse(
+        fmt::format("the controller of {} is the plugin {}, which is not loaded from a results file; give "
+                    "its path with --plugin",
+                    input, study.plugin->description.name));
+  }
   const std::int64_t point = command_line::point_option(arguments, study.point_labels).value_or(0);
   const std::int64_t index = trial_option(arguments, study);
   const layout::RowRange row{point * study.trials + index, 1};
@@ -125,6 +146,7 @@ Command trace_command() {
             {"format", "FORMAT", "csv (default) or json"},
             {"output,o", "FILE", "write there instead of to standard output"},
             command_line::force_option(),
+            {"plugin", "LIBRARY", "the controller of a results file whose study has one of its own"},
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true}}},
           "run one trial again, sample by sample",
           trace_help,

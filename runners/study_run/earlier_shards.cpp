@@ -1,5 +1,6 @@
 #include "runners/study_run/earlier_shards.hpp"
 
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -29,6 +30,18 @@ std::string why_foreign(const shards::ShardProblem& bad, const study::Study& stu
   }
 }
 
+/// @throws ForeignFile for a shard of this study that was run with another controller.
+void require_same_plugin(const fs::path& shard, const study::Study& study) {
+  std::optional<layout::FileHeader> header;
+  try {
+    header = reading::StudyFile(shard, reading::Require::any_part).header();
+  } catch (const Failure&) {
+    return;  // another format
+  }
+  if (study_differences(shard, *header, study).empty())
+    layout::require_same_plugin(shard, *header, study.plugin.get());
+}
+
 }  // namespace
 
 EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout::RowRange wanted) {
@@ -53,6 +66,7 @@ EarlierShards earlier_shards(const fs::path& directory, const study::Study& stud
       continue;
     }
     if (bad.kind == shards::ShardProblem::Kind::foreign) {
+      require_same_plugin(bad.path, study);
       throw Failure(
           ExitCode::bad_input,
           fmt::format("{}: holds another unfinished run, which this one must not touch ({}); finish that run "

@@ -58,12 +58,14 @@ ExistingUse use_of_existing(const fs::path& output, const study::Study& study, l
   if (!fs::exists(fs::symlink_status(output, error))) return ExistingUse::none;
   const layout::FileHeader header = header_of(output);
   const std::vector<comparison::ManifestDifference> differences = study_differences(output, header, study);
+  if (differences.empty()) layout::require_same_plugin(output, header, study.plugin.get());
   if (header.engine != study.engine) {
     refuse(output, fmt::format("holds the results of the {} engine, and this run is for the {} engine",
                                layout::name_of(header.engine), layout::name_of(study.engine)));
   }
   const bool other_number = differences.size() == 1 && differences.front().key == "trials";
   if (other_number && !study.stop && wanted == layout::all_rows(study)) {
+    layout::require_same_plugin(output, header, study.plugin.get());
     require_extensible(output, header, study);
     return ExistingUse::extend;
   }

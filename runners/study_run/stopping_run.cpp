@@ -99,7 +99,8 @@ std::vector<layout::RowRange> missing(const study::Study& study, const std::vect
 study::Study decided_study(const study::Study& study, std::int64_t trials) {
   std::vector<std::string> overrides = study.overrides;
   overrides.push_back(fmt::format("{}{}", decided_key, trials));
-  study::Study decided = manifest::parse_study(study.manifest_text, study.name, overrides);
+  study::Study decided =
+      manifest::parse_study(study.manifest_text, study.name, overrides, manifest::known_plugin(study.plugin));
   decided.engine = study.engine;
   return decided;
 }

@@ -122,7 +122,7 @@ TEST(ExperimentsReadme, ShowsTheErrorsOfItsBadManifest) {
 std::string names_in_order_of_dimension(std::size_t first) {
   std::map<std::size_t, std::string_view> names;
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
-    if (!parameter.listed) names[parameter.sobol_dimension] = parameter.name;
+    if (parameters::has_value(parameter)) names[parameter.sobol_dimension] = parameter.name;
   }
   std::string listed;
   for (std::size_t i = first; names.count(i) > 0; ++i)

@@ -97,7 +97,7 @@ Decisions decide_by_the_rule(const ControllerParameters& p, const Recording& r) 
 }
 
 Decisions decide(const ControllerParameters& p, const Recording& r) {
-  Controller controller(p, {r.fine_per_coarse}, r.preset, {lowest, highest});
+  Controller controller(p, {r.fine_per_coarse}, r.preset, {{lowest, highest}});
   Decisions all;
   for (std::size_t k = 0; k < r.samples(); ++k) {
     all.torques.push_back(controller.update(r.references[k], r.readings[k], r.torques_in_force[k]));
@@ -202,7 +202,7 @@ TEST(Controller, InTwoPhasesEveryTorqueAndPhaseIsThatOfTheRuleBitForBit) {
 }
 
 TEST(Controller, WithoutACoarsePhaseNoErrorIsTooLarge) {
-  Controller controller({.ki = 0.0}, {18.75}, 0.0, {lowest, highest});
+  Controller controller({.ki = 0.0}, {18.75}, 0.0, {{lowest, highest}});
   for (const std::int64_t count : {0LL, 2'000'000'000'000LL, -2'000'000'000'000LL}) {
     controller.update(0, {count, 0}, 0.0);
     EXPECT_EQ(controller.phase(), ControlPhase::fine);
@@ -237,7 +237,7 @@ TEST(Controller, TorqueGoesThroughAChangeOfPhaseUnchanged) {
     p.coarse.kp = draw.uniform(0.0, 1e-2);
     p.coarse.ki = draw.uniform(0.0, 1e-4);
     p.coarse.kd = draw.uniform(0.0, 1e-2);
-    Controller controller(p, {18.75}, draw.uniform(lowest, highest), {lowest, highest});
+    Controller controller(p, {18.75}, draw.uniform(lowest, highest), {{lowest, highest}});
     const double torque = draw.uniform(lowest, highest);
     controller.update(0, {100, 5}, 0.0);
     controller.update(0, {3, 0}, draw.uniform(lowest, highest));
@@ -254,7 +254,7 @@ TEST(Controller, ANewPhaseAddsWhatItsGainsMakeOfThisSampleAndTheOneBefore) {
   p.coarse.kp = 1.0 / 1024;
   p.coarse.ki = 1.0 / 65536;
   p.coarse.kd = 1.0 / 512;
-  Controller controller(p, {18.75}, 0.0, {lowest, highest});
+  Controller controller(p, {18.75}, 0.0, {{lowest, highest}});
   controller.update(0, {40, 2}, 0.0);
   const double torque = controller.update(0, {60, 3}, 0.125);
   EXPECT_EQ(controller.phase(), ControlPhase::coarse);
@@ -266,7 +266,7 @@ TEST(Controller, APhaseFedBackFromTheCoarseEncoderKnowsThatOnesLastCount) {
   p.coarse.encoder = EncoderChoice::coarse;
   p.coarse.ki = 1.0 / 65536;
   p.coarse.kd = 1.0 / 512;
-  Controller controller(p, {16.0}, 0.0, {lowest, highest});
+  Controller controller(p, {16.0}, 0.0, {{lowest, highest}});
   controller.update(0, {40, 2}, 0.0);
   const double torque = controller.update(0, {60, 4}, 0.125);
   EXPECT_EQ(torque, 0.125 - (64.0 + 32.0) / 65536 - 32.0 / 512);
@@ -277,7 +277,7 @@ TEST(Controller, IntegralOfANewPhaseStaysInTheRangeOfTheDac) {
   p.coarse.ki = 1e-3;
   for (const AntiWindup anti_windup : {AntiWindup::clamp, AntiWindup::none}) {
     p.anti_windup = anti_windup;
-    Controller controller(p, {18.75}, 0.0, {lowest, highest});
+    Controller controller(p, {18.75}, 0.0, {{lowest, highest}});
     controller.update(0, {0, 0}, 0.0);
     const double torque = controller.update(0, {-100, -6}, highest);
     EXPECT_EQ(torque, anti_windup == AntiWindup::clamp ? highest : highest + 1e-3 * 100.0);
@@ -289,9 +289,9 @@ TEST(Controller, FinePhaseOfTwoHasNoDerivativePart) {
   ControllerParameters p;
   p.ki = 0.0;
   p.kd = 1.0;
-  Controller one_phase(p, {18.75}, 0.0, {lowest, highest});
+  Controller one_phase(p, {18.75}, 0.0, {{lowest, highest}});
   p.coarse.coarse_beyond = 50.0;
-  Controller two(p, {18.75}, 0.0, {lowest, highest});
+  Controller two(p, {18.75}, 0.0, {{lowest, highest}});
   for (Controller* controller : {&one_phase, &two}) controller->update(0, {0, 0}, 0.0);
   EXPECT_EQ(one_phase.update(0, {7, 0}, 0.0), -7.0);
   EXPECT_EQ(two.update(0, {7, 0}, 0.0), 0.0);
@@ -300,7 +300,7 @@ TEST(Controller, FinePhaseOfTwoHasNoDerivativePart) {
 TEST(Controller, PresetIntegralIsThatOfThePhaseThatTheControlBeginsIn) {
   ControllerParameters p = two_phases();
   for (const std::int64_t count : {0, 1000}) {
-    Controller controller(p, {18.75}, 0.25, {lowest, highest});
+    Controller controller(p, {18.75}, 0.25, {{lowest, highest}});
     EXPECT_EQ(controller.update(0, {count, 0}, 0.0), 0.25);
     EXPECT_EQ(controller.phase(), count == 0 ? ControlPhase::fine : ControlPhase::coarse);
     EXPECT_EQ(controller.phase_changes(), 0);
@@ -313,8 +313,8 @@ TEST(Controller, APhaseSeesOnlyItsOwnEncoder) {
   p.encoder = EncoderChoice::fine;
   p.coarse = {.kp = 1e-4, .ki = 1e-5, .kd = 1e-3, .encoder = EncoderChoice::coarse, .coarse_beyond = 50.0};
   for (const ControlPhase phase : {ControlPhase::fine, ControlPhase::coarse}) {
-    Controller controller(p, {18.75}, 0.0, {lowest, highest});
-    Controller other(p, {18.75}, 0.0, {lowest, highest});
+    Controller controller(p, {18.75}, 0.0, {{lowest, highest}});
+    Controller other(p, {18.75}, 0.0, {{lowest, highest}});
     for (int k = 0; k < 500; ++k) {
       const bool fine = phase == ControlPhase::fine;
       const EncoderReading reading =

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/designs/random_key.hpp"
+#include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 
 namespace zerocount::designs {
@@ -84,10 +85,63 @@ TEST(Sobol, TheShiftDependsOnSeedNameAndStream) {
   EXPECT_NE(u, sobol_uniform(5, directions[0], {random_key(1, "a"), 1}));
 }
 
-TEST(Sobol, EveryParameterHasItsOwnDimensionAndTheListsShareTheirs) {
+// The most rows that a list or a key of elements can have: each has its own dimension.
+std::vector<parameters::Parameter> all_rows_of(const parameters::Parameter& parameter) {
+  constexpr std::size_t filters = 8;
+  std::vector<parameters::Parameter> rows;
+  for (std::size_t element = 0; parameter.element && element < filters; ++element)
+    rows.push_back(element_row(parameter, element, "element"));
+  if (!parameter.element) rows.push_back(parameter);
+  std::vector<parameters::Parameter> values;
+  for (const parameters::Parameter& row : rows) {
+    for (std::size_t i = 0; row.list && i < row.list->max_values; ++i)
+      values.push_back(value_row(row, i, "value"));
+  }
+  return parameter.list ? values : rows;
+}
+
+// Lists of moves share their dimensions, of which a study has one, and so do the keys of a filter that belong
+// to different forms.
+TEST(Sobol, RowsOfListsHaveDimensionsThatNoOtherHas) {
+  std::map<std::size_t, std::string> owner;
+  for (const parameters::Parameter& parameter : parameters::parameter_table()) {
+    std::string group(parameter.name);
+    if (parameter.element) group = group.substr(0, group.find(".#"));
+    if (parameter.list && group.starts_with("command.")) group = "moves";
+    for (const parameters::Parameter& row : all_rows_of(parameter)) {
+      EXPECT_LT(row.sobol_dimension, 3600u) << parameter.name;
+      const auto [known, added] = owner.emplace(row.sobol_dimension, group);
+      EXPECT_EQ(known->second, group) << parameter.name;
+    }
+    const std::size_t of_mean = parameters::sobol_dimension_of_mean(parameter.sobol_dimension);
+    if (parameter.profiled) {
+      EXPECT_TRUE(owner.emplace(of_mean, group).second) << parameter.name;
+    }
+  }
+}
+
+TEST(Sobol, KeysOfOneFilterHaveDifferentDimensions) {
+  for (const parameters::ElementList& list : parameters::element_lists()) {
+    for (const parameters::ElementForm& form : list.forms) {
+      std::set<std::size_t> dimensions;
+      std::size_t count = 0;
+      for (const std::string_view key : form.keys) {
+        const auto row = parameters::find_parameter(std::string(list.path) + ".#." + std::string(key));
+        parameters::Parameter first = element_row(parameters::parameter_table()[row.value()], 0, "element");
+        std::vector<parameters::Parameter> rows = all_rows_of(first);
+        for (const parameters::Parameter& value : rows) dimensions.insert(value.sobol_dimension);
+        count += rows.size();
+      }
+      EXPECT_EQ(dimensions.size(), count) << list.path << " " << form.name;
+    }
+  }
+}
+
+TEST(Sobol, EveryParameterHasItsOwnDimensionAndTheListsOfMovesShareTheirs) {
   std::set<std::size_t> dimensions;
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
-    if (parameter.listed) {
+    if (!parameters::has_value(parameter)) {
+      if (!parameter.name.starts_with("command.")) continue;
       EXPECT_EQ(parameter.sobol_dimension, parameters::first_sobol_dimension_of_moves) << parameter.name;
       continue;
     }
@@ -211,7 +265,7 @@ TEST(Sobol, TheDimensionsAreFixed) {
   };
   std::size_t checked = 0;
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
-    if (parameter.listed) continue;
+    if (!parameters::has_value(parameter)) continue;
     const auto known = fixed.find(parameter.name);
     ASSERT_NE(known, fixed.end()) << parameter.name << " is new: add it here";
     EXPECT_EQ(parameter.sobol_dimension, known->second) << parameter.name;

@@ -84,6 +84,19 @@ def judge_extended(validator, extended):
         (["sweep", "grid", "command.sequence.cycles"], [1, 2]),
         (["sweep", "grid", "controller.coarse.encoder"], {"linspace": [0, 1, 2]}),
         (["sweep", "cases", "a"], {"initial": {"mode": "slide"}}),
+        (["friction", "gms"], {"stiffness": [1]}),
+        (["friction", "gms"], {"stiffness": [0], "weight": [1]}),
+        (["friction", "gms"], {"stiffness": [], "weight": []}),
+        (["controller", "filters"], {"lowpass": {"frequency": 100, "damping": 1}}),
+        (["controller", "filters"], [{"lowpass": {"frequency": 100}}]),
+        (["controller", "filters"], [{"lowpass": {"frequency": 100, "damping": 0}}]),
+        (["controller", "filters"], [{"lowpass": {"frequency": 100, "damping": 1, "depth": 1}}]),
+        (["controller", "filters"], [{"bandpass": {"frequency": 100}}]),
+        (["controller", "filters"], [{"lead": {"frequency": 100, "ratio": 4}, "lowpass": {"frequency": 100, "damping": 1}}]),
+        (["controller", "filters"], [{"biquad": {"b": [1, 0], "a": [0, 0]}}]),
+        (["controller", "filters"], 9 * [{"lead": {"frequency": 100, "ratio": 4}}]),
+        (["sweep", "grid", "controller.filters.0.fequency"], [1, 2]),
+        (["sweep", "grid", "controller.filters.#.frequency"], [1, 2]),
     ]
     for path, value in bad:
         manifest = changed(extended, path, value)
@@ -100,6 +113,9 @@ def judge_extended(validator, extended):
         (["sweep", "cases", "b"], {"controller.coarse.encoder": "fine", "initial.history.torque": 0.1}),
         (["initial", "history", "reversals"], {"integers": [1, 1000]}),
         (["controller", "coarse", "coarse_beyond"], {"integers": [100, 200]}),
+        (["friction", "gms"], {"stiffness": [100, {"uniform": [1, 2], "per": "study"}], "weight": [0.25, 0.75]}),
+        (["controller", "filters"], [{"notch": {"frequency": {"uniform": [1, 2]}, "damping": 0.5, "depth": 0}}]),
+        (["controller", "coarse", "filters"], [{"biquad": {"b": [1, 0, 0], "a": [0, {"normal": {"mean": 0, "sd": 1}}]}}]),
     ]
     for path, value in good:
         manifest = changed(extended, path, value)
@@ -111,7 +127,11 @@ def judge_extended(validator, extended):
     torque = {k: v for k, v in extended.items() if k in ("zerocount", "name", "seed", "trials", "friction", "amplifier")}
     torque["command"] = {"torque": {"levels": [0.1, {"uniform": [-0.2, -0.1]}], "rate": 0.2, "through": "exact"}, "hold": 0.5}
     torque["sweep"] = {"grid": {"command.torque.levels.0": {"linspace": [0.1, 0.2, 3]}, "command.torque.through": ["exact", "dac"]}}
-    for manifest in (extended, torque):
+    filters = copy.deepcopy(extended)
+    filters["controller"]["filters"] = [{"lead": {"frequency": 100, "ratio": 4}}, {"biquad": {"b": [1, 0, 0], "a": [0, 0]}}]
+    filters["sweep"]["grid"] |= {"controller.filters.0.frequency": {"linspace": [100, 200, 3]}, "controller.filters.1.b": [[1, 0, 0]]}
+    filters["sweep"]["cases"] = {"a": {"controller.filters.1.a.1": 0.5}}
+    for manifest in (extended, torque, filters):
         errors = [e.message for e in validator.iter_errors(manifest)]
         if errors or program_refuses(manifest):
             sys.exit(f"a good manifest is refused: {errors} {program_refuses(manifest)}")

@@ -80,7 +80,7 @@ TEST(Sections, UnknownKeysAreToldTheNearestOfTheirMap) {
       refusal_of(minimal_manifest("controller: {coarse: {fine_witin: 1}}")),
       "m.yaml:6:23: controller.coarse.fine_witin: unknown key, nearest known: fine_within; expected "
       "one of kp, ki, kd, encoder, fine_within, fine_rate, fine_dwell, coarse_beyond, structure, cascade, "
-      "deadband, integrator_zone, integrator_leak, derivative_cutoff, feedforward, observer");
+      "deadband, integrator_zone, integrator_leak, derivative_cutoff, feedforward, observer, filters");
   EXPECT_EQ(refusal_of(minimal_manifest("initial: {histroy: {}}")),
             "m.yaml:6:11: initial.histroy: unknown key, nearest known: history; expected one of "
             "encoder_phase, position, hardening, preload, history, velocity, integral, mode");

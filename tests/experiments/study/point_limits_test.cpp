@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/study/slots.hpp"
+#include "experiments/study/study_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::study {
@@ -33,9 +33,9 @@ TEST(PointLimits, EveryCombinationIsVisited) {
   const Study study = swept_study();
   const std::vector<std::string_view> names{"controller.kp", "dac.bits", "controller.ki", "plant.inertia",
                                             "controller.kd"};
-  const std::vector<std::size_t> named = slots_named(names);
+  const std::vector<std::size_t> named = slots_named(study.plan->table, names);
   for (std::size_t mask = 0; mask < (std::size_t{1} << names.size()); ++mask) {
-    std::vector<std::size_t> slots{listed_slot(1)};
+    std::vector<std::size_t> slots{study.plan->list.first + 1};
     for (std::size_t i = 0; i < named.size(); ++i) {
       if ((mask >> i & 1) != 0) slots.push_back(named[i]);
     }
@@ -56,7 +56,7 @@ TEST(PointLimits, WhatDoesNotMatterIsLeftOut) {
   const Study study = swept_study();
   const auto visits = [&](std::vector<std::string_view> names) {
     std::size_t count = 0;
-    visit_points(*study.plan, slots_named(names), [&](std::size_t) {
+    visit_points(*study.plan, slots_named(study.plan->table, names), [&](std::size_t) {
       ++count;
       return true;
     });
@@ -71,14 +71,14 @@ TEST(PointLimits, WhatDoesNotMatterIsLeftOut) {
 TEST(PointLimits, AVisitMayEndEarly) {
   const Study study = swept_study();
   std::size_t count = 0;
-  visit_points(*study.plan, listed_slots(study.plan->list), [&](std::size_t) { return ++count < 2; });
+  visit_points(*study.plan, slots_of(study.plan->list), [&](std::size_t) { return ++count < 2; });
   EXPECT_EQ(count, 2u);
 }
 
 ValueLimits limits_of_velocity(const std::string& velocity) {
   const Study study = study_of(minimal_manifest("initial: {velocity: " + velocity + "}\n"));
   const std::vector<std::string_view> name{"initial.velocity"};
-  return limits_at(*study.plan, slots_named(name), 0).front();
+  return limits_at(*study.plan, slots_named(study.plan->table, name), 0).front();
 }
 
 TEST(PointLimits, AreTheSupportAndKnowWhetherItHasZero) {

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <zerocount/controller.h>
+
+namespace zerocount::plugin {
+
+/// A parameter of a user's controller.
+struct PluginParameter {
+  std::string name;
+  std::string unit;
+  std::string meaning;
+  double default_value{0.0};
+  double lowest{0.0};   ///< allowed value; may be infinite
+  double highest{0.0};  ///< likewise
+};
+
+/// What a study knows of a user's controller, whether or not its library is loaded.
+struct PluginDescription {
+  std::string name;
+  std::string version;
+  std::string sha256;  ///< of the library's bytes
+  std::vector<PluginParameter> parameters;
+};
+
+/// A user's controller.
+struct ControllerPlugin {
+  PluginDescription description;
+  /// Null if the library is not loaded: then no trial can be run.
+  const zerocount_controller* functions{nullptr};
+};
+
+/// Why a library's description cannot be used.
+struct PluginFault {
+  std::string what;
+  std::string expected;
+};
+
+inline constexpr std::size_t max_plugin_parameters = 128;
+inline constexpr std::size_t max_plugin_state = std::size_t{1} << 20;  ///< bytes
+
+/// Checks what zerocount_controller_entry() returned. @param sha256 of the library
+std::variant<ControllerPlugin, PluginFault> checked_plugin(const zerocount_controller* entry,
+                                                           std::string sha256);
+
+}  // namespace zerocount::plugin

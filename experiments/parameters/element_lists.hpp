@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/trial/parameters.hpp"
+
+namespace zerocount::parameters {
+
+/// A form of the elements of a list: a map with one key, its name, whose value is a map of these keys.
+struct ElementForm {
+  std::string_view name;
+  std::vector<std::string_view>
+      keys;  ///< all required; each is a row "list.#.key" of the table of parameters
+  std::string_view meaning;
+};
+
+/// A key whose value is a list of maps, each of one of several forms: controller.filters. The values in them
+/// are parameters: "controller.filters.0.frequency". The forms themselves are the same in all trials.
+struct ElementList {
+  std::string_view path;
+  std::string_view element;  ///< noun for one of them
+  std::size_t max_elements{0};
+  std::span<const ElementForm> forms;
+  void (*add)(trial::TrialParameters&, std::size_t form){nullptr};  ///< appends an element
+};
+
+/// All such lists.
+std::span<const ElementList> element_lists();
+
+/// The list with this dotted path, or null.
+const ElementList* find_element_list(std::string_view path);
+
+/// The dotted path with # for every index: "controller.filters.#.frequency".
+std::string without_indices(std::string_view path);
+
+}  // namespace zerocount::parameters

@@ -1,0 +1,88 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiments/rules/value_rules.hpp"
+
+namespace zerocount::rules {
+namespace {
+
+using Limits = std::span<const study::ValueLimits>;
+using Faults = std::vector<ValueFault>;
+
+// The names of the values of a list that the study has.
+std::vector<std::string_view> values_of_list(const study::StudyTable& table, std::string_view list) {
+  const auto values = study::find_list(table, parameters::find_parameter(list).value());
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; values && i < values->count; ++i)
+    names.push_back(table.rows[values->first + i].name);
+  return names;
+}
+
+ValueRule weights_of_one_in_all(const std::vector<std::string_view>& weights) {
+  return {weights, false, [](Limits l, Limits) -> Faults {
+            constexpr double rounding = 1e-9;
+            double lowest = 0.0;
+            double highest = 0.0;
+            for (const study::ValueLimits& weight : l) {
+              lowest += weight.low;
+              highest += weight.high;
+            }
+            if (std::abs(lowest - 1.0) <= rounding && std::abs(highest - 1.0) <= rounding) return {};
+            return {{lowest == highest ? fmt::format("the weights are {} in all", lowest)
+                                       : fmt::format("the weights can be {} to {} in all", lowest, highest),
+                     "weights of 1 in all, in every trial"}};
+          }};
+}
+
+std::vector<ValueRule> rules_of_gms(const study::StudyTable& table) {
+  const std::vector<std::string_view> stiffnesses = values_of_list(table, "friction.gms.stiffness");
+  const std::vector<std::string_view> weights = values_of_list(table, "friction.gms.weight");
+  std::vector<ValueRule> rules;
+  if (!weights.empty()) rules.push_back(weights_of_one_in_all(weights));
+  if (stiffnesses.size() != weights.size()) {
+    const std::size_t n = stiffnesses.size();
+    const std::size_t m = weights.size();
+    rules.push_back(
+        {{n > 0 ? stiffnesses.front() : weights.front()}, false, [n, m](Limits, Limits) -> Faults {
+           return {{fmt::format("there are {} stiffnesses and {} weights of the elements", n, m),
+                    "friction.gms.stiffness and friction.gms.weight with a value for each"}};
+         }});
+  }
+  return rules;
+}
+
+// The bilinear transform maps frequencies below half the sample rate.
+ValueRule frequency_of_filter(std::string_view frequency) {
+  return {{frequency, "controller.sample_rate"}, false, [](Limits l, Limits) -> Faults {
+            if (l[0].high < 0.5 * l[1].low) return {};
+            return {{fmt::format("a frequency of {} Hz can reach half the sample rate of {} Hz", l[0].high,
+                                 l[1].low),
+                     "less than half of controller.sample_rate"}};
+          }};
+}
+
+bool is_frequency_of_filter(const parameters::Parameter& row) {
+  const std::string pattern = parameters::without_indices(row.name);
+  return parameters::has_value(row) && pattern != row.name && pattern.ends_with(".filters.#.frequency");
+}
+
+}  // namespace
+
+std::vector<ValueRule> plugin_rules(const study::StudyPlan& plan) {
+  if (!plan.plugin) return {};
+  return {{{"controller.coarse.coarse_beyond"}, false, [](Limits l, Limits) -> Faults {
+             if (!study::can_have_coarse_phase(l[0])) return {};
+             return {{"a plugin has no phases", "none with controller.plugin"}};
+           }}};
+}
+
+std::vector<ValueRule> list_rules(const study::StudyPlan& plan) {
+  std::vector<ValueRule> rules = rules_of_gms(plan.table);
+  for (const parameters::Parameter& row : plan.table.rows) {
+    if (is_frequency_of_filter(row)) rules.push_back(frequency_of_filter(row.name));
+  }
+  return rules;
+}
+
+}  // namespace zerocount::rules

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/plugin/controller_plugin.hpp"
+#include "experiments/parameters/element_lists.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+
+namespace zerocount::study {
+
+/// Consecutive rows that only one study has, such as those of the values of a list.
+struct RowGroup {
+  std::size_t row{0};    ///< the group follows this row in columns and listings
+  std::size_t first{0};  ///< row of the study's table
+  std::size_t count{0};
+};
+
+/// The parameters of one study: the rows of the table of parameters, followed by the rows that depend on its
+/// manifest. The number of a row is the slot of its values in the plan. The slots of rows that stand for
+/// others, such as the row of a list, are unused.
+struct StudyTable {
+  std::vector<parameters::Parameter> rows{parameters::parameter_table().begin(),
+                                          parameters::parameter_table().end()};
+  std::vector<RowGroup> groups{};
+  std::deque<std::string> names{};  ///< of the rows of the groups, which refer to them
+
+  StudyTable() = default;
+  StudyTable(const StudyTable&) = delete;
+  StudyTable& operator=(const StudyTable&) = delete;
+};
+
+/// Adds the rows of a list's values. @param row that of the list
+RowGroup add_list(StudyTable& table, std::size_t row, std::size_t count);
+
+/// Adds the rows of element `index` of a list, one for each key of its form.
+/// @return the rows in the order of the form's keys
+RowGroup add_element(StudyTable& table, const parameters::ElementList& list, std::size_t index,
+                     const parameters::ElementForm& form);
+
+/// Adds the rows of the parameters of the user's controller, which must outlive the table.
+RowGroup add_plugin(StudyTable& table, const plugin::PluginDescription& plugin);
+
+/// The values of a list that the study has. @param row that of the list
+std::optional<RowGroup> find_list(const StudyTable& table, std::size_t row);
+
+/// All slots in use, in the order of columns: that of the table of parameters, with the values of a list at
+/// the position of its row, and those of elements at the position of their first key.
+std::vector<std::size_t> slots_in_table_order(const StudyTable& table);
+
+/// The slots of a dotted path in a sweep: one slot, or all slots of a list for "command.targets".
+struct SlotRange {
+  std::size_t first{0};
+  std::size_t count{1};
+  bool list{false};  ///< its value is a list with one entry per slot
+};
+std::optional<SlotRange> find_slots(std::string_view path, const StudyTable& table);
+
+/// The list of the dotted path or of one of its values, even if the study does not have it.
+std::optional<std::size_t> find_list_row(std::string_view path);
+
+}  // namespace zerocount::study

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/plugin/controller_plugin.hpp"
+
+namespace zerocount::layout {
+
+/// What a results file records of the user's controller: {"name", "version", "sha256", "parameters":
+/// [{"name", "unit", "meaning", "default", "lowest", "highest"}]}; null is a missing limit.
+std::string plugin_as_json(const plugin::PluginDescription& plugin);
+
+/// Nothing if the text is none of these.
+std::optional<plugin::PluginDescription> plugin_from_json(const std::string& text);
+
+}  // namespace zerocount::layout

@@ -1,0 +1,192 @@
+#include "runners/plugins/hidden_state.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+#include "core/loop/dac.hpp"
+#include "core/loop/encoder.hpp"
+#include "core/plugin/arithmetic_mode.hpp"
+#include "core/trial/trial.hpp"
+
+namespace zerocount::plugins {
+namespace {
+
+constexpr std::int64_t max_trials_checked = 6;
+constexpr double max_samples_checked = 2000.0;  // of each trial
+constexpr std::size_t alignment = 64;           // of states, as zerocount/controller.h promises
+
+using Samples = std::vector<trial::SampleRecord>;
+
+/// The start of a trial: of each move as many samples as make max_samples_checked in all.
+trial::TrialParameters start_of(const study::Study& study, std::int64_t point, std::int64_t index) {
+  trial::TrialParameters p = study::study_trial(study, point, index).parameters;
+  const double rate = p.controller.sample_rate;
+  const auto moves = static_cast<double>(p.command.targets.size());
+  p.command.hold = std::min(p.command.hold, std::max(2.0, max_samples_checked / moves) / rate);
+  p.verdict.dwell = p.verdict.window = 1.0 / rate;
+  return p;
+}
+
+/// Trials spread over the points and their indices.
+std::vector<trial::TrialParameters> some_trials(const study::Study& study) {
+  const std::int64_t points = study::point_count(study);
+  const std::int64_t count = std::min(max_trials_checked, study::trial_count(study));
+  std::vector<trial::TrialParameters> trials;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::int64_t row = i * (study::trial_count(study) / count);
+    trials.push_back(start_of(study, points > 1 ? row / study.trials : 0, row % study.trials));
+  }
+  return trials;
+}
+
+Samples samples_of(const trial::TrialParameters& parameters) {
+  Samples samples;
+  trial::TrialObservers observers;
+  observers.sample = [&](const trial::SampleRecord& record) { samples.push_back(record); };
+  trial::run_trial(parameters, observers);
+  return samples;
+}
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+bool same(const Samples& a, const Samples& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& one, const auto& other) {
+    return one.code == other.code && one.count == other.count && same_bits(one.theta, other.theta);
+  });
+}
+
+/// The controller alone, with the inputs of a trial.
+class ControllerAlone {
+ public:
+  ControllerAlone(const trial::TrialParameters& p, const Samples& inputs)
+      : functions_(*p.controller.user.plugin->functions),
+        parameters_(p.controller.user.parameters),
+        inputs_(&inputs),
+        state_(functions_.state_size + alignment) {
+    setup_ = {.size = sizeof(zerocount_setup),
+              .parameter_count = static_cast<std::uint32_t>(parameters_.size()),
+              .parameters = parameters_.data(),
+              .sample_time = 1.0 / p.controller.sample_rate,
+              .resolution = loop::fine_resolution(p.encoder),
+              .torque_resolution = p.dac.resolution,
+              .lowest_torque = loop::lowest_torque(p.dac),
+              .highest_torque = loop::highest_torque(p.dac),
+              .initial_integral = p.initial.integral};
+    char message[256] = {};
+    functions_.start(aligned(state_), &setup_, message, sizeof message);
+    mode_.restore();
+  }
+  ControllerAlone(const ControllerAlone&) = delete;
+  ControllerAlone& operator=(const ControllerAlone&) = delete;
+
+  /// The wanted torque at its next sample, N m.
+  double step() {
+    const trial::SampleRecord& record = (*inputs_)[k_];
+    const zerocount_sample sample{.k = record.k,
+                                  .time = record.t,
+                                  .error = static_cast<double>(record.reference - record.count),
+                                  .count = static_cast<double>(record.count),
+                                  .reference = static_cast<double>(record.reference),
+                                  .torque = k_ == 0 ? 0.0 : (*inputs_)[k_ - 1].torque};
+    ++k_;
+    const double torque = functions_.step(aligned(state_), &setup_, &sample);
+    mode_.restore();
+    return torque;
+  }
+
+  bool done() const { return k_ == inputs_->size(); }
+
+  /// Copies the state to another address, and overwrites it at the old one.
+  void move_state() {
+    std::vector<std::byte> elsewhere(state_.size() + alignment);
+    std::memcpy(aligned(elsewhere), aligned(state_), functions_.state_size);
+    std::fill(state_.begin(), state_.end(), std::byte{0x5a});
+    std::swap(state_, elsewhere);
+  }
+
+ private:
+  static void* aligned(std::vector<std::byte>& bytes) {
+    void* place = bytes.data();
+    std::size_t space = bytes.size();
+    return std::align(alignment, space - alignment, place, space);
+  }
+
+  const zerocount_controller& functions_;
+  std::vector<double> parameters_;
+  const Samples* inputs_;
+  std::vector<std::byte> state_;
+  zerocount_setup setup_{};
+  plugin::ArithmeticMode mode_{};
+  std::size_t k_{0};
+};
+
+/// The torques of all samples, one trial after the other.
+std::vector<std::vector<double>> torques_in_order(const std::vector<trial::TrialParameters>& trials,
+                                                  const std::vector<Samples>& inputs) {
+  std::vector<std::vector<double>> torques(trials.size());
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    ControllerAlone controller(trials[i], inputs[i]);
+    while (!controller.done()) torques[i].push_back(controller.step());
+  }
+  return torques;
+}
+
+/// The same, the trials in turns, while their states move.
+std::vector<std::vector<double>> torques_in_turns(const std::vector<trial::TrialParameters>& trials,
+                                                  const std::vector<Samples>& inputs) {
+  constexpr std::size_t samples_between_moves = 7;
+  std::vector<std::vector<double>> torques(trials.size());
+  std::vector<std::unique_ptr<ControllerAlone>> controllers;
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    controllers.push_back(std::make_unique<ControllerAlone>(trials[i], inputs[i]));
+  for (bool any = true; any;) {
+    any = false;
+    for (std::size_t i = trials.size(); i-- > 0;) {
+      if (controllers[i]->done()) continue;
+      any = true;
+      torques[i].push_back(controllers[i]->step());
+      if (torques[i].size() % samples_between_moves == 0) controllers[i]->move_state();
+    }
+  }
+  return torques;
+}
+
+[[noreturn]] void refuse(const study::Study& study, std::string_view how) {
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("the controller {} keeps something outside its state: {}; expected that all that changes "
+                  "is in the state, without pointers into it, and no global or static variables",
+                  study.plugin->description.name, how));
+}
+
+}  // namespace
+
+void require_no_hidden_state(const study::Study& study) {
+  if (!study.plugin || study.plugin->functions == nullptr) return;
+  const std::vector<trial::TrialParameters> trials = some_trials(study);
+  std::vector<Samples> first;
+  for (const trial::TrialParameters& trial : trials) first.push_back(samples_of(trial));
+  for (std::size_t i = trials.size(); i-- > 0;) {
+    if (!same(samples_of(trials[i]), first[i]))
+      refuse(study, "a trial that is run again, in another order, differs");
+  }
+  const auto in_order = torques_in_order(trials, first);
+  const auto in_turns = torques_in_turns(trials, first);
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (!std::equal(in_order[i].begin(), in_order[i].end(), in_turns[i].begin(), in_turns[i].end(),
+                    same_bits))
+      refuse(study, "trials that run in turns, while their states move to other addresses, differ");
+  }
+}
+
+}  // namespace zerocount::plugins

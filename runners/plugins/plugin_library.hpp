@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+#include "experiments/manifest/plugin_loader.hpp"
+
+namespace zerocount::plugins {
+
+/// Loads the shared library with a user's controller. It runs code of the library: call it only with a path
+/// that the user gave. The library stays loaded until the program ends.
+manifest::LoadedPlugin load_plugin(const std::filesystem::path& library);
+
+/// Loads the libraries that a manifest names, from its folder.
+manifest::PluginLoader plugins_of(const std::filesystem::path& manifest);
+
+}  // namespace zerocount::plugins

@@ -94,8 +94,8 @@ bool lanes_know(const trial::CommandParameters& command) {
 bool runs_in_lanes(const trial::TrialParameters& p) {
   const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial, verdict, randomness] =
       p;
-  [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping] = plant;
-  return lanes_know(friction.model) && !loop::has_errors(encoder.fine_errors) &&
+  [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping, load] = plant;
+  return !motion::has_load(plant) && lanes_know(friction.model) && !loop::has_errors(encoder.fine_errors) &&
          !loop::has_errors(encoder.coarse_errors) && !loop::has_errors(dac) && lanes_know(amplifier) &&
          lanes_know(controller) && lanes_know(command) && trial::samples_of_move(p, 0) > 0;
 }

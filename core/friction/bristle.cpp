@@ -72,9 +72,9 @@ bool Bristle::sliding() const {
 /// The sign of ω from now on: its own, or that of the first derivative that is not 0.
 double Bristle::direction_under(const motion::TorqueCourse& torque) const {
   if (omega_ != 0.0) return numerics::sign_of(omega_);
-  const double excess = torque.now - parameters_.stiffness * deflection_;
+  const double excess = motion::torque_on_rotor(torque, omega_) - parameters_.stiffness * deflection_;
   if (excess != 0.0) return numerics::sign_of(excess);
-  return motion::is_constant(torque) ? 0.0 : numerics::sign_of(torque.settled - torque.now);
+  return motion::motor_is_constant(torque) ? 0.0 : numerics::sign_of(torque.settled - torque.now);
 }
 
 /// Whether the bristle is where it stays while the rotor is fast; sets it there.
@@ -93,11 +93,13 @@ bool Bristle::rests_under(double torque) const {
 }
 
 double Bristle::step(const motion::TorqueCourse& torque, double duration) {
-  const bool constant = motion::is_constant(torque);
+  const bool constant = motion::motor_is_constant(torque);
   if (constant && rest_torque_ == torque.now) return duration;
   rest_torque_.reset();
   const double direction = direction_under(torque);
-  if (constant && (direction == 0.0 || rests_under(torque.now))) {
+  const bool quiet = motion::load_is_quiet(torque, omega_, inertia_, parameters_.stiffness * tolerance_.rest);
+  if (constant && quiet && (direction == 0.0 || rests_under(torque.now))) {
+    motion::let_load_follow(torque, 0.0);
     rest_torque_ = torque.now;
     omega_ = 0.0;
     deflection_ = torque.now / parameters_.stiffness;

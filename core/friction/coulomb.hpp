@@ -36,6 +36,7 @@ class CoulombFriction : public WithoutCreepAndReversals {
 
  private:
   double stand(const motion::TorqueCourse& torque, double duration);
+  double stand_with_load(const motion::TorqueCourse& torque, double duration);
   double slide(const motion::TorqueCourse& torque, double duration);
   bool torque_drives(double direction, const motion::TorqueCourse& torque) const;
   void break_away(double direction);

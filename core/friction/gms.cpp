@@ -26,8 +26,10 @@ GmsMotion::GmsMotion(std::span<GmsState> states, const StribeckCurve& level, dou
       omega(velocity),
       sticking_torque(0.0),
       sticking_stiffness(0.0),
-      slipping_weight(0.0) {
+      slipping_weight(0.0),
+      stiffest(0.0) {
   for (const GmsState& state : elements) {
+    stiffest = std::max(stiffest, state.element.stiffness);
     if (state.slips) {
       slipping_weight += state.element.weight;
     } else {
@@ -68,11 +70,26 @@ double GmsMotion::expand(GmsSeries& s, std::size_t k, double torque) const {
 }
 
 double GmsMotion::step_of_state(const GmsSeries& series, double tolerance, double duration) const {
-  if (slipping_weight == 0.0) return duration;
-  double stiffness = 0.0;
-  for (const GmsState& state : elements) stiffness += state.element.stiffness;
-  return motion::step_within(series.slipping, series.slipping, series.exponent, tolerance * stiffness,
-                             duration);
+  const double torque_tolerance = tolerance * stiffest;
+  double step = duration;
+  const auto bound = [&](const numerics::Series& of, double error) {
+    step = std::min(step, motion::step_within(of, of, series.exponent, error, duration));
+  };
+  if (slipping_weight > 0.0) {
+    bound(series.slipping, torque_tolerance);
+    bound(series.fading, torque_tolerance / (curve.coulomb + curve.excess));
+  }
+  if (may_slip(series, step)) bound(series.level, torque_tolerance);
+  return step;
+}
+
+/// Whether a sticking element may come to the lowest level, Fc, within the step.
+bool GmsMotion::may_slip(const GmsSeries& series, double step) const {
+  const double excursion = numerics::excursion_bound(series.position, step);
+  return std::any_of(elements.begin(), elements.end(), [&](const GmsState& state) {
+    const double highest = direction * state.torque + state.element.stiffness * excursion;
+    return !state.slips && highest >= state.element.weight * curve.coulomb;
+  });
 }
 
 /// ηi·g(ω) − s·Fi of a sticking element.
@@ -163,6 +180,13 @@ double GmsFriction::torque() const {
   return sum;
 }
 
+/// Stiffness of the softest spring, N m/rad.
+double GmsFriction::softest() const {
+  double least = elements_.front().element.stiffness;
+  for (const GmsState& state : elements_) least = std::min(least, state.element.stiffness);
+  return least;
+}
+
 bool GmsFriction::sliding() const {
   return std::all_of(elements_.begin(), elements_.end(), [](const GmsState& state) { return state.slips; });
 }
@@ -170,9 +194,9 @@ bool GmsFriction::sliding() const {
 /// The sign of ω from now on: its own, or that of the first derivative that is not 0.
 double GmsFriction::direction_under(const motion::TorqueCourse& torque) const {
   if (omega_ != 0.0) return numerics::sign_of(omega_);
-  const double excess = torque.now - this->torque();
+  const double excess = motion::torque_on_rotor(torque, omega_) - this->torque();
   if (excess != 0.0) return numerics::sign_of(excess);
-  return motion::is_constant(torque) ? 0.0 : numerics::sign_of(torque.settled - torque.now);
+  return motion::motor_is_constant(torque) ? 0.0 : numerics::sign_of(torque.settled - torque.now);
 }
 
 bool GmsFriction::come_to_rest(double torque) {
@@ -209,10 +233,12 @@ void GmsFriction::begin_to_slip(double direction) {
 }
 
 double GmsFriction::step(const motion::TorqueCourse& torque, double duration) {
-  const bool constant = motion::is_constant(torque);
+  const bool constant = motion::motor_is_constant(torque);
   if (constant && rest_torque_ == torque.now) return duration;
   rest_torque_.reset();
-  if (constant && come_to_rest(torque.now)) {
+  if (constant && motion::load_is_quiet(torque, omega_, plant_.inertia, softest() * tolerance_.rest) &&
+      come_to_rest(torque.now)) {
+    motion::let_load_follow(torque, 0.0);
     rest_torque_ = torque.now;
     return duration;
   }

@@ -54,13 +54,15 @@ struct GmsMotion {
   double sticking_torque;     ///< of all sticking elements at the start of the step, N m
   double sticking_stiffness;  ///< N m/rad
   double slipping_weight;     ///< H
+  double stiffest;            ///< largest κi, N m/rad
 
   GmsMotion(std::span<GmsState> elements, const StribeckCurve& curve, double attraction, double damping,
             double direction, double& theta, double& omega);
 
   GmsSeries start() const;
   double expand(GmsSeries& s, std::size_t k, double torque) const;
-  /// The slipping torque is as accurate as an elongation of all springs with the accuracy of θ makes it.
+  /// Torques of slipping elements, and the level that others may reach, are as accurate as the elongation of
+  /// the stiffest spring.
   double step_of_state(const GmsSeries& series, double tolerance, double duration) const;
   void complete(GmsSeries& series) const { expand_level(series, numerics::series_order); }
   motion::NextEvent<Event> first_event(const GmsSeries& series, double step) const;
@@ -68,6 +70,7 @@ struct GmsMotion {
 
  private:
   void expand_level(GmsSeries& s, std::size_t k) const;
+  bool may_slip(const GmsSeries& series, double step) const;
   numerics::Series margin_of(const GmsState& state, const GmsSeries& series) const;
 };
 
@@ -112,6 +115,7 @@ class GmsFriction : public WithoutCreepAndReversals {
 
  private:
   double torque() const;
+  double softest() const;
   double direction_under(const motion::TorqueCourse& torque) const;
   bool come_to_rest(double torque);
   void load_slowly(double torque);

@@ -126,7 +126,7 @@ StabilityMargins margins_about(double stiffness, double damping, const motion::P
                                const loop::ControllerParameters& controller, const LinearDrive& drive) {
   const double T = sample_time(controller);
   const double resolution = loop::fine_resolution(encoder);
-  const HeldPlant held = hold_plant(stiffness, damping, plant.inertia, resolution, T, drive);
+  const HeldPlant held = hold_plant(stiffness, damping, plant, resolution, T, drive);
   return stability_margins(held, loop::linear_chain(controller, resolution), controller.delay, T);
 }
 

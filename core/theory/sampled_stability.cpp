@@ -16,7 +16,7 @@ namespace {
 HeldPlant presliding_plant(double stiffness, const motion::PlantParameters& plant,
                            const loop::EncoderParameters& encoder,
                            const loop::ControllerParameters& controller, const LinearDrive& drive) {
-  return hold_plant(stiffness, plant.presliding_damping, plant.inertia, loop::fine_resolution(encoder),
+  return hold_plant(stiffness, plant.presliding_damping, plant, loop::fine_resolution(encoder),
                     sample_time(controller), drive);
 }
 

@@ -99,7 +99,7 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
     move.travel_time = reference.duration();
     move.controller_failed = rig.controller_failed();
     if (move.outcome != Outcome::nonfinite) {
-      move.true_error = true_error(target, move.final_position, resolution, p.initial.encoder_phase);
+      move.true_error = true_error(target, rig.last_measured(), resolution, p.initial.encoder_phase);
     }
     outcome.moves.push_back(move);
     stopped = move.stopped;

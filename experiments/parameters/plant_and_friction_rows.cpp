@@ -22,6 +22,15 @@ std::vector<Parameter> plant_rows() {
                numerics::at_least(0), [](auto& p) { return &p.plant.presliding_damping; }),
       real_row("plant.sliding_damping", 14, "N m s/rad", "viscous damping cs while the hook slides", assumed,
                numerics::at_least(0), [](auto& p) { return &p.plant.sliding_damping; }),
+      real_row("plant.load.inertia", beyond_moves(12), "kg m^2",
+               "inertia JL of a second mass behind an elastic coupling; 0: there is none", assumed,
+               numerics::at_least(0), [](auto& p) { return &p.plant.load.inertia; }),
+      real_row("plant.load.stiffness", beyond_moves(13), "N m/rad", "stiffness kL of the coupling", assumed,
+               numerics::above(0), [](auto& p) { return &p.plant.load.stiffness; }),
+      real_row("plant.load.damping", beyond_moves(14), "N m s/rad", "damping dL of the coupling", assumed,
+               numerics::at_least(0), [](auto& p) { return &p.plant.load.damping; }),
+      word_row("plant.load.encoder", beyond_moves(15), "the mass whose angle the encoders read", assumed,
+               {"motor", "load"}, [](auto& p) { return &p.plant.load.encoder; }),
   };
 }
 

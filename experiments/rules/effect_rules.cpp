@@ -208,6 +208,14 @@ std::vector<EffectRule> rules_of_the_blocks(const PhaseNames& of) {
   };
 }
 
+EffectRule rule_of_the_load() {
+  return {.keys = {"plant.load.stiffness", "plant.load.damping", "plant.load.encoder"},
+          .depends_on = {"plant.load.inertia"},
+          .has_effect = [](Limits l) { return can_be_positive(l[0]); },
+          .what = "it has no effect: there is no second mass at any point",
+          .expected = "plant.load.inertia above 0, or the key left out"};
+}
+
 // Only a warning, so that a study can be switched between both cases with one key.
 EffectRule rule_of_the_limit() {
   return {.keys = {"verdict.limit"},
@@ -329,6 +337,7 @@ std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   std::vector<EffectRule> rules = rules_of_the_command(plan);
   rules.push_back(rule_of_the_position(plan));
   rules.push_back(rule_of_the_limit());
+  rules.push_back(rule_of_the_load());
   rules.push_back(rule_of_the_plugin(plan));
   for (const auto& more :
        {rules_of_the_loop(), rules_of_the_blocks(one_phase), rules_of_the_blocks(coarse_phase),

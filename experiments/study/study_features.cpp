@@ -87,6 +87,7 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   features.travel = closed_loop && holds_somewhere(plan, "command.profile.shape", is_no_step);
   features.phases =
       closed_loop && holds_somewhere(plan, "controller.coarse.coarse_beyond", can_have_coarse_phase);
+  features.load = holds_somewhere(plan, "plant.load.inertia", can_be_positive);
   features.drive_torque = has_uneven_drive(plan);
   features.encoder_errors = has_encoder_errors(plan);
   features.own_controller = plan.plugin != nullptr;

@@ -22,10 +22,11 @@ constexpr motion::MotionTolerance tolerance{1e-11 * count, 1e-8 * count};
 class Answers {
  public:
   template <class Law>
-  Json motion(friction::FrictionModel model) {
-    const motion::PlantParameters rotor{.inertia = power_of_ten(-3.7, -2.7),
-                                        .presliding_damping = power_of_ten(-2.0, 0.0),
-                                        .sliding_damping = power_of_ten(-3.0, -1.0)};
+  Json motion(friction::FrictionModel model, bool loaded) {
+    motion::PlantParameters rotor{.inertia = power_of_ten(-3.7, -2.7),
+                                  .presliding_damping = power_of_ten(-2.0, 0.0),
+                                  .sliding_damping = power_of_ten(-3.0, -1.0)};
+    if (loaded) rotor.load = {power_of_ten(-4.0, -2.5), power_of_ten(2.5, 4.5), power_of_ten(-3.0, -0.5)};
     friction::FrictionAlongRotor friction = contact(model);
     const motion::PlantStart start{.velocity = random_() % 3 == 0 ? uniform(-0.3, 0.3) : 0.0,
                                    .sliding = random_() % 2 == 0};
@@ -40,8 +41,8 @@ class Answers {
       if (!lags) course.now = course.settled;
       course.rate = lags ? 2000.0 : 0.0;
       plant.advance(course, sample_time);
-      samples.push_back(
-          {course.now, course.settled, course.rate, plant.theta(), plant.omega(), plant.sliding()});
+      samples.push_back({course.now, course.settled, course.rate, plant.theta(), plant.omega(),
+                         plant.sliding(), plant.load() ? plant.load()->twist : 0.0});
       course = motion::course_after(course, sample_time);
     }
     const friction::FrictionParameters& p = friction.uniform;
@@ -58,6 +59,9 @@ class Answers {
             {"sigma1", p.sigma1},
             {"attraction", p.gms_attraction},
             {"elements", elements},
+            {"load_inertia", rotor.load.inertia},
+            {"load_stiffness", rotor.load.stiffness},
+            {"load_damping", rotor.load.damping},
             {"velocity", start.velocity},
             {"slides", start.sliding},
             {"sample_time", sample_time},
@@ -98,10 +102,14 @@ int main() {
   using namespace zerocount;
   Answers answers;
   Json cases = Json::array();
-  for (int i = 0; i < 12; ++i) {
-    cases.push_back(answers.motion<friction::DahlFriction>(friction::FrictionModel::dahl));
-    cases.push_back(answers.motion<friction::LuGreFriction>(friction::FrictionModel::lugre));
-    cases.push_back(answers.motion<friction::GmsFriction>(friction::FrictionModel::gms));
+  using Model = friction::FrictionModel;
+  for (int i = 0; i < 16; ++i) {
+    const bool loaded = i % 2 == 1;
+    cases.push_back(answers.motion<friction::DahlFriction>(Model::dahl, loaded));
+    cases.push_back(answers.motion<friction::LuGreFriction>(Model::lugre, loaded));
+    cases.push_back(answers.motion<friction::GmsFriction>(Model::gms, loaded));
+    cases.push_back(answers.motion<friction::CoulombFriction>(Model::coulomb, loaded));
+    cases.push_back(answers.motion<friction::NoFriction>(Model::none, loaded));
   }
   std::cout << cases.dump() << '\n';
 }

@@ -19,7 +19,7 @@ namespace {
 constexpr loop::ControlStart wide{0.0, {-1e300, 1e300}, 2.0 * std::numbers::pi / 1'620'000};
 
 HeldPlant paper_rig() {
-  return hold_plant(300.0, 0.2, 5.54e-4, 2.0 * std::numbers::pi / 1'620'000, 5e-4, {1.1, 400.0});
+  return hold_plant(300.0, 0.2, {}, 2.0 * std::numbers::pi / 1'620'000, 5e-4, {1.1, 400.0});
 }
 
 /// Growth per sample of the loop run with the blocks' own `step`.

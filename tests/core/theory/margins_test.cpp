@@ -35,8 +35,7 @@ TEST(Margins, GainMarginIsTheFactorToTheEdgeOfStability) {
     drive.gain *= margins.gain.value;
     const double T = 1.0 / controller.sample_rate;
     const double resolution = loop::fine_resolution({});
-    const HeldPlant plant =
-        hold_plant(stiffness, 0.2, motion::PlantParameters{}.inertia, resolution, T, drive);
+    const HeldPlant plant = hold_plant(stiffness, 0.2, {}, resolution, T, drive);
     const Eigen::MatrixXd map = loop_map(plant, loop::linear_chain(controller, resolution), controller.delay);
     const std::complex<double> expected =
         std::polar(1.0, 2.0 * std::numbers::pi * margins.gain.frequency * T);

@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"plant: {inertai: 1}",
              "m.yaml:6:9: plant.inertai: unknown key, nearest known: inertia; expected one of inertia, "
-             "presliding_damping, sliding_damping"},
+             "presliding_damping, sliding_damping, load"},
         Case{"friction: {kp: 1}",
              "m.yaml:6:12: friction.kp: unknown key, nearest known: controller.kp; expected one of model, "
              "k1, k2, "

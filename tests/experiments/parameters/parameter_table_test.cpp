@@ -26,6 +26,10 @@ const std::map<std::string, double> expected_defaults{
     {"friction.breakaway", 0.3},
     {"friction.coulomb_ratio", 0.8},
     {"friction.stribeck_velocity", 0.01},
+    {"plant.load.inertia", 0},
+    {"plant.load.stiffness", 20000},
+    {"plant.load.damping", 0.1},
+    {"plant.load.encoder", 0},  // motor
     {"friction.sigma0", 860},
     {"friction.sigma1", 0.2},
     {"friction.gms.attraction", 30},

@@ -135,6 +135,10 @@ Complex open_loop(Complex z, const HeldPlant& plant, const loop::LinearChain& co
   const Eigen::Index states = plant.A.rows();
   const Eigen::MatrixXcd resolvent = z * Eigen::MatrixXcd::Identity(states, states) - plant.A;
   const Eigen::VectorXcd response = resolvent.fullPivLu().solve(plant.b.cast<Complex>());
+  return controller_response(z, controller) * std::pow(z, -delay) * response(0);
+}
+
+Complex controller_response(Complex z, const loop::LinearChain& controller) {
   const auto pass = [z](const PathGroup& group, const auto& input) {
     Complex sum = 0.0;
     for (const auto& [from, b] : group.numerators) sum += value_at(b, z) * input(from);
@@ -143,7 +147,7 @@ Complex open_loop(Complex z, const HeldPlant& plant, const loop::LinearChain& co
   // The torque in force is z⁻¹·U, so U = from_count·count + from_itself·z⁻¹·U.
   const Complex from_count = wanted_torque<Complex>(controller, 1.0, 0.0, pass);
   const Complex from_itself = wanted_torque<Complex>(controller, 0.0, 1.0, pass);
-  return -from_count / (1.0 - from_itself / z) * std::pow(z, -delay) * response(0);
+  return -from_count / (1.0 - from_itself / z);
 }
 
 }  // namespace zerocount::theory

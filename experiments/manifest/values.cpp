@@ -47,7 +47,7 @@ study::Value read_enumeration(const yaml::Field& field, const parameters::Parame
 }
 
 bool is_none(const yaml::YamlNode& node) {
-  return node.kind == yaml::YamlNode::Kind::scalar && node.plain && node.text == "none";
+  return node.kind == yaml::YamlNode::Kind::scalar && node.text == "none";
 }
 
 study::Value read_number(const yaml::Field& field, const parameters::Parameter& parameter, Reading& reading) {

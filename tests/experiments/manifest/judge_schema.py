@@ -53,6 +53,13 @@ def judge_extended(validator, extended):
         (["controller", "coarse", "coarse_beyond"], 1e13),
         (["controller", "coarse", "delay"], 1),
         (["controller", "coarse.kp"], 1),
+        (["controller", "deadband"], -1),
+        (["controller", "deadband"], "off"),
+        (["controller", "deadband"], {"entr": 1}),
+        (["controller", "integrator_leak"], 0),
+        (["controller", "structure"], "pi"),
+        (["controller", "observer"], {"bandwidth": "none"}),
+        (["sweep", "grid", "controller.deadband"], [[1]]),
         (["friction", "model"], "stribeck"),
         (["friction", "model"], {"choice": [0, 1]}),
         (["initial", "history"], 3),
@@ -100,6 +107,14 @@ def judge_extended(validator, extended):
         (["sweep", "cases", "b"], {"controller.coarse.encoder": "fine", "initial.history.torque": 0.1}),
         (["initial", "history", "reversals"], {"integers": [1, 1000]}),
         (["controller", "coarse", "coarse_beyond"], {"integers": [100, 200]}),
+        (["controller", "deadband"], 1),
+        (["controller", "deadband"], "none"),
+        (["controller", "deadband"], {"uniform": [0, 2]}),
+        (["controller", "deadband"], {"enter": 1, "leave": "none"}),
+        (["controller", "integrator_leak"], "none"),
+        (["controller", "observer"], {"bandwidth": 20, "inertia": 1e-3}),
+        (["sweep", "grid", "controller.deadband"], ["none", 0, 1]),
+        (["sweep", "grid", "controller.deadband.enter"], {"linspace": [0, 2, 3]}),
     ]
     for path, value in good:
         manifest = changed(extended, path, value)

@@ -93,6 +93,7 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   features.own_controller = plan.plugin != nullptr;
   features.final_error = features.own_controller || features.travel || features.phases ||
                          holds_somewhere(plan, "controller.ki", has_zero) ||
+                         any_holds(plan, {"controller.deadband.enter"}, can_be_positive) ||
                          holds_somewhere(plan, "friction.model", causes_hunting);
   features.stopping = closed_loop && holds_somewhere(plan, "verdict.stop", can_be_positive);
   features.dependent_trials = study.design == Design::saltelli;

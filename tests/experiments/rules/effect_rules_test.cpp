@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
         // What could not be read may have had any effect.
         IdleCase{"{targets: [1]}", "controller: {coarse: {kp: 1, coarse_beyond: far}}",
                  "m.yaml:6:45: controller.coarse.coarse_beyond: 'far' is not a number; expected a number at "
-                 "least 0 and at most 1000000000000"}));
+                 "least 0 and at most 1000000000000, or none"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Blocks, EffectRules,

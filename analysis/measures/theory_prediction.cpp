@@ -8,7 +8,8 @@ namespace zerocount::measures {
 
 TrialPrediction predict(const trial::TrialParameters& parameters) {
   TrialPrediction prediction;
-  if (parameters.controller.user.plugin || !parameters.command.torque.levels.empty() || !friction::has_spring(parameters.friction.model)) {
+  if (parameters.controller.user.plugin || !parameters.command.torque.levels.empty() ||
+      !friction::has_spring(parameters.friction.model)) {
     prediction.applies = false;
     return prediction;
   }

@@ -175,7 +175,7 @@ std::optional<LimitCycle> stick_slip_cycle(const friction::FrictionParameters& c
   // How far a slide goes grows with Fs − Fc: from what the integral alone does to without bound.
   const auto beyond = [&](double excess) {
     const std::optional<SlideEnd> end = slide_end(generator, gains.kp, excess);
-    return end ? end->x - 1.0 : 1.0;
+    return end ? end->x - 1.0 : -1.0;  // it creeps up to its target without end
   };
   const double scale = gains.kp + gains.ki / generator.eigenvalues().cwiseAbs().maxCoeff();  // N m/rad
   const double least = 1e-6 * scale;

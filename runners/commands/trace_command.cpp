@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -126,6 +127,9 @@ ExitCode trace(const command_line::Arguments& arguments) {
   const study::StudyTrial trial = study::study_trial(study, point, index);
   const shards::TrialResult replayed =
       write_trace_to(output.value_or("-"), {study, point, index, trial}, json);
+  const auto failed = [](const trial::MoveOutcome& move) { return move.controller_failed; };
+  if (std::any_of(replayed.outcome.moves.begin(), replayed.outcome.moves.end(), failed))
+    fmt::print(stderr, "the controller gave no finite torque at the last sample: the trial ends there\n");
   if (!file) return ExitCode::success;
 
   const std::vector<std::string> different = differences_from_record(*file, replayed);

@@ -44,7 +44,7 @@ TEST(DescribingFunction, OfABristleGoesFromASpringToARelay) {
       describing_function(FrictionModel::dahl, contact, plant, amplitude, frequency);
   const double relay = 4.0 * contact.coulomb_ratio * contact.breakaway / (std::numbers::pi * amplitude);
   EXPECT_NEAR(large.imag() - plant.presliding_damping * frequency, relay, 1e-3 * relay);
-  EXPECT_LT(std::abs(large.real()), 1e-2 * relay);
+  EXPECT_LT(std::abs(large.real()), 2e-2 * relay);
 }
 
 /// A loop of the paper's rotor with these continuous gains.
@@ -89,7 +89,7 @@ TEST(StickSlipCycle, IsNoneWithoutAStaticLevelOrAnIntegral) {
 
 // A gain at which the loop about the bristle's stiffness is unstable: hysteresis limits the oscillation.
 TEST(HarmonicBalance, OfABristleIsThatOfTrials) {
-  for (const double gain : {6e-4, 8e-4}) {
+  for (const double gain : {3.1e-4, 3.4e-4, 3.8e-4}) {
     trial::TrialParameters p;
     p.friction.model = FrictionModel::lugre;
     p.dac = {.bits = 20, .resolution = 1e-5};

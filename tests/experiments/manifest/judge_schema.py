@@ -146,6 +146,14 @@ def judge_extended(validator, extended):
     filters["controller"]["filters"] = [{"lead": {"frequency": 100, "ratio": 4}}, {"biquad": {"b": [1, 0, 0], "a": [0, 0]}}]
     filters["sweep"]["grid"] |= {"controller.filters.0.frequency": {"linspace": [100, 200, 3]}, "controller.filters.1.b": [[1, 0, 0]]}
     filters["sweep"]["cases"] = {"a": {"controller.filters.1.a.1": 0.5}}
+    schema_only = copy.deepcopy(extended)  # the program has no library to load here
+    schema_only["controller"] |= {"plugin": "own.so", "parameters": {"gain": {"uniform": [1, 5], "per": "study"}, "a_2": -3}}
+    schema_only["sweep"] = {"grid": {"controller.parameters.gain": {"linspace": [1, 2, 3]}}, "cases": {"a": {"controller.parameters.a_2": 1}}}
+    if not validator.is_valid(schema_only):
+        sys.exit("the schema refuses a plugin")
+    schema_only["controller"]["parameters"] = {"Gain": 1}
+    if validator.is_valid(schema_only):
+        sys.exit("the schema accepts a name that no parameter of a plugin has")
     for manifest in (extended, torque, filters):
         errors = [e.message for e in validator.iter_errors(manifest)]
         if errors or program_refuses(manifest):

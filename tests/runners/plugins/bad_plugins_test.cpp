@@ -93,8 +93,9 @@ TEST(BadPlugins, TorquesThatAreNoNumbersEndTheTrialAndSaySo) {
   EXPECT_EQ(point["nonfinite"], point["trials"]);
   EXPECT_NE(zerocount_program({"summary", "out.h5"}, folder.path()).out.find("controller failed"),
             std::string::npos);
-  const std::string trace = zerocount_program({"trace", "study.yaml"}, folder.path()).out;
-  EXPECT_EQ(std::count(trace.begin(), trace.end(), '\n'), 102);  // the head and samples 0 to 100
+  const ProgramResult trace = zerocount_program({"trace", "study.yaml"}, folder.path());
+  EXPECT_EQ(std::count(trace.out.begin(), trace.out.end(), '\n'), 102);  // the head and samples 0 to 100
+  EXPECT_NE(trace.err.find("the controller gave no finite torque"), std::string::npos);
 }
 
 TEST(BadPlugins, TheModeOfArithmeticIsRestored) {

@@ -1,0 +1,141 @@
+// The parameters of a user's controller in manifests, without its library: a description is enough.
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/plan.hpp"
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount::manifest {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+PluginLoader two_parameters() {
+  return known_plugin(std::make_shared<const plugin::ControllerPlugin>(
+      plugin::ControllerPlugin{{"own",
+                                "1",
+                                "0123",
+                                {{"gain", "N m/count", "a gain", 3.0, 0.0, 10.0},
+                                 {"offset", "1", "any", 0.0, -unlimited, unlimited}}}}));
+}
+
+study::Study study_with_plugin(const std::string& more, const std::vector<std::string>& overrides = {}) {
+  return parse_study(minimal_manifest(more), "m.yaml", overrides, two_parameters());
+}
+
+std::string refusal_with_plugin(const std::string& more, const PluginLoader& load = two_parameters()) {
+  try {
+    parse_study(minimal_manifest(more), "m.yaml", {}, load);
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::bad_input);
+    return failure.what();
+  }
+  return "";
+}
+
+const std::string own = "controller: {plugin: own.so, parameters: {gain: {uniform: [1, 5]}}}\n";
+
+TEST(PluginParameters, HaveTheirDefaultsAndDistributions) {
+  const study::Study study = study_with_plugin(own);
+  const study::StudyTrial trial = study::study_trial(study, 0, 3);
+  ASSERT_EQ(study.input_columns.size(), 1u);
+  EXPECT_EQ(study.input_columns[0].name, "controller.parameters.gain");
+  EXPECT_EQ(study.input_columns[0].unit, "N m/count");
+  EXPECT_EQ(study.input_columns[0].meaning, "a gain");
+  ASSERT_EQ(trial.parameters.controller.user.parameters.size(), 2u);
+  EXPECT_EQ(trial.parameters.controller.user.parameters[0], trial.inputs[0]);
+  EXPECT_EQ(trial.parameters.controller.user.parameters[1], 0.0);
+  const study::Study without = study_with_plugin("controller: {plugin: own.so}\n");
+  EXPECT_EQ(study::study_trial(without, 0, 0).parameters.controller.user.parameters,
+            (std::vector<double>{3, 0}));
+}
+
+TEST(PluginParameters, AreSweptAndOverridden) {
+  const study::Study study =
+      study_with_plugin(own +
+                            "sweep: {cases: {a: {controller.parameters.offset: -2}, b: {}}, grid: "
+                            "{controller.parameters.gain: {linspace: [2, "
+                            "4, 3]}}}\n",
+                        {"controller.parameters.offset=7"});
+  ASSERT_EQ(study::point_count(study), 6);
+  EXPECT_EQ(study::study_trial(study, 1, 0).parameters.controller.user.parameters,
+            (std::vector<double>{3, -2}));
+  EXPECT_EQ(study::study_trial(study, 5, 0).parameters.controller.user.parameters,
+            (std::vector<double>{4, 7}));
+}
+
+TEST(PluginParameters, AreDrawnForRigsAndInEveryDesign) {
+  EXPECT_EQ(study_with_plugin(own, {"rigs=5", "trials=10"}).rig_columns.size(), 1u);
+  EXPECT_EQ(study_with_plugin(own, {"design=saltelli", "trials=9"}).factors,
+            std::vector<std::string>{"controller.parameters.gain"});
+  const study::Study sobol = study_with_plugin(own, {"design=sobol", "trials=8"});
+  std::vector<double> gains;
+  for (std::int64_t i = 0; i < 8; ++i) gains.push_back(study::study_trial(sobol, 0, i).inputs[0]);
+  std::sort(gains.begin(), gains.end());
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(static_cast<std::size_t>((gains[i] - 1) / 4 * 8), i);
+}
+
+TEST(PluginParameters, AnotherLibraryMakesAnotherStudy) {
+  const auto sha_of = [](const char* sha256) {
+    return parse_study(minimal_manifest("controller: {plugin: own.so}\n"), "m.yaml", {},
+                       known_plugin(std::make_shared<const plugin::ControllerPlugin>(
+                           plugin::ControllerPlugin{{"own", "1", sha256, {}}})))
+        .study_sha256;
+  };
+  EXPECT_EQ(sha_of("01"), sha_of("01"));
+  EXPECT_NE(sha_of("01"), sha_of("02"));
+}
+
+TEST(PluginParameters, ErrorsNameThePlace) {
+  const std::vector<std::pair<std::string, std::string>> refusals{
+      {"controller: {plugin: own.so, parameters: {gian: 1}}",
+       "m.yaml:6:43: controller.parameters.gian: unknown key, nearest known: gain; expected one of gain, "
+       "offset"},
+      {"controller: {plugin: own.so, parameters: {gain: 11}}",
+       "m.yaml:6:49: controller.parameters.gain: '11' is out of range; expected a number at least 0 and at "
+       "most 10"},
+      {"controller: {plugin: own.so, parameters: 3}",
+       "m.yaml:6:42: controller.parameters: the single value '3' stands here; expected a map"},
+      {"controller: {parameters: {gain: 1}}",
+       "m.yaml:6:26: controller.parameters: there is no plugin whose parameters these are; expected "
+       "controller.plugin, or the key left out"},
+      {"controller: {plugin: own.so, kp: 1.0e-4}",
+       "m.yaml:6:34: controller.kp: it has no effect: the controller is a plugin; expected "
+       "controller.parameters, or "
+       "the key left out"},
+      {"controller: {plugin: own.so, coarse: {coarse_beyond: 200}}",
+       "m.yaml:6:54: controller.coarse.coarse_beyond: a plugin has no phases; expected none with "
+       "controller.plugin"},
+      {"controller: {plugin: [own.so]}",
+       "m.yaml:6:22: controller.plugin: a list stands here; expected a text"},
+      {"controller: {plugin: own.so}\nsweep: {grid: {controller.parameters.gian: [1]}}",
+       "m.yaml:7:16: sweep.grid.controller.parameters.gian: unknown key, nearest known: "
+       "controller.parameters.gain; "
+       "expected a dotted path of the table of parameters, such as controller.ki"},
+  };
+  for (const auto& [text, message] : refusals) EXPECT_EQ(refusal_with_plugin(text), message);
+  EXPECT_EQ(refusal_with_plugin("controller: {plugin: own.so}", {}),
+            "m.yaml:6:22: controller.plugin: this command does not load plugins; expected the command check, "
+            "run or "
+            "trace");
+}
+
+TEST(PluginParameters, APluginClosesTheLoop) {
+  try {
+    parse_study(manifest_commanding("{torque: {levels: [0.1]}}", "controller: {plugin: own.so}\n"), "m.yaml",
+                {}, two_parameters());
+    FAIL();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(
+        std::string(failure.what()),
+        "m.yaml:6:22: controller.plugin: it has no effect: the loop is open with command.torque; expected "
+        "command.targets or command.sequence, or the key left out");
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::manifest

@@ -10,7 +10,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int steps = 400;  // of half a period
+constexpr int steps = 200;  // of half a period
 constexpr double step = std::numbers::pi / steps;
 
 /// Phase of Ωt in the middle of step i, from −π/2, where θ = −A, to π/2.

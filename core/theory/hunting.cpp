@@ -55,8 +55,8 @@ struct Balance {
   }
 };
 
-constexpr double amplitude_step = 1.15;
-constexpr double frequency_step = 1.06;
+constexpr double amplitude_step = 1.25;
+constexpr double frequency_step = 1.1;
 
 /// The frequencies (rad/s) at which the stiffnesses balance the inertia.
 std::vector<double> resonances(const Balance& balance, double amplitude) {

@@ -20,6 +20,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/low_end.hpp"
 #include "experiments/study/study.hpp"
+#include "runners/commands/check_hunting.hpp"
 #include "runners/commands/commands.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/plugins/plugin_library.hpp"
@@ -123,6 +124,7 @@ struct SlidingPhase {
 struct PointTheory {
   std::string_view outside;   // reason why the theory does not apply; empty if it does
   std::string_view left_out;  // of the controller, by criteria (6) and (7); empty: they apply
+  std::string hunting;        // lines on its prediction; empty: there is none
   bool free{false};           // no spring: ki and sampled_below are of the loop without friction
   Range ki, stable_below, sampled_below, unstable_above;  // gain_unit
   std::string gain_name;                                  // "ki", or that of a cascade
@@ -328,6 +330,8 @@ PointTheory examine(const study::Study& study, std::int64_t point) {
   theory.gain_unit = parameters::unit_of(
       parameters::parameter_table()[parameters::find_parameter(gain).value()], study.units);
   if (!theory.outside.empty()) {
+    const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
+    theory.hunting = hunting_lines(first, drive_of(first));
     examine_free(study, point, theory);
     return theory;
   }
@@ -435,7 +439,7 @@ std::string sampled_verdict(const PointTheory& theory) {
 
 std::string describe_outside(const PointTheory& theory) {
   std::string out = fmt::format("    the criteria do not apply: {}\n", theory.outside);
-  if (!theory.free) return out;
+  if (!theory.free) return out + theory.hunting;
   return out + range_line(theory.gain_name, theory.ki, theory.gain_unit) + ": sampled loop " +
          sampled_verdict(theory) + "\n" +
          range_line("sampled loop, below", theory.sampled_below, theory.gain_unit) + "\n" +

@@ -1,0 +1,45 @@
+#include "runners/commands/check_hunting.hpp"
+
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/loop/controller.hpp"
+#include "core/loop/encoder.hpp"
+#include "core/theory/describing_function.hpp"
+#include "core/theory/hunting.hpp"
+
+namespace zerocount::commands {
+namespace {
+
+std::string line(std::string_view by, const theory::LimitCycle& cycle, double resolution) {
+  return fmt::format("    hunting of trial 0, {}: amplitude {:.4g} counts, period {:.4g} s\n", by,
+                     cycle.amplitude / resolution, cycle.period);
+}
+
+}  // namespace
+
+std::string hunting_lines(const trial::TrialParameters& trial, const theory::LinearDrive& drive) {
+  const friction::FrictionModel model = trial.friction.model;
+  const bool closed_loop = trial.command.torque.levels.empty();
+  if (!closed_loop || trial.controller.user.plugin || !theory::has_describing_function(model)) return {};
+  const loop::ControllerParameters controller =
+      loop::controller_in_phase(trial.controller, loop::ControlPhase::fine);
+  const friction::FrictionParameters contact =
+      friction::friction_at(trial.friction, trial.initial.position);
+  const double resolution = loop::fine_resolution(trial.encoder);
+  constexpr std::string_view by_function = "by describing function";
+  std::string lines;
+  for (const theory::LimitCycle& cycle :
+       theory::harmonic_balance(model, contact, trial.plant, trial.encoder, controller, drive)) {
+    lines += line(by_function, cycle, resolution);
+  }
+  if (lines.empty()) lines = fmt::format("    hunting of trial 0, {}: none\n", by_function);
+  if (model != friction::FrictionModel::coulomb) return lines;
+  const auto cycle = theory::stick_slip_cycle(contact, trial.plant, trial.encoder, controller);
+  constexpr std::string_view by_slides = "by stick-slip";
+  return lines + (cycle ? line(by_slides, *cycle, resolution)
+                        : fmt::format("    hunting of trial 0, {}: no lasting cycle\n", by_slides));
+}
+
+}  // namespace zerocount::commands

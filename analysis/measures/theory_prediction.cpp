@@ -9,7 +9,8 @@ namespace zerocount::measures {
 TrialPrediction predict(const trial::TrialParameters& parameters) {
   TrialPrediction prediction;
   if (parameters.controller.user.plugin || !parameters.command.torque.levels.empty() ||
-      !friction::has_spring(parameters.friction.model)) {
+      !friction::has_spring(parameters.friction.model) ||
+      !theory::left_out_of_criteria(parameters.controller).empty()) {
     prediction.applies = false;
     return prediction;
   }

@@ -15,7 +15,8 @@ namespace zerocount::measures {
 /// k1 and k2 are those at the start of the trial: within one pre-sliding range they do not change (paper,
 /// QN2). The paper's advice to use the lowest k1 of the working area is for a design.
 struct TrialPrediction {
-  /// Whether the criteria apply to this trial: the loop is closed, and the friction has a pre-sliding spring.
+  /// Whether the criteria apply to this trial: the loop is closed, the friction has a pre-sliding spring, and
+  /// the controller has no blocks that the criteria leave out.
   bool applies{true};
   theory::IntegralGainBounds bounds;  ///< N m/count
   bool stable{false};                 ///< (6): 0 < ki < bounds.stable_below

@@ -1,6 +1,5 @@
 #include "core/batch/batch.hpp"
 
-#include <cmath>
 #include <type_traits>
 
 #include "core/batch/lane_work.hpp"
@@ -22,9 +21,12 @@ bool lanes_know(friction::FrictionModel model) {
   switch (model) {
     case friction::FrictionModel::presliding:
     case friction::FrictionModel::spring:
+    case friction::FrictionModel::none:
+    case friction::FrictionModel::dahl:
+    case friction::FrictionModel::lugre:
       return true;
     case friction::FrictionModel::coulomb:
-    case friction::FrictionModel::none:
+    case friction::FrictionModel::gms:
       break;
   }
   return false;
@@ -56,11 +58,20 @@ bool lanes_know(const loop::AmplifierParameters& amplifier) {
   return bandwidth == 0.0;
 }
 
+bool lanes_know(loop::ControlStructure structure) {
+  switch (structure) {
+    case loop::ControlStructure::pid:
+    case loop::ControlStructure::cascade:
+      return true;
+  }
+  return false;
+}
+
 /// The feed-forward is of no account: in lanes the reference is a step.
 bool lanes_know(const loop::ControlBlocks& blocks) {
-  const auto& [structure, cascade, deadband, zone, leak, cutoff, filters, feedforward, observer] = blocks;
-  return structure == loop::ControlStructure::pid && deadband.enter < 0.0 && std::isinf(zone) &&
-         std::isinf(leak) && std::isinf(cutoff) && filters.empty() && observer.bandwidth == 0.0;
+  [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, cutoff, filters, feedforward,
+                                observer] = blocks;
+  return filters.size() <= max_lane_filters && lanes_know(structure);
 }
 
 bool lanes_know(const loop::ControllerParameters& controller) {
@@ -83,8 +94,8 @@ bool lanes_know(const trial::CommandParameters& command) {
 bool runs_in_lanes(const trial::TrialParameters& p) {
   const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial, verdict, randomness] =
       p;
-  [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping] = plant;
-  return lanes_know(friction.model) && !loop::has_errors(encoder.fine_errors) &&
+  [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping, load] = plant;
+  return !motion::has_load(plant) && lanes_know(friction.model) && !loop::has_errors(encoder.fine_errors) &&
          !loop::has_errors(encoder.coarse_errors) && !loop::has_errors(dac) && lanes_know(amplifier) &&
          lanes_know(controller) && lanes_know(command) && trial::samples_of_move(p, 0) > 0;
 }

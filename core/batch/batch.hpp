@@ -39,7 +39,8 @@ struct BatchSettings {
 
 /// Whether the lanes can run such a trial. The engine passes all others to run_trial: those with imperfect
 /// encoders or converters, an amplifier, a delay above 64 samples, two phases of control, a reference with a
-/// profile, torque levels, or a friction law without a spring.
+/// profile, more than four filters of the controller, torque levels, the friction laws coulomb and gms, or a
+/// second mass.
 bool runs_in_lanes(const trial::TrialParameters& parameters);
 
 /// Runs trials as run_trial does, many at a time in the lanes of vectors (see core/batch/README.md).

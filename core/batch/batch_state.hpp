@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/batch/lane_set.hpp"
+#include "core/loop/block_formulas.hpp"
 #include "core/trial/running_measures.hpp"
 
 /// The trials that a batch engine has in work, one a lane: plain arrays, one quantity each, so that a kernel
@@ -21,13 +22,13 @@ using Lanes = double[lane_slots];
 
 /// The contact while the hook sticks, and the rotor.
 struct alignas(64) MotionLanes {
-  Lanes elongation;  ///< xs, rad
+  Lanes elongation;  ///< xs, or z of a bristle, rad
   Lanes omega;       ///< ω, rad/s
   Lanes extension;   ///< xp, rad
   Lanes hardening;   ///< xh, rad
   Lanes torque;      ///< u of the motor, N m
   Lanes hook;        ///< rad
-  Lanes theta;       ///< θ while the hook slides, rad
+  Lanes theta;       ///< θ while the hook slides, and of laws without a hook, rad
 
   Lanes branch_elongation;        ///< xr, rad
   Lanes branch_torque;            ///< σr, N m
@@ -41,8 +42,9 @@ struct alignas(64) MotionLanes {
   Lanes turning;                  ///< dxs/dt is zero at this instant
   Lanes creeping;                 ///< the creep law is on
   Lanes creep_onset;              ///< |σ| at which it sets in, N m
-  Lanes slide_direction;          ///< −1, 1; 0 while the hook sticks
-  Lanes rest_torque;              ///< under which the lane's plant has come to rest, N m; NaN: it has not
+  Lanes slide_direction;  ///< −1, 1; 0 while the hook sticks; 1 for laws without a hook, which move θ itself
+  Lanes gradual_slide;    ///< the bristle slides at this instant
+  Lanes rest_torque;      ///< under which the lane's plant has come to rest, N m; NaN: it has not
 
   Lanes spring_torque;  ///< σ at the start of the step, N m
   Lanes softness;       ///< exp(−y) of the branch at the start of the step
@@ -53,7 +55,7 @@ struct alignas(64) ContactLanes {
   Lanes inertia;               ///< J, kg m²
   Lanes per_inertia;           ///< 1/J
   Lanes damping;               ///< c
-  Lanes sliding_damping;       ///< cs
+  Lanes sliding_damping;       ///< cs, or d of a bristle
   Lanes k1;                    ///< N m/rad
   Lanes stiffest;              ///< k1 + k2, N m/rad
   Lanes alpha;                 ///< 1/s
@@ -65,6 +67,16 @@ struct alignas(64) ContactLanes {
   Lanes per_velocity_squared;  ///< 1/ωs²
   Lanes fast_velocity;         ///< 8ωs, rad/s: beyond it friction is that of Coulomb
   Lanes max_oscillation;       ///< that may count as rest at a reversal, rad
+  Lanes bristle_stiffness;     ///< σ0
+  Lanes bristle_damping;       ///< σ1
+};
+
+/// The motion without friction over one sample: θ ← θ + travel·ω + push·u, ω ← decay·ω + gain·u.
+struct alignas(64) FreeLanes {
+  Lanes travel;  ///< s
+  Lanes push;    ///< rad/(N m)
+  Lanes decay;   ///< dimensionless
+  Lanes gain;    ///< rad/(N m s)
 };
 
 /// The time of a lane, and its steps.
@@ -100,6 +112,27 @@ struct alignas(64) LoopLanes {
   Lanes delay;     ///< samples between deciding a torque and applying it
 };
 
+inline constexpr int max_lane_filters = 4;
+
+/// The controller's blocks: of a lane whose trial has none, what it had before.
+struct alignas(64) BlockLanes {
+  loop::IntegralConstants<Lanes> integral;
+  Lanes inside;      ///< IntegralState::inside
+  Lanes pole;        ///< of the derivative filter
+  Lanes difference;  ///< d of the last sample, counts
+  Lanes is_cascade;
+  loop::CascadeConstants<Lanes> cascade;
+  Lanes last_velocity_error;  ///< rad/s
+  Lanes filter_count;
+  loop::BiquadConstants<Lanes> filters[max_lane_filters];  ///< beyond filter_count those of the gain 1
+  loop::BiquadState<Lanes> filter_states[max_lane_filters];
+  Lanes observes;
+  loop::ObserverConstants<Lanes> observer;
+  loop::BiquadState<Lanes> observer_state;
+  Lanes first_count;
+  Lanes remembers;  ///< the torque may change while the error stays 0
+};
+
 /// The measures of the move so far, and other state of it.
 struct alignas(64) MeasureLanes : trial::RunningMeasures<Lanes> {
   trial::MeasureLimits<Lanes> limits;
@@ -110,6 +143,7 @@ struct alignas(64) MeasureLanes : trial::RunningMeasures<Lanes> {
   Lanes max_error;    ///< beyond |e_0|, with which the move is ended, counts; infinite: never
   Lanes theta;        ///< at the last sample, rad
   Lanes extension;    ///< at the last sample, rad
+  Lanes slid;         ///< a bristle slid at a sampling instant of the move
 };
 
 /// Events of a lane that a kernel reports: a sum of these.
@@ -148,9 +182,11 @@ struct PassedSamples {
 struct LaneNumbers {
   MotionLanes motion;
   ContactLanes contact;
+  FreeLanes free;
   TimeLanes time;
   LoopLanes loop;
   MeasureLanes measures;
+  BlockLanes blocks;
 };
 
 struct BatchState : LaneNumbers {

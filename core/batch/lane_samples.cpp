@@ -12,8 +12,16 @@ void LaneWork::take_samples() {
     if (batch_.measures.taken[lane] == batch_.measures.limits.samples[lane]) end_move(lane, trial_of(lane));
   });
   const LaneSet due = at_stop.in_both(active_);
+  const LaneSet with_blocks = due.in_both(with_blocks_);
+  sample(kernels_.sample, due.without(with_blocks));
+  sample(kernels_.sample_blocks, with_blocks);
+}
+
+/// The sampling instant of these lanes.
+void LaneWork::sample(void (*kernel)(BatchState&, const LaneSet&), const LaneSet& due) {
   if (due.empty()) return;
-  kernels_.sample(batch_, due);
+  note_gradual_slides(due);
+  kernel(batch_, due);
   for (int i = 0; i < batch_.event_count; ++i) {
     const int lane = batch_.event_lanes[i];
     if ((batch_.events[lane] & beyond_kernel) == 0) continue;
@@ -36,6 +44,12 @@ void LaneWork::take_samples() {
     if ((events & delayed) != 0) delay_torque(lane, trial);
     if ((events & diverges) != 0) stop_diverged(lane, trial);
   }
+}
+
+void LaneWork::note_gradual_slides(const LaneSet& due) {
+  for_each_lane(due.in_both(bristles_), [&](int lane) {
+    if (batch_.motion.gradual_slide[lane] != 0.0) batch_.measures.slid[lane] = 1.0;
+  });
 }
 
 void LaneWork::record_sample(int lane, const LaneTrial& trial) {

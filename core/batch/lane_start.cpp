@@ -1,9 +1,14 @@
 // The start of a lane's trial and of its moves.
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <vector>
 
 #include "core/batch/lane_trial.hpp"
+#include "core/friction/dahl.hpp"
+#include "core/friction/free_motion.hpp"
+#include "core/friction/lugre.hpp"
 #include "core/loop/controller.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/encoder.hpp"
@@ -39,6 +44,58 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.delay[lane] = p.controller.delay;
 }
 
+/// The lane's part of each quantity of `to`, in the order of the values.
+template <class... Values>
+void put(int lane, std::initializer_list<Lanes*> to, Values... values) {
+  auto at = to.begin();
+  (((**at++)[lane] = values), ...);
+}
+
+void start_filters(BlockLanes& b, int lane, const loop::ControllerParameters& controller) {
+  const std::vector<loop::Filter>& filters = controller.blocks.filters;
+  b.filter_count[lane] = static_cast<double>(filters.size());
+  for (std::size_t i = 0; i < max_lane_filters; ++i) {
+    const loop::BiquadConstants<double> filter = i < filters.size()
+                                                     ? loop::discretised(filters[i], controller.sample_rate)
+                                                     : loop::BiquadConstants<double>{1.0, 0.0, 0.0, 0.0, 0.0};
+    loop::BiquadConstants<Lanes>& c = b.filters[i];
+    put(lane, {&c.b0, &c.b1, &c.b2, &c.a1, &c.a2}, filter.b0, filter.b1, filter.b2, filter.a1, filter.a2);
+    put(lane, {&b.filter_states[i].s1, &b.filter_states[i].s2}, 0.0, 0.0);
+  }
+}
+
+void start_blocks(BlockLanes& b, int lane, const trial::TrialParameters& p, double resolution) {
+  const loop::ControllerParameters& controller = p.controller;
+  const loop::ControlBlocks& blocks = controller.blocks;
+  const double sample_rate = controller.sample_rate;
+  const loop::IntegralConstants<double> integral = loop::integral_constants(
+      blocks, sample_rate,
+      loop::integral_range(controller.anti_windup, loop::lowest_torque(p.dac), loop::highest_torque(p.dac)));
+  loop::IntegralConstants<Lanes>& i = b.integral;
+  put(lane, {&i.enter, &i.leave, &i.zone, &i.retention, &i.lowest, &i.highest}, integral.enter,
+      integral.leave, integral.zone, integral.retention, integral.lowest, integral.highest);
+  const loop::CascadeConstants<double> cascade =
+      loop::cascade_constants(blocks.cascade, sample_rate, resolution);
+  put(lane, {&b.cascade.kv, &b.cascade.velocity, &b.cascade.kp, &b.cascade.ki}, cascade.kv, cascade.velocity,
+      cascade.kp, cascade.ki);
+  const bool is_cascade = blocks.structure == loop::ControlStructure::cascade;
+  put(lane, {&b.inside, &b.difference, &b.last_velocity_error, &b.is_cascade, &b.pole}, 0.0, 0.0, 0.0,
+      is_cascade ? 1.0 : 0.0, loop::derivative_pole(blocks, sample_rate));
+  start_filters(b, lane, controller);
+  const bool observes = blocks.observer.bandwidth > 0.0;
+  const loop::ObserverConstants<double> observer =
+      loop::observer_constants(blocks.observer, sample_rate, resolution);
+  loop::ObserverConstants<Lanes>& o = b.observer;
+  put(lane, {&o.acceleration, &o.q, &o.a1, &o.a2}, observer.acceleration, observer.q, observer.a1,
+      observer.a2);
+  put(lane, {&b.observes, &b.observer_state.s1, &b.observer_state.s2, &b.first_count}, observes ? 1.0 : 0.0,
+      0.0, 0.0, 0.0);
+  // With an error of 0 and no motion, what may change the torque is memory other than the integral's.
+  const bool remembers =
+      observes || !blocks.filters.empty() || b.pole[lane] != 0.0 || integral.retention != 1.0;
+  b.remembers[lane] = remembers ? 1.0 : 0.0;
+}
+
 void start_time(TimeLanes& time, int lane, const trial::TrialParameters& p, double resolution) {
   time.time_to_stop[lane] = 0.0;
   time.samples_to_stop[lane] = 1.0;
@@ -50,7 +107,95 @@ void start_time(TimeLanes& time, int lane, const trial::TrialParameters& p, doub
   time.per_count[lane] = 1.0 / resolution;
 }
 
+LaneMotion lane_motion(friction::FrictionModel model) {
+  switch (model) {
+    case friction::FrictionModel::none:
+      return LaneMotion::free;
+    case friction::FrictionModel::dahl:
+    case friction::FrictionModel::lugre:
+      return LaneMotion::bristle;
+    case friction::FrictionModel::presliding:
+    case friction::FrictionModel::spring:
+    case friction::FrictionModel::coulomb:
+    case friction::FrictionModel::gms:
+      break;
+  }
+  return LaneMotion::contact;
+}
+
+/// θ itself moves, and the count is looked at in each sample, as while a hook slides.
+void start_without_hook(BatchState& batch, int lane, double velocity) {
+  MotionLanes& m = batch.motion;
+  m.slide_direction[lane] = 1.0;
+  m.theta[lane] = 0.0;
+  m.omega[lane] = velocity;
+  m.extension[lane] = 0.0;
+  m.hardening[lane] = 0.0;
+}
+
+void start_bristle(BatchState& batch, int lane, const friction::Bristle& bristle, double resolution) {
+  const friction::BristleParameters& p = bristle.parameters();
+  start_without_hook(batch, lane, bristle.omega());
+  batch.motion.elongation[lane] = bristle.deflection();
+  batch.motion.gradual_slide[lane] = bristle.sliding() ? 1.0 : 0.0;
+  ContactLanes& c = batch.contact;
+  c.bristle_stiffness[lane] = p.stiffness;
+  c.bristle_damping[lane] = p.bristle_damping;
+  c.sliding_damping[lane] = p.damping;
+  c.coulomb[lane] = p.level.coulomb;
+  c.breakaway[lane] = p.level.coulomb + p.level.excess;
+  const bool constant = p.level.excess == 0.0;
+  c.per_velocity_squared[lane] = constant ? 1.0 : p.level.per_velocity_squared;
+  c.fast_velocity[lane] = constant ? -1.0 : p.fast;
+  batch.time.tolerance[lane] = trial::motion_tolerance(resolution).elongation;
+}
+
+void start_free(BatchState& batch, int lane, const trial::TrialParameters& p, double sample_time) {
+  start_without_hook(batch, lane, p.initial.velocity);
+  const friction::FreeMotion by_velocity =
+      friction::free_motion(p.plant, {0.0, 1.0}, motion::constant_torque(0.0), sample_time);
+  const friction::FreeMotion by_torque =
+      friction::free_motion(p.plant, {}, motion::constant_torque(1.0), sample_time);
+  batch.free.travel[lane] = by_velocity.theta;
+  batch.free.decay[lane] = by_velocity.omega;
+  batch.free.push[lane] = by_torque.theta;
+  batch.free.gain[lane] = by_torque.omega;
+}
+
+void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resolution) {
+  const trial::TrialParameters& p = *trial.parameters;
+  const motion::MotionTolerance tolerance = trial::motion_tolerance(resolution);
+  trial.motion = lane_motion(p.friction.model);
+  switch (trial.motion) {
+    case LaneMotion::contact:
+      trial.plant.emplace(p.plant, p.friction, trial::plant_start(p), tolerance);
+      store_contact(batch, lane, trial);
+      return;
+    case LaneMotion::bristle:
+      if (p.friction.model == friction::FrictionModel::dahl) {
+        start_bristle(batch, lane,
+                      friction::DahlFriction(p.plant, p.friction, trial::plant_start(p), tolerance),
+                      resolution);
+      } else {
+        start_bristle(batch, lane,
+                      friction::LuGreFriction(p.plant, p.friction, trial::plant_start(p), tolerance),
+                      resolution);
+      }
+      return;
+    case LaneMotion::free:
+      start_free(batch, lane, p, batch.time.sample_time[lane]);
+      return;
+  }
+}
+
 }  // namespace
+
+bool has_blocks(const trial::TrialParameters& parameters) {
+  const loop::ControlBlocks& b = parameters.controller.blocks;
+  return b.structure != loop::ControlStructure::pid || b.deadband.enter >= 0.0 ||
+         std::isfinite(b.integrator_zone) || std::isfinite(b.integrator_leak) ||
+         std::isfinite(b.derivative_cutoff) || !b.filters.empty() || b.observer.bandwidth > 0.0;
+}
 
 void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,
                  const trial::TrialParameters& parameters, trial::TrialOutcome& outcome) {
@@ -68,14 +213,14 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t numb
 
   start_loop(batch.loop, lane, p);
   const double resolution = batch.loop.resolution[lane];
+  if (has_blocks(p)) start_blocks(batch.blocks, lane, p, resolution);
   start_time(batch.time, lane, p, resolution);
   trial.elongation_tolerance = trial::motion_tolerance(resolution).elongation;
-  trial.plant.emplace(p.plant, p.friction, trial::plant_start(p), trial::motion_tolerance(resolution));
   batch.contact.inertia[lane] = p.plant.inertia;
   batch.contact.per_inertia[lane] = 1.0 / p.plant.inertia;
   batch.contact.damping[lane] = p.plant.presliding_damping;
   batch.contact.sliding_damping[lane] = p.plant.sliding_damping;
-  store_contact(batch, lane, trial);
+  start_motion(batch, lane, trial, resolution);
   start_move(batch, lane, trial);
 }
 
@@ -89,11 +234,13 @@ void start_move(BatchState& batch, int lane, LaneTrial& trial) {
   q.limits.window[lane] = static_cast<double>(timing.window);
   q.last_half[lane] = static_cast<double>(trial::first_of_last_half(timing.samples));
   trial::for_each_measure([lane](Lanes& measure) { measure[lane] = 0.0; }, q);
-  for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension}) (*of)[lane] = 0.0;
+  for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension, &q.slid})
+    (*of)[lane] = 0.0;
   q.max_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
   trial.breakaways = 0;
-  trial.slid_at_start = batch.motion.slide_direction[lane] != 0.0;
-  trial.deepest = static_cast<std::int64_t>(trial.plant->spring().depth());
+  const bool has_contact = trial.motion == LaneMotion::contact;
+  trial.slid_at_start = has_contact && batch.motion.slide_direction[lane] != 0.0;
+  trial.deepest = has_contact ? static_cast<std::int64_t>(trial.plant->spring().depth()) : 0;
   trial.jerks = trial::Jerks(static_cast<std::int64_t>(trial.move), timing.sample_time);
   trial.last_half.start(timing.samples);
 }
@@ -109,7 +256,7 @@ trial::MoveOutcome end_of_move(const BatchState& batch, int lane, LaneTrial& tri
               false,
               q.theta[lane],
               q.extension[lane]};
-  end.broke_away = trial.slid_at_start || trial.breakaways > 0;
+  end.broke_away = trial.slid_at_start || trial.breakaways > 0 || q.slid[lane] != 0.0;
   end.reversal_depth = trial.deepest;
   end.stopped = stopped;
   trial.last_half.finish(end.last.count);

@@ -108,4 +108,27 @@ void LaneWork::end_sliding_steps() {
   }
 }
 
+void LaneWork::move_bristles() {
+  if (bristles_.empty()) return;
+  const LaneSet lanes = kernels_.bristle_rest(batch_, bristles_.without(kernels_.lanes_at_stop(batch_)));
+  LaneSet fast;
+  for_each_lane(lanes, [&](int lane) {
+    if (std::abs(batch_.motion.omega[lane]) > batch_.contact.fast_velocity[lane]) fast.insert(lane);
+  });
+  kernels_.bristle_fast(batch_, fast);
+  give_up_lost();
+  kernels_.bristle_slow(batch_, lanes.without(fast));
+  give_up_lost();
+}
+
+/// Leaves to the reference what the last kernel could not follow.
+void LaneWork::give_up_lost() {
+  for (int i = 0; i < batch_.event_count; ++i) fall_back_to_scalar(batch_.event_lanes[i]);
+}
+
+void LaneWork::move_free() {
+  if (free_.empty()) return;
+  kernels_.free(batch_, free_.without(kernels_.lanes_at_stop(batch_)));
+}
+
 }  // namespace zerocount::batch

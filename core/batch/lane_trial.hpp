@@ -17,6 +17,9 @@ namespace zerocount::batch {
 /// The lanes' friction law: that of the models which run in lanes.
 using LanePlant = plant::PlantWith<friction::PreslidingFriction>;
 
+/// How the kernels move a lane, by its friction law.
+enum class LaneMotion { contact, bristle, free };
+
 /// State of a lane that the kernels do not use: its trial, the memory of the spring, measures per jerk.
 struct LaneTrial {
   const trial::TrialParameters* parameters{nullptr};
@@ -24,9 +27,10 @@ struct LaneTrial {
   trial::TrialOutcome* outcome{nullptr};
   std::size_t move{0};
   std::int64_t first_sample{0};  ///< of the move, from the start of the trial
+  LaneMotion motion{LaneMotion::contact};
 
-  /// The contact. Its spring always remembers the reversals of the lane; the rest of it is that of the lane
-  /// only between load() and store().
+  /// The contact, in lanes with LaneMotion::contact. Its spring always remembers the reversals of the lane;
+  /// the rest of it is that of the lane only between load() and store().
   std::optional<LanePlant> plant;
   double elongation_tolerance{0.0};     ///< MotionTolerance::elongation, rad
   double breakaway_spring_torque{0.0};  ///< σb of the slide, N m
@@ -65,6 +69,9 @@ inline trial::RunningMeasures<double> measures_of(const MeasureLanes& lanes, int
   trial::for_each_measure([lane](double& to, const Lanes& from) { to = from[lane]; }, measures, lanes);
   return measures;
 }
+
+/// Whether the controller has blocks that act on a step: its lane is sampled with them.
+bool has_blocks(const trial::TrialParameters& parameters);
 
 /// Puts the lane into its trial's start.
 void start_trial(BatchState& batch, int lane, LaneTrial& trial, std::size_t number,

@@ -45,13 +45,15 @@ void LaneWork::run(std::span<const trial::TrialParameters* const> trials,
     take_samples();
     move_sticking();
     move_sliding();
+    move_bristles();
+    move_free();
   }
 }
 
 /// Gives the lane the next trial, if there is one; what lanes cannot run is run on the way.
 void LaneWork::refill(int lane) {
   LaneTrial& trial = trial_of(lane);
-  for (LaneSet* of : {&active_, &sticking_, &waiting_, &sliding_}) of->erase(lane);
+  for (LaneSet* of : sets()) of->erase(lane);
   while (next_trial_ < trials_.size()) {
     const std::size_t number = next_trial_++;
     trial.parameters = trials_[number];
@@ -62,6 +64,7 @@ void LaneWork::refill(int lane) {
       outcomes_[number].moves.reserve(trials_[number]->command.targets.size());
       start_trial(batch_, lane, trial, number, *trials_[number], outcomes_[number]);
       active_.insert(lane);
+      if (has_blocks(*trials_[number])) with_blocks_.insert(lane);
       set_moving(lane);
       return;
     }
@@ -69,8 +72,18 @@ void LaneWork::refill(int lane) {
   }
 }
 
-/// Puts the lane, which has a trial, to those that stick or that slide.
+/// Puts the lane, which has a trial, to those that move alike.
 void LaneWork::set_moving(int lane) {
+  switch (trial_of(lane).motion) {
+    case LaneMotion::contact:
+      break;
+    case LaneMotion::bristle:
+      bristles_.insert(lane);
+      return;
+    case LaneMotion::free:
+      free_.insert(lane);
+      return;
+  }
   const bool slides = batch_.motion.slide_direction[lane] != 0.0;
   waiting_.erase(lane);
   (slides ? sticking_ : sliding_).erase(lane);
@@ -100,7 +113,7 @@ void LaneWork::move_lane(int from, int to) {
     std::memcpy(lanes + to * sizeof(double), lanes + from * sizeof(double), sizeof(double));
   }
   std::swap(trial_index_[to], trial_index_[from]);
-  for (LaneSet* of : {&active_, &sticking_, &waiting_, &sliding_}) {
+  for (LaneSet* of : sets()) {
     if (of->contains(from)) of->insert(to);
     of->erase(from);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -33,6 +34,8 @@ class LaneWork {
 
   // Sampling instants (lane_samples.cpp).
   void take_samples();
+  void note_gradual_slides(const LaneSet& due);
+  void sample(void (*kernel)(BatchState&, const LaneSet&), const LaneSet& due);
   void record_sample(int lane, const LaneTrial& trial);
   void record_passed();
   void follow_last_half(int lane, LaneTrial& trial);
@@ -47,8 +50,14 @@ class LaneWork {
   void end_sticking_steps();
   void move_sliding();
   void end_sliding_steps();
+  void move_bristles();
+  void move_free();
+  void give_up_lost();
 
   void set_moving(int lane);
+  std::array<LaneSet*, 7> sets() {
+    return {&active_, &sticking_, &waiting_, &sliding_, &bristles_, &free_, &with_blocks_};
+  }
   bool is_idle(int lane) const { return !active_.contains(lane); }
   LaneTrial& trial_of(int lane) { return trials_in_work_[trial_index_[lane]]; }
 
@@ -58,10 +67,14 @@ class LaneWork {
   std::size_t trial_index_[max_lanes]{};  ///< which of them a lane has
   BatchState batch_{};
   PassedSamples passed_[max_lanes]{};
-  LaneSet active_;    ///< lanes with a trial: the three below together
+  LaneSet active_;    ///< lanes with a trial: those below together
   LaneSet sticking_;  ///< the hook sticks
   LaneSet waiting_;   ///< it sticks; they wait until enough lanes have an event in their step
   LaneSet sliding_;   ///< the hook slides
+  LaneSet bristles_;  ///< friction is that of a bristle
+  LaneSet free_;      ///< there is no friction
+
+  LaneSet with_blocks_;  ///< of the active ones, those whose controller has blocks
 
   std::span<const trial::TrialParameters* const> trials_;
   std::span<trial::TrialOutcome> outcomes_;

@@ -1,12 +1,26 @@
 #pragma once
 
+#include "core/batch/lane_blocks.hpp"
 #include "core/batch/lane_group.hpp"
 #include "core/loop/formulas.hpp"
 
 namespace zerocount::batch {
 
+/// The torque of the PID law without blocks, N m.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P pid_torque(BatchState& batch, const At& at, const ControlInput<P>& in,
+                                     const P& last_count) {
+  LoopLanes& l = batch.loop;
+  const loop::PidConstants<P> gains{at.load(l.kp), at.load(l.ki), at.load(l.kd), at.load(l.lowest_integral),
+                                    at.load(l.highest_integral)};
+  loop::PidState<P> pid{at.load(l.integral), in.last_error, last_count};
+  const P torque = loop::pid_step(gains, pid, in.error, in.count);
+  at.store(l.integral, pid.integral);
+  return torque;
+}
+
 /// The sampling instant of one vector; see sample_kernel.
-template <class At>
+template <bool Blocks, class At>
 __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
@@ -20,27 +34,31 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   const P resolution = at.load(l.resolution);
   const Mask unreadable = ~(abs(theta / resolution) < P(0x1p50));
   const P count = loop::ideal_count(theta, resolution, at.load(l.phase));
-  const P last_count = select(to_mask(at.load(l.counted)), at.load(l.count), count);
+  const Mask counted = to_mask(at.load(l.counted));
+  const P last_count = select(counted, at.load(l.count), count);
   const P last_error = at.load(l.error);
   const P error = at.load(l.target) - count;
   const P change = count - last_count;
 
-  const loop::PidConstants<P> gains{at.load(l.kp), at.load(l.ki), at.load(l.kd), at.load(l.lowest_integral),
-                                    at.load(l.highest_integral)};
-  loop::PidState<P> pid{at.load(l.integral), last_error, last_count};
+  const ControlInput<P> input{error, last_error, count, change, counted};
   const P dac_resolution = at.load(l.dac_resolution);
-  const P wanted = loop::wanted_code(loop::pid_step(gains, pid, error, count), dac_resolution);
+  P wanted;
+  if constexpr (Blocks) {
+    wanted = loop::wanted_code(block_torque(batch, at, input), dac_resolution);
+  } else {
+    wanted = loop::wanted_code(pid_torque(batch, at, input, last_count), dac_resolution);
+  }
   const P code = loop::clipped_code(wanted, at.load(l.lowest_code), at.load(l.highest_code));
   const P torque = code * dac_resolution;
 
-  at.store(l.integral, pid.integral);
   at.store(l.error, error);
   at.store(l.count, count);
   at.store(l.counted, P(1.0));
   at.store(l.decided, torque);
   at.store(l.code, code);
   at.store(m.torque, torque);
-  const Mask steady = (error == P(0.0)) & (last_error == P(0.0)) & (change == P(0.0));
+  Mask steady = (error == P(0.0)) & (last_error == P(0.0)) & (change == P(0.0));
+  if constexpr (Blocks) steady = steady & ~to_mask(at.load(batch.blocks.remembers));
   at.store(l.steady, to_number<P>(steady));
 
   const P zero(0.0);
@@ -80,10 +98,11 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
 
 /// One sampling instant of each lane: encoder, control, converter, measures. Reports jerk_changes,
 /// count_changes, diverges and delayed, and beyond_kernel where the encoder could not count θ.
-template <class V>
+/// @tparam Blocks the lanes' controllers have blocks.
+template <class V, bool Blocks>
 void sample_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
-  for_each_stretch<V>(lanes, [&](const auto& at) { sample(batch, at); });
+  for_each_stretch<V>(lanes, [&](const auto& at) { sample<Blocks>(batch, at); });
 }
 
 }  // namespace zerocount::batch

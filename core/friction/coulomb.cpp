@@ -6,6 +6,44 @@
 #include "core/numerics/sign.hpp"
 
 namespace zerocount::friction {
+namespace {
+
+struct StandingSeries {
+  numerics::Series position{};  ///< 0
+  numerics::Series omega{};     ///< 0
+  numerics::Series exponent{};  ///< 0
+  numerics::Series torque{};    ///< on the rotor, N m
+};
+
+/// A rotor that stands while the torque on it, u − Ts, is within the breakaway torque.
+struct StandingRotor {
+  using Expansion = StandingSeries;
+  enum class Event { none, released };
+
+  double breakaway;     ///< Fs, N m
+  double direction{0};  ///< of the torque on it at the end of the step: −1, 1
+
+  static StandingSeries start() { return {}; }
+  static double expand(StandingSeries& s, std::size_t k, double torque) {
+    s.torque[k] = torque;
+    return 0.0;
+  }
+  motion::NextEvent<Event> first_event(const StandingSeries& s, double step) const {
+    motion::NextEvent<Event> next{step};
+    for (const double sign : {1.0, -1.0}) {
+      numerics::Series margin = s.torque;
+      for (double& coefficient : margin) coefficient *= -sign;
+      margin[0] += breakaway;
+      if (margin[0] > 0.0) next.offer(motion::next_sign_change(margin, next.time), Event::released);
+    }
+    return next;
+  }
+  void go_to(const StandingSeries& s, const motion::NextEvent<Event>& next) {
+    direction = numerics::sign_of(numerics::value_at(s.torque, next.time));
+  }
+};
+
+}  // namespace
 
 CoulombFriction::CoulombFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
                                  const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
@@ -43,10 +81,13 @@ bool CoulombFriction::torque_drives(double direction, const motion::TorqueCourse
 /// An excess of torque that rounding cannot turn into motion does not start a slide, or the rotor would slide
 /// and stick without end.
 double CoulombFriction::stand(const motion::TorqueCourse& torque, double duration) {
-  if (std::abs(torque.now) > contact_.breakaway && torque_drives(numerics::sign_of(torque.now), torque)) {
-    break_away(numerics::sign_of(torque.now));
+  const double torque_now = motion::torque_on_rotor(torque, 0.0);
+  const int towards = numerics::sign_of(torque_now);
+  if (std::abs(torque_now) > contact_.breakaway && torque_drives(towards, torque)) {
+    break_away(towards);
     return 0.0;
   }
+  if (torque.load != nullptr) return stand_with_load(torque, duration);
   if (motion::is_constant(torque) || std::abs(torque.settled) <= contact_.breakaway) return duration;
   const double direction = numerics::sign_of(torque.settled);
   // From the level itself, where rounding has no say in whether it is passed.
@@ -55,6 +96,13 @@ double CoulombFriction::stand(const motion::TorqueCourse& torque, double duratio
   if (!(waiting < duration) || !torque_drives(direction, release)) return duration;
   break_away(direction);
   return waiting + slide(release, duration - waiting);
+}
+
+double CoulombFriction::stand_with_load(const motion::TorqueCourse& torque, double duration) {
+  StandingRotor rotor{contact_.breakaway};
+  const auto next = motion::taylor_step(rotor, plant_.inertia, torque, tolerance_, duration);
+  if (next.event == StandingRotor::Event::released) break_away(rotor.direction);
+  return next.time;
 }
 
 void CoulombFriction::break_away(double direction) {

@@ -16,7 +16,11 @@ class CoulombFriction : public WithoutCreepAndReversals {
   static constexpr std::array<ContactField, 3> contact_parameters{&FrictionParameters::breakaway,
                                                                   &FrictionParameters::coulomb_ratio,
                                                                   &FrictionParameters::stribeck_velocity};
+  static constexpr bool has_presliding_motion = false;
   static constexpr bool has_presliding_damping = false;
+  static constexpr bool has_sliding_damping = true;
+  static constexpr bool remembers_loading = false;
+  static constexpr Breakaway breakaway = Breakaway::of_hook;
 
   /// It slides at the start wherever velocity ≠ 0: nothing else could give way to it.
   CoulombFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
@@ -32,6 +36,7 @@ class CoulombFriction : public WithoutCreepAndReversals {
 
  private:
   double stand(const motion::TorqueCourse& torque, double duration);
+  double stand_with_load(const motion::TorqueCourse& torque, double duration);
   double slide(const motion::TorqueCourse& torque, double duration);
   bool torque_drives(double direction, const motion::TorqueCourse& torque) const;
   void break_away(double direction);

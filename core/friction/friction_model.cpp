@@ -5,7 +5,7 @@
 namespace zerocount::friction {
 namespace {
 
-static_assert(FrictionLaws::traits.size() == static_cast<std::size_t>(FrictionModel::none) + 1);
+static_assert(FrictionLaws::traits.size() == static_cast<std::size_t>(FrictionModel::gms) + 1);
 template <class Law>
 constexpr bool is_law_of(FrictionModel model) {
   return FrictionLaws::traits[static_cast<std::size_t>(model)].word == Law::word;
@@ -13,12 +13,17 @@ constexpr bool is_law_of(FrictionModel model) {
 static_assert(is_law_of<PreslidingFriction>(FrictionModel::presliding) &&
               is_law_of<SpringFriction>(FrictionModel::spring) &&
               is_law_of<CoulombFriction>(FrictionModel::coulomb) &&
-              is_law_of<NoFriction>(FrictionModel::none));
+              is_law_of<NoFriction>(FrictionModel::none) && is_law_of<DahlFriction>(FrictionModel::dahl) &&
+              is_law_of<LuGreFriction>(FrictionModel::lugre) && is_law_of<GmsFriction>(FrictionModel::gms));
 
 }  // namespace
 
 const LawTraits& traits_of(FrictionModel model) {
   return FrictionLaws::traits.at(static_cast<std::size_t>(model));
+}
+
+std::span<const LawTraits> all_traits() {
+  return FrictionLaws::traits;
 }
 
 std::vector<std::string_view> friction_model_labels() {
@@ -34,10 +39,6 @@ bool has_spring(FrictionModel model) {
 
 bool has_creep(FrictionModel model) {
   return uses(traits_of(model), &FrictionParameters::alpha);
-}
-
-bool has_breakaway(FrictionModel model) {
-  return uses(traits_of(model), &FrictionParameters::breakaway);
 }
 
 }  // namespace zerocount::friction

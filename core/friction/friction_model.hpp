@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -12,11 +13,17 @@ enum class FrictionModel {
   presliding,  ///< PreslidingFriction
   spring,      ///< SpringFriction
   coulomb,     ///< CoulombFriction
-  none         ///< NoFriction
+  none,        ///< NoFriction
+  dahl,        ///< DahlFriction
+  lugre,       ///< LuGreFriction
+  gms          ///< GmsFriction
 };
 
 /// Properties of the law.
 const LawTraits& traits_of(FrictionModel model);
+
+/// Those of all laws, in the order of FrictionModel.
+std::span<const LawTraits> all_traits();
 
 /// Values of friction.model in a manifest, in the order of FrictionModel.
 std::vector<std::string_view> friction_model_labels();
@@ -28,8 +35,5 @@ bool has_spring(FrictionModel model);
 
 /// Whether the contact creeps before it slides.
 bool has_creep(FrictionModel model);
-
-/// Whether the contact holds the rotor until a torque breaks it away.
-bool has_breakaway(FrictionModel model);
 
 }  // namespace zerocount::friction

@@ -18,6 +18,13 @@ namespace zerocount::friction {
 /// Which of a contact's parameters.
 using ContactField = double FrictionParameters::*;
 
+/// How a law begins to slide.
+enum class Breakaway {
+  never,    ///< there is no contact to break
+  of_hook,  ///< an event in time, which breakaways() counts
+  gradual   ///< by degrees; whether it slides is asked at the sampling instants
+};
+
 /// A friction law between rotor and bearing (README.md): its state, which includes that of the rotor, and how
 /// it moves. It is either itself a SmoothMotion, which the plant takes on from event to event, or it has
 /// step(torque, duration), which goes on by a step of its own choice, at most by `duration` (s), and returns
@@ -32,9 +39,13 @@ concept FrictionLaw = std::constructible_from<Law, const motion::PlantParameters
                       requires(Law law, const Law now) {
   { Law::word } -> std::convertible_to<std::string_view>;                             // of friction.model
   { Law::contact_parameters } -> std::convertible_to<std::span<const ContactField>>;  // that it uses
+  { Law::has_presliding_motion } -> std::convertible_to<bool>;  // it gives way before it slides
   { Law::has_presliding_damping } -> std::convertible_to<bool>;  // J·dω/dt = u − c·ω − … at some time
-  { now.theta() } -> std::same_as<double>;                       // rad
-  { now.omega() } -> std::same_as<double>;                       // rad/s
+  { Law::has_sliding_damping } -> std::convertible_to<bool>;  // J·dω/dt = u − cs·ω − … at some time
+  { Law::remembers_loading } -> std::convertible_to<bool>;    // slow torques before the start have an effect
+  { Law::breakaway } -> std::convertible_to<Breakaway>;
+  { now.theta() } -> std::same_as<double>;  // rad
+  { now.omega() } -> std::same_as<double>;  // rad/s
   { now.creep() } -> std::convertible_to<CreepState>;
   { now.sliding() } -> std::same_as<bool>;
   { now.depth() } -> std::same_as<std::int64_t>;       // of the stack of reversal points
@@ -55,7 +66,11 @@ struct WithoutCreepAndReversals {
 struct LawTraits {
   std::string_view word;
   std::span<const ContactField> contact_parameters;
+  bool has_presliding_motion;
   bool has_presliding_damping;
+  bool has_sliding_damping;
+  bool remembers_loading;
+  Breakaway breakaway;
 };
 
 /// Whether the law has this parameter of the contact.
@@ -66,7 +81,13 @@ constexpr bool uses(const LawTraits& law, ContactField field) {
 
 template <FrictionLaw Law>
 constexpr LawTraits traits_of() {
-  return {Law::word, Law::contact_parameters, Law::has_presliding_damping};
+  return {Law::word,
+          Law::contact_parameters,
+          Law::has_presliding_motion,
+          Law::has_presliding_damping,
+          Law::has_sliding_damping,
+          Law::remembers_loading,
+          Law::breakaway};
 }
 
 }  // namespace zerocount::friction

@@ -3,6 +3,9 @@
 #include <variant>
 
 #include "core/friction/coulomb.hpp"
+#include "core/friction/dahl.hpp"
+#include "core/friction/gms.hpp"
+#include "core/friction/lugre.hpp"
 #include "core/friction/none.hpp"
 #include "core/friction/presliding.hpp"
 
@@ -16,6 +19,7 @@ struct LawList {
 };
 
 /// All laws, in the order of FrictionModel.
-using FrictionLaws = LawList<PreslidingFriction, SpringFriction, CoulombFriction, NoFriction>;
+using FrictionLaws = LawList<PreslidingFriction, SpringFriction, CoulombFriction, NoFriction, DahlFriction,
+                             LuGreFriction, GmsFriction>;
 
 }  // namespace zerocount::friction

@@ -7,19 +7,24 @@
 
 namespace zerocount::friction {
 
-/// An air bearing: J·dω/dt = u − c·ω and nothing else, by free_motion(). There is no contact; the rotor
-/// always slides, and no hook can break away.
+/// An air bearing: J·dω/dt = u − c·ω and nothing else, by free_motion() where there is no load. There is no
+/// contact; the rotor always slides, and no hook can break away.
 class NoFriction : public WithoutCreepAndReversals {
  public:
   static constexpr std::string_view word = "none";
   static constexpr std::array<ContactField, 0> contact_parameters{};
+  static constexpr bool has_presliding_motion = false;
   static constexpr bool has_presliding_damping = true;
+  static constexpr bool has_sliding_damping = false;
+  static constexpr bool remembers_loading = false;
+  static constexpr Breakaway breakaway = Breakaway::never;
 
   NoFriction(const motion::PlantParameters& plant, const FrictionAlongRotor&, const motion::PlantStart& start,
-             const motion::MotionTolerance&)
-      : plant_(plant), motion_{0.0, start.velocity} {}
+             const motion::MotionTolerance& tolerance)
+      : plant_(plant), tolerance_(tolerance.elongation), motion_{0.0, start.velocity} {}
 
   double step(const motion::TorqueCourse& torque, double duration) {
+    if (torque.load != nullptr) return step_with_load(torque, duration);
     motion_ = free_motion(plant_, motion_, torque, duration);
     return duration;
   }
@@ -30,7 +35,11 @@ class NoFriction : public WithoutCreepAndReversals {
   static std::int64_t breakaways() { return 0; }
 
  private:
+  /// By Taylor series: J·dω/dt = u − Ts − c·ω.
+  double step_with_load(const motion::TorqueCourse& torque, double duration);
+
   motion::PlantParameters plant_;
+  double tolerance_;
   FreeMotion motion_;
 };
 

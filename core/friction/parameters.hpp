@@ -24,6 +24,9 @@ struct FrictionParameters {
   double breakaway{0.3};           ///< torque at which the hook starts to slide, N m
   double coulomb_ratio{0.8};       ///< Coulomb level over breakaway, dimensionless, in (0, 1]
   double stribeck_velocity{0.01};  ///< velocity over which sliding friction falls to the Coulomb level, rad/s
+  double sigma0{860.0};            ///< σ0, stiffness of the bristles (Dahl, LuGre), N m/rad; k1 + k2
+  double sigma1{0.2};  ///< σ1, damping of the bristles (LuGre), N m s/rad; that of the paper's contact
+  double gms_attraction{30.0};  ///< C, rate at which a slipping element's torque goes to its level, N m/s
 };
 
 /// An element of the generalised Maxwell-slip model.
@@ -31,6 +34,10 @@ struct GmsElement {
   double stiffness{0.0};  ///< κ, N m/rad
   double weight{0.0};     ///< η, part of the level that the element carries, dimensionless; they sum to 1
 };
+
+/// Four elements whose virgin curve is near that of the spring with its default parameters: one of k1, and
+/// three of k2/3 each, which slip at 1.1, 3.8 and 10 µrad.
+std::vector<GmsElement> gms_like_the_spring();
 
 /// A friction parameter that varies along the rotor.
 struct ProfiledParameter {
@@ -56,7 +63,7 @@ struct FrictionAlongRotor {
   std::vector<ProfiledParameter> profiled;
   FrictionModel model{FrictionModel::presliding};
   std::vector<ContactParameter> per_contact{};
-  std::vector<GmsElement> gms_elements{};
+  std::vector<GmsElement> gms_elements{};  ///< of FrictionModel::gms; empty: gms_like_the_spring()
 };
 
 /// The parameters of a contact that forms at the rotor angle `angle` (rad, absolute, from the profile's

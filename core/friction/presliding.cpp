@@ -97,25 +97,31 @@ void PreslidingFriction::re_stick() {
 }
 
 double PreslidingFriction::stick(const motion::TorqueCourse& torque, double duration) {
-  if (rest_ && motion::is_constant(torque) && torque.now == rest_->torque) {
+  const bool constant = motion::motor_is_constant(torque);
+  if (rest_ && constant && torque.now == rest_->torque) {
     go_on_at_rest(duration);
+    motion::let_load_follow(torque, omega_);
     return duration;
   }
   const bool stood = leave_rest();
   const double creep_rate_now = switch_creep();
-  const Elongation elongation = elongation_under(torque.now, creep_rate_now);
-  if (motion::is_constant(torque)) {
-    if (begin_rest(torque.now, elongation, stood)) {
+  const double torque_now = motion::torque_on_rotor(torque, omega_);
+  const Elongation elongation = elongation_under(torque_now, creep_rate_now);
+  if (constant) {
+    const bool quiet =
+        motion::load_is_quiet(torque, omega_, plant_.inertia, 0.5 * contact_.k1 * tolerance_.rest);
+    if (quiet && begin_rest(torque.now, elongation, stood, torque.load == nullptr)) {
       go_on_at_rest(duration);
+      motion::let_load_follow(torque, omega_);
       return duration;
     }
-  } else if (at_rest(elongation)) {
+  } else if (torque.load == nullptr && at_rest(elongation)) {
     if (const double rest = time_at_rest(elongation, torque, duration); rest > 0.0) {
       hold_at_rest(rest);
       return rest;
     }
   }
-  if (const int direction = slides_towards(torque.now); direction != 0) {
+  if (const int direction = slides_towards(torque_now); direction != 0) {
     break_away(direction);
     return 0.0;
   }

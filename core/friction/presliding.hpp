@@ -64,7 +64,11 @@ class PreslidingFriction {
                                                                   &FrictionParameters::alpha,
                                                                   &FrictionParameters::lambda,
                                                                   &FrictionParameters::n};
+  static constexpr bool has_presliding_motion = true;
   static constexpr bool has_presliding_damping = true;
+  static constexpr bool has_sliding_damping = true;
+  static constexpr bool remembers_loading = true;
+  static constexpr Breakaway breakaway = Breakaway::of_hook;
 
   PreslidingFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
                      const motion::PlantStart& start, motion::MotionTolerance tolerance);
@@ -138,7 +142,7 @@ class PreslidingFriction {
   double slide(const motion::TorqueCourse& torque, double duration);
 
   Elongation elongation_under(double torque, double creep_rate_now) const;
-  bool begin_rest(double torque, const Elongation& elongation, bool stood);
+  bool begin_rest(double torque, const Elongation& elongation, bool stood, bool may_oscillate);
   std::optional<Excess> excess_over_rest(double torque, const Elongation& elongation, double largest) const;
   bool oscillates_freely(double torque, const Excess& excess) const;
   OscillationLaw oscillation_law(const Excess& excess) const;

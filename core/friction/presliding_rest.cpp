@@ -10,7 +10,7 @@ bool PreslidingFriction::come_to_rest(double torque, bool at_reversal) {
   const bool stood = leave_rest();
   const double creep_rate_now = switch_creep();
   if (at_reversal) omega_ = creep_rate_now;
-  return begin_rest(torque, elongation_under(torque, creep_rate_now), stood);
+  return begin_rest(torque, elongation_under(torque, creep_rate_now), stood, true);
 }
 
 /// @returns whether the residual oscillation had ended: only creep moved the rotor.
@@ -25,8 +25,10 @@ bool PreslidingFriction::leave_rest() {
 
 /// Whether the rotor is at rest under the constant torque `torque` (N m); if so, puts it there.
 /// @param stood it has been at rest until now, under another torque.
-bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation, bool stood) {
-  const bool turns = elongation.rate == 0.0;
+/// @param may_oscillate whether a residual oscillation at a reversal counts as rest.
+bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation, bool stood,
+                                    bool may_oscillate) {
+  const bool turns = may_oscillate && elongation.rate == 0.0;
   const double largest = turns ? std::sqrt(tolerance_.rest / contact_.beta) : 0.0;
   const std::optional<Excess> excess =
       excess_over_rest(torque, elongation, std::max(largest, tolerance_.rest));

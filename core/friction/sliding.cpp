@@ -8,10 +8,9 @@ SlidingSeries Slide::start() const {
   SlidingSeries series;
   series.position[0] = theta;
   series.omega[0] = omega;
-  const double coulomb = contact.coulomb_ratio * contact.breakaway;
-  series.coulomb = direction * coulomb;
-  series.stribeck = direction * (contact.breakaway - coulomb);
-  series.per_velocity_squared = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
+  series.curve = stribeck_curve(contact);
+  series.curve.coulomb *= direction;
+  series.curve.excess *= direction;
   return series;
 }
 
@@ -38,14 +37,16 @@ bool leaves_rest(const SlidingSeries& series, double direction) {
 }  // namespace
 
 bool leaves_rest(const Slide& slide, double inertia, const motion::TorqueCourse& torque) {
-  return leaves_rest(motion::motion_series(slide, inertia, torque), slide.direction);
+  motion::LoadSeries load_series;
+  return leaves_rest(motion::motion_series(slide, inertia, torque, load_series), slide.direction);
 }
 
 SlideStep slide_step(Slide& slide, double inertia, const motion::TorqueCourse& torque, double tolerance,
                      double duration) {
-  const SlidingSeries series = motion::motion_series(slide, inertia, torque);
+  motion::LoadSeries load_series;
+  const SlidingSeries series = motion::motion_series(slide, inertia, torque, load_series);
   if (slide.omega == 0.0 && !leaves_rest(series, slide.direction)) return {0.0, true};
-  const auto next = motion::step_along(series, slide, tolerance, duration);
+  const auto next = motion::step_along(series, load_series, torque, slide, tolerance, duration);
   return {next.time, next.event == Slide::Event::velocity_zero};
 }
 

@@ -104,4 +104,10 @@ ZEROCOUNT_ALWAYS_INLINE Number velocity_error(const CascadeConstants<Number>& c,
   return c.kv * error - c.velocity * d;
 }
 
+/// kp·w + I, N m. @param w v* − v, rad/s.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number cascade_torque(const Number& integral, const Number& kp, const Number& w) {
+  return kp * w + integral;
+}
+
 }  // namespace zerocount::loop

@@ -32,7 +32,7 @@ class Cascade {
     const double w = velocity_error(constants_, now.error, difference_.step(now.count));
     const double integral = integral_.add(now.error, constants_.ki * (w + last_velocity_error_));
     last_velocity_error_ = w;
-    return constants_.kp * w + integral;
+    return cascade_torque(integral, constants_.kp, w);
   }
 
   void observe(const Feedback& now) {

@@ -97,7 +97,7 @@ enum class ControlStructure {
 struct CascadeGains {
   double kv{150.0};  ///< of the position loop: velocity command per error, 1/s
   double kp{0.4};    ///< of the velocity loop, N m s/rad
-  double ki{5.0};    ///< of the velocity loop, N m/rad
+  double ki{60.0};   ///< of the velocity loop, N m/rad
 };
 
 /// What a chain of the controller has besides the PID gains. By default nothing of it acts.

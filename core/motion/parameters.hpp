@@ -2,11 +2,27 @@
 
 namespace zerocount::motion {
 
+/// What the encoders read.
+enum class EncoderPlace { motor, load };
+
+/// A second mass behind an elastic coupling, if there is one. All but the inertia is assumed.
+struct LoadParameters {
+  double inertia{0.0};      ///< JL, kg m²; 0: there is no second mass
+  double stiffness{2.0e4};  ///< kL of the coupling, N m/rad
+  double damping{0.1};      ///< dL of the coupling, N m s/rad
+  EncoderPlace encoder{EncoderPlace::motor};
+};
+
 /// The rotor. J and c by default: the paper's (section 4); the sliding damping is assumed.
 struct PlantParameters {
   double inertia{5.54e-4};         ///< J, kg m²
   double presliding_damping{0.2};  ///< c, from hook to rotor while the hook sticks, N m s/rad
   double sliding_damping{1.0e-3};  ///< cs, while the hook slides, N m s/rad
+  LoadParameters load{};
 };
+
+inline bool has_load(const PlantParameters& plant) {
+  return plant.load.inertia > 0.0;
+}
 
 }  // namespace zerocount::motion

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <optional>
 #include <span>
 
+#include "core/motion/load.hpp"
 #include "core/motion/torque_course.hpp"
 #include "core/numerics/power_series.hpp"
 
@@ -36,6 +38,9 @@ struct NextEvent {
 ///   the
 ///                               state except ω; returns the coefficient k of u − F, N m
 ///   complete(series)            where there is one: makes the coefficients series_order that events need
+///   step_of_state(series, tolerance, duration)   where there is one: step_within() for a state z that errors
+///   of
+///                               the position do not show
 ///   first_event(series, step)   the first event within `step` (s), located in time
 ///   go_to(series, next)         takes the state to next.time, and passes next.event
 template <class Motion>
@@ -51,14 +56,18 @@ concept SmoothMotion = requires(Motion motion, const Motion now, typename Motion
 };
 
 /// The Taylor series of a motion from its present state.
-/// @param inertia J, kg m². @param torque u(t), N m.
+/// @param inertia J, kg m². @param torque on the rotor. @param load_series of its load; unused without one.
 template <SmoothMotion Motion>
-typename Motion::Expansion motion_series(const Motion& motion, double inertia, const TorqueCourse& torque) {
+typename Motion::Expansion motion_series(const Motion& motion, double inertia, const TorqueCourse& torque,
+                                         LoadSeries& load_series) {
   const numerics::Series applied = torque_series(torque);
   const double per_inertia = 1.0 / inertia;
   typename Motion::Expansion series = motion.start();
+  if (torque.load != nullptr) start_series(load_series, *torque.load);
   for (std::size_t k = 0; k < numerics::series_order; ++k) {
-    const double acceleration = motion.expand(series, k, applied[k]) * per_inertia;
+    const double coupling =
+        torque.load != nullptr ? expand(load_series, torque.load->parameters, series.omega, k) : 0.0;
+    const double acceleration = motion.expand(series, k, applied[k] - coupling) * per_inertia;
     series.omega[k + 1] = acceleration * numerics::reciprocal[k + 1];
   }
   if constexpr (requires { motion.complete(series); }) motion.complete(series);
@@ -78,16 +87,25 @@ typename Motion::Expansion motion_series(const Motion& motion, double inertia, c
 double step_within(const numerics::Series& position, const numerics::Series& velocity,
                    const numerics::Series& exponent, double tolerance, double longest);
 
-/// Takes the motion on along its series to the end of a Taylor step or to its first event, whichever comes
-/// first.
+/// Takes the motion, and the load of `torque`, on along their series to the end of a Taylor step or to the
+/// motion's first event, whichever comes first.
 /// @param tolerance of the position, rad. @param duration longest step, s. @returns the time used and the
 /// event.
 template <SmoothMotion Motion>
-NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& series, Motion& motion,
-                                             double tolerance, double duration) {
-  const double step = step_within(series.position, series.omega, series.exponent, tolerance, duration);
+NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& series,
+                                             const LoadSeries& load_series, const TorqueCourse& torque,
+                                             Motion& motion, double tolerance, double duration) {
+  double step = step_within(series.position, series.omega, series.exponent, tolerance, duration);
+  if constexpr (requires { motion.step_of_state(series, tolerance, duration); }) {
+    step = std::min(step, motion.step_of_state(series, tolerance, duration));
+  }
+  if (torque.load != nullptr) {
+    step = std::min(step,
+                    step_within(load_series.twist, load_series.omega, series.exponent, tolerance, duration));
+  }
   const NextEvent<typename Motion::Event> next = motion.first_event(series, step);
   motion.go_to(series, next);
+  if (torque.load != nullptr) go_to(*torque.load, load_series, next.time);
   return next;
 }
 
@@ -95,7 +113,9 @@ NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& s
 template <SmoothMotion Motion>
 NextEvent<typename Motion::Event> taylor_step(Motion& motion, double inertia, const TorqueCourse& torque,
                                               double tolerance, double duration) {
-  return step_along(motion_series(motion, inertia, torque), motion, tolerance, duration);
+  LoadSeries load_series;
+  const typename Motion::Expansion series = motion_series(motion, inertia, torque, load_series);
+  return step_along(series, load_series, torque, motion, tolerance, duration);
 }
 
 /// First time in (0, end] at which `series` changes sign, where a start at exactly zero does not count.

@@ -3,18 +3,32 @@
 #include <cmath>
 #include <limits>
 
+#include "core/motion/load.hpp"
+
 namespace zerocount::motion {
 
+double torque_on_rotor(const TorqueCourse& course, double omega) {
+  return course.load == nullptr ? course.now : course.now - coupling_torque(*course.load, omega);
+}
+
+bool load_is_quiet(const TorqueCourse& course, double omega, double inertia, double torque) {
+  return course.load == nullptr || is_quiet(*course.load, omega, inertia, torque);
+}
+
+void let_load_follow(const TorqueCourse& course, double omega) {
+  if (course.load != nullptr) follow_rotor(*course.load, omega);
+}
+
 TorqueCourse course_after(const TorqueCourse& course, double t) {
-  if (is_constant(course)) return course;
+  if (motor_is_constant(course)) return course;
   // Computed as a change of `now`, so that a small change keeps its digits.
   const double change = (course.now - course.settled) * std::expm1(-course.rate * t);
-  return {course.now + change, course.settled, course.rate};
+  return {course.now + change, course.settled, course.rate, course.load};
 }
 
 double time_until(const TorqueCourse& course, double torque) {
   if (torque == course.now) return 0.0;
-  if (is_constant(course)) return std::numeric_limits<double>::infinity();
+  if (motor_is_constant(course)) return std::numeric_limits<double>::infinity();
   const double change = (torque - course.now) / (course.now - course.settled);  // from 0 to −1
   if (change >= 0.0) return 0.0;
   if (change <= -1.0) return std::numeric_limits<double>::infinity();

@@ -6,12 +6,16 @@
 
 namespace zerocount::motion {
 
-/// The motor's torque from now on: u(t) = settled + (now − settled)·exp(−rate·t). Constant where now equals
-/// settled; otherwise that of a first-order amplifier. It is monotonic.
+struct Load;
+
+/// The torque on the rotor from now on: that of the motor, u(t) = settled + (now − settled)·exp(−rate·t),
+/// less that of a load's coupling, where there is a load. The motor's is constant where now equals settled;
+/// otherwise it is that of a first-order amplifier. It is monotonic.
 struct TorqueCourse {
   double now{0.0};      ///< N m
   double settled{0.0};  ///< N m
   double rate{0.0};     ///< 1/s, not negative
+  Load* load{nullptr};  ///< moves with the rotor
 };
 
 /// The course that stays at `torque` (N m).
@@ -20,9 +24,25 @@ inline TorqueCourse constant_torque(double torque) {
 }
 
 /// Whether u(t) = now for ever.
-inline bool is_constant(const TorqueCourse& course) {
+inline bool motor_is_constant(const TorqueCourse& course) {
   return course.rate == 0.0 || course.now == course.settled;
 }
+
+/// Whether the torque on the rotor is `now` for ever.
+inline bool is_constant(const TorqueCourse& course) {
+  return course.load == nullptr && motor_is_constant(course);
+}
+
+/// The torque on the rotor at this instant, N m. @param omega ω of the rotor, rad/s.
+double torque_on_rotor(const TorqueCourse& course, double omega);
+
+/// Whether there is no load, or none that oscillates against the rotor by as much as `torque` (N m) of its
+/// coupling.
+/// @param omega ω of the rotor, rad/s. @param inertia J, kg m².
+bool load_is_quiet(const TorqueCourse& course, double omega, double inertia, double torque);
+
+/// The load, if there is one, moves as the rotor does from now on.
+void let_load_follow(const TorqueCourse& course, double omega);
 
 /// The same course seen from the time t (s) on.
 TorqueCourse course_after(const TorqueCourse& course, double t);
@@ -30,12 +50,12 @@ TorqueCourse course_after(const TorqueCourse& course, double t);
 /// The time (s) at which u reaches `torque` (N m): 0 where it has passed it, infinity where it never does.
 double time_until(const TorqueCourse& course, double torque);
 
-/// Taylor coefficients of u(t), N m/sᵏ: c[0] = now, c[1] = −rate·(now − settled), c[k+1] = −rate·c[k]/(k +
-/// 1).
+/// Taylor coefficients of the motor's u(t), N m/sᵏ: c[0] = now, c[1] = −rate·(now − settled), c[k+1] =
+/// −rate·c[k]/(k + 1).
 inline numerics::Series torque_series(const TorqueCourse& course) {
   numerics::Series torque{};
   torque[0] = course.now;
-  if (is_constant(course)) return torque;
+  if (motor_is_constant(course)) return torque;
   torque[1] = -course.rate * (course.now - course.settled);
   for (std::size_t k = 1; k < numerics::series_order; ++k) {
     torque[k + 1] = -course.rate * torque[k] * numerics::reciprocal[k + 1];

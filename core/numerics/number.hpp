@@ -24,6 +24,9 @@ ZEROCOUNT_ALWAYS_INLINE double min(double a, double b) {
 ZEROCOUNT_ALWAYS_INLINE double max(double a, double b) {
   return a < b ? b : a;
 }
+ZEROCOUNT_ALWAYS_INLINE double sqrt(double a) {
+  return __builtin_sqrt(a);
+}
 /// −1, 0 or 1.
 ZEROCOUNT_ALWAYS_INLINE double sign(double a) {
   return a > 0.0 ? 1.0 : (a < 0.0 ? -1.0 : 0.0);

@@ -27,6 +27,15 @@ ZEROCOUNT_ALWAYS_INLINE Number exponential_coefficient(const Number* derivative,
   return sum * Number(reciprocal.of[k]);
 }
 
+/// Coefficient k of a/b, b[0] ≠ 0: from q·b = a, given the coefficient a_k, b[0…k] and q[0…k−1].
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number quotient_coefficient(const Number& a_k, const Number* b, const Number* q,
+                                                    std::size_t k) {
+  Number rest = a_k;
+  for (std::size_t j = 1; j <= k; ++j) rest = rest - b[j] * q[k - j];
+  return rest / b[0];
+}
+
 /// Coefficient k of a²: each product a[j]·a[k−j] stands twice, but for the one in the middle.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number square_coefficient(const Number* a, std::size_t k) {

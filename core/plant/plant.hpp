@@ -3,9 +3,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "core/friction/laws.hpp"
+#include "core/motion/load.hpp"
 
 namespace zerocount::plant {
 
@@ -15,12 +17,15 @@ class PlantWith : public Law {
  public:
   PlantWith(const motion::PlantParameters& plant, const friction::FrictionAlongRotor& friction,
             const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
-      : Law(plant, friction, start, tolerance), inertia_(plant.inertia), tolerance_(tolerance.elongation) {}
+      : Law(plant, friction, start, tolerance), inertia_(plant.inertia), tolerance_(tolerance.elongation) {
+    if (motion::has_load(plant)) load_ = motion::Load{plant.load, 0.0, start.velocity};
+  }
 
   /// Applies the torque for `duration` (s).
   void advance(const motion::TorqueCourse& torque, double duration) {
     motion::TorqueCourse ahead = torque;
-    bool moves = !motion::is_constant(ahead);
+    ahead.load = load_ ? &*load_ : nullptr;
+    bool moves = !motion::motor_is_constant(ahead);
     double remaining = duration;
     for (int step = 0; remaining > 0.0 && finite_; ++step) {
       if (step == max_steps) finite_ = false;
@@ -28,14 +33,18 @@ class PlantWith : public Law {
       remaining = used < remaining ? remaining - used : 0.0;
       if (moves) {
         moves = duration - remaining < time_constants_to_settle / ahead.rate;
-        ahead = moves ? motion::course_after(ahead, used) : motion::constant_torque(ahead.settled);
+        ahead = moves ? motion::course_after(ahead, used)
+                      : motion::TorqueCourse{ahead.settled, ahead.settled, 0.0, ahead.load};
       }
-      finite_ = finite_ && std::isfinite(this->theta()) && std::isfinite(this->omega());
+      finite_ = finite_ && std::isfinite(this->theta()) && std::isfinite(this->omega()) &&
+                (!load_ || std::isfinite(load_->omega));
     }
   }
 
   /// False once the motion could not be followed any more (non-finite, or steps without end); it stays false.
   bool finite() const { return finite_; }
+  /// The second mass; empty without one.
+  const std::optional<motion::Load>& load() const { return load_; }
 
  private:
   /// More steps than this within one torque step mean that the motion cannot be followed. A ringing trial of
@@ -57,6 +66,7 @@ class PlantWith : public Law {
   double inertia_;
   double tolerance_;
   bool finite_{true};
+  std::optional<motion::Load> load_;
 };
 
 /// State of the plant at an instant.
@@ -66,6 +76,8 @@ struct PlantReading {
   friction::CreepState creep{};  ///< of the present contact, or of the last one while sliding
   std::int64_t depth{0};         ///< of the stack of reversal points
   bool sliding{false};
+  double load_theta{0.0};  ///< θL, rad; that of the rotor without a load
+  double load_omega{0.0};  ///< ωL, rad/s; likewise
 };
 
 /// The plant of a trial: with that law of the list which its friction.model names.
@@ -75,8 +87,7 @@ class PlantOf {
   PlantOf(const motion::PlantParameters& plant, const friction::FrictionAlongRotor& friction,
           const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
       : plant_(makers.at(static_cast<std::size_t>(friction.model))(plant, friction, start, tolerance)),
-        has_hook_(friction::uses(Laws::traits.at(static_cast<std::size_t>(friction.model)),
-                                 &friction::FrictionParameters::breakaway)) {}
+        breakaway_(Laws::traits.at(static_cast<std::size_t>(friction.model)).breakaway) {}
 
   /// Applies the torque for `duration` (s).
   void advance(const motion::TorqueCourse& torque, double duration) {
@@ -86,7 +97,13 @@ class PlantOf {
   PlantReading read() const {
     return std::visit(
         [](const auto& plant) {
-          return PlantReading{plant.theta(), plant.omega(), plant.creep(), plant.depth(), plant.sliding()};
+          PlantReading reading{plant.theta(),   plant.omega(), plant.creep(), plant.depth(),
+                               plant.sliding(), plant.theta(), plant.omega()};
+          if (plant.load()) {
+            reading.load_theta -= plant.load()->twist;
+            reading.load_omega = plant.load()->omega;
+          }
+          return reading;
         },
         plant_);
   }
@@ -103,8 +120,8 @@ class PlantOf {
   bool finite() const {
     return std::visit([](const auto& plant) { return plant.finite(); }, plant_);
   }
-  /// Whether sliding is that of a hook which had to break away.
-  bool has_hook() const { return has_hook_; }
+  /// How the law begins to slide.
+  friction::Breakaway breakaway() const { return breakaway_; }
   /// Since the start.
   std::int64_t breakaways() const {
     return std::visit([](const auto& plant) { return plant.breakaways(); }, plant_);
@@ -133,7 +150,7 @@ class PlantOf {
   (std::make_index_sequence<std::variant_size_v<AnyPlant>>{});
 
   AnyPlant plant_;
-  bool has_hook_;
+  friction::Breakaway breakaway_;
 };
 
 using Plant = PlantOf<friction::FrictionLaws>;

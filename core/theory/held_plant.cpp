@@ -7,23 +7,61 @@
 
 namespace zerocount::theory {
 
-/// exp([F g; 0 0]) holds A in its upper left block and b above its last entry, with time in samples.
-HeldPlant hold_plant(double stiffness, double damping, double inertia, double count_angle, double sample_time,
-                     const LinearDrive& drive) {
+namespace {
+
+/// F of d(x, v)/dt = F·(x, v), with x = (measured angle, its rate, …), v the drive's input and time in s.
+Eigen::MatrixXd generator_of(double stiffness, double damping, double inertia,
+                             const motion::LoadParameters& load, const LinearDrive& drive) {
+  const bool loaded = load.inertia > 0.0;
   const bool lags = drive.bandwidth > 0.0;
-  const double T = sample_time;
-  const Eigen::Index states = lags ? 3 : 2;
-  constexpr Eigen::Index torque = 2;  // the amplifier's, or its input where it does not lag
-  Eigen::MatrixXd generator = Eigen::MatrixXd::Zero(states + 1, states + 1);
-  generator(0, 1) = 1.0;
-  generator(1, 0) = -stiffness * T * T / inertia;
-  generator(1, 1) = -damping * T / inertia;
-  generator(1, torque) = T * T / inertia / count_angle;
-  if (lags) {
-    const double rate = 2.0 * std::numbers::pi * drive.bandwidth * T;
-    generator(torque, torque) = -rate;
-    generator(torque, states) = rate;
+  const Eigen::Index torque = loaded ? 4 : 2;  // of the motor, or its input where it does not lag
+  const Eigen::Index input = torque + (lags ? 1 : 0);
+  Eigen::MatrixXd F = Eigen::MatrixXd::Zero(input + 1, input + 1);
+  F(0, 1) = 1.0;
+  if (loaded) {
+    // Of the other mass: its angle less the measured one, and its rate.
+    const bool at_load = load.encoder == motion::EncoderPlace::load;
+    const Eigen::Index motor = at_load ? 3 : 1;
+    const double measured_inertia = at_load ? load.inertia : inertia;
+    const double other_inertia = at_load ? inertia : load.inertia;
+    F(2, 3) = 1.0;
+    F(2, 1) = -1.0;
+    F(1, 2) = load.stiffness / measured_inertia;
+    F(1, 3) = load.damping / measured_inertia;
+    F(1, 1) = -F(1, 3);
+    F(3, 2) = -load.stiffness / other_inertia;
+    F(3, 3) = -load.damping / other_inertia;
+    F(3, 1) = -F(3, 3);
+    F(motor, 0) -= stiffness / inertia;
+    if (at_load) F(motor, 2) -= stiffness / inertia;
+    F(motor, motor) -= damping / inertia;
+    F(motor, torque) = 1.0 / inertia;
+  } else {
+    F(1, 0) = -stiffness / inertia;
+    F(1, 1) = -damping / inertia;
+    F(1, torque) = 1.0 / inertia;
   }
+  if (lags) {
+    const double rate = 2.0 * std::numbers::pi * drive.bandwidth;
+    F(torque, torque) = -rate;
+    F(torque, input) = rate;
+  }
+  return F;
+}
+
+}  // namespace
+
+/// exp(F·T) holds A in its upper left block and b above its last entry, in counts and samples.
+HeldPlant hold_plant(double stiffness, double damping, const motion::PlantParameters& plant,
+                     double count_angle, double sample_time, const LinearDrive& drive) {
+  const double T = sample_time;
+  Eigen::MatrixXd generator = generator_of(stiffness, damping, plant.inertia, plant.load, drive);
+  // From rad and rad/s to counts and counts a sample.
+  Eigen::VectorXd unit = Eigen::VectorXd::Ones(generator.rows());
+  for (Eigen::Index i = 0; i < (motion::has_load(plant) ? 4 : 2); ++i)
+    unit[i] = (i % 2 == 0 ? 1.0 : T) / count_angle;
+  generator = T * (unit.asDiagonal() * generator * unit.cwiseInverse().asDiagonal());
+  const Eigen::Index states = generator.rows() - 1;
   const Eigen::MatrixXd flow = generator.exp();
   return {flow.topLeftCorner(states, states), drive.gain * flow.topRightCorner(states, 1)};
 }

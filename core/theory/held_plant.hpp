@@ -7,17 +7,19 @@
 
 namespace zerocount::theory {
 
-/// The driven rotor over one sample: x ← A·x + b·v with x = (count, change of the count per sample at the
-/// current velocity, and where the amplifier lags, its torque), v the torque decided (N m).
+/// The driven plant over one sample: x ← A·x + b·v with x = (count, change of the count per sample at the
+/// present velocity; with a load the same of the mass that the encoder does not read, its angle less the
+/// measured one; where the amplifier lags, its torque), v the torque decided (N m).
 struct HeldPlant {
   Eigen::MatrixXd A;  ///< of counts and N m
   Eigen::VectorXd b;  ///< counts/(N m); 1 for the torque
 };
 
-/// Exact discretisation of J·θ¨ + damping·θ˙ + stiffness·θ = u with the drive's input held over each sample.
-/// @param stiffness N m/rad. @param damping N m s/rad. @param inertia J, kg m².
+/// Exact discretisation of J·θ¨ + damping·θ˙ + stiffness·θ = u − Ts, with the load of `plant`, and the
+/// drive's input held over each sample.
+/// @param stiffness N m/rad. @param damping N m s/rad. @param plant its inertia and load.
 /// @param count_angle Δx, rad. @param sample_time T, s.
-HeldPlant hold_plant(double stiffness, double damping, double inertia, double count_angle, double sample_time,
-                     const LinearDrive& drive);
+HeldPlant hold_plant(double stiffness, double damping, const motion::PlantParameters& plant,
+                     double count_angle, double sample_time, const LinearDrive& drive);
 
 }  // namespace zerocount::theory

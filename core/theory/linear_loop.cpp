@@ -1,6 +1,8 @@
 #include "core/theory/linear_loop.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Dense>
 
@@ -10,8 +12,31 @@ namespace {
 using Complex = std::complex<double>;
 using Row = Eigen::RowVectorXd;  ///< a signal as a linear form of the loop's states
 
+/// Paths of a stage that have the same poles, and so the same states.
+struct PathGroup {
+  std::vector<double> a;
+  std::vector<std::pair<loop::LoopSignal, std::vector<double>>> numerators;
+
+  Eigen::Index order() const {
+    std::size_t coefficients = a.size();
+    for (const auto& [from, b] : numerators) coefficients = std::max(coefficients, b.size());
+    return static_cast<Eigen::Index>(coefficients) - 1;
+  }
+};
+
+std::vector<PathGroup> groups_of(const loop::LinearBlock& stage) {
+  std::vector<PathGroup> groups;
+  for (const loop::SignalPath& path : stage) {
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const PathGroup& g) { return g.a == path.transfer.a; });
+    if (group == groups.end()) group = groups.insert(group, {path.transfer.a, {}});
+    group->numerators.emplace_back(path.from, path.transfer.b);
+  }
+  return groups;
+}
+
 /// The wanted torque where the signals are `count` and `in_force`, the torque in force.
-/// @param pass gives what comes of a signal through a transfer function.
+/// @param pass gives what comes of its input signals through a group of paths.
 template <class Signal, class Pass>
 Signal wanted_torque(const loop::LinearChain& controller, const Signal& count, const Signal& in_force,
                      Pass pass) {
@@ -31,29 +56,30 @@ Signal wanted_torque(const loop::LinearChain& controller, const Signal& count, c
   };
   for (const loop::LinearBlock& block : controller) {
     Signal sum = 0.0 * count;
-    for (const loop::SignalPath& path : block) sum += pass(path.transfer, input(path.from));
+    for (const PathGroup& group : groups_of(block)) sum += pass(group, input);
     torque = sum;
   }
   return torque;
-}
-
-Eigen::Index order_of(const loop::TransferFunction& transfer) {
-  return static_cast<Eigen::Index>(std::max(transfer.a.size(), transfer.b.size())) - 1;
 }
 
 double coefficient(const std::vector<double>& of, Eigen::Index k) {
   return k < static_cast<Eigen::Index>(of.size()) ? of[static_cast<std::size_t>(k)] : 0.0;
 }
 
-/// The output of H for the signal `input`; the states of H begin at index `state` of the map:
-/// y = b₀·x + s₁, sᵢ ← bᵢ·x − aᵢ·y + sᵢ₊₁.
-Row realise(const loop::TransferFunction& transfer, const Row& input, Eigen::Index state,
-            Eigen::MatrixXd& map) {
-  const Eigen::Index order = order_of(transfer);
-  Row output = coefficient(transfer.b, 0) * input;
+/// The output of a group for its signals; its states begin at index `state` of the map:
+/// y = Σ b₀·x + s₁, sᵢ ← Σ bᵢ·x − aᵢ·y + sᵢ₊₁, the sums over the inputs.
+template <class Input>
+Row realise(const PathGroup& group, const Input& input, Eigen::Index state, Eigen::MatrixXd& map) {
+  const Eigen::Index order = group.order();
+  const auto inputs_by = [&](Eigen::Index i) {
+    Row sum = Row::Zero(map.cols());
+    for (const auto& [from, b] : group.numerators) sum += coefficient(b, i) * input(from);
+    return sum;
+  };
+  Row output = inputs_by(0);
   if (order > 0) output(state) += 1.0;
   for (Eigen::Index i = 1; i <= order; ++i) {
-    map.row(state + i - 1) = coefficient(transfer.b, i) * input - coefficient(transfer.a, i) * output;
+    map.row(state + i - 1) = inputs_by(i) - coefficient(group.a, i) * output;
     if (i < order) map(state + i - 1, state + i) += 1.0;
   }
   return output;
@@ -73,9 +99,11 @@ Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& contro
   Eigen::Index of_blocks = 0;
   bool knows_torque_in_force = false;
   for (const loop::LinearBlock& block : controller) {
-    for (const loop::SignalPath& path : block) {
-      of_blocks += order_of(path.transfer);
-      knows_torque_in_force = knows_torque_in_force || path.from == loop::LoopSignal::torque_in_force;
+    for (const PathGroup& group : groups_of(block)) {
+      of_blocks += group.order();
+      for (const auto& [from, b] : group.numerators) {
+        knows_torque_in_force = knows_torque_in_force || from == loop::LoopSignal::torque_in_force;
+      }
     }
   }
   // The torques decided at the last samples, newest first.
@@ -86,12 +114,12 @@ Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& contro
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(states, states);
   Eigen::Index next = driven;
   const Row in_force = pending < states ? state(pending) : Row::Zero(states);
-  const Row decided = wanted_torque<Row>(controller, state(0), in_force,
-                                         [&](const loop::TransferFunction& transfer, const Row& x) {
-                                           Row output = realise(transfer, x, next, map);
-                                           next += order_of(transfer);
-                                           return output;
-                                         });
+  const Row decided =
+      wanted_torque<Row>(controller, state(0), in_force, [&](const PathGroup& group, const auto& input) {
+        Row output = realise(group, input, next, map);
+        next += group.order();
+        return output;
+      });
   map.topLeftCorner(driven, driven) = plant.A;
   map.topRows(driven) += plant.b * (delay == 0 ? decided : state(pending + delay - 1));
   if (pending < states) map.row(pending) = decided;
@@ -107,13 +135,19 @@ Complex open_loop(Complex z, const HeldPlant& plant, const loop::LinearChain& co
   const Eigen::Index states = plant.A.rows();
   const Eigen::MatrixXcd resolvent = z * Eigen::MatrixXcd::Identity(states, states) - plant.A;
   const Eigen::VectorXcd response = resolvent.fullPivLu().solve(plant.b.cast<Complex>());
-  const auto pass = [z](const loop::TransferFunction& transfer, Complex x) {
-    return x * value_at(transfer.b, z) / value_at(transfer.a, z);
+  return controller_response(z, controller) * std::pow(z, -delay) * response(0);
+}
+
+Complex controller_response(Complex z, const loop::LinearChain& controller) {
+  const auto pass = [z](const PathGroup& group, const auto& input) {
+    Complex sum = 0.0;
+    for (const auto& [from, b] : group.numerators) sum += value_at(b, z) * input(from);
+    return sum / value_at(group.a, z);
   };
   // The torque in force is z⁻¹·U, so U = from_count·count + from_itself·z⁻¹·U.
   const Complex from_count = wanted_torque<Complex>(controller, 1.0, 0.0, pass);
   const Complex from_itself = wanted_torque<Complex>(controller, 0.0, 1.0, pass);
-  return -from_count / (1.0 - from_itself / z) * std::pow(z, -delay) * response(0);
+  return -from_count / (1.0 - from_itself / z);
 }
 
 }  // namespace zerocount::theory

@@ -12,11 +12,16 @@
 namespace zerocount::theory {
 
 /// The one-sample map x ← M·x of the loop. Its states are those of the driven rotor, of the blocks' transfer
-/// functions (direct form II transposed), and the torques decided and not yet applied.
+/// functions (direct form II transposed; paths of a stage with the same poles share them), and the torques
+/// decided and not yet applied.
 Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& controller, int delay);
 
 /// max |eigenvalue| of the loop's map; below 1 the loop is stable.
 double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controller, int delay);
+
+/// C(z): the torque decided per count of error, N m/count, the torque in force that blocks use being that of
+/// the controller itself.
+std::complex<double> controller_response(std::complex<double> z, const loop::LinearChain& controller);
 
 /// L(z) = C(z)·z^(−delay)·G(z): the open loop from error to count.
 std::complex<double> open_loop(std::complex<double> z, const HeldPlant& plant,

@@ -35,13 +35,16 @@ double slowest_time_constant(double stiffness, const motion::PlantParameters& pl
                              const loop::EncoderParameters& encoder,
                              const loop::ControllerParameters& controller, const LinearDrive& drive = {});
 
-/// Digital integral gain (N m/count) below which the sampled loop about a spring of `stiffness` (N m/rad) is
-/// stable: the end of the interval of stable gains that begins at 0, to 1e-9 relative. 0 where the loop
-/// without integral is unstable already. The gain `controller.ki` does not enter.
+/// Integral gain of the control law: ki (N m/count), or that of a cascade (N m/rad).
+double integral_gain(const loop::ControllerParameters& controller);
+
+/// Integral gain, as integral_gain has it, below which the sampled loop about a spring of `stiffness` (N
+/// m/rad) is stable: the end of the interval of stable gains that begins at 0, to 1e-9 relative. 0 where the
+/// loop without integral is unstable already. The gain of `controller` itself does not enter.
 ///
-/// The end is searched upwards from 1e-6 of the static stiffness per count in steps of 2 %, then bisected. It
-/// exists: the held plant has more poles than zeros, so a large enough gain drives an eigenvalue out of the
-/// unit circle.
+/// The end is searched upwards from 1e-6 of the static stiffness in steps of 2 %, then bisected. The held
+/// plant has more poles than zeros, so a large enough gain drives an eigenvalue out of the unit circle;
+/// infinite where the blocks let none of it through.
 double sampled_critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
                                       const loop::EncoderParameters& encoder,
                                       loop::ControllerParameters controller, const LinearDrive& drive = {});

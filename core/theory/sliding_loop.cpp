@@ -15,7 +15,7 @@ GainCrossover sliding_crossover(const motion::PlantParameters& plant, const loop
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const double T = sample_time(controller);
   const HeldPlant held =
-      hold_plant(0.0, plant.sliding_damping, plant.inertia, loop::fine_resolution(encoder), T, drive);
+      hold_plant(0.0, plant.sliding_damping, plant, loop::fine_resolution(encoder), T, drive);
   const loop::LinearChain chain = loop::linear_chain(controller, loop::fine_resolution(encoder));
   const auto open_loop_at = [&](double angle) {
     return open_loop(std::polar(1.0, angle), held, chain, controller.delay);

@@ -8,6 +8,20 @@
 
 namespace zerocount::theory {
 
+std::string_view left_out_of_criteria(const loop::ControllerParameters& controller) {
+  const loop::ControlBlocks& blocks = controller.blocks;
+  switch (blocks.structure) {
+    case loop::ControlStructure::cascade:
+      return "the cascade";
+    case loop::ControlStructure::pid:
+      break;
+  }
+  if (!blocks.filters.empty()) return "the filters";
+  if (blocks.observer.bandwidth > 0.0) return "the disturbance observer";
+  if (controller.kd != 0.0 && std::isfinite(blocks.derivative_cutoff)) return "the derivative filter";
+  return {};
+}
+
 double critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
                               const loop::EncoderParameters& encoder,
                               const loop::ControllerParameters& controller) {

@@ -75,9 +75,10 @@ struct MoveOutcome {
   /// e at sample ⌈N/2⌉ (of a single sample: that), counts; 0 where the move was cut, or has no target.
   std::int64_t midway_error{0};
   std::int64_t final_error{0};  ///< e at the last sample, counts; −count where there is no target
-  /// Distance from the rotor to the middle of the target's count at the last sample, whatever the encoder
-  /// says: target − (θ/Δx + encoder_phase − ½) in fine counts. By an ideal encoder, final_error is 0 where
-  /// this is in (−½, ½]. NaN where there is no target, or the motion was lost.
+  /// Distance from the rotor, or the load where the encoder is there, to the middle of the target's count at
+  /// the last sample, whatever the encoder says: target − (θ/Δx + encoder_phase − ½) in fine counts. By an
+  /// ideal encoder, final_error is 0 where this is in (−½, ½]. NaN where there is no target, or the motion
+  /// was lost.
   double true_error{std::numeric_limits<double>::quiet_NaN()};
   double final_position{0.0};            ///< θ at the last sample, rad
   double holding_torque{0.0};            ///< torque decided at the last sample, N m

@@ -32,6 +32,7 @@ class Rig {
         measurement_(p.encoder, p.initial.encoder_phase, p.initial.position, p.randomness),
         dac_(p.dac),
         drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness),
+        encoder_place_(motion::has_load(p.plant) ? p.plant.load.encoder : motion::EncoderPlace::motor),
         plant_(p.plant, p.friction, plant_start(p), motion_tolerance(measurement_.fine_resolution())) {}
 
   /// Encoder readings and plant state at t_k. The caller fills in torque, target and reference.
@@ -42,7 +43,10 @@ class Rig {
     const plant::PlantReading plant = plant_.read();
     record.theta = plant.theta;
     record.omega = plant.omega;
-    const loop::EncoderReading reading = measurement_.read(k, record.theta);
+    record.load_theta = plant.load_theta;
+    record.load_omega = plant.load_omega;
+    last_measured_ = encoder_place_ == motion::EncoderPlace::load ? record.load_theta : record.theta;
+    const loop::EncoderReading reading = measurement_.read(k, last_measured_);
     record.count = reading.fine;
     record.coarse_count = reading.coarse;
     record.xp = plant.creep.extension;
@@ -51,6 +55,9 @@ class Rig {
     record.mode = plant.sliding ? HookMode::slide : HookMode::stick;
     return record;
   }
+
+  /// The angle that the encoders read last: of the rotor, or of the load, rad.
+  double last_measured() const { return last_measured_; }
 
   /// Takes the wanted torque (N m) at t_k through the converter; completes `record`.
   void drive(double torque, SampleRecord& record) {
@@ -95,6 +102,8 @@ class Rig {
   loop::Measurement measurement_;
   loop::DacParameters dac_;
   loop::Drive drive_;
+  motion::EncoderPlace encoder_place_;
+  double last_measured_{0.0};
   AnyPlant plant_;
   motion::TorqueCourse course_;
   bool clipped_{false};

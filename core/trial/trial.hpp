@@ -28,6 +28,8 @@ struct SampleRecord {
   HookMode mode{HookMode::stick};
   std::int64_t reference{0};  ///< that the controller follows, counts: the target once arrived there
   loop::ControlPhase phase{loop::ControlPhase::fine};  ///< that decided the torque
+  double load_theta{0.0};    ///< angle of the second mass, rad; that of the rotor without one
+  double load_omega{0.0};    ///< velocity of the second mass, rad/s; likewise
   double drive_torque{0.0};  ///< of the motor at this instant, after converter and amplifier, N m
 };
 

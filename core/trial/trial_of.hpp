@@ -11,6 +11,21 @@
 /// A trial as a template over its plant, PlantOf a list of laws.
 namespace zerocount::trial {
 
+/// Whether the friction slid during a move.
+/// @param at_start, at_instants whether it slid at the start of the move, and at any of its sampling
+/// instants.
+inline bool slid_in_move(friction::Breakaway breakaway, bool at_start, bool at_instants, bool broke_away) {
+  switch (breakaway) {
+    case friction::Breakaway::never:
+      break;
+    case friction::Breakaway::of_hook:
+      return at_start || broke_away;
+    case friction::Breakaway::gradual:
+      return at_instants;
+  }
+  return false;
+}
+
 /// Runs the samples of one move, from number `first` on. `decide(i, record)` completes the record of its
 /// sample i: what is commanded, and the torque. A move that diverges is ended.
 template <class AnyPlant, class Decide>
@@ -22,10 +37,12 @@ MoveOutcome run_move(Rig<AnyPlant>& rig, const MoveTiming& timing, const Verdict
   const std::int64_t breakaways_before = plant.breakaways();
   const std::int64_t disagreements_before = rig.measurement().disagreements();
   const bool sliding_before = plant.sliding();
+  bool sliding_at_instants = false;
   std::int64_t first_error = 0;
   for (std::int64_t i = 0; i < timing.samples && rig.readable(); ++i) {
     SampleRecord record = rig.read(first + i);
     decide(i, record);
+    sliding_at_instants = sliding_at_instants || record.mode == HookMode::slide;
     if (observers.sample) observers.sample(record);
     const bool jerk_ended =
         measures.add({record.target, record.count, record.torque, rig.clipped(), record.theta, record.xp});
@@ -37,7 +54,8 @@ MoveOutcome run_move(Rig<AnyPlant>& rig, const MoveTiming& timing, const Verdict
     }
     rig.hold();
   }
-  const bool slid = plant.has_hook() && (sliding_before || plant.breakaways() > breakaways_before);
+  const bool slid = slid_in_move(plant.breakaway(), sliding_before, sliding_at_instants,
+                                 plant.breakaways() > breakaways_before);
   const bool jerk_cut = measures.finish(slid, plant.deepest(), rig.readable());
   if (jerk_cut && observers.jerk) observers.jerk(measures.last_jerk());
   MoveOutcome outcome = measures.outcome();
@@ -81,7 +99,7 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
     move.travel_time = reference.duration();
     move.controller_failed = rig.controller_failed();
     if (move.outcome != Outcome::nonfinite) {
-      move.true_error = true_error(target, move.final_position, resolution, p.initial.encoder_phase);
+      move.true_error = true_error(target, rig.last_measured(), resolution, p.initial.encoder_phase);
     }
     outcome.moves.push_back(move);
     stopped = move.stopped;

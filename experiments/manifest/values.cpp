@@ -47,7 +47,7 @@ study::Value read_enumeration(const yaml::Field& field, const parameters::Parame
 }
 
 bool is_none(const yaml::YamlNode& node) {
-  return node.kind == yaml::YamlNode::Kind::scalar && node.plain && node.text == "none";
+  return node.kind == yaml::YamlNode::Kind::scalar && node.text == "none";
 }
 
 study::Value read_number(const yaml::Field& field, const parameters::Parameter& parameter, Reading& reading) {
@@ -58,7 +58,8 @@ study::Value read_number(const yaml::Field& field, const parameters::Parameter& 
                                         static_cast<std::int64_t>(parameter.range.high), problems);
     return whole ? number_value(static_cast<double>(*whole)) : unreadable_value();
   }
-  const auto real = yaml::read_real(field, parameters::range_of(parameter, reading.plan.units), problems);
+  const auto real = yaml::read_real(field, parameters::range_of(parameter, reading.plan.units), problems,
+                                    parameter.none ? ", or none" : "");
   return real ? number_value(*real) : unreadable_value();
 }
 

@@ -64,7 +64,7 @@ std::vector<Parameter> block_rows(Blocks /*blocks*/, Named named, std::size_t fi
                "Hz", "bandwidth of the disturbance observer; 0: there is none", assumed,
                numerics::at_least(0), [](auto& p) { return &Blocks{}(p).observer.bandwidth; }),
       real_row(named("controller.observer.inertia", "controller.coarse.observer.inertia"), dimension(13),
-               "kg m^2", "moment of inertia in the model of the disturbance observer", "paper, section 2",
+               "kg m^2", "inertia Jn in the model of the disturbance observer", "paper, section 4",
                numerics::above(0), [](auto& p) { return &Blocks{}(p).observer.inertia; }),
   };
 }

@@ -12,7 +12,7 @@
 namespace zerocount::parameters {
 
 // The rows of the table of parameters, by section. Each has a Sobol dimension of its own, so that a new row
-// does not change the draws of the others. The next free one is beyond_moves(9); those from beyond_moves(32)
+// does not change the draws of the others. The next free one is beyond_moves(16); those from beyond_moves(32)
 // to beyond_moves(79) are for the blocks of the controller. From beyond_moves(80) on are those of lists, each
 // with as many as it may have values; the next free one of these is beyond_moves(192).
 // Those from beyond_moves(317) to beyond_moves(444) are for the parameters of a plugin.

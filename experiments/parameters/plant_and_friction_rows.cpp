@@ -22,17 +22,26 @@ std::vector<Parameter> plant_rows() {
                numerics::at_least(0), [](auto& p) { return &p.plant.presliding_damping; }),
       real_row("plant.sliding_damping", 14, "N m s/rad", "viscous damping cs while the hook slides", assumed,
                numerics::at_least(0), [](auto& p) { return &p.plant.sliding_damping; }),
+      real_row("plant.load.inertia", beyond_moves(12), "kg m^2",
+               "inertia JL of a second mass behind an elastic coupling; 0: there is none", assumed,
+               numerics::at_least(0), [](auto& p) { return &p.plant.load.inertia; }),
+      real_row("plant.load.stiffness", beyond_moves(13), "N m/rad", "stiffness kL of the coupling", assumed,
+               numerics::above(0), [](auto& p) { return &p.plant.load.stiffness; }),
+      real_row("plant.load.damping", beyond_moves(14), "N m s/rad", "damping dL of the coupling", assumed,
+               numerics::at_least(0), [](auto& p) { return &p.plant.load.damping; }),
+      word_row("plant.load.encoder", beyond_moves(15), "the mass whose angle the encoders read", assumed,
+               {"motor", "load"}, [](auto& p) { return &p.plant.load.encoder; }),
   };
 }
 
 std::vector<Parameter> friction_rows() {
   using P = friction::FrictionParameters;
   return {
-      word_row("friction.model", beyond_moves(0),
-               "friction of the bearing: before it slides a spring and creep, the spring alone, or no "
-               "motion at "
-               "all; none is an air bearing",
-               assumed, friction::friction_model_labels(), [](auto& p) { return &p.friction.model; }),
+      word_row(
+          "friction.model", beyond_moves(0),
+          "friction of the bearing: before it slides a spring and creep, the spring alone, or no "
+          "motion at all; none is an air bearing; the models of Dahl, LuGre, and generalised Maxwell-slip",
+          assumed, friction::friction_model_labels(), [](auto& p) { return &p.friction.model; }),
       friction<&P::k1>(real_row("friction.k1", 0, "N m/rad",
                                 "lowest tangent stiffness of the friction spring", "paper, section 4",
                                 numerics::above(0))),
@@ -57,6 +66,16 @@ std::vector<Parameter> friction_rows() {
       friction<&P::stribeck_velocity>(real_row(
           "friction.stribeck_velocity", 8, "rad/s",
           "velocity over which sliding friction falls to the Coulomb level", assumed, numerics::above(0))),
+      friction<&P::sigma0>(real_row("friction.sigma0", beyond_moves(9), "N m/rad",
+                                    "stiffness of the bristles of dahl and lugre",
+                                    "assumed (k1 + k2 of the paper)", numerics::above(0))),
+      friction<&P::sigma1>(real_row("friction.sigma1", beyond_moves(10), "N m s/rad",
+                                    "damping of the bristles of lugre", "assumed (the paper's c)",
+                                    numerics::at_least(0))),
+      friction<&P::gms_attraction>(
+          real_row("friction.gms.attraction", beyond_moves(11), "N m/s",
+                   "rate at which the torque of a slipping element of gms goes to its level", assumed,
+                   numerics::above(0))),
       list_of(max_gms_elements, "stiffness", "stiffnesses",
               real_row("friction.gms.stiffness", beyond_moves(80), "N m/rad",
                        "stiffness kappa of each element of the generalised Maxwell-slip model", "required",

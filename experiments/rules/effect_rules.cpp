@@ -4,8 +4,10 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/friction/law.hpp"
+#include "experiments/parameters/parameter_table.hpp"
 
 namespace zerocount::rules {
 namespace {
@@ -206,6 +208,14 @@ std::vector<EffectRule> rules_of_the_blocks(const PhaseNames& of) {
   };
 }
 
+EffectRule rule_of_the_load() {
+  return {.keys = {"plant.load.stiffness", "plant.load.damping", "plant.load.encoder"},
+          .depends_on = {"plant.load.inertia"},
+          .has_effect = [](Limits l) { return can_be_positive(l[0]); },
+          .what = "it has no effect: there is no second mass at any point",
+          .expected = "plant.load.inertia above 0, or the key left out"};
+}
+
 // Only a warning, so that a study can be switched between both cases with one key.
 EffectRule rule_of_the_limit() {
   return {.keys = {"verdict.limit"},
@@ -239,39 +249,45 @@ std::vector<EffectRule> rules_of_the_contact() {
   };
 }
 
+// The models whose law has the property, for messages.
+std::string models_with(const std::function<bool(const friction::LawTraits&)>& property) {
+  std::vector<std::string_view> words;
+  for (const friction::LawTraits& law : friction::all_traits()) {
+    if (property(law)) words.push_back(law.word);
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
 // Only a warning, so that models can be compared by changing one key.
-EffectRule used_by_models(bool (*uses)(friction::FrictionModel), std::vector<std::string_view> keys,
-                          std::string_view what) {
+EffectRule with_models(const std::function<bool(const friction::LawTraits&)>& property,
+                       std::vector<std::string_view> keys) {
   return {.keys = std::move(keys),
           .depends_on = {"friction.model"},
-          .has_effect = [uses](Limits l) { return uses(friction_model(l[0])); },
-          .what = what,
+          .has_effect = [property](Limits l) { return property(friction::traits_of(friction_model(l[0]))); },
+          .what = fmt::format("it has no effect: friction.model is at no point one that uses it ({})",
+                              models_with(property)),
           .off_at_zero = true,
           .warn_only = true};
 }
 
 std::vector<EffectRule> rules_of_the_model() {
-  const auto has_damping = [](friction::FrictionModel model) {
-    return friction::traits_of(model).has_presliding_damping;
-  };
-  return {
-      used_by_models(friction::has_breakaway,
-                     {"plant.sliding_damping", "friction.breakaway", "friction.coulomb_ratio",
-                      "friction.stribeck_velocity"},
-                     "it has no effect: friction.model is none at every point"),
-      used_by_models(has_damping, {"plant.presliding_damping"},
-                     "it has no effect: friction.model is coulomb at every point"),
-      used_by_models(friction::has_spring,
-                     {"friction.k1", "friction.k2", "friction.beta", "friction.alpha", "friction.lambda",
-                      "friction.n", "initial.hardening", "initial.preload", "initial.history"},
-                     "it has no effect: friction.model has no spring at any point"),
-      used_by_models(friction::has_creep,
-                     {"friction.alpha", "friction.lambda", "friction.n", "initial.hardening"},
-                     "it has no effect: friction.model is presliding at no point"),
-      used_by_models(friction::has_spring, {"initial.mode"},
-                     "it has no effect: friction.model has no spring at any point, and the rotor slides "
-                     "wherever there is a velocity"),
-  };
+  using friction::LawTraits;
+  std::vector<EffectRule> rules{
+      with_models([](const LawTraits& law) { return law.has_sliding_damping; }, {"plant.sliding_damping"}),
+      with_models([](const LawTraits& law) { return law.has_presliding_damping; },
+                  {"plant.presliding_damping"}),
+      with_models([](const LawTraits& law) { return law.remembers_loading; },
+                  {"initial.preload", "initial.history"}),
+      with_models([](const LawTraits& law) { return uses(law, &friction::FrictionParameters::alpha); },
+                  {"initial.hardening"}),
+      with_models([](const LawTraits& law) { return law.has_presliding_motion; }, {"initial.mode"})};
+  for (const parameters::Parameter& parameter : parameters::parameter_table()) {
+    const friction::ContactField field = parameter.profiled;
+    if (field == nullptr) continue;
+    rules.push_back(
+        with_models([field](const LawTraits& law) { return uses(law, field); }, {parameter.name}));
+  }
+  return rules;
 }
 
 // Only warnings: another value may switch off a term of friction.
@@ -321,6 +337,7 @@ std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   std::vector<EffectRule> rules = rules_of_the_command(plan);
   rules.push_back(rule_of_the_position(plan));
   rules.push_back(rule_of_the_limit());
+  rules.push_back(rule_of_the_load());
   rules.push_back(rule_of_the_plugin(plan));
   for (const auto& more :
        {rules_of_the_loop(), rules_of_the_blocks(one_phase), rules_of_the_blocks(coarse_phase),

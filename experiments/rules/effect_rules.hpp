@@ -17,7 +17,7 @@ struct EffectRule {
   std::vector<std::string_view> depends_on{};  ///< parameters that decide whether the keys have an effect
   std::function<bool(std::span<const study::ValueLimits>)>
       has_effect{};         ///< the condition, from the limits of those parameters in their order
-  std::string_view what{};  ///< first phrase of the message
+  std::string what{};       ///< first phrase of the message
   std::string expected{};   ///< second phrase of the message; empty for a warning
   bool off_at_zero{false};  ///< a key that is 0 at all points is not reported
   bool warn_only{false};

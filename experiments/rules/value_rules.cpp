@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/friction/law.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 
 namespace zerocount::rules {
@@ -64,8 +65,8 @@ std::vector<ValueRule> rules_of_the_start(const std::string& torque_unit) {
        false,
        [](Limits l, Limits) -> Faults {
          const auto model = static_cast<friction::FrictionModel>(static_cast<int>(l[2].low));
-         const bool slides =
-             l[1].low == static_cast<double>(trial::InitialMode::slide) && friction::has_breakaway(model);
+         const bool slides = l[1].low == static_cast<double>(trial::InitialMode::slide) &&
+                             friction::traits_of(model).breakaway != friction::Breakaway::never;
          if (!slides || !l[0].can_be_zero) return {};
          return {{"the velocity can be 0 where the hook slides at the start",
                   "a velocity that is never 0 with initial.mode: slide"}};
@@ -142,7 +143,7 @@ std::vector<ValueRule> rules_of_blocks(std::string_view enter, std::string_view 
       {{bandwidth, "controller.sample_rate"},
        false,
        [](Limits l, Limits) -> Faults {
-         if (l[0].high < 0.5 * l[1].low) return {};
+         if (l[0].high == 0.0 || l[0].high < 0.5 * l[1].low) return {};
          return {{fmt::format("{} Hz can be half the sample rate, {} Hz, or more", l[0].high, l[1].low),
                   "a bandwidth below half of controller.sample_rate"}};
        }},

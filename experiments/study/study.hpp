@@ -81,6 +81,7 @@ struct StudyFeatures {
   bool open_loop{false};                                    ///< torque levels in place of targets
   bool travel{false};                                       ///< the reference is not a step
   bool phases{false};                                       ///< the control has two phases
+  bool load{false};                                         ///< there is a second mass
   bool drive_torque{false};    ///< the motor torque is not the (delayed) code times the resolution
   bool encoder_errors{false};  ///< an encoder may have errors
   /// Moves may end beside their targets by design: no integral control, Coulomb friction, or moves that are

@@ -44,6 +44,9 @@ bool causes_hunting(const ValueLimits& model) {
     case friction::FrictionModel::presliding:
     case friction::FrictionModel::spring:
     case friction::FrictionModel::none:
+    case friction::FrictionModel::dahl:
+    case friction::FrictionModel::lugre:
+    case friction::FrictionModel::gms:
       break;
   }
   return false;
@@ -84,11 +87,13 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   features.travel = closed_loop && holds_somewhere(plan, "command.profile.shape", is_no_step);
   features.phases =
       closed_loop && holds_somewhere(plan, "controller.coarse.coarse_beyond", can_have_coarse_phase);
+  features.load = holds_somewhere(plan, "plant.load.inertia", can_be_positive);
   features.drive_torque = has_uneven_drive(plan);
   features.encoder_errors = has_encoder_errors(plan);
   features.own_controller = plan.plugin != nullptr;
   features.final_error = features.own_controller || features.travel || features.phases ||
                          holds_somewhere(plan, "controller.ki", has_zero) ||
+                         any_holds(plan, {"controller.deadband.enter"}, can_be_positive) ||
                          holds_somewhere(plan, "friction.model", causes_hunting);
   features.stopping = closed_loop && holds_somewhere(plan, "verdict.stop", can_be_positive);
   features.dependent_trials = study.design == Design::saltelli;

@@ -138,10 +138,12 @@ void add_wrong_type(const Field& field, const std::string& expected, Problems& p
   problems.add(field, describe(*field.node), expected);
 }
 
-std::optional<double> read_real(const Field& field, const numerics::Interval& range, Problems& problems) {
+std::optional<double> read_real(const Field& field, const numerics::Interval& range, Problems& problems,
+                                std::string_view or_else) {
   const YamlNode& node = *field.node;
   const std::string allowed = numerics::range_text(range);
-  const std::string expected = allowed.rfind("any", 0) == 0 ? allowed : "a number " + allowed;
+  const std::string expected =
+      fmt::format("{}{}{}", allowed.rfind("any", 0) == 0 ? "" : "a number ", allowed, or_else);
   double number = 0.0;
   const std::errc error =
       is_plain_scalar(node) ? parse_number(node.text, number) : std::errc::invalid_argument;

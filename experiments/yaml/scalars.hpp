@@ -26,8 +26,9 @@ std::optional<Field> find_field(const Field& map, std::string_view key);
 // converted: a quoted number is a text, and forms with a special meaning in YAML 1.1 (`010`, `1_000`, `1:30`,
 // `no`) are refused.
 
-/// A finite decimal number inside `range`.
-std::optional<double> read_real(const Field& field, const numerics::Interval& range, Problems& problems);
+/// A finite decimal number inside `range`. @param or_else what else was expected, for the message.
+std::optional<double> read_real(const Field& field, const numerics::Interval& range, Problems& problems,
+                                std::string_view or_else = {});
 
 /// A whole number, written without point or exponent, from `low` to `high`.
 std::optional<std::int64_t> read_whole(const Field& field, std::int64_t low, std::int64_t high,

@@ -88,6 +88,10 @@ std::vector<RecordField<TraceRecord>> trace_fields(const study::StudyFeatures& f
     fields.push_back(
         field<T>("phase", "1", "phase of the control at this instant", &T::phase, {}, phase_words()));
   }
+  if (features.load) {
+    fields.push_back(field<T>("load_theta", "rad", "angle of the second mass", &T::load_theta));
+    fields.push_back(field<T>("load_omega", "rad/s", "velocity of the second mass", &T::load_omega));
+  }
   if (features.drive_torque) {
     fields.push_back(
         field<T>("drive_torque", "N m", "torque of the motor at this instant", &T::drive_torque));

@@ -57,6 +57,7 @@ study::StudyFeatures read_features(const hdf5::File& file, const layout::Measure
   const hdf5::Group trace = file.open_group("trace");
   features.travel = trace.contains("reference");
   features.phases = trace.contains("phase");
+  features.load = trace.contains("load_theta");
   features.drive_torque = trace.contains("drive_torque");
   return features;
 }

@@ -11,6 +11,7 @@
 #include "analysis/measures/theory_prediction.hpp"
 #include "core/loop/controller.hpp"
 #include "core/theory/gains.hpp"
+#include "core/theory/margins.hpp"
 #include "core/theory/sampled_stability.hpp"
 #include "core/theory/sliding_loop.hpp"
 #include "core/theory/slow_approach.hpp"
@@ -39,8 +40,9 @@ constexpr const char* check_help =
     "  - the rules for the DAC and the sample rate\n"
     "  - the slowest time constant of the sampled loop at k1 and k1 + k2, and the time that the\n"
     "    slowest move needs, to compare with the hold\n"
-    "  - bandwidth and phase margin while the rotor slides; the bandwidth is the highest frequency\n"
-    "    at which the open loop has gain 1\n"
+    "  - gain and phase margins of the sampled loop, with all blocks of the controller, at k1, at\n"
+    "    k1 + k2 and while the rotor slides\n"
+    "  - the bandwidth while it slides: the highest frequency at which the open loop has gain 1\n"
     "\n"
     "Example: zerocount check experiments/manifests/paper-gains.yaml\n";
 
@@ -72,22 +74,59 @@ struct Arrival {
   double time{0.0};      // from the start of the move, s
 };
 
+/// Margins of a loop over the trials. A trial without a crossover adds nothing.
+struct MarginRanges {
+  Range gain{};         // dB
+  Range gain_at{};      // Hz
+  Range phase{};        // degrees
+  Range phase_at{};     // Hz
+  bool stable{true};    // in every trial
+  bool unstable{true};  // in every trial
+
+  void add(const theory::StabilityMargins& margins, bool is_stable) {
+    if (!std::isnan(margins.gain.value)) {
+      gain.add(20.0 * std::log10(margins.gain.value));
+      gain_at.add(margins.gain.frequency);
+    }
+    if (!std::isnan(margins.phase.value)) {
+      phase.add(margins.phase.value);
+      phase_at.add(margins.phase.frequency);
+    }
+    stable = stable && is_stable;
+    unstable = unstable && !is_stable;
+  }
+};
+
+std::string stability_text(const MarginRanges& margins) {
+  return margins.stable ? "stable" : (margins.unstable ? "unstable" : "unstable in some trials");
+}
+
+std::string margins_text(const MarginRanges& margins) {
+  const std::string gain = margins.gain.empty() ? "no phase crossover"
+                                                : fmt::format("gain margin {} dB at {} Hz",
+                                                              text(margins.gain), text(margins.gain_at));
+  const std::string phase = margins.phase.empty() ? "no gain crossover"
+                                                  : fmt::format("phase margin {}° at {} Hz",
+                                                                text(margins.phase), text(margins.phase_at));
+  return gain + ", " + phase;
+}
+
 /// One phase of the control while the rotor slides, over the trials.
 struct SlidingPhase {
   std::string_view name;
   loop::ControlPhase phase;
-  Range bandwidth{};     // Hz
-  Range phase_margin{};  // degrees
-  bool stable{true};     // in every trial
-  bool unstable{true};   // in every trial
+  Range bandwidth{};  // Hz
+  MarginRanges margins{};
 };
 
 /// Results of the theory (section 3 of the paper) for the trials of a design point.
 struct PointTheory {
-  std::string_view outside;  // reason why the theory does not apply; empty if it does
-  bool free{false};          // no spring: ki and sampled_below are of the loop without friction
+  std::string_view outside;   // reason why the theory does not apply; empty if it does
+  std::string_view left_out;  // of the controller, by criteria (6) and (7); empty: they apply
+  bool free{false};           // no spring: ki and sampled_below are of the loop without friction
   Range ki, stable_below, sampled_below, unstable_above;  // gain_unit
-  std::string gain_unit;                                  // unit of controller.ki in the manifest
+  std::string gain_name;                                  // "ki", or that of a cascade
+  std::string gain_unit;                                  // its unit in the manifest
   Range dac_resolution, dac_bound;                        // torque_unit
   std::string torque_unit;
   Range frequency, sample_rate;  // Hz
@@ -103,12 +142,17 @@ struct PointTheory {
   Range slowest;                     // slowest time constant of the loop, s
   Arrival longest;                   // slowest move of the trials
   double hold{0.0};                  // of the shortest move, s
+  MarginRanges soft, stiff;          // of the loop about k1, and k1 + k2
   std::vector<SlidingPhase> phases;  // phases of the control
 };
 
-/// A gain of the trapezoidal rule (N m/count) in the unit of the manifest.
+bool is_cascade(const trial::TrialParameters& p) {
+  return p.controller.blocks.structure == loop::ControlStructure::cascade;
+}
+
+/// An integral gain (N m/count, of a cascade N m/rad) in the unit of the manifest.
 double as_given(const parameters::StudyUnits& units, const trial::TrialParameters& p, double ki) {
-  if (units.gains == parameters::GainUnits::count) return ki;
+  if (units.gains == parameters::GainUnits::count || is_cascade(p)) return ki;
   loop::ControllerParameters controller = p.controller;
   controller.ki = ki;
   return theory::analogue_gains(controller, p.encoder).ki;
@@ -147,7 +191,7 @@ void examine_free(const study::Study& study, std::int64_t point, PointTheory& th
   theory.hold = hold_of(first);
   for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {
     const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
-    theory.ki.add(as_given(study.units, p, p.controller.ki));
+    theory.ki.add(as_given(study.units, p, theory::integral_gain(p.controller)));
     theory.sampled_below.add(as_given(study.units, p, sampled_bound(0.0, p)));
     add_time_constant(theory.slowest, 0.0, p);
   }
@@ -164,22 +208,32 @@ std::string_view why_outside(const trial::TrialParameters& first) {
     case friction::FrictionModel::coulomb:
       return "friction.model coulomb has no spring before it slides";
     case friction::FrictionModel::none:
+      return "friction.model none has no spring, which criteria (6) and (7) are about";
+    case friction::FrictionModel::dahl:
+    case friction::FrictionModel::lugre:
+    case friction::FrictionModel::gms:
       break;
   }
-  return "friction.model none has no spring, which criteria (6) and (7) are about";
+  return "the spring of this friction.model yields by degrees, from its full stiffness to none, not to k1";
 }
 
 void add_sliding(SlidingPhase& phase, const trial::TrialParameters& p) {
   const loop::ControllerParameters controller = loop::controller_in_phase(p.controller, phase.phase);
   const theory::GainCrossover crossover =
       theory::sliding_crossover(p.plant, p.encoder, controller, drive_of(p));
-  if (!std::isnan(crossover.frequency)) {
-    phase.bandwidth.add(crossover.frequency);
-    phase.phase_margin.add(crossover.phase_margin);
-  }
-  const bool stable = theory::stable_while_sliding(p.plant, p.encoder, controller, drive_of(p));
-  phase.stable = phase.stable && stable;
-  phase.unstable = phase.unstable && !stable;
+  if (!std::isnan(crossover.frequency)) phase.bandwidth.add(crossover.frequency);
+  phase.margins.add(
+      theory::margins_about(0.0, p.plant.sliding_damping, p.plant, p.encoder, controller, drive_of(p)),
+      theory::stable_while_sliding(p.plant, p.encoder, controller, drive_of(p)));
+}
+
+/// Adds the margins of the loop in the fine phase about a spring of `stiffness` (N m/rad).
+void add_margins(MarginRanges& margins, double stiffness, const trial::TrialParameters& p) {
+  const loop::ControllerParameters controller =
+      loop::controller_in_phase(p.controller, loop::ControlPhase::fine);
+  margins.add(theory::margins_about(stiffness, p.plant.presliding_damping, p.plant, p.encoder, controller,
+                                    drive_of(p)),
+              theory::sampled_spectral_radius(stiffness, p.plant, p.encoder, controller, drive_of(p)) < 1.0);
 }
 
 /// The initial errors of moves in the fine phase, counts; empty unless the reference is a step.
@@ -198,10 +252,10 @@ std::set<std::int64_t> steps_of(const trial::TrialParameters& p) {
   return steps;
 }
 
-/// Updates the slowest move, for slow integral control.
+/// Updates the slowest move, for slow integral control by the PID law.
 void add_arrivals(Arrival& longest, const trial::TrialParameters& p,
                   const friction::FrictionParameters& contact) {
-  if (!(p.controller.ki > 0.0)) return;
+  if (!(p.controller.ki > 0.0) || is_cascade(p)) return;
   const double judged = theory::chatter_time(p.plant, contact, p.controller, p.verdict.dwell) +
                         std::max(p.verdict.dwell, p.verdict.window);
   for (const std::int64_t step : steps_of(p)) {
@@ -254,6 +308,8 @@ void examine_beyond(const study::Study& study, std::int64_t point, PointTheory& 
     const bool stable_at_k1 = add_time_constant(theory.slowest, contact.k1, p);
     const bool stable_at_k2 = add_time_constant(theory.slowest, contact.k1 + contact.k2, p);
     if (stable_at_k1 || stable_at_k2) add_arrivals(theory.longest, p, contact);
+    add_margins(theory.soft, contact.k1, p);
+    add_margins(theory.stiff, contact.k1 + contact.k2, p);
     const double k1 = theory.low_end.kind == study::LowEnd::Kind::profile ? theory::lowest_k1(p.friction)
                                                                           : theory.low_end.value;
     add_low_end(study, p, k1, theory);
@@ -266,8 +322,11 @@ void examine_beyond(const study::Study& study, std::int64_t point, PointTheory& 
 PointTheory examine(const study::Study& study, std::int64_t point) {
   PointTheory theory;
   theory.outside = why_outside(study::study_trial(study, point, 0).parameters);
+  const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
+  const std::string_view gain = is_cascade(first) ? "controller.cascade.ki" : "controller.ki";
+  theory.gain_name = is_cascade(first) ? "cascade.ki" : "ki";
   theory.gain_unit = parameters::unit_of(
-      parameters::parameter_table()[parameters::find_parameter("controller.ki").value()], study.units);
+      parameters::parameter_table()[parameters::find_parameter(gain).value()], study.units);
   if (!theory.outside.empty()) {
     examine_free(study, point, theory);
     return theory;
@@ -283,7 +342,8 @@ PointTheory examine(const study::Study& study, std::int64_t point) {
         theory::integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
     const double dac_bound = theory::dac_resolution_bound(contact.k1, p.encoder, p.controller.encoder);
     theory.coarse_feedback = p.controller.encoder == loop::EncoderChoice::coarse;
-    theory.ki.add(as_given(study.units, p, p.controller.ki));
+    theory.ki.add(as_given(study.units, p, theory::integral_gain(p.controller)));
+    if (theory.left_out.empty()) theory.left_out = theory::left_out_of_criteria(p.controller);
     theory.stable_below.add(as_given(study.units, p, bounds.stable_below));
     theory.unstable_above.add(as_given(study.units, p, bounds.unstable_above));
     theory.dac_resolution.add(p.dac.resolution);
@@ -344,18 +404,20 @@ std::string slowness_line(const PointTheory& theory) {
 }
 
 std::string describe_beyond(const PointTheory& theory) {
-  std::string out =
-      fmt::format("    at the lowest k1, {} ({}): (6) stable below {:.3g} {}, sampled loop below {:.3g} {}\n",
-                  text({theory.lowest_k1.low, theory.lowest_k1.low}), source_of(theory),
-                  theory.low_stable.low, theory.gain_unit, theory.low_sampled.low, theory.gain_unit);
+  const std::string criterion = theory.left_out.empty() ? fmt::format("(6) stable below {:.3g} {}, ",
+                                                                      theory.low_stable.low, theory.gain_unit)
+                                                        : "";
+  std::string out = fmt::format("    at the lowest k1, {} ({}): {}sampled loop below {:.3g} {}\n",
+                                text({theory.lowest_k1.low, theory.lowest_k1.low}), source_of(theory),
+                                criterion, theory.low_sampled.low, theory.gain_unit);
   out += slowness_line(theory);
+  out += fmt::format("    at k1, {}: {}\n", margins_text(theory.soft), stability_text(theory.soft));
+  out += fmt::format("    at k1 + k2, {}: {}\n", margins_text(theory.stiff), stability_text(theory.stiff));
   for (const SlidingPhase& phase : theory.phases) {
-    out += fmt::format("    while sliding, the {} {}{}\n", phase.name,
-                       phase.bandwidth.empty()
-                           ? "has no gain crossover: "
-                           : fmt::format("crosses gain 1 at {} Hz with a phase margin of {}°: ",
-                                         text(phase.bandwidth), text(phase.phase_margin)),
-                       phase.stable ? "stable" : (phase.unstable ? "unstable" : "unstable in some trials"));
+    const std::string bandwidth =
+        phase.bandwidth.empty() ? "" : fmt::format("crosses gain 1 at {} Hz, ", text(phase.bandwidth));
+    out += fmt::format("    while sliding, the {}: {}{}: {}\n", phase.name, bandwidth,
+                       margins_text(phase.margins), stability_text(phase.margins));
   }
   return out;
 }
@@ -374,8 +436,9 @@ std::string sampled_verdict(const PointTheory& theory) {
 std::string describe_outside(const PointTheory& theory) {
   std::string out = fmt::format("    the criteria do not apply: {}\n", theory.outside);
   if (!theory.free) return out;
-  return out + range_line("ki", theory.ki, theory.gain_unit) + ": sampled loop " + sampled_verdict(theory) +
-         "\n" + range_line("sampled loop, below", theory.sampled_below, theory.gain_unit) + "\n" +
+  return out + range_line(theory.gain_name, theory.ki, theory.gain_unit) + ": sampled loop " +
+         sampled_verdict(theory) + "\n" +
+         range_line("sampled loop, below", theory.sampled_below, theory.gain_unit) + "\n" +
          slowness_line(theory);
 }
 
@@ -383,18 +446,22 @@ std::string describe_outside(const PointTheory& theory) {
 std::string gain_verdict(const PointTheory& theory) {
   if (theory.ki.low == 0.0 && theory.ki.high == 0.0)
     return "no integral control: the error stays wherever friction holds the rest of the torque";
-  return fmt::format("by (6) and (7) {}; sampled loop at k1 {}", measures::verdict(theory.prediction),
-                     sampled_verdict(theory));
+  const std::string by_criteria =
+      theory.left_out.empty()
+          ? fmt::format("by (6) and (7) {}; ", measures::verdict(theory.prediction))
+          : fmt::format("(6) and (7) do not apply, since they leave out {}; ", theory.left_out);
+  return fmt::format("{}sampled loop at k1 {}", by_criteria, sampled_verdict(theory));
 }
 
 std::string describe(const PointTheory& theory) {
   if (!theory.outside.empty()) return describe_outside(theory);
   std::string out;
   const std::string& unit = theory.gain_unit;
-  out += range_line("ki", theory.ki, unit) + ": " + gain_verdict(theory) + "\n";
-  out += range_line("(6) stable below", theory.stable_below, unit) + "\n";
+  const bool applies = theory.left_out.empty();
+  out += range_line(theory.gain_name, theory.ki, unit) + ": " + gain_verdict(theory) + "\n";
+  if (applies) out += range_line("(6) stable below", theory.stable_below, unit) + "\n";
   out += range_line("sampled loop at k1, below", theory.sampled_below, unit) + "\n";
-  out += range_line("(7) unstable above", theory.unstable_above, unit) + "\n";
+  if (applies) out += range_line("(7) unstable above", theory.unstable_above, unit) + "\n";
   out += fmt::format("    DAC: resolution {} {}, must be below k1·Δx = {} {}{}: {}\n",
                      text(theory.dac_resolution), theory.torque_unit, text(theory.dac_bound),
                      theory.torque_unit, theory.coarse_feedback ? " with the Δx of the coarse encoder" : "",

@@ -44,7 +44,14 @@ TEST(RunsInLanes, IsTrueOfAPlainTrialWithAnyPlainParameters) {
        }},
       {"the spring alone",
        [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::spring; }},
+      {"no friction", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::none; }},
+      {"dahl", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::dahl; }},
+      {"lugre", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::lugre; }},
       {"another exponent", [](trial::TrialParameters& p) { p.friction.uniform.n = 1.5; }},
+      {"four filters", [](trial::TrialParameters& p) { p.controller.blocks.filters.resize(4); }},
+      {"a cascade",
+       [](trial::TrialParameters& p) { p.controller.blocks.structure = loop::ControlStructure::cascade; }},
+      {"an observer", [](trial::TrialParameters& p) { p.controller.blocks.observer.bandwidth = 10.0; }},
       {"an exponent along the rotor",
        [&](trial::TrialParameters& p) {
          p.friction.profiled = {{&friction::FrictionParameters::n, exponents}};
@@ -79,9 +86,10 @@ TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
       {"gain error", [](trial::TrialParameters& p) { p.dac.gain_error = 0.01; }},
       {"nonlinearity", [](trial::TrialParameters& p) { p.dac.nonlinearity = 1.0; }},
       {"noise of the converter", [](trial::TrialParameters& p) { p.dac.noise = 1e-4; }},
+      {"five filters", [](trial::TrialParameters& p) { p.controller.blocks.filters.resize(5); }},
       {"amplifier", [](trial::TrialParameters& p) { p.amplifier.bandwidth = 500.0; }},
       {"coulomb", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::coulomb; }},
-      {"no friction", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::none; }},
+      {"gms", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::gms; }},
   };
   std::vector<trial::TrialParameters> trials;
   for (const Change& change : changes) {

@@ -119,7 +119,7 @@ TEST(FreePlant, HasNoContact) {
     plant.advance(pushes.next().torque, 5e-4);
   }
   EXPECT_EQ(plant.breakaways(), 0);
-  EXPECT_FALSE(plant.has_hook());
+  EXPECT_EQ(plant.breakaway(), Breakaway::never);
   EXPECT_TRUE(plant.finite());
 }
 

@@ -12,8 +12,12 @@ class SpringDamper : public friction::WithoutCreepAndReversals {
  public:
   static constexpr std::string_view word = "spring_damper";
   static constexpr std::array<friction::ContactField, 1> contact_parameters{
-      &friction::FrictionParameters::k1};               // k
+      &friction::FrictionParameters::k1};  // k
+  static constexpr bool has_presliding_motion = true;
   static constexpr bool has_presliding_damping = true;  // d
+  static constexpr bool has_sliding_damping = false;
+  static constexpr bool remembers_loading = false;
+  static constexpr friction::Breakaway breakaway = friction::Breakaway::never;
 
   struct Expansion {
     numerics::Series position{};  // θ

@@ -296,6 +296,58 @@ TEST(Reference, MiddleOfAnOddTravelIsPassedWithoutTurningBack) {
   }
 }
 
+// The motion of the reference integrated twice, with the trapezoidal rule between samples, leads to its
+// target.
+TEST(Reference, ItsVelocityAndAccelerationAreTheRatesOfItsPath) {
+  Sampler sampler(44);
+  for (int i = 0; i < 100; ++i) {
+    ReferenceProfile profile;
+    profile.shape = i % 2 == 0 ? ReferenceShape::trapezoidal : ReferenceShape::s_curve;
+    profile.velocity_limit = sampler.uniform(0.01, 1.0);
+    profile.acceleration_limit = sampler.uniform(0.1, 10.0);
+    profile.jerk_limit = sampler.uniform(1.0, 500.0);
+    constexpr double resolution = 1e-4;
+    const std::int64_t to = i % 3 == 0 ? -2000 : 1000;
+    const Reference reference(profile, 0, to, resolution);
+    constexpr int steps = 20000;
+    const double h = reference.duration() / steps;
+    double position = 0.0;
+    double velocity = 0.0;
+    for (int k = 0; k < steps; ++k) {
+      const ReferenceMotion now = reference.motion_at(k * h);
+      const ReferenceMotion next = reference.motion_at((k + 1) * h);
+      ASSERT_NEAR(now.velocity, velocity, 3.0 * h * profile.acceleration_limit) << k;  // at its jumps
+      ASSERT_NEAR(static_cast<double>(reference.at(k * h)), position / resolution, 0.7) << k;
+      position += 0.5 * h * (now.velocity + next.velocity);
+      velocity += 0.5 * h * (now.acceleration + next.acceleration);
+    }
+    EXPECT_NEAR(position, static_cast<double>(to) * resolution, 1e-4 * std::abs(position));
+    const ReferenceMotion at_end = reference.motion_at(reference.duration());
+    EXPECT_EQ(at_end.velocity, 0.0);
+    EXPECT_EQ(at_end.acceleration, 0.0);
+    EXPECT_EQ(reference.motion_at(0.0).velocity, 0.0);
+  }
+  EXPECT_EQ(Reference({}, 0, 5, 1e-4).motion_at(0.0).velocity, 0.0);
+}
+
+// A trapezoidal move that reaches no limit of the velocity: the acceleration is that just after a switch.
+TEST(Reference, AccelerationOfASwitchIsThatAfterIt) {
+  const ReferenceProfile profile{ReferenceShape::trapezoidal, 0.02, 0.5, 1.0};
+  const Reference reference(profile, 0, 1000, 2e-6);  // 0.04 s up, 0.06 s cruise, 0.04 s down
+  ASSERT_NEAR(reference.duration(), 0.14, 1e-12);
+  for (const auto& [t, acceleration] : {std::pair{0.0, 0.5},
+                                        {0.039, 0.5},
+                                        {0.04, 0.0},
+                                        {0.099, 0.0},
+                                        {0.1, -0.5},
+                                        {0.139, -0.5},
+                                        {0.14, 0.0}}) {
+    EXPECT_EQ(reference.motion_at(t).acceleration, acceleration) << t;
+  }
+  EXPECT_NEAR(reference.motion_at(0.02).velocity, 0.01, 1e-15);
+  EXPECT_NEAR(Reference(profile, 0, -1000, 2e-6).motion_at(0.12).velocity, -0.01, 1e-15);
+}
+
 TEST(Reference, LimitsThatAreNoneInPracticeLeaveTheOthers) {
   constexpr double none = 1e308;
   const auto duration = [](ReferenceShape shape, double v, double a, double j) {

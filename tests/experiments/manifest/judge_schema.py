@@ -53,6 +53,13 @@ def judge_extended(validator, extended):
         (["controller", "coarse", "coarse_beyond"], 1e13),
         (["controller", "coarse", "delay"], 1),
         (["controller", "coarse.kp"], 1),
+        (["controller", "deadband"], -1),
+        (["controller", "deadband"], "off"),
+        (["controller", "deadband"], {"entr": 1}),
+        (["controller", "integrator_leak"], 0),
+        (["controller", "structure"], "pi"),
+        (["controller", "observer"], {"bandwidth": "none"}),
+        (["sweep", "grid", "controller.deadband"], [[1]]),
         (["friction", "model"], "stribeck"),
         (["friction", "model"], {"choice": [0, 1]}),
         (["initial", "history"], 3),
@@ -116,6 +123,14 @@ def judge_extended(validator, extended):
         (["friction", "gms"], {"stiffness": [100, {"uniform": [1, 2], "per": "study"}], "weight": [0.25, 0.75]}),
         (["controller", "filters"], [{"notch": {"frequency": {"uniform": [1, 2]}, "damping": 0.5, "depth": 0}}]),
         (["controller", "coarse", "filters"], [{"biquad": {"b": [1, 0, 0], "a": [0, {"normal": {"mean": 0, "sd": 1}}]}}]),
+        (["controller", "deadband"], 1),
+        (["controller", "deadband"], "none"),
+        (["controller", "deadband"], {"uniform": [0, 2]}),
+        (["controller", "deadband"], {"enter": 1, "leave": "none"}),
+        (["controller", "integrator_leak"], "none"),
+        (["controller", "observer"], {"bandwidth": 20, "inertia": 1e-3}),
+        (["sweep", "grid", "controller.deadband"], ["none", 0, 1]),
+        (["sweep", "grid", "controller.deadband.enter"], {"linspace": [0, 2, 3]}),
     ]
     for path, value in good:
         manifest = changed(extended, path, value)

@@ -42,12 +42,12 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"plant: {inertai: 1}",
              "m.yaml:6:9: plant.inertai: unknown key, nearest known: inertia; expected one of inertia, "
-             "presliding_damping, sliding_damping"},
+             "presliding_damping, sliding_damping, load"},
         Case{"friction: {kp: 1}",
              "m.yaml:6:12: friction.kp: unknown key, nearest known: controller.kp; expected one of model, "
              "k1, k2, "
              "beta, "
-             "alpha, lambda, n, breakaway, coulomb_ratio, stribeck_velocity, gms"},
+             "alpha, lambda, n, breakaway, coulomb_ratio, stribeck_velocity, sigma0, sigma1, gms"},
         Case{"frictoin: {k1: 1}",
              "m.yaml:6:1: frictoin: unknown key, nearest known: friction; expected one of zerocount, name, "
              "description, axis, travel, seed, trials, rigs, design, independent_points, retain, stop, "

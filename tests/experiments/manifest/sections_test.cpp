@@ -76,9 +76,11 @@ TEST(Sections, AreMapsInsideMaps) {
 }
 
 TEST(Sections, UnknownKeysAreToldTheNearestOfTheirMap) {
-  EXPECT_EQ(refusal_of(minimal_manifest("controller: {coarse: {fine_witin: 1}}")),
-            "m.yaml:6:23: controller.coarse.fine_witin: unknown key, nearest known: fine_within; expected "
-            "one of kp, ki, kd, encoder, fine_within, fine_rate, fine_dwell, coarse_beyond, filters");
+  EXPECT_EQ(
+      refusal_of(minimal_manifest("controller: {coarse: {fine_witin: 1}}")),
+      "m.yaml:6:23: controller.coarse.fine_witin: unknown key, nearest known: fine_within; expected "
+      "one of kp, ki, kd, encoder, fine_within, fine_rate, fine_dwell, coarse_beyond, structure, cascade, "
+      "deadband, integrator_zone, integrator_leak, derivative_cutoff, feedforward, observer, filters");
   EXPECT_EQ(refusal_of(minimal_manifest("initial: {histroy: {}}")),
             "m.yaml:6:11: initial.histroy: unknown key, nearest known: history; expected one of "
             "encoder_phase, position, hardening, preload, history, velocity, integral, mode");
@@ -116,7 +118,7 @@ TEST(Sections, SweepsAndOverridesAreToldTheNearestDottedName) {
 TEST(Sections, WordsAreThoseOfTheTable) {
   EXPECT_EQ(refusal_of(minimal_manifest("friction: {model: coulumb}")),
             "m.yaml:6:19: friction.model: 'coulumb' is none of its words; expected one of presliding, "
-            "spring, coulomb, none");
+            "spring, coulomb, none, dahl, lugre, gms");
   EXPECT_EQ(refusal_of(minimal_manifest("initial: {mode: {choice: [0, 1]}}")),
             "m.yaml:6:17: initial.mode: '{choice: [0, 1]}' is none of its words; expected one of stick, "
             "slide");

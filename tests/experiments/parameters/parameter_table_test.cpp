@@ -26,6 +26,13 @@ const std::map<std::string, double> expected_defaults{
     {"friction.breakaway", 0.3},
     {"friction.coulomb_ratio", 0.8},
     {"friction.stribeck_velocity", 0.01},
+    {"plant.load.inertia", 0},
+    {"plant.load.stiffness", 20000},
+    {"plant.load.damping", 0.1},
+    {"plant.load.encoder", 0},  // motor
+    {"friction.sigma0", 860},
+    {"friction.sigma1", 0.2},
+    {"friction.gms.attraction", 30},
     {"encoder.fine", 1620000},
     {"encoder.coarse", 86400},
     {"dac.bits", 12},
@@ -69,6 +76,34 @@ const std::map<std::string, double> expected_defaults{
     {"controller.coarse.fine_rate", 1},
     {"controller.coarse.fine_dwell", 0.01},
     {"controller.coarse.coarse_beyond", 1e12},  // never
+    {"controller.structure", 0},                // pid
+    {"controller.cascade.kv", 150},
+    {"controller.cascade.kp", 0.4},
+    {"controller.cascade.ki", 60},
+    {"controller.deadband.enter", -1},       // none
+    {"controller.deadband.leave", -1},       // none
+    {"controller.integrator_zone", 1e12},    // none
+    {"controller.integrator_leak", 1e12},    // none
+    {"controller.derivative_cutoff", 1e12},  // none
+    {"controller.feedforward.velocity", 0},
+    {"controller.feedforward.acceleration", 0},
+    {"controller.feedforward.friction", 0},
+    {"controller.observer.bandwidth", 0},
+    {"controller.observer.inertia", 5.54e-4},
+    {"controller.coarse.structure", 0},  // pid
+    {"controller.coarse.cascade.kv", 150},
+    {"controller.coarse.cascade.kp", 0.4},
+    {"controller.coarse.cascade.ki", 60},
+    {"controller.coarse.deadband.enter", -1},       // none
+    {"controller.coarse.deadband.leave", -1},       // none
+    {"controller.coarse.integrator_zone", 1e12},    // none
+    {"controller.coarse.integrator_leak", 1e12},    // none
+    {"controller.coarse.derivative_cutoff", 1e12},  // none
+    {"controller.coarse.feedforward.velocity", 0},
+    {"controller.coarse.feedforward.acceleration", 0},
+    {"controller.coarse.feedforward.friction", 0},
+    {"controller.coarse.observer.bandwidth", 0},
+    {"controller.coarse.observer.inertia", 5.54e-4},
     {"command.torque.rate", 0.1},
     {"command.torque.through", 0},  // dac
     {"command.profile.shape", 0},   // step

@@ -117,7 +117,39 @@ INSTANTIATE_TEST_SUITE_P(
         // What could not be read may have had any effect.
         IdleCase{"{targets: [1]}", "controller: {coarse: {kp: 1, coarse_beyond: far}}",
                  "m.yaml:6:45: controller.coarse.coarse_beyond: 'far' is not a number; expected a number at "
-                 "least 0 and at most 1000000000000"}));
+                 "least 0 and at most 1000000000000, or none"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Blocks, EffectRules,
+    testing::Values(
+        IdleCase{"{targets: [1]}", "controller: {structure: cascade, ki: 1.0e-5}",
+                 "m.yaml:6:38: controller.ki: it has no effect: the control is a cascade at every point; "
+                 "expected controller.structure: pid, or the key left out"},
+        IdleCase{"{targets: [1]}", "controller: {cascade: {kv: 10}}",
+                 "m.yaml:6:28: controller.cascade.kv: it has no effect: the control is a cascade at no "
+                 "point; expected controller.structure: cascade, or the key left out"},
+        IdleCase{"{targets: [1]}",
+                 "controller: {ki: 1.0e-5, cascade: {kv: 10}}\n"
+                 "sweep: {grid: {controller.structure: [pid, cascade]}}",
+                 ""},
+        IdleCase{"{targets: [1]}", "controller: {deadband: {leave: 2}}",
+                 "m.yaml:6:32: controller.deadband.leave: it has no effect: there is no deadband at any "
+                 "point; expected controller.deadband.enter too, or the key left out"},
+        IdleCase{"{targets: [1]}", "controller: {observer: {inertia: 1.0e-3}}",
+                 "m.yaml:6:34: controller.observer.inertia: it has no effect: there is no disturbance "
+                 "observer at any point; expected controller.observer.bandwidth above 0, or the key left "
+                 "out"},
+        IdleCase{"{targets: [1]}", "controller: {feedforward: {friction: 0.1}}",
+                 "m.yaml:6:38: controller.feedforward.friction: it has no effect: the reference is a step at "
+                 "every point; expected command.profile.shape: trapezoidal or s_curve, or the key left out"},
+        IdleCase{"{targets: [1], profile: {shape: s_curve}}", "controller: {feedforward: {friction: 0.1}}",
+                 ""},
+        IdleCase{"{targets: [1]}", "controller: {coarse: {deadband: 1}}",
+                 "m.yaml:6:33: controller.coarse.deadband.enter: it has no effect: there is no coarse phase "
+                 "at any point; expected controller.coarse.coarse_beyond below 1e12, or the key left out"},
+        IdleCase{"{torque: {levels: [0.1]}}", "controller: {deadband: 1}",
+                 "m.yaml:6:24: controller.deadband.enter: it has no effect: the loop is open with "
+                 "command.torque; expected command.targets or command.sequence, or the key left out"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Encoders, EffectRules,
@@ -174,27 +206,41 @@ TEST(IdleKeys, WhatAFrictionModelDoesNotUseIsAWarningAtMost) {
   using Warnings = std::vector<std::string>;
   EXPECT_EQ(
       warnings("friction: {model: coulomb, k1: 100, breakaway: 0.2}\n"),
-      (Warnings{"m.yaml:6:32: friction.k1: it has no effect: friction.model has no spring at any point"}));
+      (Warnings{"m.yaml:6:32: friction.k1: it has no effect: friction.model is at no point one that uses it "
+                "(presliding, spring)"}));
   EXPECT_EQ(
       warnings("friction: {model: spring, k1: 100, alpha: {uniform: [0.1, 0.2]}}\n"),
-      (Warnings{"m.yaml:6:43: friction.alpha: it has no effect: friction.model is presliding at no point"}));
+      (Warnings{
+          "m.yaml:6:43: friction.alpha: it has no effect: friction.model is at no point one that uses it "
+          "(presliding)"}));
   EXPECT_EQ(warnings("friction: {k1: 100, alpha: 0.5}\n"
                      "sweep: {grid: {friction.model: [coulomb, spring, presliding]}}\n"),
             Warnings{});
-  EXPECT_EQ(warnings("friction: {k1: 100, alpha: 0.5}\nsweep: {grid: {friction.model: [coulomb, spring]}}\n"),
-            (Warnings{"m.yaml:6:28: friction.alpha: it has no effect: friction.model is presliding at no "
-                      "point"}));
+  EXPECT_EQ(
+      warnings("friction: {k1: 100, alpha: 0.5}\nsweep: {grid: {friction.model: [coulomb, spring]}}\n"),
+      (Warnings{"m.yaml:6:28: friction.alpha: it has no effect: friction.model is at no point one that uses "
+                "it (presliding)"}));
 }
 
-TEST(IdleKeys, AnAirBearingUsesItsDampingAlone) {
-  const std::string idle = ": it has no effect: friction.model is none at every point";
-  EXPECT_EQ(warnings("friction: {model: none, breakaway: 0.2}\n"
-                     "plant: {presliding_damping: 0.1, sliding_damping: 0.1}\n"
-                     "initial: {mode: slide}\n"),
-            (std::vector<std::string>{
-                "m.yaml:7:51: plant.sliding_damping" + idle, "m.yaml:6:36: friction.breakaway" + idle,
-                "m.yaml:8:17: initial.mode: it has no effect: friction.model has no spring at any point, and "
-                "the rotor slides wherever there is a velocity"}));
+// Each law says which parameters it has; a parameter without effect is told the models that have it.
+TEST(IdleKeys, AModelUsesTheParametersOfItsLaw) {
+  const std::string idle = ": it has no effect: friction.model is at no point one that uses it ";
+  EXPECT_EQ(
+      warnings("friction: {model: none, breakaway: 0.2}\n"
+               "plant: {presliding_damping: 0.1, sliding_damping: 0.1}\n"
+               "initial: {mode: slide}\n"),
+      (std::vector<std::string>{
+          "m.yaml:7:51: plant.sliding_damping" + idle + "(presliding, spring, coulomb, lugre, gms)",
+          "m.yaml:8:17: initial.mode" + idle + "(presliding, spring, dahl, lugre, gms)",
+          "m.yaml:6:36: friction.breakaway" + idle + "(presliding, spring, coulomb, dahl, lugre, gms)"}));
+  EXPECT_EQ(warnings("friction: {model: dahl, sigma0: 500, sigma1: 0.1, stribeck_velocity: 0.1}\n"
+                     "initial: {preload: 0.1}\n")
+                .size(),
+            3U);
+  EXPECT_EQ(warnings("friction: {model: lugre, sigma0: 500, sigma1: 0.1, stribeck_velocity: 0.1}\n"),
+            std::vector<std::string>{});
+  EXPECT_EQ(warnings("friction: {model: gms, gms: {attraction: 10}}\ninitial: {preload: 0.1}\n"),
+            std::vector<std::string>{});
 }
 
 TEST(IdleKeys, ALimitWithoutAStopIsAWarning) {
@@ -270,9 +316,10 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     OfTheMode, VanishedTerms,
     testing::Values(
-        VanishedTerm{"friction: {model: coulomb}\ninitial: {mode: slide, velocity: 1}",
-                     "m.yaml:7:17: initial.mode: it has no effect: friction.model has no spring at any "
-                     "point, and the rotor slides wherever there is a velocity"},
+        VanishedTerm{
+            "friction: {model: coulomb}\ninitial: {mode: slide, velocity: 1}",
+            "m.yaml:7:17: initial.mode: it has no effect: friction.model is at no point one that uses it "
+            "(presliding, spring, dahl, lugre, gms)"},
         VanishedTerm{"friction: {model: coulomb}\ninitial: {mode: stick, velocity: 1}", ""},
         VanishedTerm{"initial: {mode: slide, velocity: 1}\n"
                      "sweep: {grid: {friction.model: [coulomb, spring]}}",

@@ -87,6 +87,19 @@ INSTANTIATE_TEST_SUITE_P(
         UnfitCase{"{targets: [1]}", "controller: {coarse: {coarse_beyond: 60, fine_within: 60}}", ""}));
 
 INSTANTIATE_TEST_SUITE_P(
+    Blocks, ValueRules,
+    testing::Values(
+        UnfitCase{
+            "{targets: [1]}", "controller: {deadband: {enter: 2, leave: 1}}",
+            "m.yaml:6:42: controller.deadband.leave: the deadband can be left at 1 counts and entered at "
+            "2; expected at least the |error| with which it is entered"},
+        UnfitCase{"{targets: [1]}", "controller: {deadband: {enter: 2, leave: 2}}", ""},
+        UnfitCase{"{targets: [1]}", "controller: {observer: {bandwidth: 1000}}",
+                  "m.yaml:6:36: controller.observer.bandwidth: 1000 Hz can be half the sample rate, 2000 Hz, "
+                  "or more; expected a bandwidth below half of controller.sample_rate"},
+        UnfitCase{"{targets: [1]}", "controller: {observer: {bandwidth: 999}}", ""}));
+
+INSTANTIATE_TEST_SUITE_P(
     EarlyDecision, ValueRules,
     testing::Values(
         UnfitCase{"{sequence: {targets: [5, 10], overrun: 3}}", "verdict: {stop: true}",

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/friction/parameters.hpp"
+#include "core/numerics/power_series.hpp"
+
+namespace zerocount::friction {
+
+/// The level of sliding friction over velocity:
+///
+///   g(ω) = Fc + (Fs − Fc)·exp(−(ω/ωs)²).
+struct StribeckCurve {
+  double coulomb;               ///< Fc, N m
+  double excess;                ///< Fs − Fc, N m
+  double per_velocity_squared;  ///< 1/ωs², s²/rad²
+};
+
+/// Fs = breakaway, Fc = coulomb_ratio·Fs, ωs = stribeck_velocity.
+inline StribeckCurve stribeck_curve(const FrictionParameters& contact) {
+  const double coulomb = contact.coulomb_ratio * contact.breakaway;
+  return {coulomb, contact.breakaway - coulomb,
+          1.0 / (contact.stribeck_velocity * contact.stribeck_velocity)};
+}
+
+/// g(ω), N m.
+inline double level_at(const StribeckCurve& curve, double omega) {
+  return curve.coulomb + curve.excess * std::exp(-curve.per_velocity_squared * omega * omega);
+}
+
+/// Taylor series in time of exp(−(ω/ωs)²), whose coefficients follow those of ω.
+struct StribeckSeries {
+  numerics::Series exponent{};  ///< −(ω/ωs)², dimensionless
+  numerics::Series slope{};     ///< of the exponent in time, 1/s
+  numerics::Series decay{};     ///< exp(−(ω/ωs)²), dimensionless
+
+  /// Makes the coefficients k from ω[0…k], and returns that of the decay.
+  double expand(const StribeckCurve& curve, const numerics::Series& omega, std::size_t k) {
+    exponent[k] = -curve.per_velocity_squared * numerics::square_coefficient(omega.data(), k);
+    if (k > 0) {
+      slope[k - 1] = static_cast<double>(k) * exponent[k];
+      decay[k] = numerics::exponential_coefficient(slope.data(), decay.data(), k);
+    } else {
+      decay[0] = std::exp(exponent[0]);
+    }
+    return decay[k];
+  }
+};
+
+}  // namespace zerocount::friction

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "core/motion/parameters.hpp"
+#include "core/numerics/power_series.hpp"
+
+namespace zerocount::motion {
+
+/// A second mass behind an elastic coupling, with its state:
+///
+///   JL·dωL/dt = Ts,   Ts = kL·δ + dL·(ω − ωL),   dδ/dt = ω − ωL,   δ = θ − θL.
+///
+/// −Ts acts on the rotor.
+struct Load {
+  LoadParameters parameters;
+  double twist{0.0};  ///< δ, rad
+  double omega{0.0};  ///< ωL, rad/s
+};
+
+/// Ts, N m. @param rotor_omega ω, rad/s.
+inline double coupling_torque(const Load& load, double rotor_omega) {
+  return load.parameters.stiffness * load.twist + load.parameters.damping * (rotor_omega - load.omega);
+}
+
+/// Whether all oscillation of the load against the rotor stays below `torque` (N m), as a torque of the
+/// coupling.
+/// @param inertia J of the rotor, kg m².
+inline bool is_quiet(const Load& load, double rotor_omega, double inertia, double torque) {
+  const auto& [load_inertia, stiffness, damping, encoder] = load.parameters;
+  const double reduced = inertia * load_inertia / (inertia + load_inertia);
+  return stiffness * std::abs(load.twist) +
+             (std::sqrt(stiffness * reduced) + damping) * std::abs(rotor_omega - load.omega) <
+         torque;
+}
+
+/// The load moves as the rotor does from now on.
+inline void follow_rotor(Load& load, double rotor_omega) {
+  load.twist = 0.0;
+  load.omega = rotor_omega;
+}
+
+/// Taylor series in time of a load.
+struct LoadSeries {
+  numerics::Series twist;  ///< δ, rad
+  numerics::Series omega;  ///< ωL, rad/s
+};
+
+/// The coefficients 0.
+inline void start_series(LoadSeries& series, const Load& load) {
+  series.twist[0] = load.twist;
+  series.omega[0] = load.omega;
+}
+
+/// Makes the coefficients k + 1 from those of ω up to k. @returns the coefficient k of Ts, N m.
+inline double expand(LoadSeries& series, const LoadParameters& load, const numerics::Series& rotor_omega,
+                     std::size_t k) {
+  const double relative = rotor_omega[k] - series.omega[k];
+  const double torque = load.stiffness * series.twist[k] + load.damping * relative;
+  series.twist[k + 1] = relative * numerics::reciprocal[k + 1];
+  series.omega[k + 1] = torque / load.inertia * numerics::reciprocal[k + 1];
+  return torque;
+}
+
+/// The load after the time t (s) of its series.
+inline void go_to(Load& load, const LoadSeries& series, double t) {
+  load.twist = numerics::value_at(series.twist, t);
+  load.omega = numerics::value_at(series.omega, t);
+}
+
+}  // namespace zerocount::motion

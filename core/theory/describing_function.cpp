@@ -1,0 +1,104 @@
+#include "core/theory/describing_function.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/friction/stribeck.hpp"
+
+namespace zerocount::theory {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr int steps = 400;  // of half a period
+constexpr double step = std::numbers::pi / steps;
+
+/// Phase of Ωt in the middle of step i, from −π/2, where θ = −A, to π/2.
+double phase_of(int i) {
+  return (i + 0.5) * step - 0.5 * std::numbers::pi;
+}
+
+/// Of a relay with the level g(ω): in phase with ω.
+double relay_damping(const friction::StribeckCurve& curve, double amplitude, double frequency) {
+  double sum = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double cosine = std::cos(phase_of(i));
+    sum += friction::level_at(curve, amplitude * frequency * cosine) * cosine;
+  }
+  return 2.0 / std::numbers::pi * sum * step / amplitude;
+}
+
+/// One step of dz/dθ = 1 − σ0·z/g, θ growing: z ← keep·z + gain.
+struct BristleStep {
+  double keep;
+  double gain;
+};
+
+BristleStep bristle_step(const friction::StribeckCurve& curve, double stiffness, double travel,
+                         double omega) {
+  const double length = friction::level_at(curve, omega) / stiffness;
+  const double keep = std::exp(-travel / length);
+  return {keep, length * (1.0 - keep)};
+}
+
+/// The fundamental of z over that of θ. The half period −π/2 … π/2 takes z from z₀ to −z₀, the other one
+/// back.
+Complex bristle_ratio(const friction::StribeckCurve& curve, double stiffness, double amplitude,
+                      double frequency) {
+  const auto step_at = [&](int i) {
+    const double from = std::sin(i * step - 0.5 * std::numbers::pi);
+    const double to = std::sin((i + 1) * step - 0.5 * std::numbers::pi);
+    return bristle_step(curve, stiffness, amplitude * (to - from),
+                        amplitude * frequency * std::cos(phase_of(i)));
+  };
+  double keep = 1.0;
+  double gain = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const BristleStep one = step_at(i);
+    keep *= one.keep;
+    gain = one.keep * gain + one.gain;
+  }
+  double z = -gain / (1.0 + keep);
+  Complex sum = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const BristleStep one = step_at(i);
+    const double next = one.keep * z + one.gain;
+    sum += 0.5 * (z + next) * Complex(std::sin(phase_of(i)), std::cos(phase_of(i)));
+    z = next;
+  }
+  return 2.0 / std::numbers::pi * sum * step / amplitude;
+}
+
+}  // namespace
+
+bool has_describing_function(friction::FrictionModel model) {
+  switch (model) {
+    case friction::FrictionModel::coulomb:
+    case friction::FrictionModel::dahl:
+    case friction::FrictionModel::lugre:
+      return true;
+    case friction::FrictionModel::presliding:
+    case friction::FrictionModel::spring:
+    case friction::FrictionModel::none:
+    case friction::FrictionModel::gms:
+      break;
+  }
+  return false;
+}
+
+Complex describing_function(friction::FrictionModel model, const friction::FrictionParameters& contact,
+                            const motion::PlantParameters& plant, double amplitude, double frequency) {
+  friction::StribeckCurve curve = friction::stribeck_curve(contact);
+  const Complex rate(0.0, frequency);
+  if (model == friction::FrictionModel::coulomb) {
+    return rate * plant.sliding_damping + Complex(0.0, relay_damping(curve, amplitude, frequency));
+  }
+  const bool dahl = model == friction::FrictionModel::dahl;
+  if (dahl) curve.excess = 0.0;
+  const Complex bristle = bristle_ratio(curve, contact.sigma0, amplitude, frequency);
+  const double bristle_damping = dahl ? 0.0 : contact.sigma1;
+  const double damping = dahl ? plant.presliding_damping : plant.sliding_damping;
+  return (contact.sigma0 + rate * bristle_damping) * bristle + rate * damping;
+}
+
+}  // namespace zerocount::theory

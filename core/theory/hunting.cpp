@@ -1,0 +1,193 @@
+#include "core/theory/hunting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <numbers>
+
+#include <Eigen/Dense>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "core/loop/controller.hpp"
+#include "core/loop/encoder.hpp"
+#include "core/theory/describing_function.hpp"
+#include "core/theory/gains.hpp"
+#include "core/theory/linear_loop.hpp"
+#include "core/theory/stability.hpp"
+
+namespace zerocount::theory {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Where f changes sign between low and high, at which its values differ in sign.
+double sign_change(const std::function<double(double)>& f, double low, double high) {
+  const bool rises = f(low) < 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = std::sqrt(low * high);
+    ((f(middle) < 0.0) == rises ? low : high) = middle;
+  }
+  return std::sqrt(low * high);
+}
+
+/// The left side of the harmonic balance.
+struct Balance {
+  friction::FrictionModel model;
+  const friction::FrictionParameters& contact;
+  const motion::PlantParameters& plant;
+  loop::LinearChain chain;
+  double resolution;
+  double sample_time;
+  int delay;
+  LinearDrive drive;
+
+  Complex control(double frequency) const {
+    const Complex z = std::polar(1.0, frequency * sample_time);
+    const Complex hold = (1.0 - 1.0 / z) / Complex(0.0, frequency * sample_time);
+    const double corner = 2.0 * std::numbers::pi * drive.bandwidth;
+    const Complex lag = corner > 0.0 ? 1.0 / Complex(1.0, frequency / corner) : 1.0;
+    return controller_response(z, chain) * std::pow(z, -delay) * hold * lag * drive.gain / resolution;
+  }
+  Complex at(double amplitude, double frequency) const {
+    return -plant.inertia * frequency * frequency +
+           describing_function(model, contact, plant, amplitude, frequency) + control(frequency);
+  }
+};
+
+constexpr double amplitude_step = 1.15;
+constexpr double frequency_step = 1.06;
+
+/// The frequencies (rad/s) at which the stiffnesses balance the inertia.
+std::vector<double> resonances(const Balance& balance, double amplitude) {
+  std::vector<double> found;
+  const double highest = 0.9 * std::numbers::pi / balance.sample_time;
+  const auto stiffness = [&](double frequency) { return balance.at(amplitude, frequency).real(); };
+  double low = 1e-4 * highest;
+  double at_low = stiffness(low);
+  for (double high = low * frequency_step; high < highest; high *= frequency_step) {
+    const double at_high = stiffness(high);
+    if ((at_low < 0.0) != (at_high < 0.0)) found.push_back(sign_change(stiffness, low, high));
+    low = high;
+    at_low = at_high;
+  }
+  return found;
+}
+
+/// The one of `resonances` that is nearest to `frequency` on a logarithmic scale; none beyond a factor
+/// of 1.3.
+std::optional<double> nearest(const std::vector<double>& resonances, double frequency) {
+  std::optional<double> best;
+  for (const double candidate : resonances) {
+    const double ratio = std::max(candidate / frequency, frequency / candidate);
+    if (ratio < 1.3 && (!best || ratio < std::max(*best / frequency, frequency / *best))) best = candidate;
+  }
+  return best;
+}
+
+/// A slide of the stick-slip cycle with a = 1 and Fs − Fc = `excess`: x where v comes to 0, and when and at
+/// what w.
+struct SlideEnd {
+  double x;
+  double w;
+  double time;
+};
+
+std::optional<SlideEnd> slide_end(const Eigen::Matrix3d& generator, double stiffness, double excess) {
+  Eigen::Vector3d state(-1.0, 0.0, excess - stiffness);
+  const double interval = 0.02 / generator.eigenvalues().cwiseAbs().maxCoeff();
+  const Eigen::Matrix3d flow = (generator * interval).eval().exp();
+  constexpr int most_steps = 200000;
+  for (int k = 0; k < most_steps; ++k) {
+    const Eigen::Vector3d next = flow * state;
+    if (k > 0 && next[1] <= 0.0) {
+      const auto velocity = [&](double t) { return ((generator * t).eval().exp() * state)[1]; };
+      double low = 0.0;
+      double high = interval;
+      for (int i = 0; i < 50; ++i) {
+        const double middle = 0.5 * (low + high);
+        (velocity(middle) > 0.0 ? low : high) = middle;
+      }
+      const Eigen::Vector3d end = (generator * high).eval().exp() * state;
+      return SlideEnd{end[0], end[2], k * interval + high};
+    }
+    state = next;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<LimitCycle> harmonic_balance(friction::FrictionModel model,
+                                         const friction::FrictionParameters& contact,
+                                         const motion::PlantParameters& plant,
+                                         const loop::EncoderParameters& encoder,
+                                         const loop::ControllerParameters& controller,
+                                         const LinearDrive& drive) {
+  std::vector<LimitCycle> cycles;
+  if (!has_describing_function(model)) return cycles;
+  const double resolution = loop::fine_resolution(encoder);
+  const Balance balance{model,
+                        contact,
+                        plant,
+                        loop::linear_chain(controller, resolution),
+                        resolution,
+                        sample_time(controller),
+                        controller.delay,
+                        drive};
+  double low = 0.3 * resolution;
+  std::vector<double> at_low = resonances(balance, low);
+  for (double high = low * amplitude_step; high < 1e6 * resolution; high *= amplitude_step) {
+    const std::vector<double> at_high = resonances(balance, high);
+    for (const double start : at_low) {
+      const std::optional<double> end = nearest(at_high, start);
+      if (!end || !(balance.at(low, start).imag() < 0.0 && balance.at(high, *end).imag() > 0.0)) continue;
+      double frequency = start;
+      const auto damping = [&](double amplitude) {
+        frequency = nearest(resonances(balance, amplitude), frequency).value_or(frequency);
+        return balance.at(amplitude, frequency).imag();
+      };
+      double inner = low;
+      double outer = high;
+      for (int i = 0; i < 20; ++i) {
+        const double middle = std::sqrt(inner * outer);
+        (damping(middle) < 0.0 ? inner : outer) = middle;
+      }
+      cycles.push_back({outer, 2.0 * std::numbers::pi / frequency});
+    }
+    low = high;
+    at_low = at_high;
+  }
+  return cycles;
+}
+
+std::optional<LimitCycle> stick_slip_cycle(const friction::FrictionParameters& contact,
+                                           const motion::PlantParameters& plant,
+                                           const loop::EncoderParameters& encoder,
+                                           const loop::ControllerParameters& controller) {
+  if (contact.coulomb_ratio == 1.0 || !(controller.ki > 0.0) || motion::has_load(plant) ||
+      !left_out_of_criteria(controller).empty())
+    return std::nullopt;
+  const AnalogueGains gains = analogue_gains(controller, encoder);
+  Eigen::Matrix3d generator;
+  generator << 0.0, 1.0, 0.0, -gains.kp / plant.inertia, -(gains.kd + plant.sliding_damping) / plant.inertia,
+      1.0 / plant.inertia, -gains.ki, 0.0, 0.0;
+  // How far a slide goes grows with Fs − Fc: from what the integral alone does to without bound.
+  const auto beyond = [&](double excess) {
+    const std::optional<SlideEnd> end = slide_end(generator, gains.kp, excess);
+    return end ? end->x - 1.0 : 1.0;
+  };
+  const double scale = gains.kp + gains.ki / generator.eigenvalues().cwiseAbs().maxCoeff();  // N m/rad
+  const double least = 1e-6 * scale;
+  const double most = 1e6 * scale;
+  if (beyond(least) >= 0.0 || beyond(most) < 0.0) return std::nullopt;
+  const double excess = sign_change(beyond, least, most);
+  const std::optional<SlideEnd> end = slide_end(generator, gains.kp, excess);
+  const double amplitude = contact.breakaway * (1.0 - contact.coulomb_ratio) / excess;
+  const double torque = (end->w - gains.kp) * amplitude + contact.coulomb_ratio * contact.breakaway;
+  if (!(std::abs(torque) <= contact.breakaway)) return std::nullopt;  // it would not stand there
+  const double stand = (torque + contact.breakaway) / (gains.ki * amplitude);
+  return LimitCycle{amplitude, 2.0 * (end->time + stand)};
+}
+
+}  // namespace zerocount::theory

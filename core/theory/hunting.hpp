@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/friction/parameters.hpp"
+#include "core/loop/parameters.hpp"
+#include "core/motion/parameters.hpp"
+#include "core/theory/sampled_stability.hpp"
+
+/// Predictions of hunting, the lasting oscillation of a position loop with friction.
+namespace zerocount::theory {
+
+struct LimitCycle {
+  double amplitude;  ///< half of its range, rad
+  double period;     ///< s
+};
+
+/// The stable limit cycles that the describing function N of friction predicts, by increasing amplitude:
+/// solutions of the harmonic balance
+///
+///   −J·Ω² + N(A, Ω) + K(Ω) = 0
+///
+/// at which the damping left, Im of it, rises with A. K is the stiffness of the control, N m/rad: its
+/// response with all its blocks, hold, delay and amplifier. Sought between 0.3 and 1e6 counts and from 1e-4
+/// to 0.9 of half the sample rate. A motion that stands still for a part of its period is no sinusoid, and is
+/// not predicted. Empty where the model has no describing function. Source: as describing_function,
+/// section 3.
+std::vector<LimitCycle> harmonic_balance(friction::FrictionModel model,
+                                         const friction::FrictionParameters& contact,
+                                         const motion::PlantParameters& plant,
+                                         const loop::EncoderParameters& encoder,
+                                         const loop::ControllerParameters& controller,
+                                         const LinearDrive& drive = {});
+
+/// The symmetric stick-slip cycle of a continuous PID control on Coulomb friction with a static level: the
+/// rotor stands at −a until the integral has brought the torque to Fs, slides under Fc and cs to +a, and so
+/// on. With the gains kP, kI, kD of analogue_gains, e = −x and w = I − Fc, a slide obeys
+///
+///   dx/dt = v,   J·dv/dt = w − kP·x − (kD + cs)·v,   dw/dt = −kI·x,   x(0) = −a, v(0) = 0, w(0) = Fs − Fc −
+///   kP·a,
+///
+/// to v = 0 at x = a, and the stand lasts (u + Fs)/(kI·a), u the torque at its start. All of it scales: a is
+/// proportional to Fs − Fc. None where the loop has no such cycle: where it has no static level, no integral,
+/// or blocks beside PID, or where any oscillation of the slides grows. Source: Armstrong and Amin, "PID
+/// control in the presence of static friction: a comparison of algebraic and describing function analysis",
+/// Automatica 32 (1996), 679–692.
+std::optional<LimitCycle> stick_slip_cycle(const friction::FrictionParameters& contact,
+                                           const motion::PlantParameters& plant,
+                                           const loop::EncoderParameters& encoder,
+                                           const loop::ControllerParameters& controller);
+
+}  // namespace zerocount::theory

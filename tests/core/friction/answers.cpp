@@ -1,0 +1,115 @@
+// How rotors with the laws of Dahl, LuGre and generalised Maxwell-slip move under random torques, for an
+// independent integrator to judge: JSON on standard output.
+#include <cmath>
+#include <iostream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/plant/plant.hpp"
+
+namespace zerocount {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double count = 3.878509448876288e-06;  // rad
+constexpr double sample_time = 5e-4;             // s
+constexpr motion::MotionTolerance tolerance{1e-11 * count, 1e-8 * count};
+
+class Answers {
+ public:
+  template <class Law>
+  Json motion(friction::FrictionModel model, bool loaded) {
+    motion::PlantParameters rotor{.inertia = power_of_ten(-3.7, -2.7),
+                                  .presliding_damping = power_of_ten(-2.0, 0.0),
+                                  .sliding_damping = power_of_ten(-3.0, -1.0)};
+    if (loaded) rotor.load = {power_of_ten(-4.0, -2.5), power_of_ten(2.5, 4.5), power_of_ten(-3.0, -0.5)};
+    friction::FrictionAlongRotor friction = contact(model);
+    const motion::PlantStart start{.velocity = random_() % 3 == 0 ? uniform(-0.3, 0.3) : 0.0,
+                                   .sliding = random_() % 2 == 0};
+    plant::PlantWith<Law> plant(rotor, friction, start, tolerance);
+    Json samples = Json::array();
+    motion::TorqueCourse course;
+    const bool lags = random_() % 3 == 0;
+    const double size = friction.uniform.breakaway * power_of_ten(-1.0, 0.5);
+    for (int k = 0; k < 60; ++k) {
+      // Held for some samples, so that it also comes to rest.
+      if (k % 10 == 0) course.settled = uniform(-1.0, 1.0) * size;
+      if (!lags) course.now = course.settled;
+      course.rate = lags ? 2000.0 : 0.0;
+      plant.advance(course, sample_time);
+      samples.push_back({course.now, course.settled, course.rate, plant.theta(), plant.omega(),
+                         plant.sliding(), plant.load() ? plant.load()->twist : 0.0});
+      course = motion::course_after(course, sample_time);
+    }
+    const friction::FrictionParameters& p = friction.uniform;
+    Json elements = Json::array();
+    for (const friction::GmsElement& e : friction.gms_elements) elements.push_back({e.stiffness, e.weight});
+    return {{"model", Law::word},
+            {"inertia", rotor.inertia},
+            {"presliding_damping", rotor.presliding_damping},
+            {"sliding_damping", rotor.sliding_damping},
+            {"breakaway", p.breakaway},
+            {"coulomb_ratio", p.coulomb_ratio},
+            {"stribeck_velocity", p.stribeck_velocity},
+            {"sigma0", p.sigma0},
+            {"sigma1", p.sigma1},
+            {"attraction", p.gms_attraction},
+            {"elements", elements},
+            {"load_inertia", rotor.load.inertia},
+            {"load_stiffness", rotor.load.stiffness},
+            {"load_damping", rotor.load.damping},
+            {"velocity", start.velocity},
+            {"slides", start.sliding},
+            {"sample_time", sample_time},
+            {"samples", samples}};
+  }
+
+ private:
+  friction::FrictionAlongRotor contact(friction::FrictionModel model) {
+    friction::FrictionAlongRotor friction;
+    friction.model = model;
+    friction.uniform.breakaway = power_of_ten(-1.0, 0.0);
+    friction.uniform.coulomb_ratio = random_() % 4 == 0 ? 1.0 : uniform(0.5, 1.0);
+    friction.uniform.stribeck_velocity = power_of_ten(-2.5, -0.5);
+    friction.uniform.sigma0 = power_of_ten(2.0, 3.5);
+    friction.uniform.sigma1 = power_of_ten(-2.0, 0.0);
+    friction.uniform.gms_attraction = power_of_ten(0.0, 2.5);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 1 + random_() % 5; ++i) {
+      friction.gms_elements.push_back({power_of_ten(1.5, 3.0), uniform(0.01, 1.0)});
+      sum += friction.gms_elements.back().weight;
+    }
+    for (friction::GmsElement& element : friction.gms_elements) element.weight /= sum;
+    return friction;
+  }
+
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  double power_of_ten(double low, double high) { return std::pow(10.0, uniform(low, high)); }
+
+  std::mt19937_64 random_{20021};
+};
+
+}  // namespace
+}  // namespace zerocount
+
+int main() {
+  using namespace zerocount;
+  Answers answers;
+  Json cases = Json::array();
+  using Model = friction::FrictionModel;
+  for (int i = 0; i < 16; ++i) {
+    const bool loaded = i % 2 == 1;
+    cases.push_back(answers.motion<friction::DahlFriction>(Model::dahl, loaded));
+    cases.push_back(answers.motion<friction::LuGreFriction>(Model::lugre, loaded));
+    cases.push_back(answers.motion<friction::GmsFriction>(Model::gms, loaded));
+    cases.push_back(answers.motion<friction::CoulombFriction>(Model::coulomb, loaded));
+    cases.push_back(answers.motion<friction::NoFriction>(Model::none, loaded));
+  }
+  std::cout << cases.dump() << '\n';
+}

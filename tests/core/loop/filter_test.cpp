@@ -1,0 +1,97 @@
+// The filters: their response at the frequencies that the definition fixes, their stability, and how they go
+// on from a torque in force.
+#include "core/loop/filter.hpp"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/loop/control_chain.hpp"
+#include "tests/core/loop/random_blocks.hpp"
+
+namespace zerocount::loop {
+namespace {
+
+constexpr double filter_rate = 2000.0;
+
+std::complex<double> response(const BiquadConstants<double>& c, double frequency) {
+  const std::complex<double> z = std::polar(1.0, -2.0 * std::numbers::pi * frequency / filter_rate);
+  return (c.b0 + c.b1 * z + c.b2 * z * z) / (1.0 + c.a1 * z + c.a2 * z * z);
+}
+
+void expect_near(std::complex<double> value, std::complex<double> expected) {
+  EXPECT_NEAR(value.real(), expected.real(), 1e-9);
+  EXPECT_NEAR(value.imag(), expected.imag(), 1e-9);
+}
+
+// Prewarped at its frequency a filter has there exactly the response of the continuous one, and so at 0 and
+// at infinity, which goes to half the sample rate.
+TEST(Filter, HasTheContinuousResponseAtItsFrequencyAtZeroAndAtHalfTheSampleRate) {
+  using namespace std::complex_literals;
+  for (const double f : {1.0, 30.0, 200.0, 900.0, 990.0}) {
+    Filter filter{.kind = FilterKind::lowpass, .frequency = f, .damping = 0.3};
+    const BiquadConstants<double> lowpass = discretised(filter, filter_rate);
+    expect_near(response(lowpass, f), 1.0 / (0.6i));
+    expect_near(response(lowpass, 0.0), 1.0);
+    expect_near(response(lowpass, 0.5 * filter_rate), 0.0);
+    filter.kind = FilterKind::notch;
+    filter.depth = 0.05;
+    const BiquadConstants<double> notch = discretised(filter, filter_rate);
+    expect_near(response(notch, f), 0.05);
+    expect_near(response(notch, 0.0), 1.0);
+    expect_near(response(notch, 0.5 * filter_rate), 1.0);
+    filter.kind = FilterKind::lead;
+    filter.ratio = 4.0;
+    const BiquadConstants<double> lead = discretised(filter, filter_rate);
+    expect_near(response(lead, f), (1.0 + 2.0i) / (1.0 + 0.5i));
+    expect_near(response(lead, 0.0), 1.0);
+    expect_near(response(lead, 0.5 * filter_rate), 4.0);
+    EXPECT_TRUE(is_stable(lowpass) && is_stable(notch) && is_stable(lead));
+  }
+}
+
+TEST(Filter, IsStableWhereBothPolesLieInsideTheUnitCircle) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coefficient(-2.5, 2.5);
+  for (int i = 0; i < 2000; ++i) {
+    const double a1 = coefficient(random);
+    const double a2 = coefficient(random);
+    const std::complex<double> root = std::sqrt(std::complex<double>(a1 * a1 - 4.0 * a2));
+    const double radius = 0.5 * std::max(std::abs(-a1 + root), std::abs(-a1 - root));
+    EXPECT_EQ(is_stable({1, 0, 0, a1, a2}), radius < 1.0) << a1 << " " << a2;
+  }
+}
+
+// In the steady state that take_over makes, the chain decides the torque in force whatever its blocks, and
+// goes on deciding it while nothing moves.
+TEST(ControlChain, GoesOnFromTheTorqueInForce) {
+  testing::RandomBlocks draw(5);
+  for (int i = 0; i < 100; ++i) {
+    ControllerParameters p;
+    p.blocks = draw.blocks(testing::BlockKind::all, p.sample_rate);
+    p.blocks.observer.bandwidth = 0.0;  // its estimate goes on to change
+    p.blocks.integrator_leak = std::numeric_limits<double>::infinity();
+    ControlChain chain(p, {0.0, {-1e9, 1e9}, 4e-6});
+    for (int k = 0; k < 50; ++k) chain.observe({0.0, 12.0, draw.uniform(-0.1, 0.1)});
+    const double torque = draw.uniform(-0.3, 0.3);
+    chain.take_over(torque);
+    for (int k = 0; k < 50; ++k) ASSERT_NEAR(chain.step({0.0, 12.0, torque}), torque, 1e-12) << i;
+  }
+}
+
+TEST(ControlChain, WithAnObserverChangesTheTorqueOnlyAsTheEstimateGoesOn) {
+  ControllerParameters p;
+  p.ki = 0.0;
+  p.blocks.observer = {20.0, 5e-4};
+  const ControlStart start{0.0, {-1e9, 1e9}, 4e-6};
+  ControlChain chain(p, start);
+  for (int k = 0; k < 5000; ++k) chain.observe({0.0, 12.0, 0.1});
+  chain.take_over(0.1);  // at rest the estimate is −0.1, which the integral balances
+  for (int k = 0; k < 50; ++k) ASSERT_NEAR(chain.step({0.0, 12.0, 0.1}), 0.1, 1e-12);
+}
+
+}  // namespace
+}  // namespace zerocount::loop

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "core/loop/parameters.hpp"
+
+namespace zerocount::testing {
+
+/// Which blocks of a controller are random: one kind of them, or all of them now and then.
+enum class BlockKind { none, deadband, zone, leak, derivative, filters, feedforward, observer, cascade, all };
+inline constexpr int block_kinds = 10;
+inline constexpr const char* block_kind_names[block_kinds] = {
+    "none", "deadband", "zone", "leak", "derivative", "filters", "feedforward", "observer", "cascade", "all"};
+
+/// Blocks with which a loop about the paper's rig often stays within the converter's range.
+class RandomBlocks {
+ public:
+  explicit RandomBlocks(std::uint64_t seed) : random_(seed) {}
+
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  double log_uniform(double low, double high) { return low * std::pow(high / low, uniform(0.0, 1.0)); }
+  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+  double some(double value) { return chance(0.7) ? value : 0.0; }
+
+  std::uint64_t integer() { return random_(); }
+
+  loop::Filter filter(double sample_rate) {
+    loop::Filter f;
+    f.kind = static_cast<loop::FilterKind>(random_() % 4);
+    f.frequency = sample_rate * log_uniform(0.02, 0.45);
+    f.damping = log_uniform(0.3, 1.5);
+    f.depth = uniform(0.0, 1.0);
+    f.ratio = log_uniform(0.5, 4.0);
+    f.a[1] = uniform(-0.5, 0.5);
+    f.a[0] = uniform(-0.7, 0.7) * (1.0 + f.a[1]);
+    const double sum = 1.0 + f.a[0] + f.a[1];
+    f.b = {uniform(0.0, 0.5) * sum, uniform(0.0, 0.3) * sum, uniform(0.0, 0.3) * sum};
+    return f;
+  }
+
+  loop::ControlBlocks blocks(BlockKind kind, double sample_rate) {
+    const auto has = [&](BlockKind one) { return kind == one || (kind == BlockKind::all && chance(0.6)); };
+    loop::ControlBlocks b;
+    if (has(BlockKind::deadband)) {
+      b.deadband.enter = static_cast<double>(random_() % 4);
+      if (chance(0.5)) b.deadband.leave = b.deadband.enter + static_cast<double>(random_() % 3);
+    }
+    if (has(BlockKind::zone)) b.integrator_zone = uniform(2.0, 40.0);
+    if (has(BlockKind::leak)) b.integrator_leak = log_uniform(0.01, 10.0);
+    if (has(BlockKind::derivative)) b.derivative_cutoff = sample_rate * log_uniform(0.01, 0.5);
+    if (has(BlockKind::filters)) {
+      for (std::uint64_t i = random_() % 3 + 1; i > 0; --i) b.filters.push_back(filter(sample_rate));
+    }
+    if (has(BlockKind::feedforward))
+      b.feedforward = {some(log_uniform(0.01, 0.5)), some(log_uniform(1e-4, 1e-2)), some(uniform(0.0, 0.1))};
+    if (has(BlockKind::observer)) b.observer = {log_uniform(2.0, 40.0), 5.54e-4 * log_uniform(0.5, 2.0)};
+    if (has(BlockKind::cascade)) {
+      b.structure = loop::ControlStructure::cascade;
+      b.cascade = {log_uniform(10.0, 200.0), log_uniform(0.02, 0.3), some(log_uniform(0.5, 20.0))};
+    }
+    return b;
+  }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+}  // namespace zerocount::testing

@@ -1,0 +1,106 @@
+"""Gain and phase margins of random loops, by the blocks' continuous transfer functions at the frequencies that the bilinear
+transform takes z to, the plant by SciPy's zero-order hold, and a search on a grid of frequencies."""
+
+import json
+import math
+import subprocess
+import sys
+
+import numpy as np
+from scipy.optimize import brentq
+from scipy.signal import cont2discrete
+
+worst = {"gain": 0.0, "phase": 0.0, "frequency": 0.0}
+found = {"gain": 0, "phase": 0, "no gain": 0, "no phase": 0}
+
+
+def element_response(element, z, T):
+    (kind, p), = element.items()
+    if kind == "biquad":
+        return np.polyval(p["b"], z) / np.polyval([1, *p["a"]], z)
+    w = 2 * math.pi * p["frequency"]
+    s = 1 / math.tan(w * T / 2) * (z - 1) / (z + 1)  # over w
+    if kind == "lead":
+        root = math.sqrt(p["ratio"])
+        return (1 + root * s) / (1 + s / root)
+    numerator = 1 if kind == "lowpass" else s**2 + 2 * p["damping"] * p["depth"] * s + 1
+    return numerator / (s**2 + 2 * p["damping"] * s + 1)
+
+
+def open_loop(case):
+    c = case["controller"]
+    T, dx, J = 1 / c["sample_rate"], 2 * math.pi / case["fine"], case["inertia"]
+    A = [[0, 1], [-case["stiffness"] / J, -case["damping"] / J]]
+    B = [[0], [1 / J]]
+    if case["bandwidth"]:
+        rate = 2 * math.pi * case["bandwidth"]
+        A = [[0, 1, 0], [*A[1], 1 / J], [0, 0, -rate]]
+        B = [[0], [0], [rate]]
+    A, B, *_ = cont2discrete((np.array(A, float), np.array(B, float), np.eye(1, len(A)), np.zeros((1, 1))), T, "zoh")
+    poles, modes = np.linalg.eig(A)
+    residues = modes[0] * np.linalg.solve(modes, B[:, 0])
+
+    def plant(z):  # rad per N m
+        if np.min(np.abs(poles[:, None] - poles[None, :]) + np.eye(len(poles))) > 1e-6:
+            return sum(r / (z - p) for r, p in zip(residues, poles))
+        eye = np.eye(len(A))
+        return np.array([np.linalg.solve(x * eye - A, B)[0, 0] for x in np.atleast_1d(z)])
+
+    tau, cutoff = c["integrator_leak"], c["derivative_cutoff"]
+    left = 1.0 if tau is None else math.exp(-T / tau)
+    a = 0.0 if cutoff is None else math.exp(-2 * math.pi * cutoff * T)
+
+    def response(z):
+        trapezoid = (z + 1) / (z - left)
+        difference = (1 - a) * (z - 1) / (z - a)
+        if c["structure"] == "cascade":
+            g = c["cascade"]
+            u = -(g["kp"] + g["ki"] * T / 2 * trapezoid) * dx * (g["kv"] + difference / T)
+        else:
+            u = -c["kp"] - c["ki"] * trapezoid - c["kd"] * difference
+        for element in c["filters"]:
+            u = u * element_response(element, z, T)
+        w = 2 * math.pi * c["observer"]["bandwidth"]
+        if w:
+            s = 2 / T * (z - 1) / (z + 1)
+            q = w**2 / (s**2 + math.sqrt(2) * w * s + w**2)
+            u = (u - c["observer"]["inertia"] * s**2 * q * dx) / (1 - q / z)
+        return -u * z**-case["delay"] * plant(z) / dx * case["gain"]
+
+    return lambda angle: response(np.exp(1j * np.asarray(angle)))
+
+
+def margins(case):
+    L = open_loop(case)
+    T = 1 / case["controller"]["sample_rate"]
+    angles = np.concatenate([np.geomspace(1e-6 * math.pi, 0.01, 20000), np.linspace(0.01, math.pi * (1 - 1e-9), 60000)[1:]])
+    values = L(angles)
+
+    def crossings(signal):
+        at = np.nonzero(np.diff(np.sign(signal(values))))[0]
+        return [brentq(lambda x: float(signal(L([x]))[0]), angles[i], angles[i + 1], xtol=1e-15, rtol=1e-14) for i in at]
+
+    gains = [(x, L([x])[0]) for x in crossings(np.imag)] + [(math.pi, L([math.pi * (1 - 1e-12)])[0])]
+    gains = [(1 / abs(value), x / (2 * math.pi * T)) for x, value in gains if value.real < -1e-12]
+    phases = [(math.degrees(np.angle(-L([x])[0])), x / (2 * math.pi * T)) for x in crossings(lambda v: np.abs(v) - 1)]
+    return (min(gains, key=lambda g: abs(math.log(g[0])), default=None), min(phases, key=lambda p: abs(p[0]), default=None))
+
+
+for number, case in enumerate(json.loads(subprocess.run(sys.argv[1], check=True, capture_output=True, text=True).stdout)):
+    for kind, judged in zip(("gain", "phase"), margins(case)):
+        told = case[kind + "_margin"]
+        if (told is None) != (judged is None):
+            sys.exit(f"loop {number} ({case['blocks']}): {kind} margin {told}, judged {judged}\n{json.dumps(case)}")
+        if told is None:
+            found["no " + kind] += 1
+            continue
+        found[kind] += 1
+        value = abs(told[0] / judged[0] - 1) if kind == "gain" else abs(told[0] - judged[0])
+        frequency = abs(told[1] / judged[1] - 1)
+        if value > 1e-5 or frequency > 1e-5:
+            sys.exit(f"loop {number} ({case['blocks']}): {kind} margin {told}, judged {judged}\n{json.dumps(case)}")
+        worst[kind] = max(worst[kind], value)
+        worst["frequency"] = max(worst["frequency"], frequency)
+print(found, worst)
+if min(found["gain"], found["phase"]) < 100:
+    sys.exit("too few margins")

@@ -1,0 +1,59 @@
+// The margins of random loops, for an independent implementation to judge: JSON on standard output.
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "core/theory/margins.hpp"
+#include "tests/core/loop/controller_json.hpp"
+#include "tests/core/loop/random_blocks.hpp"
+
+namespace zerocount {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json margin_json(const theory::Margin& margin) {
+  if (std::isnan(margin.value)) return nullptr;
+  return {margin.value, margin.frequency};
+}
+
+void print() {
+  testing::RandomBlocks draw(1998);
+  Json all = Json::array();
+  for (int i = 0; i < 20 * testing::block_kinds; ++i) {
+    loop::ControllerParameters controller;
+    controller.sample_rate = std::round(draw.log_uniform(500.0, 2e4));
+    controller.kp = draw.some(draw.log_uniform(1e-5, 4e-4));
+    controller.ki = draw.some(draw.log_uniform(1e-6, 1e-4));
+    controller.kd = draw.some(draw.log_uniform(1e-4, 5e-3));
+    controller.delay = static_cast<int>(draw.integer() % 4);
+    const auto kind = static_cast<testing::BlockKind>(i % testing::block_kinds);
+    controller.blocks = draw.blocks(kind, controller.sample_rate);
+    const double stiffness = draw.chance(0.3) ? 0.0 : draw.log_uniform(30.0, 2000.0);
+    const double damping = draw.log_uniform(1e-3, 0.5);
+    const theory::LinearDrive drive{draw.log_uniform(0.8, 1.25), draw.some(draw.log_uniform(100.0, 2000.0))};
+    const theory::StabilityMargins margins =
+        theory::margins_about(stiffness, damping, {}, {}, controller, drive);
+    all.push_back({{"blocks", testing::block_kind_names[i % testing::block_kinds]},
+                   {"controller", testing::controller_json(controller)},
+                   {"delay", controller.delay},
+                   {"inertia", motion::PlantParameters{}.inertia},
+                   {"fine", loop::EncoderParameters{}.fine},
+                   {"stiffness", stiffness},
+                   {"damping", damping},
+                   {"gain", drive.gain},
+                   {"bandwidth", drive.bandwidth},
+                   {"gain_margin", margin_json(margins.gain)},
+                   {"phase_margin", margin_json(margins.phase)}});
+  }
+  std::cout << all << "\n";
+}
+
+}  // namespace
+}  // namespace zerocount
+
+int main() {
+  zerocount::print();
+}

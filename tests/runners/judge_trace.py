@@ -1,0 +1,120 @@
+"""What `zerocount trace` prints of controllers with blocks: code and torque recomputed from the counts it prints, the parameters
+from the manifest. Each block alone, and all of them; in one phase and in two."""
+
+import copy
+import csv
+import json
+import random
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from controller_judge import codes_of  # noqa: E402
+
+PROGRAM = sys.argv[1]
+OFF = {"structure": "pid", "cascade": {"kv": 150, "kp": 0.4, "ki": 60}, "deadband": {"enter": None, "leave": None},
+       "integrator_zone": None, "integrator_leak": None, "derivative_cutoff": None, "filters": [],
+       "feedforward": {"velocity": 0, "acceleration": 0, "friction": 0}, "observer": {"bandwidth": 0, "inertia": 5.54e-4}}
+DEFAULTS = {
+    "encoder": {"fine": 1620000, "coarse": 86400},
+    "dac": {"bits": 12, "resolution": 2.4e-4},
+    "controller": {"sample_rate": 2000, "kp": 0, "ki": 3.85e-5, "kd": 0, "anti_windup": "clamp", "encoder": "fine", **OFF,
+                   "coarse": {"kp": 5.0e-4, "ki": 2.0e-6, "kd": 6.0e-3, "encoder": "fine", "fine_within": 100, "fine_rate": 1,
+                              "fine_dwell": 0.01, "coarse_beyond": None, **OFF}},
+    "command": {"profile": {"shape": "step", "velocity_limit": 2.0, "acceleration_limit": 100.0, "jerk_limit": 1e4}},
+    "initial": {"integral": 0},
+}
+draw = random.Random(15)
+
+
+def log_uniform(low, high):
+    return low * (high / low)**draw.random()
+
+
+def block(kind):
+    """The keys of one block."""
+    return {
+        "deadband": lambda: {"deadband": draw.choice([0, 1, 2.5, {"enter": 1, "leave": 2}, {"enter": 0.5}])},
+        "zone": lambda: {"integrator_zone": draw.uniform(2, 30)},
+        "leak": lambda: {"integrator_leak": log_uniform(0.01, 10)},
+        "derivative": lambda: {"derivative_cutoff": log_uniform(10, 800), "kd": log_uniform(1e-4, 2e-3)},
+        "feedforward": lambda: {"feedforward": {"velocity": draw.uniform(0, 0.5), "acceleration": log_uniform(1e-4, 1e-2),
+                                                "friction": draw.uniform(0, 0.1)}},
+        "observer": lambda: {"observer": {"bandwidth": log_uniform(2, 40), "inertia": log_uniform(3e-4, 1e-3)}},
+        "cascade": lambda: {"structure": "cascade", "cascade": {"kv": log_uniform(10, 200), "kp": log_uniform(0.02, 0.3),
+                                                               "ki": log_uniform(0.5, 20)}},
+    }[kind]()
+
+
+KINDS = ["deadband", "zone", "leak", "derivative", "feedforward", "observer", "cascade"]
+
+
+def phase(kinds):
+    keys = {}
+    for kind in kinds:
+        keys.update(block(kind))
+    if "cascade" in kinds:
+        keys.pop("kd", None)
+    return keys
+
+
+def merged(base, keys):
+    result = copy.deepcopy(base)
+    for key, value in keys.items():
+        if key == "deadband" and not isinstance(value, dict):
+            value = {"enter": value}
+        result[key] = merged(result[key], value) if isinstance(value, dict) else value
+    return result
+
+
+def manifest_of(kinds, two_phases):
+    controller = phase(kinds)
+    if "cascade" not in kinds:
+        controller.setdefault("ki", log_uniform(1e-5, 1e-4))
+    command = {"targets": [draw.randint(-60, 60) for _ in range(2)], "hold": 0.2}
+    if two_phases:
+        controller.pop("kd", None)
+        if "cascade" not in kinds:
+            controller.pop("derivative_cutoff", None)
+        coarse = phase(kinds)
+        controller["coarse"] = {**coarse, "coarse_beyond": 80, "fine_within": 40, "fine_rate": 5, "fine_dwell": 0.002}
+        command["targets"] = [draw.randint(-400, 400) for _ in range(2)]
+    if "feedforward" in kinds:
+        command["hold"] = 0.6
+        command["profile"] = {"shape": draw.choice(["trapezoidal", "s_curve"]), "velocity_limit": log_uniform(1e-2, 5e-2),
+                              "acceleration_limit": log_uniform(0.5, 10.0)}
+        if command["profile"]["shape"] == "s_curve":
+            command["profile"]["jerk_limit"] = log_uniform(50, 1000)
+    return {"zerocount": 1, "name": "judged", "seed": draw.randrange(2**32), "trials": 1, "controller": controller,
+            "command": command, "verdict": {"dwell": 0.01, "window": 0.01}}
+
+
+def judge(manifest, folder):
+    path = Path(folder) / "judged.yaml"
+    path.write_text(json.dumps(manifest), encoding="utf-8")
+    ran = subprocess.run([PROGRAM, "trace", str(path), "--point", "0", "--trial", "0", "--format", "csv"],
+                         capture_output=True, text=True, check=False)
+    if ran.returncode != 0:
+        sys.exit(f"{json.dumps(manifest)}\n{ran.stderr}")
+    rows = list(csv.DictReader(ran.stdout.splitlines()))
+    samples = [tuple(int(row[key]) for key in ("target", "count", "coarse_count")) for row in rows]
+    given = {key: manifest[key] for key in ("controller", "command")}
+    judged = codes_of(merged(DEFAULTS, given), samples)
+    for row, (code, _, margin) in zip(rows, judged):
+        if int(row["code"]) != code or float(row["torque"]) != code * DEFAULTS["dac"]["resolution"]:
+            sys.exit(f"sample {row['k']}: code {row['code']}, torque {row['torque']}; judged {code}, {margin:.2g} of a code "
+                     f"from the next\n{json.dumps(manifest)}")
+    return len(rows), len(set(code for code, *_ in judged))
+
+
+compared = codes = 0
+with tempfile.TemporaryDirectory() as folder:
+    for two_phases in (False, True):
+        for kinds in [[kind] for kind in KINDS] + [KINDS, KINDS[:-1], *(draw.sample(KINDS, 3) for _ in range(6))]:
+            rows, different = judge(manifest_of(kinds, two_phases), folder)
+            compared, codes = compared + rows, codes + different
+print(f"{compared} samples, {codes} different codes")
+if codes < 1000:
+    sys.exit("too few of the codes say something")

@@ -175,6 +175,7 @@ void require_no_hidden_state(const study::Study& study) {
   if (!study.plugin || study.plugin->functions == nullptr) return;
   const std::vector<trial::TrialParameters> trials = some_trials(study);
   std::vector<Samples> first;
+  first.reserve(trials.size());
   for (const trial::TrialParameters& trial : trials) first.push_back(samples_of(trial));
   for (std::size_t i = trials.size(); i-- > 0;) {
     if (!same(samples_of(trials[i]), first[i]))

@@ -10,7 +10,7 @@ TrialPrediction predict(const trial::TrialParameters& parameters) {
   TrialPrediction prediction;
   if (parameters.controller.user.plugin || !parameters.command.torque.levels.empty() ||
       !friction::has_spring(parameters.friction.model) ||
-      !theory::left_out_of_criteria(parameters.controller).empty()) {
+      !theory::left_out_of_criteria(parameters.plant, parameters.controller).empty()) {
     prediction.applies = false;
     return prediction;
   }

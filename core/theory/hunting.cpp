@@ -165,8 +165,8 @@ std::optional<LimitCycle> stick_slip_cycle(const friction::FrictionParameters& c
                                            const motion::PlantParameters& plant,
                                            const loop::EncoderParameters& encoder,
                                            const loop::ControllerParameters& controller) {
-  if (contact.coulomb_ratio == 1.0 || !(controller.ki > 0.0) || motion::has_load(plant) ||
-      !left_out_of_criteria(controller).empty())
+  if (contact.coulomb_ratio == 1.0 || !(controller.ki > 0.0) ||
+      !left_out_of_criteria(plant, controller).empty())
     return std::nullopt;
   const AnalogueGains gains = analogue_gains(controller, encoder);
   Eigen::Matrix3d generator;

@@ -8,7 +8,9 @@
 
 namespace zerocount::theory {
 
-std::string_view left_out_of_criteria(const loop::ControllerParameters& controller) {
+std::string_view left_out_of_criteria(const motion::PlantParameters& plant,
+                                      const loop::ControllerParameters& controller) {
+  if (motion::has_load(plant)) return "the second mass";
   const loop::ControlBlocks& blocks = controller.blocks;
   switch (blocks.structure) {
     case loop::ControlStructure::cascade:

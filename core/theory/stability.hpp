@@ -10,10 +10,11 @@
 /// direct drive systems with the existence of friction", sections 3 and 4 ("the paper").
 namespace zerocount::theory {
 
-/// What the criteria (6) and (7) leave out of this controller, which they then do not apply to: "the
-/// cascade", "the filters", …; empty where they apply. The derivative filter has no part in them where kd is
-/// 0.
-std::string_view left_out_of_criteria(const loop::ControllerParameters& controller);
+/// What the criteria (6) and (7) leave out of this loop, which they then do not apply to: "the second mass",
+/// "the cascade", "the filters", …; empty where they apply. The derivative filter has no part in them where
+/// kd is 0.
+std::string_view left_out_of_criteria(const motion::PlantParameters& plant,
+                                      const loop::ControllerParameters& controller);
 
 /// Digital integral gain k_ID (N m/count) at which the continuous loop about a spring of constant stiffness k
 /// (N m/rad) is on the edge of stability:

@@ -330,7 +330,6 @@ PointTheory examine(const study::Study& study, std::int64_t point) {
   theory.gain_unit = parameters::unit_of(
       parameters::parameter_table()[parameters::find_parameter(gain).value()], study.units);
   if (!theory.outside.empty()) {
-    const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
     theory.hunting = hunting_lines(first, drive_of(first));
     examine_free(study, point, theory);
     return theory;
@@ -347,7 +346,7 @@ PointTheory examine(const study::Study& study, std::int64_t point) {
     const double dac_bound = theory::dac_resolution_bound(contact.k1, p.encoder, p.controller.encoder);
     theory.coarse_feedback = p.controller.encoder == loop::EncoderChoice::coarse;
     theory.ki.add(as_given(study.units, p, theory::integral_gain(p.controller)));
-    if (theory.left_out.empty()) theory.left_out = theory::left_out_of_criteria(p.controller);
+    if (theory.left_out.empty()) theory.left_out = theory::left_out_of_criteria(p.plant, p.controller);
     theory.stable_below.add(as_given(study.units, p, bounds.stable_below));
     theory.unstable_above.add(as_given(study.units, p, bounds.unstable_above));
     theory.dac_resolution.add(p.dac.resolution);

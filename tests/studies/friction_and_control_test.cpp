@@ -1,0 +1,86 @@
+// friction-models, hunting, deadband, observer, resonance and notch: what other laws of friction and other
+// blocks of the controller change.
+#include <optional>
+#include <string>
+
+#include "core/loop/encoder.hpp"
+#include "core/theory/hunting.hpp"
+#include "tests/studies/proportion_bounds.hpp"
+#include "tests/studies/shipped_study.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+std::int64_t moves_at_zero(const std::string& study, const std::string& point, std::int64_t trials) {
+  return moves_with(outcomes_of(shipped_study(study), point, trials), [](const trial::MoveOutcome& move) {
+    return move.outcome == trial::Outcome::zero_count;
+  });
+}
+
+std::int64_t stable_moves(const std::string& study, const std::string& point, std::int64_t trials) {
+  return moves_with(outcomes_of(shipped_study(study), point, trials),
+                    [](const trial::MoveOutcome& move) { return move.stable; });
+}
+
+TEST(FrictionModels, HoldZeroCountsWithASpringAndDampingBeforeTheySlide) {
+  for (const char* law : {"presliding", "lugre", "dahl", "gms-damped"})
+    EXPECT_TRUE(share_above(0.85, moves_at_zero("friction-models", law, 60), 60)) << law;
+  for (const char* law : {"coulomb", "none"})
+    EXPECT_TRUE(share_below(0.15, moves_at_zero("friction-models", law, 60), 60)) << law;
+}
+
+TEST(FrictionModels, ShowJerksWithCreepAlone) {
+  const auto with_jerks = [](const char* law) {
+    return moves_with(outcomes_of(shipped_study("friction-models"), law, 60),
+                      [](const trial::MoveOutcome& move) { return move.jerk_count > 0; });
+  };
+  EXPECT_TRUE(share_above(0.6, with_jerks("presliding"), 60));
+  for (const char* law : {"lugre", "dahl", "gms-damped"}) EXPECT_EQ(with_jerks(law), 0) << law;
+}
+
+TEST(Hunting, HasTheAmplitudeAndThePeriodOfTheStickSlipCycle) {
+  const study::Study study = shipped_study("hunting");
+  for (const char* point :
+       {"controller.ki=10, friction.coulomb_ratio=0.6", "controller.ki=40, friction.coulomb_ratio=0.9"}) {
+    const trial::TrialParameters p = trial_of(study, point, 0);
+    const std::optional<theory::LimitCycle> cycle =
+        theory::stick_slip_cycle(p.friction.uniform, p.plant, p.encoder, p.controller);
+    ASSERT_TRUE(cycle) << point;
+    const trial::MoveOutcome move = trial::run_trial(p).moves.front();
+    EXPECT_NEAR(move.oscillation_amplitude * loop::fine_resolution(p.encoder), cycle->amplitude,
+                0.01 * cycle->amplitude);
+    EXPECT_NEAR(move.oscillation_period, cycle->period, 0.01 * cycle->period);
+  }
+}
+
+TEST(Deadband, OfOneCountCostsZeroCounts) {
+  const study::Study study = shipped_study("deadband");
+  EXPECT_TRUE(share_above(0.9, moves_at_zero("deadband", study.point_labels[0], 100), 100));
+  EXPECT_TRUE(share_below(0.4, moves_at_zero("deadband", study.point_labels[4], 100), 100));
+}
+
+TEST(Observer, DoesNotBeatTheIntegralAndChatters) {
+  EXPECT_TRUE(share_above(0.85, moves_at_zero("observer", "integral-kp", 150), 150));
+  const auto chatters = [](const char* point) {
+    return moves_with(outcomes_of(shipped_study("observer"), point, 60),
+                      [](const trial::MoveOutcome& move) { return move.jerk_count > 20; });
+  };
+  EXPECT_TRUE(share_above(0.4, chatters("observer-50"), 60));
+  EXPECT_TRUE(share_below(0.1, chatters("integral-kp"), 60));
+}
+
+TEST(Resonance, LimitsALoopWithTheEncoderAtTheLoad) {
+  const study::Study study = shipped_study("resonance");
+  const auto at = [&](std::size_t point) { return stable_moves("resonance", study.point_labels[point], 50); };
+  EXPECT_TRUE(share_above(0.85, at(0), 50)) << "at the motor, however soft the coupling";
+  EXPECT_TRUE(share_below(0.2, at(1), 50)) << "at the load, 52 Hz";
+  EXPECT_TRUE(share_above(0.85, at(11), 50)) << "at the load, 221 Hz";
+}
+
+TEST(Notch, HelpsWhereItIsWideEnough) {
+  EXPECT_TRUE(share_below(0.75, stable_moves("notch", "none", 100), 100));
+  EXPECT_TRUE(share_above(0.9, stable_moves("notch", "wide", 100), 100));
+}
+
+}  // namespace
+}  // namespace zerocount::testing

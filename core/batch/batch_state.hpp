@@ -166,14 +166,13 @@ struct PassedSamples {
   double growth[batch_order + 1];      ///< of xp, likewise
 };
 
-/// All numbers of the lanes: an array a quantity, one after the other.
+/// All numbers of the lanes but those of blocks: an array a quantity, one after the other.
 struct LaneNumbers {
   MotionLanes motion;
   ContactLanes contact;
   TimeLanes time;
   LoopLanes loop;
   MeasureLanes measures;
-  BlockLanes blocks;
 };
 
 struct BatchState : LaneNumbers {
@@ -184,6 +183,8 @@ struct BatchState : LaneNumbers {
 
   PassedSamples* passed;  ///< where to put them; null where nobody records
   int passed_count;       ///< at most one a lane and kernel call
+
+  BlockLanes blocks;  ///< last and apart, since few studies use them
 };
 
 }  // namespace zerocount::batch

@@ -178,7 +178,7 @@ struct PassedSamples {
   double growth[batch_order + 1];      ///< of xp, likewise
 };
 
-/// All numbers of the lanes: an array a quantity, one after the other.
+/// All numbers of the lanes but those of blocks: an array a quantity, one after the other.
 struct LaneNumbers {
   MotionLanes motion;
   ContactLanes contact;
@@ -186,7 +186,6 @@ struct LaneNumbers {
   TimeLanes time;
   LoopLanes loop;
   MeasureLanes measures;
-  BlockLanes blocks;
 };
 
 struct BatchState : LaneNumbers {
@@ -197,6 +196,8 @@ struct BatchState : LaneNumbers {
 
   PassedSamples* passed;  ///< where to put them; null where nobody records
   int passed_count;       ///< at most one a lane and kernel call
+
+  BlockLanes blocks;  ///< last and apart, since few studies use them
 };
 
 }  // namespace zerocount::batch

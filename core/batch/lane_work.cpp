@@ -104,14 +104,25 @@ void LaneWork::close_gaps() {
   }
 }
 
-void LaneWork::move_lane(int from, int to) {
-  constexpr std::size_t quantities = sizeof(LaneNumbers) / sizeof(Lanes);
-  static_assert(quantities * sizeof(Lanes) == sizeof(LaneNumbers));
-  auto* const numbers = reinterpret_cast<std::byte*>(static_cast<LaneNumbers*>(&batch_));
+namespace {
+
+/// Copies each quantity of one lane to another. Numbers is a struct of Lanes alone.
+template <class Numbers>
+void copy_lane(Numbers& numbers, int from, int to) {
+  constexpr std::size_t quantities = sizeof(Numbers) / sizeof(Lanes);
+  static_assert(quantities * sizeof(Lanes) == sizeof(Numbers));
+  auto* const bytes = reinterpret_cast<std::byte*>(&numbers);
   for (std::size_t i = 0; i < quantities; ++i) {
-    std::byte* const lanes = numbers + i * sizeof(Lanes);
+    std::byte* const lanes = bytes + i * sizeof(Lanes);
     std::memcpy(lanes + to * sizeof(double), lanes + from * sizeof(double), sizeof(double));
   }
+}
+
+}  // namespace
+
+void LaneWork::move_lane(int from, int to) {
+  copy_lane(static_cast<LaneNumbers&>(batch_), from, to);
+  if (with_blocks_.contains(from)) copy_lane(batch_.blocks, from, to);
   std::swap(trial_index_[to], trial_index_[from]);
   for (LaneSet* of : sets()) {
     if (of->contains(from)) of->insert(to);

@@ -280,6 +280,9 @@ std::vector<EffectRule> rules_of_the_model() {
                   {"initial.preload", "initial.history"}),
       with_models([](const LawTraits& law) { return uses(law, &friction::FrictionParameters::alpha); },
                   {"initial.hardening"}),
+      with_models(
+          [](const LawTraits& law) { return uses(law, &friction::FrictionParameters::gms_attraction); },
+          {"friction.gms.stiffness", "friction.gms.weight"}),
       with_models([](const LawTraits& law) { return law.has_presliding_motion; }, {"initial.mode"})};
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     const friction::ContactField field = parameter.profiled;

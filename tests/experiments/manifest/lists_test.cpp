@@ -68,6 +68,12 @@ TEST(Lists, ElementsHaveTheirStiffnessAndWeight) {
   EXPECT_EQ(gms[1].stiffness, 200 + 100 * drawn_uniform(study, "friction.gms.stiffness.1", 3));
 }
 
+// One warning for a list, not one for each of its values.
+TEST(Lists, ElementsWithoutTheirModelAreWarnedOf) {
+  EXPECT_EQ(study_of(minimal_manifest(elements)).warnings.size(), 2u);
+  EXPECT_TRUE(study_of(minimal_manifest(elements), {"friction.model=gms"}).warnings.empty());
+}
+
 TEST(Lists, ValuesAreDrawnByTheirNames) {
   const study::Study study = study_of(minimal_manifest(filters));
   ASSERT_EQ(study.input_columns.size(), 2u);

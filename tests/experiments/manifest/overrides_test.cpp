@@ -77,7 +77,7 @@ TEST(Overrides, MistakesNameTheOverride) {
   EXPECT_EQ(
       override_failure({"plant.inertai=1"}),
       "--set plant.inertai=1: plant.inertai: unknown key, nearest known: inertia; expected one of inertia, "
-      "presliding_damping, sliding_damping");
+      "presliding_damping, sliding_damping, load");
   EXPECT_EQ(override_failure({"trials="}),
             "--set trials=: trials: the value is empty; expected a whole number from 1 to 9007199254740992");
   EXPECT_EQ(

@@ -1,12 +1,12 @@
 // The controller of pi.c in C++.
 
-#include <zerocount/controller.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
 #include <type_traits>
+
+#include <zerocount/controller.h>
 
 namespace {
 
@@ -49,8 +49,15 @@ double step(void* state, const zerocount_setup* setup, const zerocount_sample* n
 }
 
 constexpr zerocount_controller controller = {
-    sizeof(zerocount_controller), ZEROCOUNT_CONTROLLER_ABI, "pi", "1.0", parameters, parameter_count,
-    sizeof(Pi),                   start,                    step,
+    sizeof(zerocount_controller),
+    ZEROCOUNT_CONTROLLER_ABI,
+    "pi",
+    "1.0",
+    parameters,
+    parameter_count,
+    sizeof(Pi),
+    start,
+    step,
 };
 
 }  // namespace

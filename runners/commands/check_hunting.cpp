@@ -25,8 +25,7 @@ std::string hunting_lines(const trial::TrialParameters& trial, const theory::Lin
   if (!closed_loop || trial.controller.user.plugin || !theory::has_describing_function(model)) return {};
   const loop::ControllerParameters controller =
       loop::controller_in_phase(trial.controller, loop::ControlPhase::fine);
-  const friction::FrictionParameters contact =
-      friction::friction_at(trial.friction, trial.initial.position);
+  const friction::FrictionParameters contact = friction::friction_at(trial.friction, trial.initial.position);
   const double resolution = loop::fine_resolution(trial.encoder);
   constexpr std::string_view by_function = "by describing function";
   std::string lines;

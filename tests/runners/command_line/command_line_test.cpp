@@ -124,6 +124,8 @@ TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
   EXPECT_NE(models.find("  point 0: friction.model=coulomb\n"
                         "    the criteria do not apply: friction.model coulomb has no spring before it "
                         "slides\n"
+                        "    hunting of trial 0, by describing function: none\n"
+                        "    hunting of trial 0, by stick-slip: no lasting cycle\n"
                         "  point 1: friction.model=none\n"
                         "    the criteria do not apply: friction.model none has no spring, which criteria "
                         "(6) and (7) are about\n"

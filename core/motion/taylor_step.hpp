@@ -63,12 +63,17 @@ typename Motion::Expansion motion_series(const Motion& motion, double inertia, c
   const numerics::Series applied = torque_series(torque);
   const double per_inertia = 1.0 / inertia;
   typename Motion::Expansion series = motion.start();
-  if (torque.load != nullptr) start_series(load_series, *torque.load);
-  for (std::size_t k = 0; k < numerics::series_order; ++k) {
-    const double coupling =
-        torque.load != nullptr ? expand(load_series, torque.load->parameters, series.omega, k) : 0.0;
-    const double acceleration = motion.expand(series, k, applied[k] - coupling) * per_inertia;
-    series.omega[k + 1] = acceleration * numerics::reciprocal[k + 1];
+  const auto add_orders = [&](const auto& coupling) {
+    for (std::size_t k = 0; k < numerics::series_order; ++k) {
+      const double acceleration = motion.expand(series, k, applied[k] - coupling(k)) * per_inertia;
+      series.omega[k + 1] = acceleration * numerics::reciprocal[k + 1];
+    }
+  };
+  if (torque.load == nullptr) {
+    add_orders([](std::size_t) { return 0.0; });
+  } else {
+    start_series(load_series, *torque.load);
+    add_orders([&](std::size_t k) { return expand(load_series, torque.load->parameters, series.omega, k); });
   }
   if constexpr (requires { motion.complete(series); }) motion.complete(series);
   return series;

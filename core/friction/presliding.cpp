@@ -109,7 +109,8 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
   const Elongation elongation = elongation_under(torque_now, creep_rate_now);
   if (constant) {
     const bool quiet =
-        motion::load_is_quiet(torque, omega_, plant_.inertia, 0.5 * contact_.k1 * tolerance_.rest);
+        motion::load_is_quiet(torque, omega_, plant_.inertia, 0.5 * contact_.k1 * tolerance_.rest,
+                              -contact_.alpha * creep_rate_now);
     if (quiet && begin_rest(torque.now, elongation, stood, torque.load == nullptr)) {
       go_on_at_rest(duration);
       motion::let_load_follow(torque, omega_);

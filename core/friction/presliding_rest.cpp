@@ -171,13 +171,15 @@ std::optional<CreepAtRest> PreslidingFriction::slow_motion(double torque, double
   const bool onwards = spring_.direction() == static_cast<int>(sign);
   const double stiffness =
       onwards ? stiffness_on(spring_.branch(), spring_.elongation()) : contact_.k1 + contact_.k2;
+  motion::PlantParameters whole = plant_;
+  whole.inertia += plant_.load.inertia;  // which moves with the rotor
   const std::optional<CreepAtRest> creep =
-      creep_at_rest(plant_, contact_, torque, sign, stiffness, creep_.hardening);
+      creep_at_rest(whole, contact_, torque, sign, stiffness, creep_.hardening);
   if (!creep) return std::nullopt;
   // The spring softens on the way: on each branch, and from a closed loop to the one around it.
   const double last =
       sign * (torque - spring_.torque()) > 0.0 ? spring_.point_at_torque(torque).stiffness : stiffness;
-  const double error = error_of_creep_at_rest(*creep, plant_, contact_, stiffness, std::min(last, stiffness));
+  const double error = error_of_creep_at_rest(*creep, whole, contact_, stiffness, std::min(last, stiffness));
   return error < 0.1 * tolerance_.rest ? creep : std::nullopt;
 }
 

@@ -26,11 +26,11 @@ inline double coupling_torque(const Load& load, double rotor_omega) {
 
 /// Whether all oscillation of the load against the rotor stays below `torque` (N m), as a torque of the
 /// coupling.
-/// @param inertia J of the rotor, kg m².
-inline bool is_quiet(const Load& load, double rotor_omega, double inertia, double torque) {
+/// @param inertia J of the rotor, kg m². @param steady coupling torque of the slow motion without it, N m.
+inline bool is_quiet(const Load& load, double rotor_omega, double inertia, double torque, double steady) {
   const auto& [load_inertia, stiffness, damping, encoder] = load.parameters;
   const double reduced = inertia * load_inertia / (inertia + load_inertia);
-  return stiffness * std::abs(load.twist) +
+  return std::abs(stiffness * load.twist - steady) +
              (std::sqrt(stiffness * reduced) + damping) * std::abs(rotor_omega - load.omega) <
          torque;
 }

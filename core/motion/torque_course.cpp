@@ -11,8 +11,11 @@ double torque_on_rotor(const TorqueCourse& course, double omega) {
   return course.load == nullptr ? course.now : course.now - coupling_torque(*course.load, omega);
 }
 
-bool load_is_quiet(const TorqueCourse& course, double omega, double inertia, double torque) {
-  return course.load == nullptr || is_quiet(*course.load, omega, inertia, torque);
+bool load_is_quiet(const TorqueCourse& course, double omega, double inertia, double torque,
+                   double acceleration) {
+  if (course.load == nullptr) return true;
+  const double steady = course.load->parameters.inertia * acceleration;
+  return is_quiet(*course.load, omega, inertia, torque + 0.1 * std::abs(steady), steady);
 }
 
 void let_load_follow(const TorqueCourse& course, double omega) {

@@ -38,8 +38,11 @@ double torque_on_rotor(const TorqueCourse& course, double omega);
 
 /// Whether there is no load, or none that oscillates against the rotor by as much as `torque` (N m) of its
 /// coupling.
-/// @param omega ω of the rotor, rad/s. @param inertia J, kg m².
-bool load_is_quiet(const TorqueCourse& course, double omega, double inertia, double torque);
+/// @param omega ω of the rotor, rad/s. @param inertia J, kg m². @param acceleration of the slow motion that
+/// remains without the oscillation, rad/s²; a tenth of the torque that it asks of the coupling may be
+/// missing.
+bool load_is_quiet(const TorqueCourse& course, double omega, double inertia, double torque,
+                   double acceleration = 0.0);
 
 /// The load, if there is one, moves as the rotor does from now on.
 void let_load_follow(const TorqueCourse& course, double omega);

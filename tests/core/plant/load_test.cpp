@@ -1,0 +1,97 @@
+// A second mass behind an elastic coupling: the linear plant by its matrix exponential, rest, and the rigid
+// limit.
+#include <cmath>
+#include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "core/theory/held_plant.hpp"
+#include "tests/core/plant/held_plant.hpp"
+
+namespace zerocount::plant {
+namespace {
+
+using namespace testing;
+
+motion::PlantParameters loaded(double inertia, double stiffness, double damping) {
+  motion::PlantParameters plant;
+  plant.load = {inertia, stiffness, damping};
+  return plant;
+}
+
+friction::FrictionAlongRotor linear_spring() {
+  friction::FrictionAlongRotor friction;
+  friction.model = friction::FrictionModel::spring;
+  friction.uniform.k2 = 1e-12;
+  friction.uniform.breakaway = 1e6;
+  return friction;
+}
+
+// (θ, ω, θ − θL, ω − ωL) under torques held over a sample: the plant that the margins of `check` use, too.
+TEST(PlantWithALoad, MovesOnALinearSpringAsTheMatrixExponentialSays) {
+  std::mt19937_64 random(15);
+  std::normal_distribution<double> torque(0.0, 0.02);
+  for (const double stiffness : {50.0, 2000.0, 5e4}) {
+    for (const bool at_load : {false, true}) {
+      motion::PlantParameters parameters = loaded(3e-4, stiffness, 0.01);
+      parameters.load.encoder = at_load ? motion::EncoderPlace::load : motion::EncoderPlace::motor;
+      const friction::FrictionAlongRotor friction = linear_spring();
+      const theory::HeldPlant held =
+          theory::hold_plant(friction.uniform.k1, parameters.presliding_damping, parameters, 1.0, sample, {});
+      ASSERT_EQ(held.A.rows(), 4);
+      Eigen::Vector4d state = Eigen::Vector4d::Zero();
+      Plant plant(parameters, friction, {}, rig_tolerance);
+      for (int k = 0; k < 200; ++k) {
+        const double u = torque(random);
+        plant.advance(motion::constant_torque(u), sample);
+        state = held.A * state + held.b * u;
+        const PlantReading reading = plant.read();
+        ASSERT_NEAR(at_load ? reading.load_theta : reading.theta, state[0], 1e-13) << stiffness << " " << k;
+        ASSERT_NEAR(at_load ? reading.theta : reading.load_theta, state[0] + state[2], 1e-13)
+            << stiffness << " " << k;
+      }
+    }
+  }
+}
+
+// With the paper's friction: the oscillation dies away, and then creep alone moves rotor and load together.
+TEST(PlantWithALoad, ComesToRestWithItsRotor) {
+  PreslidingPlant plant(loaded(5.54e-4, 2000.0, 0.05), {}, {}, {1e-11 * count, 1e-8 * count});
+  for (int k = 0; k < 2000; ++k) hold(plant, 0.01, sample);
+  ASSERT_TRUE(plant.rest());
+  EXPECT_EQ(plant.load()->twist, 0.0);
+  EXPECT_EQ(plant.load()->omega, plant.omega());
+  const double theta = plant.theta();
+  PreslidingPlant alone({}, {}, {}, {1e-11 * count, 1e-8 * count});
+  for (int k = 0; k < 2000; ++k) hold(alone, 0.01, sample);
+  const double before = alone.theta();
+  hold(plant, 0.01, 1.0);
+  hold(alone, 0.01, 1.0);
+  EXPECT_NEAR(plant.theta() - theta, alone.theta() - before, 1e-3 * (alone.theta() - before));
+}
+
+// The stiffer the coupling, the nearer the motion to that of one mass, through breakaways and re-sticks.
+TEST(PlantWithALoad, IsOneMassWhereTheCouplingIsStiff) {
+  motion::PlantParameters one;
+  one.inertia = 8.54e-4;
+  const auto difference = [&](double stiffness) {
+    PreslidingPlant two(loaded(3e-4, stiffness, 1.0), {}, {}, rig_tolerance);
+    PreslidingPlant whole(one, {}, {}, rig_tolerance);
+    double largest = 0.0;
+    for (int k = 0; k < 60; ++k) {
+      const double torque = k % 20 < 10 ? 0.4 : -0.4;
+      hold(two, torque, sample);
+      hold(whole, torque, sample);
+      largest = std::max(largest, std::abs(two.theta() - whole.theta()));
+    }
+    EXPECT_GT(two.breakaways(), 0);
+    return largest;
+  };
+  const double soft = difference(1e4);
+  EXPECT_LT(difference(1e6), 0.05 * soft);
+}
+
+}  // namespace
+}  // namespace zerocount::plant

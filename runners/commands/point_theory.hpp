@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/measures/theory_prediction.hpp"
+#include "core/loop/phase_switch.hpp"
+#include "core/theory/margins.hpp"
+#include "experiments/study/low_end.hpp"
+#include "experiments/study/study.hpp"
+
+/// What `check` finds and tells of the theory of a design point.
+namespace zerocount::commands {
+
+/// Trials of a point that are examined at most.
+inline constexpr std::int64_t max_trials_examined = 200;
+
+/// Range of a quantity over the trials of a point.
+struct Range {
+  double low{std::numeric_limits<double>::infinity()};
+  double high{-std::numeric_limits<double>::infinity()};
+
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  bool empty() const { return low > high; }
+};
+
+/// Estimated time until a move has arrived, including the dwell.
+struct Arrival {
+  std::int64_t step{0};  // of the target, counts; 0: no step
+  double time{0.0};      // from the start of the move, s
+};
+
+/// Margins of a loop over the trials. A trial without a crossover adds nothing.
+struct MarginRanges {
+  Range gain{};         // dB
+  Range gain_at{};      // Hz
+  Range phase{};        // degrees
+  Range phase_at{};     // Hz
+  bool stable{true};    // in every trial
+  bool unstable{true};  // in every trial
+
+  void add(const theory::StabilityMargins& margins, bool is_stable) {
+    if (!std::isnan(margins.gain.value)) {
+      gain.add(20.0 * std::log10(margins.gain.value));
+      gain_at.add(margins.gain.frequency);
+    }
+    if (!std::isnan(margins.phase.value)) {
+      phase.add(margins.phase.value);
+      phase_at.add(margins.phase.frequency);
+    }
+    stable = stable && is_stable;
+    unstable = unstable && !is_stable;
+  }
+};
+
+/// One phase of the control while the rotor slides, over the trials.
+struct SlidingPhase {
+  std::string_view name;
+  loop::ControlPhase phase;
+  Range bandwidth{};  // Hz
+  MarginRanges margins{};
+};
+
+/// Results of the theory (section 3 of the paper) for the trials of a design point.
+struct PointTheory {
+  std::string_view outside;   // reason why the theory does not apply; empty if it does
+  std::string_view left_out;  // of the controller, by criteria (6) and (7); empty: they apply
+  bool observes{false};       // there is a disturbance observer
+  std::string hunting;        // lines on its prediction; empty: there is none
+  bool free{false};           // no spring: ki and sampled_below are of the loop without friction
+  Range ki, stable_below, sampled_below, unstable_above;  // gain_unit
+  std::string gain_name;                                  // "ki", or that of a cascade
+  std::string gain_unit;                                  // its unit in the manifest
+  Range dac_resolution, dac_bound;                        // torque_unit
+  std::string torque_unit;
+  Range frequency, sample_rate;  // Hz
+  bool coarse_feedback{false};   // the bound uses the resolution Δx of the coarse encoder
+  bool fine_enough{true};        // the DAC satisfies the bound in every trial
+  bool fast_enough{true};        // the sample rate satisfies the rule in every trial
+  measures::TheoryPrediction prediction;
+
+  study::LowEnd low_end;             // of k1; see lowest_k1, low_stable, low_sampled
+  std::int64_t rigs{0};              // number of rigs with profiles; 0 without rigs
+  Range lowest_k1;                   // minimum of the profiles, or the low end of the distribution
+  Range low_stable, low_sampled;     // bounds at that k1, gain_unit
+  Range slowest;                     // slowest time constant of the loop, s
+  Arrival longest;                   // slowest move of the trials
+  double hold{0.0};                  // of the shortest move, s
+  MarginRanges soft, stiff;          // of the loop about k1, and k1 + k2
+  std::vector<SlidingPhase> phases;  // phases of the control
+};
+
+/// Examines the first trials of the point.
+PointTheory examine(const study::Study& study, std::int64_t point);
+
+/// The lines of the point.
+std::string describe(const PointTheory& theory);
+
+/// Whether moves may end before the loop has brought them to their targets.
+bool may_be_too_slow(const PointTheory& theory);
+
+/// Why so, for a warning: what comes after "the loop's slowest time constant".
+std::string slowness_text(const PointTheory& theory);
+
+/// "1 core", "3 cores".
+std::string counted(std::int64_t count, std::string_view noun);
+
+}  // namespace zerocount::commands

@@ -14,51 +14,53 @@ namespace {
 
 constexpr int max_delay = 64;
 
-// Features that lanes support. Each switch lists all enumerators and each structured binding all members, so
-// that the compiler demands a decision for one that is added later.
+// What of a trial the lanes lack: the feature's name, empty if they have all of it. Each switch lists all
+// enumerators and each structured binding all members, so that the compiler demands a decision for one that
+// is added later.
 
-bool lanes_know(friction::FrictionModel model) {
+std::string_view lacking(friction::FrictionModel model) {
   switch (model) {
     case friction::FrictionModel::presliding:
     case friction::FrictionModel::spring:
     case friction::FrictionModel::none:
     case friction::FrictionModel::dahl:
     case friction::FrictionModel::lugre:
-      return true;
+      return "";
     case friction::FrictionModel::coulomb:
+      return "friction.model coulomb";
     case friction::FrictionModel::gms:
       break;
   }
-  return false;
+  return "friction.model gms";
 }
 
-bool lanes_know(loop::ReferenceShape shape) {
+std::string_view lacking(loop::ReferenceShape shape) {
   switch (shape) {
     case loop::ReferenceShape::step:
-      return true;
+      return "";
     case loop::ReferenceShape::trapezoidal:
     case loop::ReferenceShape::s_curve:
       break;
   }
-  return false;
+  return "a reference with a profile";
 }
 
-bool lanes_know(loop::EncoderChoice encoder) {
+std::string_view lacking(loop::EncoderChoice encoder) {
   switch (encoder) {
     case loop::EncoderChoice::fine:
-      return true;
+      return "";
     case loop::EncoderChoice::coarse:
       break;
   }
-  return false;
+  return "control by the coarse encoder";
 }
 
-bool lanes_know(const loop::AmplifierParameters& amplifier) {
+std::string_view lacking(const loop::AmplifierParameters& amplifier) {
   const auto& [bandwidth] = amplifier;
-  return bandwidth == 0.0;
+  return bandwidth == 0.0 ? "" : "an amplifier";
 }
 
-bool lanes_know(loop::ControlStructure structure) {
+bool lanes_have(loop::ControlStructure structure) {
   switch (structure) {
     case loop::ControlStructure::pid:
     case loop::ControlStructure::cascade:
@@ -68,36 +70,51 @@ bool lanes_know(loop::ControlStructure structure) {
 }
 
 /// The feed-forward is of no account: in lanes the reference is a step.
-bool lanes_know(const loop::ControlBlocks& blocks) {
+std::string_view lacking(const loop::ControlBlocks& blocks) {
   [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, cutoff, filters, feedforward,
                                 observer] = blocks;
-  return filters.size() <= max_lane_filters && lanes_know(structure);
+  if (filters.size() > max_lane_filters) return "more than four filters";
+  return lanes_have(structure) ? "" : "the controller's structure";
 }
 
-bool lanes_know(const loop::ControllerParameters& controller) {
+std::string_view lacking(const loop::ControllerParameters& controller) {
   static_assert(
       std::is_same_v<loop::ControlChain, loop::BlockChain<loop::ControlLaw, loop::Filters, loop::Feedforward,
                                                           loop::DisturbanceObserver>>,
       "sample_kernel has these blocks: another one needs its law there, or a condition here");
   const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks, user] = controller;
-  return delay <= max_delay && lanes_know(encoder) && lanes_know(blocks) && !user.plugin &&
-         !loop::has_coarse_phase(controller);
+  if (user.plugin) return "a controller from a plugin";
+  if (delay > max_delay) return "a delay above 64 samples";
+  if (loop::has_coarse_phase(controller)) return "two phases of control";
+  const std::string_view by_encoder = lacking(encoder);
+  return by_encoder.empty() ? lacking(blocks) : by_encoder;
 }
 
-bool lanes_know(const trial::CommandParameters& command) {
+std::string_view lacking(const trial::CommandParameters& command) {
   const auto& [targets, hold, profile, torque] = command;
-  return !targets.empty() && lanes_know(profile.shape) && torque.levels.empty();
+  if (!torque.levels.empty()) return "torque levels";
+  return targets.empty() ? "no moves" : lacking(profile.shape);
 }
 
 }  // namespace
 
-bool runs_in_lanes(const trial::TrialParameters& p) {
+std::string_view lacking_in_lanes(const trial::TrialParameters& p) {
   const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial, verdict, randomness] =
       p;
   [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping, load] = plant;
-  return !motion::has_load(plant) && lanes_know(friction.model) && !loop::has_errors(encoder.fine_errors) &&
-         !loop::has_errors(encoder.coarse_errors) && !loop::has_errors(dac) && lanes_know(amplifier) &&
-         lanes_know(controller) && lanes_know(command) && trial::samples_of_move(p, 0) > 0;
+  if (motion::has_load(plant)) return "a second mass";
+  if (loop::has_errors(encoder.fine_errors) || loop::has_errors(encoder.coarse_errors))
+    return "errors of an encoder";
+  if (loop::has_errors(dac)) return "errors of the DAC";
+  for (const std::string_view feature :
+       {lacking(friction.model), lacking(amplifier), lacking(controller), lacking(command)}) {
+    if (!feature.empty()) return feature;
+  }
+  return trial::samples_of_move(p, 0) > 0 ? "" : "moves without a sample";
+}
+
+bool runs_in_lanes(const trial::TrialParameters& parameters) {
+  return lacking_in_lanes(parameters).empty();
 }
 
 BatchEngine::BatchEngine(const BatchSettings& settings) : work_(std::make_unique<LaneWork>(settings)) {}

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string_view>
 
 #include "core/batch/instruction_set.hpp"
 #include "core/trial/outcome.hpp"
@@ -37,10 +38,13 @@ struct BatchSettings {
   InstructionSet instructions{widest_instruction_set()};
 };
 
-/// Whether the lanes can run such a trial. The engine passes all others to run_trial: those with imperfect
-/// encoders or converters, an amplifier, a delay above 64 samples, two phases of control, a reference with a
-/// profile, more than four filters of the controller, torque levels, the friction laws coulomb and gms, or a
-/// second mass.
+/// The first feature of a trial that lanes do not have, as a noun phrase; empty: they run the trial. The
+/// engine passes all others to run_trial: those with imperfect encoders or converters, an amplifier, a delay
+/// above 64 samples, two phases of control, a reference with a profile, more than four filters of the
+/// controller, a plugin, torque levels, the friction laws coulomb and gms, or a second mass.
+std::string_view lacking_in_lanes(const trial::TrialParameters& parameters);
+
+/// Whether the lanes run such a trial.
 bool runs_in_lanes(const trial::TrialParameters& parameters);
 
 /// Runs trials as run_trial does, many at a time in the lanes of vectors (see core/batch/README.md).

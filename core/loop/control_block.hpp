@@ -29,7 +29,7 @@ struct Feedback {
   ReferenceMotion reference{};
 };
 
-/// What the converter can give.
+/// Range and resolution of the converter.
 struct DacScale {
   TorqueRange range{};     ///< to which anti-windup clamps the integral
   double resolution{0.0};  ///< Δu, N m

@@ -22,7 +22,7 @@ LinearChain linear_chain(const ControllerParameters& parameters, double resoluti
 /// Range to which anti-windup clamps the integral. @param lowest, highest the DAC's range, N m.
 TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest);
 
-/// What the counts of the two encoders are.
+/// Sizes of the counts of the two encoders.
 struct CountScale {
   double fine_per_coarse{1.0};  ///< counts of the fine encoder in one of the coarse encoder
   double resolution{1.0};       ///< Δx of the fine encoder, rad per count

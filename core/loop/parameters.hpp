@@ -100,7 +100,7 @@ struct CascadeGains {
   double ki{60.0};   ///< of the velocity loop, N m/rad
 };
 
-/// What a chain of the controller has besides the PID gains. By default nothing of it acts.
+/// Blocks of a chain of the controller besides the PID gains. By default none acts.
 struct ControlBlocks {
   ControlStructure structure{ControlStructure::pid};
   CascadeGains cascade{};

@@ -2,7 +2,7 @@
 
 namespace zerocount::motion {
 
-/// What the encoders read.
+/// The mass whose angle the encoders read.
 enum class EncoderPlace { motor, load };
 
 /// A second mass behind an elastic coupling, if there is one. All but the inertia is assumed.

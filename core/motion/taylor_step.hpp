@@ -35,12 +35,11 @@ struct NextEvent {
 ///                               the motion's one exponential, dimensionless; 0 without one)
 ///   start()                     the coefficients 0 of the state
 ///   expand(series, k, u_k)      makes the coefficients k of what depends on the state, and those k + 1 of
-///   the
-///                               state except ω; returns the coefficient k of u − F, N m
+///                               the state except ω; returns the coefficient k of u − F, N m
 ///   complete(series)            where there is one: makes the coefficients series_order that events need
-///   step_of_state(series, tolerance, duration)   where there is one: step_within() for a state z that errors
-///   of
-///                               the position do not show
+///   step_of_state(series, tolerance, duration)
+///                               where there is one: step_within() for a state z that errors of the position
+///                               do not show
 ///   first_event(series, step)   the first event within `step` (s), located in time
 ///   go_to(series, next)         takes the state to next.time, and passes next.event
 template <class Motion>

@@ -19,7 +19,7 @@ struct PluginParameter {
   double highest{0.0};  ///< likewise
 };
 
-/// What a study knows of a user's controller, whether or not its library is loaded.
+/// Description of a user's controller. A study has it even if the library is not loaded.
 struct PluginDescription {
   std::string name;
   std::string version;

@@ -10,8 +10,8 @@
 /// direct drive systems with the existence of friction", sections 3 and 4 ("the paper").
 namespace zerocount::theory {
 
-/// What the criteria (6) and (7) leave out of this loop, which they then do not apply to: "the second mass",
-/// "the cascade", "the filters", …; empty where they apply. The derivative filter has no part in them where
+/// The part of the loop that the criteria (6) and (7) do not model, so that they do not apply: "the second
+/// mass", "the cascade", "the filters", …; empty where they apply. A derivative filter is no such part where
 /// kd is 0.
 std::string_view left_out_of_criteria(const motion::PlantParameters& plant,
                                       const loop::ControllerParameters& controller);

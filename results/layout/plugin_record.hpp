@@ -7,7 +7,7 @@
 
 namespace zerocount::layout {
 
-/// What a results file records of the user's controller: {"name", "version", "sha256", "parameters":
+/// Record of the user's controller in a results file: {"name", "version", "sha256", "parameters":
 /// [{"name", "unit", "meaning", "default", "lowest", "highest"}]}; null is a missing limit.
 std::string plugin_as_json(const plugin::PluginDescription& plugin);
 

@@ -11,6 +11,7 @@
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/plugins/plugin_library.hpp"
 #include "runners/study_run/cost.hpp"
+#include "runners/study_run/engine_use.hpp"
 #include "runners/study_run/progress.hpp"
 #include "runners/study_run/study_size.hpp"
 
@@ -75,6 +76,8 @@ void print_plan(const study::Study& study) {
   }
   fmt::print("  {:.4g} samples at {:.0f} ns: about {} on {}\n", cost.samples, 1e9 * cost.seconds_per_sample,
              study_run::duration_text(cost.seconds()), counted(cost.cores, "core"));
+  const std::string engine = study_run::engine_text(study_run::points_on_reference(study));
+  if (!engine.empty()) fmt::print("  {}\n", engine);
   const study_run::StudySize size = study_run::measure_size(study);
   fmt::print("  results file about {}; while it runs up to {} on the disk and {} of memory\n",
              study_run::bytes_text(size.file_bytes),

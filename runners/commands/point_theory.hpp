@@ -13,7 +13,7 @@
 #include "experiments/study/low_end.hpp"
 #include "experiments/study/study.hpp"
 
-/// What `check` finds and tells of the theory of a design point.
+/// Theory of a design point, as `check` prints it.
 namespace zerocount::commands {
 
 /// Trials of a point that are examined at most.

@@ -19,6 +19,7 @@
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/plugins/plugin_library.hpp"
 #include "runners/study_run/earlier_shards.hpp"
+#include "runners/study_run/engine_use.hpp"
 #include "runners/study_run/existing_output.hpp"
 #include "runners/study_run/extension.hpp"
 #include "runners/study_run/interruption.hpp"
@@ -169,9 +170,11 @@ ExitCode run(const command_line::Arguments& arguments) {
       static_cast<std::size_t>(study_run::threads_to_use(request.threads)));
   print_warnings(request.study);
   if (request.study.plugin && !request.quiet) {
-    fmt::print(stderr, "the controller is the plugin {} {}: the trials run on the reference engine\n",
-               request.study.plugin->description.name, request.study.plugin->description.version);
+    fmt::print(stderr, "the controller is the plugin {} {}\n", request.study.plugin->description.name,
+               request.study.plugin->description.version);
   }
+  const std::string engine = study_run::engine_text(study_run::points_on_reference(request.study));
+  if (!engine.empty() && !request.quiet) fmt::print(stderr, "{}\n", engine);
   plugins::require_no_hidden_state(request.study);
   const study_run::InterruptionWatch interruption;
   const storage::OutputLock lock(request.output);

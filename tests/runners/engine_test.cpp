@@ -223,5 +223,32 @@ TEST_F(EngineOption, LeavesRecordsAndReplaysToTheReference) {
   }
 }
 
+/// The line on the engine in a text; empty if there is none.
+std::string engine_line(const std::string& text) {
+  const std::size_t place = text.find("on the reference engine");
+  if (place == std::string::npos) return "";
+  const std::size_t start = text.rfind('\n', place) + 1;  // npos + 1 is 0
+  return text.substr(text.find_first_not_of(' ', start),
+                     text.find('\n', place) - text.find_first_not_of(' ', start));
+}
+
+TEST_F(EngineOption, RunAndCheckTellWhichPointsRunOnTheReferenceEngineAndWhy) {
+  folder_.write(
+      "laws.yaml",
+      "zerocount: 1\nname: laws\nseed: 1\ntrials: 2\n"
+      "command: {targets: [3], hold: 0.05}\nverdict: {window: 0.01}\n"
+      "sweep: {grid: {friction.model: [presliding, gms, lugre], controller.ki: [2.0e-5, 3.0e-5]}}\n");
+  const std::string two =
+      "2 of 6 points run on the reference engine, which is slower, because of friction.model gms";
+  EXPECT_EQ(engine_line(run({"check", "laws.yaml"}).out), two);
+  EXPECT_EQ(engine_line(run({"run", "laws.yaml", "-o", "a.h5"}).err), two);
+  EXPECT_EQ(engine_line(run({"run", "laws.yaml", "-o", "b.h5", "--quiet"}).err), "");
+  EXPECT_EQ(engine_line(run({"run", "laws.yaml", "-o", "c.h5", "--engine", "reference"}).err), "");
+  const ProgramResult all = run({"check", "laws.yaml", "--set", "amplifier.bandwidth=500"});
+  EXPECT_EQ(
+      engine_line(all.out),
+      "all trials run on the reference engine, which is slower, because of an amplifier, friction.model gms");
+}
+
 }  // namespace
 }  // namespace zerocount::testing

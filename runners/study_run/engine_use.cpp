@@ -1,0 +1,36 @@
+#include "runners/study_run/engine_use.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/batch/batch.hpp"
+
+namespace zerocount::study_run {
+
+PointsOnReference points_on_reference(const study::Study& study) {
+  constexpr std::int64_t max_points = 1000;
+  PointsOnReference use;
+  const bool asked_for = study.engine == study::Engine::reference && !study.plugin;
+  if (asked_for) return use;
+  use.examined = std::min(study::point_count(study), max_points);
+  for (std::int64_t point = 0; point < use.examined; ++point) {
+    const std::string_view feature = batch::lacking_in_lanes(study::study_trial(study, point, 0).parameters);
+    if (feature.empty()) continue;
+    ++use.points;
+    if (std::find(use.features.begin(), use.features.end(), feature) == use.features.end())
+      use.features.emplace_back(feature);
+  }
+  return use;
+}
+
+std::string engine_text(const PointsOnReference& use) {
+  if (use.points == 0) return "";
+  const std::string points =
+      use.points == use.examined ? "all trials" : fmt::format("{} of {} points", use.points, use.examined);
+  return fmt::format("{} run on the reference engine, which is slower, because of {}", points,
+                     fmt::join(use.features, ", "));
+}
+
+}  // namespace zerocount::study_run

@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "core/batch/lane_trial.hpp"
 #include "core/batch/lane_work.hpp"
 #include "core/friction/law.hpp"
 #include "core/loop/control_chain.hpp"
@@ -14,25 +15,9 @@ namespace {
 
 constexpr int max_delay = 64;
 
-// What of a trial the lanes lack: the feature's name, empty if they have all of it. Each switch lists all
+// The feature that the lanes lack; empty if they have all. Each switch lists all
 // enumerators and each structured binding all members, so that the compiler demands a decision for one that
 // is added later.
-
-std::string_view lacking(friction::FrictionModel model) {
-  switch (model) {
-    case friction::FrictionModel::presliding:
-    case friction::FrictionModel::spring:
-    case friction::FrictionModel::none:
-    case friction::FrictionModel::dahl:
-    case friction::FrictionModel::lugre:
-      return "";
-    case friction::FrictionModel::coulomb:
-      return "friction.model coulomb";
-    case friction::FrictionModel::gms:
-      break;
-  }
-  return "friction.model gms";
-}
 
 std::string_view lacking(loop::ReferenceShape shape) {
   switch (shape) {
@@ -98,17 +83,18 @@ std::string_view lacking(const trial::CommandParameters& command) {
 
 }  // namespace
 
-std::string_view lacking_in_lanes(const trial::TrialParameters& p) {
+std::string lacking_in_lanes(const trial::TrialParameters& p) {
   const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial, verdict, randomness] =
       p;
   [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping, load] = plant;
+  if (!lane_motion(friction.model))
+    return "friction.model " + std::string(friction::traits_of(friction.model).word);
   if (motion::has_load(plant)) return "a second mass";
   if (loop::has_errors(encoder.fine_errors) || loop::has_errors(encoder.coarse_errors))
     return "errors of an encoder";
   if (loop::has_errors(dac)) return "errors of the DAC";
-  for (const std::string_view feature :
-       {lacking(friction.model), lacking(amplifier), lacking(controller), lacking(command)}) {
-    if (!feature.empty()) return feature;
+  for (const std::string_view feature : {lacking(amplifier), lacking(controller), lacking(command)}) {
+    if (!feature.empty()) return std::string(feature);
   }
   return trial::samples_of_move(p, 0) > 0 ? "" : "moves without a sample";
 }

@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <string_view>
+#include <string>
 
 #include "core/batch/instruction_set.hpp"
 #include "core/trial/outcome.hpp"
@@ -42,7 +42,7 @@ struct BatchSettings {
 /// engine passes all others to run_trial: those with imperfect encoders or converters, an amplifier, a delay
 /// above 64 samples, two phases of control, a reference with a profile, more than four filters of the
 /// controller, a plugin, torque levels, the friction laws coulomb and gms, or a second mass.
-std::string_view lacking_in_lanes(const trial::TrialParameters& parameters);
+std::string lacking_in_lanes(const trial::TrialParameters& parameters);
 
 /// Whether the lanes run such a trial.
 bool runs_in_lanes(const trial::TrialParameters& parameters);

@@ -107,22 +107,6 @@ void start_time(TimeLanes& time, int lane, const trial::TrialParameters& p, doub
   time.per_count[lane] = 1.0 / resolution;
 }
 
-LaneMotion lane_motion(friction::FrictionModel model) {
-  switch (model) {
-    case friction::FrictionModel::none:
-      return LaneMotion::free;
-    case friction::FrictionModel::dahl:
-    case friction::FrictionModel::lugre:
-      return LaneMotion::bristle;
-    case friction::FrictionModel::presliding:
-    case friction::FrictionModel::spring:
-    case friction::FrictionModel::coulomb:
-    case friction::FrictionModel::gms:
-      break;
-  }
-  return LaneMotion::contact;
-}
-
 /// θ itself moves, and the count is looked at in each sample, as while a hook slides.
 void start_without_hook(BatchState& batch, int lane, double velocity) {
   MotionLanes& m = batch.motion;
@@ -165,7 +149,7 @@ void start_free(BatchState& batch, int lane, const trial::TrialParameters& p, do
 void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resolution) {
   const trial::TrialParameters& p = *trial.parameters;
   const motion::MotionTolerance tolerance = trial::motion_tolerance(resolution);
-  trial.motion = lane_motion(p.friction.model);
+  trial.motion = lane_motion(p.friction.model).value();
   switch (trial.motion) {
     case LaneMotion::contact:
       trial.plant.emplace(p.plant, p.friction, trial::plant_start(p), tolerance);
@@ -189,6 +173,23 @@ void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resoluti
 }
 
 }  // namespace
+
+std::optional<LaneMotion> lane_motion(friction::FrictionModel model) {
+  switch (model) {
+    case friction::FrictionModel::presliding:
+    case friction::FrictionModel::spring:
+      return LaneMotion::contact;
+    case friction::FrictionModel::none:
+      return LaneMotion::free;
+    case friction::FrictionModel::dahl:
+    case friction::FrictionModel::lugre:
+      return LaneMotion::bristle;
+    case friction::FrictionModel::coulomb:
+    case friction::FrictionModel::gms:
+      break;
+  }
+  return std::nullopt;
+}
 
 bool has_blocks(const trial::TrialParameters& parameters) {
   const loop::ControlBlocks& b = parameters.controller.blocks;

@@ -20,6 +20,9 @@ using LanePlant = plant::PlantWith<friction::PreslidingFriction>;
 /// How the kernels move a lane, by its friction law.
 enum class LaneMotion { contact, bristle, free };
 
+/// Nothing for a law that the kernels do not have.
+std::optional<LaneMotion> lane_motion(friction::FrictionModel model);
+
 /// State of a lane that the kernels do not use: its trial, the memory of the spring, measures per jerk.
 struct LaneTrial {
   const trial::TrialParameters* parameters{nullptr};

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "core/friction/law.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
 
@@ -36,20 +37,11 @@ bool has_encoder_errors(const StudyPlan& plan) {
       can_be_positive);
 }
 
-// Coulomb friction causes hunting with integral control.
+// Friction that holds the rotor without any travel causes hunting with integral control.
 bool causes_hunting(const ValueLimits& model) {
-  switch (static_cast<friction::FrictionModel>(static_cast<int>(model.low))) {
-    case friction::FrictionModel::coulomb:
-      return true;
-    case friction::FrictionModel::presliding:
-    case friction::FrictionModel::spring:
-    case friction::FrictionModel::none:
-    case friction::FrictionModel::dahl:
-    case friction::FrictionModel::lugre:
-    case friction::FrictionModel::gms:
-      break;
-  }
-  return false;
+  const friction::LawTraits& law =
+      friction::traits_of(static_cast<friction::FrictionModel>(static_cast<int>(model.low)));
+  return !law.has_presliding_motion && law.breakaway == friction::Breakaway::of_hook;
 }
 
 // A pure delay of the closed loop does not count: the motor torque is the commanded one of an earlier sample.

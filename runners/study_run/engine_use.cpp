@@ -16,11 +16,11 @@ PointsOnReference points_on_reference(const study::Study& study) {
   if (asked_for) return use;
   use.examined = std::min(study::point_count(study), max_points);
   for (std::int64_t point = 0; point < use.examined; ++point) {
-    const std::string_view feature = batch::lacking_in_lanes(study::study_trial(study, point, 0).parameters);
+    const std::string feature = batch::lacking_in_lanes(study::study_trial(study, point, 0).parameters);
     if (feature.empty()) continue;
     ++use.points;
     if (std::find(use.features.begin(), use.features.end(), feature) == use.features.end())
-      use.features.emplace_back(feature);
+      use.features.push_back(feature);
   }
   return use;
 }

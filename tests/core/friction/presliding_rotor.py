@@ -76,6 +76,8 @@ class Presliding(Rotor):
         self.spring = Spring(case)
         self.hook = 0.0
         self.creeps = self.rests = False
+        self.held = 0.0  # torque of the spring when the hook let go
+        self.watched = []
 
     def start(self):
         w, x, hardening = self.case["velocity"], 0.0, 0.0

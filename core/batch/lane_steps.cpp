@@ -7,6 +7,18 @@
 #include "core/batch/lane_work.hpp"
 
 namespace zerocount::batch {
+namespace {
+
+/// Those of the lanes that move faster than fast_velocity.
+LaneSet fast_lanes(const BatchState& batch, const LaneSet& lanes) {
+  LaneSet fast;
+  for_each_lane(lanes, [&](int lane) {
+    if (std::abs(batch.motion.omega[lane]) > batch.contact.fast_velocity[lane]) fast.insert(lane);
+  });
+  return fast;
+}
+
+}  // namespace
 
 void LaneWork::move_sticking() {
   LaneSet lanes = sticking_.without(kernels_.lanes_at_stop(batch_));
@@ -84,10 +96,7 @@ void LaneWork::end_sticking_steps() {
 void LaneWork::move_sliding() {
   const LaneSet lanes = sliding_.without(kernels_.lanes_at_stop(batch_));
   if (lanes.empty()) return;
-  LaneSet fast;
-  for_each_lane(lanes, [&](int lane) {
-    if (std::abs(batch_.motion.omega[lane]) > batch_.contact.fast_velocity[lane]) fast.insert(lane);
-  });
+  const LaneSet fast = fast_lanes(batch_, lanes);
   kernels_.slide_fast(batch_, fast);
   end_sliding_steps();
   kernels_.slide_slow(batch_, lanes.without(fast));
@@ -111,10 +120,7 @@ void LaneWork::end_sliding_steps() {
 void LaneWork::move_bristles() {
   if (bristles_.empty()) return;
   const LaneSet lanes = kernels_.bristle_rest(batch_, bristles_.without(kernels_.lanes_at_stop(batch_)));
-  LaneSet fast;
-  for_each_lane(lanes, [&](int lane) {
-    if (std::abs(batch_.motion.omega[lane]) > batch_.contact.fast_velocity[lane]) fast.insert(lane);
-  });
+  const LaneSet fast = fast_lanes(batch_, lanes);
   kernels_.bristle_fast(batch_, fast);
   give_up_lost();
   kernels_.bristle_slow(batch_, lanes.without(fast));

@@ -126,8 +126,13 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
     break_away(direction);
     return 0.0;
   }
-  spring_.set_direction(
-      numerics::sign_of(elongation.rate != 0.0 ? elongation.rate : elongation.acceleration));
+  // What stands until the motor's torque changes goes where that goes.
+  const double torque_change = constant ? 0.0 : torque.settled - torque.now;
+  for (const double heading : {elongation.rate, elongation.acceleration, torque_change}) {
+    if (heading == 0.0) continue;
+    spring_.set_direction(numerics::sign_of(heading));
+    break;
+  }
   deepest_ = std::max(deepest_, depth());
 
   Sticking motion{contact_,  plant_.presliding_damping, spring_, creep_, omega_,

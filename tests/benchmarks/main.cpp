@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   register_engine_benchmarks(run);
   register_settings_benchmarks(run);
   register_runner_benchmarks(run);
+  register_controller_benchmarks(run);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return run.failed ? 1 : 0;

@@ -32,4 +32,9 @@ void register_settings_benchmarks(BenchmarkRun& run);
 /// run/…, threads/…, length/…, trials/…, random/…: what a run adds to its trials, and how its cost grows.
 void register_runner_benchmarks(BenchmarkRun& run);
 
+/// controller/<example>: a sample of the controller with each of examples/controllers, by turns with the same
+/// law built in. The counters: per_sample of the example, built_in_ns, their difference call_ns and their
+/// ratio.
+void register_controller_benchmarks(BenchmarkRun& run);
+
 }  // namespace zerocount::testing

@@ -33,6 +33,19 @@ def log_uniform(low, high):
     return low * (high / low)**draw.random()
 
 
+def filter_of(kind):
+    """With which the loop often stays within the converter's range."""
+    frequency, damping = log_uniform(40, 900), log_uniform(0.3, 1.5)
+    if kind == "biquad":
+        a2 = draw.uniform(-0.5, 0.5)
+        a1 = draw.uniform(-0.7, 0.7) * (1 + a2)
+        b = [draw.uniform(0, most) * (1 + a1 + a2) for most in (0.5, 0.3, 0.3)]
+        return {"biquad": {"b": b, "a": [a1, a2]}}
+    return {kind: {"lowpass": {"frequency": frequency, "damping": damping},
+                   "notch": {"frequency": frequency, "damping": damping, "depth": draw.uniform(0, 1)},
+                   "lead": {"frequency": frequency, "ratio": log_uniform(0.5, 4)}}[kind]}
+
+
 def block(kind):
     """The keys of one block."""
     return {
@@ -40,6 +53,7 @@ def block(kind):
         "zone": lambda: {"integrator_zone": draw.uniform(2, 30)},
         "leak": lambda: {"integrator_leak": log_uniform(0.01, 10)},
         "derivative": lambda: {"derivative_cutoff": log_uniform(10, 800), "kd": log_uniform(1e-4, 2e-3)},
+        "filters": lambda: {"filters": [filter_of(draw.choice(FILTERS)) for _ in range(draw.randint(1, 3))]},
         "feedforward": lambda: {"feedforward": {"velocity": draw.uniform(0, 0.5), "acceleration": log_uniform(1e-4, 1e-2),
                                                 "friction": draw.uniform(0, 0.1)}},
         "observer": lambda: {"observer": {"bandwidth": log_uniform(2, 40), "inertia": log_uniform(3e-4, 1e-3)}},
@@ -48,7 +62,8 @@ def block(kind):
     }[kind]()
 
 
-KINDS = ["deadband", "zone", "leak", "derivative", "feedforward", "observer", "cascade"]
+FILTERS = ["lowpass", "notch", "lead", "biquad"]
+KINDS = ["deadband", "zone", "leak", "derivative", "filters", "feedforward", "observer", "cascade"]
 
 
 def phase(kinds):

@@ -1,6 +1,7 @@
-// How rotors with the laws of Dahl, LuGre and generalised Maxwell-slip move under random torques, for an
-// independent integrator to judge: JSON on standard output.
+// How rotors with each friction law move under random torques, for an independent integrator to judge: JSON
+// on standard output.
 #include <cmath>
+#include <cstdint>
 #include <iostream>
 #include <random>
 #include <string>
@@ -28,8 +29,7 @@ class Answers {
                                   .sliding_damping = power_of_ten(-3.0, -1.0)};
     if (loaded) rotor.load = {power_of_ten(-4.0, -2.5), power_of_ten(2.5, 4.5), power_of_ten(-3.0, -0.5)};
     friction::FrictionAlongRotor friction = contact(model);
-    const motion::PlantStart start{.velocity = random_() % 3 == 0 ? uniform(-0.3, 0.3) : 0.0,
-                                   .sliding = random_() % 2 == 0};
+    const motion::PlantStart start = beginning(friction);
     plant::PlantWith<Law> plant(rotor, friction, start, tolerance);
     Json samples = Json::array();
     motion::TorqueCourse course;
@@ -42,7 +42,8 @@ class Answers {
       course.rate = lags ? 2000.0 : 0.0;
       plant.advance(course, sample_time);
       samples.push_back({course.now, course.settled, course.rate, plant.theta(), plant.omega(),
-                         plant.sliding(), plant.load() ? plant.load()->twist : 0.0});
+                         plant.sliding(), plant.load() ? plant.load()->twist : 0.0, plant.creep().extension,
+                         plant.creep().hardening});
       course = motion::course_after(course, sample_time);
     }
     const friction::FrictionParameters& p = friction.uniform;
@@ -59,6 +60,14 @@ class Answers {
             {"sigma1", p.sigma1},
             {"attraction", p.gms_attraction},
             {"elements", elements},
+            {"k1", p.k1},
+            {"k2", p.k2},
+            {"beta", p.beta},
+            {"alpha", p.alpha},
+            {"lambda", p.lambda},
+            {"n", p.n},
+            {"hardening", start.hardening},
+            {"loads", loads_of(start)},
             {"load_inertia", rotor.load.inertia},
             {"load_stiffness", rotor.load.stiffness},
             {"load_damping", rotor.load.damping},
@@ -78,6 +87,12 @@ class Answers {
     friction.uniform.sigma0 = power_of_ten(2.0, 3.5);
     friction.uniform.sigma1 = power_of_ten(-2.0, 0.0);
     friction.uniform.gms_attraction = power_of_ten(0.0, 2.5);
+    friction.uniform.k1 = power_of_ten(1.5, 2.5);
+    friction.uniform.k2 = power_of_ten(2.0, 3.2);
+    friction.uniform.beta = power_of_ten(3.5, 5.3);
+    friction.uniform.alpha = power_of_ten(-1.0, 1.5);
+    friction.uniform.lambda = power_of_ten(0.0, 2.0);
+    if (random_() % 2 == 0) friction.uniform.n = uniform(1.0, 3.0);
     double sum = 0.0;
     for (std::size_t i = 0; i < 1 + random_() % 5; ++i) {
       friction.gms_elements.push_back({power_of_ten(1.5, 3.0), uniform(0.01, 1.0)});
@@ -85,6 +100,26 @@ class Answers {
     }
     for (friction::GmsElement& element : friction.gms_elements) element.weight /= sum;
     return friction;
+  }
+
+  motion::PlantStart beginning(const friction::FrictionAlongRotor& friction) {
+    motion::PlantStart start{.velocity = random_() % 3 == 0 ? uniform(-0.3, 0.3) : 0.0,
+                             .sliding = random_() % 2 == 0};
+    using Model = friction::FrictionModel;
+    if (friction.model != Model::presliding && friction.model != Model::spring) return start;
+    const double most = 0.9 * friction.uniform.breakaway;
+    if (random_() % 2 == 0) start.hardening = power_of_ten(-6.0, -3.0);
+    if (random_() % 2 == 0) start.preload = uniform(-most, most);
+    for (std::uint64_t i = random_() % 5; i > 0; --i) start.history.push_back(uniform(-most, most));
+    return start;
+  }
+
+  /// The torques that the contact is loaded to before the motion, one after the other.
+  static std::vector<double> loads_of(const motion::PlantStart& start) {
+    std::vector<double> loads{start.preload, 0.0};
+    loads.insert(loads.end(), start.history.begin(), start.history.end());
+    loads.push_back(0.0);
+    return loads;
   }
 
   double uniform(double low, double high) {
@@ -103,13 +138,15 @@ int main() {
   Answers answers;
   Json cases = Json::array();
   using Model = friction::FrictionModel;
-  for (int i = 0; i < 16; ++i) {
+  for (int i = 0; i < 32; ++i) {
     const bool loaded = i % 2 == 1;
     cases.push_back(answers.motion<friction::DahlFriction>(Model::dahl, loaded));
     cases.push_back(answers.motion<friction::LuGreFriction>(Model::lugre, loaded));
     cases.push_back(answers.motion<friction::GmsFriction>(Model::gms, loaded));
     cases.push_back(answers.motion<friction::CoulombFriction>(Model::coulomb, loaded));
     cases.push_back(answers.motion<friction::NoFriction>(Model::none, loaded));
+    cases.push_back(answers.motion<friction::PreslidingFriction>(Model::presliding, loaded));
+    cases.push_back(answers.motion<friction::SpringFriction>(Model::spring, loaded));
   }
   std::cout << cases.dump() << '\n';
 }

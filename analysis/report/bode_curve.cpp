@@ -52,6 +52,7 @@ std::vector<ResponseSample> dense_samples(const theory::FrozenLoop& loop, const 
   std::vector<double> angles = theory::search_angles(loop);
   angles.insert(angles.end(), also.begin(), also.end());
   std::sort(angles.begin(), angles.end());
+  angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
   std::vector<ResponseSample> samples;
   for (const double angle : angles) {
     const ResponseSample sample{angle, theory::open_loop(loop, angle)};
@@ -149,9 +150,10 @@ std::vector<BodePoint> bode_curve(const theory::FrozenLoop& loop, double lowest,
   std::vector<bool> is_kept;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (samples[i].angle < kept_angles.front()) continue;
-    curve.push_back({samples[i].angle / frequency_to_angle, 20.0 * std::log10(std::abs(samples[i].value)),
-                     phases[i]});
-    is_kept.push_back(std::find(kept_angles.begin(), kept_angles.end(), samples[i].angle) != kept_angles.end());
+    curve.push_back(
+        {samples[i].angle / frequency_to_angle, 20.0 * std::log10(std::abs(samples[i].value)), phases[i]});
+    is_kept.push_back(std::find(kept_angles.begin(), kept_angles.end(), samples[i].angle) !=
+                      kept_angles.end());
   }
   if (curve.empty()) return curve;
   is_kept.front() = is_kept.back() = true;

@@ -30,13 +30,19 @@ bool has_phase(const ResponseSample& sample) {
   return std::isfinite(std::abs(sample.value)) && sample.value != 0.0;
 }
 
-/// Adds samples between `from` and `to`, and `to`, until the phase turns little from one to the next.
+/// Whether a straight line between the samples stands for the curve.
+bool are_near(const ResponseSample& a, const ResponseSample& b) {
+  constexpr double small_turn = 5.0;    // degrees
+  constexpr double small_ratio = 0.12;  // of ln|L|: 1 dB
+  return std::abs(turn(a, b)) <= small_turn && std::abs(std::log(std::abs(b.value / a.value))) <= small_ratio;
+}
+
+/// Adds samples between `from` and `to`, and `to`, until each is near the next.
 void add_until(const theory::FrozenLoop& loop, const ResponseSample& from, const ResponseSample& to,
                std::vector<ResponseSample>& samples) {
-  constexpr double small_turn = 45.0;
-  constexpr double smallest_step = 1e-9;  // of the angle
-  const double middle = 0.5 * (from.angle + to.angle);
-  if (std::abs(turn(from, to)) > small_turn && to.angle - from.angle > smallest_step * to.angle) {
+  constexpr double smallest_step = 1e-9;  // of the angle; the phase of an undamped mode jumps
+  if (!are_near(from, to) && to.angle - from.angle > smallest_step * to.angle) {
+    const double middle = 0.5 * (from.angle + to.angle);
     const ResponseSample between{middle, theory::open_loop(loop, middle)};
     if (has_phase(between)) {
       add_until(loop, from, between, samples);

@@ -22,8 +22,8 @@ std::vector<std::string> names_of(const std::vector<TrialLoop>& loops) {
 /// A trial in which nothing is at its default that a loop depends on.
 trial::TrialParameters rich_trial() {
   trial::TrialParameters p;
-  p.friction.k1 = 97.0;
-  p.friction.k2 = 640.0;
+  p.friction.uniform.k1 = 97.0;
+  p.friction.uniform.k2 = 640.0;
   p.plant = {.inertia = 7e-4, .presliding_damping = 0.3, .sliding_damping = 4e-3, .load = {.inertia = 2e-4}};
   p.controller.kp = 3e-4;
   p.controller.ki = 2e-5;

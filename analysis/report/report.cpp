@@ -125,6 +125,8 @@ StudyReport study_report(const reading::StudyFile& file, const ReportOptions& op
   if (std::optional<PageSection> sensitivity = sensitivity_section(reported))
     add(page, std::move(*sensitivity));
   add(page, {"rotor", "Along the rotor", "", rotor_figures(reported)});
+  if (std::optional<Figure> bode = bode_figure(reported))
+    add(page, {"loop", "Stability margins", "", {std::move(*bode)}});
   if (reported.study.plugin) {
     add(page, {"traces", "Single trials", without_traces_html(*reported.study.plugin), {}});
   } else {

@@ -9,9 +9,6 @@
 
 #include <Eigen/Dense>
 
-#include "core/loop/controller.hpp"
-#include "core/loop/encoder.hpp"
-#include "core/theory/gains.hpp"
 #include "core/theory/linear_loop.hpp"
 
 namespace zerocount::theory {
@@ -45,26 +42,6 @@ void add_angles_of(const std::vector<double>& c, std::vector<double>& angles) {
   for (const Complex z : companion.eigenvalues()) add_angles_around(z, angles);
 }
 
-/// Angles ωT in increasing order, from a millionth of half the sample rate to just below it.
-std::vector<double> search_angles(const HeldPlant& plant, const loop::LinearChain& controller) {
-  constexpr int points = 600;
-  constexpr double lowest = 1e-6 * half_turn;
-  constexpr double highest = (1.0 - 1e-9) * half_turn;
-  std::vector<double> angles;
-  for (int i = 0; i <= points; ++i) angles.push_back(lowest * std::pow(highest / lowest, double(i) / points));
-  for (const Complex z : plant.A.eigenvalues()) add_angles_around(z, angles);
-  for (const loop::LinearBlock& stage : controller) {
-    for (const loop::SignalPath& path : stage) {
-      add_angles_of(path.transfer.a, angles);
-      add_angles_of(path.transfer.b, angles);
-    }
-  }
-  std::erase_if(angles, [](double angle) { return !(angle >= lowest && angle <= highest); });
-  std::sort(angles.begin(), angles.end());
-  angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
-  return angles;
-}
-
 /// The angle between low and high at which `sign` changes.
 template <class Sign>
 double crossing(double low, double high, Sign sign) {
@@ -79,12 +56,28 @@ double crossing(double low, double high, Sign sign) {
 
 }  // namespace
 
-StabilityMargins stability_margins(const HeldPlant& plant, const loop::LinearChain& controller, int delay,
-                                   double sample_time) {
-  const auto loop_at = [&](double angle) {
-    return open_loop(std::polar(1.0, angle), plant, controller, delay);
-  };
-  const auto frequency = [&](double angle) { return angle / (2.0 * half_turn * sample_time); };
+std::vector<double> search_angles(const FrozenLoop& loop) {
+  constexpr int points = 600;
+  constexpr double lowest = 1e-6 * half_turn;
+  constexpr double highest = (1.0 - 1e-9) * half_turn;
+  std::vector<double> angles;
+  for (int i = 0; i <= points; ++i) angles.push_back(lowest * std::pow(highest / lowest, double(i) / points));
+  for (const Complex z : loop.plant.A.eigenvalues()) add_angles_around(z, angles);
+  for (const loop::LinearBlock& stage : loop.controller) {
+    for (const loop::SignalPath& path : stage) {
+      add_angles_of(path.transfer.a, angles);
+      add_angles_of(path.transfer.b, angles);
+    }
+  }
+  std::erase_if(angles, [](double angle) { return !(angle >= lowest && angle <= highest); });
+  std::sort(angles.begin(), angles.end());
+  angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
+  return angles;
+}
+
+StabilityMargins stability_margins(const FrozenLoop& loop) {
+  const auto loop_at = [&](double angle) { return open_loop(loop, angle); };
+  const auto frequency = [&](double angle) { return angle / (2.0 * half_turn * loop.sample_time); };
   const auto amplifies = [&](double angle) { return std::abs(loop_at(angle)) > 1.0; };
   const auto leads = [&](double angle) { return loop_at(angle).imag() > 0.0; };
 
@@ -103,7 +96,7 @@ StabilityMargins stability_margins(const HeldPlant& plant, const loop::LinearCha
     if (std::isnan(margins.phase.value) || nearer) margins.phase = {margin, frequency(angle)};
   };
 
-  const std::vector<double> angles = search_angles(plant, controller);
+  const std::vector<double> angles = search_angles(loop);
   double last_angle = angles.front();
   Complex last = loop_at(last_angle);
   for (const double angle : angles) {
@@ -117,17 +110,14 @@ StabilityMargins stability_margins(const HeldPlant& plant, const loop::LinearCha
     last = now;
   }
   // At half the sample rate L is a real number.
-  add_gain(open_loop(-1.0, plant, controller, delay), half_turn);
+  add_gain(open_loop(Complex(-1.0), loop.plant, loop.controller, loop.delay), half_turn);
   return margins;
 }
 
 StabilityMargins margins_about(double stiffness, double damping, const motion::PlantParameters& plant,
                                const loop::EncoderParameters& encoder,
                                const loop::ControllerParameters& controller, const LinearDrive& drive) {
-  const double T = sample_time(controller);
-  const double resolution = loop::fine_resolution(encoder);
-  const HeldPlant held = hold_plant(stiffness, damping, plant, resolution, T, drive);
-  return stability_margins(held, loop::linear_chain(controller, resolution), controller.delay, T);
+  return stability_margins(frozen_loop(stiffness, damping, plant, encoder, controller, drive));
 }
 
 }  // namespace zerocount::theory

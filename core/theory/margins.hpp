@@ -1,17 +1,15 @@
 #pragma once
 
-#include "core/loop/parameters.hpp"
-#include "core/loop/transfer_function.hpp"
-#include "core/motion/parameters.hpp"
-#include "core/theory/held_plant.hpp"
+#include <vector>
+
+#include "core/theory/frozen_loop.hpp"
 
 /// Gain and phase margins of the sampled loop, from its exact frequency response
 ///
 ///   L(z) = C(z)·z^(−delay)·G(z),  z = exp(iωT),  0 < ω ≤ π/T,
 ///
-/// where C is the controller with all its blocks away from their limits, and G the plant in counts, held over
-/// each sample. Source of the definitions: Franklin, Powell, Workman, "Digital Control of Dynamic Systems",
-/// 3rd ed., Addison-Wesley 1998, section 7.4.
+/// of a FrozenLoop. Source of the definitions: Franklin, Powell, Workman, "Digital Control of Dynamic
+/// Systems", 3rd ed., Addison-Wesley 1998, section 7.4.
 namespace zerocount::theory {
 
 /// A margin and the frequency (Hz) of its crossover; both NaN where there is no crossover.
@@ -30,14 +28,15 @@ struct StabilityMargins {
   Margin phase;
 };
 
-/// The crossovers are searched between points that are spread over 1e-6·π/T to π/T by their logarithm, and
-/// around the poles and zeros near the unit circle by their width; then bisected to 1e-12.
-/// @param sample_time T, s.
-StabilityMargins stability_margins(const HeldPlant& plant, const loop::LinearChain& controller, int delay,
-                                   double sample_time);
+/// Angles ωT in increasing order that show the shape of L: from a millionth of π to just below π, spread by
+/// their logarithm, and around the plant's poles and the controller's poles and zeros near the unit circle by
+/// their width.
+std::vector<double> search_angles(const FrozenLoop& loop);
 
-/// The margins of the loop about a spring of `stiffness` (N m/rad) with the damping c (N m s/rad). While the
-/// rotor slides there is no spring, and the damping is the sliding one.
+/// The crossovers are searched between the search_angles, then bisected to 1e-12.
+StabilityMargins stability_margins(const FrozenLoop& loop);
+
+/// The margins of frozen_loop() with these arguments.
 StabilityMargins margins_about(double stiffness, double damping, const motion::PlantParameters& plant,
                                const loop::EncoderParameters& encoder,
                                const loop::ControllerParameters& controller, const LinearDrive& drive = {});

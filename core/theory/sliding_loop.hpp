@@ -2,7 +2,7 @@
 
 #include "core/loop/parameters.hpp"
 #include "core/motion/parameters.hpp"
-#include "core/theory/sampled_stability.hpp"
+#include "core/theory/frozen_loop.hpp"
 
 /// The loop while the rotor slides. There is no spring then: the plant is 1/(J·s² + cs·s), and the friction
 /// torque, constant at speeds well above the Stribeck velocity, is a disturbance that the loop has to reject.
@@ -18,12 +18,10 @@ struct GainCrossover {
   double phase_margin;
 };
 
-/// The gain crossover of the sampled loop while it slides, from its exact frequency response
-///
-///   L(z) = C(z)·z^(−delay)·G(z),  z = exp(iωT),  0 < ω ≤ π/T,
-///
-/// where C is linear_chain(controller), and G the sliding plant in counts, held over each sample and driven
-/// through `drive`.
+/// The gain crossover of a loop, from its exact frequency response L(z), z = exp(iωT), 0 < ω ≤ π/T.
+GainCrossover gain_crossover(const FrozenLoop& loop);
+
+/// The gain crossover of the sampled loop while it slides.
 GainCrossover sliding_crossover(const motion::PlantParameters& plant, const loop::EncoderParameters& encoder,
                                 const loop::ControllerParameters& controller, const LinearDrive& drive = {});
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "analysis/measures/trial_loops.hpp"
 #include "core/loop/controller.hpp"
 #include "core/theory/gains.hpp"
 #include "core/theory/sampled_stability.hpp"
@@ -32,13 +33,10 @@ double as_given(const parameters::StudyUnits& units, const trial::TrialParameter
   return theory::analogue_gains(controller, p.encoder).ki;
 }
 
-theory::LinearDrive drive_of(const trial::TrialParameters& p) {
-  return {1.0 + p.dac.gain_error, p.amplifier.bandwidth};
-}
-
 /// ki below which the trial's sampled loop is stable about a spring of `stiffness` (N m/rad), N m/count.
 double sampled_bound(double stiffness, const trial::TrialParameters& p) {
-  return theory::sampled_critical_integral_gain(stiffness, p.plant, p.encoder, p.controller, drive_of(p));
+  return theory::sampled_critical_integral_gain(stiffness, p.plant, p.encoder, p.controller,
+                                                measures::drive_of(p));
 }
 
 /// Adds the slowest time constant of the loop in the fine phase about a spring of `stiffness` (N m/rad).
@@ -46,7 +44,7 @@ double sampled_bound(double stiffness, const trial::TrialParameters& p) {
 bool add_time_constant(Range& slowest, double stiffness, const trial::TrialParameters& p) {
   const double tau = theory::slowest_time_constant(
       stiffness, p.plant, p.encoder, loop::controller_in_phase(p.controller, loop::ControlPhase::fine),
-      drive_of(p));
+      measures::drive_of(p));
   if (!std::isfinite(tau) || tau <= 0.0) return false;
   slowest.add(tau);
   return true;
@@ -71,43 +69,24 @@ void examine_free(const study::Study& study, std::int64_t point, PointTheory& th
   }
 }
 
-/// Form of the command and friction model are the same in all trials of a point.
-std::string_view why_outside(const trial::TrialParameters& first) {
-  if (first.controller.user.plugin) return "the controller is a plugin, whose transfer function is not known";
-  if (!first.command.torque.levels.empty()) return "the loop is open";
-  switch (first.friction.model) {
-    case friction::FrictionModel::presliding:
-    case friction::FrictionModel::spring:
-      return {};
-    case friction::FrictionModel::coulomb:
-      return "friction.model coulomb has no spring before it slides";
-    case friction::FrictionModel::none:
-      return "friction.model none has no spring, which criteria (6) and (7) are about";
-    case friction::FrictionModel::dahl:
-    case friction::FrictionModel::lugre:
-    case friction::FrictionModel::gms:
-      break;
+/// The ranges of this loop, at the end of `loops` if it is new: not every trial has a coarse phase.
+LoopRanges& ranges_of(std::vector<LoopRanges>& loops, const measures::TrialLoop& of_trial) {
+  auto found = std::find_if(loops.begin(), loops.end(),
+                            [&](const LoopRanges& loop) { return loop.name == of_trial.name; });
+  if (found == loops.end())
+    found = loops.insert(loops.end(), {.name = of_trial.name, .slides = of_trial.slides});
+  return *found;
+}
+
+/// Adds the margins of the trial's loops, and the bandwidth of those that slide.
+void add_loops(std::vector<LoopRanges>& loops, const trial::TrialParameters& p) {
+  for (const measures::TrialLoop& of_trial : measures::trial_loops(p)) {
+    LoopRanges& loop = ranges_of(loops, of_trial);
+    loop.margins.add(theory::stability_margins(of_trial.loop), theory::is_stable(of_trial.loop));
+    if (!of_trial.slides) continue;
+    const theory::GainCrossover crossover = theory::gain_crossover(of_trial.loop);
+    if (!std::isnan(crossover.frequency)) loop.bandwidth.add(crossover.frequency);
   }
-  return "the spring of this friction.model yields by degrees, from its full stiffness to none, not to k1";
-}
-
-void add_sliding(SlidingPhase& phase, const trial::TrialParameters& p) {
-  const loop::ControllerParameters controller = loop::controller_in_phase(p.controller, phase.phase);
-  const theory::GainCrossover crossover =
-      theory::sliding_crossover(p.plant, p.encoder, controller, drive_of(p));
-  if (!std::isnan(crossover.frequency)) phase.bandwidth.add(crossover.frequency);
-  phase.margins.add(
-      theory::margins_about(0.0, p.plant.sliding_damping, p.plant, p.encoder, controller, drive_of(p)),
-      theory::stable_while_sliding(p.plant, p.encoder, controller, drive_of(p)));
-}
-
-/// Adds the margins of the loop in the fine phase about a spring of `stiffness` (N m/rad).
-void add_margins(MarginRanges& margins, double stiffness, const trial::TrialParameters& p) {
-  const loop::ControllerParameters controller =
-      loop::controller_in_phase(p.controller, loop::ControlPhase::fine);
-  margins.add(theory::margins_about(stiffness, p.plant.presliding_damping, p.plant, p.encoder, controller,
-                                    drive_of(p)),
-              theory::sampled_spectral_radius(stiffness, p.plant, p.encoder, controller, drive_of(p)) < 1.0);
 }
 
 /// The initial errors of moves in the fine phase, counts; empty unless the reference is a step.
@@ -169,26 +148,18 @@ void examine_rotors(const study::Study& study, std::int64_t point, PointTheory& 
 /// and the loop while the rotor slides.
 void examine_beyond(const study::Study& study, std::int64_t point, PointTheory& theory) {
   theory.low_end = study::low_end(study, point, "friction.k1");
-  const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
-  theory.hold = hold_of(first);
-  if (loop::has_coarse_phase(first.controller)) {
-    theory.phases = {{"fine phase", loop::ControlPhase::fine}, {"coarse phase", loop::ControlPhase::coarse}};
-  } else {
-    theory.phases = {{"loop", loop::ControlPhase::fine}};
-  }
+  theory.hold = hold_of(study::study_trial(study, point, 0).parameters);
   for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {
     const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
     const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
     const bool stable_at_k1 = add_time_constant(theory.slowest, contact.k1, p);
     const bool stable_at_k2 = add_time_constant(theory.slowest, contact.k1 + contact.k2, p);
     if (stable_at_k1 || stable_at_k2) add_arrivals(theory.longest, p, contact);
-    add_margins(theory.soft, contact.k1, p);
-    add_margins(theory.stiff, contact.k1 + contact.k2, p);
+    add_loops(theory.loops, p);
     const double k1 = theory.low_end.kind == study::LowEnd::Kind::profile ? theory::lowest_k1(p.friction)
                                                                           : theory.low_end.value;
     add_low_end(study, p, k1, theory);
     theory.low_sampled.add(as_given(study.units, p, sampled_bound(k1, p)));
-    for (SlidingPhase& phase : theory.phases) add_sliding(phase, p);
   }
   if (theory.low_end.kind == study::LowEnd::Kind::profile) examine_rotors(study, point, theory);
 }
@@ -198,13 +169,13 @@ void examine_beyond(const study::Study& study, std::int64_t point, PointTheory& 
 PointTheory examine(const study::Study& study, std::int64_t point) {
   PointTheory theory;
   const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
-  theory.outside = why_outside(first);
+  theory.outside = measures::why_outside_theory(first);
   const std::string_view gain = is_cascade(first) ? "controller.cascade.ki" : "controller.ki";
   theory.gain_name = is_cascade(first) ? "cascade.ki" : "ki";
   theory.gain_unit = parameters::unit_of(
       parameters::parameter_table()[parameters::find_parameter(gain).value()], study.units);
   if (!theory.outside.empty()) {
-    theory.hunting = hunting_lines(first, drive_of(first));
+    theory.hunting = hunting_lines(first, measures::drive_of(first));
     examine_free(study, point, theory);
     return theory;
   }

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "analysis/measures/theory_prediction.hpp"
-#include "core/loop/phase_switch.hpp"
 #include "core/theory/margins.hpp"
 #include "experiments/study/low_end.hpp"
 #include "experiments/study/study.hpp"
@@ -60,11 +59,11 @@ struct MarginRanges {
   }
 };
 
-/// One phase of the control while the rotor slides, over the trials.
-struct SlidingPhase {
-  std::string_view name;
-  loop::ControlPhase phase;
-  Range bandwidth{};  // Hz
+/// A loop with the friction frozen (measures::trial_loops), over the trials.
+struct LoopRanges {
+  std::string name;
+  bool slides{false};
+  Range bandwidth{};  // Hz, of a loop that slides
   MarginRanges margins{};
 };
 
@@ -86,15 +85,14 @@ struct PointTheory {
   bool fast_enough{true};        // the sample rate satisfies the rule in every trial
   measures::TheoryPrediction prediction;
 
-  study::LowEnd low_end;             // of k1; see lowest_k1, low_stable, low_sampled
-  std::int64_t rigs{0};              // number of rigs with profiles; 0 without rigs
-  Range lowest_k1;                   // minimum of the profiles, or the low end of the distribution
-  Range low_stable, low_sampled;     // bounds at that k1, gain_unit
-  Range slowest;                     // slowest time constant of the loop, s
-  Arrival longest;                   // slowest move of the trials
-  double hold{0.0};                  // of the shortest move, s
-  MarginRanges soft, stiff;          // of the loop about k1, and k1 + k2
-  std::vector<SlidingPhase> phases;  // phases of the control
+  study::LowEnd low_end;          // of k1; see lowest_k1, low_stable, low_sampled
+  std::int64_t rigs{0};           // number of rigs with profiles; 0 without rigs
+  Range lowest_k1;                // minimum of the profiles, or the low end of the distribution
+  Range low_stable, low_sampled;  // bounds at that k1, gain_unit
+  Range slowest;                  // slowest time constant of the loop, s
+  Arrival longest;                // slowest move of the trials
+  double hold{0.0};               // of the shortest move, s
+  std::vector<LoopRanges> loops;  // in the order of measures::trial_loops
 };
 
 /// Examines the first trials of the point.

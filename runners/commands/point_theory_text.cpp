@@ -64,13 +64,12 @@ std::string describe_beyond(const PointTheory& theory) {
                                 text({theory.lowest_k1.low, theory.lowest_k1.low}), source_of(theory),
                                 criterion, theory.low_sampled.low, theory.gain_unit);
   out += slowness_line(theory);
-  out += fmt::format("    at k1, {}: {}\n", margins_text(theory.soft), stability_text(theory.soft));
-  out += fmt::format("    at k1 + k2, {}: {}\n", margins_text(theory.stiff), stability_text(theory.stiff));
-  for (const SlidingPhase& phase : theory.phases) {
+  for (const LoopRanges& loop : theory.loops) {
     const std::string bandwidth =
-        phase.bandwidth.empty() ? "" : fmt::format("crosses gain 1 at {} Hz, ", text(phase.bandwidth));
-    out += fmt::format("    while sliding, the {}: {}{}: {}\n", phase.name, bandwidth,
-                       margins_text(phase.margins), stability_text(phase.margins));
+        loop.bandwidth.empty() ? "" : fmt::format("crosses gain 1 at {} Hz, ", text(loop.bandwidth));
+    const char* const separator = loop.slides ? ": " : ", ";
+    out += fmt::format("    {}{}{}{}: {}\n", loop.name, separator, bandwidth, margins_text(loop.margins),
+                       stability_text(loop.margins));
   }
   return out;
 }

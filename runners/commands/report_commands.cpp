@@ -26,9 +26,10 @@ namespace {
 constexpr const char* report_help =
     "Writes an HTML page about a results file: the conclusions in words, success at every point\n"
     "with bounds, stability maps with the criteria (6) and (7), settling times, jerks,\n"
-    "sensitivity, single trials (simulated again), the figures of the paper that the study can\n"
-    "reproduce, and the provenance. The page needs no other files and no network. It adapts to\n"
-    "phones, to dark mode and to paper; print it from a browser for a PDF.\n"
+    "sensitivity, the Bode plot of the open loop, single trials (simulated again), the figures of\n"
+    "the paper that the study can reproduce, and the provenance. The page needs no other files\n"
+    "and no network. It adapts to phones, to dark mode and to paper; print it from a browser for a\n"
+    "PDF.\n"
     "\n"
     "With a baseline, the page also has the result of 'zerocount compare'. The exit code does\n"
     "not depend on that result.\n"

@@ -1,7 +1,9 @@
 #include <cstdlib>
 #include <filesystem>
+#include <regex>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "runners/commands/child_process.hpp"
@@ -101,6 +103,29 @@ TEST_F(ReportCommand, PlotDrawsAFigure) {
   result = run({"plot", "a.h5", "--figure", "trace-median", "-o", "a.png"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(folder->read("a.png").substr(1, 3), "PNG");
+}
+
+/// With the same friction in all trials, check has no ranges but the margins of the trial that is drawn.
+TEST_F(ReportCommand, TheBodePlotHasTheMarginsOfCheck) {
+  folder->write("margins.yaml",
+                "zerocount: 1\nname: margins\nseed: 1\ntrials: 2\ncommand: {targets: [3], hold: 0.15}\n"
+                "verdict: {dwell: 0.02, window: 0.02}\ncontroller: {kp: 3.0e-4, delay: 1}\n"
+                "plant: {load: {inertia: 5.54e-4, stiffness: 2000, damping: 0.01}}\n");
+  const std::string checked = run({"check", "margins.yaml"}).out;
+  ASSERT_EQ(run({"run", "margins.yaml", "-o", "margins.h5"}).code, 0);
+  const ProgramResult drawn = run({"plot", "margins.h5", "--figure", "bode", "-o", "margins.svg"});
+  EXPECT_EQ(drawn.code, 0) << drawn.err;
+  const std::string svg = folder->read("margins.svg");
+  const std::regex line("    ((?:at|while)[^:]*)[,:] .*gain margin (\\S+ dB) at .*phase margin (\\S+°) at");
+  int loops = 0;
+  for (auto match = std::sregex_iterator(checked.begin(), checked.end(), line);
+       match != std::sregex_iterator(); ++match, ++loops) {
+    std::string label = fmt::format("{}: {}, {}", (*match)[1].str(), (*match)[2].str(), (*match)[3].str());
+    for (std::size_t minus = label.find('-'); minus != std::string::npos; minus = label.find('-'))
+      label.replace(minus, 1, "−");
+    EXPECT_NE(svg.find(label), std::string::npos) << label;
+  }
+  EXPECT_EQ(loops, 3) << checked;
 }
 
 TEST_F(ReportCommand, PlotSaysWhatIsWrongWithItsWords) {

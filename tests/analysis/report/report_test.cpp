@@ -57,7 +57,7 @@ TemporaryFolder* Report::folder = nullptr;
 TEST_F(Report, HasAFigureForAllThatTheStudyHas) {
   const std::vector<std::string> names = figure_names(study_report(file).page);
   for (const char* name : {"success", "stability-map", "settling-time", "jerk-raster", "rotor-friction.k1",
-                           "trace-median", "trace-worst"}) {
+                           "bode", "trace-median", "trace-worst"}) {
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
   }
   for (const std::string& name : names) EXPECT_EQ(name.find("paper"), std::string::npos) << name;

@@ -66,6 +66,8 @@ TEST_F(PluginStudy, OtherCommandsDoWithoutTheLibrary) {
     EXPECT_TRUE(result.code == 0 || (words[0] == "compare" && result.code == 3)) << words[0] << result.err;
   }
   EXPECT_NE(folder_.read("out.html").find("the controller is the plugin pi 1.0"), std::string::npos);
+  EXPECT_EQ(run({"plot", "out.h5"}).out.find("bode"),
+            std::string::npos);  // its transfer function is not known
   const ProgramResult trace = run({"trace", "out.h5"});
   EXPECT_EQ(trace.code, 2);
   EXPECT_TRUE(trace.out.empty());

@@ -1,0 +1,169 @@
+#include "analysis/report/bode_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "core/theory/margins.hpp"
+
+namespace zerocount::report {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+/// L at z = exp(i·angle).
+struct ResponseSample {
+  double angle{0.0};
+  Complex value{};
+};
+
+/// The angle from one value to the next, in (−180°, 180°].
+double turn(const ResponseSample& from, const ResponseSample& to) {
+  return std::arg(to.value / from.value) * degrees;
+}
+
+/// False at an undamped pole or zero.
+bool has_phase(const ResponseSample& sample) {
+  return std::isfinite(std::abs(sample.value)) && sample.value != 0.0;
+}
+
+/// Whether a straight line between the samples stands for the curve.
+bool are_near(const ResponseSample& a, const ResponseSample& b) {
+  constexpr double small_turn = 5.0;    // degrees
+  constexpr double small_ratio = 0.12;  // of ln|L|: 1 dB
+  return std::abs(turn(a, b)) <= small_turn && std::abs(std::log(std::abs(b.value / a.value))) <= small_ratio;
+}
+
+/// Adds samples between `from` and `to`, and `to`, until each is near the next.
+void add_until(const theory::FrozenLoop& loop, const ResponseSample& from, const ResponseSample& to,
+               std::vector<ResponseSample>& samples) {
+  constexpr double smallest_step = 1e-9;  // of the angle; the phase of an undamped mode jumps
+  if (!are_near(from, to) && to.angle - from.angle > smallest_step * to.angle) {
+    const double middle = 0.5 * (from.angle + to.angle);
+    const ResponseSample between{middle, theory::open_loop(loop, middle)};
+    if (has_phase(between)) {
+      add_until(loop, from, between, samples);
+      add_until(loop, between, to, samples);
+      return;
+    }
+  }
+  samples.push_back(to);
+}
+
+/// L from a millionth of half the sample rate on, at the angles `also` too.
+std::vector<ResponseSample> dense_samples(const theory::FrozenLoop& loop, const std::vector<double>& also) {
+  std::vector<double> angles = theory::search_angles(loop);
+  angles.insert(angles.end(), also.begin(), also.end());
+  std::sort(angles.begin(), angles.end());
+  angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
+  std::vector<ResponseSample> samples;
+  for (const double angle : angles) {
+    const ResponseSample sample{angle, theory::open_loop(loop, angle)};
+    if (!has_phase(sample)) continue;
+    if (samples.empty()) {
+      samples.push_back(sample);
+    } else {
+      add_until(loop, ResponseSample(samples.back()), sample, samples);
+    }
+  }
+  return samples;
+}
+
+/// The phase of each sample without jumps of 360°, degrees.
+std::vector<double> unwrapped(const std::vector<ResponseSample>& samples) {
+  constexpr double highest_start = 60.0;
+  constexpr double half_turn = 179.0;
+  std::vector<double> phases;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i == 0) {
+      const double start = std::arg(samples[0].value) * degrees;
+      phases.push_back(start > highest_start ? start - 360.0 : start);
+      continue;
+    }
+    double by = turn(samples[i - 1], samples[i]);
+    if (std::abs(by) > half_turn && i >= 2) {
+      const bool peak = std::abs(samples[i - 1].value) > std::abs(samples[i - 2].value);
+      by = peak ? -std::abs(by) : std::abs(by);
+    }
+    phases.push_back(phases.back() + by);
+  }
+  return phases;
+}
+
+/// How far the curve is from the straight line between two of its points, at the point `at`: 1 is about what
+/// one sees in the figure.
+double distance_from_line(const BodePoint& from, const BodePoint& to, const BodePoint& at) {
+  constexpr double visible_magnitude = 0.25;  // dB
+  constexpr double visible_phase = 1.0;       // degrees
+  const double part = std::log(at.frequency / from.frequency) / std::log(to.frequency / from.frequency);
+  const double magnitude = from.magnitude + part * (to.magnitude - from.magnitude);
+  const double phase = from.phase + part * (to.phase - from.phase);
+  return std::max(std::abs(at.magnitude - magnitude) / visible_magnitude,
+                  std::abs(at.phase - phase) / visible_phase);
+}
+
+/// Marks the points between `first` and `last` that a line within `tolerance` needs (Ramer 1972, Douglas and
+/// Peucker 1973).
+void mark_needed(const std::vector<BodePoint>& curve, std::size_t first, std::size_t last, double tolerance,
+                 std::vector<bool>& needed) {
+  double farthest = tolerance;
+  std::size_t at = first;
+  for (std::size_t i = first + 1; i < last; ++i) {
+    const double distance = distance_from_line(curve[first], curve[last], curve[i]);
+    if (distance <= farthest) continue;
+    farthest = distance;
+    at = i;
+  }
+  if (at == first) return;
+  needed[at] = true;
+  mark_needed(curve, first, at, tolerance, needed);
+  mark_needed(curve, at, last, tolerance, needed);
+}
+
+/// At most max_bode_points of the points, all that are `kept` among them.
+std::vector<BodePoint> thinned(const std::vector<BodePoint>& curve, const std::vector<bool>& kept) {
+  std::vector<bool> needed;
+  for (double tolerance = 0.2;; tolerance *= 1.5) {
+    needed = kept;
+    std::size_t first = 0;
+    for (std::size_t i = 1; i < curve.size(); ++i) {
+      if (!kept[i]) continue;
+      mark_needed(curve, first, i, tolerance, needed);
+      first = i;
+    }
+    if (std::count(needed.begin(), needed.end(), true) <= std::ptrdiff_t{max_bode_points}) break;
+  }
+  std::vector<BodePoint> points;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (needed[i]) points.push_back(curve[i]);
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<BodePoint> bode_curve(const theory::FrozenLoop& loop, double lowest,
+                                  const std::vector<double>& kept) {
+  const double frequency_to_angle = 2.0 * std::numbers::pi * loop.sample_time;
+  std::vector<double> kept_angles{lowest * frequency_to_angle};
+  for (const double frequency : kept) kept_angles.push_back(frequency * frequency_to_angle);
+  const std::vector<ResponseSample> samples = dense_samples(loop, kept_angles);
+  const std::vector<double> phases = unwrapped(samples);
+  std::vector<BodePoint> curve;
+  std::vector<bool> is_kept;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (samples[i].angle < kept_angles.front()) continue;
+    curve.push_back(
+        {samples[i].angle / frequency_to_angle, 20.0 * std::log10(std::abs(samples[i].value)), phases[i]});
+    is_kept.push_back(std::find(kept_angles.begin(), kept_angles.end(), samples[i].angle) !=
+                      kept_angles.end());
+  }
+  if (curve.empty()) return curve;
+  is_kept.front() = is_kept.back() = true;
+  return thinned(curve, is_kept);
+}
+
+}  // namespace zerocount::report

@@ -1,0 +1,27 @@
+#include "core/theory/frozen_loop.hpp"
+
+#include "core/loop/controller.hpp"
+#include "core/loop/encoder.hpp"
+#include "core/theory/gains.hpp"
+#include "core/theory/linear_loop.hpp"
+
+namespace zerocount::theory {
+
+FrozenLoop frozen_loop(double stiffness, double damping, const motion::PlantParameters& plant,
+                       const loop::EncoderParameters& encoder, const loop::ControllerParameters& controller,
+                       const LinearDrive& drive) {
+  const double T = sample_time(controller);
+  const double resolution = loop::fine_resolution(encoder);
+  return {hold_plant(stiffness, damping, plant, resolution, T, drive),
+          loop::linear_chain(controller, resolution), controller.delay, T};
+}
+
+std::complex<double> open_loop(const FrozenLoop& loop, double angle) {
+  return open_loop(std::polar(1.0, angle), loop.plant, loop.controller, loop.delay);
+}
+
+bool is_stable(const FrozenLoop& loop) {
+  return spectral_radius(loop.plant, loop.controller, loop.delay) < 1.0;
+}
+
+}  // namespace zerocount::theory

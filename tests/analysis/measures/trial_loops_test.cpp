@@ -1,0 +1,91 @@
+// The frozen loops of a trial: which there are, and that they have the parameters of trial, contact and
+// phase.
+#include "analysis/measures/trial_loops.hpp"
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "core/loop/controller.hpp"
+#include "core/theory/margins.hpp"
+#include "core/theory/sampled_stability.hpp"
+
+namespace zerocount::measures {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<TrialLoop>& loops) {
+  std::vector<std::string> names;
+  for (const TrialLoop& loop : loops) names.push_back(loop.name);
+  return names;
+}
+
+/// A trial in which nothing is at its default that a loop depends on.
+trial::TrialParameters rich_trial() {
+  trial::TrialParameters p;
+  p.friction.uniform.k1 = 97.0;
+  p.friction.uniform.k2 = 640.0;
+  p.plant = {.inertia = 7e-4, .presliding_damping = 0.3, .sliding_damping = 4e-3, .load = {.inertia = 2e-4}};
+  p.controller.kp = 3e-4;
+  p.controller.ki = 2e-5;
+  p.controller.kd = 1e-3;
+  p.controller.delay = 1;
+  p.dac.gain_error = 0.07;
+  p.amplifier.bandwidth = 700.0;
+  return p;
+}
+
+TEST(TrialLoops, AreThoseOfSpringAndSliding) {
+  EXPECT_EQ(names_of(trial_loops(rich_trial())),
+            (std::vector<std::string>{"at k1", "at k1 + k2", "while sliding, the loop"}));
+  trial::TrialParameters two_phases = rich_trial();
+  two_phases.controller.coarse.coarse_beyond = 1000.0;
+  EXPECT_EQ(names_of(trial_loops(two_phases)),
+            (std::vector<std::string>{"at k1", "at k1 + k2", "while sliding, the fine phase",
+                                      "while sliding, the coarse phase"}));
+}
+
+TEST(TrialLoops, HaveTheMarginsOfTheirParameters) {
+  trial::TrialParameters p = rich_trial();
+  p.controller.coarse.coarse_beyond = 1000.0;
+  p.controller.coarse.kp = 5e-4;
+  p.controller.coarse.kd = 4e-3;
+  const theory::LinearDrive drive{1.07, 700.0};
+  const loop::ControllerParameters fine = loop::controller_in_phase(p.controller, loop::ControlPhase::fine);
+  const loop::ControllerParameters coarse =
+      loop::controller_in_phase(p.controller, loop::ControlPhase::coarse);
+  const theory::StabilityMargins expected[] = {
+      theory::margins_about(97.0, 0.3, p.plant, p.encoder, fine, drive),
+      theory::margins_about(737.0, 0.3, p.plant, p.encoder, fine, drive),
+      theory::margins_about(0.0, 4e-3, p.plant, p.encoder, fine, drive),
+      theory::margins_about(0.0, 4e-3, p.plant, p.encoder, coarse, drive)};
+  const std::vector<TrialLoop> loops = trial_loops(p);
+  ASSERT_EQ(loops.size(), std::size(expected));
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const theory::StabilityMargins margins = theory::stability_margins(loops[i].loop);
+    EXPECT_EQ(margins.gain.value, expected[i].gain.value) << loops[i].name;
+    EXPECT_EQ(margins.gain.frequency, expected[i].gain.frequency) << loops[i].name;
+    EXPECT_EQ(margins.phase.value, expected[i].phase.value) << loops[i].name;
+    EXPECT_EQ(margins.phase.frequency, expected[i].phase.frequency) << loops[i].name;
+    EXPECT_EQ(loops[i].slides, i >= 2);
+  }
+  EXPECT_EQ(theory::is_stable(loops[0].loop),
+            theory::sampled_spectral_radius(97.0, p.plant, p.encoder, fine, drive) < 1.0);
+}
+
+TEST(TrialLoops, ThereAreNoneWhereTheTheoryDoesNotApply) {
+  trial::TrialParameters plugin = rich_trial(), open = plugin, coulomb = plugin, none = plugin,
+                         bristle = plugin;
+  plugin.controller.user.plugin = std::make_shared<const plugin::ControllerPlugin>();
+  open.command.torque.levels = {0.1};
+  coulomb.friction.model = friction::FrictionModel::coulomb;
+  none.friction.model = friction::FrictionModel::none;
+  bristle.friction.model = friction::FrictionModel::lugre;
+  for (const trial::TrialParameters& p : {plugin, open, coulomb, none, bristle}) {
+    EXPECT_FALSE(why_outside_theory(p).empty());
+    EXPECT_TRUE(trial_loops(p).empty());
+  }
+  EXPECT_TRUE(why_outside_theory(rich_trial()).empty());
+}
+
+}  // namespace
+}  // namespace zerocount::measures

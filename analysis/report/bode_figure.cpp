@@ -177,17 +177,14 @@ std::string bode_caption(const ReportedStudy& reported, const trial::TrialParame
       friction::friction_at(parameters.friction, parameters.initial.position);
   return fmt::format(
       "Frequency response of the open loop L(z) = C(z)·z^(−d)·G(z), z = exp(iωT), from error to count, of "
-      "trial "
-      "{} of point {}, up to half of the sample rate of {:.4g} Hz. C is the controller with all its blocks "
-      "away from their limits, d its delay of {} sample{}, and G the driven plant behind the zero-order "
-      "hold. "
-      "Friction is frozen: a spring of k1 = {:.4g} {} or of k1 + k2 = {:.4g} {}, and no spring while the "
-      "rotor "
-      "slides. Triangles mark the gain margin, the distance from 0 dB where the phase is −180°; circles mark "
-      "the "
-      "phase margin, the distance from −180° at 0 dB. Of several crossovers the one nearest to instability "
-      "counts, as in zerocount check; – stands for none. Magnitudes are shown from {} to {} dB. Definitions: "
-      "Franklin, Powell, Workman, Digital Control of Dynamic Systems, 3rd ed., 1998, section 7.4.",
+      "trial {} of point {}, up to half of the sample rate of {:.4g} Hz. C is the controller with all its "
+      "blocks away from their limits, d its delay of {} sample{}, and G the driven plant behind the "
+      "zero-order hold. Friction is frozen: a spring of k1 = {:.4g} {} or of k1 + k2 = {:.4g} {}, and no "
+      "spring while the rotor slides. Triangles mark the gain margin, the distance from 0 dB where the phase "
+      "is −180°; circles mark the phase margin, the distance from −180° at 0 dB. Of several crossovers the "
+      "one nearest to instability counts, as in zerocount check; – stands for none. Magnitudes are shown "
+      "from {} to {} dB. Definitions: Franklin, Powell, Workman, Digital Control of Dynamic Systems, 3rd "
+      "ed., 1998, section 7.4.",
       shown_trial, label_of(reported, reported.focus), parameters.controller.sample_rate,
       parameters.controller.delay, parameters.controller.delay == 1 ? "" : "s", contact.k1, unit,
       contact.k1 + contact.k2, unit, value_with_unit(magnitudes.low, ""),

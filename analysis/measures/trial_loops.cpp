@@ -30,29 +30,61 @@ theory::LinearDrive drive_of(const trial::TrialParameters& parameters) {
   return {1.0 + parameters.dac.gain_error, parameters.amplifier.bandwidth};
 }
 
+namespace {
+
+/// A contact that does not change: a spring and a damper, or the damper alone.
+struct FrozenContact {
+  const char* name;
+  double stiffness;  ///< N m/rad
+  double damping;    ///< N m s/rad
+  bool slides{false};
+};
+
+double stiffness_of(const std::vector<friction::GmsElement>& elements) {
+  double sum = 0.0;
+  for (const friction::GmsElement& element : elements) sum += element.stiffness;
+  return sum;
+}
+
+std::vector<FrozenContact> frozen_contacts(const trial::TrialParameters& p) {
+  const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
+  const double c = p.plant.presliding_damping;
+  const double cs = p.plant.sliding_damping;
+  const FrozenContact sliding{"while sliding", 0.0, cs, true};
+  switch (p.friction.model) {
+    case friction::FrictionModel::presliding:
+    case friction::FrictionModel::spring:
+      return {{"at k1", contact.k1, c}, {"at k1 + k2", contact.k1 + contact.k2, c}, sliding};
+    case friction::FrictionModel::dahl:
+      return {{"at sigma0", contact.sigma0, c}, {"while sliding", 0.0, c, true}};
+    case friction::FrictionModel::lugre:
+      return {{"at sigma0", contact.sigma0, contact.sigma1 + cs}, sliding};
+    case friction::FrictionModel::gms:
+      return {{"while all elements stick", stiffness_of(friction::gms_elements_of(p.friction)), cs}, sliding};
+    case friction::FrictionModel::coulomb:
+      return {sliding};
+    case friction::FrictionModel::none:
+      break;
+  }
+  return {{"without friction", 0.0, c, true}};
+}
+
+}  // namespace
+
 std::vector<TrialLoop> trial_loops(const trial::TrialParameters& parameters) {
   std::vector<TrialLoop> loops;
-  if (!why_outside_theory(parameters).empty()) return loops;
-  const motion::PlantParameters& plant = parameters.plant;
-  const friction::FrictionParameters contact =
-      friction::friction_at(parameters.friction, parameters.initial.position);
-  const auto frozen = [&](double stiffness, double damping, loop::ControlPhase phase) {
-    return theory::frozen_loop(stiffness, damping, plant, parameters.encoder,
-                               loop::controller_in_phase(parameters.controller, phase), drive_of(parameters));
+  if (parameters.controller.user.plugin || !parameters.command.torque.levels.empty()) return loops;
+  const auto add = [&](const FrozenContact& contact, const std::string& name, loop::ControlPhase phase) {
+    loops.push_back(
+        {name, contact.slides, contact.stiffness,
+         theory::frozen_loop(contact.stiffness, contact.damping, parameters.plant, parameters.encoder,
+                             loop::controller_in_phase(parameters.controller, phase), drive_of(parameters))});
   };
-  const auto add_spring = [&](const char* name, double stiffness) {
-    loops.push_back({name, false, frozen(stiffness, plant.presliding_damping, loop::ControlPhase::fine)});
-  };
-  const auto add_sliding = [&](const char* name, loop::ControlPhase phase) {
-    loops.push_back({name, true, frozen(0.0, plant.sliding_damping, phase)});
-  };
-  add_spring("at k1", contact.k1);
-  add_spring("at k1 + k2", contact.k1 + contact.k2);
-  if (loop::has_coarse_phase(parameters.controller)) {
-    add_sliding("while sliding, the fine phase", loop::ControlPhase::fine);
-    add_sliding("while sliding, the coarse phase", loop::ControlPhase::coarse);
-  } else {
-    add_sliding("while sliding, the loop", loop::ControlPhase::fine);
+  const std::string with_phases = loop::has_coarse_phase(parameters.controller) ? ", the fine phase" : "";
+  for (const FrozenContact& contact : frozen_contacts(parameters)) {
+    add(contact, contact.slides ? contact.name + with_phases : contact.name, loop::ControlPhase::fine);
+    if (contact.slides && !with_phases.empty())
+      add(contact, std::string(contact.name) + ", the coarse phase", loop::ControlPhase::coarse);
   }
   return loops;
 }

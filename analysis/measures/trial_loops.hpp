@@ -20,13 +20,14 @@ theory::LinearDrive drive_of(const trial::TrialParameters& parameters);
 
 /// A loop of a trial with its friction frozen.
 struct TrialLoop {
-  std::string name;    ///< "at k1", "at k1 + k2", "while sliding, the fine phase", …
-  bool slides{false};  ///< there is no spring
+  std::string name;       ///< "at k1", "at k1 + k2", "while sliding", "while sliding, the fine phase", …
+  bool slides{false};     ///< there is no spring
+  double stiffness{0.0};  ///< of the spring, N m/rad
   theory::FrozenLoop loop;
 };
 
-/// The loop in the fine phase about k1 and about k1 + k2 of the contact at the start, and each phase of the
-/// control while the rotor slides. Empty where why_outside_theory() gives a reason.
+/// The loop in the fine phase about the springs that stand for the contact at the start, and each phase of
+/// the control while the rotor slides. Empty where the loop is open, or the controller is a plugin.
 std::vector<TrialLoop> trial_loops(const trial::TrialParameters& parameters);
 
 }  // namespace zerocount::measures

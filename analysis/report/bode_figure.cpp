@@ -48,24 +48,36 @@ std::string value_with_unit(double value, const char* unit) {
   return fmt::format("{}{:.3g}{}", value < 0.0 ? "−" : "", std::abs(value), unit);
 }
 
+const char* stability_label(theory::LoopStability stability) {
+  switch (stability) {
+    case theory::LoopStability::stable:
+      return "";
+    case theory::LoopStability::marginal:
+      return ", marginal";
+    case theory::LoopStability::unstable:
+      break;
+  }
+  return ", unstable";
+}
+
 /// "at k1: 16.2 dB, 49.4°".
 std::string label_of_loop(const measures::TrialLoop& loop, const theory::StabilityMargins& margins) {
   return fmt::format("{}: {}, {}{}", loop.name, value_with_unit(decibels(margins.gain.value), " dB"),
                      value_with_unit(margins.phase.value, "°"),
-                     theory::is_stable(loop.loop) ? "" : ", unstable");
+                     stability_label(theory::stability_of(loop.loop)));
 }
 
-/// The curves from a decade below the lowest crossover, or below the natural frequency on k1 where that is
-/// lower. A loop without gain has none.
+/// The curves from a decade below the lowest crossover, or below the lowest natural frequency on a spring
+/// where that is lower. A loop without gain has none.
 std::vector<LoopCurve> loop_curves(const trial::TrialParameters& parameters) {
-  const friction::FrictionParameters contact =
-      friction::friction_at(parameters.friction, parameters.initial.position);
-  double corner = theory::natural_frequency(contact.k1, parameters.plant);
+  double corner = 0.5 * parameters.controller.sample_rate;
   const std::vector<measures::TrialLoop> loops = measures::trial_loops(parameters);
   std::vector<LoopCurve> curves;
   for (const measures::TrialLoop& loop : loops) {
     const theory::StabilityMargins margins = theory::stability_margins(loop.loop);
     curves.push_back({label_of_loop(loop, margins), margins, {}});
+    if (loop.stiffness > 0.0)
+      corner = std::min(corner, theory::natural_frequency(loop.stiffness, parameters.plant));
     for (const double frequency : margin_frequencies(margins)) corner = std::min(corner, frequency);
   }
   for (std::size_t i = 0; i < loops.size(); ++i)
@@ -170,24 +182,34 @@ ordered_json ticks_between(const Extent& extent, std::initializer_list<double> s
   return values;
 }
 
+/// "at k1 of 110 N m/rad, …, while sliding none".
+std::string springs_text(const trial::TrialParameters& parameters, std::string_view unit) {
+  std::string text;
+  for (const measures::TrialLoop& loop : measures::trial_loops(parameters)) {
+    const std::string spring =
+        loop.stiffness > 0.0 ? fmt::format("of {:.4g} {}", loop.stiffness, unit) : "none";
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", loop.name, spring);
+  }
+  return text;
+}
+
 std::string bode_caption(const ReportedStudy& reported, const trial::TrialParameters& parameters,
                          const Extent& magnitudes) {
   const std::string unit = parameters::unit_on(reported.study.units.axis, "N m/rad");
-  const friction::FrictionParameters contact =
-      friction::friction_at(parameters.friction, parameters.initial.position);
   return fmt::format(
       "Frequency response of the open loop L(z) = C(z)·z^(−d)·G(z), z = exp(iωT), from error to count, of "
       "trial {} of point {}, up to half of the sample rate of {:.4g} Hz. C is the controller with all its "
       "blocks away from their limits, d its delay of {} sample{}, and G the driven plant behind the "
-      "zero-order hold. Friction is frozen: a spring of k1 = {:.4g} {} or of k1 + k2 = {:.4g} {}, and no "
-      "spring while the rotor slides. Triangles mark the gain margin, the distance from 0 dB where the phase "
+      "zero-order hold. Friction is frozen, a damper with a spring: {}. Triangles mark the gain margin, the "
+      "distance "
+      "from 0 dB where the phase "
       "is −180°; circles mark the phase margin, the distance from −180° at 0 dB. Of several crossovers the "
       "one nearest to instability counts, as in zerocount check; – stands for none. Magnitudes are shown "
       "from {} to {} dB. Definitions: Franklin, Powell, Workman, Digital Control of Dynamic Systems, 3rd "
       "ed., 1998, section 7.4.",
       shown_trial, label_of(reported, reported.focus), parameters.controller.sample_rate,
-      parameters.controller.delay, parameters.controller.delay == 1 ? "" : "s", contact.k1, unit,
-      contact.k1 + contact.k2, unit, value_with_unit(magnitudes.low, ""),
+      parameters.controller.delay, parameters.controller.delay == 1 ? "" : "s",
+      springs_text(parameters, unit), value_with_unit(magnitudes.low, ""),
       value_with_unit(magnitudes.high, ""));
 }
 

@@ -134,8 +134,7 @@ GmsFriction::GmsFriction(const motion::PlantParameters& plant, const FrictionAlo
   const FrictionParameters contact = friction_at(friction, start.position);
   curve_ = stribeck_curve(contact);
   attraction_ = contact.gms_attraction;
-  for (const GmsElement& element :
-       friction.gms_elements.empty() ? gms_like_the_spring() : friction.gms_elements) {
+  for (const GmsElement& element : gms_elements_of(friction)) {
     elements_.push_back({element});
   }
   if (start.sliding && omega_ != 0.0) {

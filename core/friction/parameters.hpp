@@ -66,6 +66,11 @@ struct FrictionAlongRotor {
   std::vector<GmsElement> gms_elements{};  ///< of FrictionModel::gms; empty: gms_like_the_spring()
 };
 
+/// The elements of FrictionModel::gms.
+inline std::vector<GmsElement> gms_elements_of(const FrictionAlongRotor& friction) {
+  return friction.gms_elements.empty() ? gms_like_the_spring() : friction.gms_elements;
+}
+
 /// The parameters of a contact that forms at the rotor angle `angle` (rad, absolute, from the profile's
 /// origin).
 /// @param contact_number its number in the trial, 0 at t = 0.

@@ -20,8 +20,10 @@ std::complex<double> open_loop(const FrozenLoop& loop, double angle) {
   return open_loop(std::polar(1.0, angle), loop.plant, loop.controller, loop.delay);
 }
 
-bool is_stable(const FrozenLoop& loop) {
-  return spectral_radius(loop.plant, loop.controller, loop.delay) < 1.0;
+LoopStability stability_of(const FrozenLoop& loop) {
+  const double radius = spectral_radius(loop.plant, loop.controller, loop.delay);
+  if (radius < 1.0 - edge_of_stability) return LoopStability::stable;
+  return radius <= 1.0 + edge_of_stability ? LoopStability::marginal : LoopStability::unstable;
 }
 
 }  // namespace zerocount::theory

@@ -33,7 +33,12 @@ FrozenLoop frozen_loop(double stiffness, double damping, const motion::PlantPara
 /// L at z = exp(i·angle), angle = ωT.
 std::complex<double> open_loop(const FrozenLoop& loop, double angle);
 
-/// Whether all eigenvalues of the closed loop lie inside the unit circle.
-bool is_stable(const FrozenLoop& loop);
+enum class LoopStability {
+  stable,    ///< all eigenvalues of the closed loop lie inside the unit circle
+  marginal,  ///< the largest lies on it (to edge_of_stability): something neither grows nor dies out
+  unstable
+};
+
+LoopStability stability_of(const FrozenLoop& loop);
 
 }  // namespace zerocount::theory

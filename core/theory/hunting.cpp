@@ -97,8 +97,8 @@ std::optional<SlideEnd> slide_end(const Eigen::Matrix3d& generator, double stiff
   Eigen::Vector3d state(-1.0, 0.0, excess - stiffness);
   const double interval = 0.02 / generator.eigenvalues().cwiseAbs().maxCoeff();
   const Eigen::Matrix3d flow = (generator * interval).eval().exp();
-  constexpr int most_steps = 200000;
-  for (int k = 0; k < most_steps; ++k) {
+  constexpr int max_steps = 200000;
+  for (int k = 0; k < max_steps; ++k) {
     const Eigen::Vector3d next = flow * state;
     if (k > 0 && next[1] <= 0.0) {
       const auto velocity = [&](double t) { return ((generator * t).eval().exp() * state)[1]; };
@@ -161,6 +161,13 @@ std::vector<LimitCycle> harmonic_balance(friction::FrictionModel model,
   return cycles;
 }
 
+std::string_view left_out_of_hunting(const motion::PlantParameters& plant,
+                                     const loop::ControllerParameters& controller) {
+  if (motion::has_load(plant)) return "the second mass";
+  if (controller.blocks.deadband.enter > 0.0) return "the deadband";
+  return std::isfinite(controller.blocks.integrator_zone) ? "the integrator zone" : "";
+}
+
 std::optional<LimitCycle> stick_slip_cycle(const friction::FrictionParameters& contact,
                                            const motion::PlantParameters& plant,
                                            const loop::EncoderParameters& encoder,
@@ -178,10 +185,10 @@ std::optional<LimitCycle> stick_slip_cycle(const friction::FrictionParameters& c
     return end ? end->x - 1.0 : -1.0;  // it creeps up to its target without end
   };
   const double scale = gains.kp + gains.ki / generator.eigenvalues().cwiseAbs().maxCoeff();  // N m/rad
-  const double least = 1e-6 * scale;
-  const double most = 1e6 * scale;
-  if (beyond(least) >= 0.0 || beyond(most) < 0.0) return std::nullopt;
-  const double excess = sign_change(beyond, least, most);
+  const double lowest = 1e-6 * scale;
+  const double highest = 1e6 * scale;
+  if (beyond(lowest) >= 0.0 || beyond(highest) < 0.0) return std::nullopt;
+  const double excess = sign_change(beyond, lowest, highest);
   const std::optional<SlideEnd> end = slide_end(generator, gains.kp, excess);
   const double amplitude = contact.breakaway * (1.0 - contact.coulomb_ratio) / excess;
   const double torque = (end->w - gains.kp) * amplitude + contact.coulomb_ratio * contact.breakaway;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/friction/parameters.hpp"
@@ -15,6 +16,11 @@ struct LimitCycle {
   double amplitude;  ///< half of its range, rad
   double period;     ///< s
 };
+
+/// The part of the loop because of which neither prediction holds: "the second mass", "the deadband" or "the
+/// integrator zone"; empty where they hold. Plant and control are linear in both.
+std::string_view left_out_of_hunting(const motion::PlantParameters& plant,
+                                     const loop::ControllerParameters& controller);
 
 /// The stable limit cycles that the describing function N of friction predicts, by increasing amplitude:
 /// solutions of the harmonic balance

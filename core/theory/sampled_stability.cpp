@@ -60,7 +60,8 @@ double slowest_time_constant(double stiffness, const motion::PlantParameters& pl
   const Eigen::VectorXcd eigenvalues =
       loop_map(held, loop::linear_chain(controller, loop::fine_resolution(encoder)), controller.delay)
           .eigenvalues();
-  if (!(eigenvalues.cwiseAbs().maxCoeff() < 1.0)) return std::numeric_limits<double>::infinity();
+  if (!(eigenvalues.cwiseAbs().maxCoeff() < 1.0 - edge_of_stability))
+    return std::numeric_limits<double>::infinity();
   double slowest = 0.0;
   for (const auto& z : eigenvalues) {
     if (z.imag() == 0.0) slowest = std::max(slowest, z.real());

@@ -35,7 +35,8 @@ GainCrossover sliding_crossover(const motion::PlantParameters& plant, const loop
 
 bool stable_while_sliding(const motion::PlantParameters& plant, const loop::EncoderParameters& encoder,
                           const loop::ControllerParameters& controller, const LinearDrive& drive) {
-  return is_stable(frozen_loop(0.0, plant.sliding_damping, plant, encoder, controller, drive));
+  return stability_of(frozen_loop(0.0, plant.sliding_damping, plant, encoder, controller, drive)) ==
+         LoopStability::stable;
 }
 
 }  // namespace zerocount::theory

@@ -18,6 +18,7 @@ std::string_view left_out_of_criteria(const motion::PlantParameters& plant,
     case loop::ControlStructure::pid:
       break;
   }
+  if (std::isfinite(blocks.integrator_leak)) return "the integrator leak";
   if (!blocks.filters.empty()) return "the filters";
   if (blocks.observer.bandwidth > 0.0) return "the disturbance observer";
   if (controller.kd != 0.0 && std::isfinite(blocks.derivative_cutoff)) return "the derivative filter";

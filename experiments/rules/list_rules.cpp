@@ -29,8 +29,9 @@ ValueRule weights_of_one_in_all(const std::vector<std::string_view>& weights) {
               highest += weight.high;
             }
             if (std::abs(lowest - 1.0) <= rounding && std::abs(highest - 1.0) <= rounding) return {};
-            return {{lowest == highest ? fmt::format("the weights are {} in all", lowest)
-                                       : fmt::format("the weights can be {} to {} in all", lowest, highest),
+            return {{lowest == highest
+                         ? fmt::format("the weights are {:.6g} in all", lowest)
+                         : fmt::format("the weights can be {:.6g} to {:.6g} in all", lowest, highest),
                      "weights of 1 in all, in every trial"}};
           }};
 }

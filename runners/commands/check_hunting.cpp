@@ -8,6 +8,7 @@
 #include "core/loop/encoder.hpp"
 #include "core/theory/describing_function.hpp"
 #include "core/theory/hunting.hpp"
+#include "core/theory/sliding_loop.hpp"
 
 namespace zerocount::commands {
 namespace {
@@ -25,6 +26,13 @@ std::string hunting_lines(const trial::TrialParameters& trial, const theory::Lin
   if (!closed_loop || trial.controller.user.plugin || !theory::has_describing_function(model)) return {};
   const loop::ControllerParameters controller =
       loop::controller_in_phase(trial.controller, loop::ControlPhase::fine);
+  const std::string_view left_out = theory::left_out_of_hunting(trial.plant, controller);
+  if (!left_out.empty())
+    return fmt::format("    hunting of trial 0: not predicted, since the predictions leave out {}\n",
+                       left_out);
+  const bool grows = !theory::stable_while_sliding(trial.plant, trial.encoder, controller, drive);
+  const std::string_view beyond =
+      grows ? "; the loop is unstable while the rotor slides: what has broken loose may grow" : "";
   const friction::FrictionParameters contact = friction::friction_at(trial.friction, trial.initial.position);
   const double resolution = loop::fine_resolution(trial.encoder);
   constexpr std::string_view by_function = "by describing function";
@@ -33,12 +41,13 @@ std::string hunting_lines(const trial::TrialParameters& trial, const theory::Lin
        theory::harmonic_balance(model, contact, trial.plant, trial.encoder, controller, drive)) {
     lines += line(by_function, cycle, resolution);
   }
-  if (lines.empty()) lines = fmt::format("    hunting of trial 0, {}: none\n", by_function);
+  if (lines.empty())
+    lines = fmt::format("    hunting of trial 0, {}: no lasting cycle{}\n", by_function, beyond);
   if (model != friction::FrictionModel::coulomb) return lines;
   const auto cycle = theory::stick_slip_cycle(contact, trial.plant, trial.encoder, controller);
   constexpr std::string_view by_slides = "by stick-slip";
   return lines + (cycle ? line(by_slides, *cycle, resolution)
-                        : fmt::format("    hunting of trial 0, {}: no lasting cycle\n", by_slides));
+                        : fmt::format("    hunting of trial 0, {}: no lasting cycle{}\n", by_slides, beyond));
 }
 
 }  // namespace zerocount::commands

@@ -25,6 +25,12 @@ bool is_cascade(const trial::TrialParameters& p) {
   return p.controller.blocks.structure == loop::ControlStructure::cascade;
 }
 
+/// Whether an observer brings the error to zero where the control has no integral: it passes on the torque of
+/// the control law, which must have a part proportional to the error.
+bool acts_by_observer(const loop::ControllerParameters& controller) {
+  return controller.blocks.observer.bandwidth > 0.0 && controller.kp > 0.0;
+}
+
 /// An integral gain (N m/count, of a cascade N m/rad) in the unit of the manifest.
 double as_given(const parameters::StudyUnits& units, const trial::TrialParameters& p, double ki) {
   if (units.gains == parameters::GainUnits::count || is_cascade(p)) return ki;
@@ -54,6 +60,14 @@ double hold_of(const trial::TrialParameters& p) {
   return static_cast<double>(trial::samples_of_move(p, 0)) / p.controller.sample_rate;
 }
 
+/// Adds the bound of the trial's sampled loop about a spring of `stiffness` (N m/rad).
+void add_sampled_bound(const study::Study& study, const trial::TrialParameters& p, double stiffness,
+                       PointTheory& theory) {
+  const double bound = sampled_bound(stiffness, p);
+  theory.sampled_below.add(as_given(study.units, p, bound));
+  theory.sampled_stable.insert(theory::integral_gain(p.controller) < bound);
+}
+
 /// The theory of a loop without a spring: its sampled bound and time constant.
 void examine_free(const study::Study& study, std::int64_t point, PointTheory& theory) {
   const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
@@ -64,7 +78,7 @@ void examine_free(const study::Study& study, std::int64_t point, PointTheory& th
   for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {
     const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
     theory.ki.add(as_given(study.units, p, theory::integral_gain(p.controller)));
-    theory.sampled_below.add(as_given(study.units, p, sampled_bound(0.0, p)));
+    add_sampled_bound(study, p, 0.0, theory);
     add_time_constant(theory.slowest, 0.0, p);
   }
 }
@@ -82,7 +96,7 @@ LoopRanges& ranges_of(std::vector<LoopRanges>& loops, const measures::TrialLoop&
 void add_loops(std::vector<LoopRanges>& loops, const trial::TrialParameters& p) {
   for (const measures::TrialLoop& of_trial : measures::trial_loops(p)) {
     LoopRanges& loop = ranges_of(loops, of_trial);
-    loop.margins.add(theory::stability_margins(of_trial.loop), theory::is_stable(of_trial.loop));
+    loop.margins.add(theory::stability_margins(of_trial.loop), theory::stability_of(of_trial.loop));
     if (!of_trial.slides) continue;
     const theory::GainCrossover crossover = theory::gain_crossover(of_trial.loop);
     if (!std::isnan(crossover.frequency)) loop.bandwidth.add(crossover.frequency);
@@ -152,6 +166,7 @@ void examine_beyond(const study::Study& study, std::int64_t point, PointTheory& 
   for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index) {
     const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
     const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
+    add_sampled_bound(study, p, contact.k1, theory);
     const bool stable_at_k1 = add_time_constant(theory.slowest, contact.k1, p);
     const bool stable_at_k2 = add_time_constant(theory.slowest, contact.k1 + contact.k2, p);
     if (stable_at_k1 || stable_at_k2) add_arrivals(theory.longest, p, contact);
@@ -176,6 +191,8 @@ PointTheory examine(const study::Study& study, std::int64_t point) {
       parameters::parameter_table()[parameters::find_parameter(gain).value()], study.units);
   if (!theory.outside.empty()) {
     theory.hunting = hunting_lines(first, measures::drive_of(first));
+    for (std::int64_t index = 0; index < std::min(study.trials, max_trials_examined_closely); ++index)
+      add_loops(theory.loops, study::study_trial(study, point, index).parameters);
     examine_free(study, point, theory);
     return theory;
   }
@@ -191,7 +208,7 @@ PointTheory examine(const study::Study& study, std::int64_t point) {
     const double dac_bound = theory::dac_resolution_bound(contact.k1, p.encoder, p.controller.encoder);
     theory.coarse_feedback = p.controller.encoder == loop::EncoderChoice::coarse;
     theory.ki.add(as_given(study.units, p, theory::integral_gain(p.controller)));
-    theory.observes = theory.observes || p.controller.blocks.observer.bandwidth > 0.0;
+    theory.observes = theory.observes || acts_by_observer(p.controller);
     if (theory.left_out.empty()) theory.left_out = theory::left_out_of_criteria(p.plant, p.controller);
     theory.stable_below.add(as_given(study.units, p, bounds.stable_below));
     theory.unstable_above.add(as_given(study.units, p, bounds.unstable_above));
@@ -207,8 +224,10 @@ PointTheory examine(const study::Study& study, std::int64_t point) {
     if (contact.k1 > k1.high) stiffest = p;
     k1.add(contact.k1);
   }
-  theory.sampled_below.add(as_given(study.units, softest, sampled_bound(k1.low, softest)));
-  theory.sampled_below.add(as_given(study.units, stiffest, sampled_bound(k1.high, stiffest)));
+  // Where k1 alone differs these two have the extreme bounds; those of other parameters show in the closer
+  // look.
+  add_sampled_bound(study, softest, k1.low, theory);
+  add_sampled_bound(study, stiffest, k1.high, theory);
   examine_beyond(study, point, theory);
   return theory;
 }

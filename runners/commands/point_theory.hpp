@@ -3,11 +3,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/measures/theory_prediction.hpp"
+#include "core/theory/frozen_loop.hpp"
 #include "core/theory/margins.hpp"
 #include "experiments/study/low_end.hpp"
 #include "experiments/study/study.hpp"
@@ -38,14 +40,13 @@ struct Arrival {
 
 /// Margins of a loop over the trials. A trial without a crossover adds nothing.
 struct MarginRanges {
-  Range gain{};         // dB
-  Range gain_at{};      // Hz
-  Range phase{};        // degrees
-  Range phase_at{};     // Hz
-  bool stable{true};    // in every trial
-  bool unstable{true};  // in every trial
+  Range gain{};                                 // dB
+  Range gain_at{};                              // Hz
+  Range phase{};                                // degrees
+  Range phase_at{};                             // Hz
+  std::set<theory::LoopStability> stability{};  // in the trials
 
-  void add(const theory::StabilityMargins& margins, bool is_stable) {
+  void add(const theory::StabilityMargins& margins, theory::LoopStability of_trial) {
     if (!std::isnan(margins.gain.value)) {
       gain.add(20.0 * std::log10(margins.gain.value));
       gain_at.add(margins.gain.frequency);
@@ -54,8 +55,7 @@ struct MarginRanges {
       phase.add(margins.phase.value);
       phase_at.add(margins.phase.frequency);
     }
-    stable = stable && is_stable;
-    unstable = unstable && !is_stable;
+    stability.insert(of_trial);
   }
 };
 
@@ -71,10 +71,11 @@ struct LoopRanges {
 struct PointTheory {
   std::string_view outside;   // reason why the theory does not apply; empty if it does
   std::string_view left_out;  // of the controller, by criteria (6) and (7); empty: they apply
-  bool observes{false};       // there is a disturbance observer
+  bool observes{false};       // a disturbance observer stands in for the integral
   std::string hunting;        // lines on its prediction; empty: there is none
   bool free{false};           // no spring: ki and sampled_below are of the loop without friction
   Range ki, stable_below, sampled_below, unstable_above;  // gain_unit
+  std::set<bool> sampled_stable;                          // whether the sampled loop is, in the trials
   std::string gain_name;                                  // "ki", or that of a cascade
   std::string gain_unit;                                  // its unit in the manifest
   Range dac_resolution, dac_bound;                        // torque_unit

@@ -13,7 +13,11 @@ std::string text(const Range& range) {
 }
 
 std::string stability_text(const MarginRanges& margins) {
-  return margins.stable ? "stable" : (margins.unstable ? "unstable" : "unstable in some trials");
+  using theory::LoopStability;
+  if (margins.stability == std::set{LoopStability::stable}) return "stable";
+  if (margins.stability == std::set{LoopStability::unstable}) return "unstable";
+  if (margins.stability.count(LoopStability::unstable) > 0) return "unstable in some trials";
+  return "marginal, with an eigenvalue of 1";
 }
 
 std::string margins_text(const MarginRanges& margins) {
@@ -56,14 +60,8 @@ std::string slowness_line(const PointTheory& theory) {
                      may_be_too_slow(theory) ? ": moves may end before they arrive" : "");
 }
 
-std::string describe_beyond(const PointTheory& theory) {
-  const std::string criterion = theory.left_out.empty() ? fmt::format("(6) stable below {:.3g} {}, ",
-                                                                      theory.low_stable.low, theory.gain_unit)
-                                                        : "";
-  std::string out = fmt::format("    at the lowest k1, {} ({}): {}sampled loop below {:.3g} {}\n",
-                                text({theory.lowest_k1.low, theory.lowest_k1.low}), source_of(theory),
-                                criterion, theory.low_sampled.low, theory.gain_unit);
-  out += slowness_line(theory);
+std::string loop_lines(const PointTheory& theory) {
+  std::string out;
   for (const LoopRanges& loop : theory.loops) {
     const std::string bandwidth =
         loop.bandwidth.empty() ? "" : fmt::format("crosses gain 1 at {} Hz, ", text(loop.bandwidth));
@@ -74,6 +72,17 @@ std::string describe_beyond(const PointTheory& theory) {
   return out;
 }
 
+std::string describe_beyond(const PointTheory& theory) {
+  const std::string criterion = theory.left_out.empty() ? fmt::format("(6) stable below {:.3g} {}, ",
+                                                                      theory.low_stable.low, theory.gain_unit)
+                                                        : "";
+  std::string out = fmt::format("    at the lowest k1, {} ({}): {}sampled loop below {:.3g} {}\n",
+                                text({theory.lowest_k1.low, theory.lowest_k1.low}), source_of(theory),
+                                criterion, theory.low_sampled.low, theory.gain_unit);
+  out += slowness_line(theory);
+  return out + loop_lines(theory);
+}
+
 /// "    (6) stable below              1 … 2 N m/count".
 std::string range_line(std::string_view name, const Range& range, std::string_view unit) {
   return fmt::format("    {:<29} {} {}", name, text(range), unit);
@@ -81,17 +90,17 @@ std::string range_line(std::string_view name, const Range& range, std::string_vi
 
 /// Verdict of the sampled loop on the integral gain.
 std::string sampled_verdict(const PointTheory& theory) {
-  if (theory.ki.high < theory.sampled_below.low) return "stable";
-  return theory.ki.low >= theory.sampled_below.high ? "unstable" : "unstable in some trials";
+  if (theory.sampled_stable == std::set{true}) return "stable";
+  return theory.sampled_stable == std::set{false} ? "unstable" : "unstable in some trials";
 }
 
 std::string describe_outside(const PointTheory& theory) {
   std::string out = fmt::format("    the criteria do not apply: {}\n", theory.outside);
-  if (!theory.free) return out + theory.hunting;
+  if (!theory.free) return out + theory.hunting + loop_lines(theory);
   return out + range_line(theory.gain_name, theory.ki, theory.gain_unit) + ": sampled loop " +
          sampled_verdict(theory) + "\n" +
          range_line("sampled loop, below", theory.sampled_below, theory.gain_unit) + "\n" +
-         slowness_line(theory);
+         slowness_line(theory) + loop_lines(theory);
 }
 
 /// Verdict of the criteria (6) and (7) and of the sampled loop on the integral gain.

@@ -29,6 +29,16 @@ std::optional<std::string> bytes_of(const fs::path& path) {
   return bytes;
 }
 
+/// The symbol that the loader's message names as undefined; empty if it names none.
+std::string missing_symbol(const char* message) {
+  constexpr std::string_view words = "undefined symbol: ";
+  const std::string_view text = message == nullptr ? "" : message;
+  const std::size_t place = text.find(words);
+  if (place == std::string_view::npos) return {};
+  const std::string_view rest = text.substr(place + words.size());
+  return std::string(rest.substr(0, rest.find_first_of(", \n")));
+}
+
 /// Loads the library and calls its entry. Libraries compiled with -ffast-math change the mode of arithmetic
 /// when they are loaded.
 std::variant<const zerocount_controller*, PluginFault> entry_of(const fs::path& library) {
@@ -36,8 +46,11 @@ std::variant<const zerocount_controller*, PluginFault> entry_of(const fs::path& 
   void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   mode.restore();
   if (handle == nullptr) {
-    return PluginFault{fmt::format("{} is not a shared library that this program can load", library.string()),
-                       "one for this machine, linked with all that it calls"};
+    const std::string missing = missing_symbol(dlerror());
+    return PluginFault{
+        fmt::format("{} is not a shared library that this program can load{}", library.string(),
+                    missing.empty() ? "" : fmt::format(": it calls {}, which no library has", missing)),
+        "one for this machine, linked with all that it calls"};
   }
   const auto entry = reinterpret_cast<Entry>(dlsym(handle, "zerocount_controller_entry"));
   if (entry == nullptr) {

@@ -64,7 +64,7 @@ typedef struct zerocount_sample {
   double error;     /* reference, rounded to counts, less count */
   double count;     /* of the encoder that closes the loop, counts of the fine one */
   double reference; /* before it is rounded, counts */
-  double torque;    /* decided at the sample before, after the converter, N m; 0 at the first */
+  double torque;    /* decided at the sample before, rounded to whole DAC steps and within the range, N m; 0 at the first */
 } zerocount_sample;
 
 /* The controller. */

@@ -124,9 +124,14 @@ TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
   EXPECT_NE(models.find("  point 0: friction.model=coulomb\n"
                         "    the criteria do not apply: friction.model coulomb has no spring before it "
                         "slides\n"
-                        "    hunting of trial 0, by describing function: none\n"
-                        "    hunting of trial 0, by stick-slip: no lasting cycle\n"
-                        "  point 1: friction.model=none\n"
+                        "    hunting of trial 0, by describing function: no lasting cycle; the loop is "
+                        "unstable while the rotor slides: what has broken loose may grow\n"
+                        "    hunting of trial 0, by stick-slip: no lasting cycle; the loop is unstable while "
+                        "the rotor slides: what has broken loose may grow\n"
+                        "    while sliding: "),
+            std::string::npos)
+      << models;
+  EXPECT_NE(models.find("  point 1: friction.model=none\n"
                         "    the criteria do not apply: friction.model none has no spring, which criteria "
                         "(6) and (7) are about\n"
                         "    ki                            3.85e-05 N m/count: sampled loop unstable\n"),
@@ -144,6 +149,42 @@ TEST_F(CommandLine, CheckTakesTheCountThatIsFedBackForTheRuleOfTheDac) {
   EXPECT_NE(out.find("DAC: resolution 0.0005 N m, must be below k1·Δx = 0.008 N m with the Δx of the coarse "
                      "encoder: holds\n"),
             std::string::npos)
+      << out;
+}
+
+TEST_F(CommandLine, CheckPredictsNoHuntingOfALoopThatThePredictionsLeaveOut) {
+  folder_.write("rig.yaml",
+                "zerocount: 1\nname: rig\nseed: 1\ntrials: 3\ncommand: {targets: [5]}\n"
+                "friction: {model: coulomb}\n");
+  for (const auto& [set, left_out] : std::vector<std::pair<std::string, std::string>>{
+           {"plant.load.inertia=1e-4", "the second mass"},
+           {"controller.deadband=2", "the deadband"},
+           {"controller.integrator_zone=10", "the integrator zone"}}) {
+    const std::string out = run({"check", "rig.yaml", "--set", set}).out;
+    EXPECT_NE(out.find("hunting of trial 0: not predicted, since the predictions leave out " + left_out),
+              std::string::npos)
+        << out;
+  }
+}
+
+// At a k1 that is the same in all trials the sampled loop may still be stable in some trials only.
+TEST_F(CommandLine, CheckJudgesTheSampledLoopOfEachTrial) {
+  folder_.write("rig.yaml",
+                "zerocount: 1\nname: rig\nseed: 1\ntrials: 20\ncommand: {targets: [5]}\n"
+                "plant: {presliding_damping: {uniform: [0.1, 0.4]}}\n");
+  const std::string out = run({"check", "rig.yaml"}).out;
+  EXPECT_NE(out.find("sampled loop at k1 unstable in some trials"), std::string::npos) << out;
+  EXPECT_NE(out.find(": unstable in some trials\n"), std::string::npos) << out;
+}
+
+TEST_F(CommandLine, CheckCallsALoopThatNothingReturnsMarginal) {
+  folder_.write("rig.yaml",
+                "zerocount: 1\nname: rig\nseed: 1\ntrials: 2\ncommand: {targets: [5]}\n"
+                "controller: {ki: 0}\n");
+  const std::string out = run({"check", "rig.yaml"}).out;
+  EXPECT_NE(
+      out.find("while sliding: no phase crossover, no gain crossover: marginal, with an eigenvalue of 1\n"),
+      std::string::npos)
       << out;
 }
 

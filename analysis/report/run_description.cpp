@@ -99,6 +99,8 @@ std::vector<HtmlFact> facts_of(const ReportedStudy& reported) {
     facts.push_back({"Controller", fmt::format("plugin {} {}, SHA-256 {}", header.plugin->name,
                                                header.plugin->version, header.plugin->sha256)});
   }
+  if (!reported.study.correlations.empty())
+    facts.push_back({"Correlated", study::correlations_text(reported.study.correlations)});
   if (!header.overrides.empty())
     facts.insert(facts.begin() + 2,
                  {"Set on the command line", fmt::format("{}", fmt::join(header.overrides, ", "))});

@@ -149,6 +149,11 @@ void add_notes(const PointInputs& point, const TrialOutputs& trials, const UsedT
                     used.left_out, all - static_cast<std::size_t>(used.of_rigs),
                     point.design == study::Design::saltelli ? ", in whole rows" : ""));
   }
+  if (point.correlated) {
+    result.notes.emplace_back(
+        "some parameters are correlated: an index contains what a parameter shares with the others, and the "
+        "indices of correlated parameters may exceed 1 in all");
+  }
   if (used.of_rigs > 0) {
     result.notes.push_back(fmt::format(
         "of each of the {} rigs the first trial is used: the others are not independent of it", point.rigs));

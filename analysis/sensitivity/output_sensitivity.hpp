@@ -23,6 +23,7 @@ struct PointInputs {
   study::Design design{study::Design::monte_carlo};
   std::vector<std::string> factors;  ///< of the design saltelli, in its order; otherwise empty
   std::vector<InputValues> inputs;   ///< all input columns
+  bool correlated{false};            ///< some inputs are drawn together
   std::int64_t rigs{0};  ///< that the trials run on, the first ones each on another; 0: no trials share a rig
 };
 

@@ -48,7 +48,11 @@ void check_confidence(double confidence) {
 }
 
 PointInputs point_inputs(const reading::StudyFile& file, const study::Study& study, std::int64_t point) {
-  PointInputs inputs{.design = study.design, .factors = study.factors, .inputs = {}, .rigs = study.rigs};
+  PointInputs inputs{.design = study.design,
+                     .factors = study.factors,
+                     .inputs = {},
+                     .correlated = !study.correlations.empty(),
+                     .rigs = study.rigs};
   const layout::RowRange rows{point * file.header().trials, file.header().trials};
   for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
     inputs.inputs.push_back({file.input_columns()[column].name, file.input(column, rows)});

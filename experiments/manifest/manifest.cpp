@@ -10,6 +10,7 @@
 
 #include "experiments/designs/saltelli.hpp"
 #include "experiments/manifest/checks.hpp"
+#include "experiments/manifest/correlations.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
 #include "experiments/manifest/sections.hpp"
 #include "experiments/manifest/stopping.hpp"
@@ -270,6 +271,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version, con
   read_plugin(m.root, load, m.reading);
   read_sections(m.root, m.reading, m.places);
   read_axes(m);
+  read_correlations(m.root, m.reading, m.study);
   read_retained(m);
   if (const auto field = yaml::find_field(m.root, "stop"))
     read_stop(*field, max_study_trials, m.study, problems);

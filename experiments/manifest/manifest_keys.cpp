@@ -34,7 +34,7 @@ std::vector<std::string_view> value_paths() {
 }  // namespace
 
 std::span<const GeneralKey> general_keys() {
-  static constexpr std::array<GeneralKey, 21> keys{{
+  static constexpr std::array<GeneralKey, 22> keys{{
       {"zerocount", "version of the manifest's format: 1", true},
       {"name", "name of the study", true},
       {"description", "what the study is for", false},
@@ -59,6 +59,11 @@ std::span<const GeneralKey> general_keys() {
       {"stop",
        "trials are added, a block of `trials` at a time, until the success rate of every point is known: "
        "{success_rate_halfwidth: 0.005, confidence: 0.95, min_trials: 1000, max_trials: 100000}",
+       false},
+      {"correlation",
+       "correlations of drawn parameters: [[friction.k1, friction.k2, 0.6]], coefficients of the normal "
+       "scores "
+       "of their values (Gaussian copula); each keeps its distribution",
        false},
       {"observed", "what was observed on the real rig, by case or point label", false},
       {"sweep", "design points: grid (product of lists), cases (named), or both (product)", false},

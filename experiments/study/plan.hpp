@@ -10,6 +10,7 @@
 #include "core/trial/parameters.hpp"
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/parameters/study_units.hpp"
+#include "experiments/study/copula.hpp"
 #include "experiments/study/draws.hpp"
 #include "experiments/study/rotors.hpp"
 #include "experiments/study/sequence.hpp"
@@ -76,6 +77,7 @@ struct StudyPlan {
   std::vector<PlanAxis> axes;  ///< the last axis changes fastest, and takes precedence over the others
   std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
+  std::optional<GaussianCopula> copula;    ///< of correlated values
   std::vector<SlotRandomness> randomness;  ///< [slot]
   random::RandomKey sobol_places{};        ///< used by the design `sobol` with rigs
   std::vector<std::uint32_t> input_slots;  ///< slots whose values differ between trials

@@ -66,6 +66,13 @@ struct RealisedProfile {
       of_rig{};  ///< empty if all trials use one rotor
 };
 
+/// An entry of `correlation`: the correlation of the normal scores Φ⁻¹(F(x)) of two parameters.
+struct Correlation {
+  std::string first;  ///< dotted path
+  std::string second;
+  double coefficient{0.0};  ///< −1 < ρ < 1
+};
+
 /// One move of a sequence (`command.sequence`).
 struct SequenceMove {
   std::int64_t target{-1};  ///< index in the list; −1: beyond the first or last target
@@ -123,7 +130,8 @@ struct Study {
   std::int64_t rigs{0};              ///< number of rigs; 0: no trials share a rig
   std::optional<StoppingRule> stop;  ///< set for sequential stopping
   Design design{Design::monte_carlo};
-  std::vector<std::string> factors;  ///< factors of the design saltelli, in its order; otherwise empty
+  std::vector<Correlation> correlations;  ///< of drawn parameters; all others are independent
+  std::vector<std::string> factors;       ///< factors of the design saltelli, in its order; otherwise empty
   bool independent_points{false};
   Engine engine{Engine::batch};  ///< chosen for the run; not part of the manifest
 
@@ -158,6 +166,9 @@ struct StudyTrial {
   std::vector<double> inputs;  ///< [input column], in that column's unit; for profiles and values drawn per
                                ///< contact the value at the start
 };
+
+/// E.g. "friction.k1 and friction.k2 (0.6), friction.k1 and friction.beta (-0.5)".
+std::string correlations_text(const std::vector<Correlation>& correlations);
 
 inline std::int64_t point_count(const Study& study) {
   return static_cast<std::int64_t>(study.point_labels.size());

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -53,6 +54,16 @@ double drawn_uniform(const TrialDraws& draws, std::uint32_t slot, Per per) {
   }
   return design_uniform(study.design, randomness, draws.stream, source_trial(draws, slot),
                         static_cast<std::uint64_t>(study.trials));
+}
+
+/// The uniform number of a drawn value, with the copula of the study.
+double uniform_of(const TrialDraws& draws, std::uint32_t slot, Per per) {
+  const std::optional<GaussianCopula>& copula = draws.plan().copula;
+  if (!copula) return drawn_uniform(draws, slot, per);
+  const auto member = std::find(copula->slots.begin(), copula->slots.end(), slot);
+  if (member == copula->slots.end()) return drawn_uniform(draws, slot, per);
+  return copula_uniform(*copula, static_cast<std::size_t>(member - copula->slots.begin()),
+                        [&](std::size_t j) { return drawn_uniform(draws, copula->slots[j], copula->per); });
 }
 
 friction::ContactParameter contact_parameter(const TrialDraws& draws, std::uint32_t slot,
@@ -126,8 +137,7 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
     if (value.kind == Value::Kind::number) {
       set(slot, value.number);
     } else if (value.kind == Value::Kind::distribution) {
-      set(slot,
-          distributions::quantile(plan.distributions[value.index], drawn_uniform(draws, slot, value.per)));
+      set(slot, distributions::quantile(plan.distributions[value.index], uniform_of(draws, slot, value.per)));
       if (value.per == Per::contact) {
         trial.parameters.friction.per_contact.push_back(contact_parameter(draws, slot, value));
       }
@@ -171,7 +181,7 @@ std::vector<double> rig_inputs(const Study& study, std::int64_t rig) {
     inputs.push_back(source.profile_mean
                          ? profile_mean(draws, value)
                          : distributions::quantile(plan.distributions[value.index],
-                                                   drawn_uniform(draws, source.slot, value.per)));
+                                                   uniform_of(draws, source.slot, value.per)));
   }
   return inputs;
 }

@@ -53,6 +53,8 @@ void print_what_differs(const study::Study& study) {
   print_columns(study, "of these, drawn anew at each contact", {study::Per::contact});
   print_columns(study, "differing between rigs", {study::Per::rig});
   print_columns(study, "the same in all trials of a point", {study::Per::study});
+  if (!study.correlations.empty())
+    fmt::print("  correlated: {}\n", study::correlations_text(study.correlations));
 }
 
 void print_plan(const study::Study& study) {

@@ -1,0 +1,208 @@
+#include "experiments/manifest/correlations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiments/manifest/drawn_per.hpp"
+#include "experiments/study/copula.hpp"
+#include "experiments/study/point_limits.hpp"
+#include "experiments/yaml/nearest_name.hpp"
+
+namespace zerocount::manifest {
+namespace {
+
+constexpr const char* entry_form = "[first parameter, second parameter, coefficient]";
+
+struct Pair {
+  std::uint32_t first{0};  // slots
+  std::uint32_t second{0};
+  double coefficient{0.0};
+};
+
+bool draws(const study::Value& value) {
+  return value.kind == study::Value::Kind::distribution;
+}
+
+// Why the slot's value at some point cannot be part of a copula; empty if it can.
+std::string fault_of(const study::Value& value) {
+  switch (value.kind) {
+    case study::Value::Kind::number:
+      return "";
+    case study::Value::Kind::profile:
+      return "it is a profile along the rotor at some design point";
+    case study::Value::Kind::distribution:
+      break;
+  }
+  switch (value.per) {
+    case study::Per::rig:
+    case study::Per::trial:
+      return "";
+    case study::Per::study:
+      return "it is drawn once for the study";
+    case study::Per::contact:
+      break;
+  }
+  return "it is drawn anew at each contact";
+}
+
+std::vector<std::string> drawn_names(const study::StudyPlan& plan) {
+  std::vector<std::string> names;
+  for (const std::size_t slot : study::slots_in_table_order(plan.table)) {
+    const std::vector<const study::Value*> values = study::values_of(plan, slot);
+    if (std::any_of(values.begin(), values.end(), [](const study::Value* value) { return draws(*value); }))
+      names.emplace_back(plan.table.rows[slot].name);
+  }
+  return names;
+}
+
+// Whether a value of the slot could not be read, which is reported already.
+bool is_unreadable(const study::StudyPlan& plan, std::size_t slot) {
+  const std::vector<const study::Value*> values = study::values_of(plan, slot);
+  return std::any_of(values.begin(), values.end(), [](const study::Value* value) {
+    return value->kind == study::Value::Kind::number && std::isnan(value->number);
+  });
+}
+
+// The slot of a parameter that is drawn at some design point, and that a copula can have.
+std::optional<std::uint32_t> read_drawn(const yaml::Field& field, Reading& reading) {
+  const auto name = yaml::read_text(field, reading.problems);
+  if (!name) return std::nullopt;
+  const std::vector<std::string> known = drawn_names(reading.plan);
+  const auto slots = study::find_slots(*name, reading.plan.table);
+  if (slots && slots->count == 1 && is_unreadable(reading.plan, slots->first)) return std::nullopt;
+  if (std::find(known.begin(), known.end(), *name) == known.end() || !slots || slots->count != 1) {
+    const std::string nearest =
+        known.empty() ? "" : fmt::format(", nearest known: {}", yaml::nearest_name(*name, known));
+    reading.problems.add(
+        field, fmt::format("no parameter of this name is drawn{}", nearest),
+        known.empty() ? "parameters with distributions" : fmt::format("one of {}", fmt::join(known, ", ")));
+    return std::nullopt;
+  }
+  for (const study::Value* value : study::values_of(reading.plan, slots->first)) {
+    const std::string fault = fault_of(*value);
+    if (fault.empty()) continue;
+    reading.problems.add(field, fmt::format("{} cannot be correlated: {}", *name, fault),
+                         "a distribution drawn for each rig or each trial");
+    return std::nullopt;
+  }
+  return static_cast<std::uint32_t>(slots->first);
+}
+
+std::optional<Pair> read_pair(const yaml::Field& entry, Reading& reading) {
+  yaml::Problems& problems = reading.problems;
+  if (!yaml::check_list(entry, entry_form, problems)) return std::nullopt;
+  if (entry.node->items.size() != 3) {
+    problems.add(entry, fmt::format("the entry has {} values", entry.node->items.size()), entry_form);
+    return std::nullopt;
+  }
+  const auto first = read_drawn(yaml::item_of(entry, 0), reading);
+  const auto second = read_drawn(yaml::item_of(entry, 1), reading);
+  const auto coefficient = yaml::read_real(yaml::item_of(entry, 2), {.low = -1.0, .high = 1.0}, problems);
+  if (!first || !second || !coefficient) return std::nullopt;
+  if (*first == *second) {
+    problems.add(entry, "a parameter cannot be correlated with itself", "two different parameters");
+    return std::nullopt;
+  }
+  return Pair{*first, *second, *coefficient};
+}
+
+// How often the values of the slots are drawn, if it is the same for all of them at all points.
+std::optional<study::Per> common_per(const std::vector<std::uint32_t>& slots, const study::StudyPlan& plan) {
+  std::set<study::Per> found;
+  for (const std::uint32_t slot : slots) {
+    for (const study::Value* value : study::values_of(plan, slot)) {
+      if (draws(*value)) found.insert(value->per);
+    }
+  }
+  return found.size() == 1 ? std::optional(*found.begin()) : std::nullopt;
+}
+
+// The slots of the pairs, in the order of columns.
+std::vector<std::uint32_t> slots_of(const std::vector<Pair>& pairs, const study::StudyPlan& plan) {
+  std::vector<std::uint32_t> slots;
+  for (const std::size_t slot : study::slots_in_table_order(plan.table)) {
+    if (std::any_of(pairs.begin(), pairs.end(),
+                    [&](const Pair& pair) { return pair.first == slot || pair.second == slot; }))
+      slots.push_back(static_cast<std::uint32_t>(slot));
+  }
+  return slots;
+}
+
+Eigen::MatrixXd matrix_of(const std::vector<Pair>& pairs, const std::vector<std::uint32_t>& slots) {
+  const auto place = [&](std::uint32_t slot) {
+    return static_cast<Eigen::Index>(std::find(slots.begin(), slots.end(), slot) - slots.begin());
+  };
+  const auto size = static_cast<Eigen::Index>(slots.size());
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(size, size);
+  for (const Pair& pair : pairs) {
+    matrix(place(pair.first), place(pair.second)) = pair.coefficient;
+    matrix(place(pair.second), place(pair.first)) = pair.coefficient;
+  }
+  return matrix;
+}
+
+void make_copula(const yaml::Field& list, const std::vector<Pair>& pairs, Reading& reading) {
+  study::GaussianCopula copula;
+  copula.slots = slots_of(pairs, reading.plan);
+  const auto per = common_per(copula.slots, reading.plan);
+  if (!per) {
+    reading.problems.add(list, "some of these parameters are drawn for each rig and others for each trial",
+                         fmt::format("the same `{}` for all of them", per_key));
+    return;
+  }
+  copula.per = *per;
+  auto factor = study::cholesky_factor(matrix_of(pairs, copula.slots));
+  if (!factor) {
+    reading.problems.add(list,
+                         "no random numbers have these correlations: their matrix, with 0 for the pairs that "
+                         "are not given, is not positive definite",
+                         "smaller coefficients, or those of the other pairs too");
+    return;
+  }
+  copula.factor = std::move(*factor);
+  reading.plan.copula = std::move(copula);
+}
+
+}  // namespace
+
+void read_correlations(const yaml::Field& root, Reading& reading, study::Study& study) {
+  const auto list = yaml::find_field(root, "correlation");
+  if (!list) return;
+  const std::string expected = fmt::format("a list of entries {}", entry_form);
+  if (!yaml::check_list(*list, expected, reading.problems)) return;
+  if (list->node->items.empty()) {
+    reading.problems.add(*list, "the list is empty", expected);
+    return;
+  }
+  if (study.design == study::Design::saltelli) {
+    reading.problems.add(*list, "Sobol' indices by the design saltelli are those of independent parameters",
+                         "another design");
+    return;
+  }
+  std::vector<Pair> pairs;
+  std::set<std::set<std::uint32_t>> seen;
+  bool complete = true;
+  for (std::size_t i = 0; i < list->node->items.size(); ++i) {
+    const yaml::Field entry = yaml::item_of(*list, i);
+    const auto pair = read_pair(entry, reading);
+    complete = complete && pair;
+    if (!pair) continue;
+    if (!seen.insert({pair->first, pair->second}).second) {
+      reading.problems.add(entry, "this pair stands in the list twice", "each pair once");
+      complete = false;
+      continue;
+    }
+    pairs.push_back(*pair);
+    study.correlations.push_back({std::string(reading.plan.table.rows[pair->first].name),
+                                  std::string(reading.plan.table.rows[pair->second].name),
+                                  pair->coefficient});
+  }
+  if (complete) make_copula(*list, pairs, reading);
+}
+
+}  // namespace zerocount::manifest

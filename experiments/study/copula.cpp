@@ -1,0 +1,41 @@
+#include "experiments/study/copula.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+#include <boost/math/distributions/normal.hpp>
+#include <fmt/format.h>
+
+namespace zerocount::study {
+
+std::optional<Eigen::MatrixXd> cholesky_factor(const Eigen::MatrixXd& correlations) {
+  constexpr double smallest_pivot = 1e-6;  // of L: below it a value would follow from the others
+  const Eigen::LLT<Eigen::MatrixXd> decomposition(correlations);
+  if (decomposition.info() != Eigen::Success) return std::nullopt;
+  Eigen::MatrixXd factor = decomposition.matrixL();
+  if (factor.diagonal().minCoeff() < smallest_pivot) return std::nullopt;
+  return factor;
+}
+
+double copula_uniform(const GaussianCopula& copula, std::size_t member,
+                      const std::function<double(std::size_t)>& independent) {
+  const auto row = static_cast<Eigen::Index>(member);
+  if (copula.factor.row(row).head(row).isZero(0.0)) return independent(member);
+  const boost::math::normal standard;
+  double score = 0.0;
+  for (std::size_t j = 0; j <= member; ++j) {
+    const double weight = copula.factor(row, static_cast<Eigen::Index>(j));
+    if (weight != 0.0) score += weight * boost::math::quantile(standard, independent(j));
+  }
+  return std::clamp(boost::math::cdf(standard, score), 0x1p-53, 1.0 - 0x1p-53);
+}
+
+std::string correlations_text(const std::vector<Correlation>& correlations) {
+  std::string text;
+  for (const auto& [first, second, coefficient] : correlations) {
+    text += fmt::format("{}{} and {} ({})", text.empty() ? "" : ", ", first, second, coefficient);
+  }
+  return text;
+}
+
+}  // namespace zerocount::study

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "analysis/jerks/jerk_report.hpp"
+#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::jerks {
@@ -25,9 +26,9 @@ std::string rate_table(const std::vector<JerkRate>& rates, const std::string& le
 }
 
 std::string proportion_text(const statistics::ClusteredProportion& proportion) {
-  return fmt::format("{} of {}, bounds [{:.1f}, {:.1f}] %",
-                     text::percentage(proportion.hits, proportion.events), proportion.events,
-                     100.0 * proportion.korn_graubard.low, 100.0 * proportion.korn_graubard.high);
+  return fmt::format("{} of {}, bounds [{}] %", text::percentage(proportion.hits, proportion.events),
+                     proportion.events,
+                     text::percent_bounds(proportion.korn_graubard.low, proportion.korn_graubard.high));
 }
 
 std::string intervals_text(const JerkIntervals& intervals) {
@@ -94,7 +95,7 @@ constexpr const char* legend =
 }  // namespace
 
 std::string jerk_text(const JerkReport& report) {
-  const std::string level = fmt::format("{:.6g} %", 100.0 * report.confidence);
+  const std::string level = text::percent(report.confidence);
   std::string text = text::printable(report.name) + "\n\n";
   for (const PointJerks& point : report.points) text += point_text(point, level, report.axis);
   return text + legend;

@@ -10,6 +10,7 @@
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/statistics/tolerance.hpp"
 #include "analysis/summary/undecided.hpp"
+#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::report {
@@ -19,7 +20,8 @@ namespace {
 std::string bounds_text(const ReportedStudy& reported, std::int64_t point) {
   if (reported.summary.features.dependent_trials) return "";
   const statistics::ConfidenceInterval& bounds = bounds_of(reported, point);
-  return fmt::format(" (95 % bounds {} to {})", proportion_text(bounds.low), proportion_text(bounds.high));
+  return fmt::format(" (95 % bounds {} to {})", text::percent_at_least(bounds.low),
+                     text::percent_at_most(bounds.high));
 }
 
 std::string of_all(std::int64_t successes, std::int64_t trials) {
@@ -37,7 +39,7 @@ std::string flawless_text(const ReportedStudy& reported, const statistics::Succe
   return fmt::format(
       "No failure in {} trials does not prove 100 % repeatability: with 95 % confidence the probability of a "
       "failure is at most {}. To show that it is below 0.1 % takes {} {} without a failure.",
-      claim.trials, statistics::percent_at_most(claim.failure_at_most),
+      claim.trials, text::percent_at_most(claim.failure_at_most),
       statistics::trials_for_claim(0.999, claim.confidence, 0), claim.rigs > 0 ? "rigs" : "trials");
 }
 

@@ -128,8 +128,7 @@ std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point) {
   Figure figure =
       figure_of("jerk-rate", "jerk-rate", "Rate of jerks",
                 fmt::format("Number of jerks per second after arrival at point {}, over all moves that "
-                            "arrived (line), against the time since arrival. A decreasing rate shows creep "
-                            "that ends as the contact hardens. The boxes are 95 % bounds of the rate in each "
+                            "arrived (line), against the time since arrival. The boxes are 95 % bounds of the rate in each "
                             "range of time (Garwood, widened if trials differ), for each range separately.",
                             label_of(reported, point)),
                 {std::move(data)});

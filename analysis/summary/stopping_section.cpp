@@ -67,7 +67,7 @@ measures::SummarySection stopping_section(std::span<const measures::PointSummary
                                {}};
   };
   const std::int64_t rigs = points.empty() ? 0 : points.front().rigs.n;
-  measures::SummarySection section{.key = "stopped",
+  measures::SummarySection section{.key = stopping_key,
                                    .json = {},
                                    .columns = {column("low", "lower"), column("high", "upper")},
                                    .text = text_of(bounds, judged, labels, rule, rigs, confidence)};

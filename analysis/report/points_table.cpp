@@ -101,6 +101,12 @@ std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
     label.cells.push_back(summary.labels[i]);
     observed.cells.push_back(summary::observed_at(summary, static_cast<std::int64_t>(i)));
   }
+  for (const measures::SummarySection& section : summary.sections) {
+    if (section.key != summary::observed_key) continue;
+    for (std::size_t i = 0; i < rows; ++i)
+      observed.below.push_back(section.json[i].is_null() ? ""
+                                                         : section.json[i]["statement"].get<std::string>());
+  }
   const bool dependent = summary.features.dependent_trials;
   std::vector<HtmlColumn> columns{label};
   for (const PointCell& cell : point_cells) {

@@ -141,7 +141,11 @@ RigStatistics rig_statistics(std::span<const RigTrials> rigs, double confidence)
   result.without_failure = rate(faultless, result.n);
   result.without_failure_bounds = clopper_pearson(faultless, result.n, confidence);
   result.worst_5_percent = worst_of(rigs);
-  for (const RigTrials& rig : rigs) result.successes.add(rig.successes, rig.trials);
+  result.trials_of_rig = rigs.front().trials;
+  for (const RigTrials& rig : rigs) {
+    result.successes.add(rig.successes, rig.trials);
+    result.successes_of_rigs.push_back(rig.successes);
+  }
   result.tolerance = rig_tolerance(rigs, result.tolerance.content, confidence);
   return result;
 }

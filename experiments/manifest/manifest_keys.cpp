@@ -60,7 +60,7 @@ std::span<const GeneralKey> general_keys() {
        "trials are added, a block of `trials` at a time, until the success rate of every point is known: "
        "{success_rate_halfwidth: 0.005, confidence: 0.95, min_trials: 1000, max_trials: 100000}",
        false},
-      {"observed", "what was observed on the real rig, by case or point label", false},
+      {"observed", "what was observed on the real rig, by case or point label: texts or counts", false},
       {"sweep", "design points: grid (product of lists), cases (named), or both (product)", false},
       {"controller.units",
        "unit of kp, ki and kd, of the coarse phase too: count (default), per count and sample; or si: N "

@@ -13,6 +13,7 @@
 #include "analysis/iso230/repeatability_statistics.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/tolerance.hpp"
+#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::iso230 {
@@ -114,7 +115,7 @@ std::string zero_bounds(const RowOfValues& row) {
   if (row.from().unit != "count") return {};
   if (!row.point.zero_repeatability) return "–";
   const statistics::ConfidenceInterval& bounds = row.point.zero_bounds;
-  return fmt::format("[{:.1f}, {:.1f}]", 100.0 * bounds.low, 100.0 * bounds.high);
+  return fmt::format("[{}]", text::percent_bounds(bounds.low, bounds.high));
 }
 
 std::string table_of_axis(const RepeatabilitySummary& summary, const std::vector<std::string>& labels) {
@@ -132,8 +133,7 @@ std::string table_of_axis(const RepeatabilitySummary& summary, const std::vector
   add_values(columns, axis_fields(), shown, summary.shape, rows,
              [](Row row) { return std::span(row.point.sources[row.source].axis); });
   columns.push_back(column_of("zero", true, rows, zero_share));
-  columns.push_back(
-      column_of(fmt::format("{:.6g} % bounds", 100.0 * summary.confidence), true, rows, zero_bounds));
+  columns.push_back(column_of(text::percent(summary.confidence) + " bounds", true, rows, zero_bounds));
   return text::aligned_table(columns);
 }
 
@@ -179,7 +179,7 @@ std::string exact_points(const RepeatabilitySummary& summary, const std::vector<
         "{}: all {} trials repeat exactly: not 100 %, but at most {} of axes do not, with {:.6g} % "
         "confidence\n",
         text::printable(labels[i]), point.trials,
-        statistics::percent_at_most(statistics::proportion_at_most(0, point.trials, summary.confidence)),
+        text::percent_at_most(statistics::proportion_at_most(0, point.trials, summary.confidence)),
         100.0 * summary.confidence);
   }
   return lines;

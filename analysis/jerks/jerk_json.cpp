@@ -40,10 +40,11 @@ Json intervals_json(const JerkIntervals& intervals) {
   return json;
 }
 
-Json slowing_json(const LaplaceSummary& slowing) {
-  return {{"moves", slowing.moves},           {"tested", slowing.tested}, {"slowing", slowing.slowing},
-          {"quickening", slowing.quickening}, {"score", slowing.summed},  {"stouffer", slowing.stouffer},
-          {"p_value", slowing.p_slowing}};
+Json slowing_json(const TrendSummary& slowing) {
+  return {{"moves", slowing.moves},       {"tested", slowing.tested},
+          {"slowing", slowing.slowing},   {"quickening", slowing.quickening},
+          {"score", slowing.summed},      {"stouffer", slowing.stouffer},
+          {"p_value", slowing.p_slowing}, {"permutations", slowing.permutations}};
 }
 
 Json proportion_json(const statistics::ClusteredProportion& proportion) {

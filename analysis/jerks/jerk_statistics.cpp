@@ -27,19 +27,12 @@ double interval_before(const ObservedMove& move, std::size_t jerk) {
   return std::round(samples * move.sample_time * 1e12) / 1e12;
 }
 
-/// Laplace's term of the jerks after the first one. An instant is a sample after the first jerk at which a
-/// jerk could begin.
-LaplaceTerm trend_after_first(const ObservedMove& move) {
-  if (move.jerks.empty()) return {};
-  std::vector<std::int64_t> numbers;
-  std::int64_t at_risk = 0;
-  std::size_t runs = 0;
-  for_each_run_at_risk(move, [&](std::int64_t first, std::int64_t end) {
-    if (runs > 0) at_risk += end - first;
-    if (runs > 0 && runs < move.jerks.size()) numbers.push_back(at_risk);
-    ++runs;
-  });
-  return laplace_term(numbers, at_risk);
+/// Samples between the onsets of successive jerks.
+std::vector<std::int64_t> intervals_of(const ObservedMove& move) {
+  std::vector<std::int64_t> intervals;
+  for (std::size_t i = 1; i < move.jerks.size(); ++i)
+    intervals.push_back(move.jerks[i].onset - move.jerks[i - 1].onset);
+  return intervals;
 }
 
 /// Hits and events of the clusters that may still receive events, and sums over the completed clusters.
@@ -89,7 +82,7 @@ class JerkCollector {
   JerkCollector(double confidence, std::int64_t rigs)
       : confidence_(confidence),
         rates_(rigs > 0),
-        laplace_(confidence),
+        trend_(confidence),
         agreeing_(rigs > 0),
         one_count_(rigs > 0),
         intervals_(rigs) {}
@@ -105,7 +98,7 @@ class JerkCollector {
       return;
     }
     rates_.add(move);
-    laplace_.add(trend_after_first(move));
+    trend_.add(intervals_of(move));
     for (std::size_t i = 0; i < move.jerks.size(); ++i) {
       if (i > 0) intervals_of_cluster_.push_back(interval_before(move, i));
       add_jerk(move, move.jerks[i]);
@@ -117,7 +110,7 @@ class JerkCollector {
     JerkStatistics result = found_;
     result.confidence = confidence_;
     result.rates = rates_.rates(confidence_);
-    result.slowing = laplace_.summary();
+    result.slowing = trend_.summary();
     result.agreement = statistics::clustered_proportion(agreeing_.sums(), confidence_);
     result.intervals = interval_statistics(intervals_.sample(), confidence_);
     JerkMagnitudes& magnitudes = result.magnitudes;
@@ -151,7 +144,7 @@ class JerkCollector {
   double confidence_;
   JerkStatistics found_;
   JerkRates rates_;
-  LaplaceSum laplace_;
+  TrendSum trend_;
   EventSums agreeing_, one_count_;
   statistics::TrialClusters intervals_;
   std::vector<double> intervals_of_cluster_;

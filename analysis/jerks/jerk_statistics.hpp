@@ -67,7 +67,7 @@ struct JerkStatistics {
   std::int64_t jerks{0};
   std::vector<JerkRate> rates;  ///< consecutive ranges, equally spaced in the logarithm
   JerkIntervals intervals;
-  LaplaceSummary slowing;                     ///< trend of the jerks after the first of their move
+  TrendSummary slowing;                       ///< trend of the intervals between the jerks of a move
   statistics::ClusteredProportion agreement;  ///< jerks in the direction of their holding torque
   JerkMagnitudes magnitudes;
 };

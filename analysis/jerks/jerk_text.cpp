@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "analysis/jerks/jerk_report.hpp"
+#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::jerks {
@@ -25,9 +26,9 @@ std::string rate_table(const std::vector<JerkRate>& rates, const std::string& le
 }
 
 std::string proportion_text(const statistics::ClusteredProportion& proportion) {
-  return fmt::format("{} of {}, bounds [{:.1f}, {:.1f}] %",
-                     text::percentage(proportion.hits, proportion.events), proportion.events,
-                     100.0 * proportion.korn_graubard.low, 100.0 * proportion.korn_graubard.high);
+  return fmt::format("{} of {}, bounds [{}] %", text::percentage(proportion.hits, proportion.events),
+                     proportion.events,
+                     text::percent_bounds(proportion.korn_graubard.low, proportion.korn_graubard.high));
 }
 
 std::string intervals_text(const JerkIntervals& intervals) {
@@ -42,13 +43,18 @@ std::string intervals_text(const JerkIntervals& intervals) {
   return text + "\n";
 }
 
-std::string slowing_text(const LaplaceSummary& slowing, const std::string& level) {
+/// Whether the p-value is the least that so many permutations can show.
+bool is_least(const TrendSummary& slowing) {
+  return slowing.permutations > 0 && slowing.p_slowing * static_cast<double>(slowing.permutations + 1) < 1.5;
+}
+
+std::string slowing_text(const TrendSummary& slowing, const std::string& level) {
   if (slowing.moves == 0) return {};
   return fmt::format(
-      "slowing down after the first jerk: score {:.2f} over {} moves (p = {:.2g}); of {} moves with {} or "
-      "more, {} slow down and {} quicken ({} one-sided)\n",
-      slowing.summed, slowing.moves, slowing.p_slowing, slowing.tested, min_laplace_events, slowing.slowing,
-      slowing.quickening, level);
+      "slowing down after the first jerk: score {:.2f} over {} moves (p {} {:.2g}); of {} moves with {} or "
+      "more intervals, {} slow down and {} quicken ({} one-sided)\n",
+      slowing.summed, slowing.moves, is_least(slowing) ? "≤" : "=", slowing.p_slowing, slowing.tested,
+      min_trend_intervals, slowing.slowing, slowing.quickening, level);
 }
 
 std::string creep_text(const CreepComparison& creep, const CreepAgreement& agreement) {
@@ -87,14 +93,19 @@ constexpr const char* legend =
     "watched: time in which a jerk could have begun, summed over all moves\n"
     "rate: jerks per second watched; Garwood's bounds, widened where the jerks of a trial vary more than\n"
     "independent ones (dispersion above 1)\n"
-    "score: Laplace's trend test, standard normal without a trend, negative if jerks slow down\n"
+    "score: Laplace's statistic of the intervals against their permutations within each move: mean 0 and\n"
+    "standard deviation 1 without a trend, whatever the distribution of the intervals; negative if jerks "
+    "slow\n"
+    "down. p: proportion of permutations in which they would seem to slow down as much. A trend does not "
+    "tell its\n"
+    "cause: creep, or noise that moves the rotor to where it is quieter\n"
     "creep at constant torque: onset of the next jerk, predicted from the state a dwell after the error "
     "became 0\n";
 
 }  // namespace
 
 std::string jerk_text(const JerkReport& report) {
-  const std::string level = fmt::format("{:.6g} %", 100.0 * report.confidence);
+  const std::string level = text::percent(report.confidence);
   std::string text = text::printable(report.name) + "\n\n";
   for (const PointJerks& point : report.points) text += point_text(point, level, report.axis);
   return text + legend;

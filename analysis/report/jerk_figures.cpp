@@ -125,14 +125,14 @@ std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point) {
        {{"jerks", "jerks", "1"}, [](Rate r) { return r.jerks; }},
        {{"moves", "moves", "1"}, [](Rate r) { return r.moves; }},
        {{"exposure", "exposure", "s"}, [](Rate r) { return datum(r.exposure); }}});
-  Figure figure =
-      figure_of("jerk-rate", "jerk-rate", "Rate of jerks",
-                fmt::format("Number of jerks per second after arrival at point {}, over all moves that "
-                            "arrived (line), against the time since arrival. A decreasing rate shows creep "
-                            "that ends as the contact hardens. The boxes are 95 % bounds of the rate in each "
-                            "range of time (Garwood, widened if trials differ), for each range separately.",
-                            label_of(reported, point)),
-                {std::move(data)});
+  Figure figure = figure_of(
+      "jerk-rate", "jerk-rate", "Rate of jerks",
+      fmt::format(
+          "Number of jerks per second after arrival at point {}, over all moves that "
+          "arrived (line), against the time since arrival. The boxes are 95 % bounds of the rate in each "
+          "range of time (Garwood, widened if trials differ), for each range separately.",
+          label_of(reported, point)),
+      {std::move(data)});
   ordered_json& x = figure.specification["encoding"]["x"];
   const double first = jerks.rates.front().from > 0.0 ? jerks.rates.front().from : jerks.rates.front().to;
   x["axis"]["values"] = round_numbers(jerks.rates.front().from, jerks.rates.back().to, first);

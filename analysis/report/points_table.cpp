@@ -9,6 +9,7 @@
 #include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/tolerance.hpp"
 #include "analysis/summary/summary_parts.hpp"
+#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::report {
@@ -41,25 +42,23 @@ constexpr PointCell point_cells[] = {
     {"trials", "", [](Point point, Theory) { return std::to_string(point.trials); }},
     {"zero-count", "95 % bounds",
      [](Point point, Theory) { return text::percentage(point.outcomes.zero_count, point.trials); },
-     [](Point, Bounds rate) { return fmt::format("{:.1f} … {:.1f}", 100.0 * rate.low, 100.0 * rate.high); }},
+     [](Point, Bounds rate) { return text::percent_bounds(rate.low, rate.high, 1, " … "); }},
     {"failures at most", "at 95 %",
-     [](Point point, Theory) { return statistics::percent_at_most(point.claim.failure_at_most); }, nullptr,
-     true},
+     [](Point point, Theory) { return text::percent_at_most(point.claim.failure_at_most); }, nullptr, true},
     {"rigs without failure", "95 % bounds",
      [](Point point, Theory) {
        return fmt::format("{:.0f} of {}", point.rigs.without_failure * static_cast<double>(point.rigs.n),
                           point.rigs.n);
      },
      [](Point point, Bounds) {
-       return fmt::format("{:.1f} … {:.1f}", 100.0 * point.rigs.without_failure_bounds.low,
-                          100.0 * point.rigs.without_failure_bounds.high);
+       return text::percent_bounds(point.rigs.without_failure_bounds.low,
+                                   point.rigs.without_failure_bounds.high, 1, " … ");
      },
      false, true},
     {"sd between rigs", "", [](Point point, Theory) { return text::short_number(point.rigs.success_sd); },
      nullptr, false, true},
-    {"worst 5 % of rigs", "",
-     [](Point point, Theory) { return fmt::format("{:.1f} %", 100.0 * point.rigs.worst_5_percent); }, nullptr,
-     false, true},
+    {"worst 5 % of rigs", "", [](Point point, Theory) { return proportion_text(point.rigs.worst_5_percent); },
+     nullptr, false, true},
     {"one count", "", [](Point point, Theory) { return std::to_string(point.outcomes.one_count); }},
     {"undecided", "", [](Point point, Theory) { return std::to_string(point.outcomes.off_target); }},
     {"oscil\u00adlating", "", [](Point point, Theory) { return std::to_string(point.outcomes.oscillating); }},
@@ -101,6 +100,12 @@ std::string loop_table(const ReportedStudy& reported, std::size_t rows) {
   for (std::size_t i = 0; i < rows; ++i) {
     label.cells.push_back(summary.labels[i]);
     observed.cells.push_back(summary::observed_at(summary, static_cast<std::int64_t>(i)));
+  }
+  for (const measures::SummarySection& section : summary.sections) {
+    if (section.key != summary::observed_key) continue;
+    for (std::size_t i = 0; i < rows; ++i)
+      observed.below.push_back(section.json[i].is_null() ? ""
+                                                         : section.json[i]["statement"].get<std::string>());
   }
   const bool dependent = summary.features.dependent_trials;
   std::vector<HtmlColumn> columns{label};

@@ -6,34 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/summary/best_point.hpp"
 #include "analysis/summary/summary.hpp"
 #include "results/layout/header.hpp"
 
 namespace zerocount::report {
-namespace {
-
-bool better(const measures::PointSummary& one, const measures::PointSummary& other) {
-  if (one.outcomes.zero_count != other.outcomes.zero_count)
-    return static_cast<double>(one.outcomes.zero_count) * static_cast<double>(other.trials) >
-           static_cast<double>(other.outcomes.zero_count) * static_cast<double>(one.trials);
-  return one.of(&trial::MoveOutcome::settling_time).median.value <
-         other.of(&trial::MoveOutcome::settling_time).median.value;
-}
-
-/// With sequential stopping the bounds are those of a confidence sequence. With rigs they are the outer
-/// bounds of these and of the bounds over rigs.
-statistics::ConfidenceInterval success_bounds_of(const measures::PointSummary& point,
-                                                 bool stopped_by_outcomes) {
-  const statistics::ConfidenceInterval& fixed = point.success_rate().clopper_pearson;
-  if (!stopped_by_outcomes) return fixed;
-  const statistics::ConfidenceInterval stopped = statistics::confidence_sequence_bounds(
-      point.outcomes.zero_count, point.judged, statistics::summary_confidence);
-  if (point.rigs.n == 0) return stopped;
-  return {std::min(stopped.low, fixed.low), std::max(stopped.high, fixed.high)};
-}
-
-}  // namespace
 
 ReportedStudy reported_study(const reading::StudyFile& file) {
   ReportedStudy reported{file, layout::recorded_study(file.header(), file.path()), summary::summarise(file)};
@@ -41,17 +18,10 @@ ReportedStudy reported_study(const reading::StudyFile& file) {
                          : reported.study.rigs ? "Korn-Graubard bounds"
                                                : "Clopper-Pearson bounds";
   for (const measures::PointSummary& point : reported.summary.points)
-    reported.success_bounds.push_back(success_bounds_of(point, reported.study.stop.has_value()));
-  reported.focus = best_point(reported.summary.points);
+    reported.success_bounds.push_back(
+        summary::bounds_of_chosen(point, 1, reported.study.stop.has_value(), statistics::summary_confidence));
+  reported.focus = summary::best_point(reported.summary.points);
   return reported;
-}
-
-std::int64_t best_point(const std::vector<measures::PointSummary>& points) {
-  std::size_t best = 0;
-  for (std::size_t point = 1; point < points.size(); ++point) {
-    if (better(points[point], points[best])) best = point;
-  }
-  return static_cast<std::int64_t>(best);
 }
 
 std::int64_t most_telling_point(const std::vector<measures::PointSummary>& points) {

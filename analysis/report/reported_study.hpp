@@ -45,10 +45,6 @@ inline constexpr std::string_view too_narrow_sentence =
 /// @param file a complete study.
 ReportedStudy reported_study(const reading::StudyFile& file);
 
-/// The point with the highest success rate; among equals the one with the lowest median settling time, then
-/// the first. For an open-loop study the first point.
-std::int64_t best_point(const std::vector<measures::PointSummary>& points);
-
 /// The point whose success rate is nearest to one half. It has the most information about the causes of
 /// failures.
 std::int64_t most_telling_point(const std::vector<measures::PointSummary>& points);

@@ -6,6 +6,7 @@
 #include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/sensitivity/sensitivity.hpp"
+#include "analysis/text/percent.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -42,12 +43,16 @@ Figure figure_for(const sensitivity::OutputSensitivity& output, const std::strin
   }
   std::string caption = fmt::format(
       "Sobol' indices of {} at point {} (dots) with 95 % bounds (bars), for each random parameter, strongest "
-      "first: the proportion of the variance that the parameter explains. Parameters whose bounds exclude "
-      "zero influence the output. For the others this study shows no influence. ",
-      label_text(output.output), label);
-  if (total)
-    caption +=
-        "A total index well above the first-order one means that the parameter interacts with others. ";
+      "first: the proportion of the variance that the parameter {}. A parameter influences the output if its "
+      "lower bound{} is above {}. Bounds that include {} leave it open. ",
+      label_text(output.output), label,
+      total ? "explains alone (first order), or has a part in, alone or with others (total)"
+            : "explains alone",
+      total ? " of the total index" : "", text::percent(sensitivity::relevant_index),
+      text::percent(sensitivity::relevant_index));
+  caption += total ? "What several parameters do only together counts in the total of each, so totals need "
+                     "not add up to 100 %. "
+                   : "What a parameter does only together with others does not show in this design. ";
   if (shown < output.factors.size())
     caption += fmt::format("Shown are {} of {}. ", shown, output.factors.size());
   for (const std::string& note : output.notes) caption += note + (note.ends_with('.') ? " " : ". ");

@@ -9,17 +9,24 @@
 #include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/statistics/tolerance.hpp"
+#include "analysis/summary/best_point.hpp"
 #include "analysis/summary/undecided.hpp"
+#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::report {
 namespace {
 
-/// " (95 % bounds a to b)"; empty if the trials are not independent.
+/// " (95 % bounds a to b)" of the best or the worst point, which account for its choice among all points;
+/// empty if the trials are not independent.
 std::string bounds_text(const ReportedStudy& reported, std::int64_t point) {
   if (reported.summary.features.dependent_trials) return "";
-  const statistics::ConfidenceInterval& bounds = bounds_of(reported, point);
-  return fmt::format(" (95 % bounds {} to {})", proportion_text(bounds.low), proportion_text(bounds.high));
+  const std::size_t points = reported.summary.points.size();
+  const statistics::ConfidenceInterval bounds = summary::bounds_of_chosen(
+      point_of(reported, point), points, reported.study.stop.has_value(), statistics::summary_confidence);
+  return fmt::format(" (95 % bounds {} to {}{})", text::percent_at_least(bounds.low),
+                     text::percent_at_most(bounds.high),
+                     points == 1 ? "" : fmt::format(", corrected for the choice among {} points", points));
 }
 
 std::string of_all(std::int64_t successes, std::int64_t trials) {
@@ -37,26 +44,14 @@ std::string flawless_text(const ReportedStudy& reported, const statistics::Succe
   return fmt::format(
       "No failure in {} trials does not prove 100 % repeatability: with 95 % confidence the probability of a "
       "failure is at most {}. To show that it is below 0.1 % takes {} {} without a failure.",
-      claim.trials, statistics::percent_at_most(claim.failure_at_most),
+      claim.trials, text::percent_at_most(claim.failure_at_most),
       statistics::trials_for_claim(0.999, claim.confidence, 0), claim.rigs > 0 ? "rigs" : "trials");
 }
 
-/// The claim of the best point, with bounds that account for its selection among all points (Bonferroni).
+/// The claim of the best point, with bounds that account for its choice among all points.
 statistics::SuccessClaim claim_of_best(const ReportedStudy& reported, std::int64_t best) {
-  const measures::PointSummary& point = point_of(reported, best);
-  const std::int64_t successes = point.claim.trials - point.claim.failures;
-  const auto points = static_cast<double>(reported.summary.points.size());
-  const double confidence = 1.0 - (1.0 - point.claim.confidence) / points;
-  statistics::SuccessClaim claim =
-      reported.study.stop ? statistics::success_claim_at_any_time(successes, point.claim.trials, confidence)
-                          : statistics::success_claim(successes, point.claim.trials, confidence);
-  if (point.rigs.n > 0) {
-    const statistics::SuccessClaim over_rigs =
-        statistics::success_claim_on_rigs(point.rigs.successes, confidence);
-    claim = reported.study.stop ? statistics::weaker_claim(over_rigs, claim) : over_rigs;
-  }
-  claim.confidence = point.claim.confidence;
-  return claim;
+  return summary::claim_of_chosen(point_of(reported, best), reported.summary.points.size(),
+                                  reported.study.stop.has_value());
 }
 
 /// Statement about all axes; for dependent trials only the observed rate.
@@ -158,9 +153,11 @@ std::string within_text(const measures::PointSummary& point, const char* moves, 
                      std::isnan(point.hold) ? "the hold" : text::short_number(point.hold) + " s");
 }
 
-/// " (95 % bounds a to b s)"; empty if the trials are not independent or a bound is missing.
+/// " (95 % bounds a to b s)"; empty if the trials are not independent, a bound is missing, or the point was
+/// chosen among several: bounds of one point by itself are in the table.
 std::string median_bounds_text(const ReportedStudy& reported, const statistics::Quantile& median) {
-  if (reported.summary.features.dependent_trials || std::isnan(median.low) || std::isnan(median.high))
+  if (reported.summary.features.dependent_trials || reported.summary.points.size() > 1 ||
+      std::isnan(median.low) || std::isnan(median.high))
     return "";
   return fmt::format(" (95 % bounds {} to {} s)", text::short_number(median.low),
                      text::short_number(median.high));
@@ -246,7 +243,7 @@ std::string open_loop_verdict(const ReportedStudy& reported) {
 
 std::string verdict_html(const ReportedStudy& reported) {
   if (reported.study.open_loop) return open_loop_verdict(reported);
-  const std::int64_t best = best_point(reported.summary.points);
+  const std::int64_t best = summary::best_point(reported.summary.points);
   std::vector<std::string> lines;
   if (reported.summary.features.dependent_trials) {
     lines.push_back(

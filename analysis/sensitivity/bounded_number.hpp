@@ -14,9 +14,9 @@ struct BoundedNumber {
   double high{statistics::unknown};
 };
 
-/// Whether 0 is outside the bounds. Not where there are none.
-inline bool excludes_zero(const BoundedNumber& number) {
-  return number.low > 0.0 || number.high < 0.0;
+/// Whether all numbers from −limit to limit are outside the bounds. Not where there are none.
+inline bool excludes_up_to(double limit, const BoundedNumber& number) {
+  return number.low > limit || number.high < -limit;
 }
 
 /// A proportion of which an estimate and bounds are given, held in [0, 1]. Where the estimate is outside, it

@@ -78,10 +78,10 @@ void note_uncertain_totals(OutputSensitivity& result) {
         result.output));
   }
   if (!open.empty()) {
-    result.notes.push_back(
-        fmt::format("too few rows to say more than whether there is influence: the bounds of total are wider "
-                    "than 0.5 for {}",
-                    fmt::join(open, ", ")));
+    result.notes.push_back(fmt::format(
+        "the rows are too few to say how large the influence is: the bounds of total are wider than 0.5 for "
+        "{}",
+        fmt::join(open, ", ")));
   }
 }
 
@@ -175,7 +175,7 @@ void add_notes(const PointInputs& point, const TrialOutputs& trials, const UsedT
 bool is_stronger(const FactorSensitivity& a, const FactorSensitivity& b, bool from_saltelli) {
   const auto key = [&](const FactorSensitivity& factor) {
     const double proportion = from_saltelli ? factor.total.value : factor.first_order.value;
-    const bool counts = from_saltelli ? !std::isnan(proportion) : factor.first_order.low > 0.0;
+    const bool counts = from_saltelli ? !std::isnan(proportion) : factor.first_order.low > relevant_index;
     const double correlation = std::abs(factor.partial_rank_correlation.value);
     return std::pair(counts ? proportion : -1.0, std::isnan(correlation) ? -1.0 : correlation);
   };
@@ -185,8 +185,9 @@ bool is_stronger(const FactorSensitivity& a, const FactorSensitivity& b, bool fr
 void rank_factors(bool from_saltelli, OutputSensitivity& result) {
   for (FactorSensitivity& factor : result.factors) {
     factor.matters = from_saltelli
-                         ? factor.total.low > 0.0
-                         : factor.first_order.low > 0.0 || excludes_zero(factor.partial_rank_correlation);
+                         ? factor.total.low > relevant_index
+                         : factor.first_order.low > relevant_index ||
+                               excludes_up_to(relevant_correlation, factor.partial_rank_correlation);
   }
   std::stable_sort(result.factors.begin(), result.factors.end(),
                    [&](const FactorSensitivity& a, const FactorSensitivity& b) {

@@ -35,7 +35,8 @@ OutputSensitivity output_sensitivity(const PointInputs& inputs, const Sensitivit
                                      const TrialOutputs& trials, double confidence,
                                      const random::RandomStream& bootstrap);
 
-/// One sentence on which factors matter. @param from_saltelli they have total indices.
+/// Which factors matter, which do not, and what the trials leave open. @param from_saltelli they have total
+/// indices.
 std::string sensitivity_conclusion(const OutputSensitivity& sensitivity, bool from_saltelli,
                                    double confidence);
 

@@ -15,6 +15,14 @@
 /// README.md of this folder.
 namespace zerocount::sensitivity {
 
+/// The Sobol' index from which on a factor is said to matter: 1 % of the variance. Below it a factor may have
+/// an influence, which a long enough study shows of any, but too little to be worth knowing.
+inline constexpr double relevant_index = 0.01;
+
+/// The (partial) rank correlation from which on a factor is said to matter: it explains ρ² = 1 % of the
+/// variance of the ranks.
+inline constexpr double relevant_correlation = 0.1;
+
 /// One factor: something that is drawn anew in every trial. All indices are dimensionless.
 struct FactorSensitivity {
   std::string name;  ///< dotted path of the parameter, or within_trial_factor
@@ -27,8 +35,8 @@ struct FactorSensitivity {
   /// Change of ln(p/(1 − p)) over one standard deviation of the factor, the others held; only of outputs that
   /// are yes or no.
   BoundedNumber log_odds;
-  /// The bounds of total exclude 0; where the design is not saltelli, those of first_order or of
-  /// partial_rank_correlation do.
+  /// The lower bound of total is above relevant_index; where the design is not saltelli, that of first_order
+  /// is, or the bounds of partial_rank_correlation exclude all up to relevant_correlation.
   bool matters{false};
 };
 
@@ -62,7 +70,7 @@ struct OutputSensitivity {
   std::vector<FactorSensitivity> factors;          ///< strongest first
   std::vector<FactorLeftOut> left_out;
   std::vector<std::string> notes;  ///< what limits these numbers, a sentence each
-  std::string conclusion;          ///< one sentence: which factors matter
+  std::string conclusion;          ///< which factors matter, which do not, and what stays open
   bool estimated{false};           ///< there is something in `factors`
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/sensitivity/sensitivity.hpp"
+#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::sensitivity {
@@ -14,7 +15,8 @@ namespace {
 std::string with_bounds(const BoundedNumber& number) {
   if (std::isnan(number.value)) return "–";
   if (std::isnan(number.low)) return fmt::format("{:.3f}", number.value);
-  return fmt::format("{:.3f} [{:.3f}, {:.3f}]", number.value, number.low, number.high);
+  return fmt::format("{:.3f} [{}, {}]", number.value, text::rounded_down(number.low, 3),
+                     text::rounded_up(number.high, 3));
 }
 
 bool has_some(const OutputSensitivity& output, const FactorNumber& one) {
@@ -62,15 +64,20 @@ std::string output_text(const OutputSensitivity& output, bool from_saltelli) {
 }
 
 std::string legend(const StudySensitivity& sensitivity) {
-  const std::string bounds = fmt::format(
-      "[,]: {:g} % confidence bounds, each by itself. matters: those of {} exclude 0.\n",
-      100.0 * sensitivity.confidence, sensitivity.from_saltelli ? "total" : "alone or partial rank corr.");
+  const std::string bounds =
+      fmt::format("[,]: {} confidence bounds, each by itself. matters: those of {}.\n",
+                  text::percent(sensitivity.confidence),
+                  sensitivity.from_saltelli
+                      ? fmt::format("total are above {:g}", relevant_index)
+                      : fmt::format("alone are above {:g}, or those of partial rank corr. beyond ±{:g}",
+                                    relevant_index, relevant_correlation));
   const std::string proportions =
       sensitivity.from_saltelli
           ? "total, first order: proportions of the variance (Sobol' indices) in which the factor has a "
             "part, and "
             "that\n"
-            "it explains alone.\n"
+            "it explains alone. A part that several factors share counts in the total of each: totals need "
+            "not\nadd up to 1.\n"
           : "alone: proportion of the variance that the factor explains alone (first-order Sobol' index); "
             "what it "
             "does\n"

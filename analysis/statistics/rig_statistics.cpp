@@ -7,6 +7,8 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
+#include "analysis/text/percent.hpp"
+
 namespace zerocount::statistics {
 namespace {
 
@@ -115,17 +117,17 @@ RigTolerance rig_tolerance(std::span<const RigTrials> rigs, double content, doub
 }
 
 std::string tolerance_sentence(const RigTolerance& tolerance) {
-  const std::string level = fmt::format("{:.6g} % confidence", 100.0 * tolerance.confidence);
+  const std::string level = fmt::format("{} confidence", text::percent(tolerance.confidence));
   if (std::isnan(tolerance.zero_at_least)) {
-    return fmt::format("with {}, it takes {} rigs to say in how many moves {:.6g} % of rigs hold zero", level,
-                       tolerance.min_rigs, 100.0 * tolerance.content);
+    return fmt::format("with {}, it takes {} rigs to say in how many moves {} of rigs hold zero", level,
+                       tolerance.min_rigs, text::percent(tolerance.content));
   }
   if (!(tolerance.zero_at_least > 0.0)) {
-    return fmt::format("with {} nothing is shown of the moves in which {:.6g} % of rigs hold zero", level,
-                       100.0 * tolerance.content);
+    return fmt::format("with {} nothing is shown of the moves in which {} of rigs hold zero", level,
+                       text::percent(tolerance.content));
   }
-  return fmt::format("with {} at least {:.6g} % of rigs hold zero in at least {} of moves", level,
-                     100.0 * tolerance.content, percent_at_least(tolerance.zero_at_least));
+  return fmt::format("with {} at least {} of rigs hold zero in at least {} of moves", level,
+                     text::percent(tolerance.content), text::percent_at_least(tolerance.zero_at_least));
 }
 
 RigStatistics rig_statistics(std::span<const RigTrials> rigs, double confidence) {
@@ -139,7 +141,11 @@ RigStatistics rig_statistics(std::span<const RigTrials> rigs, double confidence)
   result.without_failure = rate(faultless, result.n);
   result.without_failure_bounds = clopper_pearson(faultless, result.n, confidence);
   result.worst_5_percent = worst_of(rigs);
-  for (const RigTrials& rig : rigs) result.successes.add(rig.successes, rig.trials);
+  result.trials_of_rig = rigs.front().trials;
+  for (const RigTrials& rig : rigs) {
+    result.successes.add(rig.successes, rig.trials);
+    result.successes_of_rigs.push_back(rig.successes);
+  }
   result.tolerance = rig_tolerance(rigs, result.tolerance.content, confidence);
   return result;
 }

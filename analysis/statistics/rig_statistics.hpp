@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "analysis/statistics/clustered_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
@@ -71,7 +72,9 @@ struct RigStatistics {
   /// Mean observed success rate of the ⌈R/20⌉ worst rigs. With few trials per rig it is biased below their
   /// true success probability, because the selection favours rigs with bad luck.
   double worst_5_percent{unknown};
-  ClusterSums successes;  ///< of the trials; each rig is a cluster
+  ClusterSums successes;                        ///< of the trials; each rig is a cluster
+  std::vector<std::int64_t> successes_of_rigs;  ///< [rig]
+  std::int64_t trials_of_rig{0};                ///< on each
   RigTolerance tolerance;
 };
 

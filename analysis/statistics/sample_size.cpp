@@ -7,9 +7,11 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <fmt/format.h>
 
+#include "analysis/statistics/confidence_sequence.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/rig_statistics.hpp"
+#include "analysis/text/percent.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::statistics {
@@ -151,6 +153,14 @@ std::int64_t rigs_for_halfwidth(double halfwidth, double confidence, double rate
   return enough;
 }
 
+SequentialCost sequential_cost(double halfwidth, double confidence, double rate, std::int64_t block) {
+  constexpr double out_of = 1e9;
+  const auto successes = static_cast<std::int64_t>(std::llround(rate * out_of));
+  return {rate, trials_for_halfwidth(halfwidth, confidence, rate),
+          projected_trials(successes, static_cast<std::int64_t>(out_of), halfwidth, confidence, block,
+                           max_trials)};
+}
+
 RigPlan plan_tolerance(double content, double success, double confidence, std::int64_t rigs) {
   require_confidence(confidence);
   require_open_unit("proportion of rigs", content);
@@ -158,11 +168,10 @@ RigPlan plan_tolerance(double content, double success, double confidence, std::i
   const std::int64_t fewest = min_rigs_for_tolerance(content, confidence);
   if (rigs == 0) rigs = fewest + (fewest + 1) / 2;
   if (rigs < fewest) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{} rigs cannot show something of {:.6g} % of all rigs with {:.6g} % confidence; "
-                    "expected {} or more",
-                    rigs, 100.0 * content, 100.0 * confidence, fewest));
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{} rigs cannot show something of {} of all rigs with {} confidence; "
+                              "expected {} or more",
+                              rigs, text::percent(content), text::percent(confidence), fewest));
   }
   const double allowance = tolerance_allowance(rigs, content, confidence);
   // Without a failure in m trials the bound is allowance^(1/m).

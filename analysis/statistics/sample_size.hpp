@@ -32,6 +32,20 @@ ClaimPlan plan_with_power(double success, double confidence, double true_success
 /// @throws Failure (bad_input) for a half-width outside (0, ½), or a rate or confidence outside (0, 1).
 std::int64_t trials_for_halfwidth(double halfwidth, double confidence, double rate);
 
+/// What it costs to decide the number of trials by their outcomes: the numbers of trials that give a success
+/// rate bounds of the same half-width and confidence.
+struct SequentialCost {
+  double rate{0.0};            ///< proportion of trials that succeed
+  std::int64_t fixed{0};       ///< decided beforehand: trials_for_halfwidth
+  std::int64_t sequential{0};  ///< decided by the outcomes: projected_trials of a confidence sequence
+
+  double ratio() const { return static_cast<double>(sequential) / static_cast<double>(fixed); }
+};
+
+/// @param block trials between two looks at the outcomes.
+/// @throws Failure as trials_for_halfwidth.
+SequentialCost sequential_cost(double halfwidth, double confidence, double rate, std::int64_t block = 1);
+
 /// A study of `rigs` rigs with `trials_per_rig` trials each.
 struct RigPlan {
   std::int64_t rigs{0};

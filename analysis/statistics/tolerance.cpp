@@ -9,29 +9,10 @@
 #include "analysis/statistics/confidence_sequence.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"
+#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::statistics {
-namespace {
-
-constexpr double rounding = 1e-9;  // of the last digit: 99.9 % with a rounding error is shown as 99.9 %
-
-/// Decimals that show two significant digits of `percent`; one from 1 % on, at most nine.
-int percent_decimals(double percent) {
-  if (!(percent > 0.0)) return 1;
-  return std::clamp(1 - static_cast<int>(std::floor(std::log10(percent) + rounding)), 1, 9);
-}
-
-/// Without trailing zeros.
-std::string percent_with(double percent, int decimals) {
-  std::string number = fmt::format("{:.{}f}", percent, decimals);
-  number.erase(number.find_last_not_of('0') + 1);
-  if (number.back() == '.') number.pop_back();
-  return number + " %";
-}
-
-}  // namespace
-
 std::int64_t tolerance_rank(std::int64_t observations, double content, double confidence) {
   require_confidence(confidence);
   require_open_unit("content", content);
@@ -70,44 +51,30 @@ double rule_of_three(const SuccessClaim& claim) {
   return -std::log1p(-claim.confidence) / static_cast<double>(claim.rigs > 0 ? claim.rigs : claim.trials);
 }
 
-std::string percent_at_least(double proportion) {
-  const double percent = 100.0 * proportion;
-  const int decimals = percent_decimals(std::min(percent, 100.0 - percent));
-  const double unit = std::pow(10.0, decimals);
-  return percent_with(std::floor(percent * unit + rounding) / unit, decimals);
-}
-
-std::string percent_at_most(double proportion) {
-  const double percent = 100.0 * proportion;
-  const int decimals = percent_decimals(percent);
-  const double unit = std::pow(10.0, decimals);
-  return percent_with(std::ceil(percent * unit - rounding) / unit, decimals);
-}
-
 std::string claim_sentence(const SuccessClaim& claim) {
-  const std::string level = fmt::format("with {:.6g} % confidence", 100.0 * claim.confidence);
+  const std::string level = fmt::format("with {} confidence", text::percent(claim.confidence));
   const std::string subject = claim.rigs > 0 ? "trials on all rigs" : "axes";
   const std::string trials =
       fmt::format("{} trials{}", claim.trials, claim.rigs > 0 ? fmt::format(" on {} rigs", claim.rigs) : "");
   if (claim.failures == claim.trials) {
     return fmt::format("at most {} of {} succeed, {} (no success in {})",
-                       percent_at_most(claim.success_at_most), subject, level, trials);
+                       text::percent_at_most(claim.success_at_most), subject, level, trials);
   }
-  const std::string statement =
-      fmt::format("at least {} of {} succeed, {}", percent_at_least(claim.success_at_least), subject, level);
+  const std::string statement = fmt::format("at least {} of {} succeed, {}",
+                                            text::percent_at_least(claim.success_at_least), subject, level);
   if (claim.failures > 0) {
     return fmt::format("{} ({} {} in {})", statement, claim.failures,
                        claim.failures == 1 ? "failure" : "failures", trials);
   }
   return fmt::format("{} (no failure in {}: not 100 %, but at most {} fail)", statement, trials,
-                     percent_at_most(claim.failure_at_most));
+                     text::percent_at_most(claim.failure_at_most));
 }
 
 std::string settling_sentence(std::span<const ToleranceLimit> limits) {
   std::string sentence;
   for (const ToleranceLimit& limit : limits) {
     if (std::isnan(limit.within)) continue;
-    sentence += fmt::format("{}{:.6g} % {}within {} s", sentence.empty() ? "" : ", ", 100.0 * limit.content,
+    sentence += fmt::format("{}{} {}within {} s", sentence.empty() ? "" : ", ", text::percent(limit.content),
                             sentence.empty() ? "settle " : "", text::short_number(limit.within));
   }
   return sentence;

@@ -62,10 +62,4 @@ std::string claim_sentence(const SuccessClaim& claim);
 /// "95 % settle within 0.062 s, 99 % within 0.081 s"; empty without limits.
 std::string settling_sentence(std::span<const ToleranceLimit> limits);
 
-/// A proportion as a percentage, rounded down to two significant digits of the smaller of p and 1 − p, and to
-/// one decimal if both are above 1 %.
-std::string percent_at_least(double proportion);
-/// A proportion as a percentage, rounded up: to two significant digits, and to one decimal above 1 %.
-std::string percent_at_most(double proportion);
-
 }  // namespace zerocount::statistics

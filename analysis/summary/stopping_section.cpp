@@ -2,6 +2,7 @@
 
 #include "analysis/statistics/confidence_sequence.hpp"
 #include "analysis/summary/summary_parts.hpp"
+#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::summary {
@@ -28,15 +29,16 @@ std::string text_of(const std::vector<statistics::ConfidenceInterval>& bounds,
                     const std::vector<std::string>& labels, const study::StoppingRule& rule,
                     std::int64_t rigs, double confidence) {
   std::vector<std::vector<std::string>> cells{
-      {"point", fmt::format("{:.6g} % bounds of zero-count, however often one looks (%)", 100.0 * confidence),
+      {"point", text::percent(confidence) + " bounds of zero-count, however often one looks (%)",
        fmt::format("asked for: ± {:.4g} %, came to", 100.0 * rule.success_rate_halfwidth)}};
   bool reached = true;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     const bool here = halfwidth(judged[i]) <= rule.success_rate_halfwidth;
     reached = reached && here;
     cells.push_back({text::printable(labels[i]),
-                     fmt::format("[{:.2f}, {:.2f}]", 100.0 * bounds[i].low, 100.0 * bounds[i].high),
-                     fmt::format("± {:.2f} %{}", 100.0 * halfwidth(judged[i]), here ? "" : ": not reached")});
+                     fmt::format("[{}]", text::percent_bounds(bounds[i].low, bounds[i].high, 2)),
+                     fmt::format("± {} %{}", text::rounded_up(100.0 * halfwidth(judged[i]), 2),
+                                 here ? "" : ": not reached")});
   }
   return text::aligned_table(cells, {false, false, false}) +
          fmt::format(
@@ -65,7 +67,7 @@ measures::SummarySection stopping_section(std::span<const measures::PointSummary
                                {}};
   };
   const std::int64_t rigs = points.empty() ? 0 : points.front().rigs.n;
-  measures::SummarySection section{.key = "stopped",
+  measures::SummarySection section{.key = stopping_key,
                                    .json = {},
                                    .columns = {column("low", "lower"), column("high", "upper")},
                                    .text = text_of(bounds, judged, labels, rule, rigs, confidence)};

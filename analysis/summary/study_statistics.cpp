@@ -17,6 +17,7 @@
 #include "analysis/iso230/repeatability_file.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/measures/trial_value.hpp"
+#include "analysis/summary/summary_parts.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
@@ -191,6 +192,8 @@ layout::StoredStatistics stored_statistics(const reading::StudyFile& file, const
   const std::vector<layout::PointColumn> predicted =
       measures::prediction_columns(study_predictions(study, predictions));
   stored.points.insert(stored.points.end(), predicted.begin(), predicted.end());
+  const std::vector<layout::PointColumn> observed = observed_columns(points, study);
+  stored.points.insert(stored.points.end(), observed.begin(), observed.end());
   if (study.open_loop) {
     stored.tables.push_back(measures::level_table(points, file.table()));
   }

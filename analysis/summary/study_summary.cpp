@@ -57,6 +57,11 @@ void complete_points(StudySummary& summary, const study::Study& study,
     summary.points[point].undecided = undecided[point];
   }
   if (!study.open_loop) summary.sections.push_back(undecided_section(summary.points, summary.labels));
+  // Trials of a saltelli design are not independent: no test applies to them.
+  if (!study.observed_counts.empty() && !study.features.dependent_trials) {
+    summary.sections.push_back(
+        observed_section(summary.points, summary.labels, study.observed_counts, summary.confidence));
+  }
 }
 
 /// The statement counts independent trials.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "analysis/summary/summary_parts.hpp"
+#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 
@@ -64,7 +65,7 @@ std::string observed_at(const StudySummary& summary, std::int64_t point) {
 }
 
 std::string bounds_head(const StudySummary& summary) {
-  return fmt::format("{:.6g} % bounds", 100.0 * summary.confidence);
+  return text::percent(summary.confidence) + " bounds";
 }
 
 std::vector<std::string> observations(const StudySummary& summary) {

@@ -45,6 +45,9 @@ struct StudySummary {
   }
 };
 
+/// Key of the section of a study that decided itself how many trials it took (`stop`).
+inline constexpr const char* stopping_key = "stopped";
+
 /// @throws Failure (bad_data) where labels, axes, statistics and predictions are not of the same points. The
 /// functions below call it.
 void require_consistent(const StudySummary& summary);

@@ -5,12 +5,13 @@
 #include <fmt/format.h>
 
 #include "analysis/summary/summary_parts.hpp"
+#include "analysis/text/percent.hpp"
 
 namespace zerocount::summary {
 namespace {
 
 std::string interval_in_percent(const statistics::ConfidenceInterval& interval) {
-  return fmt::format("[{:.1f}, {:.1f}]", 100.0 * interval.low, 100.0 * interval.high);
+  return fmt::format("[{}]", text::percent_bounds(interval.low, interval.high));
 }
 
 std::int64_t rigs_without_failure(const measures::PointSummary& point) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,6 +61,26 @@ nlohmann::ordered_json levels_json(const measures::PointSummary& point);
 measures::SummarySection stopping_section(std::span<const measures::PointSummary> points,
                                           const std::vector<std::string>& labels,
                                           const study::StoppingRule& rule, double confidence);
+
+/// Key of the section of counts observed on a real rig.
+inline constexpr const char* observed_key = "observed_counts";
+
+/// The section "observed_counts": whether the counts on a real rig are consistent with the simulated trials
+/// of the point, by fisher_test, or with rigs by rig_rank_test. The observed trials are all of one rig.
+///
+/// Its JSON is null for a point without counts, else {"successes", "of", "p_value" (null where it cannot be
+/// tested), "least_p_value", "verdict" (consistent, differs, too_few, untested), "statement"}; its columns
+/// are observed_successes, observed_trials and observed_p_value; its text is a table.
+/// @param labels [point]
+/// @param confidence differences are significant at 1 − confidence
+measures::SummarySection observed_section(std::span<const measures::PointSummary> points,
+                                          const std::vector<std::string>& labels,
+                                          const std::map<std::string, study::ObservedCounts>& counts,
+                                          double confidence);
+
+/// The columns of that section with 95 %, for the results file; empty without counts.
+std::vector<layout::PointColumn> observed_columns(std::span<const measures::PointSummary> points,
+                                                  const study::Study& study);
 
 /// The section "assurance" of a summary: what the trials of each point show of all axes that the manifest
 /// describes, as tolerance statements.

@@ -6,6 +6,7 @@
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/tolerance.hpp"
 #include "analysis/summary/summary_parts.hpp"
+#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::summary {
@@ -65,7 +66,7 @@ std::vector<layout::PointColumn> columns_of(std::span<const measures::PointSumma
     const double content = statistics::tolerance_contents[i];
     columns.push_back(
         column_of(points, "settling_within_" + content_name(content), "s",
-                  fmt::format("time in which at least {:.6g} % of axes settle", 100.0 * content),
+                  fmt::format("time in which at least {} of axes settle", text::percent(content)),
                   [i](const measures::PointSummary& point) { return point.settles_within.at(i).within; }));
   }
   if (on_rigs(points)) {

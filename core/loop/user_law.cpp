@@ -45,9 +45,10 @@ UserLaw::UserLaw(const ControllerParameters& p, const ControlStart& start) {
   if (plugin.functions == nullptr) {
     throw Failure(
         ExitCode::bad_input,
-        fmt::format("the controller is the plugin {}, which only the commands run, check, trace and parameters load, "
-                    "from the path in a manifest that is given to them",
-                    plugin.description.name));
+        fmt::format(
+            "the controller is the plugin {}, which only the commands run, check, trace and parameters load, "
+            "from the path in a manifest that is given to them",
+            plugin.description.name));
   }
   running_ = std::make_unique<Running>(Running{p.user.plugin,
                                                plugin.functions->step,

@@ -10,6 +10,7 @@
 #include "experiments/manifest/drawn_per.hpp"
 #include "experiments/manifest/manifest.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/manifest/observations.hpp"
 #include "experiments/manifest/sweep.hpp"
 #include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/parameter_table.hpp"
@@ -259,7 +260,15 @@ Json general_schemas() {
           {"prefixItems", {text, text, number_in({.low = -1.0, .high = 1.0})}},
           {"minItems", 3},
           {"maxItems", 3}}}}},
-      {"observed", {{"type", "object"}, {"additionalProperties", text}}},
+      {"observed",
+       {{"type", "object"},
+        {"additionalProperties",
+         {{"anyOf",
+           {text,
+            object_of({{"successes", {{"type", "integer"}, {"minimum", 0}, {"maximum", max_observed_trials}}},
+                       {"of", {{"type", "integer"}, {"minimum", 1}, {"maximum", max_observed_trials}}},
+                       {"text", text}},
+                      {"successes", "of"})}}}}}},
       {"sweep", sweep_schema()},
       {"axis", {{"enum", parameters::axis_labels}, {"default", parameters::axis_labels.front()}}},
       {"travel", number_in(numerics::above(0))},

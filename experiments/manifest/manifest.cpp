@@ -1,9 +1,7 @@
 #include "experiments/manifest/manifest.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,6 +10,7 @@
 #include "experiments/manifest/checks.hpp"
 #include "experiments/manifest/correlations.hpp"
 #include "experiments/manifest/manifest_keys.hpp"
+#include "experiments/manifest/observations.hpp"
 #include "experiments/manifest/sections.hpp"
 #include "experiments/manifest/stopping.hpp"
 #include "experiments/manifest/study_assembly.hpp"
@@ -19,7 +18,6 @@
 #include "experiments/manifest/values.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/study/factors.hpp"
-#include "experiments/yaml/nearest_name.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -218,37 +216,12 @@ void read_retained(Manifest& m) {
     m.problems().add(*list, "a trial stands twice in the list", "each trial once");
 }
 
-// The observation of a case applies to all its points, except those with an observation of their own.
 void read_observed(Manifest& m) {
   const auto field = yaml::find_field(m.root, "observed");
-  if (!field || !yaml::check_map(*field, "a map from cases or point labels to texts", m.problems())) return;
   const bool complete =
       std::none_of(m.axes.begin(), m.axes.end(), [](const auto& axis) { return axis.labels.empty(); });
-  if (!complete) return;  // reported already
-  const std::vector<std::string> labels = label_points(m.axes);
-  const bool has_cases = !m.axes.empty() && m.axes.front().cases;
-  const std::vector<std::string> cases = has_cases ? m.axes.front().labels : std::vector<std::string>{};
-  std::vector<std::string> known = cases;
-  known.insert(known.end(), labels.begin(), labels.end());
-  const std::set<std::string> known_labels(labels.begin(), labels.end());
-  std::map<std::string, std::string> of_case;
-  for (const yaml::YamlEntry& entry : field->node->entries) {
-    const auto text = yaml::read_text(yaml::entry_of(*field, entry), m.problems());
-    if (known_labels.count(entry.key) > 0) {
-      m.study.observed[entry.key] = text.value_or("");
-    } else if (std::find(cases.begin(), cases.end(), entry.key) != cases.end()) {
-      of_case[entry.key] = text.value_or("");
-    } else {
-      m.problems().add(entry.place, yaml::entry_of(*field, entry).path,
-                       fmt::format("no case or point has this label, nearest known: {}",
-                                   yaml::nearest_name(entry.key, known)),
-                       "the name of a case or the label of a point");
-    }
-  }
-  for (std::size_t point = 0; !of_case.empty() && point < labels.size(); ++point) {
-    const auto text = of_case.find(cases[point / (labels.size() / cases.size())]);
-    if (text != of_case.end()) m.study.observed.emplace(labels[point], text->second);
-  }
+  if (!field || !complete) return;  // an incomplete axis is reported already
+  read_observations(*field, m.axes, m.plan().open_loop, m.study, m.problems());
 }
 
 }  // namespace

@@ -62,10 +62,9 @@ std::span<const GeneralKey> general_keys() {
        false},
       {"correlation",
        "correlations of drawn parameters: [[friction.k1, friction.k2, 0.6]], coefficients of the normal "
-       "scores "
-       "of their values (Gaussian copula); each keeps its distribution",
+       "scores of their values (Gaussian copula); each keeps its distribution",
        false},
-      {"observed", "what was observed on the real rig, by case or point label", false},
+      {"observed", "what was observed on the real rig, by case or point label: texts or counts", false},
       {"sweep", "design points: grid (product of lists), cases (named), or both (product)", false},
       {"controller.units",
        "unit of kp, ki and kd, of the coarse phase too: count (default), per count and sample; or si: N "

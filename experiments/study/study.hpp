@@ -116,6 +116,12 @@ struct StoppingRule {
   std::int64_t max_trials{1};  ///< trials per point at which the study ends in any case
 };
 
+/// Trials counted on a real rig.
+struct ObservedCounts {
+  std::int64_t successes{0};  ///< trials all of whose moves ended at zero error
+  std::int64_t of{1};         ///< trials, all on one rig
+};
+
 struct StudyPlan;  // compiled form of the manifest, private to this folder
 
 /// The checked contents of one manifest: everything that determines its trials.
@@ -150,6 +156,7 @@ struct Study {
   std::vector<RealisedProfile> profiles;
   std::map<std::string, std::string>
       observed;  ///< point label → observation on the real rig (the text of a case for all its points)
+  std::map<std::string, ObservedCounts> observed_counts;  ///< point label → its counts, where it has any
   std::vector<std::int64_t> retained_trials;  ///< trial indices whose traces are kept, at every point
   std::int64_t moves{1};                      ///< per trial
   std::vector<SequenceMove> sequence;         ///< [move]; empty without a sequence

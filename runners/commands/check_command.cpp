@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "analysis/statistics/sample_size.hpp"
+#include "analysis/text/percent.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/commands/commands.hpp"
@@ -47,6 +49,21 @@ void print_columns(const study::Study& study, std::string_view title,
   if (!names.empty()) fmt::print("  {}:{}\n", title, names);
 }
 
+/// What the rule costs against a number of trials fixed beforehand, at three success rates.
+void print_cost_of_stopping(const study::StoppingRule& rule) {
+  fmt::print(
+      "  its bounds hold at whatever number of trials it ends, which takes more than a fixed number:\n");
+  for (const double rate : {0.5, 0.9, 0.99}) {
+    const statistics::SequentialCost cost =
+        statistics::sequential_cost(rule.success_rate_halfwidth, rule.confidence, rate, rule.block);
+    fmt::print(
+        "    success rate {}: about {} trials at each point, {:.1f} times the {} of a fixed number{}\n",
+        text::percent(rate), cost.sequential, cost.ratio(), cost.fixed,
+        cost.sequential > rule.max_trials ? fmt::format("; max_trials ends it before, at {}", rule.max_trials)
+                                          : "");
+  }
+}
+
 void print_what_differs(const study::Study& study) {
   if (study.input_columns.empty()) fmt::print("  differing between trials: nothing\n");
   print_columns(study, "differing between trials", {study::Per::trial, study::Per::contact});
@@ -69,6 +86,7 @@ void print_plan(const study::Study& study) {
     fmt::print(
         "  or fewer: after every {} at each point it ends if all success rates are known to ± {:.4g}\n",
         study.stop->block, study.stop->success_rate_halfwidth);
+    print_cost_of_stopping(*study.stop);
     if (study.rigs > 0) {
       fmt::print(
           "  (of these {} rigs; more trials do not show how other rigs differ; see 'zerocount plan "

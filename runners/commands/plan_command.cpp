@@ -13,6 +13,7 @@
 #include "analysis/statistics/rig_statistics.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/summary.hpp"
+#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 #include "results/reading/study_file.hpp"
 #include "runners/command_line/option_values.hpp"
@@ -198,8 +199,10 @@ Json plan_json(const PlanRequest& request) {
       json["halfwidth"]["rig_sd"] = *request.rig_sd;
       json["halfwidth"]["rig_plans"] = rig_plans_json(halfwidth_plans(request));
     } else {
-      json["halfwidth"]["trials"] =
-          statistics::trials_for_halfwidth(*request.halfwidth, request.confidence, request.rate());
+      const statistics::SequentialCost cost =
+          statistics::sequential_cost(*request.halfwidth, request.confidence, request.rate());
+      json["halfwidth"]["trials"] = cost.fixed;
+      json["halfwidth"]["trials_with_stop"] = cost.sequential;
     }
   }
   return json;
@@ -215,39 +218,43 @@ std::string claim_text(const PlanRequest& request) {
     if (request.true_success) columns[2].cells.push_back(text::short_number(chance(request, plan)));
     if (request.power) columns[3].cells.push_back(has_power(request, plan) ? "enough" : "too little");
   }
-  std::string text =
-      fmt::format("to show that at least {:.6g} % of axes succeed, with {:.6g} % confidence\n\n{}",
-                  100.0 * *request.success, 100.0 * request.confidence, text::aligned_table(columns));
+  std::string text = fmt::format("to show that at least {} of axes succeed, with {} confidence\n\n{}",
+                                 text::percent(*request.success), text::percent(request.confidence),
+                                 text::aligned_table(columns));
   if (request.true_success)
-    text += fmt::format("\nchance: if {:.6g} % of axes succeed in truth\n", 100.0 * *request.true_success);
+    text += fmt::format("\nchance: if {} of axes succeed in truth\n", text::percent(*request.true_success));
   return text;
 }
 
 std::string tolerance_text(const PlanRequest& request) {
   return fmt::format(
-      "to show that at least {:.6g} % of rigs hold zero in at least {:.6g} % of moves, with {:.6g} % "
+      "to show that at least {} of rigs hold zero in at least {} of moves, with {} "
       "confidence\n\n{}\nif no trial fails; trials of one move or more\n",
-      100.0 * *request.rigs_share, 100.0 * *request.success, 100.0 * request.confidence,
+      text::percent(*request.rigs_share), text::percent(*request.success), text::percent(request.confidence),
       rig_plans_text(tolerance_plans(request)));
 }
 
 std::string rig_halfwidth_text(const PlanRequest& request, double rate) {
   return fmt::format(
-      "to bring the {:.6g} % bounds of a success rate of {:.4g} % within ±{:.6g} %, with a standard "
-      "deviation of {:.4g} %\nbetween rigs{}\n\n{}\nmore trials on a rig help little once they outnumber "
+      "to bring the {} bounds of a success rate of {} within ±{}, with a standard deviation of "
+      "{}\nbetween rigs{}\n\n{}\nmore trials on a rig help little once they outnumber "
       "{:.3g}: what differs between rigs remains\n",
-      100.0 * request.confidence, 100.0 * rate, 100.0 * *request.halfwidth, 100.0 * *request.rig_sd,
-      request.pilot.empty() ? "" : " (" + request.pilot + ")", rig_plans_text(halfwidth_plans(request)),
-      rate * (1.0 - rate) / (*request.rig_sd * *request.rig_sd));
+      text::percent(request.confidence), text::percent(rate), text::percent(*request.halfwidth),
+      text::percent(*request.rig_sd), request.pilot.empty() ? "" : " (" + request.pilot + ")",
+      rig_plans_text(halfwidth_plans(request)), rate * (1.0 - rate) / (*request.rig_sd * *request.rig_sd));
 }
 
 std::string halfwidth_text(const PlanRequest& request) {
   const double rate = request.rate();
   if (request.rig_sd) return rig_halfwidth_text(request, rate);
-  return fmt::format("{} trials bring the {:.6g} % bounds of a rate of {:.6g} % within ±{:.6g} %{}\n",
-                     statistics::trials_for_halfwidth(*request.halfwidth, request.confidence, rate),
-                     100.0 * request.confidence, 100.0 * rate, 100.0 * *request.halfwidth,
-                     request.true_success ? "" : ", the worst case");
+  const statistics::SequentialCost cost =
+      statistics::sequential_cost(*request.halfwidth, request.confidence, rate);
+  return fmt::format(
+      "{} trials bring the {} bounds of a rate of {} within ±{}{}\n"
+      "with `stop`, which decides by the outcomes when to end, it takes about {}: {:.1f} times as "
+      "many, because\nits bounds hold at whatever number of trials it ends\n",
+      cost.fixed, text::percent(request.confidence), text::percent(rate), text::percent(*request.halfwidth),
+      request.true_success ? "" : ", the worst case", cost.sequential, cost.ratio());
 }
 
 std::string plan_text(const PlanRequest& request) {

@@ -16,6 +16,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/commands.hpp"
+#include "runners/commands/plugin_option.hpp"
 #include "runners/commands/replay.hpp"
 #include "runners/commands/trace_writer.hpp"
 #include "runners/plugins/plugin_library.hpp"
@@ -54,16 +55,6 @@ std::int64_t trial_option(const command_line::Arguments& arguments, const study:
                                  study.trials - 1));
   }
   return value;
-}
-
-/// The user's controller for the trials of a results file; null if none is given.
-std::shared_ptr<const plugin::ControllerPlugin> plugin_option(const command_line::Arguments& arguments) {
-  const std::optional<std::string> path = arguments.value("plugin");
-  if (!path) return nullptr;
-  const manifest::LoadedPlugin loaded = plugins::load_plugin(*path);
-  if (const auto* fault = std::get_if<plugin::PluginFault>(&loaded))
-    arguments.refuse(fmt::format("option '--plugin': {}; expected {}", fault->what, fault->expected));
-  return std::get<std::shared_ptr<const plugin::ControllerPlugin>>(loaded);
 }
 
 /// Runs the trial, writes its samples, and returns the rest of its result.

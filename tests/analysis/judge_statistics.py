@@ -3,6 +3,7 @@
 usage: judge_statistics.py means CASES      (lines of: mean sd low high confidence  x1 x2 …)
        judge_statistics.py proportions CASES  (lines of: confidence low high wilson_low wilson_high at_least  k1 n1 …)
        judge_statistics.py quantiles CASES    (lines of: probability size value low high  x11 … x1size x21 …)
+       judge_statistics.py observed CASES   (lines of: p k n successes simulated  p trials of a rig, successes of each)
        judge_statistics.py loop FILE.h5     (/point against /outcome)
        judge_statistics.py levels FILE.h5   (/level against /outcome)
 """
@@ -107,6 +108,20 @@ def judge_quantiles(path):
     print(len(lines), "samples")
 
 
+def judge_observed(path):
+    with open(path) as cases:
+        lines = cases.readlines()
+    for line in lines:
+        p, *numbers = line.split()
+        k, n, successes, simulated = map(int, numbers[:4])
+        expected = stats.fisher_exact([[k, n - k], [successes, simulated - successes]])[1]
+        close(float(p), expected, 1e-6 * expected, f"Fisher: {line[:60]}")
+        p, trials, of_rigs = float(numbers[4]), int(numbers[5]), numpy.array(numbers[6:], dtype=int)
+        tails = (stats.hypergeom.cdf(k, trials, of_rigs, n).sum(), stats.hypergeom.sf(k - 1, trials, of_rigs, n).sum())
+        close(p, min(1.0, 2 * (1 + min(tails)) / (1 + len(of_rigs))), 1e-9, f"rigs: {line[:60]}")
+    print(len(lines), "samples")
+
+
 def rows_of_point(file, point):
     return numpy.flatnonzero(file["trial/point"][:] == point)
 
@@ -182,4 +197,4 @@ def judge_levels(path):
         assert (file["point/open_loop"][:] + file["point/nonfinite"][:] == trials).all()
 
 
-{"means": judge_means, "proportions": judge_proportions, "quantiles": judge_quantiles, "loop": judge_loop, "levels": judge_levels}[sys.argv[1]](sys.argv[2])
+{"means": judge_means, "proportions": judge_proportions, "quantiles": judge_quantiles, "observed": judge_observed, "loop": judge_loop, "levels": judge_levels}[sys.argv[1]](sys.argv[2])

@@ -83,7 +83,7 @@ TEST(ExperimentsReadme, ItsManifestsAreUnderstoodWithoutWarnings) {
         << block.text;
   }
   EXPECT_EQ(whole, 1);
-  EXPECT_EQ(parts, 10);
+  EXPECT_EQ(parts, 11);
 }
 
 TEST(ExperimentsReadme, TheFirstManifestUsesEverySection) {

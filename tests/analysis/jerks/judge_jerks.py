@@ -92,7 +92,7 @@ def judge_point(found, file, point, rigs):
     agreeing, one_count, jerks = numpy.zeros(clusters), numpy.zeros(clusters), numpy.zeros(clusters)
     jerking_trials = set()
     excess = variance = 0.0
-    scores = []
+    scores, trends = [], []
     for trial, row in enumerate(rows):
         i = trial % clusters
         for move in range(arrival.shape[1]):
@@ -118,16 +118,15 @@ def judge_point(found, file, point, rigs):
             one_count[i] += (jerk["magnitude"][own] == 1).sum()
             intervals += list(numpy.diff(onset) / rate)
             owners += [i] * max(0, len(onset) - 1)
-            if len(onset) > 1:
-                numbers = numpy.flatnonzero(begins)
-                later = numbers[1:] - numbers[0]
-                size = len(k) - numbers[0] - 1
-                # A rank sum: the numbers of the later jerks among all later instants at which one could begin.
-                expected = len(later) * (size + 1) / 2
-                spread = len(later) * (size - len(later)) * (size + 1) / 12
-                excess += later.sum() - expected
+            between = numpy.diff(onset)
+            if len(set(between)) > 1:
+                weights = numpy.arange(len(between), 0, -1)
+                difference = (weights * (between - between.mean())).sum()
+                spread = len(between) * (len(between) + 1) / 12 * ((between - between.mean()) ** 2).sum()
+                excess += difference
                 variance += spread
-                scores.append((later.sum() - expected) / numpy.sqrt(spread))
+                scores.append(difference / numpy.sqrt(spread))
+                trends.append((weights, between))
     assert found["jerks"] == jerks.sum() and found["arrived"] == arrived.sum()
     assert found["trials_with_jerks"] == len(jerking_trials)
 
@@ -168,7 +167,14 @@ def judge_point(found, file, point, rigs):
     assert slowing["moves"] == len(scores)
     close(slowing["score"], excess / numpy.sqrt(variance), "score")
     close(slowing["stouffer"], numpy.sum(scores) / numpy.sqrt(len(scores)), "stouffer")
-    close(slowing["p_value"], stats.norm.cdf(excess / numpy.sqrt(variance)), "p_value")
+    random = numpy.random.default_rng(5)
+    rounds = 4000
+    permuted = numpy.zeros(rounds, dtype=int)
+    for weights, between in trends:
+        permuted += random.permuted(numpy.tile(between, (rounds, 1)), axis=1) @ weights
+    p = ((permuted <= sum((weights * between).sum() for weights, between in trends)).sum() + 1) / (rounds + 1)
+    assert slowing["permutations"] == 9999
+    assert abs(slowing["p_value"] - p) < 4 * numpy.sqrt(p * (1 - p) * (1 / rounds + 1 / 9999)) + 1 / rounds, (slowing, p)
     judge_share(found["agreement"], agreeing, jerks, "agreement")
     judge_share(found["magnitude"]["one_count"], one_count, jerks, "one count")
     return int(jerks.sum())

@@ -1,104 +1,180 @@
 #include "analysis/jerks/laplace_trend.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <iostream>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include "core/failure/failure.hpp"
+#include "tests/support/goodness_of_fit.hpp"
 
 namespace zerocount::jerks {
 namespace {
 
-TEST(LaplaceTrend, HasTheVarianceOfAllChoicesOfInstants) {
-  // Every choice of n of M instants, enumerated as the bits of a number.
-  for (const int size : {5, 9, 12}) {
-    for (const int events : {1, 3, 4}) {
-      double sum = 0.0, squares = 0.0;
-      int choices = 0;
-      double variance = 0.0;
-      for (unsigned bits = 0; bits < 1U << size; ++bits) {
-        std::vector<std::int64_t> instants;
-        for (int i = 0; i < size; ++i) {
-          if ((bits >> i & 1U) != 0) instants.push_back(i + 1);
-        }
-        if (std::ssize(instants) != events) continue;
-        const LaplaceTerm term = laplace_term(instants, size);
-        ++choices;
-        sum += term.excess;
-        squares += term.excess * term.excess;
-        variance = term.variance;
-      }
-      EXPECT_NEAR(sum, 0.0, 1e-9);
-      EXPECT_NEAR(squares / choices, variance, 1e-9) << events << " of " << size;
-    }
+using Intervals = std::vector<std::int64_t>;
+using Random = std::mt19937_64;
+
+TEST(LaplaceTrend, HasTheMeanAndVarianceOfAllOrders) {
+  for (Intervals intervals : {Intervals{3, 9}, {1, 2, 2, 7}, {5, 1, 8, 30, 2, 2}}) {
+    std::sort(intervals.begin(), intervals.end());
+    double sum = 0.0, squares = 0.0;
+    int orders = 0;
+    do {
+      const double excess = trend_term(intervals).excess;
+      sum += excess;
+      squares += excess * excess;
+      ++orders;
+    } while (std::next_permutation(intervals.begin(), intervals.end()));
+    EXPECT_NEAR(sum, 0.0, 1e-9);
+    EXPECT_NEAR(squares / orders, trend_term(intervals).variance, 1e-9);
   }
 }
 
-TEST(LaplaceTrend, IsLaplacesStatisticForManyInstants) {
-  const std::vector<std::int64_t> instants{100'000, 250'000, 300'000, 900'000};
-  const double laplace = (1.55 / 4.0 - 0.5) / std::sqrt(1.0 / (12.0 * 4.0));
-  EXPECT_NEAR(laplace_score(laplace_term(instants, 1'000'000)), laplace, 1e-5);
+TEST(LaplaceTrend, OfFewIntervalsHasTheExactProbabilities) {
+  // Of the 24 orders of four different intervals only one is increasing.
+  EXPECT_DOUBLE_EQ(trend_probability(Intervals{1, 2, 4, 8}, 0).slowing, 1.0 / 24.0);
+  EXPECT_DOUBLE_EQ(trend_probability(Intervals{1, 2, 4, 8}, 0).quickening, 1.0);
+  EXPECT_DOUBLE_EQ(trend_probability(Intervals{8, 4, 2, 1}, 0).quickening, 1.0 / 24.0);
+  EXPECT_DOUBLE_EQ(trend_probability(Intervals{1, 1, 2}, 0).slowing, 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(trend_probability(Intervals{5, 5, 5, 5}, 0).slowing, 1.0);
+  EXPECT_EQ(trend_probability(Intervals{1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, 3).slowing, 1.0 / 1000.0);
 }
 
 TEST(LaplaceTrend, OfNothingIsNothing) {
-  EXPECT_TRUE(std::isnan(laplace_score(laplace_term({}, 100))));
-  EXPECT_TRUE(std::isnan(laplace_score({})));
-  const std::vector<std::int64_t> every{1, 2, 3};
-  EXPECT_TRUE(std::isnan(laplace_score(laplace_term(every, 3))));
-  LaplaceSum sum(0.95);
+  EXPECT_TRUE(std::isnan(trend_score(trend_term({}))));
+  EXPECT_TRUE(std::isnan(trend_score(trend_term(Intervals{4}))));
+  EXPECT_TRUE(std::isnan(trend_score(trend_term(Intervals{4, 4, 4}))));
+  TrendSum sum(0.95);
   sum.add({});
   EXPECT_EQ(sum.summary().moves, 0);
   EXPECT_TRUE(std::isnan(sum.summary().summed));
-  EXPECT_THROW(LaplaceSum(1.0), Failure);
+  EXPECT_THROW(TrendSum(1.0), Failure);
 }
 
-/// Moves of 600 instants with a chance of an event of 0.02·exp(−decay·instant/600) at each.
-LaplaceSummary simulated(double decay, int moves, std::mt19937_64& random) {
-  std::uniform_real_distribution<double> uniform;
-  LaplaceSum sum(0.95);
-  for (int move = 0; move < moves; ++move) {
-    std::vector<std::int64_t> instants;
-    for (int i = 1; i <= 600; ++i) {
-      if (uniform(random) < 0.02 * std::exp(-decay * i / 600.0)) instants.push_back(i);
+/// A distribution of intervals, in samples of which a move has 1000.
+struct Renewal {
+  const char* name;
+  std::function<double(Random&)> interval;
+};
+
+const std::vector<Renewal>& renewals() {
+  static const std::vector<Renewal> all{
+      {"exponential", [](Random& r) { return std::exponential_distribution<double>(1.0 / 120.0)(r); }},
+      {"regular", [](Random& r) { return std::normal_distribution<double>(130.0, 10.0)(r); }},
+      {"gamma", [](Random& r) { return std::gamma_distribution<double>(4.0, 30.0)(r); }},
+      {"bursty",
+       [](Random& r) {
+         return std::exponential_distribution<double>(r() % 4 == 0 ? 1.0 / 400.0 : 1.0 / 10.0)(r);
+       }},
+      {"heavy-tailed", [](Random& r) { return std::lognormal_distribution<double>(3.0, 1.5)(r); }}};
+  return all;
+}
+
+/// The complete intervals after the first event in a window of 1000 samples.
+Intervals in_window(const std::function<double(Random&)>& interval, Random& random) {
+  Intervals intervals;
+  std::int64_t time = 0;
+  while (true) {
+    const auto next = std::max<std::int64_t>(1, std::llround(interval(random)));
+    if ((time += next) >= 1000) return intervals;
+    intervals.push_back(next);
+  }
+}
+
+TEST(LaplaceTrend, RenewalProcessesWithoutATrendHaveUniformProbabilities) {
+  Random random(102);
+  constexpr int studies = 200;
+  constexpr std::size_t bins = 10;
+  for (const Renewal& renewal : renewals()) {
+    int slowing_alarms = 0, quickening_alarms = 0;
+    std::int64_t tested = 0, slowing = 0, quickening = 0;
+    std::vector<double> found(bins, 0.0);
+    for (int study = 0; study < studies; ++study) {
+      TrendSum sum(0.95);
+      for (int move = 0; move < 5; ++move) sum.add(in_window(renewal.interval, random));
+      const TrendSummary summary = sum.summary();
+      ASSERT_EQ(summary.permutations, trend_permutations);
+      slowing_alarms += summary.p_slowing <= 0.05;
+      quickening_alarms += summary.p_slowing >= 0.95;
+      ++found[std::min(bins - 1, static_cast<std::size_t>(summary.p_slowing * bins))];
+      tested += summary.tested;
+      slowing += summary.slowing;
+      quickening += summary.quickening;
     }
-    sum.add(laplace_term(instants, 600));
+    const double three_sigma = 3.0 * std::sqrt(0.05 * 0.95 * studies);
+    EXPECT_NEAR(slowing_alarms, 0.05 * studies, three_sigma) << renewal.name;
+    EXPECT_NEAR(quickening_alarms, 0.05 * studies, three_sigma) << renewal.name;
+    EXPECT_GT(testing::chi_square_probability(found, std::vector<double>(bins, studies / 10.0)), 1e-3)
+        << renewal.name;
+    // A single move has few orders, so that its test is conservative.
+    const auto n = static_cast<double>(tested);
+    EXPECT_LE(static_cast<double>(slowing), 0.05 * n + 3.0 * std::sqrt(0.05 * 0.95 * n)) << renewal.name;
+    EXPECT_LE(static_cast<double>(quickening), 0.05 * n + 3.0 * std::sqrt(0.05 * 0.95 * n)) << renewal.name;
+    std::cout << renewal.name << ": false alarms " << 100.0 * slowing_alarms / studies << " % slowing, "
+              << 100.0 * quickening_alarms / studies << " % quickening; single moves "
+              << 100.0 * static_cast<double>(slowing) / n << " %\n";
   }
-  return sum.summary();
 }
 
-TEST(LaplaceTrend, RaisesFalseAlarmsNoMoreOftenThanItSays) {
-  std::mt19937_64 random(102);
-  constexpr int rounds = 600;
-  int alarms = 0, stouffer_alarms = 0;
-  std::int64_t tested = 0, slowing = 0, quickening = 0;
-  for (int round = 0; round < rounds; ++round) {
-    const LaplaceSummary summary = simulated(0.0, 10, random);
-    alarms += summary.p_slowing < 0.05;
-    stouffer_alarms += summary.stouffer < -1.6449;
-    tested += summary.tested;
-    slowing += summary.slowing;
-    quickening += summary.quickening;
+/// Events of which the expected number until the sample t is Λ(t), from the first one on at `first`.
+Intervals poisson_events(const std::function<double(double)>& inverse, double first, Random& random) {
+  Intervals intervals;
+  double expected = first;
+  std::int64_t last = -1;
+  while (true) {
+    const double time = inverse(expected += std::exponential_distribution<double>(1.0)(random));
+    if (time >= 1000.0) return intervals;
+    const auto sample = static_cast<std::int64_t>(time);
+    if (last >= 0 && sample > last) intervals.push_back(sample - last);
+    last = std::max(last, sample);
   }
-  const double three_sigma = 3.0 * std::sqrt(0.05 * 0.95 * rounds);
-  EXPECT_NEAR(alarms, 0.05 * rounds, three_sigma);
-  EXPECT_NEAR(stouffer_alarms, 0.05 * rounds, three_sigma);
-  const auto n = static_cast<double>(tested);
-  EXPECT_NEAR(static_cast<double>(slowing), 0.05 * n, 3.0 * std::sqrt(0.05 * 0.95 * n));
-  EXPECT_NEAR(static_cast<double>(quickening), 0.05 * n, 3.0 * std::sqrt(0.05 * 0.95 * n));
 }
 
-TEST(LaplaceTrend, FindsAndTellsTheDirectionOfATrend) {
-  std::mt19937_64 random(103);
-  const LaplaceSummary slowing = simulated(2.0, 40, random);
-  EXPECT_LT(slowing.summed, -5.0);
-  EXPECT_LT(slowing.p_slowing, 1e-6);
-  EXPECT_GT(slowing.slowing, slowing.quickening);
-  const LaplaceSummary quickening = simulated(-1.0, 40, random);
-  EXPECT_GT(quickening.summed, 3.0);
-  EXPECT_GT(quickening.p_slowing, 0.999);
+TEST(LaplaceTrend, FindsARateThatFalls) {
+  // Rates ∝ 1/t (creep, Omori) and ∝ t^(−1/2) (power law), about ten events a move.
+  const std::vector<std::function<double(double)>> laws{
+      [](double expected) { return 10.0 * std::exp(expected / 2.5); },
+      [](double expected) { return expected * expected * 10.0; }};
+  Random random(103);
+  for (const auto& law : laws) {
+    TrendSum falling(0.95), rising(0.95);
+    for (int move = 0; move < 40; ++move) {
+      Intervals intervals = poisson_events(law, 0.0, random);
+      falling.add(intervals);
+      std::reverse(intervals.begin(), intervals.end());
+      rising.add(intervals);
+    }
+    EXPECT_LT(falling.summary().summed, -5.0);
+    EXPECT_DOUBLE_EQ(falling.summary().p_slowing, 1.0 / (trend_permutations + 1));
+    EXPECT_GT(falling.summary().slowing, 4 * falling.summary().quickening);
+    EXPECT_GT(rising.summary().summed, 5.0);
+    EXPECT_GT(rising.summary().p_slowing, 0.999);
+  }
+}
+
+TEST(LaplaceTrend, DoesNotDependOnTheNumberOfThreads) {
+  Random random(104);
+  TrendSum sum(0.95);
+  for (int move = 0; move < 20; ++move) sum.add(in_window(renewals()[0].interval, random));
+  const double all = sum.summary().p_slowing;
+  const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(sum.summary().p_slowing, all);
+}
+
+TEST(LaplaceTrend, OfManyIntervalsIsNormal) {
+  Random random(105);
+  TrendSum sum(0.95);
+  for (int move = 0; move < 3000; ++move) sum.add(in_window(renewals()[0].interval, random));
+  const TrendSummary summary = sum.summary();
+  EXPECT_EQ(summary.permutations, 0);
+  EXPECT_NEAR(summary.p_slowing, 0.5 * std::erfc(-summary.summed / std::sqrt(2.0)), 1e-12);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST(SaltelliIndices, OfAFactorThatChangesNothingAreZeroWithAnUpperBound) {
     EXPECT_EQ(number.value, 0.0);
     EXPECT_EQ(number.low, 0.0);
     EXPECT_NEAR(number.high, std::log(40.0) / 100.0, 1e-12);
-    EXPECT_FALSE(excludes_zero(number));
+    EXPECT_FALSE(excludes_up_to(0.0, number));
   }
 }
 

@@ -111,7 +111,7 @@ TEST(StudySensitivity, OfASaltelliDesignHasBothIndices) {
   EXPECT_EQ(idle.name, "friction.alpha");
   EXPECT_EQ(idle.total.value, 0.0);
   EXPECT_FALSE(idle.matters);
-  EXPECT_NE(success.conclusion.find("no influence shows of friction.alpha"), std::string::npos);
+  EXPECT_NE(success.conclusion.find("friction.alpha (at most "), std::string::npos);
 }
 
 TEST(StudySensitivity, OfAnyOtherDesignHasWhatEachExplainsAlone) {
@@ -123,6 +123,45 @@ TEST(StudySensitivity, OfAnyOtherDesignHasWhatEachExplainsAlone) {
   EXPECT_TRUE(encloses(factor(success, "friction.k1").first_order, 1.0 / 3.0));
   EXPECT_TRUE(std::isnan(factor(success, "friction.k1").total.value));
   EXPECT_FALSE(factor(success, "friction.alpha").matters);
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// k1 and k2 act only together: each has a total index of 1 and explains nothing alone. A file without total
+// indices cannot show that, and must not say that they have no influence.
+TEST(StudySensitivity, WhatADesignCannotShowIsNotDenied) {
+  const auto either = [](std::span<const double> inputs) {
+    const bool success = (inputs[k1] > 1.5) != (inputs[k2] > 1.5);
+    return std::vector{move_with(success), move_with(success)};
+  };
+  std::string text = manifest();
+  text.replace(text.find("saltelli"), 8, "monte_carlo");
+  const OutputSensitivity alone = MadeUpStudy(text, either).about("success");
+  EXPECT_TRUE(contains(alone.conclusion, "no parameter is shown to explain 1 % or more of the variance"))
+      << alone.conclusion;
+  EXPECT_TRUE(contains(alone.conclusion, "only together with others these trials cannot show"));
+  EXPECT_FALSE(contains(alone.conclusion, "no influence"));
+  const OutputSensitivity both = MadeUpStudy(manifest(), either).about("success");
+  EXPECT_TRUE(factor(both, "friction.k1").matters && factor(both, "friction.k2").matters);
+  EXPECT_TRUE(contains(both.conclusion, "need not add up to 100 %")) << both.conclusion;
+}
+
+// A factor that changes the output in every trial, but by a thousandth of its standard deviation.
+TEST(StudySensitivity, AnIndexOfAMillionthDoesNotMatter) {
+  const OutputSensitivity creep = MadeUpStudy(manifest(), [](std::span<const double> inputs) {
+                                    trial::MoveOutcome move = move_with(true);
+                                    move.creep = inputs[k2] + 0.001 * inputs[k1];
+                                    return std::vector{move, move};
+                                  }).about("creep");
+  const FactorSensitivity& small = factor(creep, "friction.k1");
+  EXPECT_GT(small.total.value, 0.0);
+  EXPECT_LT(small.total.value, 1e-4);
+  EXPECT_FALSE(small.matters);
+  const std::string influential = creep.conclusion.substr(0, creep.conclusion.find(';'));
+  EXPECT_TRUE(contains(influential, "friction.k2 (100 %, at least ")) << creep.conclusion;
+  EXPECT_FALSE(contains(influential, "friction.k1")) << creep.conclusion;
 }
 
 /// `trials` on 40 rigs, which differ in all three factors.
@@ -201,7 +240,7 @@ TEST(StudySensitivity, WithoutVarianceNothingIsEstimatedAndThatIsSaid) {
   EXPECT_TRUE(success.factors.empty());
   EXPECT_EQ(
       success.conclusion,
-      "success is 1 in all 2000 trials: it has no variance, and nothing can be said of what drives it.");
+      "success is 1 in all 2000 trials: it has no variance, and nothing can be said of what influences it.");
   EXPECT_FALSE(any_estimated(study.ask()));
   EXPECT_TRUE(any_estimated(MadeUpStudy(manifest(), both_in_upper_half).ask()));
 }

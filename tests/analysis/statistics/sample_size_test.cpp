@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/statistics/confidence_sequence.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "core/failure/failure.hpp"
 
@@ -91,6 +92,34 @@ TEST(SampleSize, HalfwidthHoldsForTheIntervalOfSoManyTrials) {
   for (std::int64_t k = 0; k <= n; ++k) {
     const ConfidenceInterval bounds = clopper_pearson(k, n);
     EXPECT_LE(0.5 * (bounds.high - bounds.low), 0.05 + 1e-6);
+  }
+}
+
+// By simulation: studies with this rate, looked at after every block, end at about the stated number.
+TEST(SampleSize, ToDecideByTheOutcomesTakesAsManyTrialsAsStated) {
+  std::mt19937_64 random(165);
+  constexpr std::int64_t block = 50;
+  for (const double rate : {0.5, 0.9}) {
+    const SequentialCost cost = sequential_cost(0.05, 0.95, rate, block);
+    EXPECT_EQ(cost.fixed, trials_for_halfwidth(0.05, 0.95, rate));
+    EXPECT_GT(cost.ratio(), 2.0);
+    EXPECT_LT(cost.ratio(), 4.0);
+    std::binomial_distribution<std::int64_t> of_block(block, rate);
+    double total = 0.0;
+    constexpr int studies = 200;
+    for (int i = 0; i < studies; ++i) {
+      std::int64_t trials = 0, successes = 0;
+      ConfidenceInterval bounds{0.0, 1.0};
+      while (bounds.high - bounds.low > 0.1) {
+        trials += block;
+        successes += of_block(random);
+        bounds = confidence_sequence_bounds(successes, trials, 0.95);
+      }
+      total += static_cast<double>(trials);
+    }
+    EXPECT_NEAR(total / studies, static_cast<double>(cost.sequential),
+                0.15 * static_cast<double>(cost.sequential))
+        << rate;
   }
 }
 

@@ -67,6 +67,12 @@ INSTANTIATE_TEST_SUITE_P(
              "m.yaml:6:10: retain.trails: unknown key, nearest known: trials; expected one of trials"},
         Case{"sweep: {gird: {}}",
              "m.yaml:6:9: sweep.gird: unknown key, nearest known: grid; expected one of grid, cases"},
+        Case{"observed: {all: {successes: 3, of: 2}}",
+             "m.yaml:6:29: observed.all.successes: '3' is out of range; expected a whole number from 0 to "
+             "2"},
+        Case{"observed: {all: {successes: 3}}",
+             "m.yaml:6:17: observed.all: the key 'of' is missing; expected a text, or counts: {successes: 9, "
+             "of: 10}"},
         Case{"observed: {b: text}",
              "m.yaml:6:12: observed.b: no case or point has this label, nearest known: all; expected the "
              "name of a case "

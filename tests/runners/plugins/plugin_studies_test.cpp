@@ -72,6 +72,9 @@ TEST_F(PluginStudy, OtherCommandsDoWithoutTheLibrary) {
   EXPECT_EQ(trace.code, 2);
   EXPECT_TRUE(trace.out.empty());
   EXPECT_NE(trace.err.find("give its path with --plugin"), std::string::npos) << trace.err;
+  const ProgramResult confirm = run({"summary", "out.h5", "--confirm", "10"});
+  EXPECT_EQ(confirm.code, 2);
+  EXPECT_NE(confirm.err.find("expected its path with --plugin"), std::string::npos) << confirm.err;
 }
 
 TEST_F(PluginStudy, AReplayNeedsTheSameLibrary) {

@@ -1,0 +1,97 @@
+#include "analysis/statistics/observed_test.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numeric>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+
+namespace zerocount::statistics {
+namespace {
+
+void require_counts(const Successes& counts) {
+  if (counts.successes >= 0 && counts.successes <= counts.trials) return;
+  throw Failure(ExitCode::bad_data, fmt::format("{} successes in {} trials; expected 0 ≤ successes ≤ trials",
+                                                counts.successes, counts.trials));
+}
+
+/// P(x), x = 0 … n, of the number of successes among n trials taken from N with K successes. By the ratio of
+/// neighbours, so that it is accurate for any size.
+std::vector<double> hypergeometric(std::int64_t n, const Successes& all) {
+  const std::int64_t failures = all.trials - all.successes;
+  const std::int64_t first = std::max<std::int64_t>(0, n - failures);
+  const std::int64_t last = std::min(n, all.successes);
+  std::vector<double> logarithms{0.0};
+  for (std::int64_t x = first; x < last; ++x) {
+    const double up = static_cast<double>(all.successes - x) * static_cast<double>(n - x);
+    const double down = static_cast<double>(x + 1) * static_cast<double>(failures - n + x + 1);
+    logarithms.push_back(logarithms.back() + std::log(up / down));
+  }
+  const double highest = *std::max_element(logarithms.begin(), logarithms.end());
+  std::vector<double> probabilities(static_cast<std::size_t>(n) + 1, 0.0);
+  double total = 0.0;
+  for (std::size_t i = 0; i < logarithms.size(); ++i)
+    total += probabilities[static_cast<std::size_t>(first) + i] = std::exp(logarithms[i] - highest);
+  for (double& probability : probabilities) probability /= total;
+  return probabilities;
+}
+
+double fisher_p(const Successes& observed, const Successes& simulated) {
+  const std::vector<double> probabilities = hypergeometric(
+      observed.trials, {observed.successes + simulated.successes, observed.trials + simulated.trials});
+  constexpr double rounding = 1.0 + 1e-7;  // equal probabilities are equal
+  const double limit = rounding * probabilities[static_cast<std::size_t>(observed.successes)];
+  double p = 0.0;
+  for (const double probability : probabilities) p += probability <= limit ? probability : 0.0;
+  return std::min(1.0, p);
+}
+
+/// Σ P(H_i = x) over the rigs, x = 0 … n.
+std::vector<double> mixture(std::int64_t n, std::span<const std::int64_t> successes, std::int64_t trials) {
+  std::map<std::int64_t, double> rigs;  // with so many successes
+  for (const std::int64_t each : successes) rigs[each] += 1.0;
+  std::vector<double> sums(static_cast<std::size_t>(n) + 1, 0.0);
+  for (const auto& [each, count] : rigs) {
+    const std::vector<double> of_rig = hypergeometric(n, {each, trials});
+    for (std::size_t x = 0; x < sums.size(); ++x) sums[x] += count * of_rig[x];
+  }
+  return sums;
+}
+
+double rank_p(const std::vector<double>& sums, std::int64_t k) {
+  const auto at = sums.begin() + k;
+  const double low = std::accumulate(sums.begin(), at + 1, 0.0);
+  const double high = std::accumulate(at, sums.end(), 0.0);
+  const double rigs = std::accumulate(sums.begin(), sums.end(), 0.0);
+  return std::min(1.0, 2.0 * (1.0 + std::min(low, high)) / (rigs + 1.0));
+}
+
+}  // namespace
+
+ObservedTest fisher_test(const Successes& observed, const Successes& simulated) {
+  require_counts(observed);
+  require_counts(simulated);
+  return {fisher_p(observed, simulated), std::min(fisher_p({0, observed.trials}, simulated),
+                                                  fisher_p({observed.trials, observed.trials}, simulated))};
+}
+
+ObservedTest rig_rank_test(const Successes& observed, std::span<const std::int64_t> successes,
+                           std::int64_t trials) {
+  require_counts(observed);
+  if (observed.trials > trials) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{} observed trials against {} on each simulated rig; expected "
+                              "no more than those",
+                              observed.trials, trials));
+  }
+  for (const std::int64_t each : successes) require_counts({each, trials});
+  const std::vector<double> sums = mixture(observed.trials, successes, trials);
+  return {rank_p(sums, observed.successes), std::min(rank_p(sums, 0), rank_p(sums, observed.trials))};
+}
+
+}  // namespace zerocount::statistics

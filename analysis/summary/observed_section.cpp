@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "analysis/statistics/observed_test.hpp"
+#include "analysis/summary/summary_parts.hpp"
+#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
+
+namespace zerocount::summary {
+namespace {
+
+/// The comparison of a point.
+struct Comparison {
+  study::ObservedCounts counts;
+  std::optional<statistics::ObservedTest> test;  ///< nothing where it cannot be made
+  std::string reason;                            ///< why not
+};
+
+Comparison compare(const measures::PointSummary& point, const study::ObservedCounts& counts) {
+  const statistics::Successes observed{counts.successes, counts.of};
+  if (point.rigs.n == 0) {
+    return {counts, statistics::fisher_test(observed, {point.outcomes.zero_count, point.judged}), {}};
+  }
+  if (counts.of > point.rigs.trials_of_rig) {
+    return {counts, std::nullopt,
+            fmt::format("it takes {} trials or more on each simulated rig, here are {}", counts.of,
+                        point.rigs.trials_of_rig)};
+  }
+  return {counts,
+          statistics::rig_rank_test(observed, point.rigs.successes_of_rigs, point.rigs.trials_of_rig),
+          {}};
+}
+
+/// Whether the real rig succeeded more often than the simulated trials.
+bool is_better(const measures::PointSummary& point, const study::ObservedCounts& counts) {
+  return statistics::rate(counts.successes, counts.of) >
+         statistics::rate(point.outcomes.zero_count, point.judged);
+}
+
+const char* verdict_of(const Comparison& comparison, double confidence) {
+  if (!comparison.test) return "untested";
+  if (comparison.test->p <= 1.0 - confidence) return "differs";
+  return comparison.test->least_p <= 1.0 - confidence ? "consistent" : "too_few";
+}
+
+std::string statement_of(const measures::PointSummary& point, const Comparison& comparison,
+                         double confidence) {
+  if (!comparison.test) return "not tested: " + comparison.reason;
+  const std::string p = text::short_number(comparison.test->p);
+  if (comparison.test->p <= 1.0 - confidence) {
+    return fmt::format("differs (p = {}): the real rig succeeded {} often than the simulation says", p,
+                       is_better(point, comparison.counts) ? "more" : "less");
+  }
+  if (comparison.test->least_p > 1.0 - confidence) {
+    return fmt::format("consistent (p = {}), as any result would be: the trials{} are too few", p,
+                       point.rigs.n > 0 ? " or the rigs" : "");
+  }
+  return fmt::format("consistent (p = {})", p);
+}
+
+std::vector<std::optional<Comparison>> comparisons(
+    std::span<const measures::PointSummary> points, const std::vector<std::string>& labels,
+    const std::map<std::string, study::ObservedCounts>& counts) {
+  std::vector<std::optional<Comparison>> result(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto found = counts.find(labels[i]);
+    if (found != counts.end()) result[i] = compare(points[i], found->second);
+  }
+  return result;
+}
+
+std::vector<layout::PointColumn> columns_of(const std::vector<std::optional<Comparison>>& comparisons) {
+  std::vector<layout::PointColumn> columns{
+      {"observed_successes", "1", "trials that succeeded on the real rig", {}},
+      {"observed_trials", "1", "trials on the real rig", {}},
+      {"observed_p_value",
+       "1",
+       "two-sided p-value of the trials on the real rig against those simulated",
+       {}}};
+  for (const std::optional<Comparison>& each : comparisons) {
+    const auto number = [&](std::int64_t value) {
+      return each ? static_cast<double>(value) : statistics::unknown;
+    };
+    columns[0].values.push_back(number(each ? each->counts.successes : 0));
+    columns[1].values.push_back(number(each ? each->counts.of : 0));
+    columns[2].values.push_back(each && each->test ? each->test->p : statistics::unknown);
+  }
+  return columns;
+}
+
+nlohmann::ordered_json json_of(const measures::PointSummary& point, const std::optional<Comparison>& each,
+                               double confidence) {
+  if (!each) return nullptr;
+  return {{"successes", each->counts.successes},
+          {"of", each->counts.of},
+          {"p_value", each->test ? each->test->p : statistics::unknown},
+          {"least_p_value", each->test ? each->test->least_p : statistics::unknown},
+          {"verdict", verdict_of(*each, confidence)},
+          {"statement", statement_of(point, *each, confidence)}};
+}
+
+std::string simulated_text(const measures::PointSummary& point) {
+  return fmt::format("{} of {}{}", text::percentage(point.outcomes.zero_count, point.judged), point.judged,
+                     point.rigs.n > 0 ? fmt::format(" on {} rigs", point.rigs.n) : "");
+}
+
+std::string text_of(std::span<const measures::PointSummary> points, const std::vector<std::string>& labels,
+                    const std::vector<std::optional<Comparison>>& comparisons, double confidence) {
+  std::vector<std::vector<std::string>> cells{
+      {"point", "real rig", "simulated", "the simulation and the rig"}};
+  bool rigs = false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!comparisons[i]) continue;
+    rigs = rigs || points[i].rigs.n > 0;
+    cells.push_back({text::printable(labels[i]),
+                     fmt::format("{} of {}", comparisons[i]->counts.successes, comparisons[i]->counts.of),
+                     simulated_text(points[i]), statement_of(points[i], *comparisons[i], confidence)});
+  }
+  return text::aligned_table(cells, {false, false, false, false}) +
+         fmt::format(
+             "\n{}, each point by itself: it differs where p ≤ {}. Consistent counts do not prove the\n"
+             "simulation right: they only do not contradict it\n",
+             rigs ? "rank of the real rig among the simulated ones, by as many trials of each"
+                  : "Fisher's exact test",
+             text::percent(1.0 - confidence));
+}
+
+}  // namespace
+
+measures::SummarySection observed_section(std::span<const measures::PointSummary> points,
+                                          const std::vector<std::string>& labels,
+                                          const std::map<std::string, study::ObservedCounts>& counts,
+                                          double confidence) {
+  const std::vector<std::optional<Comparison>> compared = comparisons(points, labels, counts);
+  measures::SummarySection section{.key = observed_key,
+                                   .json = {},
+                                   .columns = columns_of(compared),
+                                   .text = text_of(points, labels, compared, confidence)};
+  for (std::size_t i = 0; i < points.size(); ++i)
+    section.json.push_back(json_of(points[i], compared[i], confidence));
+  return section;
+}
+
+std::vector<layout::PointColumn> observed_columns(std::span<const measures::PointSummary> points,
+                                                  const study::Study& study) {
+  if (study.observed_counts.empty() || study.features.dependent_trials) return {};
+  return columns_of(comparisons(points, study.point_labels, study.observed_counts));
+}
+
+}  // namespace zerocount::summary

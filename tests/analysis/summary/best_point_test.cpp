@@ -1,0 +1,57 @@
+#include "analysis/summary/best_point.hpp"
+
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "analysis/measures/point_accumulator.hpp"
+
+namespace zerocount::summary {
+namespace {
+
+measures::PointSummary point_with(std::int64_t successes, std::int64_t trials) {
+  measures::PointAccumulator point;
+  for (std::int64_t i = 0; i < trials; ++i) {
+    trial::MoveOutcome move;
+    move.outcome = i < successes ? trial::Outcome::zero_count : trial::Outcome::one_count;
+    point.add({{move}}, {});
+  }
+  return point.statistics();
+}
+
+TEST(BestPoint, HasTheHighestRate) {
+  const std::vector<measures::PointSummary> points{point_with(3, 10), point_with(9, 10), point_with(9, 10)};
+  EXPECT_EQ(best_point(points), 1);
+}
+
+TEST(BestPoint, OfOnePointIsJudgedAsThatPoint) {
+  const measures::PointSummary point = point_with(27, 30);
+  EXPECT_EQ(claim_of_chosen(point, 1, false).success_at_least, point.claim.success_at_least);
+  const statistics::ConfidenceInterval bounds = bounds_of_chosen(point, 1, false, 0.95);
+  EXPECT_EQ(bounds.low, point.success_rate().clopper_pearson.low);
+  EXPECT_EQ(bounds.high, point.success_rate().clopper_pearson.high);
+}
+
+// Twenty points that are equally good: the best of them looks better than it is.
+TEST(BestPoint, TheBoundsAllowForTheChoice) {
+  std::mt19937_64 random(166);
+  constexpr double truth = 0.8;
+  constexpr int rounds = 300, trials = 60;
+  std::binomial_distribution<std::int64_t> successes(trials, truth);
+  int too_high = 0, too_high_alone = 0;
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<measures::PointSummary> points;
+    for (int i = 0; i < 20; ++i) points.push_back(point_with(successes(random), trials));
+    const measures::PointSummary& best = points[static_cast<std::size_t>(best_point(points))];
+    too_high += claim_of_chosen(best, points.size(), false).success_at_least > truth;
+    too_high_alone += best.claim.success_at_least > truth;
+    EXPECT_LE(bounds_of_chosen(best, points.size(), false, 0.95).low,
+              best.success_rate().clopper_pearson.low);
+  }
+  EXPECT_LE(too_high, 0.05 * rounds + 3.0 * 3.8);  // three standard errors
+  EXPECT_GE(too_high_alone, 0.3 * rounds);
+}
+
+}  // namespace
+}  // namespace zerocount::summary

@@ -46,8 +46,8 @@ UserLaw::UserLaw(const ControllerParameters& p, const ControlStart& start) {
     throw Failure(
         ExitCode::bad_input,
         fmt::format(
-            "the controller is the plugin {}, which only the commands run, check, trace and parameters load, "
-            "from the path in a manifest that is given to them",
+            "the controller is the plugin {}, which is not loaded: plugins are loaded only from a path "
+            "that is given to the command",
             plugin.description.name));
   }
   running_ = std::make_unique<Running>(Running{p.user.plugin,

@@ -139,7 +139,9 @@ void pass_equal_data(StudyComparison& result) {
       measure.test = "equal to the bit";
       measure.trials_to_decide.reset();
       if (measure.verdict == GateVerdict::inconclusive) measure.note.clear();
-      if (measure.verdict != GateVerdict::not_measured) measure.verdict = GateVerdict::passed;
+      if (measure.verdict == GateVerdict::not_measured) continue;
+      measure.change = ChangeVerdict::equivalent;
+      measure.verdict = GateVerdict::passed;
     }
   }
 }
@@ -230,12 +232,17 @@ StudyComparison compare_studies(const reading::StudyFile& baseline, const readin
   return result;
 }
 
+GateRules rules_of(const CompareOptions& options, std::span<const std::string> labels) {
+  GateRules rules = options.margins ? read_gate_rules(*options.margins, labels) : GateRules{};
+  rules.changed_fails = rules.changed_fails || options.changed_fails;
+  return rules;
+}
+
 StudyComparison compare_files(const std::filesystem::path& baseline, const std::filesystem::path& current,
-                              const std::optional<std::filesystem::path>& margins) {
+                              const CompareOptions& options) {
   const reading::StudyFile before(baseline);
   const reading::StudyFile after(current);
-  const GateRules rules = margins ? read_gate_rules(*margins, after.point_labels()) : GateRules{};
-  StudyComparison result = compare_studies(before, after, rules);
+  StudyComparison result = compare_studies(before, after, rules_of(options, after.point_labels()));
   std::error_code error;
   if (std::filesystem::equivalent(baseline, current, error)) {
     result.notes.push_back("both names are of one file: this shows nothing of the program");

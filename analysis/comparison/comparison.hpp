@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,13 +24,30 @@ enum class ComparisonLayer {
   two_samples  ///< different draws: distributions are compared
 };
 
-/// Verdict on a measure, a point, a requirement, or the whole comparison; the worst first.
+/// What the gate makes of a measure, a point, a requirement, or the whole comparison; the worst first.
 enum class GateVerdict {
   regression,    ///< shown: worse by more than the margin, or the requirement is not met
-  inconclusive,  ///< neither a regression nor its absence is shown
-  passed,        ///< shown: no worse than the margin allows, or the requirement is met
+  changed,       ///< shown: better by more than the margin, where every change fails
+  inconclusive,  ///< neither a failure nor its absence is shown
+  passed,        ///< shown: no worse (or no change) than the margin allows, or the requirement is met
   not_measured   ///< too few trials have a value; does not affect the other verdicts
 };
+
+/// What is shown of the change of one measure, whatever the gate makes of it. With e the effect and M the
+/// margin:
+enum class ChangeVerdict {
+  worse,        ///< e > 0 is significant, and e > M
+  better,       ///< e < 0 is significant, and e < −M
+  equivalent,   ///< −M < e < M: both one-sided bounds are within the margin
+  not_worse,    ///< e < M only: better or equivalent, which of them is open
+  undecided,    ///< none of these
+  not_measured  ///< too few trials have a value
+};
+
+/// Whether a verdict fails the gate.
+constexpr bool fails(GateVerdict verdict) {
+  return verdict == GateVerdict::regression || verdict == GateVerdict::changed;
+}
 
 /// One measure at one design point in the two files. A positive effect is a change for the worse.
 struct MeasureComparison {
@@ -44,13 +62,13 @@ struct MeasureComparison {
   statistics::ConfidenceInterval bounds{statistics::unknown,
                                         statistics::unknown};  ///< of the effect, each one-sided
   double margin{statistics::unknown};                          ///< largest accepted effect
-  bool both_ways{false};          ///< a change for the better beyond the margin fails too
-  double p{statistics::unknown};  ///< of no difference, against a change for the worse (either, if both_ways)
-  double adjusted_p{statistics::unknown};              ///< after control of the false discoveries
-  double improvement_p{statistics::unknown};           ///< of no difference, against a change for the better
+  bool changed_fails{false};                  ///< a change for the better beyond the margin fails too
+  double p{statistics::unknown};              ///< of no difference, against a change for the worse
+  double adjusted_p{statistics::unknown};     ///< after control of the false discoveries
+  double improvement_p{statistics::unknown};  ///< of no difference, against a change for the better
   double adjusted_improvement_p{statistics::unknown};  ///< after control of the false discoveries
-  GateVerdict verdict{GateVerdict::not_measured};
-  bool improved{false};                    ///< better: significantly, and by more than the margin
+  ChangeVerdict change{ChangeVerdict::not_measured};
+  GateVerdict verdict{GateVerdict::not_measured};  ///< what the gate makes of the change
   std::optional<double> trials_to_decide;  ///< per design point; of an inconclusive measure, where known
   std::string note;                        ///< reason or remark; may be empty
 };
@@ -122,9 +140,19 @@ struct StudyComparison {
 StudyComparison compare_studies(const reading::StudyFile& baseline, const reading::StudyFile& current,
                                 const GateRules& rules = {});
 
-/// The same of two files, with the rules of the file `margins`, where one is given.
+/// How two files are compared.
+struct CompareOptions {
+  std::optional<std::filesystem::path> margins{};  ///< file of margins and requirements
+  bool changed_fails{false};                       ///< a change for the better fails too, at every measure
+};
+
+/// The rules of these options for a file with these labels of design points.
+/// @throws Failure as read_gate_rules
+GateRules rules_of(const CompareOptions& options, std::span<const std::string> labels);
+
+/// Compares two files.
 /// @throws Failure as compare_studies and read_gate_rules, and as StudyFile
 StudyComparison compare_files(const std::filesystem::path& baseline, const std::filesystem::path& current,
-                              const std::optional<std::filesystem::path>& margins = std::nullopt);
+                              const CompareOptions& options = {});
 
 }  // namespace zerocount::comparison

@@ -23,12 +23,10 @@ std::string p_text(double p) {
   return p < 1e-4 ? "< 1e-4" : fmt::format("{:.2g}", p);
 }
 
-/// The notes that are not empty, what would decide, and whether it is better.
-std::string remarks(std::string note, const std::string& undecided, const std::optional<double>& trials,
-                    bool improved) {
+/// The notes that are not empty, and what would decide.
+std::string remarks(std::string note, const std::string& undecided, const std::optional<double>& trials) {
   const auto add = [&](const std::string& remark) { note += (note.empty() ? "" : "; ") + remark; };
   if (!undecided.empty()) add(undecided);
-  if (improved) add("improved");
   if (trials) add(fmt::format("{} trials would decide", trials_text(*trials)));
   return note;
 }
@@ -52,12 +50,13 @@ ComparisonRow row_of(const PointComparison& point, const MeasureComparison& meas
   row.current = text(measure.current);
   row.worse_by = text(measure.effect);
   row.bounds = interval_text(measure.bounds, measure.measure, measure.unit);
-  row.margin = (measure.both_ways ? "± " : "") + text(measure.margin);
-  row.p = p_text(measure.adjusted_p);
-  row.verdict = word_of(measure.verdict);
-  row.note = remarks(measure.note, undecided_remark(point, measure.measure), measure.trials_to_decide,
-                     measure.improved);
-  row.noteworthy = measure.verdict != GateVerdict::passed || measure.improved;
+  row.margin = (measure.changed_fails ? "± " : "") + text(measure.margin);
+  const bool better = measure.change == ChangeVerdict::better;
+  row.p = p_text(better ? measure.adjusted_improvement_p : measure.adjusted_p);
+  row.verdict = word_of(measure.change);
+  row.gate = measure.verdict;
+  row.note = remarks(measure.note, undecided_remark(point, measure.measure), measure.trials_to_decide);
+  row.noteworthy = measure.verdict != GateVerdict::passed || better;
   return row;
 }
 
@@ -75,7 +74,8 @@ ComparisonRow row_of(const PointComparison& point, const RequirementResult& requ
   row.margin = fmt::format("{} {}", requirement.at_least ? "≥" : "≤", text(requirement.limit));
   row.p = "–";
   row.verdict = word_of(requirement.verdict);
-  row.note = remarks("", undecided_remark(point, requirement.quantity), requirement.trials_to_decide, false);
+  row.gate = requirement.verdict;
+  row.note = remarks("", undecided_remark(point, requirement.quantity), requirement.trials_to_decide);
   row.noteworthy = requirement.verdict != GateVerdict::passed;
   return row;
 }

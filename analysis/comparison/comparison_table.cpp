@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -24,6 +25,8 @@ std::string cell(std::string_view text) {
 
 constexpr std::array<const char*, 10> heads{"point",  "measure", "baseline", "file",    "worse by",
                                             "bounds", "margin",  "p",        "verdict", "note"};
+
+constexpr std::size_t verdict_column = 8;  ///< in `heads`
 
 std::vector<std::string> cells_of(const ComparisonRow& row) {
   return {row.point,  row.measure, row.baseline, row.current, row.worse_by,
@@ -59,9 +62,9 @@ std::string comparison_table(const StudyComparison& comparison) {
 }
 
 std::string comparison_markdown(const StudyComparison& comparison) {
-  const std::string_view mark = comparison.verdict == GateVerdict::passed       ? "✅"
-                                : comparison.verdict == GateVerdict::regression ? "❌"
-                                                                                : "❓";
+  const std::string_view mark = comparison.verdict == GateVerdict::passed         ? "✅"
+                                : comparison.verdict == GateVerdict::inconclusive ? "❓"
+                                                                                  : "❌";
   std::string text =
       fmt::format("## {} {}: {}\n\n", mark, cell(text::printable(comparison.current.header.name)),
                   cell(verdict_sentence(comparison)));
@@ -76,8 +79,8 @@ std::string comparison_markdown(const StudyComparison& comparison) {
   }
   for (const ComparisonRow& row : rows) {
     std::vector<std::string> cells = cells_of(row);
-    for (std::string& text_of_cell : cells)
-      text_of_cell = text_of_cell == "regression" ? "**regression**" : cell(text_of_cell);
+    std::transform(cells.begin(), cells.end(), cells.begin(), cell);
+    if (fails(row.gate)) cells[verdict_column] = fmt::format("**{}**", cells[verdict_column]);
     text += fmt::format("| {} |\n", fmt::join(cells, " | "));
   }
   return text + fmt::format(

@@ -25,21 +25,37 @@ std::vector<MeasureComparison*> tested_measures(std::span<PointComparison> point
   return tested;
 }
 
-void adjust(const std::vector<MeasureComparison*>& tested, double MeasureComparison::*p,
-            double MeasureComparison::*adjusted) {
-  std::vector<double> values;
-  values.reserve(tested.size());
-  for (const MeasureComparison* measure : tested) values.push_back(measure->*p);
-  const std::vector<double> results = benjamini_yekutieli(values);
-  for (std::size_t i = 0; i < tested.size(); ++i) tested[i]->*adjusted = results[i];
+/// The p that a failure is judged by: against a change for the worse; where every change fails, two-sided.
+double failure_p(const MeasureComparison& measure) {
+  if (!measure.changed_fails) return measure.p;
+  return std::min(1.0, 2.0 * std::min(measure.p, measure.improvement_p));
 }
 
-GateVerdict verdict_of(const MeasureComparison& measure, double rate) {
-  const double effect = measure.both_ways ? std::abs(measure.effect) : measure.effect;
-  if (measure.adjusted_p <= rate && effect > measure.margin) return GateVerdict::regression;
-  const bool not_worse = measure.bounds.high < measure.margin;
-  const bool not_better = !measure.both_ways || measure.bounds.low > -measure.margin;
-  return not_worse && not_better ? GateVerdict::passed : GateVerdict::inconclusive;
+/// Failures are one family, improvements that do not fail are another. A measure of which every change fails
+/// has one p in the first family, which counts for the direction of its effect.
+void adjust(const std::vector<MeasureComparison*>& tested) {
+  std::vector<double> failures;
+  std::vector<double> improvements;
+  for (const MeasureComparison* measure : tested) {
+    failures.push_back(failure_p(*measure));
+    improvements.push_back(measure->improvement_p);
+  }
+  failures = benjamini_yekutieli(failures);
+  improvements = benjamini_yekutieli(improvements);
+  for (std::size_t i = 0; i < tested.size(); ++i) {
+    MeasureComparison& measure = *tested[i];
+    const bool worse = !measure.changed_fails || measure.p <= measure.improvement_p;
+    measure.adjusted_p = worse ? failures[i] : 1.0;
+    measure.adjusted_improvement_p = !measure.changed_fails ? improvements[i] : worse ? 1.0 : failures[i];
+  }
+}
+
+ChangeVerdict change_of(const MeasureComparison& measure, double rate) {
+  if (measure.adjusted_p <= rate && measure.effect > measure.margin) return ChangeVerdict::worse;
+  if (measure.adjusted_improvement_p <= rate && -measure.effect > measure.margin)
+    return ChangeVerdict::better;
+  if (!(measure.bounds.high < measure.margin)) return ChangeVerdict::undecided;
+  return measure.bounds.low > -measure.margin ? ChangeVerdict::equivalent : ChangeVerdict::not_worse;
 }
 
 /// How many times the trials that there are would decide, if the true effect is the one that was seen, or
@@ -50,7 +66,7 @@ GateVerdict verdict_of(const MeasureComparison& measure, double rate) {
 double times_to_decide(const MeasureComparison& measure, const GateRules& rules, std::size_t tests) {
   const double z_confidence = statistics::normal_quantile(rules.confidence);
   const double z_power = statistics::normal_quantile(planned_power);
-  const bool better = measure.both_ways && measure.effect < 0.0;
+  const bool better = measure.changed_fails && measure.effect < 0.0;
   const double reach = better ? measure.effect - measure.bounds.low : measure.bounds.high - measure.effect;
   const double error = reach / z_confidence;
   const double seen = better ? -measure.effect : measure.effect;
@@ -80,21 +96,37 @@ std::string reason_of(const MeasureComparison& measure) {
 
 }  // namespace
 
+GateVerdict gate_verdict(ChangeVerdict change, bool changed_fails) {
+  switch (change) {
+    case ChangeVerdict::worse:
+      return GateVerdict::regression;
+    case ChangeVerdict::better:
+      return changed_fails ? GateVerdict::changed : GateVerdict::passed;
+    case ChangeVerdict::equivalent:
+      return GateVerdict::passed;
+    case ChangeVerdict::not_worse:
+      return changed_fails ? GateVerdict::inconclusive : GateVerdict::passed;
+    case ChangeVerdict::undecided:
+      return GateVerdict::inconclusive;
+    case ChangeVerdict::not_measured:
+      break;
+  }
+  return GateVerdict::not_measured;
+}
+
 GateVerdict worst_of(std::span<const GateVerdict> verdicts) {
   return verdicts.empty() ? GateVerdict::not_measured : *std::min_element(verdicts.begin(), verdicts.end());
 }
 
 std::int64_t decide(std::span<PointComparison> points, const GateRules& rules) {
   const std::vector<MeasureComparison*> tested = tested_measures(points);
-  adjust(tested, &MeasureComparison::p, &MeasureComparison::adjusted_p);
-  adjust(tested, &MeasureComparison::improvement_p, &MeasureComparison::adjusted_improvement_p);
+  adjust(tested);
   for (PointComparison& point : points) {
     const std::int64_t trials = std::max(point.baseline_trials, point.current_trials);
     for (MeasureComparison& measure : point.measures) {
       if (std::isnan(measure.p)) continue;
-      measure.verdict = verdict_of(measure, rules.false_discovery_rate);
-      measure.improved =
-          measure.adjusted_improvement_p <= rules.false_discovery_rate && -measure.effect > measure.margin;
+      measure.change = change_of(measure, rules.false_discovery_rate);
+      measure.verdict = gate_verdict(measure.change, measure.changed_fails);
       if (measure.verdict != GateVerdict::inconclusive) continue;
       measure.trials_to_decide = trials_to_decide(measure, trials, rules, tested.size());
       measure.note = reason_of(measure);

@@ -221,8 +221,7 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
     if (!std::isnan(result.baseline)) {
       result.margin = std::max(margin.absolute, margin.relative * std::abs(result.baseline));
     }
-    result.both_ways = margin.both_ways;
-    if (result.both_ways) result.p = std::min(1.0, 2.0 * std::min(result.p, result.improvement_p));
+    result.changed_fails = rules.changed_fails || margin.changed_fails;
     results.push_back(std::move(result));
   }
   return results;

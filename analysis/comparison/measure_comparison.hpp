@@ -22,16 +22,20 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
                                                 const PointTrials& baseline, const PointTrials& current,
                                                 bool paired);
 
-/// Gives every measure its adjusted p-values and its verdict.
+/// Gives every measure its adjusted p-values and its verdicts.
 ///
-/// A measure fails where its adjusted p is at most the rate and its effect exceeds the margin; it passes
-/// where the upper bound of its effect is below the margin (of both bounds, where it is judged both ways: two
-/// one-sided tests, Schuirmann, Journal of Pharmacokinetics and Biopharmaceutics 15 (1987), 657). Otherwise
-/// it is inconclusive.
+/// A measure is worse where its adjusted p is at most the rate and its effect exceeds the margin, better
+/// where the same holds for the opposite direction. It is equivalent where both bounds of its effect are
+/// within the margin (two one-sided tests: Schuirmann, Journal of Pharmacokinetics and Biopharmaceutics 15
+/// (1987), 657), and not worse where only the upper bound is below it. Worse fails the gate; the others pass,
+/// except undecided. Where every change fails, better fails too, and only equivalent passes.
 /// @return the number of tests over which the false discoveries were controlled.
 std::int64_t decide(std::span<PointComparison> points, const GateRules& rules);
 
-/// Of several verdicts: regression before inconclusive before passed; not_measured where all are.
+/// What the gate makes of a change.
+GateVerdict gate_verdict(ChangeVerdict change, bool changed_fails);
+
+/// The worst of several verdicts, in the order of GateVerdict; not_measured where all are.
 GateVerdict worst_of(std::span<const GateVerdict> verdicts);
 
 /// Adjusted p-values that control the false discovery rate whatever the dependence between the tests: with

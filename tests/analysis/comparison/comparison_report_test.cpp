@@ -12,11 +12,28 @@
 namespace zerocount::testing {
 namespace {
 
+comparison::ChangeVerdict change_behind(comparison::GateVerdict verdict) {
+  switch (verdict) {
+    case comparison::GateVerdict::regression:
+      return comparison::ChangeVerdict::worse;
+    case comparison::GateVerdict::changed:
+      return comparison::ChangeVerdict::better;
+    case comparison::GateVerdict::inconclusive:
+      return comparison::ChangeVerdict::undecided;
+    case comparison::GateVerdict::passed:
+      return comparison::ChangeVerdict::equivalent;
+    case comparison::GateVerdict::not_measured:
+      break;
+  }
+  return comparison::ChangeVerdict::not_measured;
+}
+
 comparison::MeasureComparison reported_measure(const std::string& name, comparison::GateVerdict verdict) {
   comparison::MeasureComparison one;
   one.measure = name;
   one.unit.assign(1, name == "settling_time" ? 's' : '1');
   one.verdict = verdict;
+  one.change = change_behind(verdict);
   if (verdict == comparison::GateVerdict::not_measured) return one;
   one.baseline = 0.9;
   one.current = 0.85;
@@ -72,7 +89,7 @@ TEST(ComparisonReport, OfManyRowsOnlyTheNoteworthyAreShown) {
 TEST(ComparisonReport, EveryFormThatSpeaksOfStabilitySaysHowManyMovesAreUndecided) {
   comparison::StudyComparison comparison = sample();
   const std::string remark = "undecided: 12 of 300 moves in the baseline, 4 of 280 in the file";
-  EXPECT_EQ(comparison::comparison_table(comparison).find("undecided"), std::string::npos);
+  EXPECT_EQ(comparison::comparison_table(comparison).find("undecided: "), std::string::npos);
   comparison.points[0].baseline_undecided = {.moves = 300, .off_target = 12, .still_falling = 9};
   comparison.points[0].current_undecided = {.moves = 280, .off_target = 4, .still_falling = 0};
   comparison.points[0].measures[3].verdict = comparison::GateVerdict::inconclusive;  // the stable rate
@@ -98,11 +115,31 @@ TEST(ComparisonReport, EveryFormThatSpeaksOfStabilitySaysHowManyMovesAreUndecide
                                                                     {"about_to_arrive", 0}}));
 }
 
+// A change for the better that fails is a failure in every form, and is not called a regression.
+TEST(ComparisonReport, AFailedImprovementIsAFailureAndNoRegression) {
+  comparison::StudyComparison comparison = sample();
+  comparison.points[0].measures = {reported_measure("success_rate", comparison::GateVerdict::changed)};
+  comparison.verdict = comparison.points[0].verdict = comparison::GateVerdict::changed;
+  const auto json = nlohmann::json::parse(comparison::comparison_json(comparison));
+  EXPECT_EQ(json["verdict"], "changed");
+  EXPECT_EQ(json["points"][0]["measures"][0]["verdict"], "better");
+  EXPECT_EQ(json["points"][0]["measures"][0]["gate"], "changed");
+  EXPECT_EQ(json["counts"]["better"], 1);
+  EXPECT_NE(comparison::comparison_junit(comparison).find("failures=\"1\""), std::string::npos);
+  const std::string markdown = comparison::comparison_markdown(comparison);
+  EXPECT_NE(markdown.find("**better**"), std::string::npos) << markdown;
+  EXPECT_TRUE(markdown.starts_with("## ❌")) << markdown;
+  EXPECT_EQ(markdown.find("regression"), std::string::npos) << markdown;
+}
+
 TEST(ComparisonReport, TheJsonReadsBack) {
   const auto json = nlohmann::json::parse(comparison::comparison_json(sample()));
   EXPECT_EQ(json["verdict"], "regression");
   EXPECT_EQ(json["layer"], "paired");
   EXPECT_EQ(json["counts"]["inconclusive"], 1);
+  EXPECT_EQ(json["counts"]["worse"], 1);
+  EXPECT_EQ(json["points"][0]["measures"][0]["verdict"], "worse");
+  EXPECT_EQ(json["points"][0]["measures"][0]["gate"], "regression");
   EXPECT_EQ(json["points"][0]["measures"][0]["effect_bounds"][1], 0.09);
   EXPECT_EQ(json["points"][0]["measures"][1]["trials_to_decide"], 1234);
   EXPECT_TRUE(json["points"][0]["measures"][2]["p"].is_null());
@@ -139,7 +176,7 @@ TEST(ComparisonReport, JUnitIsNotGreenWhereNothingWasMeasured) {
 TEST(ComparisonReport, TheMarkdownEscapesItsCells) {
   const std::string markdown = comparison::comparison_markdown(sample());
   EXPECT_NE(markdown.find("| a \\| \"b\" | success\\_rate | 90 % | 85 % |"), std::string::npos) << markdown;
-  EXPECT_NE(markdown.find("**regression**"), std::string::npos);
+  EXPECT_NE(markdown.find("**worse**"), std::string::npos);
   EXPECT_EQ(markdown.find("stable"), std::string::npos);
 }
 

@@ -70,7 +70,9 @@ TEST_P(NullComparisons, RaiseFalseAlarmsNoMoreOftenThanStated) {
   for (int i = 0; i < comparisons; ++i) {
     const auto compared = compare_once(random, GetParam(), rules, unchanged);
     alarms += any(compared, failed);
-    improvements += any(compared, [](const comparison::MeasureComparison& m) { return m.improved; });
+    improvements += any(compared, [](const comparison::MeasureComparison& m) {
+      return m.change == comparison::ChangeVerdict::better;
+    });
   }
   RecordProperty("alarms", alarms);
   EXPECT_LE(alarms, comparisons * 0.2);
@@ -135,7 +137,7 @@ TEST_P(NullComparisons, AnImprovementIsReportedAndNoFailure) {
       },
       1000);
   EXPECT_FALSE(any(compared, failed));
-  EXPECT_TRUE(compared[2].measures[0].improved);
+  EXPECT_EQ(compared[2].measures[0].change, comparison::ChangeVerdict::better);
   EXPECT_EQ(compared[2].measures[0].verdict, comparison::GateVerdict::passed);
 }
 
